@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "core/path_place.hpp"
@@ -14,12 +15,13 @@ class ProgramBlocks {
 public:
     virtual ~ProgramBlocks() = default;
     virtual const std::vector<std::string>& axes() const = 0;
-    /// Nothing: it is not at hand yet, or there is none.
-    virtual std::optional<Block> block(std::uint32_t number) const = 0;
+    /// Valid until another block is asked for. Null: it is not at hand yet, or there is none.
+    virtual const Block* block(std::uint32_t number) const = 0;
     /// There is no block of this number, and none will come.
     virtual bool ends_before(std::uint32_t number) const = 0;
-    /// Where the program has its axes before a block that is at hand, in mm. Nothing: it is not at hand yet.
-    virtual std::optional<std::vector<double>> place_before(std::uint32_t number) const = 0;
+    /// Where the program has its axes before a block that is at hand, in mm. Valid until another place or block is
+    /// asked for. Nothing: it is not at hand yet.
+    virtual std::optional<std::span<const double>> place_before(std::uint32_t number) const = 0;
     /// About how long the program takes from a place on, as far as it is known. 0: it is not estimated.
     virtual double seconds_from(const PathPlace& /*place*/) const { return 0; }
 };
@@ -29,12 +31,12 @@ public:
     explicit WholeProgram(std::shared_ptr<const Program> program) : program_(std::move(program)) {}
 
     const std::vector<std::string>& axes() const override { return program_->axes; }
-    std::optional<Block> block(std::uint32_t number) const override {
-        return ends_before(number) ? std::nullopt : std::optional(program_->blocks[number]);
+    const Block* block(std::uint32_t number) const override {
+        return ends_before(number) ? nullptr : &program_->blocks[number];
     }
     bool ends_before(std::uint32_t number) const override { return number >= program_->blocks.size(); }
 
-    std::optional<std::vector<double>> place_before(std::uint32_t number) const override {
+    std::optional<std::span<const double>> place_before(std::uint32_t number) const override {
         while (number > 0) {
             if (const auto* move = std::get_if<ProgramMove>(&program_->blocks[--number].action)) {
                 return move->target_mm;

@@ -8,9 +8,9 @@ CountedBlocks::CountedBlocks(const ProgramPlanner& planner, std::shared_ptr<cons
                              std::vector<std::size_t> axes, AxisCounts start)
     : planner_(planner), blocks_(std::move(blocks)), axes_(std::move(axes)), at_(start) {}
 
-std::optional<Block> CountedBlocks::block(std::uint32_t number) const {
-    auto block = blocks_->block(number);
-    if (block && number == next_ && !count(*block, number)) { return std::nullopt; }
+const Block* CountedBlocks::block(std::uint32_t number) const {
+    const Block* const block = blocks_->block(number);
+    if (block != nullptr && number == next_ && !count(*block, number)) { return nullptr; }
     return block;
 }
 

@@ -17,9 +17,9 @@ public:
                   std::vector<std::size_t> axes, AxisCounts start);
 
     const std::vector<std::string>& axes() const override { return blocks_->axes(); }
-    std::optional<Block> block(std::uint32_t number) const override;
+    const Block* block(std::uint32_t number) const override;
     bool ends_before(std::uint32_t number) const override;
-    std::optional<std::vector<double>> place_before(std::uint32_t number) const override {
+    std::optional<std::span<const double>> place_before(std::uint32_t number) const override {
         return blocks_->place_before(number);
     }
 

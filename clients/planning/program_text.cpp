@@ -8,14 +8,14 @@ namespace lockstep {
 ProgramText::ProgramText(LineReader lines, const GcodeSetup& setup)
     : lines_(std::move(lines)), gcode_(setup), head_(gcode_.head()), at_mm_(head_.start_mm) {}
 
-std::optional<Block> ProgramText::block(std::uint32_t number) const {
-    if (ends_before(number) || number < first_) { return std::nullopt; }
+const Block* ProgramText::block(std::uint32_t number) const {
+    if (ends_before(number) || number < first_) { return nullptr; }
     const auto passed = std::min<std::size_t>(number - first_, blocks_.size());
     for (std::size_t k = 0; k < passed; ++k, blocks_.pop_front()) {
         if (auto* move = std::get_if<ProgramMove>(&blocks_.front().action)) { at_mm_ = std::move(move->target_mm); }
     }
     first_ = number;
-    return blocks_.front();
+    return &blocks_.front();
 }
 
 bool ProgramText::ends_before(std::uint32_t number) const {

@@ -19,10 +19,10 @@ public:
 
     const ProgramHead& head() const { return head_; }
     const std::vector<std::string>& axes() const override { return head_.axes; }
-    std::optional<Block> block(std::uint32_t number) const override;
+    const Block* block(std::uint32_t number) const override;
     bool ends_before(std::uint32_t number) const override;
     /// Of the last one asked for.
-    std::optional<std::vector<double>> place_before(std::uint32_t /*number*/) const override { return at_mm_; }
+    std::optional<std::span<const double>> place_before(std::uint32_t /*number*/) const override { return at_mm_; }
 
     /// What is wrong, by line and column, at most kMaxGcodeErrors. Reads on behind the first wrong line.
     const Diagnostics& errors();

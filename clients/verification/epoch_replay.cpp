@@ -10,7 +10,7 @@ EpochReplay::EpochReplay(const MachineConfig& machine, Epoch epoch, EpochStart s
                          Tick begin)
     : runner_(machine) {
     runner_.load(std::move(start.source));
-    runner_.begin(epoch, start.place, std::move(start.at), overrides);
+    runner_.begin(epoch, start.place, start.at, overrides);
     runner_.read_ahead();
     (void)runner_.send(slot_++, {});
     shift_ = begin - runner_.start().value_or(begin);
@@ -28,11 +28,11 @@ void EpochReplay::make_up_to(FrameNumber number) {
     while (made_ < number && !all_made_) {
         if (const auto turn = turns_.extract(made_)) { runner_.turn(turn.mapped()); }
         runner_.read_ahead();
-        for (Frame& frame : runner_.send(slot_++, {})) {
-            frame.start += shift_;
+        for (const Frame& frame : runner_.send(slot_++, {})) {
             made_ = frame.number;
             all_made_ = frame.last;
-            frames_.push_back(std::move(frame));
+            frames_.push_back(frame);
+            frames_.back().start += shift_;
         }
         all_made_ = all_made_ || runner_.is_stuck();
     }
@@ -51,7 +51,8 @@ void EpochReplay::forget_before(FrameNumber number) {
 std::vector<EpochRunner::Happened> EpochReplay::take_events(FrameNumber ran) {
     constexpr Tick kAlways{std::numeric_limits<std::int64_t>::max()};
     const AxisView axis{AxisState{.epoch = epoch(), .ran = ran}};
-    auto events = runner_.take_events(kAlways, {&axis, 1});
+    const auto happened = runner_.take_events(kAlways, {&axis, 1});
+    std::vector<EpochRunner::Happened> events(happened.begin(), happened.end());
     for (EpochRunner::Happened& event : events) { event.tick += shift_; }
     return events;
 }

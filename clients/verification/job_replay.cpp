@@ -28,7 +28,7 @@ std::optional<EpochStart> JobReplay::next() {
             source_ = planner_.frames(program_, leg);
             place_ = {leg.first, {}};
             positions_.clear();
-            for (const std::int64_t count : leg.from) { positions_.push_back(Position::steps(count)); }
+            for (const std::int64_t count : leg.from) { positions_.append(Position::steps(count)); }
         }
         source_->resume(place_, positions_, {});
         source_->read_ahead();

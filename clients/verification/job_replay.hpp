@@ -45,7 +45,7 @@ private:
     // Of the leg in progress; none: it has not begun.
     OwnedSource source_;
     PathPlace place_;
-    std::vector<Position> positions_;
+    AxisPositions positions_;
 };
 
 }  // namespace lockstep::verification

@@ -2,20 +2,23 @@
 #pragma once
 
 #include <span>
-#include <utility>
-#include <vector>
 
 #include "core/protocol/client_memory.hpp"
+#include "core/reused_vector.hpp"
 
 namespace lockstep {
 
 class CommandInbox {
 public:
     void receive(std::span<const Command> commands) {
-        received_.insert(received_.end(), commands.begin(), commands.end());
+        for (const Command& command : commands) { received_.append() = command; }
     }
-    /// Those that were not taken yet.
-    std::vector<Command> take() { return std::exchange(received_, {}); }
+    /// Calls visit(command) for each that was not taken yet.
+    template <typename Visit>
+    void take_each(Visit visit) {
+        for (const Command& command : received_) { visit(command); }
+        received_.clear();
+    }
 
     /// The newest answer to the command's client, where that is for this command or a later one. Null: it is new.
     const Reply* answer_to(const Command& command) const {
@@ -25,7 +28,7 @@ public:
     void note(const Reply& reply) { replies_.note(reply.client, reply); }
 
 private:
-    std::vector<Command> received_;
+    ReusedVector<Command> received_;
     ClientMemory<Reply> replies_;  // the last one to each client
 };
 

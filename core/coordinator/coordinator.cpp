@@ -19,16 +19,16 @@ Coordinator::Coordinator(const MachineConfig& machine, Identity identity, std::u
       programs_(machine, std::move(make_rows)),
       jobs_(machine, config_hash, begin_steps, standby) {}
 
-CoordinatorOutputs Coordinator::step(const CoordinatorInputs& inputs) {
-    CoordinatorOutputs out;
+CoordinatorOutputs& Coordinator::step(const CoordinatorInputs& inputs) {
+    out_.clear();
     const Slot slot = rules::slot_of(inputs.now, slot_);
-    CoordinatorLoop loop{machine_,   axes_, orders_,          programs_,         condition_,         out,
+    CoordinatorLoop loop{machine_,   axes_, orders_,          programs_,         condition_,         out_,
                          inputs.now, slot,  gate_.next(slot), ownership_.term(), is_late(inputs.now)};
     axes_.forgive(gate_.missed(slot), slot);
     receive(inputs, loop);
     change_owner(loop);
     ownership_.owns() ? own(loop) : stand_by(loop);
-    return out;
+    return out_;
 }
 
 /// The last step was longer ago than a jog's hold allows for.
@@ -98,10 +98,10 @@ void Coordinator::stand_down(CoordinatorLoop& loop) {
 
 /// It publishes nothing that moves an axis.
 void Coordinator::stand_by(CoordinatorLoop& loop) {
-    for (const Command& command : inbox_.take()) { refuse_as_standby(command, loop.slot); }
+    inbox_.take_each([&](const Command& command) { refuse_as_standby(command, loop.slot); });
     axes_.forget_missing(loop.slot);
     loop.out.must_quit = !stands_by_ && ownership_.has_second_owner(loop.slot);
-    if (gate_.enter(loop.slot)) { loop.out.state = state(loop); }
+    if (gate_.enter(loop.slot)) { report(loop); }
 }
 
 /// The command was for another owner. If it is repeated after a takeover nobody knows whether it was begun, so it is
@@ -122,7 +122,7 @@ void Coordinator::own(CoordinatorLoop& loop) {
     }
     if (condition_.phase() == MachinePhase::Idle && axes_.without_device()) { loop.enter(MachinePhase::Waiting); }
     for (std::size_t i = 0; i < axes_.size(); ++i) { watch_axis(i, loop); }
-    for (const Command& command : inbox_.take()) { answer(command, loop); }
+    inbox_.take_each([&](const Command& command) { answer(command, loop); });
     jobs_.advance_jogs(loop);
     if (!gate_.enter(loop.slot)) { return; }
     programs_.tend(loop.slot, missed);
@@ -130,7 +130,7 @@ void Coordinator::own(CoordinatorLoop& loop) {
     advance(loop);
     orders_.repeat(axes_, loop.out.axis_commands);
     jobs_.note_progress(loop);
-    loop.out.state = state(loop);
+    report(loop);
 }
 
 void Coordinator::watch_axis(std::size_t axis, CoordinatorLoop& loop) {
@@ -237,18 +237,22 @@ void Coordinator::leave_waiting(CoordinatorLoop& loop) {
     if (!jobs_.exists()) { loop.enter(MachinePhase::Idle); }
 }
 
-MachineState Coordinator::state(const CoordinatorLoop& loop) const {
-    MachineState state{.term = loop.term,
-                       .stamp = loop.slot,
-                       .tick = loop.now,
-                       .phase = condition_.phase(),
-                       .fault = static_cast<std::uint16_t>(condition_.fault()),
-                       .fault_axis = static_cast<std::uint32_t>(condition_.fault_axis()),
-                       .axes_present = axes_.present(loop.slot),
-                       .config_hash = config_hash_,
-                       .lease = lease_.held()};
+/// The memory of the last state's lease and rests is used again.
+void Coordinator::report(CoordinatorLoop& loop) const {
+    MachineState& state = loop.out.state.renew();
+    state = {.term = loop.term,
+             .stamp = loop.slot,
+             .tick = loop.now,
+             .phase = condition_.phase(),
+             .fault = static_cast<std::uint16_t>(condition_.fault()),
+             .fault_axis = static_cast<std::uint32_t>(condition_.fault_axis()),
+             .axes_present = axes_.present(loop.slot),
+             .config_hash = config_hash_,
+             .lease = std::move(state.lease),
+             .rests = std::move(state.rests)};
+    state.lease = lease_.held();
+    state.rests.clear();
     jobs_.report(state, loop);
-    return state;
 }
 
 }  // namespace lockstep

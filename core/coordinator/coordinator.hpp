@@ -25,7 +25,8 @@ public:
     /// A command that names it is refused from now on; its job goes on.
     void forget_program(std::uint64_t id) { programs_.forget(id); }
 
-    CoordinatorOutputs step(const CoordinatorInputs& inputs);
+    /// Valid until the next step. The caller may complete the state before it publishes it.
+    CoordinatorOutputs& step(const CoordinatorInputs& inputs);
 
     MachinePhase phase() const { return condition_.phase(); }
     /// In motion, held, or inherited by a takeover.
@@ -61,7 +62,7 @@ private:
     void advance(CoordinatorLoop& loop);
     void leave_waiting(CoordinatorLoop& loop);
 
-    MachineState state(const CoordinatorLoop& loop) const;
+    void report(CoordinatorLoop& loop) const;
 
     MachineConfig machine_;
     std::uint64_t config_hash_;
@@ -77,6 +78,7 @@ private:
     JobRunner jobs_;
     SlotGate gate_;
     std::optional<Tick> stepped_;
+    CoordinatorOutputs out_;
 };
 
 }  // namespace lockstep

@@ -13,6 +13,7 @@
 namespace lockstep {
 
 using AxisCounts = StaticVector<std::int64_t, kMaxAxes>;
+using AxisPositions = StaticVector<Position, kMaxAxes>;
 
 /// One straight move of all axes from one whole place to another, or a dwell (nothing moves).
 struct PathMove {

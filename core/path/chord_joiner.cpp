@@ -164,7 +164,7 @@ bool ChordJoiner::is_within_travel(const Quadratic& piece) const {
 /// Doubles the last piece's length until the fit fails, then bisects. 0: more points must be known for that.
 std::size_t ChordJoiner::longest(const Reach& limit, Quadratic& best) {
     if (!is_fit_begun_) {
-        tolerance_steps_ = tolerance_of(points_[start_ + 1].settings);
+        set_tolerance(points_[start_ + 1].settings);
         fit_.begin(start_, start_at_);
         is_fit_begun_ = true;
     }
@@ -207,13 +207,12 @@ AxisVector ChordJoiner::end_at(std::size_t k) const {
     return at;
 }
 
-std::vector<double> ChordJoiner::tolerance_of(const MoveSettings& settings) const {
-    std::vector<double> steps;
+void ChordJoiner::set_tolerance(const MoveSettings& settings) {
+    tolerance_steps_.clear();
     for (const double per_mm : setup_.steps_per_mm) {
         const double whole = std::max(1.0, settings.tolerance_mm * per_mm);
-        steps.push_back(whole - kPulseShare - kFitShare - kRoundingShare);
+        tolerance_steps_.push_back(whole - kPulseShare - kFitShare - kRoundingShare);
     }
-    return steps;
 }
 
 /// Keeps what turns and corners yet to be found look back at.

@@ -59,7 +59,7 @@ private:
     bool try_chords(std::size_t chords, Quadratic& best);
     bool is_within_travel(const Quadratic& piece) const;
     AxisVector end_at(std::size_t k) const;
-    std::vector<double> tolerance_of(const MoveSettings& settings) const;
+    void set_tolerance(const MoveSettings& settings);
     void drop_passed();
 
     PathSetup setup_;

@@ -26,7 +26,10 @@ FramePlanner::FramePlanner(const FramePlanner& other, const PathSetup& setup, Sp
       trail_(trail),
       at_(other.at_),
       held_tail_(other.held_tail_),
+      fit_(setup),
       last_(other.last_),
+      begins_(other.begins_),
+      turned_(setup),
       has_begun_(other.has_begun_),
       has_made_(other.has_made_),
       is_done_(other.is_done_),
@@ -35,7 +38,7 @@ FramePlanner::FramePlanner(const FramePlanner& other, const PathSetup& setup, Sp
 
 void FramePlanner::begin(std::span<const Position> at) {
     at_ = {};
-    for (const Position& position : at) { at_.points.push_back({position, 0, {}}); }
+    for (const Position& position : at) { at_.points.append({position, 0, {}}); }
     held_tail_.begin(0);
     has_begun_ = has_made_ = is_done_ = is_traced_ = false;
 }
@@ -89,26 +92,27 @@ void FramePlanner::note_places(PathFrame& frame, const TimedPath& path) const {
     frame.begin = frame.places[0];
 }
 
-std::vector<MoveBegin> FramePlanner::begins() const {
+/// Of a frame of so many ticks.
+void FramePlanner::note_begins(Ticks ticks) {
     constexpr double kHair_mm = 1e-9;
-    std::vector<MoveBegin> begins;
+    begins_.clear();
     for (const PathPhase& phase : path_.phases()) {
         const double from = std::max(phase.begin, 0.0);
-        const double to = std::min(phase.end(), as_double(last_.ticks));
+        const double to = std::min(phase.end(), as_double(ticks));
         if (to < from) { continue; }
         trail_.each_begin(phase.piece, [&](double u, std::uint32_t block) {
             const bool is_in = u >= phase.along(from) - kHair_mm && u <= phase.along(to) + kHair_mm;
-            if (is_in) { begins.push_back({block, std::clamp(phase.time_at(u), from, to)}); }
+            if (is_in) { begins_.push_back({block, std::clamp(phase.time_at(u), from, to)}); }
         });
     }
-    return begins;
 }
 
-std::expected<std::optional<PathFrame>, PathStuck> FramePlanner::next() {
-    if (!start()) { return std::nullopt; }
+std::expected<const PathFrame*, PathStuck> FramePlanner::next() {
+    if (!start()) { return nullptr; }
+    PathFrame& frame = made_;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
-        if (!trace()) { return std::nullopt; }
-        PathFrame frame{.ticks = end_of_frame()};
+        if (!trace()) { return nullptr; }
+        frame.ticks = end_of_frame();
         frame.last = window_.is_finished() && path_.passages().back().interval + 1 == window_.end() &&
                      rounded_up(path_.end()) <= frame.ticks;
         Cursor behind;
@@ -116,28 +120,34 @@ std::expected<std::optional<PathFrame>, PathStuck> FramePlanner::next() {
         if (!failure && !frame.last && !fit_tail(frame, behind)) { failure = FitFailure{frame.ticks, false}; }
         if (!failure) {
             note_places(frame, path_);
+            note_begins(frame.ticks);
             frame.rest = place_of_rest(frame, behind);
-            take(std::move(behind));
+            take(behind);
             is_done_ = frame.last;
             std::swap(held_tail_, tail_);
-            last_ = frame;
-            return frame;
+            std::swap(last_, made_);
+            return &last_;
         }
         slow_down(*failure, frame.ticks, attempt);
     }
     const bool is_at_rest = held_tail_.phases().empty() || held_tail_.end() <= 0;
     if (is_at_rest) { return std::unexpected(PathStuck{trail_.place_of(path_.spot_at(0))}); }
-    return brake();
+    brake();
+    return &last_;
 }
 
 /// The tail of the last frame, piece by piece, is always a way to go on. At its end the machine rests.
-PathFrame FramePlanner::brake() {
-    PathFrame frame{.ticks = setup_.frame_ticks, .rest = last_.rest, .axes = std::move(last_.axes)};
+void FramePlanner::brake() {
+    PathFrame& frame = last_;
+    frame.ticks = setup_.frame_ticks;
+    frame.last = false;
     note_places(frame, held_tail_);
+    note_begins(frame.ticks);
     Cursor behind = cursor_at(held_tail_, frame.ticks, true);
     for (std::size_t i = 0; i < setup_.axes(); ++i) {
         AxisTrack& track = frame.axes[i];
-        track = {.from = at_.points[i].position, .body = {}, .tail = track.tail};
+        track.from = at_.points[i].position;
+        track.body.clear();
         Ticks left = frame.ticks;
         while (left > Ticks{} && !track.tail.empty()) {
             const bool is_whole = track.tail[0].ticks <= left;
@@ -146,31 +156,32 @@ PathFrame FramePlanner::brake() {
             if (is_whole) { track.tail.erase_front(1); }
         }
         if (left > Ticks{}) { track.body.append({left, {}, {}}); }
-        behind.points.push_back(at_.points[i]);
+        behind.points.append(at_.points[i]);
         check(check_pieces({track.body.begin(), track.body.size()}, setup_.limits[i], behind.points[i]) ==
                   FaultCode::None,
               "a tail keeps the limits");
     }
     held_tail_.shift(frame.ticks);
     ++braked_;
-    take(std::move(behind));
-    last_ = frame;
-    return frame;
+    take(behind);
 }
 
 std::optional<FitFailure> FramePlanner::fit_body(PathFrame& frame, Cursor& next) {
-    std::vector<std::vector<Piece>> pieces(setup_.axes());
-    std::vector<MotionPoint> points = at_.points;
+    auto points = at_.points;
     frame.axes.resize(setup_.axes());
-    for (std::size_t i = 0; i < setup_.axes(); ++i) { frame.axes[i].from = points[i].position; }
-    PieceFit fit(setup_, path_);
-    if (const auto failure = fit.fit(frame.ticks, setup_.body_pieces, points, pieces)) { return failure; }
     for (std::size_t i = 0; i < setup_.axes(); ++i) {
-        for (const Piece& piece : pieces[i]) { frame.axes[i].body.append(piece); }
+        frame.axes[i].from = points[i].position;
+        frame.axes[i].body.clear();
+        frame.axes[i].tail.clear();
+    }
+    const auto failure = fit_.fit(path_, frame.ticks, setup_.body_pieces, {points.begin(), points.size()});
+    if (failure) { return failure; }
+    for (std::size_t i = 0; i < setup_.axes(); ++i) {
+        for (const Piece& piece : fit_.pieces(i)) { frame.axes[i].body.append(piece); }
         if (frame.last && !may_rest(points[i], setup_.limits[i])) { return FitFailure{frame.ticks}; }
     }
     next = frame.last ? Cursor{.interval = window_.end()} : cursor_at(path_, frame.ticks, false);
-    next.points = std::move(points);
+    next.points = points;
     return std::nullopt;
 }
 
@@ -226,12 +237,10 @@ bool FramePlanner::fit_tail(PathFrame& frame, const Cursor& from) {
     trace_tail(from);
     const Ticks end = rounded_up(tail_.end());
     if (tail_.phases().empty() || end <= Ticks{}) { return true; }
-    std::vector<std::vector<Piece>> pieces(setup_.axes());
-    std::vector<MotionPoint> points = from.points;
-    PieceFit fit(setup_, tail_);
-    if (fit.fit(end, kMaxTailPieces, points, pieces)) { return false; }
+    auto points = from.points;
+    if (fit_.fit(tail_, end, kMaxTailPieces, {points.begin(), points.size()})) { return false; }
     for (std::size_t i = 0; i < setup_.axes(); ++i) {
-        for (const Piece& piece : pieces[i]) { frame.axes[i].tail.append(piece); }
+        for (const Piece& piece : fit_.pieces(i)) { frame.axes[i].tail.append(piece); }
         if (!may_rest(points[i], setup_.limits[i])) { return false; }
     }
     return true;
@@ -286,18 +295,18 @@ void FramePlanner::start_slower(double slower) {
 /// The interval under way is finished as planned.
 TurnResult FramePlanner::turn(const Overrides& overrides) {
     if (is_done_) { return TurnResult::CannotFollow; }
-    SpeedWindow turned = window_;
-    const TurnResult result = turned.turn(overrides, at_.interval, at_.w1.has_value(), at_.w1.value_or(at_.w0));
+    turned_ = window_;
+    const TurnResult result = turned_.turn(overrides, at_.interval, at_.w1.has_value(), at_.w1.value_or(at_.w0));
     if (result != TurnResult::Taken) { return result; }
-    window_ = std::move(turned);
+    std::swap(window_, turned_);
     is_traced_ = false;
     return result;
 }
 
-void FramePlanner::take(Cursor next) {
+void FramePlanner::take(const Cursor& next) {
     is_traced_ = false;
     has_made_ = true;
-    at_ = std::move(next);
+    at_ = next;
     const bool is_cut =
         !at_.w1 && at_.interval < window_.end() && window_.interval(at_.interval).kind != IntervalKind::Rest;
     if (is_cut) { window_.cut(at_.interval, at_.u, at_.w0); }

@@ -9,7 +9,6 @@
 #include <array>
 #include <expected>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/path/piece_fit.hpp"
@@ -41,7 +40,7 @@ struct PathStuck {
 class FramePlanner {
 public:
     FramePlanner(const PathSetup& setup, SpeedWindow& window, const PathTrail& trail)
-        : setup_(setup), window_(window), trail_(trail) {}
+        : setup_(setup), window_(window), trail_(trail), fit_(setup), turned_(setup) {}
     /// A copy that goes on by itself, with copies of what the other one refers to.
     FramePlanner(const FramePlanner& other, const PathSetup& setup, SpeedWindow& window, const PathTrail& trail);
     FramePlanner(const FramePlanner&) = delete;
@@ -49,13 +48,13 @@ public:
 
     /// The axes rest at `at`, where the window's path begins.
     void begin(std::span<const Position> at);
-    /// The next frame; nothing while too little of the path is known. Not after the last one.
-    std::expected<std::optional<PathFrame>, PathStuck> next();
+    /// The next frame, valid until the next call; null while too little of the path is known. Not after the last one.
+    std::expected<const PathFrame*, PathStuck> next();
     /// The path is known far enough for it.
     bool is_ready();
     bool is_done() const { return is_done_; }
     /// The moves that begin in the frame that `next` returned last. One at its end may be named for two frames.
-    std::vector<MoveBegin> begins() const;
+    const std::vector<MoveBegin>& begins() const { return begins_; }
     /// Since begin().
     bool has_made() const { return has_made_; }
     /// The window was made anew, and no frame has been made.
@@ -75,12 +74,13 @@ private:
         double w0 = 0;
         std::optional<double> w1;  // the interval is under way: it is finished as it was planned
         double u = 0;              // Straight: where the frame begins
-        std::vector<MotionPoint> points;
+        StaticVector<MotionPoint, kMaxAxes> points;
     };
 
     bool start();
     bool trace();
     void note_places(PathFrame& frame, const TimedPath& path) const;
+    void note_begins(Ticks ticks);
     Ticks end_of_frame() const;
     std::optional<FitFailure> fit_body(PathFrame& frame, Cursor& next);
     bool fit_tail(PathFrame& frame, const Cursor& from);
@@ -88,9 +88,9 @@ private:
     Cursor cursor_at(const TimedPath& path, Ticks t, bool is_braking) const;
     void slow_down(const FitFailure& failure, Ticks ticks, int attempt);
     void start_slower(double slower);
-    PathFrame brake();
+    void brake();
     PathPlace place_of_rest(const PathFrame& frame, const Cursor& behind) const;
-    void take(Cursor next);
+    void take(const Cursor& next);
 
     static constexpr int kAttempts = 16;
     static constexpr double kSlower = 0.7;             // of the square of the speed
@@ -105,8 +105,12 @@ private:
     TimedPath path_;
     TimedPath tail_;
     TimedPath held_tail_;  // of the last frame; its times and ways only are used
-    PathFrame last_;
-    bool is_traced_ = false;  // path_ begins at the cursor
+    PieceFit fit_;
+    PathFrame made_;                 // the frame that is being made
+    PathFrame last_;                 // the frame before it
+    std::vector<MoveBegin> begins_;  // in the last frame
+    SpeedWindow turned_;             // turn: the window with the new overrides
+    bool is_traced_ = false;         // path_ begins at the cursor
     bool has_begun_ = false;
     bool has_made_ = false;
     bool is_done_ = false;

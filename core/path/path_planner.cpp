@@ -44,7 +44,7 @@ void PathPlanner::resume(const PathPlace& place, std::span<const Position> at) {
 void PathPlanner::seek(const PathPlace& place) {
     start_ = place;
     is_sought_ = true;
-    window_ = SpeedWindow(setup_, overrides_);
+    window_.restart(overrides_, {});
     pass_on(ready_);
     if (is_finished_) { window_.finish(); }
 }
@@ -109,7 +109,7 @@ void PathPlanner::pass_on(std::size_t ready) {
         const auto spot = trail_.spot_of(start_);
         passed_ = spot ? spot->piece : ready;
         if (!spot) { return trail_.drop_before(ready); }
-        window_ = SpeedWindow(setup_, overrides_, *spot);
+        window_.restart(overrides_, *spot);
         is_sought_ = false;
     }
     for (; passed_ < ready; ++passed_) { window_.add(trail_.piece(passed_)); }
@@ -127,8 +127,8 @@ TurnResult PathPlanner::turn(const Overrides& overrides) {
     return TurnResult::Taken;
 }
 
-std::expected<std::optional<PathFrame>, PathStuck> PathPlanner::next() {
-    auto frame = frames_.next();
+std::expected<const PathFrame*, PathStuck> PathPlanner::next() {
+    const auto frame = frames_.next();
     if (frame && *frame) { remember(**frame); }
     return frame;
 }

@@ -5,7 +5,6 @@
 // and behind which frames the machine was resumed or the overrides were turned.
 #pragma once
 
-#include <deque>
 #include <expected>
 #include <optional>
 
@@ -54,13 +53,13 @@ public:
     TurnResult turn(const Overrides& overrides);
     const Overrides& overrides() const { return overrides_; }
 
-    /// The next frame; nothing while too few moves are known. Not after the last one.
-    std::expected<std::optional<PathFrame>, PathStuck> next();
+    /// The next frame, valid until the next call; null while too few moves are known. Not after the last one.
+    std::expected<const PathFrame*, PathStuck> next();
     /// The next frame can be made.
     bool is_ready() { return frames_.is_ready(); }
     bool is_done() const { return frames_.is_done(); }
     /// The moves that begin in the last frame; right behind next() only.
-    std::vector<MoveBegin> begins() const { return frames_.begins(); }
+    const std::vector<MoveBegin>& begins() const { return frames_.begins(); }
     std::int64_t slowed() const { return frames_.slowed(); }
     std::int64_t braked() const { return frames_.braked(); }
     /// Intervals that wait for their frames, and pieces that are kept: what memory depends on.
@@ -90,7 +89,7 @@ private:
     std::size_t ready_ = 0;   // pieces that do not change: the last one's end may have to be a whole step
     std::size_t passed_ = 0;  // and that the window has
     bool is_finished_ = false;
-    std::deque<std::size_t> begins_;  // the pieces in which the last frames begin
+    SlidingVector<std::size_t> begins_;  // the pieces in which the last frames begin
 };
 
 }  // namespace lockstep

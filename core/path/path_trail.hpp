@@ -5,11 +5,12 @@
 #pragma once
 
 #include <algorithm>
-#include <deque>
 #include <optional>
 
 #include "core/path/quadratic.hpp"
+#include "core/path/sliding_vector.hpp"
 #include "core/path_place.hpp"
+#include "core/reused_queue.hpp"
 
 namespace lockstep {
 
@@ -65,8 +66,8 @@ private:
         Displacement along;
     };
 
-    std::deque<Quadratic> pieces_;
-    std::deque<Mark> marks_;
+    ReusedQueue<Quadratic> pieces_;
+    SlidingVector<Mark> marks_;
     std::size_t first_ = 0;
 };
 

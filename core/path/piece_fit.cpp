@@ -20,19 +20,20 @@ Position position_of(double steps) {
 
 }  // namespace
 
-PieceFit::PieceFit(const PathSetup& setup, const TimedPath& path)
+PieceFit::PieceFit(const PathSetup& setup)
     : setup_(setup),
-      path_(path),
-      guess_{64},
+      fitted_(setup.axes()),
       pieces_(setup.axes()),
       points_(setup.axes()),
       try_pieces_(setup.axes()),
-      try_points_(setup.axes()) {}
+      try_points_(setup.axes()) {
+    for (std::vector<Piece>& pieces : fitted_) { pieces.reserve(std::max(setup.body_pieces, kMaxTailPieces)); }
+}
 
 /// The tick at which a piece from `now` has to end. A jump between two ticks is left to the longer of the pieces beside
 /// it, whose velocity it bends the least.
 Ticks PieceFit::next_break(Ticks now, Ticks end) const {
-    const auto& phases = path_.phases();
+    const auto& phases = path_->phases();
     for (std::size_t k = phase_; k < phases.size() && phases[k].begin < to_double(end); ++k) {
         if (!phases[k].breaks) { continue; }
         std::size_t next = k + 1;
@@ -49,7 +50,7 @@ Ticks PieceFit::next_break(Ticks now, Ticks end) const {
 /// the outside.
 PieceFit::Stretch PieceFit::stretch(Ticks begin, Ticks end) const {
     constexpr double kHair = 0x1p-20;
-    const auto& phases = path_.phases();
+    const auto& phases = path_->phases();
     Stretch s{begin, end, phase_, phase_};
     const double from = to_double(begin);
     const double to = to_double(end);
@@ -67,8 +68,8 @@ PieceFit::Stretch PieceFit::stretch(Ticks begin, Ticks end) const {
 }
 
 double PieceFit::acceleration(const Stretch& s, std::size_t i) const {
-    const double before = path_.phases()[s.first].velocity(i, to_double(s.begin));
-    const double after = path_.phases()[s.last].velocity(i, to_double(s.end));
+    const double before = path_->phases()[s.first].velocity(i, to_double(s.begin));
+    const double after = path_->phases()[s.last].velocity(i, to_double(s.end));
     const AxisLimits& axis = setup_.limits[i];
     const bool speeds_up = std::abs(after) > std::abs(before);
     const double most = speeds_up ? axis.max_acceleration : axis.max_deceleration;
@@ -77,7 +78,7 @@ double PieceFit::acceleration(const Stretch& s, std::size_t i) const {
 
 /// The path is a parabola in each phase, nearly: it is compared at the ends and the middles of the phases.
 bool PieceFit::is_close(const Stretch& s, std::size_t i, double from, double v0, double a) const {
-    const auto& phases = path_.phases();
+    const auto& phases = path_->phases();
     const double begin = to_double(s.begin);
     const double ticks = to_double(s.end - s.begin);
     const auto is_near = [&](const PathPhase& phase, double t) {
@@ -98,7 +99,7 @@ bool PieceFit::is_close(const Stretch& s, std::size_t i, double from, double v0,
 
 /// The phase that is in progress at the end of a stretch.
 const PathPhase& PieceFit::phase_at(const Stretch& s) const {
-    const auto& phases = path_.phases();
+    const auto& phases = path_->phases();
     std::size_t k = s.last;
     while (k + 1 < phases.size() && phases[k].end() < to_double(s.end)) { ++k; }
     return phases[k];
@@ -117,8 +118,8 @@ bool PieceFit::is_hard_turn(std::size_t i, double v0, double a, double ticks) co
 bool PieceFit::try_piece(Ticks begin, Ticks end, std::span<const MotionPoint> points) {
     const Stretch s = stretch(begin, end);
     const double ticks = to_double(end - begin);
-    const PathPhase& last = path_.phases()[s.last];
-    const PathPhase& first = path_.phases()[s.first];
+    const PathPhase& last = path_->phases()[s.last];
+    const PathPhase& first = path_->phases()[s.first];
     const PathPhase& at_end = phase_at(s);
     for (std::size_t i = 0; i < setup_.axes(); ++i) {
         const double a = acceleration(s, i);
@@ -147,7 +148,7 @@ Ticks PieceFit::longest(Ticks now, Ticks limit, std::span<const MotionPoint> poi
     const auto fits = [&](std::int64_t ticks) { return try_piece(now, now + Ticks{ticks}, points); };
     std::int64_t good = 0;
     std::int64_t bad = whole.value + 1;
-    const PathPhase& phase = path_.phases()[phase_];
+    const PathPhase& phase = path_->phases()[phase_];
     const auto left = static_cast<std::int64_t>(std::min(phase.end() - to_double(now), to_double(whole)));
     const bool is_parabola = phase.shape->is_straight && left > kShort_ticks;
     std::int64_t ticks = std::clamp<std::int64_t>(is_parabola ? left : guess_.value, 1, whole.value);
@@ -176,10 +177,13 @@ Ticks PieceFit::longest_any(Ticks now, Ticks limit, std::span<const MotionPoint>
     return ticks;
 }
 
-std::optional<FitFailure> PieceFit::fit(Ticks end, std::size_t most, std::span<MotionPoint> points,
-                                        std::span<std::vector<Piece>> pieces) {
-    const auto& phases = path_.phases();
+std::optional<FitFailure> PieceFit::fit(const TimedPath& path, Ticks end, std::size_t most,
+                                        std::span<MotionPoint> points) {
+    path_ = &path;
+    const auto& phases = path.phases();
+    for (std::vector<Piece>& pieces : fitted_) { pieces.clear(); }
     phase_ = 0;
+    guess_ = Ticks{64};
     std::size_t made = 0;
     for (Ticks now; now < end;) {
         while (phase_ + 1 < phases.size() && phases[phase_ + 1].begin <= to_double(now)) { ++phase_; }
@@ -195,7 +199,7 @@ std::optional<FitFailure> PieceFit::fit(Ticks end, std::size_t most, std::span<M
         if (made == most) { return FitFailure{now, true}; }
         for (std::size_t i = 0; i < setup_.axes(); ++i) {
             points[i] = points_[i];
-            pieces[i].push_back(pieces_[i]);
+            fitted_[i].push_back(pieces_[i]);
         }
         guess_ = ticks;
         ++made;

@@ -23,11 +23,12 @@ struct FitFailure {
 
 class PieceFit {
 public:
-    PieceFit(const PathSetup& setup, const TimedPath& path);
+    explicit PieceFit(const PathSetup& setup);
 
-    /// Pieces for the ticks [0, end), at most `most` of them, added to pieces[axis]; `points` move along.
-    std::optional<FitFailure> fit(Ticks end, std::size_t most, std::span<MotionPoint> points,
-                                  std::span<std::vector<Piece>> pieces);
+    /// Pieces for the ticks [0, end) of `path`, at most `most` of them; `points` move along.
+    std::optional<FitFailure> fit(const TimedPath& path, Ticks end, std::size_t most, std::span<MotionPoint> points);
+    /// The pieces of an axis that fit() has found.
+    const std::vector<Piece>& pieces(std::size_t axis) const { return fitted_[axis]; }
 
 private:
     struct Stretch {
@@ -51,8 +52,9 @@ private:
     static constexpr double kSpeedTolerance = 0.01;   // of the start velocity
 
     const PathSetup& setup_;
-    const TimedPath& path_;
-    std::size_t phase_ = 0;  // the last that begins at or before now
+    const TimedPath* path_ = nullptr;
+    std::vector<std::vector<Piece>> fitted_;  // of each axis
+    std::size_t phase_ = 0;                   // the last that begins at or before now
     Ticks guess_;
     double tolerance_ = 1;       // times kSpeedTolerance
     std::vector<Piece> pieces_;  // of the last try that succeeded

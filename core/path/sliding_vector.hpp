@@ -15,9 +15,12 @@ public:
     T& operator[](std::size_t i) { return items_[first_ + i]; }
     const T& operator[](std::size_t i) const { return items_[first_ + i]; }
     T& front() { return items_[first_]; }
+    const T& front() const { return items_[first_]; }
     T& back() { return items_.back(); }
     const T& back() const { return items_.back(); }
     void push_back(const T& value) { items_.push_back(value); }
+    void pop_back() { items_.pop_back(); }
+    void pop_front() { drop_front(1); }
     void insert(std::size_t at, const T& value) { items_.insert(items_.begin() + place(at), value); }
     /// Drops what is behind the first `size` elements.
     void truncate(std::size_t size) { items_.erase(items_.begin() + place(size), items_.end()); }
@@ -33,6 +36,8 @@ public:
         items_.clear();
         first_ = 0;
     }
+    const T* begin() const { return items_.data() + first_; }
+    const T* end() const { return items_.data() + items_.size(); }
 
 private:
     std::ptrdiff_t place(std::size_t i) const { return static_cast<std::ptrdiff_t>(first_ + i); }

@@ -25,6 +25,20 @@ double turn_of(const Quadratic& piece, double length, std::span<const double> st
 
 }  // namespace
 
+void SpeedWindow::restart(const Overrides& overrides, const PathSpot& begin) {
+    overrides_ = overrides;
+    begin_u_ = begin.u;
+    first_piece_ = begin.piece;
+    pieces_.clear();
+    intervals_.clear();
+    first_ = final_ = 0;
+    pending_.reset();
+    before_.reset();
+    due_ = kLeastPass;
+    end_cap_ = 0;
+    is_finished_ = false;
+}
+
 void SpeedWindow::add(const Quadratic& piece) {
     if (pending_) { close_pending(&piece); }
     pending_ = piece;

@@ -11,12 +11,12 @@
 // jumps are paid for like curvature (core/motion/strain.hpp has the rule), or passed more slowly where that is faster.
 #pragma once
 
-#include <deque>
 #include <optional>
 
 #include "core/path/interval.hpp"
 #include "core/path/path_trail.hpp"
 #include "core/path/sliding_vector.hpp"
+#include "core/reused_queue.hpp"
 
 namespace lockstep {
 
@@ -31,7 +31,11 @@ class SpeedWindow {
 public:
     /// The path begins at rest at `begin`, on the first piece that is added.
     explicit SpeedWindow(const PathSetup& setup, const Overrides& overrides = {}, const PathSpot& begin = {})
-        : setup_(setup), overrides_(overrides), begin_u_(begin.u), first_piece_(begin.piece) {}
+        : setup_(setup) {
+        restart(overrides, begin);
+    }
+    /// As a new window. Its memory is kept.
+    void restart(const Overrides& overrides, const PathSpot& begin);
 
     /// A piece that begins where the last one ends; length 0: a rest.
     void add(const Quadratic& piece);
@@ -97,13 +101,14 @@ private:
 
     PathSetup setup_;
     Overrides overrides_;
-    double begin_u_ = 0;              // of the first piece: where the path begins
-    std::deque<JoinedPiece> pieces_;  // phases refer to them
+    double begin_u_ = 0;               // of the first piece: where the path begins
+    ReusedQueue<JoinedPiece> pieces_;  // phases refer to them
     SlidingVector<Interval> intervals_;
     std::size_t first_ = 0;
     std::size_t first_piece_ = 0;
     std::optional<Quadratic> pending_;  // the last piece: what follows it is not known
     std::optional<Quadratic> before_;   // the piece before that
+    ReusedQueue<Quadratic> ahead_;      // recut_behind: the pieces to be cut, the last one first
     std::size_t final_ = 0;             // intervals that are: all before
     std::size_t due_ = kLeastPass;      // a pass runs when so many are not
     double end_cap_ = 0;                // w at the end of the path, once it is finished

@@ -58,18 +58,17 @@ void SpeedWindow::turn_piece(std::size_t number, bool is_under_way) {
 }
 
 void SpeedWindow::recut_behind(std::size_t piece) {
-    std::vector<Quadratic> ahead;
+    ahead_.clear();
+    if (pending_) { ahead_.push_back(*pending_); }
     while (first_piece_ + pieces_.size() > piece + 1) {
-        ahead.push_back(pieces_.back().shape);
+        ahead_.push_back(pieces_.back().shape);
         pieces_.pop_back();
     }
-    std::ranges::reverse(ahead);
-    if (pending_) { ahead.push_back(*pending_); }
     while (interval(end() - 1).piece > piece) { intervals_.truncate(intervals_.size() - 1); }
     final_ = std::min(final_, end());
     before_ = pieces_.back().shape;
     pending_.reset();
-    for (const Quadratic& shape : ahead) { add(shape); }
+    for (; !ahead_.empty(); ahead_.pop_back()) { add(ahead_.back()); }
 }
 
 /// From the beginning of an interval at w. An interval that arrives later is limited by the top of the last known one.

@@ -16,6 +16,8 @@ class ClientMemory {
 public:
     static constexpr std::size_t kClients = 32;
 
+    ClientMemory() { notes_.reserve(kClients); }
+
     /// The value noted last for this client; null: none, or forgotten.
     const T* find(Identity client) const {
         const auto known = std::ranges::find(notes_, client, &Note::client);

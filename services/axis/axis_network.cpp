@@ -51,7 +51,7 @@ const AxisReceived& AxisNetwork::receive() {
     if (link == nullptr) { return received_; }
     AxisBus& bus = link->bus;
     if (link->clock) { received_.exchanges = link->clock->take(); }
-    bus.frames.take([&](Frame&& m) { received_.frames.push_back(std::move(m)); });
+    bus.frames.take([&](Frame&& m) { received_.frames.append() = m; });
     bus.states.take([&](AxisState&& m) {
         axes_received_ |= axis_bit(m.axis);
         received_.states.push_back(m);
@@ -62,10 +62,10 @@ const AxisReceived& AxisNetwork::receive() {
             acknowledged_.is_owner_received = true;
             acknowledged_.is_received |= has_axis(m.axes_present, axis_);
         }
-        received_.machine.push_back(std::move(m));
+        received_.machine.append() = m;
     });
     bus.commands.take([&](AxisCommand&& m) { received_.commands.push_back(m); });
-    bus.requests.take([&](Command&& m) { received_.requests.push_back(m); });
+    bus.requests.take([&](Command&& m) { received_.requests.append() = m; });
     machine_received_ = machine_received_ || !received_.machine.empty();
     refused_now_ = refused_by(bus);
     return received_;

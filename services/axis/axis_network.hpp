@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/protocol/messages.hpp"
+#include "core/reused_vector.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/wire/bus/bus.hpp"
 #include "services/wire/bus/clock_link.hpp"
@@ -24,11 +25,11 @@ struct AxisLink {
 
 /// The messages of one loop.
 struct AxisReceived {
-    std::vector<Frame> frames;
+    ReusedVector<Frame> frames;
     std::vector<AxisState> states;
-    std::vector<MachineState> machine;
+    ReusedVector<MachineState> machine;
     std::vector<AxisCommand> commands;
-    std::vector<Command> requests;
+    ReusedVector<Command> requests;
     std::vector<ClockExchange> exchanges;
     void clear();
 };

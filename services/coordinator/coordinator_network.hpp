@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/coordinator/coordinator.hpp"
+#include "core/reused_vector.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/wire/bus/bus.hpp"
 #include "services/wire/bus/clock_link.hpp"
@@ -26,8 +27,8 @@ struct CoordinatorLink {
 /// The messages of one loop.
 struct CoordinatorReceived {
     std::vector<AxisState> states;
-    std::vector<MachineState> others;
-    std::vector<Command> commands;
+    ReusedVector<MachineState> others;
+    ReusedVector<Command> commands;
     std::vector<ProgramChunk> chunks;
     std::vector<AxisHealth> healths;    // only for the record
     std::vector<MachineValues> values;  // of other coordinators

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <deque>
 #include <iostream>
-#include <map>
 #include <memory>
 
 #include "core/coordinator/coordinator.hpp"
@@ -75,7 +74,7 @@ public:
         forget_outdated_programs();
         if (user_signal_.take()) { flight_log_->incident(now, IncidentReason::Asked); }
         const CoordinatorInputs in{now, received.states, received.others, received.commands, parts_};
-        CoordinatorOutputs out = coordinator_.step(in);
+        CoordinatorOutputs& out = coordinator_.step(in);
         record_taken(now, out.taken);
         flight_.take(in, out);
         if (out.state) {
@@ -107,7 +106,7 @@ private:
         for (const AxisState& state : received.states) {
             if (state.axis >= machine_.axes.size()) { continue; }
             received_axes_ |= axis_bit(state.axis);
-            configs_[state.axis] = state.config_hash;
+            config_hashes_[state.axis] = state.config_hash;
         }
         for (const AxisHealth& health : received.healths) { recorder_.note_axis(health); }
         for (const MachineValues& values : received.values) {
@@ -161,7 +160,8 @@ private:
     void publish_values(const std::vector<JobEvent>& events) {
         for (const JobEvent& event : events) { values_.keeper().take(event); }
         if (!coordinator_.owns_machine()) { return; }
-        if (const auto values = values_.step(monotonic_now(), coordinator_.term())) { network_.publish(*values); }
+        const MachineValues* const values = values_.step(monotonic_now(), coordinator_.term());
+        if (values != nullptr) { network_.publish(*values); }
     }
 
     /// A held job is not at rest: it would be lost with the axes' silence.
@@ -188,8 +188,7 @@ private:
     void log_notice(const CoordinatorNotice& notice) const {
         using Kind = CoordinatorNotice::Kind;
         switch (notice.kind) {
-            case Kind::Phase:
-                return log_info("machine is " + std::string(name_of(static_cast<MachinePhase>(notice.number))));
+            case Kind::Phase: return log_info("machine is {}", name_of(static_cast<MachinePhase>(notice.number)));
             case Kind::AxisSeen: return log_info("receives axis " + axis_name(notice.number));
             case Kind::AxisGone:
                 return log_event(spdlog::level::warn, notice.fault,
@@ -214,7 +213,7 @@ private:
                                      ", with all that is known of its program; the axes rest; go on: lockstep run FILE "
                                      "--from-line " +
                                      std::to_string(notice.number));
-            case Kind::EpochBegun: return log_info("epoch " + std::to_string(notice.number) + " begun");
+            case Kind::EpochBegun: return log_info("epoch {} begun", notice.number);
             case Kind::Interrupted:
                 return log_event(spdlog::level::warn, notice.fault,
                                  "the axes came to rest together after frame " + std::to_string(notice.number) +
@@ -245,14 +244,14 @@ private:
                 log_info("waits for axis " + machine_.axes[i].name + " " + network_.place_of_states());
             }
         }
-        for (const auto& [axis, hash] : configs_) {
-            if (hash == config_hash_) { continue; }
+        for (std::size_t axis = 0; axis < machine_.axes.size(); ++axis) {
+            const std::uint64_t hash = config_hashes_[axis];
+            if (!has_axis(received_axes_, axis) || hash == config_hash_) { continue; }
             log_warning("axis " + axis_name(axis) + " runs configuration " + hash_text(hash) + ", this coordinator " +
                         hash_text(config_hash_) +
                         ": nothing moves; give all hosts the same machine file, then lockstep down and up");
         }
         received_axes_ = 0;
-        configs_.clear();
         if (const std::uint64_t lost = sink_->failures(); lost != lost_records_) {
             lost_records_ = lost;
             log_warning(lost_records_text(machine_, lost));
@@ -286,7 +285,7 @@ private:
     Tick reported_ = clock_.now();
     std::optional<HeldLease> logged_lease_;
     AxisSet received_axes_ = 0;
-    std::map<std::uint32_t, std::uint64_t> configs_;  // of the axes received
+    std::array<std::uint64_t, kMaxAxes> config_hashes_{};  // of the axes received
     std::uint64_t config_hash_ = config_hash(machine_);
     std::uint64_t refused_ = 0;
     std::uint64_t lost_records_ = 0;

@@ -2,13 +2,12 @@
 // that no loop waits for the disk. Short programs stay in memory.
 #pragma once
 
-#include <condition_variable>
 #include <cstdint>
-#include <deque>
 #include <filesystem>
-#include <map>
 #include <mutex>
 #include <optional>
+#include <semaphore>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -17,7 +16,8 @@
 
 namespace lockstep {
 
-/// When `limit_bytes` are full, released rows make room for new ones.
+/// When `limit_bytes` are full, released rows make room for new ones. Called by one thread, which never waits: pages go
+/// to the thread of the disk and come back when its lock is free, else in a later call.
 class FileRows final : public RowStore {
 public:
     FileRows(std::size_t width, std::filesystem::path directory, std::uint64_t limit_bytes);
@@ -27,7 +27,7 @@ public:
 
     std::expected<void, std::string> append(std::span<const double> rows) override;
     bool read(std::uint32_t number, std::span<double> row) override;
-    std::uint64_t free_rows() const override;
+    std::uint64_t free_rows() override;
     void release_before(std::uint32_t number) override;
     std::uint32_t first_row() const override;
 
@@ -39,21 +39,32 @@ private:
     using Page = std::vector<double>;
     enum class PageState : std::uint8_t { Filling, Waiting, Clean, Fetched };
     struct Resident {
+        std::uint64_t number = 0;
         Page rows;
         PageState state = PageState::Filling;
         std::uint64_t used = 0;
     };
+    /// For the thread. The rows stay where they are until it has come back.
     struct Work {
         std::uint64_t page = 0;
         bool is_write = false;
+        std::span<double> rows;
+        int error = 0;  // errno, if it failed
     };
 
+    Resident* find(std::uint64_t number);
+    Resident& add_page(std::uint64_t number, PageState state);
+    void remove(Resident& page);
     void add_row(std::span<const double> row);
-    void request(std::uint64_t page);
+    void request(std::uint64_t number);
     void evict();
+    void exchange_work();
+    void take_back(const Work& work);
+    void start_thread();
+
     void serve(const std::stop_token& stop);
-    void write(std::uint64_t page, std::unique_lock<std::mutex>& lock);
-    void fetch(std::uint64_t page, std::unique_lock<std::mutex>& lock);
+    std::optional<Work> next_work();
+    void carry_out(Work& work);
     bool open();
     std::uint64_t offset_of(std::uint64_t page) const { return page % capacity_ * kPageBytes; }
 
@@ -61,16 +72,26 @@ private:
     std::size_t page_rows_;
     std::uint64_t capacity_;  // in pages
     std::filesystem::path directory_;
-    mutable std::mutex mutex_;
-    std::condition_variable_any news_;
-    std::map<std::uint64_t, Resident> pages_;  // in memory
-    std::deque<Work> work_;
-    std::uint64_t rows_ = 0;      // appended
-    std::uint64_t released_ = 0;  // pages
+    std::vector<Resident> pages_;  // in memory
+    std::size_t recent_ = 0;       // of them, the one found last
+    std::vector<Page> spare_;      // their memory waits for other rows
+    std::vector<Work> to_do_;      // not handed over yet
+    std::vector<Work> returned_;
+    std::size_t handed_over_ = 0;  // and not returned yet
+    std::uint64_t rows_ = 0;       // appended
+    std::uint64_t released_ = 0;   // pages
     std::uint64_t unwritten_ = 0;
     std::uint64_t clock_ = 0;  // counts uses of pages
     std::optional<std::string> failure_;
+
+    std::mutex mutex_;  // of the next two; held for as long as copying an element takes
+    std::vector<Work> queue_;
+    std::vector<Work> done_;
+    std::counting_semaphore<> news_{0};
+
+    // The thread's:
     int file_ = -1;
+    int write_error_ = 0;
     std::jthread thread_;  // begins when half of the unwritten pages are there
 };
 

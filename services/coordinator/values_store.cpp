@@ -27,16 +27,18 @@ void ValuesStore::write(std::chrono::nanoseconds now) {
     file_.keep(change, [values = RevisedValues{keeper_.revision(), keeper_.values()}] { return values_text(values); });
 }
 
-std::optional<MachineValues> ValuesStore::step(std::chrono::nanoseconds now, const Term& term) {
+const MachineValues* ValuesStore::step(std::chrono::nanoseconds now, const Term& term) {
     write(now);
     const std::pair state{keeper_.changes(), is_on_disk()};
     const bool is_news = std::exchange(published_, state) != state;
     const bool is_due = !published_at_ || now - *published_at_ >= kPublishEvery;
-    if (!is_news && !is_due) { return std::nullopt; }
+    if (!is_news && !is_due) { return nullptr; }
+    if (is_news || !published_at_) { message_.bytes = values_bytes({keeper_.revision(), keeper_.values()}); }
     published_at_ = now;
-    const RevisedValues values{keeper_.revision(), keeper_.values()};
-    return MachineValues{
-        .term = term, .revision = values.revision, .on_disk = state.second, .bytes = values_bytes(values)};
+    message_.term = term;
+    message_.revision = keeper_.revision();
+    message_.on_disk = state.second;
+    return &message_;
 }
 
 }  // namespace lockstep

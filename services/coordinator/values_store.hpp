@@ -30,9 +30,9 @@ public:
                                             ValueKeeper::Circumstances now);
     /// The owner's values, in a coordinator that does not own the machine.
     void follow(const MachineValues& values);
-    /// In each loop of the owner: writes a change. Returns the values to publish: after each change, and several times
-    /// a second.
-    std::optional<MachineValues> step(std::chrono::nanoseconds now, const Term& term);
+    /// In each loop of the owner: writes a change. Returns the values to publish, valid until the next call: after each
+    /// change, and several times a second. Else null.
+    const MachineValues* step(std::chrono::nanoseconds now, const Term& term);
 
 private:
     static constexpr std::chrono::milliseconds kPublishEvery{200};
@@ -48,6 +48,7 @@ private:
     std::chrono::nanoseconds written_at_{};
     std::optional<std::chrono::nanoseconds> published_at_;
     std::pair<std::uint64_t, bool> published_;  // the change, and whether it was on the disk
+    MachineValues message_;                     // as they were published last
 };
 
 }  // namespace lockstep

@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kMagic = 0x4c53464c49474854U;  // LSFLIGHT
-constexpr std::uint64_t kVersion = 2;
+constexpr std::uint64_t kRingMagic = 0x4c53464c49474854U;  // LSFLIGHT
+constexpr std::uint64_t kRingVersion = 2;
 constexpr std::size_t kHeaderBytes = kFlightSlotBytes;
 constexpr std::size_t kSourceAt = kHeaderBytes + kFlightNoteBytes;
 constexpr std::size_t kMaxBytes = std::size_t{128} << 20;  // a larger file is not a ring
@@ -31,8 +31,8 @@ using EventSlot = NumberedSlot<FlightEvent>;
 static_assert(EventSlot::kWords * sizeof(std::uint64_t) == kFlightSlotBytes);
 
 struct Header {
-    std::uint64_t magic = kMagic;
-    std::uint64_t version = kVersion;
+    std::uint64_t magic = kRingMagic;
+    std::uint64_t version = kRingVersion;
     std::uint64_t events = 0;
     std::uint64_t source_bytes = 0;  // behind the note
     std::uint64_t slots_at = 0;      // byte
@@ -44,7 +44,7 @@ std::optional<Header> header_of(const SharedMapping& mapping) {
     if (mapping.bytes() < kSourceAt) { return std::nullopt; }
     std::memcpy(static_cast<void*>(&header), mapping.words(), sizeof header);
     const bool is_ring =
-        header.magic == kMagic && header.version == kVersion && header.slots_at % kFlightSlotBytes == 0;
+        header.magic == kRingMagic && header.version == kRingVersion && header.slots_at % kFlightSlotBytes == 0;
     const bool fits = header.slots_at <= mapping.bytes() && header.source_bytes <= mapping.bytes() - kSourceAt &&
                       header.events <= (mapping.bytes() - header.slots_at) / kFlightSlotBytes;
     return is_ring && fits ? std::optional(header) : std::nullopt;

@@ -82,7 +82,8 @@ void AxisRecorder::loop(const AxisOutputs& out, std::int64_t zero_count, std::ui
                                .ahead = track.commanded_start - track.start,
                                .commanded_ticks = track.commanded_ticks,
                                .clock_error = track.clock_error};
-        sink_.publish(channels_.run, to_lcm(record, machine_.tick_ns));
+        to_lcm(record, machine_.tick_ns, run_);
+        sink_.publish(channels_.run, run_);
     }
     if (zero_count != zero_count_) {
         batcher_.set_position(batcher_.position_steps() - (zero_count - zero_count_));

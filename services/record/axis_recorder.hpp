@@ -53,6 +53,7 @@ private:
     std::int64_t zero_count_ = 0;
     RecordCounts counts_;  // published so far
     RecordMarker marker_;
+    run_t run_{};  // that was published last
     std::uint64_t lost_captures_ = 0;
     /// The device's position is known: not at first, since the device may have outlived another process, nor after the
     /// device was exchanged, nor after steps without their time.

@@ -50,7 +50,7 @@ void JobRecorder::record(Tick now, const JobEvent& event) {
                      .resume_along = event.place.along.raw,
                      .behind_frame = event.behind,
                      .overrides = event.overrides,
-                     .start_count = event.start_counts};
+                     .start_count = {event.start_counts.begin(), event.start_counts.end()}};
     if (event.kind == JobEvent::Kind::Begun) {
         record.config = config_;
         if (event.program) { record_program(now, event, record); }

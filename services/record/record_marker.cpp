@@ -15,19 +15,20 @@ bool same_motion(const RecordCounts& a, const RecordCounts& b) {
 
 void RecordMarker::note(const std::string& process, Identity incarnation, const RecordCounts& counts, Tick then) {
     if (known_.size() == kMostProcesses) { known_.clear(); }
-    const auto [found, is_new] = known_.try_emplace({process, incarnation}, Known{counts, then, counts, then});
+    const auto [found, is_new] = known_.try_emplace({process, incarnation});
     Known& known = found->second;
+    if (is_new) { known = {mark_channel(machine_, process), counts, then, counts, then}; }
     if (!same_motion(known.counts, counts)) { known.grown = then; }
     known.counts = counts;
     if (!is_new && !is_due(known, then)) { return; }
     known.marked = counts;
     known.marked_at = then;
-    mark(process, incarnation, counts, then, false);
+    mark(known.channel, process, incarnation, counts, then, false);
 }
 
 void RecordMarker::note_end(const std::string& process, Identity incarnation, const RecordCounts& counts, Tick then) {
     known_.erase({process, incarnation});
-    mark(process, incarnation, counts, then, true);
+    mark(mark_channel(machine_, process), process, incarnation, counts, then, true);
 }
 
 bool RecordMarker::is_due(const Known& known, Tick then) const {
@@ -36,15 +37,15 @@ bool RecordMarker::is_due(const Known& known, Tick then) const {
            (has_settled && !same_motion(known.counts, known.marked));
 }
 
-void RecordMarker::mark(const std::string& process, Identity incarnation, const RecordCounts& counts, Tick then,
-                        bool ended) {
+void RecordMarker::mark(const std::string& channel, const std::string& process, Identity incarnation,
+                        const RecordCounts& counts, Tick then, bool ended) {
     const RecordMark mark{.machine = machine_,
                           .witness = writer_,
                           .process = process,
                           .incarnation = incarnation,
                           .counts = counts,
                           .ended = ended};
-    sink_.publish(mark_channel(machine_, process), to_lcm(mark, then, tick_ns_));
+    sink_.publish(channel, to_lcm(mark, then, tick_ns_));
 }
 
 }  // namespace lockstep

@@ -32,6 +32,7 @@ public:
 
 private:
     struct Known {
+        std::string channel;
         RecordCounts counts;
         Tick grown;  // when the counts of motion and jobs last grew
         RecordCounts marked;
@@ -39,7 +40,8 @@ private:
     };
 
     bool is_due(const Known& known, Tick then) const;
-    void mark(const std::string& process, Identity incarnation, const RecordCounts& counts, Tick then, bool ended);
+    void mark(const std::string& channel, const std::string& process, Identity incarnation, const RecordCounts& counts,
+              Tick then, bool ended);
 
     std::string machine_;
     std::string writer_;

@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <expected>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <spdlog/spdlog.h>
 
@@ -39,6 +41,13 @@ std::uint64_t lost_log_lines();
 void log_event(spdlog::level::level_enum level, FaultCode code, std::string_view message);
 
 inline void log_info(std::string_view message) { log_event(spdlog::level::info, FaultCode::None, message); }
+/// For a loop: a line of usual length is made without allocation.
+template <typename... Args>
+requires(sizeof...(Args) > 0) void log_info(fmt::format_string<Args...> format, Args&&... args) {
+    fmt::memory_buffer text;
+    fmt::format_to(std::back_inserter(text), format, std::forward<Args>(args)...);
+    log_info(std::string_view(text.data(), text.size()));
+}
 inline void log_warning(std::string_view message) { log_event(spdlog::level::warn, FaultCode::None, message); }
 inline void log_error(std::string_view message) { log_event(spdlog::level::err, FaultCode::None, message); }
 

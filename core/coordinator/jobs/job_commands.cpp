@@ -1,6 +1,7 @@
 // What clients ask of the job: done, or refused with the reason and the remedy.
 #include <algorithm>
 
+#include "core/check.hpp"
 #include "core/coordinator/jobs/job_runner.hpp"
 
 namespace lockstep {
@@ -21,22 +22,21 @@ std::expected<std::shared_ptr<const KnownProgram>, Refusal> program_of(const Com
 }
 
 /// It begins where the axes stand, and is not known to end before its end.
-CommandResult check_program(const KnownProgram& program, const CoordinatorLoop& loop) {
+CommandResult check_program(const KnownProgram& program, const ProgramPlanner& planner, const CoordinatorLoop& loop) {
     if (const auto& cut = program.cut()) {
         return refuse(cut->why, (cut->line > 0 ? "line " + std::to_string(cut->line) + ": " : "") + cut->text);
     }
-    const auto fits = ProgramPlanner(loop.machine).check_start(program.head(), loop.axes.counts());
+    const auto fits = planner.check_start(program.head(), program.places(), loop.axes.counts());
     return fits ? CommandResult{} : refuse(fits.error().fault, fits.error().text);
 }
 
 /// By the LAI method moves may be too slow.
-CommandResult check_lai_moves(const KnownProgram& program, const CoordinatorLoop& loop) {
+CommandResult check_lai_moves(const KnownProgram& program, const ProgramPlanner& planner, const CoordinatorLoop& loop) {
     if (loop.machine.coordination != StepMethod::Lai) { return {}; }
-    const ProgramPlanner planner(loop.machine);
-    const auto axes = planner.axes_of(program.axes()).value();
     AxisCounts at = loop.axes.counts();
     for (std::uint32_t number = 0; !program.ends_before(number); ++number) {
-        const auto move = planner.move_of(program.block(number).value(), number, axes, at);
+        const Block& block = check_found(program.block(number), "a program that is planned as a whole is known");
+        const auto move = planner.move_of(block, number, program.places(), at);
         if (move) { continue; }
         return refuse(move.error().fault, "line " + std::to_string(move.error().line) + ": " + move.error().text);
     }
@@ -45,8 +45,7 @@ CommandResult check_lai_moves(const KnownProgram& program, const CoordinatorLoop
 
 }  // namespace
 
-void JobRunner::begin(JobKind kind, const Command& command, std::vector<std::int64_t> start_counts,
-                      CoordinatorLoop& loop) {
+void JobRunner::begin(JobKind kind, const Command& command, const AxisCounts& start_counts, CoordinatorLoop& loop) {
     const bool is_path = kind == JobKind::Run || kind == JobKind::Move;
     job_ = MachineJob{.number = count_.begin(loop.term),
                       .kind = kind,
@@ -57,7 +56,7 @@ void JobRunner::begin(JobKind kind, const Command& command, std::vector<std::int
                              .job_kind = kind,
                              .program = job_->program,
                              .program_id = job_->program_id,
-                             .start_counts = std::move(start_counts)});
+                             .start_counts = start_counts});
 }
 
 CommandResult JobRunner::home(const Command& command, CoordinatorLoop& loop) {
@@ -78,11 +77,10 @@ CommandResult JobRunner::run(const Command& command, CoordinatorLoop& loop) {
     if (!program) { return std::unexpected(program.error()); }
     if (auto homed = check_homed(loop); !homed) { return homed; }
     if (auto clocks = check_clocks(loop); !clocks) { return clocks; }
-    if (auto fits = check_program(**program, loop); !fits) { return fits; }
-    if (auto slow = check_lai_moves(**program, loop); !slow) { return slow; }
+    if (auto fits = check_program(**program, path_.planner(), loop); !fits) { return fits; }
+    if (auto slow = check_lai_moves(**program, path_.planner(), loop); !slow) { return slow; }
     const AxisCounts start = loop.axes.counts();
-    begin(command.kind == CommandKind::Move ? JobKind::Move : JobKind::Run, command, {start.begin(), start.end()},
-          loop);
+    begin(command.kind == CommandKind::Move ? JobKind::Move : JobKind::Run, command, start, loop);
     path_.load(*job_, start);
     follow(path_.begin_leg(loop), loop);
     return {};
@@ -92,7 +90,7 @@ CommandResult JobRunner::move_own(const Command& command, CoordinatorLoop& loop)
     if (auto ready = check_ready(loop, in_motion()); !ready) { return ready; }
     const auto program = program_of(command, loop, true);
     if (!program) { return std::unexpected(program.error()); }
-    if (auto fits = check_program(**program, loop); !fits) { return fits; }
+    if (auto fits = check_program(**program, path_.planner(), loop); !fits) { return fits; }
     auto targets = OwnTargets::plan(**program, command.ticks, loop, begin_steps_);
     if (!targets) { return std::unexpected(targets.error()); }
     own_ = std::move(*targets);

@@ -172,11 +172,11 @@ void JobRunner::go_on_with_inherited(CoordinatorLoop& loop) {
     const auto program = loop.programs.find(last.program);
     check(program != nullptr, "the program of an inherited job is known");
     if (!is_at_hand(last, *program)) { return; }
-    auto rest = inherited_.rest(*program, loop);
+    const auto rest = inherited_.rest(*program, loop);
     if (!rest) { return cut_inherited(rest.error(), loop); }
     loop.notice({CoordinatorNotice::Kind::JobContinued, FaultCode::None, static_cast<std::uint64_t>(last.line)});
     job_ = MachineJob{.number = count_.number(), .kind = last.job_kind, .program_id = last.program, .program = program};
-    path_.load(*job_, std::move(*rest), last.progress, last.events_from);
+    path_.load(*job_, *rest, last.progress, last.events_from);
     inherited_.end();
     follow(path_.go_on(loop), loop);
 }

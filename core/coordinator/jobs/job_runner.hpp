@@ -67,7 +67,7 @@ public:
 private:
     bool has_jog() const { return job_ && job_->kind == JobKind::Jog; }
     bool axes_move_alone() const { return job_ && job_->is_alone(); }
-    void begin(JobKind kind, const Command& command, std::vector<std::int64_t> start_counts, CoordinatorLoop& loop);
+    void begin(JobKind kind, const Command& command, const AxisCounts& start_counts, CoordinatorLoop& loop);
     void home_next_group(CoordinatorLoop& loop);
     void advance_path(CoordinatorLoop& loop);
     void advance_homing(CoordinatorLoop& loop);

@@ -41,16 +41,16 @@ CommandResult check_speed(const AxisConfig& axis, double speed_mm_s) {
 }  // namespace
 
 CommandResult Jogs::press(const Command& command, CoordinatorLoop& loop) {
-    std::vector<std::optional<Jog>> asked(jogs_.size());
+    asked_.assign(jogs_.size(), std::nullopt);
     for (const JogAxis& axis : command.jogs) {
         if (axis.axis >= jogs_.size()) { return refuse(FaultCode::BadProgram, "no such axis"); }
         auto jog = jog_of(axis, command, loop);
         if (!jog) { return std::unexpected(jog.error()); }
-        asked[axis.axis] = *jog;
+        asked_[axis.axis] = *jog;
     }
     for (std::size_t i = 0; i < jogs_.size(); ++i) {
         const bool is_mine = jogs_[i] && jogs_[i]->client == command.client;
-        if (asked[i] || is_mine) { jogs_[i] = asked[i]; }
+        if (asked_[i] || is_mine) { jogs_[i] = asked_[i]; }
     }
     return {};
 }

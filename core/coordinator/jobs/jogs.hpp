@@ -42,7 +42,8 @@ private:
     void order(std::size_t axis, CoordinatorLoop& loop);
 
     Ticks hold_;
-    std::vector<std::optional<Jog>> jogs_;  // by axis
+    std::vector<std::optional<Jog>> jogs_;   // by axis
+    std::vector<std::optional<Jog>> asked_;  // press: what they become
 };
 
 }  // namespace lockstep

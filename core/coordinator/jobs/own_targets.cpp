@@ -28,8 +28,8 @@ double planned_seconds(const AxisConfig& axis, const OwnMoveRequest& move, const
 std::expected<OwnTargets, Refusal> OwnTargets::plan(const KnownProgram& program, Ticks ticks,
                                                     const CoordinatorLoop& loop, BeginSteps begin_steps) {
     AxisCounts end = loop.axes.counts();
-    const auto axes = ProgramPlanner(loop.machine).axes_of(program.axes()).value();
-    const std::vector<double> end_mm = program.place_before(program.known()).value();
+    const std::vector<std::size_t>& axes = program.places();
+    const std::span<const double> end_mm = program.place_before(program.known()).value();
     for (std::size_t k = 0; k < axes.size(); ++k) { end[axes[k]] = to_steps(loop.machine.axes[axes[k]], end_mm[k]); }
     OwnTargets targets;
     targets.ticks_ = ticks;
@@ -37,8 +37,8 @@ std::expected<OwnTargets, Refusal> OwnTargets::plan(const KnownProgram& program,
     for (std::size_t i = 0; i < loop.axes.size(); ++i) {
         const std::int64_t from = loop.axes.state(i)->position.count();
         const std::int64_t to = end[i];
-        targets.from_.push_back(from);
-        targets.to_.push_back(to);
+        targets.from_.append(from);
+        targets.to_.append(to);
         if (from == to) { continue; }
         targets.axes_ |= axis_bit(i);
         const AxisConfig& axis = loop.machine.axes[i];

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "core/axis_set.hpp"
 #include "core/coordinator/axes/axis_roster.hpp"
@@ -23,7 +22,7 @@ public:
 
     /// Those that move.
     AxisSet axes() const { return axes_; }
-    const std::vector<std::int64_t>& from() const { return from_; }
+    const AxisCounts& from() const { return from_; }
     std::int64_t target(std::size_t axis) const { return to_[axis]; }
     void order(CoordinatorLoop& loop) const;
 
@@ -33,8 +32,8 @@ public:
 
 private:
     AxisSet axes_ = 0;
-    std::vector<std::int64_t> from_;
-    std::vector<std::int64_t> to_;
+    AxisCounts from_;
+    AxisCounts to_;
     Ticks ticks_;
     Tick begun_;
     double planned_s_ = 0;

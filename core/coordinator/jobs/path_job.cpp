@@ -20,17 +20,24 @@ void PathJob::load(const MachineJob& job, const AxisCounts& start) {
     events_.begin();
 }
 
-void PathJob::load(const MachineJob& job, JobRest rest, double progress, std::uint32_t events_from) {
+void PathJob::load(const MachineJob& job, const JobRest& rest, double progress, std::uint32_t events_from) {
     load(job, rest.from);
     events_.begin(events_from);
     next_ = rest.first;
     progress_ = PathProgress(progress);
     resume_ = rest.place;
-    positions_ = std::move(rest.positions);
+    positions_ = rest.positions;
     leg_done_ = rest.done;
     if (leg_done_) { return; }
-    runner_.load(planner_.frames(job_.program, next_, from_));
+    load_leg();
     runner_.source()->begin_events_from(events_from);
+}
+
+/// The frames of the next leg are made in the memory of the leg before, where its source can do that.
+void PathJob::load_leg() {
+    const OwnedSource& source = runner_.source();
+    const bool has_begun = source && source->begin(job_.program, job_.program->places(), next_, from_);
+    if (!has_begun) { runner_.load(planner_.frames(job_.program, next_, from_)); }
 }
 
 /// Nothing: something moves in the leg that begins with the next block, or a bounded look does not find its end.
@@ -38,11 +45,11 @@ std::optional<LegEnd> PathJob::end_of_empty_leg() const {
     LegEnd end{.block = next_, .to = from_};
     for (; end.block < next_ + ProgramFrames::kBlocksAtOnce; ++end.block) {
         if (job_.program->ends_before(end.block)) { return end; }
-        const auto block = job_.program->block(end.block);
-        if (!block) { return std::nullopt; }
+        const Block* const block = job_.program->block(end.block);
+        if (block == nullptr) { return std::nullopt; }
         end.kind = end_by(*block);
         if (ends_leg(*block)) { return end; }
-        if (planner_.moves(*block, *job_.program, end.to)) { return std::nullopt; }
+        if (planner_.moves(*block, job_.program->places(), end.to)) { return std::nullopt; }
     }
     return std::nullopt;
 }
@@ -56,15 +63,12 @@ bool PathJob::pass_leg(const LegEnd& end) {
 
 /// Of a leg in which nothing moves, or the end of a leg that another coordinator has run.
 void PathJob::pass_events(const LegEnd& end, CoordinatorLoop& loop) {
-    std::vector<PathEvent> events;
     for (std::uint32_t k = std::max(next_, events_.from()); k < end.block; ++k) {
-        const auto block = job_.program->block(k);
-        if (!block) { break; }
-        if (const auto* event = std::get_if<ProgramEvent>(&block->action)) {
-            events.push_back({k, block->line, *event});
-        }
+        const Block* const block = job_.program->block(k);
+        if (block == nullptr) { break; }
+        const auto* event = std::get_if<ProgramEvent>(&block->action);
+        if (event != nullptr) { events_.pass(PathEvent{k, block->line, *event}, of(), loop); }
     }
-    events_.pass(events, of(), loop);
 }
 
 PathJob::Next PathJob::begin_leg(CoordinatorLoop& loop) {
@@ -75,11 +79,11 @@ PathJob::Next PathJob::begin_leg(CoordinatorLoop& loop) {
         if (pass_leg(*empty)) { return Next::Pauses; }
     }
     if (job_.program->ends_before(next_)) { return Next::IsDone; }
-    runner_.load(planner_.frames(job_.program, next_, from_));
+    load_leg();
     resume_ = {next_, {}};
-    std::vector<Position> at;
-    for (const std::int64_t count : from_) { at.push_back(Position::steps(count)); }
-    begin_epoch(std::move(at), loop);
+    AxisPositions at;
+    for (const std::int64_t count : from_) { at.append(Position::steps(count)); }
+    begin_epoch(at, loop);
     return Next::Moves;
 }
 
@@ -92,7 +96,7 @@ PathJob::Next PathJob::end_leg(CoordinatorLoop& loop) {
 
 PathJob::Next PathJob::go_on(CoordinatorLoop& loop) {
     if (leg_done_) { return end_leg(loop); }
-    begin_epoch(std::move(positions_), loop);
+    begin_epoch(std::exchange(positions_, {}), loop);
     return Next::Moves;
 }
 
@@ -106,14 +110,14 @@ Epoch PathJob::next_epoch(const CoordinatorLoop& loop) {
 }
 
 /// `at` empty: from rest on whole steps, where the axes stand.
-void PathJob::begin_epoch(std::vector<Position> at, CoordinatorLoop& loop) {
+void PathJob::begin_epoch(AxisPositions at, CoordinatorLoop& loop) {
     leg_done_.reset();
     for (std::size_t i = at.size(); i < loop.axes.size(); ++i) {
-        at.push_back(Position::steps(loop.axes.state(i)->position.count()));
+        at.append(Position::steps(loop.axes.state(i)->position.count()));
     }
     planned_ = overrides_;
     has_moved_ = true;
-    runner_.begin(next_epoch(loop), resume_, std::move(at), planned_);
+    runner_.begin(next_epoch(loop), resume_, at, planned_);
     is_moving_ = true;
     has_started_ = false;
     loop.enter(MachinePhase::Running);
@@ -123,7 +127,7 @@ void PathJob::begin_epoch(std::vector<Position> at, CoordinatorLoop& loop) {
 void PathJob::note_start(CoordinatorLoop& loop) {
     if (has_started_ || !runner_.start()) { return; }
     has_started_ = true;
-    events_.pass(runner_.source()->events_before(resume_.block), of(), loop);
+    for (const PathEvent& event : runner_.source()->events_before(resume_.block)) { events_.pass(event, of(), loop); }
     loop.notice({CoordinatorNotice::Kind::EpochBegun, FaultCode::None, runner_.epoch()});
     loop.out.jobs.push_back({.kind = JobEvent::Kind::EpochBegun,
                              .job = job_.number,
@@ -159,7 +163,7 @@ void PathJob::end_epoch(const EpochEnd& end, CoordinatorLoop& loop) {
     const bool is_whole = end.kind == EpochEnd::Kind::Complete;
     if (knows_place) {
         const std::uint32_t before = is_whole ? runner_.source()->end().block : end.place.block;
-        events_.pass(runner_.source()->events_before(before), of(), loop);
+        for (const PathEvent& event : runner_.source()->events_before(before)) { events_.pass(event, of(), loop); }
     }
     progress_.end_path(subticks(runner_.ticks_of(end.ran)));
 }
@@ -222,7 +226,7 @@ void PathJob::report_rests(MachineState& state, const AxisRoster& axes) const {
     }
     state.job_kind = job_.kind;
     state.program = job_.program_id;
-    state.rests = runner_.rests_from(oldest);
+    runner_.list_rests(oldest, state.rests);
 }
 
 }  // namespace lockstep

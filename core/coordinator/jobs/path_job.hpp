@@ -33,7 +33,7 @@ public:
     /// Replaces the job before.
     void load(const MachineJob& job, const AxisCounts& start);
     /// `events_from`: the events before this block have been published.
-    void load(const MachineJob& job, JobRest rest, double progress, std::uint32_t events_from);
+    void load(const MachineJob& job, const JobRest& rest, double progress, std::uint32_t events_from);
     Next begin_leg(CoordinatorLoop& loop);
     /// What is left of the leg in progress; begins the next leg where nothing is left.
     Next go_on(CoordinatorLoop& loop);
@@ -77,7 +77,8 @@ private:
     void pass_events(const LegEnd& end, CoordinatorLoop& loop);
     ProgramEvents::Of of() const { return {job_.number, has_moved_ ? runner_.epoch() : 0}; }
     std::optional<LegEnd> end_of_empty_leg() const;
-    void begin_epoch(std::vector<Position> at, CoordinatorLoop& loop);
+    void load_leg();
+    void begin_epoch(AxisPositions at, CoordinatorLoop& loop);
     void note_start(CoordinatorLoop& loop);
     Epoch next_epoch(const CoordinatorLoop& loop);
     Subticks into_path(Tick now) const;
@@ -102,10 +103,10 @@ private:
     std::uint32_t next_ = 0;  // the first block of the next leg, or of the one in progress
     AxisCounts from_;         // and where it begins
     PathProgress progress_;
-    PathPlace resume_;                 // where the epoch begins; held or interrupted: where the next one will,
-    std::vector<Position> positions_;  // and where the axes rest, exactly; empty: on whole steps
-    std::optional<LegEnd> leg_done_;   // by the owner before
-    int fruitless_ = 0;                // interruptions in a row without a frame that was run
+    PathPlace resume_;                // where the epoch begins; held or interrupted: where the next one will,
+    AxisPositions positions_;         // and where the axes rest, exactly; empty: on whole steps
+    std::optional<LegEnd> leg_done_;  // by the owner before
+    int fruitless_ = 0;               // interruptions in a row without a frame that was run
 };
 
 }  // namespace lockstep

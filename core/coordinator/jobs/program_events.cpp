@@ -23,10 +23,8 @@ void ProgramEvents::happen(const PathEvent& event, Tick tick, const Of& of, Coor
     publish(event, {.job = of.job, .epoch = of.epoch, .tick = tick}, loop);
 }
 
-void ProgramEvents::pass(std::span<const PathEvent> events, const Of& of, CoordinatorLoop& loop) {
-    for (const PathEvent& event : events) {
-        publish(event, {.job = of.job, .epoch = of.epoch, .tick = loop.now, .at_rest = true}, loop);
-    }
+void ProgramEvents::pass(const PathEvent& event, const Of& of, CoordinatorLoop& loop) {
+    publish(event, {.job = of.job, .epoch = of.epoch, .tick = loop.now, .at_rest = true}, loop);
 }
 
 void ProgramEvents::switch_off(std::uint64_t job, CoordinatorLoop& loop) {

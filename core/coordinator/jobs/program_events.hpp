@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
 #include "core/coordinator/path/event_queue.hpp"
 #include "core/coordinator/state/coordinator_loop.hpp"
@@ -21,8 +20,8 @@ public:
     void begin(std::uint32_t first = 0) { from_ = first; }
     /// The motion came to its place at `tick`.
     void happen(const PathEvent& event, Tick tick, const Of& of, CoordinatorLoop& loop);
-    /// The axes rest behind the places of these events. Those that were published before are left out.
-    void pass(std::span<const PathEvent> events, const Of& of, CoordinatorLoop& loop);
+    /// The axes rest behind its place. An event that was published before is left out.
+    void pass(const PathEvent& event, const Of& of, CoordinatorLoop& loop);
     /// The job ended before its end: spindle and coolant, where they are on, are switched off. Outputs stay.
     void switch_off(std::uint64_t job, CoordinatorLoop& loop);
     /// From the owner before.

@@ -38,7 +38,7 @@ using Places = std::vector<double>;  // mm, of each axis of the machine
 /// Where the axes are before a block of the program: those that it does not name stand where they always did.
 Places places_before(std::uint32_t block, const KnownProgram& program, const MachineConfig& machine,
                      std::span<const AxisView> axes) {
-    const std::vector<double> named = program.place_before(block).value();
+    const std::span<const double> named = program.place_before(block).value();
     Places places;
     for (std::size_t i = 0; i < axes.size(); ++i) {
         const auto found = std::ranges::find(program.axes(), machine.axes[i].name);
@@ -62,11 +62,11 @@ std::expected<LegEnd, TakeoverDoubt> end_behind(const KnownProgram& program, con
     const ProgramPlanner planner(machine);
     for (LegEnd end{.block = block + 1, .to = at};; ++end.block) {
         if (program.ends_before(end.block)) { return end; }
-        const auto next = program.block(end.block);
-        if (!next) { return Doubt(TakeoverDoubt::UnknownProgram); }
+        const Block* const next = program.block(end.block);
+        if (next == nullptr) { return Doubt(TakeoverDoubt::UnknownProgram); }
         end.kind = end_by(*next);
         if (ends_leg(*next)) { return end; }
-        if (planner.moves(*next, program, at)) { return Doubt(TakeoverDoubt::OtherPlan); }
+        if (planner.moves(*next, program.places(), at)) { return Doubt(TakeoverDoubt::OtherPlan); }
     }
 }
 
@@ -91,15 +91,14 @@ MoveWay way_of(std::uint32_t block, const KnownProgram& program, const MachineCo
     MoveWay way{.from = places_before(block, program, machine, axes),
                 .to = places_before(block + 1, program, machine, axes),
                 .arc = {}};
-    const auto known = program.block(block);
-    const auto* move = known ? std::get_if<ProgramMove>(&known->action) : nullptr;
+    const Block* const known = program.block(block);
+    const auto* move = known != nullptr ? std::get_if<ProgramMove>(&known->action) : nullptr;
     if (move == nullptr) { return way; }
     way.tolerance_mm = move->tolerance_mm;
     way.arc = move->arc;
     if (!way.arc) { return way; }
-    const auto of_machine = ProgramPlanner(machine).axes_of(program.axes()).value();
-    way.arc->first = of_machine[way.arc->first];
-    way.arc->second = of_machine[way.arc->second];
+    way.arc->first = program.places()[way.arc->first];
+    way.arc->second = program.places()[way.arc->second];
     return way;
 }
 
@@ -144,12 +143,12 @@ bool is_at_hand(const MachineState& last, const KnownProgram& program) {
         const std::uint32_t block = rest.place.block;
         if (block >= program.known() || block < program.first_kept()) { continue; }
         const auto leg = program.leg_of(block);
-        are_all = program.place_before(block) && program.block(block) && are_all;
+        are_all = program.place_before(block) && program.block(block) != nullptr && are_all;
         are_all = (!leg || program.place_before(*leg)) && are_all;
         for (std::uint32_t next = block + 1; rest.last && are_all && next < program.known(); ++next) {
-            const auto behind = program.block(next);
-            are_all = behind.has_value();
-            if (!behind || !std::holds_alternative<ProgramEvent>(behind->action)) { break; }
+            const Block* const behind = program.block(next);
+            are_all = behind != nullptr;
+            if (behind == nullptr || !std::holds_alternative<ProgramEvent>(behind->action)) { break; }
         }
     }
     return are_all;
@@ -172,8 +171,8 @@ std::expected<JobRest, TakeoverDoubt> rest_of_job(const MachineState& last, cons
                  .done = {},
                  .place = said->place,
                  .positions = {}};
-    std::vector<Position> positions;
-    for (const AxisView& axis : axes) { positions.push_back(axis.state->position); }
+    AxisPositions positions;
+    for (const AxisView& axis : axes) { positions.append(axis.state->position); }
     const MoveWay way = way_of(block, program, machine, axes);
     const auto fits = check_place(*said, way, machine, positions);
     if (!fits) { return Doubt(fits.error()); }
@@ -183,7 +182,7 @@ std::expected<JobRest, TakeoverDoubt> rest_of_job(const MachineState& last, cons
         rest.done = *end;
     }
     if (digest_of(positions) == said->digest) {
-        rest.positions = std::move(positions);
+        rest.positions = positions;
     } else if (*ran > 0 || rest.place != PathPlace{rest.first, {}}) {
         return Doubt(TakeoverDoubt::Misplaced);
     }

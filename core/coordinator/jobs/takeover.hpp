@@ -10,7 +10,6 @@
 #include <expected>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "core/coordinator/axes/axis_view.hpp"
 #include "core/coordinator/path/program_plan.hpp"
@@ -21,11 +20,11 @@ namespace lockstep {
 
 /// What is left of a job.
 struct JobRest {
-    std::uint32_t first = 0;          // block of the leg in progress,
-    AxisCounts from;                  // and where it begins
-    std::optional<LegEnd> done;       // its end was reached
-    PathPlace place;                  // else: where it goes on,
-    std::vector<Position> positions;  // and where the axes rest, exactly; empty: on whole steps, as their states say
+    std::uint32_t first = 0;     // block of the leg in progress,
+    AxisCounts from;             // and where it begins
+    std::optional<LegEnd> done;  // its end was reached
+    PathPlace place;             // else: where it goes on,
+    AxisPositions positions;     // and where the axes rest, exactly; empty: on whole steps, as their states say
 };
 
 /// False: blocks that rest_of_job looks at are being fetched; ask again in a later loop.

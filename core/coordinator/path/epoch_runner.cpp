@@ -6,9 +6,9 @@ namespace lockstep {
 
 EpochRunner::EpochRunner(const MachineConfig& machine) : machine_(machine), slot_(machine.slot_ticks()) {}
 
-void EpochRunner::begin(Epoch epoch, const PathPlace& place, std::vector<Position> at, const Overrides& overrides) {
+void EpochRunner::begin(Epoch epoch, const PathPlace& place, const AxisPositions& at, const Overrides& overrides) {
     epoch_ = epoch;
-    at_ = std::move(at);
+    at_ = at;
     source_->resume(place, at_, overrides);
     start_.reset();
     made_ticks_ = {};
@@ -22,7 +22,10 @@ void EpochRunner::begin(Epoch epoch, const PathPlace& place, std::vector<Positio
     tried_behind_.reset();
     taken_.reset();
     in_flight_.clear();
-    made_.assign(1, Made{{}, {place}, place, at_, false});
+    made_.clear();
+    Made& start = made_.append();
+    start = {.rest = place, .positions = at_};
+    start.places.fill(place);
 }
 
 void EpochRunner::start_when_ready(Slot now) {
@@ -34,7 +37,8 @@ void EpochRunner::start_when_ready(Slot now) {
     }
 }
 
-std::vector<Frame> EpochRunner::send(Slot now, std::span<const AxisView> axes) {
+const ReusedVector<Frame>& EpochRunner::send(Slot now, std::span<const AxisView> axes) {
+    to_send_.clear();
     if (!ended_) { source_->read(); }
     if (!start_ && !ended_) { start_when_ready(now); }
     slots_over_ = start_ && now > rules::slot_of(rests_, slot_) ? slots_over_ + 1 : 0;
@@ -45,11 +49,12 @@ std::vector<Frame> EpochRunner::send(Slot now, std::span<const AxisView> axes) {
         if (follows) { received_veto_ = rules::merge(received_veto_, axis.state->veto); }
     }
     if (received_veto_) { ended_ = true; }  // no axis may run a frame behind it
-    std::vector<Frame> frames;
-    std::erase_if(in_flight_, [&](const Frame& frame) { return now >= rules::slot_of(frame.start, slot_); });
-    for (const Frame& frame : in_flight_) {
+    while (!in_flight_.empty() && now >= rules::slot_of(in_flight_.front().start, slot_)) { in_flight_.pop_front(); }
+    for (std::size_t k = 0; k < in_flight_.size(); ++k) {
+        const Frame& frame = in_flight_[k];
         const bool in_time = rules::may_send(now, rules::slot_of(frame.start, slot_), machine_.timing);
-        if (in_time && frame.number > held_by_all && !(veto() && *veto() <= frame.number)) { frames.push_back(frame); }
+        const bool may_run = !veto() || *veto() > frame.number;
+        if (in_time && may_run && frame.number > held_by_all) { to_send_.append() = frame; }
     }
     while (start_ && !ended_) {
         const Slot start = rules::slot_of(*start_ + made_ticks_, slot_);
@@ -60,13 +65,12 @@ std::vector<Frame> EpochRunner::send(Slot now, std::span<const AxisView> axes) {
             break;
         }
         try_turn();
-        const std::optional<Frame> frame = make_frame();
-        lacked_blocks_ = !frame && source_->lacks_blocks();
-        if (!frame) { break; }
-        frames.push_back(*frame);
-        in_flight_.push_back(*frame);
+        const Frame* const frame = make_frame();
+        lacked_blocks_ = frame == nullptr && source_->lacks_blocks();
+        if (frame == nullptr) { break; }
+        to_send_.append() = *frame;
     }
-    return frames;
+    return to_send_;
 }
 
 /// Once behind each frame, just before the next one is made.
@@ -78,88 +82,89 @@ void EpochRunner::try_turn() {
     turned_.reset();
 }
 
-/// Nothing while too little of the program has been read: if that lasts too long, the machine rests behind the frames
+/// Null while too little of the program has been read: if that lasts too long, the machine rests behind the frames
 /// made so far, and goes on from there.
-std::optional<Frame> EpochRunner::make_frame() {
-    auto made = source_->next();
-    if (!made) { ended_ = is_stuck_ = true; }
-    if (!made || !*made) { return std::nullopt; }
-    PathFrame& path = **made;
-    Frame frame{.term = {},
-                .epoch = epoch_,
-                .number = ++sent_,
-                .start = *start_ + made_ticks_,
-                .ticks = path.ticks,
-                .last = path.last,
-                .axes = {}};
-    ended_ = path.last;
-    for (FrameEvent& event : source_->events()) {
-        due_.push_back({sent_, {frame.start + event.at, std::move(event.event)}});
+const Frame* EpochRunner::make_frame() {
+    const auto next = source_->next();
+    if (!next) { ended_ = is_stuck_ = true; }
+    if (!next || *next == nullptr) { return nullptr; }
+    const PathFrame& path = **next;
+    Frame& frame = in_flight_.append();
+    frame.term = {};
+    frame.epoch = epoch_;
+    frame.number = ++sent_;
+    frame.start = *start_ + made_ticks_;
+    frame.ticks = path.ticks;
+    frame.last = ended_ = path.last;
+    frame.axes = path.axes;
+    for (const FrameEvent& event : source_->events()) {
+        due_.push_back({sent_, {frame.start + event.at, event.event}});
     }
     made_ticks_ += path.ticks;
-    made_.push_back(finish(frame, path));
+    finish(frame, path);
     if (made_.size() > kMadeKept) { made_.pop_front(); }
-    return frame;
+    return &frame;
 }
 
-/// Moves the tracks to the frame, and follows them.
-EpochRunner::Made EpochRunner::finish(Frame& frame, PathFrame& path) {
-    Made made{made_ticks_, {path.places.begin(), path.places.end()}, path.rest, {}, path.last};
-    frame.axes = std::move(path.axes);
+/// Follows the tracks of a frame.
+void EpochRunner::finish(const Frame& frame, const PathFrame& path) {
+    Made& made = made_.append();
+    made = {.end = made_ticks_, .places = path.places, .rest = path.rest, .complete = path.last};
     for (std::size_t i = 0; i < at_.size(); ++i) {
         const AxisTrack& track = frame.axes[i];
         for (const Piece& piece : track.body) { at_[i] = at_[i] + piece.covered(); }
-        made.positions.push_back(at_[i]);
+        made.positions.append(at_[i]);
         for (const Piece& piece : track.tail) { made.positions[i] = made.positions[i] + piece.covered(); }
         rests_ = std::max(rests_, frame.start + frame.ticks + total_ticks(track.tail));
     }
-    return made;
 }
 
 PathPlace EpochRunner::place_at(Tick tick) const {
     if (!start_ || sent_ == 0 || tick <= *start_) { return made_.front().places.front(); }
     const Ticks into = tick - *start_;
-    const auto behind = std::ranges::upper_bound(made_, into, {}, &Made::end);
-    if (behind == made_.end()) { return made_.back().rest; }
-    if (behind == made_.begin()) { return behind->places.front(); }
-    const Ticks begin = (behind - 1)->end;
-    const auto parts = static_cast<std::int64_t>(behind->places.size());
-    const std::int64_t part = (into - begin).value * parts / (behind->end - begin).value;
-    return behind->places[static_cast<std::size_t>(std::clamp<std::int64_t>(part, 0, parts - 1))];
+    std::size_t k = made_.size();
+    while (k > 0 && made_[k - 1].end > into) { --k; }
+    if (k == made_.size()) { return made_.back().rest; }
+    const Made& frame = made_[k];
+    if (k == 0) { return frame.places.front(); }
+    const Ticks begin = made_[k - 1].end;
+    const auto parts = static_cast<std::int64_t>(frame.places.size());
+    const std::int64_t part = (into - begin).value * parts / (frame.end - begin).value;
+    return frame.places[static_cast<std::size_t>(std::clamp<std::int64_t>(part, 0, parts - 1))];
 }
 
 Ticks EpochRunner::ticks_of(FrameNumber frames) const {
     return frames < oldest() || frames > sent_ ? Ticks{} : made_frame(frames).end;
 }
 
-std::vector<EpochRunner::Happened> EpochRunner::take_events(Tick now, std::span<const AxisView> axes) {
+std::span<const EpochRunner::Happened> EpochRunner::take_events(Tick now, std::span<const AxisView> axes) {
     FrameNumber begun = 0;
     for (const AxisView& axis : axes) {
         if (axis.state && axis.state->epoch == epoch_) { begun = std::max(begun, axis.state->ran); }
     }
-    std::vector<Happened> happened;
+    happened_.clear();
     for (; !due_.empty() && due_.front().frame <= begun && due_.front().event.tick <= now; due_.pop_front()) {
-        happened.push_back(std::move(due_.front().event));
+        happened_.push_back(due_.front().event);
     }
-    return happened;
+    return happened_;
 }
 
 void EpochRunner::stop(Slot next) {
     ended_ = true;
     if (veto_) { return; }
-    const auto undecided = std::find_if(in_flight_.begin(), in_flight_.end(), [&](const Frame& frame) {
-        return rules::coordinator_may_veto(next, rules::slot_of(frame.start, slot_), machine_.timing);
-    });
-    veto_ = undecided == in_flight_.end() ? sent_ + 1 : undecided->number;
+    veto_ = sent_ + 1;
+    for (std::size_t k = 0; k < in_flight_.size() && *veto_ > sent_; ++k) {
+        const Slot start = rules::slot_of(in_flight_[k].start, slot_);
+        if (rules::coordinator_may_veto(next, start, machine_.timing)) { veto_ = in_flight_[k].number; }
+    }
 }
 
-std::vector<FrameRest> EpochRunner::rests_from(FrameNumber frame) const {
-    std::vector<FrameRest> rests;
+void EpochRunner::list_rests(FrameNumber frame, std::vector<FrameRest>& rests) const {
+    rests.clear();
     for (FrameNumber k = std::max(frame, oldest()); k <= sent_; ++k) {
         const Made& made = made_frame(k);
         rests.push_back({k, made.rest, made.complete, digest_of(made.positions)});
     }
-    return rests;
 }
 
 std::optional<EpochEnd> EpochRunner::evaluate(Slot now, std::span<const AxisView> axes) const {

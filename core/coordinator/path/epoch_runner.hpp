@@ -2,7 +2,7 @@
 // evaluates from the axes' states how the epoch ended.
 #pragma once
 
-#include <deque>
+#include <array>
 #include <optional>
 #include <span>
 #include <utility>
@@ -11,8 +11,11 @@
 #include "core/coordinator/axes/axis_view.hpp"
 #include "core/coordinator/path/frame_source.hpp"
 #include "core/machine.hpp"
+#include "core/path/sliding_vector.hpp"
 #include "core/protocol/messages.hpp"
 #include "core/protocol/rules.hpp"
+#include "core/reused_queue.hpp"
+#include "core/reused_vector.hpp"
 
 namespace lockstep {
 
@@ -27,8 +30,8 @@ struct EpochEnd {
     Kind kind = Kind::Complete;
     std::size_t axis = 0;  // Misplaced, FramesDiffer: which
     FrameNumber ran = 0;
-    PathPlace place;                  // on the program
-    std::vector<Position> positions;  // exactly
+    PathPlace place;          // on the program
+    AxisPositions positions;  // exactly
 };
 
 class EpochRunner {
@@ -39,11 +42,11 @@ public:
     void load(OwnedSource source) { source_ = std::move(source); }
     /// It starts when its first frame can be made, as soon as the send-ahead allows. `at` is where each axis rests,
     /// exactly.
-    void begin(Epoch epoch, const PathPlace& place, std::vector<Position> at, const Overrides& overrides);
+    void begin(Epoch epoch, const PathPlace& place, const AxisPositions& at, const Overrides& overrides);
 
     /// Returns the frames to send in this slot: new frames that are due, until an axis vetoes one, and frames that an
-    /// axis lacks. The caller fills in their term.
-    std::vector<Frame> send(Slot now, std::span<const AxisView> axes);
+    /// axis lacks. They are valid until the next call; the caller fills in their term.
+    const ReusedVector<Frame>& send(Slot now, std::span<const AxisView> axes);
 
     /// Reads as much of the program as the next frame takes: for a caller that no slot presses.
     void read_ahead() { source_->read_ahead(); }
@@ -71,15 +74,15 @@ public:
     bool is_overdue() const { return slots_over_ > 2 * rules::silence_slots(machine_.timing) + rules::kHopSlots; }
 
     /// The events whose places the motion has come to by `now`, each once: in frames that an axis has begun. Their
-    /// times are those of the motion.
+    /// times are those of the motion. Valid until the next call.
     struct Happened {
         Tick tick;
         PathEvent event;
     };
-    std::vector<Happened> take_events(Tick now, std::span<const AxisView> axes);
+    std::span<const Happened> take_events(Tick now, std::span<const AxisView> axes);
 
-    /// Where the machine rests behind this frame and those made after it.
-    std::vector<FrameRest> rests_from(FrameNumber frame) const;
+    /// `rests` becomes where the machine rests behind this frame and those made after it.
+    void list_rests(FrameNumber frame, std::vector<FrameRest>& rests) const;
 
     const OwnedSource& source() const { return source_; }
     /// Of its first frame; nothing while that cannot be made yet.
@@ -99,18 +102,18 @@ public:
     bool lacked_blocks() const { return late_ && lacked_blocks_; }
 
 private:
-    struct Made {                       // a frame; 0: the epoch's begin
-        Ticks end;                      // from the epoch's start
-        std::vector<PathPlace> places;  // in equal parts of its time
-        PathPlace rest;                 // if it is the last one run
-        std::vector<Position> positions;
+    struct Made {                          // a frame; 0: the epoch's begin
+        Ticks end;                         // from the epoch's start
+        std::array<PathPlace, 16> places;  // in equal parts of its time
+        PathPlace rest;                    // if it is the last one run
+        AxisPositions positions;
         bool complete = false;
     };
     static constexpr std::size_t kMadeKept = 64;  // far more frames than can be in flight
 
     void start_when_ready(Slot now);
-    std::optional<Frame> make_frame();
-    Made finish(Frame& frame, PathFrame& made);
+    const Frame* make_frame();
+    void finish(const Frame& frame, const PathFrame& path);
     void try_turn();
     const Made& made_frame(FrameNumber number) const { return made_[number - oldest()]; }
     FrameNumber oldest() const { return sent_ + 1 - made_.size(); }
@@ -123,7 +126,7 @@ private:
     Ticks made_ticks_;     // in frames so far
     Tick rests_;           // by when the machine does, whichever of the frames made so far is the last one run
     Slot slots_over_ = 0;  // in which frames were asked for since
-    std::vector<Position> at_;
+    AxisPositions at_;
     FrameNumber sent_ = 0;
     std::optional<Overrides> turned_;          // to be planned with yet
     std::optional<FrameNumber> tried_behind_;  // the last frame behind which that was tried
@@ -135,13 +138,15 @@ private:
     bool is_empty_ = false;                     // the path has no frame
     std::optional<FrameNumber> veto_;           // the coordinator's own
     std::optional<FrameNumber> received_veto_;  // the lowest of the axes'
-    std::deque<Frame> in_flight_;               // not begun yet
+    ReusedQueue<Frame> in_flight_;              // not begun yet
+    ReusedVector<Frame> to_send_;
     struct Due {
         FrameNumber frame = 0;
         Happened event;
     };
-    std::deque<Due> due_;    // events that have not happened
-    std::deque<Made> made_;  // the last frames; the newest is sent_
+    SlidingVector<Due> due_;  // events that have not happened
+    std::vector<Happened> happened_;
+    ReusedQueue<Made> made_;  // the last frames; the newest is sent_
 };
 
 }  // namespace lockstep

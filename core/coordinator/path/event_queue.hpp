@@ -6,11 +6,12 @@
 
 #include <cmath>
 #include <cstdint>
-#include <deque>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "core/path/frame_planner.hpp"
+#include "core/path/sliding_vector.hpp"
 #include "core/program.hpp"
 #include "core/units.hpp"
 
@@ -31,6 +32,12 @@ struct FrameEvent {
 
 class EventQueue {
 public:
+    /// Another leg begins.
+    void clear() {
+        events_.clear();
+        next_ = 0;
+        from_ = resumed_ = 0;
+    }
     /// In the order of the program.
     void add(const PathEvent& event) {
         if (event.block < from_) { return; }
@@ -40,7 +47,7 @@ public:
     /// The events before this block have happened: they are not kept.
     void begin_from(std::uint32_t block) {
         from_ = block;
-        std::erase_if(events_, [block](const PathEvent& event) { return event.block < block; });
+        while (!events_.empty() && events_.front().block < block) { events_.pop_front(); }
         next_ = 0;
     }
     /// The motion goes on in this block: the events before it are not due again.
@@ -49,20 +56,17 @@ public:
         next_ = 0;
         while (next_ < events_.size() && events_[next_].block < block) { ++next_; }
     }
-    /// A frame was made: the events whose places it comes to. `begins`: of the moves that begin in it.
-    std::vector<FrameEvent> take_due(const PathFrame& frame, const std::vector<MoveBegin>& begins) {
-        std::vector<FrameEvent> due;
+    /// A frame was made: `due` becomes the events whose places it comes to. `begins`: of the moves that begin in it.
+    void take_due(const PathFrame& frame, std::span<const MoveBegin> begins, std::vector<FrameEvent>& due) {
+        due.clear();
         for (const MoveBegin& begin : begins) { take_before(begin.block, Ticks{std::llround(begin.at)}, due); }
         if (frame.last) { take_before(kAll, frame.ticks, due); }
-        return due;
     }
     /// Those that are kept, before a block.
-    std::vector<PathEvent> before(std::uint32_t block) const {
-        std::vector<PathEvent> events;
-        for (const PathEvent& event : events_) {
-            if (event.block < block) { events.push_back(event); }
-        }
-        return events;
+    std::span<const PathEvent> before(std::uint32_t block) const {
+        std::size_t count = 0;
+        while (count < events_.size() && events_[count].block < block) { ++count; }
+        return {events_.begin(), count};
     }
     void forget_before(std::uint32_t block) {
         for (; !events_.empty() && events_.front().block < block && next_ > 0; --next_) { events_.pop_front(); }
@@ -75,7 +79,7 @@ private:
         for (; next_ < events_.size() && events_[next_].block < block; ++next_) { due.push_back({at, events_[next_]}); }
     }
 
-    std::deque<PathEvent> events_;
+    SlidingVector<PathEvent> events_;
     std::size_t next_ = 0;  // of those that are due next
     std::uint32_t from_ = 0;
     std::uint32_t resumed_ = 0;

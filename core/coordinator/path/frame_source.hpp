@@ -11,6 +11,7 @@
 #include "core/motion/path.hpp"
 #include "core/overrides.hpp"
 #include "core/path/frame_planner.hpp"
+#include "core/program_blocks.hpp"
 
 namespace lockstep {
 
@@ -28,6 +29,12 @@ public:
     /// A copy that goes on in the same way.
     virtual std::unique_ptr<FrameSource> clone() const = 0;
 
+    /// Makes the frames of another path in the same memory, from a block of a program on: `axes` are those of the
+    /// machine that it names, `from` is where all axes stand. False: it cannot, and nothing has changed.
+    virtual bool begin(const std::shared_ptr<const ProgramBlocks>& /*program*/, std::span<const std::size_t> /*axes*/,
+                       std::uint32_t /*first*/, const AxisCounts& /*from*/) {
+        return false;
+    }
     /// The axes rest at `at`: where the path begins, or where one of the last frames rests. The next frame goes on from
     /// there.
     virtual void resume(const PathPlace& place, std::span<const Position> at, const Overrides& overrides) = 0;
@@ -43,20 +50,20 @@ public:
     virtual bool is_ready() = 0;
     /// The path has no further frame.
     virtual bool is_done() const = 0;
-    /// Nothing: it is not ready.
-    virtual std::expected<std::optional<PathFrame>, PathStuck> next() = 0;
+    /// Valid until the next call. Null: it is not ready.
+    virtual std::expected<const PathFrame*, PathStuck> next() = 0;
     /// The moves that begin in the last frame; right behind next() only.
-    virtual std::vector<MoveBegin> begins() const = 0;
+    virtual const std::vector<MoveBegin>& begins() const = 0;
     /// New overrides, from the next frame on or soon after. False: not from there, and those before still hold.
     virtual bool turn(const Overrides& overrides) = 0;
     /// Of a path that is done.
     virtual LegEnd end() const = 0;
     /// The events whose places the last frame comes to; right behind next() only.
-    virtual std::vector<FrameEvent> events() const { return {}; }
+    virtual std::span<const FrameEvent> events() const { return {}; }
     /// Before this block they have happened: before any block is read.
     virtual void begin_events_from(std::uint32_t /*block*/) {}
     /// Those that were read and not forgotten, before a block.
-    virtual std::vector<PathEvent> events_before(std::uint32_t /*block*/) const { return {}; }
+    virtual std::span<const PathEvent> events_before(std::uint32_t /*block*/) const { return {}; }
     /// Of the block of one of the last frames.
     virtual std::int32_t line_of(std::uint32_t block) const = 0;
     /// About how long the program takes from a place of the path on, without overrides.

@@ -26,7 +26,8 @@ void LaiFrames::resume(const PathPlace& place, std::span<const Position> at, con
                 ? Path{}
                 : plan_lai_path(left, spot.along, limits_, steps_per_mm_, machine_.tick_ns, bounds_of(machine_));
     made_ = {};
-    at_.assign(at.begin(), at.end());
+    at_.clear();
+    for (const Position& position : at) { at_.append(position); }
     events_.resume(place.block);
 }
 
@@ -58,18 +59,23 @@ PathPlace LaiFrames::place_at(Ticks t) const {
     return place_of(move, move.along_at(subticks(t)));
 }
 
-std::expected<std::optional<PathFrame>, PathStuck> LaiFrames::next() {
+std::expected<const PathFrame*, PathStuck> LaiFrames::next() {
     const Ticks whole = path_.duration().ceil();
-    PathFrame frame{.ticks = std::min(machine_.frame_ticks(), whole - made_)};
+    PathFrame& frame = frame_;
+    frame.ticks = std::min(machine_.frame_ticks(), whole - made_);
     const auto parts = static_cast<std::int64_t>(frame.places.size());
     for (std::int64_t k = 0; k < parts; ++k) {
         frame.places[static_cast<std::size_t>(k)] = place_at(made_ + Ticks{frame.ticks.value * k / parts});
     }
     frame.begin = frame.places[0];
     frame.axes.resize(at_.size());
-    for (std::size_t i = 0; i < at_.size(); ++i) { frame.axes[i].from = at_[i]; }
+    for (std::size_t i = 0; i < at_.size(); ++i) {
+        frame.axes[i].from = at_[i];
+        frame.axes[i].body.clear();
+        frame.axes[i].tail.clear();
+    }
     std::vector<Piece> pieces(at_.size());
-    PieceSource source(path_, made_, made_ + frame.ticks, at_);
+    PieceSource source(path_, made_, made_ + frame.ticks, {at_.begin(), at_.size()});
     while (source.next(pieces)) {
         for (std::size_t i = 0; i < pieces.size(); ++i) { frame.axes[i].body.append(pieces[i]); }
     }
@@ -77,28 +83,28 @@ std::expected<std::optional<PathFrame>, PathStuck> LaiFrames::next() {
     last_ = frame.ticks;
     frame.last = is_done();
     frame.rest = frame.last ? place_at(whole) : fill_tail(frame, at_);
-    due_ = events_.take_due(frame, begins());
-    return frame;
+    note_begins();
+    events_.take_due(frame, begins_, due_);
+    return &frame_;
 }
 
-std::vector<MoveBegin> LaiFrames::begins() const {
-    std::vector<MoveBegin> begins;
+void LaiFrames::note_begins() {
+    begins_.clear();
     const Ticks begin = made_ - last_;
     for (std::size_t k = path_.move_at(subticks(begin)); k < path_.moves.size(); ++k) {
         const PathMove& move = path_.moves[k];
         if (move.start > subticks(made_)) { break; }
         const bool is_first = k == 0 || path_.moves[k - 1].block != move.block;
         const double at = static_cast<double>((move.start - subticks(begin)).value) / kSubticksPerTick;
-        if (is_first && at >= 0) { begins.push_back({move.block, at}); }
+        if (is_first && at >= 0) { begins_.push_back({move.block, at}); }
     }
-    return begins;
 }
 
-PathPlace LaiFrames::fill_tail(PathFrame& frame, std::vector<Position> at) const {
+PathPlace LaiFrames::fill_tail(PathFrame& frame, AxisPositions at) const {
     const Path tail = brake_from(path_, subticks(made_), limits_);
     if (tail.empty()) { return place_at(made_); }
     std::vector<Piece> pieces(at.size());
-    PieceSource source(tail, Ticks{0}, tail.duration().ceil(), at);
+    PieceSource source(tail, Ticks{0}, tail.duration().ceil(), {at.begin(), at.size()});
     while (source.next(pieces)) {
         for (std::size_t i = 0; i < pieces.size(); ++i) { frame.axes[i].tail.append(pieces[i]); }
     }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/check.hpp"
 #include "core/coordinator/path/frame_source.hpp"
 #include "core/coordinator/path/lai_path.hpp"
 #include "core/program_blocks.hpp"
@@ -20,14 +21,16 @@ public:
     void resume(const PathPlace& place, std::span<const Position> at, const Overrides& overrides) override;
     bool is_ready() override { return !is_done(); }
     bool is_done() const override { return made_ >= path_.duration().ceil(); }
-    std::expected<std::optional<PathFrame>, PathStuck> next() override;
-    std::vector<MoveBegin> begins() const override;
+    std::expected<const PathFrame*, PathStuck> next() override;
+    const std::vector<MoveBegin>& begins() const override { return begins_; }
     bool turn(const Overrides&) override { return false; }
     LegEnd end() const override { return end_; }
-    std::vector<FrameEvent> events() const override { return due_; }
+    std::span<const FrameEvent> events() const override { return due_; }
     void begin_events_from(std::uint32_t block) override { events_.begin_from(block); }
-    std::vector<PathEvent> events_before(std::uint32_t block) const override { return events_.before(block); }
-    std::int32_t line_of(std::uint32_t block) const override { return program_->block(block).value().line; }
+    std::span<const PathEvent> events_before(std::uint32_t block) const override { return events_.before(block); }
+    std::int32_t line_of(std::uint32_t block) const override {
+        return check_found(program_->block(block), "a block of a path that runs is known").line;
+    }
     double seconds_from(const PathPlace& place) const override;
 
 private:
@@ -41,12 +44,12 @@ private:
     Spot spot_of(const PathPlace& place) const;
     PathPlace place_of(const PathMove& move, Displacement along) const;
     PathPlace place_at(Ticks t) const;
-    PathPlace fill_tail(PathFrame& frame, std::vector<Position> at) const;
+    void note_begins();
+    PathPlace fill_tail(PathFrame& frame, AxisPositions at) const;
 
     MachineConfig machine_;
     std::shared_ptr<const ProgramBlocks> program_;
     EventQueue events_;
-    std::vector<FrameEvent> due_;  // in the last frame
     LegEnd end_;
     std::vector<AxisLimits> limits_;
     std::vector<double> steps_per_mm_;
@@ -54,7 +57,10 @@ private:
     PathPlace passed_;
     Ticks made_;  // of the path, in frames so far
     Ticks last_;  // of these, the last frame
-    std::vector<Position> at_;
+    AxisPositions at_;
+    PathFrame frame_;                // the last one
+    std::vector<MoveBegin> begins_;  // in it
+    std::vector<FrameEvent> due_;    // in it
 };
 
 }  // namespace lockstep

@@ -7,21 +7,33 @@ namespace lockstep {
 
 ProgramFrames::ProgramFrames(const MachineConfig& machine, std::shared_ptr<const ProgramBlocks> program,
                              std::uint32_t first, const AxisCounts& from)
-    : program_(std::move(program)),
-      limits_(frame_limits_of(machine)),
-      axes_(ProgramPlanner(machine).axes_of(program_->axes()).value()),
+    : limits_(frame_limits_of(machine)),
       tick_s_(static_cast<double>(machine.tick_ns) * 1e-9),
-      next_(first),
-      resumed_(first),
-      to_(from),
       planner_(path_setup_of(machine)) {
     for (const AxisConfig& axis : machine.axes) { steps_per_mm_.push_back(axis.steps_per_mm); }
-    std::vector<Position> at;
+    (void)begin(program, ProgramPlanner(machine).axes_of(program->axes()).value(), first, from);
+}
+
+bool ProgramFrames::begin(const std::shared_ptr<const ProgramBlocks>& program, std::span<const std::size_t> axes,
+                          std::uint32_t first, const AxisCounts& from) {
+    program_ = program;
+    axes_.assign(axes.begin(), axes.end());
+    next_ = resumed_ = first;
+    has_moved_ = is_finished_ = is_starved_ = false;
+    end_ = LegEnd::Kind::Program;
+    to_ = from;
+    lines_.clear();
+    begins_.clear();
+    events_.clear();
+    due_.clear();
+    at_.clear();
+    AxisPositions at;
     for (const std::int64_t count : from) {
-        at.push_back(Position::steps(count));
+        at.append(Position::steps(count));
         at_.append(static_cast<double>(count));
     }
     planner_.begin(at);
+    return true;
 }
 
 void ProgramFrames::resume(const PathPlace& place, std::span<const Position> at, const Overrides& overrides) {
@@ -47,9 +59,9 @@ bool ProgramFrames::read_block() {
         finish(LegEnd::Kind::Program);
         return true;
     }
-    const auto block = program_->block(next_);
-    is_starved_ = !block;
-    if (!block) { return false; }
+    const Block* const block = program_->block(next_);
+    is_starved_ = block == nullptr;
+    if (block == nullptr) { return false; }
     if (ends_leg(*block)) {
         finish(end_by(*block));
         return true;
@@ -108,10 +120,10 @@ void ProgramFrames::read_move(const ProgramMove& move, std::uint32_t number) {
     planner_.arc_to_steps(arc, at_, settings, number);
 }
 
-std::expected<std::optional<PathFrame>, PathStuck> ProgramFrames::next() {
-    auto frame = planner_.next();
-    if (frame && *frame) {
-        due_ = events_.take_due(**frame, planner_.begins());
+std::expected<const PathFrame*, PathStuck> ProgramFrames::next() {
+    const auto frame = planner_.next();
+    if (frame && *frame != nullptr) {
+        events_.take_due(**frame, planner_.begins(), due_);
         forget_lines(**frame);
     }
     return frame;
@@ -128,8 +140,8 @@ void ProgramFrames::forget_lines(const PathFrame& frame) {
 std::int32_t ProgramFrames::line_of(std::uint32_t block) const {
     const std::size_t first = next_ - lines_.size();
     if (block < next_ && block >= first) { return lines_[block - first]; }
-    const auto there = program_->block(block);  // the leg's first block, before it was read
-    return there ? there->line : 0;
+    const Block* const there = program_->block(block);  // the leg's first block, before it was read
+    return there == nullptr ? 0 : there->line;
 }
 
 bool ProgramFrames::turn(const Overrides& overrides) {

@@ -1,11 +1,10 @@
 // The frames of a program's moves by core/path: the program is read as a stream, a bounded amount in each slot.
 #pragma once
 
-#include <deque>
-
 #include "core/coordinator/path/frame_source.hpp"
 #include "core/coordinator/path/program_plan.hpp"
 #include "core/path/path_planner.hpp"
+#include "core/path/sliding_vector.hpp"
 
 namespace lockstep {
 
@@ -15,19 +14,21 @@ public:
                   const AxisCounts& from);
 
     std::unique_ptr<FrameSource> clone() const override { return std::make_unique<ProgramFrames>(*this); }
+    bool begin(const std::shared_ptr<const ProgramBlocks>& program, std::span<const std::size_t> axes,
+               std::uint32_t first, const AxisCounts& from) override;
     void resume(const PathPlace& place, std::span<const Position> at, const Overrides& overrides) override;
     bool read() override;
     bool lacks_blocks() override { return is_starved_ && !planner_.is_ready() && !is_done(); }
     bool is_ready() override { return planner_.is_ready(); }
     bool is_done() const override { return planner_.is_done(); }
-    std::expected<std::optional<PathFrame>, PathStuck> next() override;
-    std::vector<MoveBegin> begins() const override { return planner_.begins(); }
+    std::expected<const PathFrame*, PathStuck> next() override;
+    const std::vector<MoveBegin>& begins() const override { return planner_.begins(); }
     /// Reads as much more as deciding takes, so that the answer does not depend on what was read before.
     bool turn(const Overrides& overrides) override;
     LegEnd end() const override { return {end_, next_, to_}; }
-    std::vector<FrameEvent> events() const override { return due_; }
+    std::span<const FrameEvent> events() const override { return due_; }
     void begin_events_from(std::uint32_t block) override { events_.begin_from(block); }
-    std::vector<PathEvent> events_before(std::uint32_t block) const override { return events_.before(block); }
+    std::span<const PathEvent> events_before(std::uint32_t block) const override { return events_.before(block); }
     std::int32_t line_of(std::uint32_t block) const override;
     double seconds_from(const PathPlace& place) const override { return program_->seconds_from(place); }
 
@@ -52,10 +53,10 @@ private:
     bool has_moved_ = false;  // a move of the leg was read
     bool is_finished_ = false;
     LegEnd::Kind end_ = LegEnd::Kind::Program;
-    bool is_starved_ = false;           // the next block was not at hand
-    AxisCounts to_;                     // where the last block read leads to, whole steps
-    std::deque<std::int32_t> lines_;    // of the blocks up to the next one
-    std::deque<std::uint32_t> begins_;  // the blocks in which the last frames begin
+    bool is_starved_ = false;              // the next block was not at hand
+    AxisCounts to_;                        // where the last block read leads to, whole steps
+    SlidingVector<std::int32_t> lines_;    // of the blocks up to the next one
+    SlidingVector<std::uint32_t> begins_;  // the blocks in which the last frames begin
     EventQueue events_;
     std::vector<FrameEvent> due_;  // in the last frame
     AxisVector at_;                // where the last block read leads to

@@ -6,6 +6,7 @@
 
 #include "core/arc_path.hpp"
 #include "core/axis_unit.hpp"
+#include "core/check.hpp"
 #include "core/coordinator/path/lai_frames.hpp"
 #include "core/coordinator/path/program_frames.hpp"
 #include "core/motion/frame_limits.hpp"
@@ -53,8 +54,7 @@ std::expected<std::vector<std::size_t>, PlanError> ProgramPlanner::axes_of(
     return places;
 }
 
-std::expected<AxisCounts, PlanError> ProgramPlanner::target(const ProgramMove& move,
-                                                            const std::vector<std::size_t>& axes,
+std::expected<AxisCounts, PlanError> ProgramPlanner::target(const ProgramMove& move, std::span<const std::size_t> axes,
                                                             const AxisCounts& from, std::int32_t line) const {
     AxisCounts to = from;
     for (std::size_t i = 0; i < axes.size(); ++i) {
@@ -98,7 +98,12 @@ std::expected<void, PlanError> ProgramPlanner::check_arc(const ProgramMove& move
 
 std::expected<void, PlanError> ProgramPlanner::check_start(const ProgramHead& program, const AxisCounts& start) const {
     const auto axes = axes_of(program.axes);
-    if (!axes) { return std::unexpected(axes.error()); }
+    return axes ? check_start(program, *axes, start) : std::unexpected(axes.error());
+}
+
+std::expected<void, PlanError> ProgramPlanner::check_start(const ProgramHead& program,
+                                                           std::span<const std::size_t> axes,
+                                                           const AxisCounts& start) const {
     for (std::size_t i = 0; i < start.size(); ++i) {
         const AxisConfig& axis = machine_.axes[i];
         const std::string unit = " " + std::string(unit_of(axis.name));
@@ -109,14 +114,14 @@ std::expected<void, PlanError> ProgramPlanner::check_start(const ProgramHead& pr
                                              ", outside its travel, " + number(axis.position_min_mm) + " to " +
                                              number(axis.position_max_mm) + unit + ": home it"});
     }
-    for (std::size_t i = 0; i < axes->size(); ++i) {
-        const AxisConfig& axis = machine_.axes[(*axes)[i]];
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        const AxisConfig& axis = machine_.axes[axes[i]];
         const std::string unit = " " + std::string(unit_of(axis.name));
-        if (to_steps(axis, program.start_mm[i]) == start[(*axes)[i]]) { continue; }
+        if (to_steps(axis, program.start_mm[i]) == start[axes[i]]) { continue; }
         return std::unexpected(PlanError{FaultCode::StartMismatch, 0,
                                          "the program starts at " + axis.name + " " + number(program.start_mm[i]) +
                                              unit + ", the axis is at " +
-                                             number(to_mm(axis, static_cast<double>(start[(*axes)[i]]))) + unit});
+                                             number(to_mm(axis, static_cast<double>(start[axes[i]]))) + unit});
     }
     return {};
 }
@@ -167,7 +172,7 @@ std::unique_ptr<FrameSource> ProgramPlanner::frames(std::shared_ptr<const Progra
     EventQueue events;
     LegEnd end{.block = first, .to = from};
     for (; !program->ends_before(end.block); ++end.block) {
-        const Block block = program->block(end.block).value();
+        const Block& block = check_found(program->block(end.block), "a program that is planned as a whole is known");
         end.kind = end_by(block);
         if (ends_leg(block)) { break; }
         if (const auto* event = std::get_if<ProgramEvent>(&block.action)) {
@@ -178,12 +183,12 @@ std::unique_ptr<FrameSource> ProgramPlanner::frames(std::shared_ptr<const Progra
     return std::make_unique<LaiFrames>(machine_, std::move(program), std::move(moves), std::move(events), end);
 }
 
-bool ProgramPlanner::moves(const Block& block, const ProgramBlocks& program, AxisCounts& at) const {
+bool ProgramPlanner::moves(const Block& block, std::span<const std::size_t> axes, AxisCounts& at) const {
     if (const auto* dwell = std::get_if<Dwell>(&block.action)) { return dwell->seconds > 0; }
     const auto* move = std::get_if<ProgramMove>(&block.action);
     if (move == nullptr) { return false; }
     const AxisCounts from = at;
-    at = target(*move, axes_of(program.axes()).value(), at, block.line).value();
+    at = target(*move, axes, at, block.line).value();
     return move->arc.has_value() || at != from;
 }
 

@@ -69,14 +69,17 @@ public:
     /// Error: an axis of the machine stands outside its travel, so no frame may begin there; or the axes stand
     /// elsewhere than where the program starts.
     std::expected<void, PlanError> check_start(const ProgramHead& program, const AxisCounts& start) const;
+    /// Of a program with these `axes` (axes_of).
+    std::expected<void, PlanError> check_start(const ProgramHead& program, std::span<const std::size_t> axes,
+                                               const AxisCounts& start) const;
     /// Where a move leads. Error: outside the travel, or too far to count.
-    std::expected<AxisCounts, PlanError> target(const ProgramMove& move, const std::vector<std::size_t>& axes,
+    std::expected<AxisCounts, PlanError> target(const ProgramMove& move, std::span<const std::size_t> axes,
                                                 const AxisCounts& from, std::int32_t line) const;
     /// Error: an arc that has no radius or does not close, leaves the travel, or LAI is to run.
     std::expected<void, PlanError> check_arc(const ProgramMove& move, const std::vector<std::size_t>& axes,
                                              std::span<const double> from_mm, std::int32_t line) const;
-    /// Whether a block moves an axis or dwells. `at` becomes where it leads.
-    bool moves(const Block& block, const ProgramBlocks& program, AxisCounts& at) const;
+    /// Whether a block of a program with these `axes` (axes_of) moves an axis or dwells. `at` becomes where it leads.
+    bool moves(const Block& block, std::span<const std::size_t> axes, AxisCounts& at) const;
     /// The block's move or dwell, of a program with these `axes` (axes_of), from `at`, which becomes where it leads.
     /// Nothing: it neither moves nor dwells. Errors: as target(), and what cannot be made by the LAI method.
     std::expected<std::optional<PathMove>, PlanError> move_of(const Block& block, std::uint32_t number,

@@ -71,22 +71,32 @@ struct RowMaker {
     }
 };
 
-ProgramMove move_of(Kind kind, std::span<const double> row) {
+void read_move(Kind kind, std::span<const double> row, ProgramMove& move) {
     const std::span<const double> place = place_of_row(row);
     Packed details{static_cast<std::int64_t>(row[2])};
-    ProgramMove move{
-        .target_mm = {place.begin(), place.end()}, .feed_mm_s = row[1], .rapid = kind == Kind::Rapid, .arc = {}};
+    move.target_mm.assign(place.begin(), place.end());
+    move.feed_mm_s = row[1];
+    move.rapid = kind == Kind::Rapid;
     move.is_feed_fixed = details.take(2) != 0;
     move.mode = static_cast<PathMode>(details.take(kModes));
     move.tolerance_mm = row[3];
-    if (kind != Kind::Arc) { return move; }
-    ArcShape arc{.centre_first_mm = row[4], .centre_second_mm = row[5]};
+    move.arc.reset();
+    if (kind != Kind::Arc) { return; }
+    ArcShape& arc = move.arc.emplace(ArcShape{.centre_first_mm = row[4], .centre_second_mm = row[5]});
     arc.is_clockwise = details.take(2) != 0;
     arc.second = static_cast<std::size_t>(details.take(kAxesMost));
     arc.first = static_cast<std::size_t>(details.take(kAxesMost));
     arc.turns = static_cast<std::int32_t>(details.take(kMaxTurns + 1));
-    move.arc = arc;
-    return move;
+}
+
+Block other_block(Kind kind, std::int32_t line, std::span<const double> row) {
+    switch (kind) {
+        case Kind::Dwell: return {line, Dwell{row[1]}};
+        case Kind::Pause: return {line, Pause{}};
+        case Kind::Settle: return {line, Settle{}};
+        default: break;
+    }
+    return {line, ProgramEvent{static_cast<ProgramEvent::Kind>(row[2]), static_cast<std::int32_t>(row[3]), row[1]}};
 }
 
 }  // namespace
@@ -98,20 +108,16 @@ void append_row(const Block& block, std::span<const double> place_mm, std::vecto
     rows.insert(rows.end(), place_mm.begin(), place_mm.end());
 }
 
-Block block_of_row(std::span<const double> row) {
+const Block& RowReader::read(std::span<const double> row) {
     Packed head{static_cast<std::int64_t>(row[0])};
     const auto kind = static_cast<Kind>(head.take(kRowKinds));
     const auto line = static_cast<std::int32_t>(head.value);
-    switch (kind) {
-        case Kind::Move:
-        case Kind::Rapid:
-        case Kind::Arc: return {line, move_of(kind, row)};
-        case Kind::Dwell: return {line, Dwell{row[1]}};
-        case Kind::Pause: return {line, Pause{}};
-        case Kind::Settle: return {line, Settle{}};
-        case Kind::Event: break;
+    if (kind != Kind::Move && kind != Kind::Rapid && kind != Kind::Arc) {
+        return other_ = other_block(kind, line, row);
     }
-    return {line, ProgramEvent{static_cast<ProgramEvent::Kind>(row[2]), static_cast<std::int32_t>(row[3]), row[1]}};
+    move_.line = line;
+    read_move(kind, row, std::get<ProgramMove>(move_.action));
+    return move_;
 }
 
 }  // namespace lockstep

@@ -17,7 +17,17 @@ inline constexpr std::size_t kRowHead = 6;
 constexpr std::size_t row_width(std::size_t axes) { return kRowHead + axes; }
 /// Appends the row of a block. `place_mm` is where the axes are behind it.
 void append_row(const Block& block, std::span<const double> place_mm, std::vector<double>& rows);
-Block block_of_row(std::span<const double> row);
 inline std::span<const double> place_of_row(std::span<const double> row) { return row.subspan(kRowHead); }
+
+/// Makes blocks of rows, in memory that it keeps.
+class RowReader {
+public:
+    /// Valid until the next call.
+    const Block& read(std::span<const double> row);
+
+private:
+    Block move_;   // a move: its place keeps its memory
+    Block other_;  // the last block that was none
+};
 
 }  // namespace lockstep

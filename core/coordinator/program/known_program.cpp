@@ -112,23 +112,20 @@ void KnownProgram::cut(ProgramCut cut) {
 
 bool KnownProgram::read(std::uint32_t number) const { return number < known_ && rows_->read(number, row_); }
 
-std::optional<Block> KnownProgram::block(std::uint32_t number) const {
-    return read(number) ? std::optional(block_of_row(row_)) : std::nullopt;
-}
+const Block* KnownProgram::block(std::uint32_t number) const { return read(number) ? &reader_.read(row_) : nullptr; }
 
-std::optional<std::vector<double>> KnownProgram::place_before(std::uint32_t number) const {
+std::optional<std::span<const double>> KnownProgram::place_before(std::uint32_t number) const {
     if (number == 0) { return head_.start_mm; }
     if (!read(number - 1)) { return std::nullopt; }
-    const std::span<const double> place = place_of_row(row_);
-    return std::vector<double>(place.begin(), place.end());
+    return place_of_row(row_);
 }
 
 std::optional<Program> KnownProgram::whole() const {
     Program program{.name = head_.name, .axes = head_.axes, .start_mm = head_.start_mm, .blocks = {}};
     for (std::uint32_t number = 0; number < known_; ++number) {
-        auto block = this->block(number);
-        if (!block) { return std::nullopt; }
-        program.blocks.push_back(*std::move(block));
+        const Block* const block = this->block(number);
+        if (block == nullptr) { return std::nullopt; }
+        program.blocks.push_back(*block);
     }
     return program;
 }

@@ -48,6 +48,8 @@ public:
 
     const ProgramHead& head() const { return head_; }
     const std::vector<std::string>& axes() const override { return head_.axes; }
+    /// Their places in the machine.
+    const std::vector<std::size_t>& places() const { return axes_; }
     /// More blocks may come.
     bool is_open() const { return is_open_; }
     const std::optional<ProgramCut>& cut() const { return cut_; }
@@ -57,10 +59,10 @@ public:
     /// Of the last block that is known; 0: there is none.
     std::int32_t last_line() const { return last_line_; }
 
-    std::optional<Block> block(std::uint32_t number) const override;
+    const Block* block(std::uint32_t number) const override;
     bool ends_before(std::uint32_t number) const override { return !is_open_ && number >= known_; }
     double seconds_from(const PathPlace& place) const override;
-    std::optional<std::vector<double>> place_before(std::uint32_t number) const override;
+    std::optional<std::span<const double>> place_before(std::uint32_t number) const override;
     /// All of it, so far. Nothing: not all of it is at hand.
     std::optional<Program> whole() const;
     /// The first block of the leg with this block. Nothing: it is forgotten.
@@ -94,6 +96,7 @@ private:
     std::deque<std::uint32_t> legs_;   // the newest: their first blocks
     std::vector<double> taken_;        // rows of the blocks being taken
     mutable std::vector<double> row_;  // that was read last
+    mutable RowReader reader_;
 };
 
 }  // namespace lockstep

@@ -18,7 +18,7 @@ public:
     /// False: the row is not at hand yet, and is fetched; ask again in a later loop.
     virtual bool read(std::uint32_t number, std::span<double> row) = 0;
     /// How many rows more it can keep.
-    virtual std::uint64_t free_rows() const = 0;
+    virtual std::uint64_t free_rows() = 0;
     /// Rows before this one are not asked for any more: it may keep others in their place.
     virtual void release_before(std::uint32_t /*number*/) {}
     /// The first one that is still kept.
@@ -38,7 +38,7 @@ public:
         std::ranges::copy(std::span(numbers_).subspan(number * width_, width_), row.begin());
         return true;
     }
-    std::uint64_t free_rows() const override { return most_rows_ - std::min(most_rows_, numbers_.size() / width_); }
+    std::uint64_t free_rows() override { return most_rows_ - std::min(most_rows_, numbers_.size() / width_); }
 
 private:
     std::size_t width_;

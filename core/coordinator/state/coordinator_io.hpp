@@ -12,6 +12,8 @@
 #include "core/coordinator/program/known_program.hpp"
 #include "core/faults.hpp"
 #include "core/protocol/messages.hpp"
+#include "core/reused_optional.hpp"
+#include "core/reused_vector.hpp"
 
 namespace lockstep {
 
@@ -26,10 +28,10 @@ struct JobEvent {
     std::uint64_t program_id = 0;                 // its Command::program; of Ended too
     Epoch epoch = 0;                              // EpochBegun: its frame 1 starts at `start`; Overridden: in it
     Tick start;
-    PathPlace place;                         // EpochBegun: where on the program it starts
-    Overrides overrides;                     // EpochBegun, Overridden
-    FrameNumber behind = 0;                  // Overridden: the last frame planned without these overrides
-    std::vector<std::int64_t> start_counts;  // Begun
+    PathPlace place;          // EpochBegun: where on the program it starts
+    Overrides overrides;      // EpochBegun, Overridden
+    FrameNumber behind = 0;   // Overridden: the last frame planned without these overrides
+    AxisCounts start_counts;  // Begun
 };
 
 /// What is to follow when the epoch in progress has come to rest. The later ones win.
@@ -93,8 +95,8 @@ struct TakenPart {
 };
 
 struct CoordinatorOutputs {
-    std::optional<MachineState> state;  // once a slot
-    std::vector<Frame> frames;
+    ReusedOptional<MachineState> state;  // once a slot
+    ReusedVector<Frame> frames;
     std::vector<AxisCommand> axis_commands;
     std::vector<Reply> replies;
     std::vector<TakenPart> taken;
@@ -103,6 +105,20 @@ struct CoordinatorOutputs {
     std::vector<CoordinatorNotice> notices;
     std::optional<EpochOutcome> epoch_end;  // in the step that judged it
     bool must_quit = false;  // another coordinator proved to own this machine, and this one was not to stand by
+
+    /// For the next loop: what the lists have taken of memory stays.
+    void clear() {
+        state.reset();
+        frames.clear();
+        axis_commands.clear();
+        replies.clear();
+        taken.clear();
+        jobs.clear();
+        events.clear();
+        notices.clear();
+        epoch_end.reset();
+        must_quit = false;
+    }
 };
 
 }  // namespace lockstep

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "core/protocol/reception_watch.hpp"
 #include "services/wire/bus/partition_check.hpp"
@@ -58,8 +59,8 @@ public:
 
     /// Never waits. False: the network's buffers are full, or DDS is shutting down.
     bool write(const T& value) {
-        const auto message = to_wire(value);
-        const typename Topic<T>::Wire* sample = &message;
+        to_wire(value, message_);
+        const typename Topic<T>::Wire* sample = &message_;
         return dds_write(entity_.handle(), sample) == DDS_RETCODE_OK;
     }
 
@@ -68,6 +69,7 @@ public:
 
 private:
     Entity entity_;
+    decltype(to_wire(std::declval<const T&>())) message_{};  // that was written last
 };
 
 template <typename T>

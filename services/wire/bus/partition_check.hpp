@@ -5,6 +5,7 @@
 #include <dds/dds.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,10 +22,11 @@ private:
     struct Known {
         dds_instance_handle_t writer;
         std::string partition;
+        std::optional<std::uint32_t> axis;  // the last one that it may write for
     };
     static constexpr std::size_t kMaxKnown = 128;  // writers come and go; the oldest is looked up again
 
-    const std::string& partition_of_writer(dds_entity_t reader, dds_instance_handle_t writer);
+    Known& known_writer(dds_entity_t reader, dds_instance_handle_t writer);
 
     std::string machine_;
     std::vector<Known> known_;

@@ -79,6 +79,11 @@ axis_health_t to_lcm(const MachineConfig& machine, const AxisHealth& health, Rec
 
 run_t to_lcm(const RunRecord& record, std::int64_t tick_ns) {
     run_t out{};
+    to_lcm(record, tick_ns, out);
+    return out;
+}
+
+void to_lcm(const RunRecord& record, std::int64_t tick_ns, run_t& out) {
     out.utime = utime_of(record.start + record.ahead, tick_ns);
     out.machine = record.machine;
     out.axis = record.axis;
@@ -95,6 +100,7 @@ run_t to_lcm(const RunRecord& record, std::int64_t tick_ns) {
     out.cut = record.cut_at_steps ? 1 : 0;
     out.zero_count = record.zero_count;
     out.pieces = static_cast<std::int32_t>(record.pieces.size());
+    for (auto* numbers : {&out.ticks, &out.velocity, &out.acceleration, &out.commanded_ticks}) { numbers->clear(); }
     Position end = record.from;
     for (const Piece& piece : record.pieces) {
         out.ticks.push_back(piece.ticks.value);
@@ -105,7 +111,6 @@ run_t to_lcm(const RunRecord& record, std::int64_t tick_ns) {
     out.retimed = static_cast<std::int32_t>(record.commanded_ticks.size());
     for (const Ticks ticks : record.commanded_ticks) { out.commanded_ticks.push_back(ticks.value); }
     out.stop_count = record.cut_at_steps.value_or(end.count());
-    return out;
 }
 
 record_mark_t to_lcm(const RecordMark& mark, Tick then, std::int64_t tick_ns) {

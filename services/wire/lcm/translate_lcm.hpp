@@ -56,6 +56,8 @@ struct RunRecord {
 };
 
 run_t to_lcm(const RunRecord& record, std::int64_t tick_ns);
+/// The same into a reused message.
+void to_lcm(const RunRecord& record, std::int64_t tick_ns, run_t& out);
 
 /// The published counts of a process at a time. An empty name is a coordinator's.
 struct RecordMark {

@@ -54,6 +54,7 @@ struct MachineStateMessage : lockstep_wire_MachineState {
 struct CommandMessage : lockstep_wire_Command {
     CommandMessage() : lockstep_wire_Command{} {}
     CommandMessage(CommandMessage&&) = default;
+    CommandMessage& operator=(CommandMessage&&) = default;
     std::vector<lockstep_wire_JogAxis> jog_storage;
 };
 
@@ -73,6 +74,15 @@ lockstep_wire_ProgramEvent to_wire(const PublishedEvent& event);
 /// Points to the values' bytes: valid as long as they are. At most kMaxValuesBytes.
 lockstep_wire_MachineValues to_wire(const MachineValues& values);
 
+/// The same into a reused message.
+template <typename T, typename Wire>
+requires(!std::same_as<T, Frame> && !std::same_as<T, MachineState>) void to_wire(const T& value, Wire& into) {
+    into = to_wire(value);
+}
+/// Nothing is allocated if `into` has held as many pieces, or rests, before.
+void to_wire(const Frame& frame, SetpointMessage& into);
+void to_wire(const MachineState& state, MachineStateMessage& into);
+
 template <typename T>
 using FromWire = std::expected<T, std::string>;
 
@@ -91,7 +101,8 @@ FromWire<MachineValues> from_wire(const lockstep_wire_MachineValues& wire);
 
 /// The same into a reused value; it keeps its content if the sample is refused.
 template <typename Wire, typename T>
-requires(!std::same_as<T, Frame>) std::expected<void, std::string> from_wire(const Wire& wire, T& into) {
+requires(!std::same_as<T, Frame> &&
+         !std::same_as<T, MachineState>) std::expected<void, std::string> from_wire(const Wire& wire, T& into) {
     auto value = from_wire(wire);
     if (!value) { return std::unexpected(std::move(value.error())); }
     into = std::move(*value);
@@ -99,5 +110,7 @@ requires(!std::same_as<T, Frame>) std::expected<void, std::string> from_wire(con
 }
 /// A frame is large: if `into` has as many axes nothing is allocated and only the parts in use are written.
 std::expected<void, std::string> from_wire(const lockstep_wire_Setpoint& wire, Frame& into);
+/// The memory of the rests and of the writer's names is used again.
+std::expected<void, std::string> from_wire(const lockstep_wire_MachineState& wire, MachineState& into);
 
 }  // namespace lockstep

@@ -46,8 +46,8 @@ FromWire<Command> from_wire(const lockstep_wire_Command& wire) {
     check.within<std::int64_t>("ticks", wire.ticks, 0, kMaxPieceTicks);
     check.within<std::size_t>("the number of jogs", wire.jogs._length, 0, lockstep_wire_MAX_JOGS);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
-    LeaseHolder writer{wire.writer, read_text("writer_name", wire.writer_name, check),
-                       read_text("writer_host", wire.writer_host, check)};
+    LeaseHolder writer{wire.writer, std::string(read_text("writer_name", wire.writer_name, check)),
+                       std::string(read_text("writer_host", wire.writer_host, check))};
     std::vector<JogAxis> jogs;
     for (const auto& jog : std::span(wire.jogs._buffer, wire.jogs._length)) {
         check.within<std::size_t>("a jog's axis", jog.axis, 0, kMaxAxes - 1);

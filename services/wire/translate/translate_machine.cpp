@@ -36,18 +36,31 @@ ProgramDevices devices_from_wire(const lockstep_wire_MachineState& wire, Checks&
             .outputs = wire.outputs};
 }
 
-std::optional<HeldLease> lease_from_wire(const lockstep_wire_MachineState& wire, Checks& check) {
+void check_numbers(const lockstep_wire_MachineState& wire, Checks& check) {
+    check.far("stamp", wire.stamp);
+    check.far("tick", wire.tick);
+    check.within<std::size_t>("fault_axis", wire.fault_axis, 0, kMaxAxes - 1);
+    check.within("progress", wire.progress, 0.0, 1.0);
+    check.finite("remaining_s", wire.remaining_s);
+    check.within<int>("feed_percent", wire.feed_percent, Overrides::kLeast, Overrides::kMost);
+    check.within<int>("rapid_percent", wire.rapid_percent, Overrides::kLeast, Overrides::kMost);
     check.far("writer_since", wire.writer_since);
-    HeldLease lease{{wire.writer, read_text("writer_name", wire.writer_name, check),
-                     read_text("writer_host", wire.writer_host, check)},
-                    {wire.writer_since}};
-    return wire.has_writer ? std::optional(std::move(lease)) : std::nullopt;
+    check.within<std::size_t>("the number of rests", wire.rests._length, 0, lockstep_wire_MAX_RESTS);
+    if (!check.passed()) { return; }
+    for (const auto& rest : std::span(wire.rests._buffer, wire.rests._length)) {
+        check.far("a rest's place", rest.along_high);
+    }
 }
 
 }  // namespace
 
 MachineStateMessage to_wire(const MachineState& state) {
     MachineStateMessage message;
+    to_wire(state, message);
+    return message;
+}
+
+void to_wire(const MachineState& state, MachineStateMessage& message) {
     lockstep_wire_MachineState& wire = message;
     wire = {.term = state.term.number,
             .coordinator = state.term.coordinator,
@@ -98,62 +111,70 @@ MachineStateMessage to_wire(const MachineState& state) {
         write_text(state.lease->writer.name, wire.writer_name);
         write_text(state.lease->writer.host, wire.writer_host);
     }
+    message.rest_storage.clear();
     for (const FrameRest& rest : state.rests) { message.rest_storage.push_back(rest_to_wire(rest)); }
     const auto size = static_cast<std::uint32_t>(message.rest_storage.size());
     wire.rests = {._maximum = size, ._length = size, ._buffer = message.rest_storage.data(), ._release = false};
-    return message;
 }
 
 FromWire<MachineState> from_wire(const lockstep_wire_MachineState& wire) {
+    MachineState state;
+    if (auto read = from_wire(wire, state); !read) { return std::unexpected(std::move(read.error())); }
+    return state;
+}
+
+std::expected<void, std::string> from_wire(const lockstep_wire_MachineState& wire, MachineState& into) {
     Checks check("machine state");
-    check.far("stamp", wire.stamp);
-    check.far("tick", wire.tick);
-    check.within<std::size_t>("fault_axis", wire.fault_axis, 0, kMaxAxes - 1);
-    check.within("progress", wire.progress, 0.0, 1.0);
-    check.finite("remaining_s", wire.remaining_s);
-    check.within<std::size_t>("the number of rests", wire.rests._length, 0, lockstep_wire_MAX_RESTS);
-    check.within<int>("feed_percent", wire.feed_percent, Overrides::kLeast, Overrides::kMost);
-    check.within<int>("rapid_percent", wire.rapid_percent, Overrides::kLeast, Overrides::kMost);
+    check_numbers(wire, check);
     const MachinePhase phase = check.choice("phase", wire.phase, MachinePhase::Jogging);
     const JobOutcome outcome = check.choice("outcome", wire.outcome, JobOutcome::Failed);
     const ProgramDevices devices = devices_from_wire(wire, check);
-    const std::optional<HeldLease> lease = lease_from_wire(wire, check);
+    const std::string_view writer_name = read_text("writer_name", wire.writer_name, check);
+    const std::string_view writer_host = read_text("writer_host", wire.writer_host, check);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
-    MachineState state{.term = {wire.term, wire.coordinator},
-                       .stamp = wire.stamp,
-                       .tick = {wire.tick},
-                       .phase = phase,
-                       .fault = wire.fault,
-                       .fault_axis = wire.fault_axis,
-                       .epoch = wire.epoch,
-                       .sent = wire.sent,
-                       .veto = wire.has_veto ? std::optional(wire.veto) : std::nullopt,
-                       .job = wire.job,
-                       .outcome = wire.has_outcome ? std::optional(outcome) : std::nullopt,
-                       .job_begun = {wire.job_term, wire.job_coordinator},
-                       .line = wire.line,
-                       .job_fault = wire.job_fault,
-                       .lacks_blocks = wire.lacks_blocks,
-                       .progress = wire.progress,
-                       .remaining_s = wire.remaining_s,
-                       .overrides = {wire.feed_percent, wire.rapid_percent},
-                       .axes_present = wire.axes_present,
-                       .config_hash = wire.config_hash,
-                       .devices = devices,
-                       .lease = lease,
-                       .job_kind = wire.is_run ? JobKind::Run : JobKind::Move,
-                       .program = wire.program,
-                       .events_from = wire.events_from,
-                       .rests = {},
-                       .published = {.job_events = wire.job_messages, .program_parts = wire.program_messages},
-                       .lost_records = wire.lost_records,
-                       .process = {.reopened = wire.reopened, .lost_log_lines = wire.lost_log_lines}};
+    into = {.term = {wire.term, wire.coordinator},
+            .stamp = wire.stamp,
+            .tick = {wire.tick},
+            .phase = phase,
+            .fault = wire.fault,
+            .fault_axis = wire.fault_axis,
+            .epoch = wire.epoch,
+            .sent = wire.sent,
+            .veto = wire.has_veto ? std::optional(wire.veto) : std::nullopt,
+            .job = wire.job,
+            .outcome = wire.has_outcome ? std::optional(outcome) : std::nullopt,
+            .job_begun = {wire.job_term, wire.job_coordinator},
+            .line = wire.line,
+            .job_fault = wire.job_fault,
+            .lacks_blocks = wire.lacks_blocks,
+            .progress = wire.progress,
+            .remaining_s = wire.remaining_s,
+            .overrides = {wire.feed_percent, wire.rapid_percent},
+            .axes_present = wire.axes_present,
+            .config_hash = wire.config_hash,
+            .devices = devices,
+            .lease = std::move(into.lease),
+            .job_kind = wire.is_run ? JobKind::Run : JobKind::Move,
+            .program = wire.program,
+            .events_from = wire.events_from,
+            .rests = std::move(into.rests),
+            .published = {.job_events = wire.job_messages, .program_parts = wire.program_messages},
+            .lost_records = wire.lost_records,
+            .process = {.reopened = wire.reopened, .lost_log_lines = wire.lost_log_lines}};
+    into.rests.clear();
     for (const auto& rest : std::span(wire.rests._buffer, wire.rests._length)) {
-        check.far("a rest's place", rest.along_high);
-        state.rests.push_back(rest_from_wire(rest));
+        into.rests.push_back(rest_from_wire(rest));
     }
-    if (!check.passed()) { return std::unexpected(check.refusal()); }
-    return state;
+    if (!wire.has_writer) {
+        into.lease.reset();
+        return {};
+    }
+    HeldLease& lease = into.lease ? *into.lease : into.lease.emplace();
+    lease.writer.id = wire.writer;
+    lease.writer.name = writer_name;
+    lease.writer.host = writer_host;
+    lease.since = {wire.writer_since};
+    return {};
 }
 
 }  // namespace lockstep

@@ -27,10 +27,17 @@ std::size_t sum(std::span<const std::uint16_t> counts) {
     return std::accumulate(counts.begin(), counts.end(), std::size_t{0});
 }
 
-void reserve_pieces(SetpointMessage::Storage& storage, const Frame& frame) {
+void make_room(SetpointMessage::Storage& storage, const Frame& frame) {
     std::size_t pieces = 0;
     for (const AxisTrack& axis : frame.axes) { pieces += axis.body.size() + axis.tail.size(); }
-    for (auto* items : {&storage.ticks, &storage.velocity, &storage.acceleration}) { items->reserve(pieces); }
+    for (auto* items : {&storage.ticks, &storage.velocity, &storage.acceleration}) {
+        items->clear();
+        items->reserve(pieces);
+    }
+    storage.from_count.clear();
+    storage.from_phase.clear();
+    storage.body_count.clear();
+    storage.tail_count.clear();
 }
 
 void append(SetpointMessage::Storage& storage, const AxisTrack& axis) {
@@ -91,6 +98,11 @@ void read_pieces(const lockstep_wire_Setpoint& wire, std::size_t& at, std::size_
 
 SetpointMessage to_wire(const Frame& frame) {
     SetpointMessage message;
+    to_wire(frame, message);
+    return message;
+}
+
+void to_wire(const Frame& frame, SetpointMessage& message) {
     message.term = frame.term.number;
     message.coordinator = frame.term.coordinator;
     message.epoch = frame.epoch;
@@ -99,7 +111,7 @@ SetpointMessage to_wire(const Frame& frame) {
     message.frame_ticks = frame.ticks.value;
     message.last = frame.last;
     SetpointMessage::Storage& storage = message.storage;
-    reserve_pieces(storage, frame);
+    make_room(storage, frame);
     for (const AxisTrack& axis : frame.axes) { append(storage, axis); }
     show(message.from_count, storage.from_count);
     show(message.from_phase, storage.from_phase);
@@ -108,7 +120,6 @@ SetpointMessage to_wire(const Frame& frame) {
     show(message.ticks, storage.ticks);
     show(message.velocity, storage.velocity);
     show(message.acceleration, storage.acceleration);
-    return message;
 }
 
 FromWire<Frame> from_wire(const lockstep_wire_Setpoint& wire) {

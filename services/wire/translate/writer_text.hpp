@@ -17,15 +17,19 @@ namespace lockstep {
 template <std::size_t N>
 void write_text(std::string_view text, char (&wire)[N]) {
     static_assert(N == kMaxWriterBytes + 1);
-    const std::string cut = cut_text(text, kMaxWriterBytes);
     std::fill_n(wire, N, '\0');
-    std::memcpy(wire, cut.data(), cut.size());
+    if (text.size() <= kMaxWriterBytes) {
+        text.copy(wire, kMaxWriterBytes);
+        return;
+    }
+    cut_text(text, kMaxWriterBytes).copy(wire, kMaxWriterBytes);
 }
 
-/// Refuses a text without an end, and one with control characters: they could command a terminal.
+/// Points to the text on the wire. Refuses a text without an end, and one with control characters: they could command a
+/// terminal.
 template <std::size_t N>
-std::string read_text(const char* field, const char (&wire)[N], Checks& check) {
-    const std::string text(wire, strnlen(wire, N));
+std::string_view read_text(const char* field, const char (&wire)[N], Checks& check) {
+    const std::string_view text(wire, strnlen(wire, N));
     check.within<std::size_t>(field, text.size(), 0, kMaxWriterBytes);
     check.printable(field, text);
     return text;

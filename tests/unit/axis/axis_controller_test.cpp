@@ -121,9 +121,9 @@ TEST_F(Peers, AreNotNeededForAnEmergencyStop) {
     EXPECT_EQ(orders_of<device::StopNow>(loop(83)).size(), 1u);
 }
 
-class OwnMoves : public ControllerRig {};
+class OwnMovesOfAnAxis : public ControllerRig {};
 
-TEST_F(OwnMoves, HaltWhenTheOwnerIsSilentButNotByTheAxissOwnStall) {
+TEST_F(OwnMovesOfAnAxis, HaltWhenTheOwnerIsSilentButNotByTheAxissOwnStall) {
     owned(10, 20);
     command(AxisCommandKind::MoveOwn, 5000);
     owner_reports(21);
@@ -141,7 +141,7 @@ TEST_F(OwnMoves, HaltWhenTheOwnerIsSilentButNotByTheAxissOwnStall) {
     EXPECT_EQ(orders_of<device::Veto>(out).size(), 1u);
 }
 
-TEST_F(OwnMoves, GoUpToBothEndsOfTravelAndNoFurther) {
+TEST_F(OwnMovesOfAnAxis, GoUpToBothEndsOfTravelAndNoFurther) {
     owned(10, 20);
     for (const std::int64_t target : {10'001, -10'001}) {
         command(AxisCommandKind::MoveOwn, target);

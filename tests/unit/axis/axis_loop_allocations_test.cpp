@@ -2,34 +2,10 @@
 // in.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "core/coordinator/coordinator.hpp"
 #include "core/methods/paper_steps.hpp"
 #include "services/axis/axis_node.hpp"
-
-namespace {
-
-thread_local bool g_counts = false;
-thread_local std::uint64_t g_allocations = 0;
-
-void* allocate(std::size_t bytes) {
-    if (g_counts) { ++g_allocations; }
-    if (void* const memory = std::malloc(bytes)) { return memory; }
-    throw std::bad_alloc();
-}
-
-}  // namespace
-
-// NOLINTBEGIN(misc-new-delete-overloads): of this test program
-void* operator new(std::size_t bytes) { return allocate(bytes); }
-void* operator new[](std::size_t bytes) { return allocate(bytes); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t /*bytes*/) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t /*bytes*/) noexcept { std::free(memory); }
-// NOLINTEND(misc-new-delete-overloads)
+#include "tests/unit/allocations/counted_allocations.hpp"
 
 namespace lockstep {
 namespace {
@@ -65,10 +41,9 @@ protected:
         std::vector<MachineState> machine;
         if (out.state) { machine.push_back(*out.state); }
         steps_.reserve(steps_.size() + 1000);
-        g_counts = counts_;
+        const CountedAllocations counted(counts_);
         const AxisOutputs& axis = node_.step(now_, {out.frames, {}, machine, out.axis_commands, {}, {}}, on_step_);
         if (axis.state) { axis_state_ = *axis.state; }
-        g_counts = false;
     }
     bool reaches(MachinePhase phase) {
         for (int i = 0; i < 20'000 && coordinator_.phase() != phase; ++i) { slot(); }
@@ -118,7 +93,7 @@ TEST_F(RunningAxis, AllocatesNothingWhileAJobRunsIsHeldAndResumes) {
 
     counts_ = true;
     run_hold_and_resume();
-    EXPECT_EQ(g_allocations, 0u);
+    EXPECT_EQ(CountedAllocations::count(), 0u) << CountedAllocations::places();
     EXPECT_GT(steps_.size(), steps_before + 10'000) << "the axis has moved";
 }
 

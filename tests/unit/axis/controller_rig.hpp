@@ -8,14 +8,13 @@
 
 #include "core/axis/axis_controller.hpp"
 #include "core/methods/paper_steps.hpp"
+#include "tests/unit/axis/known_epoch.hpp"
 
 namespace lockstep {
 
 class ControllerRig : public testing::Test {
 protected:
     static constexpr std::int64_t kSlot = 1000;  // ticks
-    static constexpr Term kTerm{1, 1};
-    static constexpr Epoch kEpoch = first_epoch(kTerm) + 7;
 
     static MachineConfig machine() {
         AxisConfig axis{.name = "X",

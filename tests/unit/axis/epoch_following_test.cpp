@@ -2,12 +2,10 @@
 #include "core/axis/following/epoch_following.hpp"
 
 #include "axis_parts.hpp"
+#include "tests/unit/axis/known_epoch.hpp"
 
 namespace lockstep {
 namespace {
-
-constexpr Term kTerm{1, 1};
-constexpr Epoch kEpoch = first_epoch(kTerm) + 7;
 
 class Following : public AxisParts {
 protected:

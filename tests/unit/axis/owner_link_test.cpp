@@ -6,7 +6,7 @@
 namespace lockstep {
 namespace {
 
-constexpr ProtocolTiming kTiming{.stall_slots = 1, .freshness_slots = 2};
+constexpr ProtocolTiming kLinkTiming{.stall_slots = 1, .freshness_slots = 2};
 using Sender = OwnerLink::Sender;
 
 class Link : public testing::Test {
@@ -18,8 +18,8 @@ protected:
         (void)receive(term, now - 1);
         EXPECT_EQ(receive(term, now), Sender::NewOwner);
     }
-    OwnerLink link{kTiming};
-    const Slot silence = rules::silence_slots(kTiming);
+    OwnerLink link{kLinkTiming};
+    const Slot silence = rules::silence_slots(kLinkTiming);
 };
 
 TEST_F(Link, FollowsAClaimFromItsSecondSlotOn) {

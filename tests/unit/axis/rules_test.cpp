@@ -74,37 +74,37 @@ TEST(Rules, TheLowestVetoWins) {
     EXPECT_EQ(rules::merge(3, std::nullopt), 3u);
 }
 
-constexpr Epoch kEpoch = 7;
+constexpr Epoch kPeersEpoch = 7;
 
 TEST(PeerEvidence, IsAStateWithinTheLease) {
     for (Slot stamp = 80; stamp < 110; ++stamp) {
         PeerEvidence peer;
-        peer.receive(stamp, kEpoch, 3);
-        EXPECT_EQ(peer.holds(kEpoch, 3, kStart, kTiming), rules::is_evidence(stamp, kStart, kTiming)) << stamp;
+        peer.receive(stamp, kPeersEpoch, 3);
+        EXPECT_EQ(peer.holds(kPeersEpoch, 3, kStart, kTiming), rules::is_evidence(stamp, kStart, kTiming)) << stamp;
     }
 }
 
 TEST(PeerEvidence, HoldsAFrameWithAllBeforeIt) {
     PeerEvidence peer;
-    peer.receive(93, kEpoch, 3);
-    EXPECT_TRUE(peer.holds(kEpoch, 2, kStart, kTiming));
-    EXPECT_FALSE(peer.holds(kEpoch, 4, kStart, kTiming));
+    peer.receive(93, kPeersEpoch, 3);
+    EXPECT_TRUE(peer.holds(kPeersEpoch, 2, kStart, kTiming));
+    EXPECT_FALSE(peer.holds(kPeersEpoch, 4, kStart, kTiming));
 }
 
 TEST(PeerEvidence, IsNoneFromAnotherEpoch) {
     PeerEvidence peer;
-    peer.receive(93, kEpoch - 1, 3);
-    EXPECT_FALSE(peer.holds(kEpoch, 3, kStart, kTiming));
+    peer.receive(93, kPeersEpoch - 1, 3);
+    EXPECT_FALSE(peer.holds(kPeersEpoch, 3, kStart, kTiming));
 }
 
 TEST(PeerEvidence, IsNoneBeforeTheFirstState) { EXPECT_FALSE(PeerEvidence().holds(0, 0, kStart, kTiming)); }
 
 TEST(PeerEvidence, CountsLateDoubledOrOutOfOrderStatesByTheirStamps) {
     PeerEvidence peer;
-    peer.receive(99, kEpoch, 3);
-    peer.receive(93, kEpoch, 2);
-    peer.receive(93, kEpoch, 2);
-    EXPECT_TRUE(peer.holds(kEpoch, 3, kStart, kTiming));
+    peer.receive(99, kPeersEpoch, 3);
+    peer.receive(93, kPeersEpoch, 2);
+    peer.receive(93, kPeersEpoch, 2);
+    EXPECT_TRUE(peer.holds(kPeersEpoch, 3, kStart, kTiming));
 }
 
 }  // namespace

@@ -3,13 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/axis/known_epoch.hpp"
+
 namespace lockstep {
 namespace {
 
 constexpr std::int64_t kSlot = 1000;  // ticks
-constexpr Slot kStart = 100;
-constexpr Term kTerm{1, 1};
-constexpr Epoch kEpoch = first_epoch(kTerm) + 7;
+constexpr Slot kFirstStart = 100;     // of frame 1
 
 MachineConfig machine() {
     MachineConfig m{.name = "pair",
@@ -40,7 +40,7 @@ Frame frame(FrameNumber k, Position from, Velocity v = kSlow, bool last = false)
     Frame f{.term = kTerm,
             .epoch = kEpoch,
             .number = k,
-            .start = {(kStart + 5 * static_cast<Slot>(k - 1)) * kSlot},
+            .start = {(kFirstStart + 5 * static_cast<Slot>(k - 1)) * kSlot},
             .ticks = {5 * kSlot},
             .last = last};
     f.axes.resize(2);

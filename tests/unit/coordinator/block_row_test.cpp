@@ -10,7 +10,7 @@ Block through_a_row(const Block& block, const std::vector<double>& place) {
     std::vector<double> row;
     append_row(block, place, row);
     EXPECT_EQ(row.size(), row_width(place.size()));
-    return block_of_row(row);
+    return RowReader().read(row);
 }
 
 TEST(BlockRow, KeepsAllOfAMove) {

@@ -5,25 +5,13 @@
 
 #include <array>
 
+#include "tests/unit/coordinator/long_axes.hpp"
+
 namespace lockstep {
 namespace {
 
-MachineConfig two_axes() {
-    MachineConfig machine{.name = "two"};
-    for (const char* name : {"X", "Y"}) {
-        machine.axes.push_back({.name = name,
-                                .steps_per_mm = 80,
-                                .start_velocity_mm_s = 10,
-                                .max_velocity_mm_s = 150,
-                                .max_accel_mm_s2 = 1500,
-                                .max_decel_mm_s2 = 1500,
-                                .position_max_mm = 500});
-    }
-    return machine;
-}
-
 BlockTimes of_a_line(int parts) {
-    BlockTimes times(two_axes());
+    BlockTimes times(two_long_axes());
     const std::array<double, 2> way{200.0 / parts, 0};
     for (int k = 0; k < parts; ++k) { times.add_move(way, 100); }
     times.add_rest();
@@ -40,7 +28,7 @@ TEST(BlockTimes, OfALineAreThatOfItsRiseCruiseAndFall) {
 }
 
 TEST(BlockTimes, CountDwellsAndTheWayAlongAMove) {
-    BlockTimes times(two_axes());
+    BlockTimes times(two_long_axes());
     const std::array<double, 2> way{150, 0};
     times.add_move(way, 50);
     times.add_dwell(2);

@@ -12,8 +12,12 @@ TEST(CommandInbox, KeepsCommandsUntilTheyAreTaken) {
     const std::array commands{Command{.client = 1, .sequence = 1}, Command{.client = 2, .sequence = 1}};
     inbox.receive(commands);
     inbox.receive(commands);
-    EXPECT_EQ(inbox.take().size(), 4u);
-    EXPECT_TRUE(inbox.take().empty());
+    std::vector<Identity> clients;
+    const auto note = [&](const Command& command) { clients.push_back(command.client); };
+    inbox.take_each(note);
+    EXPECT_EQ(clients, (std::vector<Identity>{1, 2, 1, 2}));
+    inbox.take_each(note);
+    EXPECT_EQ(clients.size(), 4u);
 }
 
 TEST(CommandInbox, KnowsCommandsThatWereAnswered) {

@@ -48,7 +48,9 @@ EpochRunner runner_of(const MachineConfig& machine, const Program& program) {
     const auto legs = planner.plan(program, start).value();
     EpochRunner runner(machine);
     runner.load(planner.frames(std::make_shared<const Program>(program), legs[0]));
-    runner.begin(1, {legs[0].first, {}}, std::vector<Position>(axes), {});
+    AxisPositions at;
+    for (std::size_t i = 0; i < axes; ++i) { at.append({}); }
+    runner.begin(1, {legs[0].first, {}}, at, {});
     (void)runner.send(100, {});
     return runner;
 }
@@ -155,11 +157,11 @@ public:
     bool read() override { return frames_->read(); }
     bool is_ready() override { return *known_ && frames_->is_ready(); }
     bool is_done() const override { return frames_->is_done(); }
-    std::expected<std::optional<PathFrame>, PathStuck> next() override {
-        if (!*known_) { return std::nullopt; }
+    std::expected<const PathFrame*, PathStuck> next() override {
+        if (!*known_) { return nullptr; }
         return frames_->next();
     }
-    std::vector<MoveBegin> begins() const override { return frames_->begins(); }
+    const std::vector<MoveBegin>& begins() const override { return frames_->begins(); }
     bool turn(const Overrides& overrides) override { return frames_->turn(overrides); }
     LegEnd end() const override { return frames_->end(); }
     std::int32_t line_of(std::uint32_t block) const override { return frames_->line_of(block); }

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "tests/temporary_directory.hpp"
+#include "tests/unit/allocations/counted_allocations.hpp"
 
 namespace lockstep {
 namespace {
@@ -47,6 +48,19 @@ TEST_F(Rows, AreReadAsTheyWereWritten) {
     EXPECT_EQ(read(rows, 5), row_of(5)) << "long after";
     EXPECT_EQ(rows.first_row(), 0u);
     EXPECT_TRUE(std::filesystem::is_empty(directory.path())) << "nothing is left where the coordinator is killed";
+}
+
+/// By the thread that asks for them.
+TEST_F(Rows, AreReadWithoutAllocationOnceTheMemoryIsFull) {
+    constexpr std::uint32_t kRows = 200 * kPageRows;
+    FileRows rows(kWidth, directory.path(), kPlenty);
+    append(rows, 0, kRows);
+    for (std::uint32_t number = 0; number < kRows; number += 97) { (void)read(rows, number); }
+    {
+        const CountedAllocations counted;
+        for (std::uint32_t number = 0; number < kRows; number += 97) { (void)read(rows, number); }
+    }
+    EXPECT_EQ(CountedAllocations::count(), 0u) << CountedAllocations::places();
 }
 
 TEST_F(Rows, OfAShortProgramNeedNoDisk) {

@@ -8,23 +8,10 @@
 
 #include "core/coordinator/path/lai_frames.hpp"
 #include "core/coordinator/path/program_plan.hpp"
+#include "tests/unit/coordinator/long_axes.hpp"
 
 namespace lockstep {
 namespace {
-
-MachineConfig two_axes() {
-    MachineConfig machine{.name = "two"};
-    for (const char* name : {"X", "Y"}) {
-        machine.axes.push_back({.name = name,
-                                .steps_per_mm = 80,
-                                .start_velocity_mm_s = 10,
-                                .max_velocity_mm_s = 150,
-                                .max_accel_mm_s2 = 1500,
-                                .max_decel_mm_s2 = 1500,
-                                .position_max_mm = 500});
-    }
-    return machine;
-}
 
 Program line_in_parts(double length_mm, double part_mm, double feed_mm_s = 100) {
     Program program{.name = "line", .axes = {"X", "Y"}, .start_mm = {0, 0}};
@@ -43,7 +30,7 @@ Program wave(int chords) {
 
 class Frames : public testing::Test {
 protected:
-    explicit Frames(const Program& program = wave(2000), MachineConfig config = two_axes())
+    explicit Frames(const Program& program = wave(2000), MachineConfig config = two_long_axes())
         : machine(std::move(config)), program_(std::make_shared<const Program>(program)) {
         leg = ProgramPlanner(machine).plan(*program_, {0, 0}).value()[0];
     }
@@ -128,7 +115,7 @@ TEST_F(ProgramFramesTest, NameTheMovesThatBeginInThem) {
 }
 
 Ticks duration_of(const Program& program) {
-    const MachineConfig machine = two_axes();
+    const MachineConfig machine = two_long_axes();
     const ProgramPlanner planner(machine);
     const Leg leg = planner.plan(program, {0, 0}).value()[0];
     const auto source = planner.frames(std::make_shared<const Program>(program), leg);
@@ -152,7 +139,7 @@ class LaiFramesTest : public Frames {
 protected:
     LaiFramesTest() : Frames(corner(), lai()) {}
     static MachineConfig lai() {
-        MachineConfig machine = two_axes();
+        MachineConfig machine = two_long_axes();
         machine.coordination = StepMethod::Lai;
         return machine;
     }

@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr Slot kSilence = kLeaseSilence_ms;  // slots of 1 ms
+constexpr Slot kLeaseSilence_slots = kLeaseSilence_ms;  // of 1 ms
 
 class Lease : public CoordinatorParts {
 protected:
@@ -108,18 +108,18 @@ TEST_F(Lease, SilenceEndsItAndRepetitionKeepsIt) {
     ASSERT_EQ(take(anna(), 1), FaultCode::None);
     const Tick since = lease.held()->since;
     for (int i = 0; i < 10; ++i) {
-        pass(kSilence);
+        pass(kLeaseSilence_slots);
         ASSERT_EQ(take(anna(), 1), FaultCode::None);
     }
     EXPECT_EQ(lease.held()->since, since);
-    pass(kSilence + 2);
+    pass(kLeaseSilence_slots + 2);
     EXPECT_EQ(holder(), "nobody");
 }
 
 TEST_F(Lease, SlotsMissedInTheCoordinatorsOwnStallAreNotTheWritersSilence) {
     ASSERT_EQ(take(anna(), 1), FaultCode::None);
     pass(1);
-    const Slot missed = 5 * kSilence;
+    const Slot missed = 5 * kLeaseSilence_slots;
     slot += missed + 1;
     lease.tend(slot, missed);
     EXPECT_EQ(holder(), "anna");
@@ -130,12 +130,12 @@ TEST_F(Lease, ANewOwnerAdoptsItForAWriterThatKeepsIt) {
     lease.adopt(published, slot);
     EXPECT_EQ(check(bert(), CommandKind::Move), FaultCode::WriterHeld);
     EXPECT_EQ(check(anna(), CommandKind::Move), FaultCode::None);
-    pass(kSilence);
+    pass(kLeaseSilence_slots);
     ASSERT_EQ(take(anna(), 1), FaultCode::None);
-    pass(kSilence);
+    pass(kLeaseSilence_slots);
     EXPECT_EQ(lease.held(), published);
     lease.adopt(published, slot);
-    pass(kSilence + 2);
+    pass(kLeaseSilence_slots + 2);
     EXPECT_EQ(holder(), "nobody") << "its writer did not keep it";
 }
 

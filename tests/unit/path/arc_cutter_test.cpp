@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-PathSetup mill() {
+PathSetup mill_setup() {
     return {std::vector<AxisLimits>(3, {.min_steps = -100'000, .max_steps = 100'000}), {80, 80, 400}, Ticks{1000}};
 }
 
@@ -38,8 +38,8 @@ Shape shape_of(const std::vector<Quadratic>& pieces, double x, double y, double 
 
 std::vector<Quadratic> cut(const PathArc& arc, const std::vector<double>& from_mm) {
     PathTrail trail;
-    const AxisVector from = mill().to_steps(from_mm);
-    EXPECT_TRUE(cut_arc(mill(), arc.shape, {from, from, mill().to_steps(arc.to_mm)}, {}, 1, trail));
+    const AxisVector from = mill_setup().to_steps(from_mm);
+    EXPECT_TRUE(cut_arc(mill_setup(), arc.shape, {from, from, mill_setup().to_steps(arc.to_mm)}, {}, 1, trail));
     std::vector<Quadratic> pieces;
     for (std::size_t k = 0; k < trail.end(); ++k) { pieces.push_back(trail.piece(k)); }
     return pieces;
@@ -90,9 +90,9 @@ TEST(ArcCutter, SpiralsWhereTheRadiiDiffer) {
 
 TEST(ArcCutter, LeavesAnArcWithARadiusBelowTheStepsToALine) {
     PathTrail trail;
-    const AxisVector from = mill().to_steps(std::vector<double>{0, 0, 0});
-    const AxisVector to = mill().to_steps(std::vector<double>{0.005, 0, 0});
-    EXPECT_FALSE(cut_arc(mill(), {.centre_first_mm = 0.0025}, {from, from, to}, {}, 1, trail));
+    const AxisVector from = mill_setup().to_steps(std::vector<double>{0, 0, 0});
+    const AxisVector to = mill_setup().to_steps(std::vector<double>{0.005, 0, 0});
+    EXPECT_FALSE(cut_arc(mill_setup(), {.centre_first_mm = 0.0025}, {from, from, to}, {}, 1, trail));
     EXPECT_EQ(trail.end(), 0U);
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -190,6 +191,26 @@ TEST(ToLcm, HealthIsInMicrosecondsAndMilliseconds) {
     EXPECT_EQ(health.awaits_setpoint, 1);
     EXPECT_DOUBLE_EQ(health.setpoint_age_ms, 1.5);
     EXPECT_EQ(health.refused_frames, 4);
+}
+
+TEST(FromLcm, AnEventOfEachKindIsWhatItWas) {
+    for (std::size_t kind = 0; kind < ProgramEvent::kKinds; ++kind) {
+        const ProgramEvent event{.kind = static_cast<ProgramEvent::Kind>(kind), .index = 3, .value = 0.5};
+        program_event_t message = an_event();
+        message.kind = name_of(event.kind);
+        message.index = event.index;
+        message.value = event.value;
+        EXPECT_EQ(event_of(message), event) << message.kind;
+    }
+}
+
+TEST(FromLcm, AnEventOfUnknownKindOrWithoutAValueIsRefused) {
+    program_event_t message = an_event();
+    message.kind = "laser-on";
+    EXPECT_FALSE(event_of(message));
+    message = an_event();
+    message.value = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(event_of(message));
 }
 
 TEST(ToLcm, AnEventHasItsNumbersAndItsName) {

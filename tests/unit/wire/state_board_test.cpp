@@ -22,7 +22,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr std::size_t kPartBytes = 65536 + 64;  // from one axis's in the file to the next one's
+constexpr std::size_t kPartStride_bytes = 65536 + 64;  // from one axis's in the file to the next one's
 constexpr std::size_t kFirstSlotByte = 64;
 
 class StateBoard : public testing::Test {
@@ -180,7 +180,7 @@ TEST_F(StateBoard, DamagedIsRefusedOrHarmless) {
     for (int i = 0; i < 2000; ++i) {
         for (int n = 0; n < 3; ++n) { axis.write(random.axis_state()); }
         const auto at = static_cast<std::size_t>(random.between(8, 3000));  // the count of states as well
-        overwrite(kPartBytes + at, std::string(1, static_cast<char>(random.bits())));
+        overwrite(kPartStride_bytes + at, std::string(1, static_cast<char>(random.bits())));
         (void)read_from(listener);
     }
     EXPECT_GT(listener.refusals().count, 0U);
@@ -194,7 +194,7 @@ TEST_F(StateBoard, ReportsThatItWasRemovedOrOverwrittenUntilItIsOpenedAgain) {
         const StateBoardWriter axis = writer(1);
         const StateBoardReader listener = reader();
         EXPECT_TRUE(axis.is_current() && listener.is_current());
-        overwrite(kPartBytes, "garbage!");
+        overwrite(kPartStride_bytes, "garbage!");
         EXPECT_FALSE(axis.is_current()) << "only it may initialize its part again";
         EXPECT_TRUE(listener.is_current());
         EXPECT_TRUE(StateBoardReader::open(path, {})->is_current());

@@ -1,0 +1,74 @@
+// A queue that keeps its elements, and what they hold of memory, when they are taken out: once it has been full it
+// allocates nothing. An element stays at its address while others come and go.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace lockstep {
+
+template <typename T>
+class ReusedQueue {
+public:
+    ReusedQueue() = default;
+    ReusedQueue(const ReusedQueue& other) { *this = other; }
+    ReusedQueue& operator=(const ReusedQueue& other) {
+        if (this == &other) { return *this; }
+        clear();
+        for (std::size_t i = 0; i < other.size(); ++i) { push_back(other[i]); }
+        return *this;
+    }
+    ReusedQueue(ReusedQueue&& other) noexcept
+        : items_(std::move(other.items_)),
+          first_(std::exchange(other.first_, 0)),
+          size_(std::exchange(other.size_, 0)) {}
+    ReusedQueue& operator=(ReusedQueue&& other) noexcept {
+        items_ = std::move(other.items_);
+        first_ = std::exchange(other.first_, 0);
+        size_ = std::exchange(other.size_, 0);
+        return *this;
+    }
+    ~ReusedQueue() = default;
+
+    /// A new last element with whatever value an earlier one had: every field of it is to be set.
+    T& append() {
+        if (size_ == items_.size()) { grow(); }
+        return *items_[place(size_++)];
+    }
+    void push_back(const T& value) { append() = value; }
+    void pop_front() {
+        first_ = place(1);
+        --size_;
+    }
+    void pop_back() { --size_; }
+    void clear() { first_ = size_ = 0; }
+
+    std::size_t size() const { return size_; }
+    bool empty() const { return size_ == 0; }
+    T& operator[](std::size_t i) { return *items_[place(i)]; }
+    const T& operator[](std::size_t i) const { return *items_[place(i)]; }
+    T& front() { return (*this)[0]; }
+    const T& front() const { return (*this)[0]; }
+    T& back() { return (*this)[size_ - 1]; }
+    const T& back() const { return (*this)[size_ - 1]; }
+
+private:
+    std::size_t place(std::size_t i) const {
+        const std::size_t behind = first_ + i;
+        return behind < items_.size() ? behind : behind - items_.size();
+    }
+    /// By one element, behind the last one in the ring.
+    void grow() {
+        if (first_ == 0) { return items_.push_back(std::make_unique<T>()); }
+        items_.insert(items_.begin() + static_cast<std::ptrdiff_t>(first_), std::make_unique<T>());
+        ++first_;
+    }
+
+    std::vector<std::unique_ptr<T>> items_;  // a ring
+    std::size_t first_ = 0;
+    std::size_t size_ = 0;  // of those in use
+};
+
+}  // namespace lockstep

@@ -1,0 +1,219 @@
+// The loop of a coordinator allocates no memory while a job runs: it cannot wait for the allocator, nor fault a page
+// in.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/coordinator/coordinator.hpp"
+#include "core/methods/paper_steps.hpp"
+#include "services/axis/axis_node.hpp"
+#include "tests/unit/allocations/counted_allocations.hpp"
+
+namespace lockstep {
+namespace {
+
+AxisConfig axis_of(const std::string& name) {
+    AxisConfig axis{.name = name,
+                    .steps_per_mm = 100,
+                    .start_velocity_mm_s = 10,
+                    .max_velocity_mm_s = 50,
+                    .max_accel_mm_s2 = 500,
+                    .max_decel_mm_s2 = 500,
+                    .position_min_mm = 0,
+                    .position_max_mm = 100};
+    axis.homing = {
+        .search_velocity_mm_s = 10, .latch_velocity_mm_s = 2, .pulloff_mm = 1, .switch_position_mm = -1, .park_mm = 5};
+    axis.plant = {.start_position_mm = 8, .travel_margin_mm = 2, .max_torque_accel_mm_s2 = 1500, .max_jump_mm_s = 15};
+    axis.unhomed_jog_mm_s = 5;
+    return axis;
+}
+
+MachineConfig two_axes() {
+    MachineConfig machine{.name = "two"};
+    machine.timing = {
+        .slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 5};
+    machine.axes = {axis_of("X"), axis_of("Y")};
+    return machine;
+}
+
+/// A circle of chords, a circle, events, dwells, a pause, and straight ways between them.
+Program all_kinds() {
+    Program program{.name = "all kinds", .axes = {"X", "Y"}, .start_mm = {5, 5}};
+    const auto add = [&](auto action) {
+        program.blocks.push_back({static_cast<std::int32_t>(program.blocks.size() + 1), action});
+    };
+    const auto go = [&](double x, double y) { add(ProgramMove{{x, y}, 40, false}); };
+    add(ProgramEvent{.kind = ProgramEvent::Kind::SpindleForward, .value = 1000});
+    go(50, 10);
+    for (int k = 1; k <= 200; ++k) {
+        const double angle = 2 * 3.141592653589793 * k / 200;
+        go(50 + 10 * std::sin(angle), 20 - 10 * std::cos(angle));
+    }
+    add(Dwell{0.05});
+    add(ProgramEvent{.kind = ProgramEvent::Kind::OutputOn, .index = 3});
+    ProgramMove circle{{50, 10}, 40, false};
+    circle.arc = ArcShape{.first = 0, .second = 1, .centre_first_mm = 50, .centre_second_mm = 30};
+    add(circle);
+    add(Pause{});
+    go(80, 60);
+    add(Settle{});
+    go(20, 60);
+    add(ProgramEvent{.kind = ProgramEvent::Kind::SpindleStop});
+    add(ProgramMove{{5, 5}, 0, true});
+    return program;
+}
+
+/// A coordinator and two axes with their devices in one thread, a loop of each in each slot.
+class RunningCoordinator : public testing::Test {
+protected:
+    RunningCoordinator() {
+        for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
+            nodes_.push_back(std::make_unique<AxisNode>(AxisNode::Setup{i, machine_, 7 + i, 1}, [this, i](Tick now) {
+                return simulated_device(machine_.axes[i], machine_.tick_ns, now);
+            }));
+        }
+    }
+    /// `what`: the situation to which allocations are counted.
+    void slot(const char* what) {
+        now_ += Ticks{1000};
+        if (lease_.sequence > 0 && ++slots_ % 500 == 0) { commands_.push_back(lease_); }  // its client keeps it
+        const std::uint64_t before = CountedAllocations::count();
+        const CoordinatorOutputs& out = step();
+        if (counts_) { counts_by_situation_[what] += CountedAllocations::count() - before; }
+        commands_.clear();
+        states_.clear();
+        std::vector<MachineState> machine;
+        if (out.state) { machine.push_back(*out.state); }
+        replies_.insert(replies_.end(), out.replies.begin(), out.replies.end());
+        frames_ += out.frames.size();
+        events_ += out.events.size();
+        for (std::size_t i = 0; i < nodes_.size(); ++i) {
+            std::vector<AxisCommand> orders;
+            for (const AxisCommand& order : out.axis_commands) {
+                if (order.axis == i) { orders.push_back(order); }
+            }
+            const AxisOutputs& axis = nodes_[i]->step(now_, {out.frames, heard_, machine, orders, {}, {}}, on_step_);
+            if (axis.state) { states_.push_back(*axis.state); }
+        }
+        heard_ = states_;
+    }
+    CoordinatorOutputs& step() {
+        const CountedAllocations counted(counts_);
+        return coordinator_.step({now_, states_, {}, commands_});
+    }
+    bool reaches(MachinePhase phase, const char* what) {
+        for (int i = 0; i < 30'000 && coordinator_.phase() != phase; ++i) { slot(what); }
+        return coordinator_.phase() == phase;
+    }
+    void pass(int slots, const char* what) {
+        for (int i = 0; i < slots; ++i) { slot(what); }
+    }
+    Command of_client(Command command) {
+        command.client = 1;
+        command.sequence = ++sequence_;
+        command.writer = {.id = 5, .name = "a writer with a rather long name", .host = "a-host-with-a-long-name"};
+        command.program = 1;
+        return command;
+    }
+    void ask(const Command& command, const char* what) {
+        commands_.push_back(of_client(command));
+        replies_.clear();
+        slot(what);
+        ASSERT_FALSE(replies_.empty());
+        EXPECT_EQ(replies_.back().sequence, sequence_);
+        EXPECT_EQ(replies_.back().status, ReplyStatus::Accepted) << replies_.back().text;
+    }
+    void ask(CommandKind kind, const char* what) { ask(Command{.kind = kind}, what); }
+    /// A client becomes the writer, and the axes home.
+    void begin() {
+        ASSERT_TRUE(reaches(MachinePhase::Idle, "start"));
+        lease_ = of_client({.kind = CommandKind::TakeLease});
+        commands_.push_back(lease_);
+        slot("start");
+        home();
+    }
+    void home() {
+        ask(CommandKind::Home, "home");
+        ASSERT_TRUE(reaches(MachinePhase::Idle, "homing"));
+    }
+    /// With a hold and two overrides on the way, and a pause in the program.
+    void run_program() {
+        ask(CommandKind::Run, "begin of a job");
+        ASSERT_EQ(coordinator_.phase(), MachinePhase::Running);
+        pass(500, "run");
+        ask(CommandKind::Hold, "hold");
+        ASSERT_TRUE(reaches(MachinePhase::Holding, "hold"));
+        pass(20, "held");
+        ask(CommandKind::Resume, "resume");
+        pass(300, "run on");
+        ask({.kind = CommandKind::Override, .feed_percent = 50}, "override");
+        pass(300, "run slower");
+        ask({.kind = CommandKind::Override, .feed_percent = 100}, "override");
+        ASSERT_TRUE(reaches(MachinePhase::Paused, "run on"));
+        pass(20, "paused");
+        ask(CommandKind::Resume, "resume of a pause");
+        ASSERT_TRUE(reaches(MachinePhase::Idle, "run to the end"));
+    }
+    void jog() {
+        ask({.kind = CommandKind::Jog, .jogs = {{.axis = 1, .speed_mm_s = 5, .distance_mm = 0.1}}}, "jog");
+        ASSERT_TRUE(reaches(MachinePhase::Idle, "jog"));
+        ask({.kind = CommandKind::Jog, .jogs = {{.axis = 1, .speed_mm_s = -5, .distance_mm = 0.1}}}, "jog");
+        ASSERT_TRUE(reaches(MachinePhase::Idle, "jog"));
+    }
+    void expect_none() {
+        for (const auto& [what, count] : counts_by_situation_) { EXPECT_EQ(count, 0u) << what; }
+        if (HasFailure()) { ADD_FAILURE() << CountedAllocations::places(); }
+    }
+
+    MachineConfig machine_ = two_axes();
+    Tick now_{1'000'000};
+    Coordinator coordinator_{machine_, 1, 1, methods::begin_steps};
+    std::vector<std::unique_ptr<AxisNode>> nodes_;
+    AxisNode::OnStep on_step_ = [this](StepEdge) { ++steps_; };
+    std::vector<AxisState> states_;
+    std::vector<AxisState> heard_;
+    std::vector<Command> commands_;
+    std::vector<Reply> replies_;
+    std::map<std::string, std::uint64_t> counts_by_situation_;
+    Command lease_;
+    std::int64_t slots_ = 0;
+    std::uint64_t sequence_ = 0;
+    std::uint64_t steps_ = 0;
+    std::size_t frames_ = 0;
+    std::size_t events_ = 0;
+    bool counts_ = false;
+};
+
+TEST_F(RunningCoordinator, AllocatesNothingWhileAJobRunsIsHeldAndResumes) {
+    begin();
+    coordinator_.accept_program(1, all_kinds());
+    run_program();
+    const std::uint64_t steps_before = steps_;
+    const std::size_t frames_before = frames_;
+    const std::size_t events_before = events_;
+
+    counts_ = true;
+    pass(20, "idle");
+    run_program();
+    EXPECT_GT(steps_, steps_before + 10'000) << "the axes have moved";
+    EXPECT_GT(frames_, frames_before + 100);
+    EXPECT_EQ(events_, events_before + 3);
+    expect_none();
+}
+
+TEST_F(RunningCoordinator, AllocatesNothingWhileAxesHomeAndAreJogged) {
+    begin();
+    jog();
+
+    counts_ = true;
+    home();
+    jog();
+    expect_none();
+}
+
+}  // namespace
+}  // namespace lockstep
