@@ -9,7 +9,7 @@ constexpr double kStraight =
     5e-7;  // the cosine of the angle between two moves is within 1e-6 of that of a straight line
 
 /// Of one move. Squares of speeds.
-struct Bounds {
+struct GrblBounds {
     double acceleration = 0;
     double cruise2 = 0;
     double change2 = 0;  // the most by which the square can change along the move
@@ -36,13 +36,13 @@ double corner2(const Vector& before, const Vector& after, const Limits& limits, 
     return acceleration * deviation * corner.radius_ratio();
 }
 
-std::vector<Bounds> all_bounds(const std::vector<StraightMove>& moves, const Limits& limits, double deviation) {
-    std::vector<Bounds> all;
+std::vector<GrblBounds> all_bounds(const std::vector<StraightMove>& moves, const Limits& limits, double deviation) {
+    std::vector<GrblBounds> all;
     all.reserve(moves.size());
     for (const StraightMove& move : moves) {
         const double cruise = std::min(move.feed_mm_s, most_along(move.direction, limits, &AxisLimit::max_velocity));
-        Bounds bounds{.acceleration = most_along(move.direction, limits, &AxisLimit::acceleration),
-                      .cruise2 = cruise * cruise};
+        GrblBounds bounds{.acceleration = most_along(move.direction, limits, &AxisLimit::acceleration),
+                          .cruise2 = cruise * cruise};
         bounds.change2 = 2 * move.length_mm * bounds.acceleration;
         if (!all.empty()) {
             const Vector& before = moves[all.size() - 1].direction;
@@ -57,7 +57,7 @@ std::vector<Bounds> all_bounds(const std::vector<StraightMove>& moves, const Lim
 /// The greatest squares at the begins of the moves in [first, end) from which the machine can rest at their end.
 /// Only the first one's is returned; `each` sees all.
 template <typename Each>
-double backward(const std::vector<Bounds>& bounds, std::size_t first, std::size_t end, const Each& each) {
+double backward(const std::vector<GrblBounds>& bounds, std::size_t first, std::size_t end, const Each& each) {
     double next2 = 0;
     for (std::size_t k = end; k-- > first;) {
         next2 = std::min(bounds[k].begin2, next2 + bounds[k].change2);
@@ -77,7 +77,7 @@ double junction_deviation_mm(const Limits& limits) {
 
 Speeds plan_by_grbl(const std::vector<StraightMove>& moves, const Limits& limits, double junction_deviation_mm,
                     std::size_t blocks) {
-    const std::vector<Bounds> bounds = all_bounds(moves, limits, junction_deviation_mm);
+    const std::vector<GrblBounds> bounds = all_bounds(moves, limits, junction_deviation_mm);
     const std::size_t n = moves.size();
     std::vector<double> from_end2(n + 1);  // as if all were known
     if (blocks >= n) {

@@ -26,7 +26,7 @@ void redirect(const std::string& path, int flags, int to) { dup2(open(path.c_str
 
 }  // namespace
 
-Command::Command(const std::string& program, const Words& words) : files_(unique_path()) {
+ChildProcess::ChildProcess(const std::string& program, const Words& words) : files_(unique_path()) {
     std::vector<char*> arguments{const_cast<char*>(program.c_str())};
     for (const std::string& word : words) { arguments.push_back(const_cast<char*>(word.c_str())); }
     arguments.push_back(nullptr);
@@ -39,7 +39,7 @@ Command::Command(const std::string& program, const Words& words) : files_(unique
     _exit(127);
 }
 
-Command::~Command() {
+ChildProcess::~ChildProcess() {
     if (pid_ > 0) {
         signal(SIGKILL);
         (void)wait();
@@ -49,17 +49,17 @@ Command::~Command() {
     std::filesystem::remove(files_ + ".err", error);
 }
 
-void Command::signal(int number) const { kill(pid_, number); }
+void ChildProcess::signal(int number) const { kill(pid_, number); }
 
-std::string Command::out() const { return text_of(files_ + ".out"); }
+std::string ChildProcess::out() const { return text_of(files_ + ".out"); }
 
-Ran Command::wait() {
+Ran ChildProcess::wait() {
     int status = 0;
     waitpid(pid_, &status, 0);
     pid_ = 0;
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), out(), text_of(files_ + ".err")};
 }
 
-Ran run_lockstep(const Words& words) { return Command(LOCKSTEP_COMMAND, words).wait(); }
+Ran run_lockstep(const Words& words) { return ChildProcess(LOCKSTEP_COMMAND, words).wait(); }
 
 }  // namespace lockstep

@@ -27,13 +27,13 @@ struct Ran {
 };
 
 /// A process that runs in parallel to the test; it ends with the object.
-class Command {
+class ChildProcess {
 public:
     /// program: a path. Its standard input is empty, and neither output is a terminal.
-    explicit Command(const std::string& program, const Words& words);
-    ~Command();
-    Command(const Command&) = delete;
-    Command& operator=(const Command&) = delete;
+    explicit ChildProcess(const std::string& program, const Words& words);
+    ~ChildProcess();
+    ChildProcess(const ChildProcess&) = delete;
+    ChildProcess& operator=(const ChildProcess&) = delete;
 
     void signal(int number) const;
     /// What it has written so far.

@@ -30,7 +30,7 @@ protected:
 TEST_F(Deployment, ADeviceThatIsMappedIsDrivenAsOneInTheProcess) {
     const std::string registers = write("x.registers", "");
     change([&](MachineConfig& machine) { machine.axes[0].device = "uio:" + registers; });
-    const Command fpga(LOCKSTEP_FPGA, {"--machine", file(), "--axis", "X", "--file", registers});
+    const ChildProcess fpga(LOCKSTEP_FPGA, {"--machine", file(), "--axis", "X", "--file", registers});
     bring_up_and_home();
     EXPECT_THAT(log_of("axis-X"), HasSubstr("is up, device uio:" + registers));
     EXPECT_EQ(run_lockstep({"move", "X=15", "Y=5"}).code, 0);
@@ -41,7 +41,7 @@ TEST_F(Deployment, ADeviceThatIsMappedIsDrivenAsOneInTheProcess) {
 TEST_F(Deployment, RefusesAForeignDeviceByItsRegisters) {
     const std::string registers = write("x.registers", std::string(registers::kWindowBytes, '\0'));
     const std::string log = write("axis.log", "");
-    Command axis(LOCKSTEP_AXIS, {"--machine", file(), "--axis", "X", "--fpga", "uio:" + registers, "--log", log});
+    ChildProcess axis(LOCKSTEP_AXIS, {"--machine", file(), "--axis", "X", "--fpga", "uio:" + registers, "--log", log});
     EXPECT_TRUE(eventually([&] { return tail_of(log, 50).find("waits for its device") != std::string::npos; }));
     EXPECT_THAT(tail_of(log, 50), HasSubstr("waits for its device uio:" + registers));
     EXPECT_THAT(tail_of(log, 50), HasSubstr("MAGIC reads 0x0"));
@@ -52,7 +52,7 @@ TEST_F(Deployment, RefusesAForeignDeviceByItsRegisters) {
 
 TEST_F(Deployment, StartsOnlyThePartsOfThisHost) {
     change([](MachineConfig& machine) { machine.coordinator_host = "elsewhere"; });
-    const Command up(LOCKSTEP_COMMAND, {"up", "--foreground"});
+    const ChildProcess up(LOCKSTEP_COMMAND, {"up", "--foreground"});
     ASSERT_TRUE(eventually([&] { return state().running().size() == 3; }));  // and the supervisor
     EXPECT_NE(process("axis-X"), 0);
 }

@@ -52,7 +52,7 @@ protected:
         EXPECT_TRUE(report.has_rest_s()) << "all came to rest";
     }
 
-    std::optional<Command> job_;
+    std::optional<ChildProcess> job_;
 };
 
 TEST_F(Flight, AnAxisThatWasStoppedIsNamed) {

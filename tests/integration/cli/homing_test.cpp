@@ -30,7 +30,7 @@ protected:
 };
 
 TEST_F(Homing, IsEndedByAStopAndWorksAgain) {
-    Command home(LOCKSTEP_COMMAND, {"home"});
+    ChildProcess home(LOCKSTEP_COMMAND, {"home"});
     ASSERT_TRUE(becomes("Homing"));
     const Ran stop = run_lockstep({"stop"});
     EXPECT_EQ(stop.code, 0) << stop.err;
@@ -41,7 +41,7 @@ TEST_F(Homing, IsEndedByAStopAndWorksAgain) {
 }
 
 TEST_F(Homing, IsEndedByAHold) {
-    Command home(LOCKSTEP_COMMAND, {"home"});
+    ChildProcess home(LOCKSTEP_COMMAND, {"home"});
     ASSERT_TRUE(becomes("Homing"));
     const Ran hold = run_lockstep({"hold"});
     EXPECT_EQ(hold.code, 0) << hold.err;
@@ -50,14 +50,14 @@ TEST_F(Homing, IsEndedByAHold) {
 }
 
 TEST_F(Homing, IsEndedWhenItsCommandIsInterrupted) {
-    Command home(LOCKSTEP_COMMAND, {"home"});
+    ChildProcess home(LOCKSTEP_COMMAND, {"home"});
     ASSERT_TRUE(becomes("Homing"));
     home.signal(SIGINT);
     expect_ended(home.wait());
 }
 
 TEST_F(Homing, IsEndedByTheAxisWhenTheCoordinatorIsKilled) {
-    Command home(LOCKSTEP_COMMAND, {"home"});
+    ChildProcess home(LOCKSTEP_COMMAND, {"home"});
     ASSERT_TRUE(becomes("Homing"));
     kill(process("coordinator"), SIGKILL);
     ASSERT_TRUE(becomes("Fault")) << "the coordinator is started again, and finds the axis halted";
@@ -73,7 +73,7 @@ TEST_F(Homing, IsEndedByTheAxisWhenTheCoordinatorIsKilled) {
 }
 
 TEST_F(Homing, IsEndedBeforeTheMachineIsTakenDown) {
-    Command home(LOCKSTEP_COMMAND, {"home"});
+    ChildProcess home(LOCKSTEP_COMMAND, {"home"});
     ASSERT_TRUE(becomes("Homing"));
     const Ran down = run_lockstep({"down"});
     EXPECT_EQ(down.code, 0) << down.err;

@@ -44,7 +44,7 @@ TEST_F(JogOfARealMachine, GoesTheDistanceAskedForAndIsOnRecord) {
 
 TEST_F(JogOfARealMachine, RestsWhenItsClientIsKilledAndItsRecordIsExact) {
     const std::int64_t before = steps_of_x();
-    Command client(LOCKSTEP_COMMAND, {"jog", "X+", "--speed", "10"});
+    ChildProcess client(LOCKSTEP_COMMAND, {"jog", "X+", "--speed", "10"});
     ASSERT_TRUE(moves_beyond(before));
     EXPECT_EQ(status().phase(), "Jogging");
     const Ran other = run_lockstep({"jog", "X-", "--json"});
@@ -60,7 +60,7 @@ TEST_F(JogOfARealMachine, RestsWhenItsClientIsKilledAndItsRecordIsExact) {
 
 TEST_F(JogOfARealMachine, IsReleasedByCtrlC) {
     const std::int64_t before = steps_of_x();
-    Command client(LOCKSTEP_COMMAND, {"jog", "X+", "--json"});
+    ChildProcess client(LOCKSTEP_COMMAND, {"jog", "X+", "--json"});
     ASSERT_TRUE(moves_beyond(before));
     client.signal(SIGINT);
     const Ran ended = client.wait();

@@ -60,7 +60,7 @@ TEST_F(KeptPositions, AKilledAxisAtRestRestartsHomed) {
 
 TEST_F(KeptPositions, AnAxisKilledInMotionRestartsUnhomedAndReportsWhy) {
     ASSERT_TRUE(y_is_kept());
-    const Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kShortJob)});
+    const ChildProcess run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kShortJob)});
     ASSERT_TRUE(becomes("Running"));
     ASSERT_TRUE(eventually([&] { return y().velocity_mm_s() > 1; }));
     kill_y();
@@ -76,7 +76,7 @@ TEST_F(KeptPositions, AnAxisKilledInMotionRestartsUnhomedAndReportsWhy) {
 
 /// The log ends before another process moves the axis: with the steps that it found in the device.
 TEST_F(KeptPositions, TheDeviceOfAKilledAxisContinuesAsPlanned) {
-    const Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kShortJob)});
+    const ChildProcess run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kShortJob)});
     ASSERT_TRUE(becomes("Running"));
     ASSERT_TRUE(eventually([&] { return y().velocity_mm_s() > 1; }));
     kill_y();
@@ -86,7 +86,7 @@ TEST_F(KeptPositions, TheDeviceOfAKilledAxisContinuesAsPlanned) {
 
 /// Axes come to rest by themselves, and the end of the job is not recorded.
 TEST_F(KeptPositions, AJobWhoseCoordinatorIsKilledRunsAsPlanned) {
-    const Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kShortJob)});
+    const ChildProcess run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kShortJob)});
     ASSERT_TRUE(becomes("Running"));
     ASSERT_TRUE(eventually([&] { return y().velocity_mm_s() > 1; }));
     kill(process("coordinator"), SIGKILL);

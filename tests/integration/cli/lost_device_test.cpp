@@ -56,7 +56,7 @@ protected:
 
 TEST_F(LostDevice, OneThatIsKilledInMotionFailsTheJobAndTheRemedyWorks) {
     bring_up_with_devices();
-    Command run(LOCKSTEP_COMMAND, job());
+    ChildProcess run(LOCKSTEP_COMMAND, job());
     ASSERT_TRUE(y_moves());
     kill(process("fpga-Y"), SIGKILL);
     const Ran ended = run.wait();
@@ -75,7 +75,7 @@ TEST_F(LostDevice, OneThatIsKilledAtRestIsAFaultAndTheRemedyWorks) {
 
 TEST_F(LostDevice, RegistersThatAreCutShortCrashNoProcess) {
     bring_up_with_devices();
-    Command run(LOCKSTEP_COMMAND, job());
+    ChildProcess run(LOCKSTEP_COMMAND, job());
     ASSERT_TRUE(y_moves());
     const pid_t axis = process("axis-Y");
     const pid_t device = process("fpga-Y");
@@ -90,7 +90,7 @@ TEST_F(LostDevice, RegistersThatAreCutShortCrashNoProcess) {
 
 TEST_F(LostDevice, RegistersThatAreOverwrittenCrashNoProcess) {
     bring_up_with_devices();
-    Command run(LOCKSTEP_COMMAND, job());
+    ChildProcess run(LOCKSTEP_COMMAND, job());
     ASSERT_TRUE(y_moves());
     const pid_t axis = process("axis-Y");
     const pid_t device = process("fpga-Y");
@@ -106,7 +106,7 @@ TEST_F(LostDevice, RegistersThatAreOverwrittenCrashNoProcess) {
 TEST_F(LostDevice, AClientEndsBySignalWhateverProcessHangs) {
     bring_up_with_devices();
     for (const char* hangs : {"fpga-Y", "axis-Y", "coordinator"}) {
-        Command run(LOCKSTEP_COMMAND, job());
+        ChildProcess run(LOCKSTEP_COMMAND, job());
         ASSERT_TRUE(y_moves()) << hangs;
         const pid_t victim = process(hangs);
         kill(victim, SIGSTOP);
@@ -130,12 +130,12 @@ protected:
 };
 
 TEST_F(LateDevice, AnAxisThatStartsBeforeItsDeviceReportsItAndJoinsLater) {
-    Command up(LOCKSTEP_COMMAND, {"up"});
+    ChildProcess up(LOCKSTEP_COMMAND, {"up"});
     ASSERT_TRUE(eventually(
         [&] { return text_of_log("axis-Y").find("waits for its device shm:" + device_) != std::string::npos; }));
     const pid_t axis = process("axis-Y");
     EXPECT_TRUE(eventually([&] { return run_lockstep({"status"}).out.find("device-missing") != std::string::npos; }));
-    const Command device(LOCKSTEP_FPGA, {"--machine", file(), "--axis", "Y", "--name", device_});
+    const ChildProcess device(LOCKSTEP_FPGA, {"--machine", file(), "--axis", "Y", "--name", device_});
     const Ran ended = up.wait();
     EXPECT_EQ(ended.code, 0) << ended.out << ended.err;
     EXPECT_EQ(process("axis-Y"), axis);

@@ -108,7 +108,7 @@ TEST_F(Motion, OfTwentyThousandLinesAcceptsSixOverridesInARow) {
 }
 
 TEST_F(Motion, ThatAnotherClientStopsIsNotDone) {
-    Command run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong), "--json"});
+    ChildProcess run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong), "--json"});
     ASSERT_TRUE(becomes("Running"));
     EXPECT_EQ(run_lockstep({"stop"}).code, 0);
     const Ran ran = run.wait();
@@ -117,7 +117,7 @@ TEST_F(Motion, ThatAnotherClientStopsIsNotDone) {
 }
 
 TEST_F(Motion, StopsOnItsPathWhenItsCommandIsInterrupted) {
-    Command run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong)});
+    ChildProcess run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong)});
     ASSERT_TRUE(becomes("Running"));
     run.signal(SIGINT);
     const Ran ran = run.wait();
@@ -127,7 +127,7 @@ TEST_F(Motion, StopsOnItsPathWhenItsCommandIsInterrupted) {
 }
 
 TEST_F(Motion, IsHeldWhenItsTerminalIsClosed) {
-    Command run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong)});
+    ChildProcess run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong)});
     ASSERT_TRUE(becomes("Running"));
     run.signal(SIGHUP);
     const Ran ran = run.wait();
@@ -140,7 +140,7 @@ TEST_F(Motion, IsHeldWhenItsTerminalIsClosed) {
 }
 
 TEST_F(Motion, OfAnAxisOnItsOwnIsStoppedWhenItsTerminalIsClosed) {  // it cannot be held
-    Command move(LOCKSTEP_COMMAND, {"move", "--own", "X=199", "--json"});
+    ChildProcess move(LOCKSTEP_COMMAND, {"move", "--own", "X=199", "--json"});
     ASSERT_TRUE(becomes("Running"));
     move.signal(SIGHUP);
     EXPECT_EQ(move.wait().json<proto::RunReport>().outcome(), "stopped");
@@ -153,13 +153,13 @@ TEST_F(Motion, ContinuesUnattendedOnRequest) {
     EXPECT_THAT(begun.out, HasSubstr("move: begun as job 2"));
     ASSERT_TRUE(becomes("Idle"));
     EXPECT_EQ(status().axes(0).position_mm(), 40);
-    Command home(LOCKSTEP_COMMAND, {"home", "--detach", "--json"});
+    ChildProcess home(LOCKSTEP_COMMAND, {"home", "--detach", "--json"});
     EXPECT_EQ(home.wait().json<proto::RunReport>().outcome(), "begun");
     EXPECT_TRUE(eventually([&] { return status().phase() == "Idle" && status().axes(0).position_mm() == 1; }));
 }
 
 TEST_F(Motion, ThatIsTakenDownReportsItsRest) {
-    Command run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong)});
+    ChildProcess run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong)});
     ASSERT_TRUE(becomes("Running"));
     EXPECT_EQ(run_lockstep({"down"}).code, 0);
     EXPECT_THAT(run.wait().out, ContainsRegex("stopped after .*; at X [-0-9.]+  Y [-0-9.]+"));
@@ -185,7 +185,7 @@ TEST_F(Motion, OfAxesOnTheirOwnEndsAtTheReportedPlaces) {
 }
 
 TEST_F(Motion, OfAxesOnTheirOwnIsStopped) {
-    Command move(LOCKSTEP_COMMAND, {"move", "--own", "X=199", "--json"});
+    ChildProcess move(LOCKSTEP_COMMAND, {"move", "--own", "X=199", "--json"});
     ASSERT_TRUE(becomes("Running"));
     EXPECT_EQ(run_lockstep({"hold"}).code, 1);
     EXPECT_EQ(run_lockstep({"stop"}).code, 0);
@@ -195,7 +195,7 @@ TEST_F(Motion, OfAxesOnTheirOwnIsStopped) {
 }
 
 TEST_F(Motion, PausesAndReportsHowToContinue) {
-    Command run(LOCKSTEP_COMMAND, {"run", write("paused.gcode", kPaused)});
+    ChildProcess run(LOCKSTEP_COMMAND, {"run", write("paused.gcode", kPaused)});
     ASSERT_TRUE(eventually([&] { return run.out().find("lockstep resume") != std::string::npos; }));
     EXPECT_EQ(status().phase(), "Paused");
     EXPECT_EQ(run_lockstep({"resume"}).code, 0);
@@ -204,7 +204,7 @@ TEST_F(Motion, PausesAndReportsHowToContinue) {
 
 TEST_F(Motion, ContinuesFromALineAfterAStop) {
     const std::string file = write("square.gcode", kSquare);
-    Command whole(LOCKSTEP_COMMAND, {"run", file});
+    ChildProcess whole(LOCKSTEP_COMMAND, {"run", file});
     ASSERT_TRUE(becomes("Running"));
     EXPECT_EQ(run_lockstep({"stop"}).code, 0);
     EXPECT_EQ(whole.wait().code, 1);
@@ -245,7 +245,7 @@ TEST_F(MotionAboveWork, ContinuesFromALineByTheSafeHeightOfTheConfiguration) {
 }
 
 TEST_F(Motion, CeasesOnAnEmergencyStopAndIsResetByAPerson) {
-    Command run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong), "--json"});
+    ChildProcess run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong), "--json"});
     ASSERT_TRUE(becomes("Running"));
     EXPECT_EQ(run_lockstep({"estop"}).code, 0);
     const Ran ran = run.wait();
@@ -258,7 +258,7 @@ TEST_F(Motion, CeasesOnAnEmergencyStopAndIsResetByAPerson) {
 }
 
 TEST_F(Motion, CeasesOnAnEmergencyStopThoughTheCoordinatorIsStuck) {
-    Command run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong)});
+    ChildProcess run(LOCKSTEP_COMMAND, {"run", write("long.gcode", kLong)});
     ASSERT_TRUE(becomes("Running"));
     kill(process("coordinator"), SIGSTOP);
     const Ran ran = run_lockstep({"estop", "--json"});

@@ -37,7 +37,7 @@ TEST_F(OneHost, MovesExactlyAndLeavesNothingBehind) {
 
 TEST_F(OneHost, AKilledAxisStopsTheOtherAndRestarts) {
     bring_up_and_home();
-    Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack), "--json"});
+    ChildProcess run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack), "--json"});
     ASSERT_TRUE(eventually([&] { return status().axes(0).position_mm() > 30; }));
     const pid_t killed = process("axis-Y");
     kill(killed, SIGKILL);
@@ -54,7 +54,7 @@ TEST_F(OneHost, AKilledOwnerIsReplaced) {
     bring_up({"--standby"});
     ASSERT_EQ(run_lockstep({"home"}).code, 0);
     ASSERT_TRUE(eventually([&] { return status().standby(); }));
-    Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack), "--json"});
+    ChildProcess run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack), "--json"});
     ASSERT_TRUE(becomes("Running"));
     const bool second_owns = text_of_log("coordinator-2").find("- owns the machine") != std::string::npos;
     kill(process(second_owns ? "coordinator-2" : "coordinator"), SIGKILL);
@@ -76,7 +76,7 @@ TEST_F(OneHost, ProcessesWhoseMemoryIsCutOffAreStartedAgainAndTheMachineWorks) {
 
 TEST_F(OneHost, ASecondProcessOfAnAxisIsRefused) {
     bring_up();
-    const Ran second = Command(LOCKSTEP_AXIS, {"--machine", file(), "--axis", "X", "--no-lcm"}).wait();
+    const Ran second = ChildProcess(LOCKSTEP_AXIS, {"--machine", file(), "--axis", "X", "--no-lcm"}).wait();
     EXPECT_EQ(second.code, 1);
     EXPECT_THAT(second.out + second.err, HasSubstr("already run by another process"));
     EXPECT_EQ(status().phase(), "Idle");
@@ -84,10 +84,12 @@ TEST_F(OneHost, ASecondProcessOfAnAxisIsRefused) {
 
 TEST_F(OneHost, WaitsForAxisMissingFromSharedMemory) {
     if (geteuid() != 0) { GTEST_SKIP() << "memory of its own for one process takes root"; }
-    const Command coordinator(LOCKSTEP_COORDINATOR, {"--machine", file(), "--no-lcm", "--log", write("c.log", "")});
+    const ChildProcess coordinator(LOCKSTEP_COORDINATOR,
+                                   {"--machine", file(), "--no-lcm", "--log", write("c.log", "")});
     const std::string axis = std::string(LOCKSTEP_AXIS) + " --machine " + file() + " --no-lcm --axis ";
-    const Command x("/bin/sh", {"-c", "exec " + axis + "X"});
-    const Command y("/usr/bin/unshare", {"--mount", "sh", "-c", "mount -t tmpfs none /dev/shm && exec " + axis + "Y"});
+    const ChildProcess x("/bin/sh", {"-c", "exec " + axis + "X"});
+    const ChildProcess y("/usr/bin/unshare",
+                         {"--mount", "sh", "-c", "mount -t tmpfs none /dev/shm && exec " + axis + "Y"});
     EXPECT_TRUE(eventually([&] {
         const std::string log = tail_of(folder() / "c.log", 100);
         return log.contains("receives axis X") && log.contains("waits for axis Y in " + board.string());

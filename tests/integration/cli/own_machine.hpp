@@ -57,7 +57,7 @@ private:
     std::string file_;
     std::string lcm_url_;
     std::string log_;
-    std::optional<Command> logger_;
+    std::optional<ChildProcess> logger_;
     pid_t guard_ = 0;
     int guard_pipe_ = -1;
 };

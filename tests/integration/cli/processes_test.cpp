@@ -29,9 +29,9 @@ TEST_F(Processes, AreStartedOnce) {
     const Ran again = run_lockstep({"up"});
     EXPECT_EQ(again.code, 1);
     EXPECT_THAT(again.err, HasSubstr("is up already"));
-    EXPECT_EQ(Command(beside_command("lockstep-coordinator"), {"--machine", file(), "--no-lcm"}).wait().code, 1);
-    EXPECT_EQ(Command(beside_command("lockstep-axis"), {"--machine", file(), "--axis", "X", "--no-lcm"}).wait().code,
-              1);
+    EXPECT_EQ(ChildProcess(beside_command("lockstep-coordinator"), {"--machine", file(), "--no-lcm"}).wait().code, 1);
+    EXPECT_EQ(
+        ChildProcess(beside_command("lockstep-axis"), {"--machine", file(), "--axis", "X", "--no-lcm"}).wait().code, 1);
     EXPECT_EQ(status().phase(), "Idle");
 }
 
@@ -40,11 +40,11 @@ TEST_F(Processes, AJobIsExactThoughASecondProcessOfAnAxisStarts) {
     bring_up();
     record();
     ASSERT_EQ(run_lockstep({"home"}).code, 0);
-    Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack)});
+    ChildProcess run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack)});
     ASSERT_TRUE(becomes("Running"));
     const std::string second = "LOCKSTEP_STATE=" + (folder() / "other-host").string() + " exec " +
                                beside_command("lockstep-axis") + " --no-lcm --axis X --machine ";
-    const Ran ended = Command("/bin/sh", {"-c", second + file()}).wait();
+    const Ran ended = ChildProcess("/bin/sh", {"-c", second + file()}).wait();
     EXPECT_EQ(ended.code, 1);
     EXPECT_THAT(ended.out + ended.err, HasSubstr("already run by another process"));
     EXPECT_EQ(run.wait().code, 0);
@@ -52,7 +52,7 @@ TEST_F(Processes, AJobIsExactThoughASecondProcessOfAnAxisStarts) {
 }
 
 TEST_F(Processes, ThatOthersStartedAreIgnored) {
-    const Command coordinator(beside_command("lockstep-coordinator"), {"--machine", file(), "--no-lcm"});
+    const ChildProcess coordinator(beside_command("lockstep-coordinator"), {"--machine", file(), "--no-lcm"});
     ASSERT_TRUE(becomes("Waiting"));
     const Ran up = run_lockstep({"up"});
     EXPECT_EQ(up.code, 1);
@@ -164,7 +164,7 @@ TEST_F(Processes, RunTheirDevicesSeparatelyOnRequest) {
 }
 
 TEST_F(Processes, EndWithASupervisorInTheForeground) {
-    Command up(LOCKSTEP_COMMAND, {"up", "--foreground"});
+    ChildProcess up(LOCKSTEP_COMMAND, {"up", "--foreground"});
     ASSERT_TRUE(becomes("Idle"));
     const auto processes = state().running();
     EXPECT_EQ(processes.size(), 4u);

@@ -55,14 +55,14 @@ protected:
         const auto start_one = [&](const char* program, const std::string& name, Words words) {
             logs_.push_back(std::make_unique<HungFile>(folder() / (name + ".log")));
             words.insert(words.end(), {"--machine", file(), "--log", folder() / (name + ".log")});
-            processes_.push_back(std::make_unique<Command>(program, words));
+            processes_.push_back(std::make_unique<ChildProcess>(program, words));
         };
         start_one(LOCKSTEP_COORDINATOR, "coordinator", {});
         for (const char* axis : {"X", "Y"}) { start_one(LOCKSTEP_AXIS, axis, {"--axis", axis}); }
     }
 
     std::vector<std::unique_ptr<HungFile>> logs_;
-    std::vector<std::unique_ptr<Command>> processes_;  // end first
+    std::vector<std::unique_ptr<ChildProcess>> processes_;  // end first
 };
 
 TEST_F(SlowLog, AJobIsExactWhileTheLogsHangAndLostLinesAreReported) {

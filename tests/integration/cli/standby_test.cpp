@@ -46,7 +46,7 @@ private:
 
 TEST_F(TwoCoordinators, AKilledOwnerIsReplacedAtRestAndTheMachineMovesOnWithoutHoming) {
     ASSERT_TRUE(eventually([&] { return status().standby(); }));
-    Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack), "--json"});
+    ChildProcess run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack), "--json"});
     ASSERT_TRUE(becomes("Running"));
     kill(process(owner()), SIGKILL);
     const Ran ran = run.wait();
@@ -63,7 +63,7 @@ TEST_F(TwoCoordinators, AKilledOwnerIsReplacedAtRestAndTheMachineMovesOnWithoutH
 }
 
 TEST_F(TwoCoordinators, AStoppedOwnerGivesUpTheMachineWhenItContinues) {
-    Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack), "--json"});
+    ChildProcess run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack), "--json"});
     ASSERT_TRUE(becomes("Running"));
     const std::string stopped = owner();
     const pid_t pid = process(stopped);
@@ -103,7 +103,7 @@ protected:
     /// Whether the other one has continued the job of the owner that is killed in it.
     bool is_gone_on_with() {
         EXPECT_TRUE(eventually([&] { return status().standby(); }));
-        Command run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack), "--json"});
+        ChildProcess run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack), "--json"});
         EXPECT_TRUE(becomes("Running"));
         EXPECT_TRUE(eventually([&] { return status().axes(0).position_mm() > 30; }));
         const std::string killed = owner();

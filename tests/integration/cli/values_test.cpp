@@ -78,7 +78,8 @@ TEST_F(Values, AreUsedByProgramsAndChangedAtTheirEnd) {
 
 TEST_F(Values, AreNotChangedByAProgramThatWasStoppedNorDuringOne) {
     home();
-    const Command running(LOCKSTEP_COMMAND, {"run", write("job.gcode", "G10 L2 P3 X9\n" + std::string(kThereAndBack))});
+    const ChildProcess running(LOCKSTEP_COMMAND,
+                               {"run", write("job.gcode", "G10 L2 P3 X9\n" + std::string(kThereAndBack))});
     ASSERT_TRUE(becomes("Running"));
     const Ran meanwhile = offsets({"set", "G54", "X=1"});
     EXPECT_EQ(meanwhile.code, 1);

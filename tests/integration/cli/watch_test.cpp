@@ -29,7 +29,7 @@ TEST_F(Watch, ShowsALiveMachineAndGivesTheTerminalBack) {
 
 TEST_F(Watch, WithoutATerminalWritesLines) {
     bring_up();
-    Command watch(LOCKSTEP_COMMAND, {"watch"});
+    ChildProcess watch(LOCKSTEP_COMMAND, {"watch"});
     EXPECT_TRUE(
         eventually([&] { return watch.out().find(": Idle; X not homed; Y not homed\n") != std::string::npos; }));
     watch.signal(SIGINT);
@@ -41,7 +41,7 @@ TEST_F(Watch, WithoutATerminalWritesLines) {
 /// An axis's figures after a move: every step compared with the plan, every frame in time.
 TEST_F(Watch, LiveFiguresAreInTheStatus) {
     bring_up_and_home();
-    Command move(LOCKSTEP_COMMAND, {"move", "X=60", "Y=20", "--feed", "1200"});
+    ChildProcess move(LOCKSTEP_COMMAND, {"move", "X=60", "Y=20", "--feed", "1200"});
     proto::HealthReport seen;
     EXPECT_TRUE(eventually([&] {
         seen = status().axes(0).health();

@@ -38,7 +38,7 @@ protected:
 
 TEST_F(Writers, TheSecondOneIsRefusedAndHoldsAndTakesTheMachineOver) {
     EXPECT_FALSE(status().has_writer()) << "anna's command has given it back";
-    Command job(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack)});
+    ChildProcess job(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack)});
     ASSERT_TRUE(becomes("Running"));
     ASSERT_TRUE(writer_is("anna"));
     EXPECT_FALSE(status().writer().host().empty());
@@ -68,7 +68,7 @@ TEST_F(Writers, TheSecondOneIsRefusedAndHoldsAndTakesTheMachineOver) {
 }
 
 TEST_F(Writers, OnePersonInTwoTerminalsIsOneWriter) {
-    Command job(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack)});
+    ChildProcess job(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack)});
     ASSERT_TRUE(becomes("Running"));
     EXPECT_EQ(run_lockstep({"override", "--feed", "150"}).code, 0);
     EXPECT_EQ(run_lockstep({"hold"}).code, 0);
@@ -78,7 +78,7 @@ TEST_F(Writers, OnePersonInTwoTerminalsIsOneWriter) {
 }
 
 TEST_F(Writers, OneThatIsKilledLosesTheMachineBySilence) {
-    Command key(LOCKSTEP_COMMAND, {"jog", "X+", "--speed", "5"});
+    ChildProcess key(LOCKSTEP_COMMAND, {"jog", "X+", "--speed", "5"});
     ASSERT_TRUE(becomes("Jogging"));
     key.signal(SIGKILL);
     (void)key.wait();

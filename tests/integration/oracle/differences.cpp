@@ -27,62 +27,64 @@ struct Refusal {
     std::string line;  // that is refused
 };
 
-struct Difference {
+struct KnownDifference {
     const char* reason;
     bool (*holds)(const Refusal& refusal);
 };
 
 /// rs274 takes the program.
 constexpr std::array kRefusedByUs{
-    Difference{"the tool would cut into the path, or run backward; rs274's tool does",
-               [](const Refusal& r) {
-                   return r.ours.message.find("without cutting into the path") != std::string::npos &&
-                          strays_from_path(r.text, r.theirs, r.ours);
-               }},
-    Difference{"a spline is not compensated: rs274 puts the points of G5.2 on the programmed path",
-               [](const Refusal& r) { return r.ours.message.starts_with("G5.2 while cutter compensation is on"); }},
-    Difference{
+    KnownDifference{"the tool would cut into the path, or run backward; rs274's tool does",
+                    [](const Refusal& r) {
+                        return r.ours.message.find("without cutting into the path") != std::string::npos &&
+                               strays_from_path(r.text, r.theirs, r.ours);
+                    }},
+    KnownDifference{
+        "a spline is not compensated: rs274 puts the points of G5.2 on the programmed path",
+        [](const Refusal& r) { return r.ours.message.starts_with("G5.2 while cutter compensation is on"); }},
+    KnownDifference{
         "offsets that change with compensation on would move the path: rs274 takes G92.1 to G92.3",
         [](const Refusal& r) { return matches(r.ours.message, "^G92\\.[123] while cutter compensation is on"); }},
-    Difference{
+    KnownDifference{
         "the programmed place is not the tool's: rs274 takes G10 L20 with compensation on, at the tool's centre",
         [](const Refusal& r) { return r.ours.message.starts_with("G10 L20 sets a zero by where the axes stand"); }},
-    Difference{"a block has one non-modal word: rs274 takes another one beside G92.1 to G92.3",
-               [](const Refusal& r) {
-                   return r.ours.message.find("one non-modal word") != std::string::npos &&
-                          matches(r.line, "[Gg]92\\.[123]");
-               }},
-    Difference{
+    KnownDifference{"a block has one non-modal word: rs274 takes another one beside G92.1 to G92.3",
+                    [](const Refusal& r) {
+                        return r.ours.message.find("one non-modal word") != std::string::npos &&
+                               matches(r.line, "[Gg]92\\.[123]");
+                    }},
+    KnownDifference{
         "a spline keeps the time of G93: rs274 makes it at the feed of the motion before",
         [](const Refusal& r) { return r.ours.message.starts_with("G5.2 with inverse time (G93) but without F"); }},
-    Difference{"NURBS are in the plane of X and Y: rs274 takes them as X and Y whichever plane holds",
-               [](const Refusal& r) { return r.ours.message.starts_with("G5.2 is in the plane of X and Y"); }},
-    Difference{"a word stands once: rs274 takes a word of -1 for a missing one",
-               [](const Refusal& r) { return matches(r.ours.message, "repeats [A-Z]-1;"); }},
+    KnownDifference{"NURBS are in the plane of X and Y: rs274 takes them as X and Y whichever plane holds",
+                    [](const Refusal& r) { return r.ours.message.starts_with("G5.2 is in the plane of X and Y"); }},
+    KnownDifference{"a word stands once: rs274 takes a word of -1 for a missing one",
+                    [](const Refusal& r) { return matches(r.ours.message, "repeats [A-Z]-1;"); }},
 };
 
 /// We take the program.
 constexpr std::array kRefusedByThem{
-    Difference{"#5420 is the place of the tool's centre: rs274 gives it in messages alone",
-               [](const Refusal& r) {
-                   return r.theirs.message == "Cannot read current position with cutter radius compensation on" &&
-                          matches(r.theirs.refused, "#542[0-8]|#<_[xyzabcuvw]>");
-               }},
-    Difference{"where a path turns back from arc to arc, their curvature decides whether the corner is inside",
-               [](const Refusal& r) {
-                   return r.theirs.message.find("a corner the compensated tool can't fit in") != std::string::npos &&
-                          turns_back_at(r.text, number_of(r.text, r.theirs.refused));
-               }},
-    Difference{"a corner below 0.05 radians counts as none: rs274 then refuses an arc that it has made longer at it",
-               [](const Refusal& r) {
-                   return r.theirs.message ==
-                              "Arc move in concave corner cannot be reached by the tool without gouging" &&
-                          follows_almost_straight_arc(r.text, number_of(r.text, r.theirs.refused));
-               }},
-    Difference{"G98 and G99 change nothing of a path: rs274 refuses them with compensation on",
-               [](const Refusal& r) {
-                   return r.theirs.message == "Cannot change retract mode with cutter radius compensation on";
-               }},
+    KnownDifference{"#5420 is the place of the tool's centre: rs274 gives it in messages alone",
+                    [](const Refusal& r) {
+                        return r.theirs.message == "Cannot read current position with cutter radius compensation on" &&
+                               matches(r.theirs.refused, "#542[0-8]|#<_[xyzabcuvw]>");
+                    }},
+    KnownDifference{"where a path turns back from arc to arc, their curvature decides whether the corner is inside",
+                    [](const Refusal& r) {
+                        return r.theirs.message.find("a corner the compensated tool can't fit in") !=
+                                   std::string::npos &&
+                               turns_back_at(r.text, number_of(r.text, r.theirs.refused));
+                    }},
+    KnownDifference{
+        "a corner below 0.05 radians counts as none: rs274 then refuses an arc that it has made longer at it",
+        [](const Refusal& r) {
+            return r.theirs.message == "Arc move in concave corner cannot be reached by the tool without gouging" &&
+                   follows_almost_straight_arc(r.text, number_of(r.text, r.theirs.refused));
+        }},
+    KnownDifference{"G98 and G99 change nothing of a path: rs274 refuses them with compensation on",
+                    [](const Refusal& r) {
+                        return r.theirs.message == "Cannot change retract mode with cutter radius compensation on";
+                    }},
 };
 
 struct Parting {
@@ -115,7 +117,7 @@ constexpr std::array kMovesApart{
 
 template <typename Differences>
 bool any(const Differences& differences, const Refusal& refusal) {
-    for (const Difference& difference : differences) {
+    for (const KnownDifference& difference : differences) {
         if (difference.holds(refusal)) { return true; }
     }
     return false;

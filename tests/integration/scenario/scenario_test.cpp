@@ -84,7 +84,8 @@ TEST_F(ScenarioRun, UnexpectedEndOfAJobFails) {
 
 TEST_F(ScenarioRun, EndOfTheCommandEndsAllItsProcesses) {
     for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
-        Command command(LOCKSTEP_COMMAND, {"scenario", "run", write(kShortJob + "}\nstep { wait { seconds: 60 } }")});
+        ChildProcess command(LOCKSTEP_COMMAND,
+                             {"scenario", "run", write(kShortJob + "}\nstep { wait { seconds: 60 } }")});
         ASSERT_TRUE(eventually([] { return processes_of_machine() >= 4; }));
         command.signal(signal);
         EXPECT_EQ(command.wait().code, signal == SIGKILL ? -SIGKILL : 1);

@@ -17,7 +17,7 @@ namespace lockstep {
 namespace {
 
 // Of an IPv4 packet without options, after its Ethernet header.
-constexpr std::size_t kProtocol = 14 + 9;
+constexpr std::size_t kProtocolAt = 14 + 9;
 constexpr std::size_t kReceiver = 14 + 16;
 constexpr std::size_t kReceiverPort = 14 + 20 + 2;
 constexpr std::size_t kPayload = 14 + 20 + 8;
@@ -62,7 +62,7 @@ void PacketTap::listen() {
         socklen_t size = sizeof from;
         const ssize_t length =
             ::recvfrom(socket_, buffer.data(), buffer.size(), 0, reinterpret_cast<sockaddr*>(&from), &size);
-        const bool is_udp = length > static_cast<ssize_t>(kPayload) && buffer[kProtocol] == kUdp;
+        const bool is_udp = length > static_cast<ssize_t>(kPayload) && buffer[kProtocolAt] == kUdp;
         if (is_udp && from.sll_pkttype != PACKET_OUTGOING) {
             packets_.emplace_back(buffer.data(), static_cast<std::size_t>(length));
         }

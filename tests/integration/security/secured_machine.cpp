@@ -23,12 +23,12 @@ void SecuredMachine::SetUp() {
 
 MachineConfig SecuredMachine::config() const { return load_machine_file(file()).value(); }
 
-std::unique_ptr<Command> SecuredMachine::begin_foreign_peer(const std::string& partition, const std::string& keys,
-                                                            const std::string& member, const Words& how) const {
+std::unique_ptr<ChildProcess> SecuredMachine::begin_foreign_peer(const std::string& partition, const std::string& keys,
+                                                                 const std::string& member, const Words& how) const {
     const MachineConfig machine = config();
     Words words{std::to_string(machine.network.domain), machine.name, partition, keys, member};
     words.insert(words.end(), how.begin(), how.end());
-    return std::make_unique<Command>(LOCKSTEP_FOREIGN_PEER, words);
+    return std::make_unique<ChildProcess>(LOCKSTEP_FOREIGN_PEER, words);
 }
 
 std::string SecuredMachine::foreign_peer(const std::string& partition, const std::string& keys,

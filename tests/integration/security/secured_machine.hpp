@@ -20,8 +20,8 @@ protected:
     std::string foreign_peer(const std::string& partition, const std::string& keys, const std::string& member,
                              const Words& how = {}) const;
     /// The same, in parallel to the test.
-    std::unique_ptr<Command> begin_foreign_peer(const std::string& partition, const std::string& keys,
-                                                const std::string& member, const Words& how = {}) const;
+    std::unique_ptr<ChildProcess> begin_foreign_peer(const std::string& partition, const std::string& keys,
+                                                     const std::string& member, const Words& how = {}) const;
     /// No process accepted it, and the machine is unchanged.
     void expect_excluded(const std::string& output) const;
     /// All axes are at their park positions, no job was begun, no fault.

@@ -24,8 +24,8 @@ TEST_F(Versions, OfTheProtocolAreNamedByEveryProcess) {
     bring_up();
     const MachineConfig machine = load_machine_file(file()).value();
     const std::string newer = std::to_string(kProtocol + 1);
-    const Command other(LOCKSTEP_FOREIGN_PEER,
-                        {std::to_string(machine.network.domain), machine.name, "protocol", newer, "-"});
+    const ChildProcess other(LOCKSTEP_FOREIGN_PEER,
+                             {std::to_string(machine.network.domain), machine.name, "protocol", newer, "-"});
     for (const char* process : {"coordinator", "axis-X", "axis-Y"}) {
         EXPECT_TRUE(is_logged(process, "uses protocol " + newer + ", this one " + std::to_string(kProtocol)));
     }
@@ -36,9 +36,9 @@ TEST_F(Versions, OfTheConfigurationAreNamedAndNothingMoves) {
     MachineConfig machine = load_machine_file(file()).value();
     machine.axes[0].max_velocity_mm_s = 100;
     const std::string changed = write("changed.textproto", machine_text(machine));
-    const Command coordinator(LOCKSTEP_COORDINATOR, {"--machine", file(), "--log", write("coordinator.log", "")});
-    const Command x(LOCKSTEP_AXIS, {"--machine", file(), "--axis", "X"});
-    const Command y(LOCKSTEP_AXIS, {"--machine", changed, "--axis", "Y"});
+    const ChildProcess coordinator(LOCKSTEP_COORDINATOR, {"--machine", file(), "--log", write("coordinator.log", "")});
+    const ChildProcess x(LOCKSTEP_AXIS, {"--machine", file(), "--axis", "X"});
+    const ChildProcess y(LOCKSTEP_AXIS, {"--machine", changed, "--axis", "Y"});
     EXPECT_TRUE(eventually([&] {
         return tail_of(folder() / "coordinator.log", 1000).find("axis Y runs configuration ") != std::string::npos;
     }));

@@ -11,8 +11,6 @@
 namespace lockstep {
 namespace {
 
-constexpr std::int64_t kTick_ns = 1000;
-
 void expect_within_bound(const ClockEstimator& estimator, const TwoClocks& clocks, double truth, std::uint64_t seed) {
     const auto [other, error] = estimator.at(clocks.own(truth));
     ASSERT_LE(std::abs((other - TwoClocks::coordinator(truth)).value), error.value) << "seed " << seed;

@@ -11,8 +11,6 @@
 namespace lockstep {
 namespace {
 
-constexpr std::int64_t kTick_ns = 1000;
-
 TEST(MachineTime, IsWithinItsBound) {
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
         TwoClocks clocks(seed);

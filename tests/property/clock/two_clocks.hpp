@@ -8,6 +8,8 @@
 
 namespace lockstep {
 
+inline constexpr std::int64_t kTick_ns = 1000;
+
 class TwoClocks {
 public:
     explicit TwoClocks(std::uint64_t seed) : random_(seed) {

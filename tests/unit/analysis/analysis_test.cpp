@@ -4,10 +4,10 @@
 
 #include <fstream>
 #include <random>
-#include <sstream>
 
 #include "clients/analysis/analysis_text.hpp"
 #include "clients/analysis/report.hpp"
+#include "tests/unit/analysis/file_text.hpp"
 #include "tests/unit/analysis/log_makers.hpp"
 #include "tests/unit/drawing/xml_check.hpp"
 
@@ -17,12 +17,7 @@ namespace {
 using test::even_steps;
 using test::LogMaker;
 using test::path_through;
-
-std::string text_of(const std::filesystem::path& path) {
-    std::ostringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
-}
+using test::text_of;
 
 /// A right angle: X 0 to 10 mm, then Y.
 void record_right_angle(const std::filesystem::path& log, double bulge_mm, const std::string& kind = "run") {

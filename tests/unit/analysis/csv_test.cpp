@@ -3,19 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
+#include "tests/unit/analysis/file_text.hpp"
 #include "tests/unit/analysis/step_makers.hpp"
 
 namespace lockstep::analysis {
 namespace {
 
-std::string text_of(const std::filesystem::path& path) {
-    std::ostringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
-}
+using test::text_of;
 
 TEST(StepCsv, HasALineForEachStepWithThePositionAfterIt) {
     const auto path = std::filesystem::path(testing::TempDir()) / "steps_X.csv";

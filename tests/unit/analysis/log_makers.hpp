@@ -87,6 +87,13 @@ public:
         writer_.write_message(job_channel("mill"), tick, to_lcm(record, Tick{tick}, 1000));
     }
 
+    /// Of the job above, unless its number is another.
+    void event(PublishedEvent event) {
+        if (event.job == 0) { event.job = 3; }
+        const EventRecord record{.machine = "mill", .number = {.sequence = job_events_++}, .event = event};
+        writer_.write_message(event_channel("mill"), event.tick.value, to_lcm(record, event.tick, 1000));
+    }
+
     /// The next `count` of each are not in the log.
     void lose(std::uint64_t count) {
         for (std::uint64_t& positions : positions_) { positions += count; }

@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <sstream>
 
 #include "clients/analysis/analysis.hpp"
 #include "clients/analysis/findings.hpp"
 #include "clients/analysis/report.hpp"
+#include "tests/unit/analysis/file_text.hpp"
 #include "tests/unit/analysis/log_makers.hpp"
 
 namespace lockstep::analysis {
@@ -77,9 +77,7 @@ TEST_F(Moves, OfAJobWithoutItsEndAreDoubtful) {
 /// If the record is damaged, the motion made is not known.
 TEST_F(Moves, OfADamagedLogAreDoubtful) {
     there_and_back(1000);
-    std::ostringstream text;
-    text << std::ifstream(log).rdbuf();
-    const std::size_t event = text.str().rfind("LOCKSTEP_MILL_X_STEPS") - 28;
+    const std::size_t event = test::text_of(log).rfind("LOCKSTEP_MILL_X_STEPS") - 28;
     std::fstream file(log, std::ios::in | std::ios::out | std::ios::binary);
     file.seekp(static_cast<std::streamoff>(event));
     file.put('?');  // in its sync word

@@ -92,13 +92,13 @@ TEST(ProgramDocument, EveryByteMayBeWrong) {
     }
 }
 
-struct Refusal {
+struct ProgramRefusal {
     std::string message;
     std::function<void(Program&)> spoil;
-    friend void PrintTo(const Refusal& refusal, std::ostream* out) { *out << refusal.message; }
+    friend void PrintTo(const ProgramRefusal& refusal, std::ostream* out) { *out << refusal.message; }
 };
 
-class ProgramRefused : public testing::TestWithParam<Refusal> {};
+class ProgramRefused : public testing::TestWithParam<ProgramRefusal> {};
 
 TEST_P(ProgramRefused, WithTheValueAndTheBlock) {
     Program program = example();
@@ -114,24 +114,25 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 INSTANTIATE_TEST_SUITE_P(
     Head, ProgramRefused,
-    testing::Values(Refusal{"no axis", [](Program& p) { p.axes.clear(); }},
-                    Refusal{"65; at most 64", [](Program& p) { p.axes.resize(kMaxAxes + 1, "X"); }},
-                    Refusal{"axis 2 of the program has no axis's name", [](Program& p) { p.axes[1] = "*"; }},
-                    Refusal{"names axis x twice", [](Program& p) { p.axes[1] = "x"; }},
-                    Refusal{"256; at most 255", [](Program& p) { p.name.assign(256, 'n'); }},
-                    Refusal{"the start has 1 places for 2 axes", [](Program& p) { p.start_mm.pop_back(); }},
-                    Refusal{"the start puts Y at nan", [](Program& p) { p.start_mm[1] = kNan; }}));
+    testing::Values(ProgramRefusal{"no axis", [](Program& p) { p.axes.clear(); }},
+                    ProgramRefusal{"65; at most 64", [](Program& p) { p.axes.resize(kMaxAxes + 1, "X"); }},
+                    ProgramRefusal{"axis 2 of the program has no axis's name", [](Program& p) { p.axes[1] = "*"; }},
+                    ProgramRefusal{"names axis x twice", [](Program& p) { p.axes[1] = "x"; }},
+                    ProgramRefusal{"256; at most 255", [](Program& p) { p.name.assign(256, 'n'); }},
+                    ProgramRefusal{"the start has 1 places for 2 axes", [](Program& p) { p.start_mm.pop_back(); }},
+                    ProgramRefusal{"the start puts Y at nan", [](Program& p) { p.start_mm[1] = kNan; }}));
 
 INSTANTIATE_TEST_SUITE_P(
     Blocks, ProgramRefused,
-    testing::Values(Refusal{"block 1: the target has 3 places", [](Program& p) { move(p, 0).target_mm.push_back(1); }},
-                    Refusal{"block 2: the target puts X at inf", [](Program& p) { move(p, 1).target_mm[0] = 1 / 0.0; }},
-                    Refusal{"block 2: the target puts X at 2000000", [](Program& p) { move(p, 1).target_mm[0] = 2e6; }},
-                    Refusal{"block 2: the feed is 0", [](Program& p) { move(p, 1).feed_mm_s = 0; }},
-                    Refusal{"block 2: the feed is -1", [](Program& p) { move(p, 1).feed_mm_s = -1; }},
-                    Refusal{"block 2: the feed is nan", [](Program& p) { move(p, 1).feed_mm_s = kNan; }},
-                    Refusal{"block 3: the dwell is -1", [](Program& p) { p.blocks[2].action = Dwell{-1}; }},
-                    Refusal{"block 3: the dwell is nan", [](Program& p) { p.blocks[2].action = Dwell{kNan}; }}));
+    testing::Values(
+        ProgramRefusal{"block 1: the target has 3 places", [](Program& p) { move(p, 0).target_mm.push_back(1); }},
+        ProgramRefusal{"block 2: the target puts X at inf", [](Program& p) { move(p, 1).target_mm[0] = 1 / 0.0; }},
+        ProgramRefusal{"block 2: the target puts X at 2000000", [](Program& p) { move(p, 1).target_mm[0] = 2e6; }},
+        ProgramRefusal{"block 2: the feed is 0", [](Program& p) { move(p, 1).feed_mm_s = 0; }},
+        ProgramRefusal{"block 2: the feed is -1", [](Program& p) { move(p, 1).feed_mm_s = -1; }},
+        ProgramRefusal{"block 2: the feed is nan", [](Program& p) { move(p, 1).feed_mm_s = kNan; }},
+        ProgramRefusal{"block 3: the dwell is -1", [](Program& p) { p.blocks[2].action = Dwell{-1}; }},
+        ProgramRefusal{"block 3: the dwell is nan", [](Program& p) { p.blocks[2].action = Dwell{kNan}; }}));
 
 TEST(ProgramDocument, ABlockWithAnUnknownActionIsRefused) {
     const auto program = program_from_text("axes: \"X\" start_mm: 0 blocks { line: 3 }");

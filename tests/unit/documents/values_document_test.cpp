@@ -9,7 +9,7 @@ namespace {
 
 using testing::HasSubstr;
 
-RevisedValues example() {
+RevisedValues example_values() {
     RevisedValues revised{.revision = 7, .values = {}};
     gcode::KeptValues& values = revised.values;
     values.systems[0].origin = {1.25, -2, 1e-9, 4, 5, 6, 7, 8, 9};
@@ -23,13 +23,13 @@ RevisedValues example() {
 }
 
 TEST(ValuesDocument, TextAndBytesAreReadAsTheyWereWritten) {
-    EXPECT_EQ(values_from_text(values_text(example())), example());
-    EXPECT_EQ(values_from_bytes(values_bytes(example())), example());
+    EXPECT_EQ(values_from_text(values_text(example_values())), example_values());
+    EXPECT_EQ(values_from_bytes(values_bytes(example_values())), example_values());
     EXPECT_EQ(values_from_bytes(values_bytes({})), RevisedValues{});
 }
 
 TEST(ValuesDocument, AsManyToolsAsAllowedFitIntoOneMessage) {
-    RevisedValues revised = example();
+    RevisedValues revised = example_values();
     for (int i = 1; i <= static_cast<int>(gcode::kMaxTools); ++i) {
         gcode::Tool& tool = revised.values.tools[99'999 - i] = {
             .pocket = 99'999, .offset = {}, .diameter = 1.1, .front_angle = 1.1, .back_angle = 1.1, .orientation = 9};

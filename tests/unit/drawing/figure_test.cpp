@@ -60,6 +60,19 @@ TEST(Figure, NamesEachLabelOnceInTheLegend) {
     EXPECT_EQ(count(to_svg({.rows = {row, row, row}}), "as asked"), 1U);
 }
 
+TEST(Figure, DrawsMomentsWithinItsRangeOncePerPixel) {
+    Chart row{.series = {ramp("", 1000)}};
+    const auto lines = [&](std::vector<double> moments) {
+        row.moments = {.x = std::move(moments), .label = "events"};
+        const std::string svg = to_svg({.rows = {row}});
+        EXPECT_EQ(xml_problem(svg), std::nullopt);
+        return count(svg, "<line");
+    };
+    const std::size_t before = lines({});
+    EXPECT_EQ(lines({0.2, 0.4}), before + 3) << "and one in the legend";
+    EXPECT_EQ(lines({-1, 0.2, 0.2, 0.2001, 5}), before + 2);
+}
+
 TEST(Figure, HasEqualScalesInBothDirections) {
     for (const double height : {1.0, 30.0, 900.0}) {
         const Figure figure{.rows = {Chart{.series = {Series{.x = {0, 120}, .y = {0, height}}}}}, .equal_aspect = true};

@@ -59,5 +59,24 @@ TEST(UnassignedWords, ErrorHasTheWordsLineAlsoWhenCompensationKeepsItWaiting) {
     EXPECT_EQ(read.error().front().line, 3);
 }
 
+std::vector<std::string> notes_of(std::string_view text) {
+    std::vector<std::string> notes;
+    const GcodeReading reading = read_gcode(text, three_axes()).value();
+    for (const GcodeNote& note : reading.notes) { notes.push_back(std::to_string(note.line) + ": " + note.text); }
+    return notes;
+}
+
+TEST(WordsWithoutEffect, AreNotedOnceEachWhereTheySwitchSomethingThatTheMachineLacks) {
+    EXPECT_THAT(notes_of("M51 P0\nM52 P1\nM53 P0\nM51 P0\nM52\nM53 P0\n"),
+                testing::ElementsAre("1: M51 P0 has no effect: the machine has no spindle override",
+                                     "2: M52 P1 has no effect: the machine has no input for adaptive feed",
+                                     "3: M53 P0 has no effect: feed hold stays on"));
+}
+
+TEST(WordsWithoutEffect, AreNotNotedWhereTheyAskForWhatIsSo) {
+    EXPECT_THAT(notes_of("M51\nM51 P1\nM52 P0\nM53\nM53 P1\n"), testing::IsEmpty());
+    EXPECT_THAT(notes_of("M49\nM48\nM50 P0\nM50 P1\n"), testing::IsEmpty()) << "these have an effect, on the feed";
+}
+
 }  // namespace
 }  // namespace lockstep

@@ -9,12 +9,12 @@
 #include "core/motion/interpolate.hpp"
 #include "core/motion/lookahead.hpp"
 #include "core/motion/strain.hpp"
+#include "tests/unit/motion/scale.hpp"
 
 namespace lockstep {
 namespace {
 
 constexpr double kTick_s = 1e-6;
-constexpr double kStepsPerMm = 100;
 constexpr double kStart_mm_s = 5;
 constexpr double kTop_mm_s = 100;
 constexpr double kAccel_mm_s2 = 1000;
@@ -22,7 +22,6 @@ constexpr double kSpeed = kStepsPerMm * kTick_s;  // mm/s to steps per tick
 const AxisLimits kAxis{kStart_mm_s * kSpeed,          kTop_mm_s* kSpeed, kAccel_mm_s2* kSpeed* kTick_s,
                        kAccel_mm_s2* kSpeed* kTick_s, -10'000'000,       10'000'000};
 const std::vector<AxisLimits> kLimits(2, kAxis);
-const std::vector<double> kScale(2, kStepsPerMm);
 constexpr PathBounds kBounds{Ticks{200}, 28};
 
 Path through(const std::vector<AxisCounts>& places) {

@@ -6,11 +6,10 @@
 #include "core/axis/following/frame_check.hpp"
 #include "core/motion/interpolate.hpp"
 #include "core/motion/lookahead.hpp"
+#include "tests/unit/motion/scale.hpp"
 
 namespace lockstep {
 namespace {
-
-const std::vector<double> kScale{100, 100};
 
 template <std::size_t Capacity>
 void fill(StaticVector<Piece, Capacity> AxisTrack::*part, const Path& path, Ticks begin, Ticks end,

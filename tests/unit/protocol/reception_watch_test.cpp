@@ -9,7 +9,7 @@ namespace lockstep {
 namespace {
 
 constexpr std::int64_t kTick_ns = 1000;
-constexpr Ticks kSecond{1'000'000};
+constexpr Ticks kLease{1'000'000};
 
 /// A process that checks whenever a check is due, and the results.
 class Process {
@@ -36,8 +36,8 @@ public:
 
 private:
     static constexpr Ticks kLoop{10'000};
-    ReceptionWatch watch_{kSecond, kTick_ns};
-    Tick now_{kSecond.value};
+    ReceptionWatch watch_{kLease, kTick_ns};
+    Tick now_{kLease.value};
 };
 
 TEST(ReceptionWatch, DoesNothingWhileAllPeersAreReceived) {

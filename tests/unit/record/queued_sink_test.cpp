@@ -40,7 +40,7 @@ private:
     std::uint64_t failures_ = 0;
 };
 
-class Queue : public testing::Test {
+class SinkQueue : public testing::Test {
 protected:
     void begin(std::size_t queue_bytes) {
         sink = std::make_unique<QueuedSink>(
@@ -58,7 +58,7 @@ protected:
     std::unique_ptr<QueuedSink> sink;
 };
 
-TEST_F(Queue, KeepsEveryMessageInItsOrder) {
+TEST_F(SinkQueue, KeepsEveryMessageInItsOrder) {
     begin(1 << 20);
     disk.opens.set_value();
     for (std::int64_t i = 0; i < 1000; ++i) { write(i); }
@@ -68,7 +68,7 @@ TEST_F(Queue, KeepsEveryMessageInItsOrder) {
     EXPECT_TRUE(disk.losses.empty());
 }
 
-TEST_F(Queue, NeverMakesAWriterWaitForADiskThatHangs) {
+TEST_F(SinkQueue, NeverMakesAWriterWaitForADiskThatHangs) {
     begin(2000);
     write(0);
     while (!disk.is_busy) { std::this_thread::yield(); }   // the disk holds it
@@ -85,7 +85,7 @@ TEST_F(Queue, NeverMakesAWriterWaitForADiskThatHangs) {
     EXPECT_EQ(disk.losses_at[0], disk.written.size());
 }
 
-TEST_F(Queue, ReportsMessagesThatAFullDiskRefused) {
+TEST_F(SinkQueue, ReportsMessagesThatAFullDiskRefused) {
     begin(1 << 20);
     disk.is_full = true;
     disk.opens.set_value();

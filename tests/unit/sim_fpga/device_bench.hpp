@@ -12,11 +12,12 @@
 
 namespace lockstep {
 
-inline constexpr std::int64_t kTickNs = 1000;
+inline constexpr std::int64_t kTick_ns = 1000;
 inline constexpr Velocity kBenchSpeed{std::int64_t{1} << 57};
 inline constexpr Ticks kBody{1280};
 inline constexpr Ticks kTail{128};
 inline constexpr Tick kStart{1000};
+inline constexpr Tick kMuchLater{100'000};
 
 /// In the middle of 100 mm, 80 steps a mm, with a motor stronger than any motion requires.
 inline AxisConfig bench_axis() {
@@ -56,8 +57,8 @@ inline device::LoadFrame last_frame(FrameNumber number) {
 struct DeviceBench {
     explicit DeviceBench(const AxisConfig& axis = bench_axis(), RegisterWindow registers = RegisterWindow::in_process())
         : window(std::move(registers)),
-          device(window, Plant(axis, kTickNs), kTickNs, Tick{0}),
-          driver(DeviceDriver::attach(window, kTickNs).value()) {}
+          device(window, Plant(axis, kTick_ns), kTick_ns, Tick{0}),
+          driver(DeviceDriver::attach(window, kTick_ns).value()) {}
 
     void order(const DeviceOrder& order) {
         const auto result = driver.apply(order);

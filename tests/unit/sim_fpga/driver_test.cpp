@@ -4,7 +4,7 @@
 namespace lockstep {
 namespace {
 
-std::string attach_error(const RegisterWindow& window, std::int64_t tick_ns = kTickNs) {
+std::string attach_error(const RegisterWindow& window, std::int64_t tick_ns = kTick_ns) {
     const auto driver = DeviceDriver::attach(window, tick_ns);
     return driver ? "" : driver.error();
 }
@@ -36,7 +36,7 @@ TEST(Driver, ContinuesWhereItsPredecessorStopped) {
     bench.order(device::Arm{1});
     bench.at(kStart + kBody);
     EXPECT_EQ(bench.steps().size(), 10u);
-    bench.driver = DeviceDriver::attach(bench.window, kTickNs).value();
+    bench.driver = DeviceDriver::attach(bench.window, kTick_ns).value();
     const DeviceStatus after = bench.at(Tick{100'000});
     EXPECT_EQ(after.position.count(), 11);
     EXPECT_EQ(bench.steps().size(), 1u) << "the steps not drained before, and no others";
@@ -71,7 +71,7 @@ TEST(Driver, ImpossibleCapturedTicksAreNotPassedOn) {
     bench.at(Tick{100'000});
     const std::size_t third = registers::kCaptureRing + 2 * registers::kCaptureRingEntryBytes;
     for (const std::uint64_t tick : {std::uint64_t{5}, std::uint64_t{100'001}, ~std::uint64_t{0} >> 1}) {
-        DeviceDriver driver = DeviceDriver::attach(bench.window, kTickNs).value();
+        DeviceDriver driver = DeviceDriver::attach(bench.window, kTick_ns).value();
         bench.window.store(third, tick << 1);
         int steps = 0;
         EXPECT_FALSE(driver.drain_capture([&](StepEdge) { ++steps; })) << tick;

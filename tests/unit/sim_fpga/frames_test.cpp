@@ -6,7 +6,6 @@ namespace {
 
 constexpr Tick kEnd1 = kStart + kBody;
 constexpr Tick kEnd2 = kEnd1 + kBody;
-constexpr Tick kMuchLater{100'000};
 
 TEST(Frames, ArmedFramesRunAndTheLastEndsTheRun) {
     DeviceBench bench;

@@ -33,7 +33,7 @@ TEST(RegisterWindow, TwoWindowsOnOneNameSeeTheSameWords) {
 
 TEST(RegisterWindow, ADeviceIsDrivenThroughAnotherWindowOnItsName) {
     DeviceBench bench(bench_axis(), RegisterWindow::create_shared(own_name("drive")).value());
-    auto host = DeviceDriver::attach(RegisterWindow::open_shared(own_name("drive")).value(), kTickNs).value();
+    auto host = DeviceDriver::attach(RegisterWindow::open_shared(own_name("drive")).value(), kTick_ns).value();
     ASSERT_TRUE(host.apply(device::BeginRun{1}));
     ASSERT_TRUE(host.apply(last_frame(1)));
     ASSERT_TRUE(host.apply(device::Arm{1}));
@@ -87,7 +87,7 @@ TEST(RegisterWindow, AMappedFileWorksToo) {
 TEST(RegisterWindow, AFileThatIsCutShortWhileItIsMappedReadsZeros) {
     for (const off_t left : {off_t{0}, off_t{4096}}) {  // with and without the page of the device's words
         DeviceBench bench(endless_axis(), RegisterWindow::create_shared(own_name("cut")).value());
-        auto host = DeviceDriver::attach(RegisterWindow::open_shared(own_name("cut")).value(), kTickNs).value();
+        auto host = DeviceDriver::attach(RegisterWindow::open_shared(own_name("cut")).value(), kTick_ns).value();
         ASSERT_TRUE(host.apply(device::BeginRun{1}));
         ASSERT_TRUE(host.apply(frame(1)));
         ASSERT_TRUE(host.apply(device::Arm{1}));

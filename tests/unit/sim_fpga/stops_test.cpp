@@ -4,8 +4,6 @@
 namespace lockstep {
 namespace {
 
-constexpr Tick kMuchLater{100'000};
-
 /// Ten frames of ten steps in a row, armed: 100 steps = 1.25 mm.
 void run_ten_frames(DeviceBench& bench, int direction, Trigger trigger = Trigger::None) {
     bench.order(device::BeginRun{1, trigger});

@@ -57,7 +57,7 @@ public:
             execl("/bin/sleep", "lockstep-axis", "60", static_cast<char*>(nullptr));
             _exit(127);
         }
-        while (command_line_of(pid_).size() != 2) { usleep(1000); }
+        while (command_line_of(pid_) != std::vector<std::string>{"lockstep-axis", "60"}) { usleep(1000); }
     }
     ~Axis() {
         kill(pid_, SIGKILL);

@@ -12,11 +12,11 @@ namespace lockstep::verification {
 namespace {
 
 using test::AlteredLog;
+using test::kCoordinator;
+using test::kY;
 using test::RecordedMachine;
 using testing::HasSubstr;
 
-constexpr std::size_t kY = 1;
-constexpr std::size_t kCoordinator = 2;
 constexpr std::string_view kLine = "G21 G90 F3000\nG1 X80 Y90\nX9 Y70\n";
 
 class EndedLog : public testing::Test {

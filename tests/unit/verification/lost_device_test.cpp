@@ -8,11 +8,10 @@
 namespace lockstep::verification {
 namespace {
 
+using test::kY;
 using test::RecordedMachine;
 using testing::Contains;
 using testing::HasSubstr;
-
-constexpr std::size_t kY = 1;
 
 Findings verified_with_a_device_lost(std::int64_t into_ms) {
     const MachineConfig machine = test::example("two-axis");

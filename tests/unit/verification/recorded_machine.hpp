@@ -16,6 +16,10 @@
 
 namespace lockstep::test {
 
+// The processes of a machine of two axes.
+inline constexpr std::size_t kY = 1;
+inline constexpr std::size_t kCoordinator = 2;
+
 /// A directory for one test.
 inline std::filesystem::path test_directory() {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();

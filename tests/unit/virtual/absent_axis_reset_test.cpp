@@ -9,8 +9,6 @@ using Kind = VirtualFault::Kind;
 /// X is process 0, Y process 1.
 class AbsentAxisReset : public Rig {
 protected:
-    static constexpr std::size_t kY = 1;
-
     void strike_y(Kind kind, double seconds) {
         vm.schedule({.kind = kind, .process = kY, .at = vm.now(), .lasts = {static_cast<std::int64_t>(seconds * 1e6)}});
     }

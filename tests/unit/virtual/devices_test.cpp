@@ -10,7 +10,6 @@ using Kind = VirtualFault::Kind;
 /// X is process 0, Y process 1. A device may be silent for 16 slots of 1 ms.
 class Devices : public Rig {
 protected:
-    static constexpr std::size_t kY = 1;
     static constexpr double kSoon = 0.5;  // s, by when the machine is in Fault: the silence, a frame and a tail
 
     void strike(Kind kind, double seconds, bool garbage = true) {

@@ -9,9 +9,6 @@ using Kind = VirtualFault::Kind;
 /// Axes X (process 0) and Y (1), the coordinator (2). Slots of 1 ms, s = 1.
 class Faults : public Rig {
 protected:
-    static constexpr std::size_t kY = 1;
-    static constexpr std::size_t kCoordinator = 2;
-
     void start_job() {
         home();
         ASSERT_EQ(run(program_of({{85, 45}, {20, 60}}, 40)).status, ReplyStatus::Accepted);

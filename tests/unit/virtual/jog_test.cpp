@@ -11,10 +11,6 @@ namespace {
 
 using Kind = VirtualFault::Kind;
 
-constexpr std::size_t kX = 0;
-constexpr std::size_t kY = 1;
-constexpr std::size_t kCoordinator = 2;
-
 MachineConfig machine_to_jog() {
     MachineConfig machine = small_machine();
     machine.timing = {};

@@ -7,8 +7,6 @@ namespace {
 /// X is process 0, Y process 1. Devices live on; what an axis keeps is on disk at once.
 class KeptPositions : public Rig {
 protected:
-    static constexpr std::size_t kY = 1;
-
     KeptPositions() : Rig({.machine = small_machine(), .keeps_positions = true}) {}
 
     void crash_y(double seconds) {

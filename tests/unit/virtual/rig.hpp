@@ -11,6 +11,11 @@
 
 namespace lockstep {
 
+// The processes of the small machine.
+inline constexpr std::size_t kX = 0;
+inline constexpr std::size_t kY = 1;
+inline constexpr std::size_t kCoordinator = 2;
+
 /// Two axes, X and Y, 100 mm of travel, 100 steps/mm.
 inline MachineConfig small_machine() {
     AxisConfig axis{.name = "X",

@@ -11,8 +11,6 @@ namespace {
 
 using Kind = VirtualFault::Kind;
 
-constexpr std::size_t kCoordinator = 2;
-
 /// When each axis made its last step, and how many.
 class LastSteps : public VirtualObserver {
 public:

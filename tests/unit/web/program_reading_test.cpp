@@ -12,7 +12,7 @@ std::expected<LoadedProgram, Problem> load(const std::string& text, const std::s
     return load_program(text, name, 1, two_axes(), checked_start(snapshot_at_rest(), two_axes()));
 }
 
-std::string refusal(const std::string& text) {
+std::string upload_refusal(const std::string& text) {
     const auto loaded = load(text);
     return loaded ? "" : std::to_string(loaded.error().status) + " " + loaded.error().code;
 }
@@ -31,14 +31,14 @@ TEST(LoadProgram, KnowsItsLinesBlocksAndPath) {
 TEST(LoadProgram, KeepsOfANameOnlyItsLastPart) { EXPECT_EQ(load("M2\n", "../../etc/a.gcode")->facts->name, "a.gcode"); }
 
 TEST(LoadProgram, RefusesWhatIsNoText) {
-    EXPECT_EQ(refusal("\x89PNG\r\n\x1a\n"), "415 not-text");
-    EXPECT_EQ(refusal("\xff\xd8\xff\xe0\x01"), "415 not-text");
-    EXPECT_EQ(refusal(std::string("G0 X1\0", 6)), "415 not-text");
+    EXPECT_EQ(upload_refusal("\x89PNG\r\n\x1a\n"), "415 not-text");
+    EXPECT_EQ(upload_refusal("\xff\xd8\xff\xe0\x01"), "415 not-text");
+    EXPECT_EQ(upload_refusal(std::string("G0 X1\0", 6)), "415 not-text");
     EXPECT_NE(load("\x89PNG\x01").error().detail.find("picture"), std::string::npos);
 }
 
 TEST(LoadProgram, RefusesAWrongProgramWithItsLines) {
-    EXPECT_EQ(refusal(""), "422 bad-program");
+    EXPECT_EQ(upload_refusal(""), "422 bad-program");
     const auto loaded = load("G21\nG1 X9999 F100\nHALLO\n");
     ASSERT_FALSE(loaded);
     ASSERT_GE(loaded.error().errors.size(), 2u);

@@ -120,7 +120,7 @@ protected:
     std::int64_t steps_of_x() const { return status().axes(0).position_steps(); }
 
     std::string terminal_;
-    std::optional<Command> process_;
+    std::optional<ChildProcess> process_;
 };
 
 }  // namespace lockstep

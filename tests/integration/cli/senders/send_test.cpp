@@ -38,7 +38,7 @@ protected:
     static proto::SendReport report_of(const Ran& ran) { return ran.json<proto::SendReport>(); }
 
     std::string terminal_;
-    std::optional<Command> grbl_;
+    std::optional<ChildProcess> grbl_;
 };
 
 TEST_F(SentProgram, IsRunToItsEndAndEveryStepIsAsPlanned) {
@@ -69,7 +69,7 @@ TEST_F(SentProgram, StopsAtALineThatIsRefusedAndNamesIt) {
 
 TEST_F(SentProgram, IsStoppedByCtrlC) {
     const std::string file = write("long.gcode", "$H\nG21 G90\nG1 X190 F600\nG1 X10\n");
-    Command send(LOCKSTEP_COMMAND, {"send", file, "--port", "127.0.0.1:" + std::string(kPort), "--json"});
+    ChildProcess send(LOCKSTEP_COMMAND, {"send", file, "--port", "127.0.0.1:" + std::string(kPort), "--json"});
     EXPECT_TRUE(becomes("Running"));
     EXPECT_TRUE(eventually([&] { return status().axes(0).position_steps() > 5 * 80; }));
     send.signal(SIGINT);
