@@ -50,7 +50,8 @@ void PathPlanner::seek(const PathPlace& place) {
 }
 
 void PathPlanner::line_to_steps(const AxisVector& to, const MoveSettings& settings, std::uint32_t block) {
-    at_ = programmed_ = to;
+    programmed_ = to;
+    at_ = setup_.within_travel(to);
     joiner_.add(at_, settings, block, trail_);
     settings.mode == PathMode::ExactStop ? rest(kLeastRest, block) : pass_on_but_last();
 }
@@ -62,7 +63,9 @@ void PathPlanner::arc_to_steps(const ArcShape& shape, const AxisVector& to, cons
     if (!cut_arc(setup_, shape, {at_, programmed_, to}, settings, block, trail_)) {
         return line_to_steps(to, settings, block);
     }
-    at_ = programmed_ = to;
+    programmed_ = to;
+    at_ = setup_.within_travel(to);
+    move_end(at_);
     joiner_.begin(at_);
     settings.mode == PathMode::ExactStop ? rest(kLeastRest, block) : pass_on_but_last();
 }
@@ -89,13 +92,18 @@ void PathPlanner::come_to_rest() {
     joiner_.finish(end, trail_);
     at_ = end;
     if (trail_.end() == ready_) { return; }
+    if (!move_end(end)) { trail_.pop_back(); }
+}
+
+/// Moves the end of the last piece. False: the piece begins at this place.
+bool PathPlanner::move_end(const AxisVector& end) {
     Quadratic& last = trail_.back();
     bool moves = false;
     for (std::size_t i = 0; i < end.size(); ++i) {
         last.slope[i] = (end[i] - last.from[i]) / last.length;
         moves = moves || last.slope[i] != 0;
     }
-    if (!moves) { trail_.pop_back(); }
+    return moves;
 }
 
 void PathPlanner::pass_on_but_last() {

@@ -37,7 +37,8 @@ public:
     void line(const PathLine& line, const MoveSettings& settings, std::uint32_t block) {
         line_to_steps(setup_.to_steps(line.to_mm), settings, block);
     }
-    /// To a place in steps, or fractions of them.
+    /// To a place in steps, or fractions of them. Moves end within the travel. The program's places may be up to half a
+    /// step beyond it: they decide the shape of an arc.
     void line_to_steps(const AxisVector& to, const MoveSettings& settings, std::uint32_t block);
     void arc(const PathArc& arc, const MoveSettings& settings, std::uint32_t block) {
         arc_to_steps(arc.shape, setup_.to_steps(arc.to_mm), settings, block);
@@ -72,6 +73,7 @@ public:
 private:
     void seek(const PathPlace& place);
     void come_to_rest();
+    bool move_end(const AxisVector& end);
     void pass_on(std::size_t ready);
     void pass_on_but_last();
     void remember(const PathFrame& frame);
@@ -83,7 +85,7 @@ private:
     SpeedWindow window_;
     FramePlanner frames_;
     AxisVector at_;           // where the last move ends, steps: whole ones where the machine rests
-    AxisVector programmed_;   // where it ends by the program
+    AxisVector programmed_;   // where it ends by the program: up to half a step beyond the travel
     PathPlace start_;         // where the path goes on,
     bool is_sought_ = false;  // which is not known on the geometry yet
     std::size_t ready_ = 0;   // pieces that do not change: the last one's end may have to be a whole step

@@ -24,6 +24,14 @@ struct PathSetup {
         for (std::size_t i = 0; i < axes(); ++i) { steps.append(mm[i] * steps_per_mm[i]); }
         return steps;
     }
+    /// A place that is rounded to the last step of the travel is moved to this step.
+    AxisVector within_travel(AxisVector at) const {
+        for (std::size_t i = 0; i < axes(); ++i) {
+            at[i] =
+                std::clamp(at[i], static_cast<double>(limits[i].min_steps), static_cast<double>(limits[i].max_steps));
+        }
+        return at;
+    }
 };
 
 inline PathSetup path_setup_of(const MachineConfig& machine) {

@@ -1,15 +1,12 @@
 #include "core/coordinator/path/program_frames.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace lockstep {
 
 ProgramFrames::ProgramFrames(const MachineConfig& machine, std::shared_ptr<const ProgramBlocks> program,
                              std::uint32_t first, const AxisCounts& from)
-    : limits_(frame_limits_of(machine)),
-      tick_s_(static_cast<double>(machine.tick_ns) * 1e-9),
-      planner_(path_setup_of(machine)) {
+    : tick_s_(static_cast<double>(machine.tick_ns) * 1e-9), planner_(path_setup_of(machine)) {
     for (const AxisConfig& axis : machine.axes) { steps_per_mm_.push_back(axis.steps_per_mm); }
     (void)begin(program, ProgramPlanner(machine).axes_of(program->axes()).value(), first, from);
 }
@@ -101,12 +98,9 @@ void ProgramFrames::finish(LegEnd::Kind end) {
     is_starved_ = false;
 }
 
-/// What is rounded to the end of the travel is not beyond it.
 void ProgramFrames::read_move(const ProgramMove& move, std::uint32_t number) {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
-        const AxisLimits& axis = limits_[axes_[i]];
-        at_[axes_[i]] = std::clamp(move.target_mm[i] * steps_per_mm_[axes_[i]], static_cast<double>(axis.min_steps),
-                                   static_cast<double>(axis.max_steps));
+        at_[axes_[i]] = move.target_mm[i] * steps_per_mm_[axes_[i]];
         to_[axes_[i]] = std::llround(at_[axes_[i]]);
     }
     const MoveSettings settings{.feed_mm_per_tick = move.rapid ? 0 : move.feed_mm_s * tick_s_,

@@ -44,7 +44,6 @@ private:
     void forget_lines(const PathFrame& frame);
 
     std::shared_ptr<const ProgramBlocks> program_;
-    std::vector<AxisLimits> limits_;
     std::vector<double> steps_per_mm_;
     std::vector<std::size_t> axes_;  // of the machine: those that the program names
     double tick_s_ = 0;

@@ -135,6 +135,48 @@ TEST(ProgramTime, OfALineIsTheSameHoweverFinelyItIsCut) {
     }
 }
 
+class ArcAtTheTravelTest : public Frames {
+protected:
+    ArcAtTheTravelTest() : Frames(arc(), machine_of_few_steps()) {}
+    static MachineConfig machine_of_few_steps() {
+        MachineConfig machine = two_long_axes();
+        machine.axes[1].steps_per_mm = 4;
+        machine.axes[1].position_min_mm = -500;
+        machine.axes[1].position_max_mm = 0;
+        return machine;
+    }
+    /// The arc's ends are 0.4 steps beyond the travel of Y: a quarter of its radius.
+    static Program arc() {
+        Program program{.name = "arc", .axes = {"X", "Y"}, .start_mm = {0, 0}};
+        ProgramMove arc{{0.875, 0.1}, 10, false};
+        arc.arc = ArcShape{.centre_first_mm = 1, .centre_second_mm = 0.1 - 0.38, .is_clockwise = true};
+        program.blocks = {{1, ProgramMove{{1.125, 0.1}, 10, false}}, {2, arc}, {3, ProgramMove{{0.5, 0.1}, 10, false}}};
+        return program;
+    }
+};
+
+TEST_F(ArcAtTheTravelTest, KeepsItsRadiusAndEndsWithinTheTravel) {
+    OwnedSource source = this->source();
+    double farthest = 0;
+    Position x;
+    Position y;
+    Position y_before;
+    for (const PathFrame& frame : up_to(source, 1000)) {
+        for (std::size_t k = 0; k < frame.axes[0].body.size(); ++k) {
+            const Piece& piece = frame.axes[0].body[k];
+            for (Ticks t; t < piece.ticks; t += Ticks{10}) {
+                farthest = std::max(farthest, (x + piece.covered(t)).as_steps());
+            }
+            x = x + piece.covered();
+            y_before = y;
+            y = y + frame.axes[1].body[k].covered();
+        }
+    }
+    EXPECT_NEAR(farthest, (1 + 0.4) * machine.axes[0].steps_per_mm, 0.2);
+    EXPECT_EQ(x.count(), 40);
+    EXPECT_NEAR(y_before.as_steps(), 0, 1e-6) << "the line behind the arc is at the end of the travel";
+}
+
 class LaiFramesTest : public Frames {
 protected:
     LaiFramesTest() : Frames(corner(), lai()) {}
