@@ -9,7 +9,7 @@ BUILD ?= build
 # -O1 takes two thirds of the time.
 QUICK := -DBUILD_TESTING=OFF -DLOCKSTEP_SPY=OFF -DLOCKSTEP_WERROR=OFF "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"
 DEMO  ?= $(if $(wildcard $(BUILD)/CMakeCache.txt),$(BUILD),build-demo)
-TEST   = ctest --test-dir $(BUILD) --output-on-failure -j $$(($(JOBS) + 6))  # see tests/CMakeLists.txt
+TEST   = tests/run $(BUILD) $(JOBS)
 else
 BUILD ?= build-$(ARCH)
 CROSS := --toolchain deploy/$(ARCH).cmake -DCMAKE_SYSROOT=$(abspath $(BUILD))/root

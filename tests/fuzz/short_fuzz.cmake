@@ -27,7 +27,7 @@ function(short_fuzz target)
     COMMAND ${FUZZ_CLANG} ${sanitize} -fsanitize=fuzzer ${objects} -o ${program})
   add_custom_target(short_fuzz_${target} ALL DEPENDS ${program})
   list(JOIN ARG_SEEDS "," seeds)
-  add_test(NAME fuzz.${target} COMMAND ${COMPUTES} ${program} -seed_inputs=${seeds} -seed=1 -runs=${ARG_RUNS} -max_len=4096 -timeout=60
+  add_test(NAME fuzz.${target} COMMAND ${program} -seed_inputs=${seeds} -seed=1 -runs=${ARG_RUNS} -max_len=4096 -timeout=60
            WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
   set_tests_properties(fuzz.${target} PROPERTIES LABELS fuzz)
 endfunction()
