@@ -63,7 +63,7 @@ function marksPlugin(row, events, programEvents) {
   } } };
 }
 
-function timeChart(host, row, events, programEvents, last) {
+function timeChart(host, row, last, events, programEvents = []) {
   const width = () => Math.max(240, host.clientWidth);
   const pad = (min, max) => {
     const room = 0.06 * (max - min) || Math.abs(max) * 0.1 || 1;

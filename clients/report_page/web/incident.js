@@ -141,7 +141,7 @@ function curves() {
   ["speed", "position"].forEach((kind) => moved.filter((row) => row.kind === kind).forEach((row, i, same) => {
     const figure = make("figure", {}, make("figcaption", {}, make("b", {}, row.name), ` ${row.what}`));
     part.append(figure);
-    timeChart(figure, row, moments, i + 1 === same.length);
+    timeChart(figure, row, i + 1 === same.length, moments);
   }));
 }
 

@@ -182,7 +182,7 @@ function overTime() {
     rows.forEach((row, i) => {
       const figure = make("figure", {}, make("figcaption", {}, make("b", {}, row.name), ` ${row.what}`));
       holder.append(figure);
-      timeChart(figure, row, report.events, report.program_events, i + 1 === rows.length);
+      timeChart(figure, row, i + 1 === rows.length, report.events, report.program_events);
     });
     zoomTo(...zoom);
     [...buttons.children].forEach((button) => button.setAttribute("aria-pressed", button.textContent === kind));
