@@ -41,9 +41,9 @@ COLUMNS = {
     "frames_of_5_2axes": "f = 5",
     "late_checks_2axes": "f = 3, e = 1",
     "and_stop_3axes": "3 axes, f = 2",
+    "frames_of_3_3axes": "f = 3",
     "frames_of_5_3axes": "f = 5",
     "frames_of_1_3axes": "f = 1",
-    "frames_of_3_3axes": "f = 3",
     "frames_of_1_and_s_2_3axes": "f = 1, s = 2",
     "late_checks_3axes": "f = 3, e = 1",
 }
