@@ -60,6 +60,7 @@ FileRows::FileRows(std::size_t width, std::filesystem::path directory, std::uint
       page_rows_(kPageBytes / (width * sizeof(double))),
       capacity_(std::max(kLeastPages, limit_bytes / kPageBytes)),
       directory_(std::move(directory)) {
+    check(sem_init(&news_, 0, 0) == 0, "a semaphore of 0 can be made");
     constexpr std::size_t kMostPages = kCleanPages + kUnwrittenPages + 8;
     pages_.reserve(kMostPages);
     spare_.reserve(kMostPages);
@@ -68,8 +69,9 @@ FileRows::FileRows(std::size_t width, std::filesystem::path directory, std::uint
 
 FileRows::~FileRows() {
     thread_.request_stop();
-    news_.release();
+    sem_post(&news_);
     if (thread_.joinable()) { thread_.join(); }
+    sem_destroy(&news_);
     if (file_ >= 0) { close(file_); }
 }
 
@@ -183,7 +185,7 @@ void FileRows::exchange_work() {
     }
     handed_over_ += to_do_.size();
     to_do_.clear();
-    if (is_news) { news_.release(); }
+    if (is_news) { sem_post(&news_); }
     for (const Work& work : returned_) { take_back(work); }
     returned_.clear();
 }
@@ -207,7 +209,7 @@ void FileRows::take_back(const Work& work) {
 
 void FileRows::serve(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
-        news_.acquire();
+        while (sem_wait(&news_) != 0) {}  // interrupted by a signal
         for (auto work = next_work(); work && !stop.stop_requested(); work = next_work()) {
             carry_out(*work);
             const std::lock_guard lock(mutex_);

@@ -2,11 +2,12 @@
 // that no loop waits for the disk. Short programs stay in memory.
 #pragma once
 
+#include <semaphore.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <mutex>
 #include <optional>
-#include <semaphore>
 #include <span>
 #include <string>
 #include <thread>
@@ -87,7 +88,7 @@ private:
     std::mutex mutex_;  // of the next two; held for as long as copying an element takes
     std::vector<Work> queue_;
     std::vector<Work> done_;
-    std::counting_semaphore<> news_{0};
+    sem_t news_;  // that of GCC 12's library can lose a wake-up (its bug 104928)
 
     // The thread's:
     int file_ = -1;
