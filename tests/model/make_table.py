@@ -3,7 +3,7 @@
 
 usage: ctest --test-dir build -L model && tests/model/make_table.py build
 
-With cmake -DLOCKSTEP_LONG_MODEL=ON the tests include the searches of three axes that take hours of a core.
+With cmake -DLOCKSTEP_LONG_MODEL=ON the tests include the longer searches of three axes.
 """
 import pathlib
 import re
