@@ -108,6 +108,8 @@ struct Analysis {
         return static_cast<std::int64_t>(std::clamp(Int128{tick.value} * tick_ns() / 1000, -kEnd, kEnd));
     }
     double microseconds(Ticks ticks) const { return seconds(ticks) * 1e6; }
+    /// After the log's first step.
+    double seconds_at(Tick tick) const { return seconds(tick - first_tick().value_or(tick)); }
 };
 
 struct AnalysisOptions {

@@ -113,8 +113,7 @@ std::string place_text(const ProgramPlace& place) {
 std::string program_event_row(const Analysis& analysis, const HappenedEvent& event) {
     const std::string line = event.line ? std::to_string(*event.line) : "-";
     const std::string place = event.is_of_program ? place_text(event.place) : "switched off at the job's end";
-    std::string row = fmt::format("{:>5} {:>10.3f} {:>7}  {:<36} {}", event.job,
-                                  analysis.seconds(event.at - analysis.first_tick().value_or(event.at)), line,
+    std::string row = fmt::format("{:>5} {:>10.3f} {:>7}  {:<36} {}", event.job, analysis.seconds_at(event.at), line,
                                   event_text(event.event), place);
     row.erase(row.find_last_not_of(' ') + 1);
     return row + "\n";
@@ -159,8 +158,8 @@ std::string events_text(const Analysis& analysis) {
     std::string text;
     for (std::size_t i = 0; i < std::min(analysis.happened.size(), kEventsShown); ++i) {
         const Event& event = analysis.happened[i];
-        text += fmt::format("{} at {:.3f} s", event.axis.empty() ? "all axes" : event.axis,
-                            analysis.seconds(event.at - analysis.first_tick().value_or(event.at)));
+        text +=
+            fmt::format("{} at {:.3f} s", event.axis.empty() ? "all axes" : event.axis, analysis.seconds_at(event.at));
         if (event.line) { text += fmt::format(", line {}", *event.line); }
         text += ": " + event.what + "\n";
     }

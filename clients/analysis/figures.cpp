@@ -15,9 +15,7 @@ std::string title(const Analysis& analysis, const std::string& what) { return an
 /// Marks the events of programs in every row.
 drawing::Figure with_events(const Analysis& analysis, drawing::Figure figure) {
     drawing::Moments moments{.x = {}, .label = "events of programs"};
-    for (const HappenedEvent& event : analysis.program_events) {
-        moments.x.push_back(analysis.seconds(event.at - analysis.first_tick().value_or(event.at)));
-    }
+    for (const HappenedEvent& event : analysis.program_events) { moments.x.push_back(analysis.seconds_at(event.at)); }
     for (drawing::Chart& row : figure.rows) { row.moments = moments; }
     return figure;
 }

@@ -56,11 +56,6 @@ void fill(const Analysis& analysis, const AxisLog& axis, proto::AxisAnalysis& re
     fill_gaps(axis, report);
 }
 
-/// In seconds after the log's first step.
-double since_first_step(const Analysis& analysis, Tick tick) {
-    return analysis.seconds(tick - analysis.first_tick().value_or(tick));
-}
-
 void fill(const Analysis& analysis, const AxisConfig& config, const AxisMove& move, proto::AxisMoveAnalysis& report) {
     const double per_s = 1e9 / static_cast<double>(analysis.tick_ns());
     report.set_name(config.name);
@@ -79,7 +74,7 @@ void fill(const Analysis& analysis, const MoveLog& move, proto::MoveAnalysis& re
     report.set_length_mm(move.length_mm);
     report.set_planned_s(analysis.seconds(move.planned));
     if (move.made) { report.set_real_s(analysis.seconds(*move.made)); }
-    if (move.first) { report.set_begun_s(since_first_step(analysis, *move.first)); }
+    if (move.first) { report.set_begun_s(analysis.seconds_at(*move.first)); }
     if (move.largest_distance_mm) { report.set_largest_distance_mm(*move.largest_distance_mm); }
     report.set_skew_max_us(analysis.microseconds(move.skew));
     fill(analysis, move.late, *report.mutable_step_time_error());
@@ -109,14 +104,14 @@ void fill(const Analysis& analysis, const JobLog& job, proto::JobAnalysis& repor
     report.set_name(job.name);
     if (job.planned) { report.set_planned_s(analysis.seconds(*job.planned)); }
     report.set_overridden(job.overridden);
-    if (job.begun_us) { report.set_begun_s(since_first_step(analysis, analysis.tick_at(*job.begun_us))); }
+    if (job.begun_us) { report.set_begun_s(analysis.seconds_at(analysis.tick_at(*job.begun_us))); }
     if (job.begun_us && job.ended_us) { report.set_real_s(static_cast<double>(*job.ended_us - *job.begun_us) * 1e-6); }
     fill_steps(analysis, job, report);
 }
 
 void fill(const Analysis& analysis, const Event& event, proto::LogEvent& report) {
     report.set_tick(event.at.value);
-    report.set_at_s(since_first_step(analysis, event.at));
+    report.set_at_s(analysis.seconds_at(event.at));
     report.set_what(event.what);
     if (!event.axis.empty()) { report.set_axis(event.axis); }
     if (!event.remedy.empty()) { report.set_remedy(event.remedy); }
@@ -146,7 +141,7 @@ void fill(const Analysis& analysis, const ProgramPlace& place,
 
 void fill(const Analysis& analysis, const HappenedEvent& event, proto::ProgramEventReport& report) {
     report.set_tick(event.at.value);
-    report.set_at_s(since_first_step(analysis, event.at));
+    report.set_at_s(analysis.seconds_at(event.at));
     report.set_what(event_text(event.event));
     report.set_kind(std::string(name_of(event.event.kind)));
     report.set_index(event.event.index);

@@ -36,9 +36,7 @@ public:
 
 private:
     std::expected<void, PlanError> plan(FrameSource& source, std::uint32_t first) {
-        std::vector<Position> at;
-        for (const std::int64_t count : at_) { at.push_back(Position::steps(count)); }
-        source.resume({first, {}}, at, planning_.overrides);
+        source.resume({first, {}}, positions_of(at_), planning_.overrides);
         for (source.read_ahead(); !source.is_done(); source.read_ahead()) {
             const auto frame = source.next();
             if (!frame) {

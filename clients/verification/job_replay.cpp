@@ -27,8 +27,7 @@ std::optional<EpochStart> JobReplay::next() {
         if (!source_) {
             source_ = planner_.frames(program_, leg);
             place_ = {leg.first, {}};
-            positions_.clear();
-            for (const std::int64_t count : leg.from) { positions_.append(Position::steps(count)); }
+            positions_ = positions_of(leg.from);
         }
         source_->resume(place_, positions_, {});
         source_->read_ahead();

@@ -15,6 +15,12 @@ namespace lockstep {
 using AxisCounts = StaticVector<std::int64_t, kMaxAxes>;
 using AxisPositions = StaticVector<Position, kMaxAxes>;
 
+inline AxisPositions positions_of(const AxisCounts& counts) {
+    AxisPositions positions;
+    for (const std::int64_t count : counts) { positions.append(Position::steps(count)); }
+    return positions;
+}
+
 /// One straight move of all axes from one whole place to another, or a dwell (nothing moves).
 struct PathMove {
     std::int32_t line = 0;    // of the program

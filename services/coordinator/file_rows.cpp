@@ -190,7 +190,7 @@ void FileRows::exchange_work() {
     returned_.clear();
 }
 
-/// What cannot be written stays in memory: it is not lost, and no more is taken.
+/// A page that cannot be written stays in memory, so that no row is lost. No rows are taken after that.
 void FileRows::take_back(const Work& work) {
     --handed_over_;
     Resident& page = check_found(find(work.page), "a page that is written or fetched is in memory");

@@ -81,9 +81,7 @@ PathJob::Next PathJob::begin_leg(CoordinatorLoop& loop) {
     if (job_.program->ends_before(next_)) { return Next::IsDone; }
     load_leg();
     resume_ = {next_, {}};
-    AxisPositions at;
-    for (const std::int64_t count : from_) { at.append(Position::steps(count)); }
-    begin_epoch(at, loop);
+    begin_epoch(positions_of(from_), loop);
     return Next::Moves;
 }
 

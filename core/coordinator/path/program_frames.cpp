@@ -24,12 +24,8 @@ bool ProgramFrames::begin(const std::shared_ptr<const ProgramBlocks>& program, s
     events_.clear();
     due_.clear();
     at_.clear();
-    AxisPositions at;
-    for (const std::int64_t count : from) {
-        at.append(Position::steps(count));
-        at_.append(static_cast<double>(count));
-    }
-    planner_.begin(at);
+    for (const std::int64_t count : from) { at_.append(static_cast<double>(count)); }
+    planner_.begin(positions_of(from));
     return true;
 }
 

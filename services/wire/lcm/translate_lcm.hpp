@@ -105,7 +105,7 @@ program_event_t to_lcm(const EventRecord& record, Tick now, std::int64_t tick_ns
 /// "spindle-stop": as in program_event_t.
 std::string_view name_of(ProgramEvent::Kind kind);
 
-/// What the message switches. Nothing: its kind is unknown, or its value is not finite.
+/// The event that the message reports. nullopt: its kind is unknown, or its value is not finite.
 std::optional<ProgramEvent> event_of(const program_event_t& message);
 
 }  // namespace lockstep

@@ -6,28 +6,10 @@
 #include "core/methods/paper_steps.hpp"
 #include "services/axis/axis_node.hpp"
 #include "tests/unit/allocations/counted_allocations.hpp"
+#include "tests/unit/allocations/quick_machine.hpp"
 
 namespace lockstep {
 namespace {
-
-MachineConfig one_axis() {
-    MachineConfig machine{.name = "one"};
-    machine.timing = {
-        .slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 5};
-    machine.axes.push_back({.name = "X",
-                            .steps_per_mm = 100,
-                            .start_velocity_mm_s = 10,
-                            .max_velocity_mm_s = 50,
-                            .max_accel_mm_s2 = 500,
-                            .max_decel_mm_s2 = 500,
-                            .position_min_mm = 0,
-                            .position_max_mm = 100});
-    machine.axes[0].homing = {
-        .search_velocity_mm_s = 10, .latch_velocity_mm_s = 2, .pulloff_mm = 1, .switch_position_mm = -1, .park_mm = 5};
-    machine.axes[0].plant = {
-        .start_position_mm = 8, .travel_margin_mm = 2, .max_torque_accel_mm_s2 = 1500, .max_jump_mm_s = 15};
-    return machine;
-}
 
 /// A coordinator and an axis with its device in one thread, a loop of each in each slot.
 class RunningAxis : public testing::Test {
@@ -64,7 +46,7 @@ protected:
         ASSERT_TRUE(reaches(MachinePhase::Idle));
     }
 
-    MachineConfig machine_ = one_axis();
+    MachineConfig machine_ = quick_machine({"X"});
     Tick now_{1'000'000};
     Coordinator coordinator_{machine_, 1, 1, methods::begin_steps};
     AxisNode node_{{0, machine_, 7, 1},

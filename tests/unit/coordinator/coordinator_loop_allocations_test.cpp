@@ -12,33 +12,10 @@
 #include "core/methods/paper_steps.hpp"
 #include "services/axis/axis_node.hpp"
 #include "tests/unit/allocations/counted_allocations.hpp"
+#include "tests/unit/allocations/quick_machine.hpp"
 
 namespace lockstep {
 namespace {
-
-AxisConfig axis_of(const std::string& name) {
-    AxisConfig axis{.name = name,
-                    .steps_per_mm = 100,
-                    .start_velocity_mm_s = 10,
-                    .max_velocity_mm_s = 50,
-                    .max_accel_mm_s2 = 500,
-                    .max_decel_mm_s2 = 500,
-                    .position_min_mm = 0,
-                    .position_max_mm = 100};
-    axis.homing = {
-        .search_velocity_mm_s = 10, .latch_velocity_mm_s = 2, .pulloff_mm = 1, .switch_position_mm = -1, .park_mm = 5};
-    axis.plant = {.start_position_mm = 8, .travel_margin_mm = 2, .max_torque_accel_mm_s2 = 1500, .max_jump_mm_s = 15};
-    axis.unhomed_jog_mm_s = 5;
-    return axis;
-}
-
-MachineConfig two_axes() {
-    MachineConfig machine{.name = "two"};
-    machine.timing = {
-        .slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 5};
-    machine.axes = {axis_of("X"), axis_of("Y")};
-    return machine;
-}
 
 /// A circle of chords, a circle, events, dwells, a pause, and straight ways between them.
 Program all_kinds() {
@@ -169,7 +146,7 @@ protected:
         if (HasFailure()) { ADD_FAILURE() << CountedAllocations::places(); }
     }
 
-    MachineConfig machine_ = two_axes();
+    MachineConfig machine_ = quick_machine({"X", "Y"});
     Tick now_{1'000'000};
     Coordinator coordinator_{machine_, 1, 1, methods::begin_steps};
     std::vector<std::unique_ptr<AxisNode>> nodes_;
