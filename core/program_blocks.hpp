@@ -49,4 +49,9 @@ private:
     std::shared_ptr<const Program> program_;
 };
 
+/// For as long as the caller keeps the program.
+inline std::shared_ptr<const Program> borrowed(const Program& program) {
+    return {std::shared_ptr<const Program>{}, &program};
+}
+
 }  // namespace lockstep

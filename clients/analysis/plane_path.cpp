@@ -45,19 +45,21 @@ std::optional<PlanePaths> paths_in_plane(const Analysis& analysis) {
     return PlanePaths{joined(analysis.asked_ways_mm, 1, 1), joined(analysis.stepped_ways, *x, *y)};
 }
 
-std::vector<drawing::Point> asked_in_plane(const Program& program) {
-    const auto x = static_cast<std::size_t>(std::ranges::find(program.axes, "X") - program.axes.begin());
-    const auto y = static_cast<std::size_t>(std::ranges::find(program.axes, "Y") - program.axes.begin());
-    if (x == program.axes.size() || y == program.axes.size()) { return {}; }
-    std::vector<drawing::Point> points = {{program.start_mm.at(x), program.start_mm.at(y)}};
-    std::vector<double> at = program.start_mm;
-    for (const Block& block : program.blocks) {
-        if (const auto* move = std::get_if<ProgramMove>(&block.action)) {
-            each_chord(*move, at, kChord_mm, [&](const std::vector<double>& to) {
-                points.push_back({to.at(x), to.at(y)});
-            });
-            at = move->target_mm;
-        }
+std::vector<drawing::Point> asked_in_plane(const RecordedProgram& program, std::size_t at_most) {
+    const ProgramHead& head = program.head();
+    const auto x = static_cast<std::size_t>(std::ranges::find(head.axes, "X") - head.axes.begin());
+    const auto y = static_cast<std::size_t>(std::ranges::find(head.axes, "Y") - head.axes.begin());
+    if (x == head.axes.size() || y == head.axes.size()) { return {}; }
+    std::vector<drawing::Point> points = {{head.start_mm.at(x), head.start_mm.at(y)}};
+    std::vector<double> at = head.start_mm;
+    for (std::uint32_t number = 0; const Block* block = program.block(number); ++number) {
+        const auto* move = std::get_if<ProgramMove>(&block->action);
+        if (move == nullptr) { continue; }
+        each_chord(*move, at, kChord_mm, [&](const std::vector<double>& to) {
+            if (points.size() <= at_most) { points.push_back({to.at(x), to.at(y)}); }
+        });
+        if (points.size() > at_most) { return {}; }
+        at = move->target_mm;
     }
     return points;
 }

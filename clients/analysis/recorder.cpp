@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "clients/analysis/log/program_parts.hpp"
 #include "clients/analysis/log/run.hpp"
 #include "clients/analysis/plane_path.hpp"
 #include "services/documents/machine_file.hpp"
@@ -46,7 +45,7 @@ void Recorder::on_position(const axis_position_t& message) {
 
 void Recorder::on_run(std::size_t lane, const Run& run) { events_.take(lanes_[lane].axis, run); }
 
-void Recorder::on_job(const job_t& message, LogPlace place) {
+void Recorder::on_job(const RecordedJob& message, LogPlace place) {
     JobLog* record = job(message);
     if (record == nullptr) { return; }
     if (message.event == "begun") {
@@ -97,26 +96,26 @@ JobLog* Recorder::job(const job_t& message) {
     return &analysis_.jobs.back();
 }
 
-void Recorder::begin_job(const job_t& message, JobLog& record, LogPlace place) {
+void Recorder::begin_job(const RecordedJob& message, JobLog& record, LogPlace place) {
     if (record.begun_us) { return; }  // a repeat
     record.begun_us = message.utime;
     const auto program = read_documents(message, place);
     if (program) { program_events_.begin(message, *program); }
-    if (!has_whole_program(message)) { record.unplannable = program_of(message).error(); }
+    if (!message.lacks.empty()) { record.unplannable = message.lacks; }
     if (!analysis_.config) { return; }
     AskedPath asked;
     if (program) {
-        record.name = program->name;
-        auto planned = AskedPath::of(*analysis_.config, *program);
+        record.name = program->head().name;
+        auto planned = AskedPath::of(*analysis_.config, program->head(), program);
         if (planned) {
             record.planned = planned->planned();
             record.legs = planned->legs();
         }
         planned ? void(asked = std::move(*planned)) : void(record.unplannable = planned.error());
     }
-    if (program && record.is_on_a_line() && message.program != latest_program_) {
+    if (program && record.is_on_a_line() && !message.has_program_of(latest_program_)) {
         keep_asked_way(*program);
-        latest_program_ = message.program;
+        latest_program_ = message;
     }
     moves_.begin(static_cast<std::size_t>(&record - analysis_.jobs.data()), analysis_.tick_at(message.utime),
                  *analysis_.config, JobMoves(std::move(asked), record.is_on_a_line()));
@@ -134,27 +133,26 @@ bool Recorder::is_during(Tick tick, const JobLog& job) const {
     return job.begun_us && *job.begun_us <= us && (!job.ended_us || us <= *job.ended_us);
 }
 
-void Recorder::keep_asked_way(const Program& program) {
-    auto way = asked_in_plane(program);
+void Recorder::keep_asked_way(const RecordedProgram& program) {
+    auto way = asked_in_plane(program, Analysis::kAskedPointsKept - asked_points_);
+    if (way.size() < 2) { return; }
     asked_points_ += way.size();
-    if (way.size() > 1 && asked_points_ <= Analysis::kAskedPointsKept) {
-        analysis_.asked_ways_mm.push_back(std::move(way));
-    }
+    analysis_.asked_ways_mm.push_back(std::move(way));
 }
 
-/// The program; none if there is none, or it cannot be read.
-std::optional<Program> Recorder::read_documents(const job_t& message, LogPlace place) {
+/// The program; null if there is none, or it cannot be read.
+std::shared_ptr<const RecordedProgram> Recorder::read_documents(const RecordedJob& message, LogPlace place) {
     auto config = parse_machine(message.config);
     if (config) {
         analysis_.config = std::move(*config);
     } else {
         on_damage(place, to_text("the configuration recorded with the job", config.error()));
     }
-    if (message.program.empty() || !has_whole_program(message)) { return std::nullopt; }
-    auto program = program_of(message);
-    if (program) { return std::move(*program); }
+    if (!message.has_program() || !message.lacks.empty()) { return nullptr; }
+    auto program = message.read_program();
+    if (program) { return *std::move(program); }
     on_damage(place, "the program recorded with the job: " + program.error());
-    return std::nullopt;
+    return nullptr;
 }
 
 /// Notes the axes of whose motion in the job the log lacks steps.
@@ -175,6 +173,7 @@ void Recorder::note_moves(JobLog& job, const JobMoves& moves) {
         if (is_during(event.at, job)) { event.line = moves.line_at(event.at); }
     }
     job.unasked_steps = moves.unasked_steps();
+    job.late.add(moves.late());
     job.moves_without_distance = moves.moves_without_distance();
     for (std::size_t i = 0; i < moves.asked().size(); ++i) { note_move(job, moves.move(i)); }
 }
@@ -182,7 +181,6 @@ void Recorder::note_moves(JobLog& job, const JobMoves& moves) {
 void Recorder::note_move(JobLog& job, MoveLog move) {
     ++job.move_count;
     job.moves_not_whole += move.is_whole() ? 0 : 1;
-    job.late.add(move.late);
     for (const AxisMove& axis : move.axes) {
         job.asked_steps += axis.asked_steps;
         job.made_steps += axis.made_steps;

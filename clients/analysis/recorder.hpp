@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,7 +26,7 @@ public:
     void on_measured(std::size_t lane, const SharedSteps& steps) override;
     void on_position(const axis_position_t& message) override;
     void on_run(std::size_t lane, const Run& run) override;
-    void on_job(const job_t& message, LogPlace place) override;
+    void on_job(const RecordedJob& message, LogPlace place) override;
     void on_event(const program_event_t& message, const ProgramEvent& event) override;
     void on_damage(LogPlace place, const std::string& what) override;
     void on_late(const std::string& axis, const SharedLate& steps) override;
@@ -43,10 +44,10 @@ private:
     };
 
     JobLog* job(const job_t& message);
-    void begin_job(const job_t& message, JobLog& job, LogPlace place);
-    std::optional<Program> read_documents(const job_t& message, LogPlace place);
+    void begin_job(const RecordedJob& message, JobLog& job, LogPlace place);
+    std::shared_ptr<const RecordedProgram> read_documents(const RecordedJob& message, LogPlace place);
     bool is_during(Tick tick, const JobLog& job) const;
-    void keep_asked_way(const Program& program);
+    void keep_asked_way(const RecordedProgram& program);
     void note_unknown(JobLog& job, const std::vector<std::string>& axes, JobMoves& moves) const;
     void note_moves(JobLog& job, const JobMoves& moves);
     void note_move(JobLog& job, MoveLog move);
@@ -61,7 +62,7 @@ private:
     StepMerge merge_;
     std::vector<Lane> lanes_;  // by number
     Analysis analysis_;
-    std::string latest_program_;
+    RecordedJob latest_program_;  // the job that had it
     std::size_t moves_kept_ = 0;
     std::size_t asked_points_ = 0;
 };

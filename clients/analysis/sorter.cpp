@@ -51,7 +51,7 @@ void Sorter::on_run(const run_t& message, LogPlace place) {
     listener_.on_run(of->number, *run);
 }
 
-void Sorter::on_job(const job_t& message, LogPlace place) {
+void Sorter::on_job(const RecordedJob& message, LogPlace place) {
     if (!is_ours(message.machine)) { return; }
     if (!is_countable(message.utime) || !is_countable(message.start_tick) || !is_message_number(message.sequence)) {
         return on_damage(place, "a job with impossible numbers");

@@ -28,7 +28,7 @@ public:
     void on_position(const axis_position_t& message, LogPlace place) override;
     void on_health(const axis_health_t& message, LogPlace place) override;
     void on_run(const run_t& message, LogPlace place) override;
-    void on_job(const job_t& message, LogPlace place) override;
+    void on_job(const RecordedJob& message, LogPlace place) override;
     void on_event(const program_event_t& message, LogPlace place) override;
     void on_program_part(const program_part_t& message, LogPlace place) override;
     void on_mark(const record_mark_t& message, LogPlace place) override;

@@ -22,7 +22,7 @@ void StageThread::on_run(std::size_t lane, const Run& run) {
     add([lane, run](SortedListener& to) { to.on_run(lane, run); });
 }
 
-void StageThread::on_job(const job_t& message, LogPlace place) {
+void StageThread::on_job(const RecordedJob& message, LogPlace place) {
     add([message, place](SortedListener& to) { to.on_job(message, place); });
 }
 

@@ -2,54 +2,104 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace lockstep {
 namespace {
 
-/// Begins are in the order of the moves.
-void note_begins(const std::vector<MoveBegin>& begins, Ticks frame, std::size_t& next,
-                 std::vector<PlannedMove>& moves) {
-    for (const MoveBegin& begin : begins) {
-        const Ticks at = frame + Ticks{std::llround(begin.at)};
-        for (; next < moves.size() && moves[next].block <= begin.block; ++next) { moves[next].begin = at; }
-    }
-}
+/// The moves and dwells of a leg, in order.
+class MoveReader {
+public:
+    MoveReader(const ProgramPlanner& planner, const ProgramBlocks& blocks, const Leg& leg)
+        : planner_(planner),
+          blocks_(blocks),
+          axes_(planner.axes_of(blocks.axes()).value()),
+          next_(leg.first),
+          end_(leg.end),
+          at_(leg.from) {}
 
-std::vector<PlannedMove> moves_of(const ProgramPlanner& planner, const Program& program, const Leg& leg) {
-    std::vector<PlannedMove> moves;
-    planner.each_move(program, leg, [&moves](const PathMove& move) {
-        moves.push_back({move.line, move.block, move.lead == 0 ? 0 : move.length_mm, {}});
-    });
-    return moves;
-}
+    /// Nothing: there is no more.
+    std::optional<PlannedMove> read() {
+        while (next_ < end_) {
+            const std::uint32_t number = next_++;
+            const Block* block = blocks_.block(number);
+            if (block == nullptr) { return std::nullopt; }
+            const auto move = planner_.move_of(*block, number, axes_, at_).value();
+            if (move) { return PlannedMove{move->line, move->block, move->lead == 0 ? 0 : move->length_mm, {}}; }
+        }
+        return std::nullopt;
+    }
 
-std::expected<LegPlan, PlanError> plan_leg(const MachineConfig& machine, const Program& program, const Leg& leg) {
-    const ProgramPlanner planner(machine);
-    const std::shared_ptr<const Program> borrowed(std::shared_ptr<const Program>{}, &program);
-    const auto source = planner.frames(borrowed, leg);
-    LegPlan plan{.moves = moves_of(planner, program, leg), .axes = {}, .duration = {}};
-    std::vector<Position> at;
-    for (const std::int64_t count : leg.from) {
-        at.push_back(Position::steps(count));
-        plan.axes.emplace_back(at.back());
-    }
-    source->resume({leg.first, {}}, at, {});
-    std::size_t next = 0;
-    for (source->read_ahead(); !source->is_done(); source->read_ahead()) {
-        const auto frame = source->next();
-        if (!frame) {
-            return std::unexpected(PlanError{FaultCode::FrameBeyondLimits, program.blocks[frame.error().at.block].line,
-                                             "no motion from rest keeps the limits of all axes here"});
+private:
+    const ProgramPlanner& planner_;
+    const ProgramBlocks& blocks_;
+    std::vector<std::size_t> axes_;
+    std::uint32_t next_;
+    std::uint32_t end_;
+    AxisCounts at_;
+};
+
+class LegPlanner {
+public:
+    LegPlanner(const ProgramPlanner& planner, const std::shared_ptr<const ProgramBlocks>& blocks, const Leg& leg)
+        : source_(planner.frames(blocks, leg.first, leg.from)), moves_(planner, *blocks, leg), waiting_(moves_.read()) {
+        std::vector<Position> at;
+        for (const std::int64_t count : leg.from) {
+            at.push_back(Position::steps(count));
+            plan_.axes.emplace_back(at.back());
         }
-        note_begins(source->begins(), plan.duration, next, plan.moves);
-        for (std::size_t i = 0; i < at.size(); ++i) {
-            for (const Piece& piece : (*frame)->axes[i].body) { plan.axes[i].add(piece); }
-        }
-        plan.duration += (*frame)->ticks;
+        source_->resume({leg.first, {}}, at, {});
     }
-    for (; next < plan.moves.size(); ++next) { plan.moves[next].begin = plan.duration; }
-    return plan;
-}
+
+    /// With `visit` each move is forgotten when the next one has begun.
+    std::expected<LegPlan, PlanError> run(const OnPlannedMove& visit) {
+        for (source_->read_ahead(); !source_->is_done(); source_->read_ahead()) {
+            const auto frame = source_->next();
+            if (!frame) {
+                return std::unexpected(PlanError{FaultCode::FrameBeyondLimits, source_->line_of(frame.error().at.block),
+                                                 "no motion from rest keeps the limits of all axes here"});
+            }
+            take(**frame);
+            if (visit) { pass_moves(visit, 1); }
+        }
+        while (waiting_) { begin_move(plan_.duration); }
+        if (visit) { pass_moves(visit, 0); }
+        return std::move(plan_);
+    }
+
+private:
+    void begin_move(Ticks at) {
+        waiting_->begin = at;
+        plan_.moves.push_back(*std::exchange(waiting_, moves_.read()));
+    }
+
+    /// Begins are in the order of the moves.
+    void take(const PathFrame& frame) {
+        for (const MoveBegin& begin : source_->begins()) {
+            const Ticks at = plan_.duration + Ticks{std::llround(begin.at)};
+            while (waiting_ && waiting_->block <= begin.block) { begin_move(at); }
+        }
+        for (std::size_t i = 0; i < plan_.axes.size(); ++i) {
+            for (const Piece& piece : frame.axes[i].body) { plan_.axes[i].add(piece); }
+        }
+        plan_.duration += frame.ticks;
+    }
+
+    void pass_moves(const OnPlannedMove& visit, std::size_t keep) {
+        while (plan_.moves.size() > keep) {
+            visit(plan_);
+            plan_.moves.pop_front();
+            if (plan_.moves.empty()) { return; }
+            for (AxisMotion& axis : plan_.axes) { axis.forget_before(plan_.moves.front().begin); }
+        }
+    }
+
+    std::unique_ptr<FrameSource> source_;
+    MoveReader moves_;
+    std::optional<PlannedMove> waiting_;  // has not begun yet
+    LegPlan plan_;
+};
 
 }  // namespace
 
@@ -57,6 +107,10 @@ void AxisMotion::add(const Piece& piece) {
     pieces_.push_back({end_, to_, piece});
     to_ = to_ + piece.covered();
     end_ += piece.ticks;
+}
+
+void AxisMotion::forget_before(Ticks t) {
+    while (!pieces_.empty() && pieces_.front().begin + pieces_.front().piece.ticks <= t) { pieces_.pop_front(); }
 }
 
 Position AxisMotion::at(Ticks t) const {
@@ -69,16 +123,35 @@ Position AxisMotion::at(Ticks t) const {
 
 std::expected<std::vector<LegPlan>, PlanError> plan_legs(const MachineConfig& machine, const Program& program,
                                                          const AxisCounts& start) {
-    const auto legs = ProgramPlanner(machine).plan(program, start);
+    const ProgramPlanner planner(machine);
+    const auto legs = planner.plan(program, start);
     if (!legs) { return std::unexpected(legs.error()); }
+    const auto blocks = std::make_shared<WholeProgram>(borrowed(program));
     std::vector<LegPlan> plans;
     for (const Leg& leg : *legs) {
         if (!leg.moves) { continue; }
-        auto plan = plan_leg(machine, program, leg);
+        auto plan = LegPlanner(planner, blocks, leg).run({});
         if (!plan) { return std::unexpected(plan.error()); }
         plans.push_back(*std::move(plan));
     }
     return plans;
+}
+
+std::expected<PlannedLegs, PlanError> each_planned_move(const MachineConfig& machine, const ProgramHead& head,
+                                                        const std::shared_ptr<const ProgramBlocks>& blocks,
+                                                        const AxisCounts& start, const OnPlannedMove& visit) {
+    const ProgramPlanner planner(machine);
+    const auto legs = planner.plan(head, *blocks, start);
+    if (!legs) { return std::unexpected(legs.error()); }
+    PlannedLegs planned;
+    for (const Leg& leg : *legs) {
+        if (!leg.moves) { continue; }
+        const auto plan = LegPlanner(planner, blocks, leg).run(visit);
+        if (!plan) { return std::unexpected(plan.error()); }
+        ++planned.legs;
+        planned.duration += plan->duration;
+    }
+    return planned;
 }
 
 }  // namespace lockstep

@@ -1,6 +1,9 @@
-// The planned motion of one leg, from the frames that the coordinator makes of it.
+// The planned motion of legs, from the frames that the coordinator makes of them.
 #pragma once
 
+#include <deque>
+#include <functional>
+#include <memory>
 #include <vector>
 
 #include "core/coordinator/path/program_plan.hpp"
@@ -19,12 +22,14 @@ public:
 
     explicit AxisMotion(Position from) : to_(from) {}
     void add(const Piece& piece);
+    /// at() is not asked for earlier times any more.
+    void forget_before(Ticks t);
 
-    const std::vector<TimedPiece>& pieces() const { return pieces_; }
+    const std::deque<TimedPiece>& pieces() const { return pieces_; }
     Position at(Ticks t) const;
 
 private:
-    std::vector<TimedPiece> pieces_;
+    std::deque<TimedPiece> pieces_;
     Position to_;
     Ticks end_;
 };
@@ -38,7 +43,7 @@ struct PlannedMove {
 };
 
 struct LegPlan {
-    std::vector<PlannedMove> moves;
+    std::deque<PlannedMove> moves;
     std::vector<AxisMotion> axes;
     Ticks duration;
 
@@ -53,5 +58,16 @@ struct LegPlan {
 /// Errors: as ProgramPlanner::plan; the axes' limits contradict each other.
 std::expected<std::vector<LegPlan>, PlanError> plan_legs(const MachineConfig& machine, const Program& program,
                                                          const AxisCounts& start);
+
+/// Of a program of any length: what is planned is forgotten move by move.
+struct PlannedLegs {
+    std::int64_t legs = 0;
+    Ticks duration;
+};
+/// `leg` is a part of the leg's plan, with this move in front. Its duration is that of the motion planned so far.
+using OnPlannedMove = std::function<void(const LegPlan& leg)>;
+std::expected<PlannedLegs, PlanError> each_planned_move(const MachineConfig& machine, const ProgramHead& head,
+                                                        const std::shared_ptr<const ProgramBlocks>& blocks,
+                                                        const AxisCounts& start, const OnPlannedMove& visit);
 
 }  // namespace lockstep

@@ -105,8 +105,7 @@ std::expected<ProgramPlan, PlanError> plan_blocks(const MachineConfig& machine, 
 }
 
 std::expected<ProgramPlan, PlanError> plan_program(const MachineConfig& machine, const Program& program) {
-    const std::shared_ptr<const Program> borrowed(std::shared_ptr<const Program>{}, &program);
-    return plan_blocks(machine, program.head(), std::make_shared<WholeProgram>(borrowed),
+    return plan_blocks(machine, program.head(), std::make_shared<WholeProgram>(borrowed(program)),
                        {.start = start_counts(machine, program.head())});
 }
 

@@ -24,7 +24,7 @@ public:
     void on_steps(const step_batch_t& message, LogPlace place) override { check_.on_steps(message, place); }
     void on_position(const axis_position_t& message, LogPlace /*place*/) override { pass(message); }
     void on_health(const axis_health_t& message, LogPlace /*place*/) override { pass(message); }
-    void on_job(const job_t& message, LogPlace place) override {
+    void on_job(const analysis::RecordedJob& message, LogPlace place) override {
         pass(message);
         check_.on_job(message, place);
     }
@@ -33,6 +33,7 @@ public:
         pass(message);
         check_.on_run(message, place);
     }
+    void on_program_part(const program_part_t& message, LogPlace /*place*/) override { pass(message); }
     void on_mark(const record_mark_t& message, LogPlace place) override { check_.on_mark(message, place); }
     void on_foreign(std::string_view /*channel*/) override {}
     void on_damage(LogPlace place, std::string what) override { check_.on_damage(place, std::move(what)); }

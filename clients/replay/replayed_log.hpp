@@ -50,6 +50,7 @@ public:
     void take(const axis_health_t& message);
     void take(const job_t& message);
     void take(const program_event_t& message);
+    void take(const program_part_t& message);
     void finish();
 
 private:

@@ -33,8 +33,7 @@ std::expected<double, Failure> planned_seconds(const Session& session, const Pro
 
 std::expected<double, Failure> planned_seconds(const Session& session, const Program& program,
                                                const std::vector<double>& start_mm) {
-    const std::shared_ptr<const Program> borrowed(std::shared_ptr<const Program>{}, &program);
-    return planned_seconds(session, program.head(), std::make_shared<WholeProgram>(borrowed), start_mm);
+    return planned_seconds(session, program.head(), std::make_shared<WholeProgram>(borrowed(program)), start_mm);
 }
 
 }  // namespace lockstep

@@ -28,7 +28,7 @@ std::string place_of(const PathEvent& event) { return place_of(event.line, event
 void EventCheck::take(const program_event_t& event) { waiting_[{event.job, event.coordinator}].push_back(event); }
 
 void EventCheck::begin(std::int64_t coordinator, std::int64_t job, const std::string& label,
-                       std::shared_ptr<const Program> program) {
+                       std::shared_ptr<const analysis::RecordedProgram> program) {
     if (job != job_ || std::ranges::find(coordinators_, coordinator) == coordinators_.end()) { forget_job(); }
     if (epoch_coordinator_ != 0 && epoch_coordinator_ != coordinator) { knows_devices_ = false; }
     job_ = job;
@@ -37,13 +37,7 @@ void EventCheck::begin(std::int64_t coordinator, std::int64_t job, const std::st
     epoch_coordinator_ = coordinator;
     epoch_ = 0;
     program_ = std::move(program);
-    blocks_.clear();
     done_ = 0;
-    for (std::size_t k = 0; program_ && k < program_->blocks.size(); ++k) {
-        if (std::holds_alternative<ProgramEvent>(program_->blocks[k].action)) {
-            blocks_.push_back(static_cast<std::uint32_t>(k));
-        }
-    }
 }
 
 void EventCheck::begin_epoch(Epoch epoch, std::int64_t coordinator) {
@@ -65,13 +59,14 @@ void EventCheck::pop() {
 }
 
 PathEvent EventCheck::event_at(std::uint32_t block) const {
-    const Block& its = program_->blocks[block];
-    return {block, its.line, std::get<ProgramEvent>(its.action)};
+    const Block* its = program_->block(block);
+    if (its == nullptr) { return {block, 0, {}}; }  // the log was altered: JobCheck reports it
+    return {block, its->line, std::get<ProgramEvent>(its->action)};
 }
 
 /// The coordinator before has published them, and did not report it before it ended.
 void EventCheck::skip_repeats() {
-    const std::int64_t from = done_ == 0 ? 0 : blocks_[done_ - 1] + 1;
+    const std::int64_t from = done_ == 0 ? 0 : program_->events()[done_ - 1] + 1;
     while (coordinators_.size() > 1) {
         const program_event_t* event = next();
         const bool is_repeat = event != nullptr && event->coordinator != coordinators_.front() &&
@@ -145,10 +140,10 @@ void EventCheck::note(const PathEvent& event) {
 void EventCheck::check_motion(std::span<const EpochRunner::Happened> planned, bool may_end_early) {
     for (const auto& [tick, event] : planned) {
         if (!findings_.going()) { return; }
-        if (done_ == blocks_.size() || event.block < blocks_[done_]) { continue; }  // published at an earlier rest
+        if (is_done() || event.block < next_block()) { continue; }  // published at an earlier rest
         skip_repeats();
-        while (blocks_[done_] < event.block) {
-            if (!lacks(event_at(blocks_[done_]))) { return; }
+        while (!is_done() && next_block() < event.block) {
+            if (!lacks(event_at(next_block()))) { return; }
         }
         const program_event_t* there = next();
         if (there == nullptr && may_end_early) { return; }
@@ -163,8 +158,8 @@ void EventCheck::check_motion(std::span<const EpochRunner::Happened> planned, bo
 }
 
 void EventCheck::check_rest(std::uint32_t must, std::uint32_t may) {
-    while (findings_.going() && done_ < blocks_.size() && blocks_[done_] < may) {
-        const PathEvent planned = event_at(blocks_[done_]);
+    while (findings_.going() && !is_done() && next_block() < may) {
+        const PathEvent planned = event_at(next_block());
         skip_repeats();
         const program_event_t* there = next();
         const bool is_it = there != nullptr && there->of_program != 0 && there->block == planned.block;

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "clients/analysis/log/recorded_program.hpp"
 #include "clients/verification/findings.hpp"
 #include "core/coordinator/path/epoch_runner.hpp"
 #include "core/program_devices.hpp"
@@ -31,7 +32,7 @@ public:
 
     /// A job begins. `program`: null if it has no events.
     void begin(std::int64_t coordinator, std::int64_t job, const std::string& label,
-               std::shared_ptr<const Program> program);
+               std::shared_ptr<const analysis::RecordedProgram> program);
     /// After a takeover: another coordinator goes on with the job.
     void continue_by(std::int64_t coordinator) { coordinators_.push_back(coordinator); }
     void begin_epoch(Epoch epoch, std::int64_t coordinator);
@@ -63,6 +64,8 @@ private:
     void forget_job();
     void note(const PathEvent& event);
     PathEvent event_at(std::uint32_t block) const;
+    bool is_done() const { return !program_ || done_ == program_->events().size(); }
+    std::uint32_t next_block() const { return program_->events()[done_]; }
     void check_switched_off();
     bool differ(const std::string& text, std::int32_t line, std::optional<Tick> expected = {},
                 std::optional<Tick> seen = {});
@@ -75,10 +78,9 @@ private:
     std::int64_t job_ = 0;
     std::string label_;
     std::vector<std::int64_t> coordinators_;  // in the order in which they ran it; none: no job is in progress
-    std::shared_ptr<const Program> program_;
-    std::vector<std::uint32_t> blocks_;  // the program's events
-    std::size_t done_ = 0;               // so many of them are on record
-    Epoch epoch_ = 0;                    // the newest
+    std::shared_ptr<const analysis::RecordedProgram> program_;
+    std::size_t done_ = 0;  // so many of them are on record
+    Epoch epoch_ = 0;       // the newest
     std::int64_t epoch_coordinator_ = 0;
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "clients/analysis/log/program_parts.hpp"
 #include "clients/verification/run_difference.hpp"
 #include "core/protocol/frame_room.hpp"
 #include "services/documents/machine_file.hpp"
@@ -11,7 +10,7 @@
 namespace lockstep::verification {
 namespace {
 
-PathPlace place_in(const job_t& record) {
+PathPlace place_in(const RecordedJob& record) {
     const Int128 along = Int128{record.resume_high} * kOneStep + Int128{static_cast<std::uint64_t>(record.resume_low)};
     return {static_cast<std::uint32_t>(record.resume_block), {along}};
 }
@@ -20,7 +19,7 @@ std::string text_of(const PathPlace& place) {
     return "block " + std::to_string(place.block) + ", " + std::to_string(place.along.as_steps()) + " mm along it";
 }
 
-std::string number_of(const job_t& record) { return "job " + std::to_string(record.job); }
+std::string number_of(const RecordedJob& record) { return "job " + std::to_string(record.job); }
 
 std::size_t index_of(const MachineConfig& machine, const std::string& axis) {
     return static_cast<std::size_t>(std::ranges::find(machine.axes, axis, &AxisConfig::name) - machine.axes.begin());
@@ -49,7 +48,7 @@ Run planned_run(const Frame& frame, std::size_t axis, bool tail, Ticks clock_err
 // ---- Records -----------------------------------------------------------------------------------------------------
 
 /// Late records of a stopped coordinator's job are sorted before the job that another coordinator has begun since.
-void JobCheck::take(const job_t& record) {
+void JobCheck::take(const RecordedJob& record) {
     if (begins_late_ && !first_job_ && record.event != "begun") { return; }  // of a job begun before the log
     if (record.event == "begun" && !first_job_) {
         first_job_ = record.job;
@@ -58,8 +57,8 @@ void JobCheck::take(const job_t& record) {
     if (record.event == "epoch" && !first_epoch_) { first_epoch_ = static_cast<Epoch>(record.epoch); }
     auto behind = records_.end();
     if (is_late(record)) {
-        const auto own = std::ranges::find(records_, record.coordinator, &job_t::coordinator);
-        behind = std::find_if(own == behind ? records_.begin() : own, behind, [&](const job_t& r) {
+        const auto own = std::ranges::find(records_, record.coordinator, &RecordedJob::coordinator);
+        behind = std::find_if(own == behind ? records_.begin() : own, behind, [&](const RecordedJob& r) {
             return r.event == "begun" && r.coordinator != record.coordinator;
         });
     }
@@ -83,7 +82,7 @@ void JobCheck::begins_late() {
 }
 
 /// A coordinator that another follows, or that gives a job up, may not have published the last events.
-void JobCheck::handle(const job_t& record) {
+void JobCheck::handle(const RecordedJob& record) {
     if (is_outdated(record)) { return; }
     const bool lacks_events = record.outcome == "failed" || (job_ && job_->coordinator != record.coordinator);
     if (record.event != "begun") { note_owner(record); }
@@ -95,13 +94,13 @@ void JobCheck::handle(const job_t& record) {
 }
 
 /// A record of a job by its coordinator, after another coordinator began a job.
-bool JobCheck::is_late(const job_t& record) const {
+bool JobCheck::is_late(const RecordedJob& record) const {
     const auto its = std::ranges::find(begun_, std::pair{record.coordinator, record.job});
     return record.event != "begun" && its != begun_.end() && begun_.back().first != record.coordinator;
 }
 
 /// Late, and of an epoch that no axis ran: a run of it would have been compared with this record before.
-bool JobCheck::is_outdated(const job_t& record) {
+bool JobCheck::is_outdated(const RecordedJob& record) {
     const bool is_its_turn = !job_ || job_->coordinator == record.coordinator;
     if (is_its_turn || !is_late(record)) { return false; }
     findings_.notes.push_back(number_of(record) + ": its coordinator records more of it after another began " +
@@ -110,14 +109,14 @@ bool JobCheck::is_outdated(const job_t& record) {
 }
 
 /// A record of a job by another coordinator than the one that began it: it continues the job after a takeover.
-void JobCheck::note_owner(const job_t& record) {
+void JobCheck::note_owner(const RecordedJob& record) {
     if (!job_ || job_->number != record.job || job_->coordinator == record.coordinator) { return; }
     job_->coordinator = record.coordinator;
     events_.continue_by(record.coordinator);
     findings_.notes.push_back(job_->label + ": another coordinator has taken over and continued it");
 }
 
-void JobCheck::begin(const job_t& record) {
+void JobCheck::begin(const RecordedJob& record) {
     if (job_ && job_->coordinator == record.coordinator) {
         return differ(job_->label + ": the log has no end of it, though " + number_of(record) + " begins");
     }
@@ -127,29 +126,27 @@ void JobCheck::begin(const job_t& record) {
     job_ =
         Job{.coordinator = record.coordinator, .number = record.job, .label = number_of(record) + ", " + record.kind};
     events_.begin(record.coordinator, record.job, job_->label, nullptr);
-    if (record.program.empty() || record.kind == "own-move") { return; }  // axes on their own make no epoch
-    if (!analysis::has_whole_program(record)) {
-        return differ(job_->label + ": its program is not known: " + analysis::program_of(record).error());
-    }
+    if (!record.has_program() || record.kind == "own-move") { return; }  // axes on their own make no epoch
+    if (!record.lacks.empty()) { return differ(job_->label + ": its program is not known: " + record.lacks); }
     const auto machine = parse_machine(record.config);
-    const auto program = analysis::program_of(record);
+    const auto program = record.read_program();
     if (!machine || !program) {
         findings_.unreadable = number_of(record) + (machine ? ": its program: " + program.error()
                                                             : to_text(": its configuration", machine.error()));
         return;
     }
-    job_->label += " " + program->name;
+    job_->label += " " + (*program)->head().name;
     auto replay = JobReplay::plan(*machine, *program, record.start_count);
     if (!replay) { return differ(job_->label + ": it cannot be planned again: " + replay.error()); }
     job_->replay = std::move(*replay);
     events_.begin(record.coordinator, record.job, job_->label, job_->replay->program());
 }
 
-bool JobCheck::is_of_job(const job_t& record) const {
+bool JobCheck::is_of_job(const RecordedJob& record) const {
     return job_ && job_->number == record.job && job_->coordinator == record.coordinator;
 }
 
-void JobCheck::begin_epoch(const job_t& record) {
+void JobCheck::begin_epoch(const RecordedJob& record) {
     if (!is_of_job(record) || !job_->replay) {
         return differ("the log has an epoch of " + number_of(record) + ", but not the beginning of that job");
     }
@@ -172,7 +169,7 @@ void JobCheck::begin_epoch(const job_t& record) {
     if (labels_.size() > kLabelsKept) { labels_.pop_front(); }
 }
 
-void JobCheck::turn(const job_t& record) {
+void JobCheck::turn(const RecordedJob& record) {
     if (!epoch_ || epoch_->replay.epoch() != static_cast<Epoch>(record.epoch)) { return; }  // no axis ran a frame of it
     if (!epoch_->replay.turn(static_cast<FrameNumber>(record.behind_frame),
                              {record.feed_percent, record.rapid_percent})) {
@@ -189,7 +186,7 @@ void JobCheck::handle_turns() {
     }
 }
 
-void JobCheck::end(const job_t& record) {
+void JobCheck::end(const RecordedJob& record) {
     if (!is_of_job(record)) {
         return differ("the log has the end of " + number_of(record) + ", but not its beginning");
     }
@@ -345,7 +342,7 @@ void JobCheck::take(const std::string& axis, const Run& run) {
 
 /// False: the run's epoch is not known yet.
 bool JobCheck::place(const std::string& axis, const Run& run) {
-    const auto begins_it = [&](const job_t& record) {
+    const auto begins_it = [&](const RecordedJob& record) {
         return record.event == "epoch" && static_cast<Epoch>(record.epoch) == run.epoch;
     };
     if (!epoch_ || epoch_->replay.epoch() != run.epoch) {
@@ -445,7 +442,12 @@ std::string JobCheck::commanded(const Run& run, Tick tick) const {
     return text + "epoch " + std::to_string(run.epoch) + ", " + name_of(run);
 }
 
+/// A plan of a program that cannot be read any more says nothing about the record.
 void JobCheck::differ(std::string text, const std::string& axis, const Run* run) {
+    if (job_ && job_->replay && job_->replay->program()->failure()) {
+        findings_.unreadable = job_->label + ": its program: " + *job_->replay->program()->failure();
+        return;
+    }
     findings_.differ({std::move(text),
                       axis,
                       {},

@@ -3,13 +3,13 @@
 
 #include <deque>
 #include <functional>
-#include <lockstep/job_t.hpp>
 #include <map>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "clients/analysis/log/program_parts.hpp"
 #include "clients/analysis/log/run.hpp"
 #include "clients/verification/epoch_replay.hpp"
 #include "clients/verification/event_check.hpp"
@@ -19,6 +19,7 @@
 
 namespace lockstep::verification {
 
+using analysis::RecordedJob;
 using analysis::Run;
 
 class JobCheck {
@@ -31,7 +32,7 @@ public:
 
     explicit JobCheck(Findings& findings) : findings_(findings), events_(findings) {}
 
-    void take(const job_t& record);
+    void take(const RecordedJob& record);
     void take(const program_event_t& event);
     /// The log begins later than the record: a job that had begun by then is not compared with its plan.
     void begins_late();
@@ -71,21 +72,21 @@ private:
     bool has_own_clocks() const { return job_->replay->machine().timing.time_source == TimeSource::Network; }
     /// No axis moves while its clock error may be larger.
     Ticks known_within() const { return has_own_clocks() ? job_->replay->machine().clock_error_limit() : Ticks{}; }
-    void handle(const job_t& record);
-    bool is_late(const job_t& record) const;
-    bool is_outdated(const job_t& record);
-    void note_owner(const job_t& record);
-    void begin(const job_t& record);
-    void begin_epoch(const job_t& record);
-    void turn(const job_t& record);
+    void handle(const RecordedJob& record);
+    bool is_late(const RecordedJob& record) const;
+    bool is_outdated(const RecordedJob& record);
+    void note_owner(const RecordedJob& record);
+    void begin(const RecordedJob& record);
+    void begin_epoch(const RecordedJob& record);
+    void turn(const RecordedJob& record);
     void handle_turns();
-    void end(const job_t& record);
+    void end(const RecordedJob& record);
     void close_epoch(bool lacks_events = false);
     void check_epoch(bool lacks_events);
     void check_events_so_far();
     void break_off(std::size_t axis, const std::string& why);
     bool breaks_off(std::size_t axis);
-    bool is_of_job(const job_t& record) const;
+    bool is_of_job(const RecordedJob& record) const;
 
     bool place(const std::string& axis, const Run& run);
     void compare(std::size_t axis, const std::string& name, const Run& run);
@@ -103,7 +104,7 @@ private:
 
     Findings& findings_;
     EventCheck events_;
-    std::deque<job_t> records_;  // handled at the first run after them: late runs of what they end come before
+    std::deque<RecordedJob> records_;  // handled at the first run after them: late runs of what they end come before
     std::deque<std::pair<std::string, Run>> waiting_;
     std::deque<std::pair<std::int64_t, std::int64_t>> begun_;  // the newest jobs: coordinator and number
     bool begins_late_ = false;

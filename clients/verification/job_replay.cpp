@@ -4,19 +4,19 @@
 
 namespace lockstep::verification {
 
-JobReplay::JobReplay(const MachineConfig& machine, std::shared_ptr<const Program> program, std::vector<Leg> legs)
+JobReplay::JobReplay(const MachineConfig& machine, SharedProgram program, std::vector<Leg> legs)
     : machine_(machine), planner_(machine), program_(std::move(program)), legs_(std::move(legs)) {}
 
-std::expected<JobReplay, std::string> JobReplay::plan(const MachineConfig& machine, const Program& program,
+std::expected<JobReplay, std::string> JobReplay::plan(const MachineConfig& machine, SharedProgram program,
                                                       const std::vector<std::int64_t>& start_counts) {
     if (start_counts.size() != machine.axes.size()) {
         return std::unexpected(std::string("it starts with another number of axes than the machine has"));
     }
     AxisCounts start;
     for (const std::int64_t count : start_counts) { (void)start.push_back(count); }
-    auto legs = ProgramPlanner(machine).plan(program, start);
+    auto legs = ProgramPlanner(machine).plan(program->head(), *program, start);
     if (!legs) { return std::unexpected(legs.error().text); }
-    return JobReplay(machine, std::make_shared<const Program>(program), std::move(*legs));
+    return JobReplay(machine, std::move(program), std::move(*legs));
 }
 
 /// The coordinator records no epoch in which nothing is left to run.
@@ -25,7 +25,7 @@ std::optional<EpochStart> JobReplay::next() {
         const Leg& leg = legs_[leg_];
         if (!leg.moves) { continue; }
         if (!source_) {
-            source_ = planner_.frames(program_, leg);
+            source_ = planner_.frames(program_, leg.first, leg.from);
             place_ = {leg.first, {}};
             positions_ = positions_of(leg.from);
         }
@@ -41,7 +41,7 @@ std::uint32_t JobReplay::moves_from() const {
     for (std::size_t leg = leg_; leg < legs_.size(); ++leg) {
         if (legs_[leg].moves) { return legs_[leg].first; }
     }
-    return static_cast<std::uint32_t>(program_->blocks.size());
+    return program_->size();
 }
 
 void JobReplay::ended(const EpochEnd& end, OwnedSource source) {

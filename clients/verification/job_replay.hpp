@@ -7,17 +7,19 @@
 #include <string>
 #include <vector>
 
+#include "clients/analysis/log/recorded_program.hpp"
 #include "clients/verification/epoch_replay.hpp"
 #include "core/coordinator/path/program_plan.hpp"
 #include "core/machine.hpp"
-#include "core/program.hpp"
 
 namespace lockstep::verification {
+
+using SharedProgram = std::shared_ptr<const analysis::RecordedProgram>;
 
 class JobReplay {
 public:
     /// `start_counts`: one per axis of the machine. Error: the program cannot be planned from there.
-    static std::expected<JobReplay, std::string> plan(const MachineConfig& machine, const Program& program,
+    static std::expected<JobReplay, std::string> plan(const MachineConfig& machine, SharedProgram program,
                                                       const std::vector<std::int64_t>& start_counts);
 
     const MachineConfig& machine() const { return machine_; }
@@ -28,18 +30,19 @@ public:
     /// How an epoch ended, Complete or Interrupted, and its source.
     void ended(const EpochEnd& end, OwnedSource source);
 
-    const std::shared_ptr<const Program>& program() const { return program_; }
+    const SharedProgram& program() const { return program_; }
     /// The block from which axes move again: before it they rest. At the program's end there is no such block.
     std::uint32_t moves_from() const;
 
-    std::int32_t line_of(std::uint32_t block) const { return program_->blocks[block].line; }
+    std::int32_t line_of(std::uint32_t block) const { return line_of(program_->block(block)); }
 
 private:
-    JobReplay(const MachineConfig& machine, std::shared_ptr<const Program> program, std::vector<Leg> legs);
+    static std::int32_t line_of(const Block* block) { return block != nullptr ? block->line : 0; }
+    JobReplay(const MachineConfig& machine, SharedProgram program, std::vector<Leg> legs);
 
     MachineConfig machine_;
     ProgramPlanner planner_;
-    std::shared_ptr<const Program> program_;
+    SharedProgram program_;
     std::vector<Leg> legs_;
     std::size_t leg_ = 0;
     // Of the leg in progress; none: it has not begun.

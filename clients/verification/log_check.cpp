@@ -127,7 +127,7 @@ void LogCheck::on_position(const axis_position_t& message, analysis::LogPlace pl
     if (message.fault == static_cast<std::int32_t>(FaultCode::DeviceLost)) { found->second->check.device_lost(); }
 }
 
-void LogCheck::on_job(const job_t& message, analysis::LogPlace place) {
+void LogCheck::on_job(const analysis::RecordedJob& message, analysis::LogPlace place) {
     if (!analysis::is_countable(message.start_tick) || !analysis::is_message_number(message.sequence) ||
         !std::ranges::all_of(message.start_count, analysis::is_countable)) {
         return on_damage(place, "a job with impossible numbers");

@@ -31,7 +31,7 @@ public:
     void on_steps(const step_batch_t& message, analysis::LogPlace place) override;
     void on_position(const axis_position_t& message, analysis::LogPlace place) override;
     void on_run(const run_t& message, analysis::LogPlace place) override;
-    void on_job(const job_t& message, analysis::LogPlace place) override;
+    void on_job(const analysis::RecordedJob& message, analysis::LogPlace place) override;
     void on_event(const program_event_t& message, analysis::LogPlace place) override;
     void on_health(const axis_health_t& message, analysis::LogPlace place) override;
     void on_program_part(const program_part_t& message, analysis::LogPlace place) override;

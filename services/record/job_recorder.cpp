@@ -99,16 +99,20 @@ void JobRecorder::record_program(Tick now, const JobEvent& event, JobRecord& rec
     publish(now, std::move(part));
 }
 
+/// Each part has whole blocks. Only the last one says how many there are.
 void JobRecorder::record_parts(Tick now, std::uint64_t id, const Program& program) {
-    const std::vector<std::uint8_t> bytes = program_bytes(program);
-    ProgramChunk chunk{.program = id,
-                       .count = static_cast<std::uint32_t>((bytes.size() + kPartBytes - 1) / kPartBytes)};
-    for (; chunk.index < chunk.count; ++chunk.index) {
-        const auto from = bytes.begin() + static_cast<std::ptrdiff_t>(chunk.index * kPartBytes);
-        const auto left = static_cast<std::size_t>(bytes.end() - from);
-        chunk.bytes.assign(from, from + static_cast<std::ptrdiff_t>(std::min(kPartBytes, left)));
+    ProgramChunk chunk{.program = id, .index = 0, .count = 0, .bytes = {}};
+    ProgramPartWriter writer(program.head());
+    for (const Block& block : program.blocks) {
+        writer.add(block);
+        if (!writer.is_full()) { continue; }
+        chunk.bytes = writer.take();
         record(now, chunk);
+        ++chunk.index;
     }
+    chunk.count = chunk.index + 1;
+    chunk.bytes = writer.take();
+    record(now, chunk);
 }
 
 /// A microsecond before the job: so it precedes the job in merged logs too, which are sorted by time.

@@ -3,7 +3,6 @@
 #include <system_error>
 #include <utility>
 
-#include "clients/analysis/log/program_parts.hpp"
 #include "services/wire/lcm/lcm_channels.hpp"
 #include "services/wire/lcm/lcm_decode.hpp"
 
@@ -26,7 +25,9 @@ void deliver_part(const LogEvent& event, LogListener& listener, ProgramParts& pr
     const LogPlace place{event.offset, event.bytes};
     const auto part = decode_lcm<program_part_t>(event.data);
     if (!part) { return listener.on_damage(place, part.error() + " on " + std::string(event.channel)); }
-    if (const auto taken = programs.take(*part); !taken) { return listener.on_damage(place, taken.error()); }
+    if (const auto taken = programs.take(*part, event.offset); !taken) {
+        return listener.on_damage(place, taken.error());
+    }
     listener.on_program_part(*part, place);
 }
 
@@ -37,18 +38,21 @@ void look_ahead(const std::filesystem::path& path, const job_t& job, ProgramPart
         const auto event = reader->next();
         if (!event || !*event) { return; }
         if (kind_of((*event)->channel) != RecordKind::ProgramPart) { continue; }
-        if (const auto part = decode_lcm<program_part_t>((*event)->data)) { programs.take_later(*part, job); }
+        if (const auto part = decode_lcm<program_part_t>((*event)->data)) {
+            programs.take_later(*part, (*event)->offset, job);
+        }
     }
 }
 
 void deliver_job(const LogEvent& event, LogListener& listener, ProgramParts& programs,
                  const std::filesystem::path& path) {
     const LogPlace place{event.offset, event.bytes};
-    auto job = decode_lcm<job_t>(event.data);
-    if (!job) { return listener.on_damage(place, job.error() + " on " + std::string(event.channel)); }
-    if (programs.is_open(*job)) { look_ahead(path, *job, programs); }
-    programs.complete(*job);
-    listener.on_job(*job, place);
+    auto message = decode_lcm<job_t>(event.data);
+    if (!message) { return listener.on_damage(place, message.error() + " on " + std::string(event.channel)); }
+    RecordedJob job(*std::move(message));
+    if (programs.is_open(job)) { look_ahead(path, job, programs); }
+    programs.complete(job);
+    listener.on_job(job, place);
 }
 
 void deliver(const LogEvent& event, LogListener& listener, ProgramParts& programs, const std::filesystem::path& path) {
@@ -70,7 +74,7 @@ void deliver(const LogEvent& event, LogListener& listener, ProgramParts& program
 std::expected<std::uint64_t, std::string> read_events(LogReader& reader, const std::filesystem::path& path,
                                                       LogListener& listener, double file_bytes,
                                                       const std::function<void(double)>& progress) {
-    ProgramParts programs;
+    ProgramParts programs(path);
     for (std::uint64_t events = 0;; ++events) {
         const auto event = reader.next();
         if (!event) { return std::unexpected(event.error()); }

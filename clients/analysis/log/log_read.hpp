@@ -9,7 +9,6 @@
 #include <functional>
 #include <lockstep/axis_health_t.hpp>
 #include <lockstep/axis_position_t.hpp>
-#include <lockstep/job_t.hpp>
 #include <lockstep/program_event_t.hpp>
 #include <lockstep/program_part_t.hpp>
 #include <lockstep/record_mark_t.hpp>
@@ -20,6 +19,7 @@
 #include <string_view>
 
 #include "clients/analysis/log/damage.hpp"
+#include "clients/analysis/log/program_parts.hpp"
 
 namespace lockstep::analysis {
 
@@ -30,7 +30,7 @@ public:
     virtual void on_steps(const step_batch_t& message, LogPlace place) = 0;
     virtual void on_position(const axis_position_t& message, LogPlace place) = 0;
     virtual void on_run(const run_t& message, LogPlace place) = 0;
-    virtual void on_job(const job_t& message, LogPlace place) = 0;
+    virtual void on_job(const RecordedJob& message, LogPlace place) = 0;
     virtual void on_health(const axis_health_t& /*message*/, LogPlace /*place*/) {}
     /// Numbered with the jobs.
     virtual void on_event(const program_event_t& /*message*/, LogPlace /*place*/) {}

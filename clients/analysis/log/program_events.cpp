@@ -1,10 +1,11 @@
 #include "clients/analysis/log/program_events.hpp"
 
 #include <algorithm>
+#include <span>
 
 namespace lockstep::analysis {
 
-void ProgramEventLog::begin(const job_t& job, const Program& program) {
+void ProgramEventLog::begin(const job_t& job, const RecordedProgram& program) {
     job_ = static_cast<std::uint64_t>(job.job);
     const auto is_of_it = [&](const HappenedEvent& event) {
         return event.job == *job_ && event.coordinator == job.coordinator;
@@ -23,16 +24,15 @@ void ProgramEventLog::end(const job_t& job) {
 
 /// The place of an event is the end of the move before it. Events happen in the order of the program, so places of more
 /// than will be kept are not needed.
-void ProgramEventLog::note_places(const Program& program, std::size_t at_most) {
+void ProgramEventLog::note_places(const RecordedProgram& program, std::size_t at_most) {
     places_.clear();
-    const std::vector<double>* at_mm = &program.start_mm;
-    for (std::size_t block = 0; block < program.blocks.size() && places_.size() < at_most; ++block) {
-        const auto& action = program.blocks[block].action;
-        if (const auto* move = std::get_if<ProgramMove>(&action)) { at_mm = &move->target_mm; }
-        if (!std::holds_alternative<ProgramEvent>(action)) { continue; }
-        ProgramPlace& place = places_[static_cast<std::int64_t>(block)];
-        for (std::size_t i = 0; i < std::min(program.axes.size(), at_mm->size()); ++i) {
-            place.emplace_back(program.axes[i], (*at_mm)[i]);
+    const std::vector<std::string>& axes = program.axes();
+    for (const std::uint32_t block : std::span(program.events()).first(std::min(at_most, program.events().size()))) {
+        const auto at_mm = program.place_before(block);
+        if (!at_mm) { return; }
+        ProgramPlace& place = places_[block];
+        for (std::size_t i = 0; i < std::min(axes.size(), at_mm->size()); ++i) {
+            place.emplace_back(axes[i], (*at_mm)[i]);
         }
     }
 }

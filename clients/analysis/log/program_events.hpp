@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "clients/analysis/log/recorded_program.hpp"
 #include "core/program.hpp"
 #include "core/units.hpp"
 
@@ -36,7 +37,7 @@ public:
     static constexpr std::size_t kEventsKept = 1000;
 
     /// The job begins. Events of it may be before this in the log.
-    void begin(const job_t& job, const Program& program);
+    void begin(const job_t& job, const RecordedProgram& program);
     void end(const job_t& job);
     /// `event`: what the message switches.
     void take(const program_event_t& message, const ProgramEvent& event);
@@ -45,7 +46,7 @@ public:
     std::uint64_t not_kept() const { return not_kept_; }
 
 private:
-    void note_places(const Program& program, std::size_t at_most);
+    void note_places(const RecordedProgram& program, std::size_t at_most);
     void find_place(HappenedEvent& event) const;
 
     std::vector<HappenedEvent> events_;

@@ -1,58 +1,78 @@
-// Assembles programs that were recorded in parts, since they are too long for the message of the job that runs them.
+// Finds the parts of programs that were recorded in parts, since they are too long for the message of the job that runs
+// them. It notes their places; the parts stay in the log (recorded_program.hpp).
 //
-// A program may be received while it runs: its later parts then follow the job. The program in a job's message may only
-// be read by program_of().
+// A program may be received while it runs: its later parts then follow the job.
 #pragma once
 
 #include <cstdint>
 #include <deque>
 #include <expected>
+#include <filesystem>
 #include <lockstep/job_t.hpp>
 #include <lockstep/program_part_t.hpp>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/program.hpp"
+#include "clients/analysis/log/recorded_program.hpp"
 
 namespace lockstep::analysis {
+
+/// A job's message, with its program if that was recorded in parts.
+struct RecordedJob : job_t {
+    RecordedJob() = default;
+    explicit RecordedJob(job_t message) : job_t(std::move(message)) {}
+
+    std::optional<ProgramPlaces> parts;
+    std::string lacks;  // what of the parts is not in the log; empty: nothing
+
+    bool has_program() const { return parts || !lacks.empty() || !program.empty(); }
+    bool has_program_of(const RecordedJob& other) const { return program == other.program && parts == other.parts; }
+    /// Error: it cannot be read, or is incomplete.
+    std::expected<std::shared_ptr<const RecordedProgram>, std::string> read_program() const;
+};
 
 class ProgramParts {
 public:
     static constexpr std::size_t kProgramsKept = 8;  // the newest
     static constexpr std::int32_t kMostParts = 1 << 20;
 
-    /// Error: the part is impossible.
-    std::expected<void, std::string> take(const program_part_t& part);
+    explicit ProgramParts(std::filesystem::path log) : log_(std::move(log)) {}
+
+    /// `offset`: where its message begins in the log. Error: the part is impossible.
+    std::expected<void, std::string> take(const program_part_t& part, std::uint64_t offset);
     /// Of a begun job: parts of its program may follow.
     bool is_open(const job_t& job) const;
     /// A later part of this job's program, by whichever coordinator. Others are left out.
-    void take_later(const program_part_t& part, const job_t& job);
+    void take_later(const program_part_t& part, std::uint64_t offset, const job_t& job);
     /// Gives a begun job its program, if that was recorded in parts.
-    void complete(job_t& job) const;
+    void complete(RecordedJob& job) const;
 
 private:
+    struct Place {
+        std::uint64_t offset = 0;
+        std::size_t bytes = 0;
+        std::size_t hash = 0;  // of the content
+        bool has_same_content(const Place& other) const { return bytes == other.bytes && hash == other.hash; }
+    };
     struct Parts {
         std::int64_t coordinator = 0;
         std::int64_t program = 0;
-        std::vector<std::optional<std::vector<std::uint8_t>>> data;
+        std::vector<std::optional<Place>> places;
         std::size_t count = 0;  // of its parts; 0: the last one has not come
 
         bool fits(const program_part_t& part) const;
         std::size_t missing() const;
     };
+    static Place place_of(const program_part_t& part, std::uint64_t offset);
     const Parts* find(std::int64_t coordinator, std::int64_t program) const;
     Parts& parts_of(const program_part_t& part);
-    std::string program_in_parts(std::int64_t coordinator, std::int64_t program) const;
 
+    std::filesystem::path log_;
     std::deque<Parts> programs_;
     std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> of_jobs_;  // by coordinator and job
 };
-
-/// False: parts of the job's program are not in the log; program_of() reports which.
-bool has_whole_program(const job_t& job);
-/// The program of a job. Error: it cannot be read, or is incomplete.
-std::expected<Program, std::string> program_of(const job_t& job);
 
 }  // namespace lockstep::analysis

@@ -8,12 +8,12 @@
 namespace lockstep::analysis {
 namespace {
 
-/// When an axis has come `steps` from where a move begins, towards `direction`: by bisection.
-Ticks when(const LegPlan& leg, std::size_t move, std::size_t axis, int direction, double steps) {
+/// When an axis has come `steps` from where the first move begins, towards `direction`: by bisection.
+Ticks when(const LegPlan& leg, std::size_t axis, int direction, double steps) {
     const AxisMotion& motion = leg.axes[axis];
-    const auto from = static_cast<double>(leg.from(move, axis));
-    Ticks low = leg.moves[move].begin;
-    Ticks high = leg.end(move);
+    const auto from = static_cast<double>(leg.from(0, axis));
+    Ticks low = leg.moves[0].begin;
+    Ticks high = leg.end(0);
     while (low < high) {
         const Ticks middle{low.value + (high.value - low.value) / 2};
         if (direction * (motion.at(middle).as_steps() - from) < steps) {
@@ -25,24 +25,14 @@ Ticks when(const LegPlan& leg, std::size_t move, std::size_t axis, int direction
     return low;
 }
 
-/// Steps fall at half-steps: the first half a step after the beginning, the last half a step before the end.
-Ticks stepping_time(const LegPlan& leg, std::size_t move, std::size_t axis) {
-    const std::int64_t steps = leg.to(move, axis) - leg.from(move, axis);
+/// Of the first move. Steps fall at half-steps: the first half a step after the beginning, the last half a step before
+/// the end.
+Ticks stepping_time(const LegPlan& leg, std::size_t axis) {
+    const std::int64_t steps = leg.to(0, axis) - leg.from(0, axis);
     if (steps == 0) { return {}; }
     const int direction = steps > 0 ? 1 : -1;
     const double last = static_cast<double>(std::abs(steps)) - 0.5;
-    return when(leg, move, axis, direction, last) - when(leg, move, axis, direction, 0.5);
-}
-
-AskedMove move_of(const LegPlan& leg, std::size_t k) {
-    const auto steps = [&](std::size_t axis) { return std::abs(leg.to(k, axis) - leg.from(k, axis)); };
-    AskedMove move{
-        .line = leg.moves[k].line, .length_mm = leg.moves[k].length_mm, .planned = leg.end(k) - leg.moves[k].begin};
-    for (std::size_t axis = 1; axis < leg.axes.size(); ++axis) {
-        if (steps(axis) > steps(move.lead)) { move.lead = axis; }
-    }
-    move.stepping = stepping_time(leg, k, move.lead);
-    return move;
+    return when(leg, axis, direction, last) - when(leg, axis, direction, 0.5);
 }
 
 }  // namespace
@@ -51,27 +41,37 @@ std::int64_t AskedPath::steps(std::size_t move, std::size_t axis) const {
     return std::abs(to(move, axis) - from(move, axis));
 }
 
-std::expected<AskedPath, std::string> AskedPath::of(const MachineConfig& machine, const Program& program) {
-    const auto legs = plan_legs(machine, program, start_counts(machine, program.head()));
-    if (!legs) { return std::unexpected(legs.error().text); }
+std::expected<AskedPath, std::string> AskedPath::of(const MachineConfig& machine, const ProgramHead& head,
+                                                    const std::shared_ptr<const ProgramBlocks>& blocks) {
     AskedPath asked;
-    asked.legs_ = static_cast<std::int64_t>(legs->size());
     asked.moves_of_.resize(machine.axes.size());
     for (const AxisConfig& axis : machine.axes) { asked.mm_per_step_.push_back(1 / axis.steps_per_mm); }
-    for (const LegPlan& leg : *legs) { asked.add(leg); }
+    const auto planned = each_planned_move(machine, head, blocks, start_counts(machine, head),
+                                           [&asked](const LegPlan& leg) { asked.add_first(leg); });
+    if (!planned) { return std::unexpected(planned.error().text); }
+    asked.legs_ = planned->legs;
+    asked.planned_ = planned->duration;
     return asked;
 }
 
-void AskedPath::add(const LegPlan& leg) {
-    planned_ += leg.duration;
-    for (std::size_t axis = 0; counts_.size() < axes(); ++axis) { counts_.push_back(leg.axes[axis].at({}).count()); }
-    for (std::size_t k = 0; k < leg.moves.size(); ++k) {
-        const auto number = static_cast<std::uint32_t>(moves_.size());
-        moves_.push_back(move_of(leg, k));
-        for (std::size_t axis = 0; axis < axes(); ++axis) { counts_.push_back(leg.to(k, axis)); }
-        for (std::size_t axis = 0; axis < axes(); ++axis) {
-            if (steps(number, axis) != 0) { moves_of_[axis].push_back(number); }
-        }
+/// The first move of what is left of a leg.
+void AskedPath::add_first(const LegPlan& leg) {
+    const PlannedMove& move = leg.moves.front();
+    const auto number = static_cast<std::uint32_t>(lines_.size());
+    lines_.push_back(move.line);
+    if (counts_.empty()) {
+        for (std::size_t axis = 0; axis < axes(); ++axis) { counts_.push_back(leg.from(0, axis)); }
+    }
+    for (std::size_t axis = 0; axis < axes(); ++axis) { counts_.push_back(leg.to(0, axis)); }
+    std::size_t lead = 0;
+    for (std::size_t axis = 0; axis < axes(); ++axis) {
+        if (steps(number, axis) > steps(number, lead)) { lead = axis; }
+        if (steps(number, axis) != 0) { moves_of_[axis].push_back(number); }
+    }
+    leads_.push_back(static_cast<std::uint8_t>(lead));
+    if (details_.size() < kDetailed) {
+        details_.push_back(
+            {.length_mm = move.length_mm, .planned = leg.end(0) - move.begin, .stepping = stepping_time(leg, lead)});
     }
 }
 

@@ -5,35 +5,43 @@
 #include <cstddef>
 #include <cstdint>
 #include <expected>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "clients/planning/leg_plan.hpp"
 #include "core/machine.hpp"
-#include "core/program.hpp"
+#include "core/program_blocks.hpp"
 #include "core/units.hpp"
 
 namespace lockstep::analysis {
 
 /// A line from one place to another, or a dwell (no steps).
 struct AskedMove {
-    std::int32_t line = 0;  // of the program
     double length_mm = 0;
-    Ticks planned;         // from end to end
-    std::size_t lead = 0;  // the axis with the most steps
-    Ticks stepping;        // of `planned`: from the lead axis's first step to its last
+    Ticks planned;   // from end to end
+    Ticks stepping;  // of `planned`: from the lead axis's first step to its last
 };
 
 class AskedPath {
 public:
+    /// So many moves, the first ones, have details. A program may have millions of moves.
+    static constexpr std::size_t kDetailed = 5000;
+
     /// A job without a program: homing. It commands no moves.
     AskedPath() = default;
 
     /// Plans the program as the coordinator did. Error: why it cannot be planned.
-    static std::expected<AskedPath, std::string> of(const MachineConfig& machine, const Program& program);
+    static std::expected<AskedPath, std::string> of(const MachineConfig& machine, const ProgramHead& head,
+                                                    const std::shared_ptr<const ProgramBlocks>& blocks);
 
-    std::size_t size() const { return moves_.size(); }
-    const AskedMove& operator[](std::size_t move) const { return moves_[move]; }
+    std::size_t size() const { return lines_.size(); }
+    /// Of the program.
+    std::int32_t line(std::size_t move) const { return lines_[move]; }
+    /// The axis with the most steps.
+    std::size_t lead(std::size_t move) const { return leads_[move]; }
+    /// Null: it has none.
+    const AskedMove* details(std::size_t move) const { return move < details_.size() ? &details_[move] : nullptr; }
     Ticks planned() const { return planned_; }
     /// Motions from rest to rest; between two of them the program waits for a person.
     std::int64_t legs() const { return legs_; }
@@ -49,11 +57,13 @@ public:
     const std::vector<std::uint32_t>& moves_of(std::size_t axis) const { return moves_of_[axis]; }
 
 private:
-    void add(const LegPlan& leg);
+    void add_first(const LegPlan& leg);
 
     std::vector<double> mm_per_step_;   // of each axis
     std::vector<std::int64_t> counts_;  // place by place, axis by axis
-    std::vector<AskedMove> moves_;      // the n-th leads from the n-th place to the next
+    std::vector<std::int32_t> lines_;   // move by move: the n-th leads from the n-th place to the next
+    std::vector<std::uint8_t> leads_;
+    std::vector<AskedMove> details_;
     std::vector<std::vector<std::uint32_t>> moves_of_;
     Ticks planned_;
     std::int64_t legs_ = 0;

@@ -52,9 +52,10 @@ JobMoves::JobMoves(AskedPath asked, bool on_a_line)
       made_cursor_(asked_.axes()),
       late_cursor_(asked_.axes()),
       made_(asked_.size()),
-      made_by_axis_(asked_.size() * asked_.axes()),
+      made_steps_(asked_.size() * asked_.axes()),
       line_(asked_.axes()) {
     if (asked_.size() == 0) { return; }
+    while (asked_.details(details_.size()) != nullptr) { details_.emplace_back().peaks.resize(asked_.axes()); }
     for (std::size_t axis = 0; axis < asked_.axes(); ++axis) {
         line_[axis].count = asked_.from(0, axis);
         line_[axis].at_mm = static_cast<double>(line_[axis].count) * asked_.mm_per_step(axis);
@@ -112,8 +113,8 @@ void JobMoves::take(std::size_t axis, const MeasuredStep& step) {
     if (!is_next) { forget_distances(move_before); }
     if (step.tick < newest_) { return forget_distances(std::min(cursor.move(), current_)); }
     newest_ = made_[current_].newest = step.tick;
-    double& largest = made_[current_].largest_square_mm2;
-    largest = std::max(largest, square_of_distance_mm2());
+    float& largest = made_[current_].largest_square_mm2;
+    largest = std::max(largest, static_cast<float>(square_of_distance_mm2()));
 }
 
 /// The other axes' later steps were compared with an outdated position of this axis.
@@ -123,7 +124,7 @@ void JobMoves::forget_distances(std::size_t from_move) {
 
 std::size_t JobMoves::first_move_that_lacks(std::size_t axis) const {
     std::size_t move = 0;
-    const auto has_all = [&] { return made_by_axis_[move * asked_.axes() + axis].steps == asked_.steps(move, axis); };
+    const auto has_all = [&] { return made_steps_[move * asked_.axes() + axis] == asked_.steps(move, axis); };
     while (move < asked_.size() && has_all()) { ++move; }
     return move;
 }
@@ -142,16 +143,17 @@ std::int64_t JobMoves::moves_without_distance() const {
 
 void JobMoves::take_in(std::size_t move, std::size_t axis, const MeasuredStep& step) {
     if (move > current_) { begin(move); }
-    MadeByAxis& made = made_by_axis_[move * asked_.axes() + axis];
-    ++made.steps;
-    made.steps_per_tick = std::max(made.steps_per_tick, step.steps_per_tick);
-    made.steps_per_tick2 = std::max(made.steps_per_tick2, step.steps_per_tick2);
-    if (axis != asked_[move].lead) { return; }
-    if (!made_[move].first) { made_[move].first = step.tick; }
-    made_[move].last = step.tick;
+    ++made_steps_[move * asked_.axes() + axis];
+    const bool is_lead = axis == asked_.lead(move);
+    if (is_lead && made_[move].first == kNever) { made_[move].first = step.tick; }
+    if (move >= details_.size()) { return; }
+    Peak& peak = details_[move].peaks[axis];
+    peak.steps_per_tick = std::max(peak.steps_per_tick, static_cast<float>(step.steps_per_tick));
+    peak.steps_per_tick2 = std::max(peak.steps_per_tick2, static_cast<float>(step.steps_per_tick2));
+    if (is_lead) { details_[move].last = step.tick; }
 }
 
-void JobMoves::Made::add(std::span<const LateStep> equally_late) {
+void JobMoves::Details::add(std::span<const LateStep> equally_late) {
     const Ticks amount = equally_late.front().late;
     earliest = late.empty() ? amount : std::min(earliest, amount);
     latest = late.empty() ? amount : std::max(latest, amount);
@@ -166,8 +168,10 @@ void JobMoves::take(std::size_t axis, LateSteps late) {
         const bool found = cursor.find(asked_, axis, first.count - first.direction, first.direction);
         const std::size_t count = found ? steps_in_move(cursor, late.steps) : 1;
         if (found) {
-            Made& made = made_[cursor.move()];
-            for_equally_late(late.first(count), [&](std::span<const LateStep> equal) { made.add(equal); });
+            for_equally_late(late.first(count), [&](std::span<const LateStep> equal) {
+                late_.add(equal.front().late, std::ssize(equal));
+                if (cursor.move() < details_.size()) { details_[cursor.move()].add(equal); }
+            });
         }
         late = late.behind(count);
     }
@@ -176,31 +180,41 @@ void JobMoves::take(std::size_t axis, LateSteps late) {
 std::optional<std::int32_t> JobMoves::line_at(Tick tick) const {
     std::optional<std::int32_t> line;
     for (std::size_t move = 0; move < made_.size(); ++move) {
-        if (made_[move].first && *made_[move].first <= tick) { line = asked_[move].line; }
+        if (made_[move].first <= tick) { line = asked_.line(move); }
     }
     return line;
 }
 
 MoveLog JobMoves::move(std::size_t number) const {
-    const AskedMove& asked = asked_[number];
     const Made& made = made_[number];
-    MoveLog log{.line = asked.line,
-                .length_mm = asked.length_mm,
-                .planned = asked.planned,
-                .first = made.first,
-                .late = made.late,
-                .skew = made.latest - made.earliest};
-    if (made.first) {
-        log.made = made.last - *made.first + asked.planned - asked.stepping;
-        if (on_a_line_ && made.is_distance_known) { log.largest_distance_mm = std::sqrt(made.largest_square_mm2); }
+    MoveLog log{.line = asked_.line(number)};
+    const bool is_made = made.first != kNever;
+    if (is_made && on_a_line_ && made.is_distance_known) {
+        log.largest_distance_mm = std::sqrt(static_cast<double>(made.largest_square_mm2));
     }
     for (std::size_t axis = 0; axis < asked_.axes(); ++axis) {
-        const MadeByAxis& by_axis = made_by_axis_[number * asked_.axes() + axis];
-        log.axes.push_back(
-            {asked_.steps(number, axis), by_axis.steps, by_axis.steps_per_tick, by_axis.steps_per_tick2});
+        log.axes.push_back({asked_.steps(number, axis), made_steps_[number * asked_.axes() + axis]});
+    }
+    if (number < details_.size()) { add_details(number, log); }
+    return log;
+}
+
+void JobMoves::add_details(std::size_t number, MoveLog& log) const {
+    const AskedMove& asked = *asked_.details(number);
+    const Details& made = details_[number];
+    log.length_mm = asked.length_mm;
+    log.planned = asked.planned;
+    log.late = made.late;
+    log.skew = made.latest - made.earliest;
+    if (made_[number].first != kNever) {
+        log.first = made_[number].first;
+        log.made = made.last - *log.first + asked.planned - asked.stepping;
+    }
+    for (std::size_t axis = 0; axis < asked_.axes(); ++axis) {
+        log.axes[axis].peak_steps_per_tick = made.peaks[axis].steps_per_tick;
+        log.axes[axis].peak_steps_per_tick2 = made.peaks[axis].steps_per_tick2;
     }
     log.is_dwell = std::ranges::all_of(log.axes, [](const AxisMove& axis) { return axis.asked_steps == 0; });
-    return log;
 }
 
 }  // namespace lockstep::analysis

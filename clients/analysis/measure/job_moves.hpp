@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -90,24 +91,31 @@ public:
     std::int64_t moves_without_distance() const;
     /// The program's line in motion; none before the first.
     std::optional<std::int32_t> line_at(Tick tick) const;
+    /// How late the steps of all moves were, against the commanded ticks.
+    const TickHistogram& late() const { return late_; }
+    /// Of moves without details it has the line, the steps of each axis and the distance only.
     MoveLog move(std::size_t number) const;
 
 private:
+    static constexpr Tick kNever{std::numeric_limits<std::int64_t>::max()};
+
     struct Made {
-        std::optional<Tick> first;  // of the lead axis's steps
-        Tick last;
+        Tick first = kNever;            // of the lead axis's steps
         Tick newest;                    // of all axes' steps
-        double largest_square_mm2 = 0;  // of the distance from its line...
+        float largest_square_mm2 = 0;   // of the distance from its line...
         bool is_distance_known = true;  // ...but for steps that came late
+    };
+    struct Peak {
+        float steps_per_tick = 0;
+        float steps_per_tick2 = 0;
+    };
+    struct Details {
+        Tick last;  // of the lead axis's steps
         TickHistogram late;
         Ticks earliest;  // of how late its steps were
         Ticks latest;
+        std::vector<Peak> peaks;  // by axis
         void add(std::span<const LateStep> equally_late);
-    };
-    struct MadeByAxis {
-        std::int64_t steps = 0;
-        float steps_per_tick = 0;
-        float steps_per_tick2 = 0;
     };
     /// One axis's part in the current move's line, and where the axis is.
     struct Part {
@@ -125,13 +133,16 @@ private:
     double square_of_distance_mm2() const;
     void forget_distances(std::size_t from_move);
     std::size_t first_move_that_lacks(std::size_t axis) const;
+    void add_details(std::size_t number, MoveLog& log) const;
 
     AskedPath asked_;
     bool on_a_line_;
     std::vector<MoveCursor> made_cursor_;  // by axis
     std::vector<MoveCursor> late_cursor_;
     std::vector<Made> made_;                // by move
-    std::vector<MadeByAxis> made_by_axis_;  // by move and axis
+    std::vector<std::int64_t> made_steps_;  // by move and axis
+    std::vector<Details> details_;          // of the first moves
+    TickHistogram late_;
     std::size_t current_ = 0;
     Tick newest_;             // of the steps taken
     std::vector<Part> line_;  // of the current move, by axis

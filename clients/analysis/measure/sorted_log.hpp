@@ -4,11 +4,11 @@
 
 #include <cstddef>
 #include <lockstep/axis_position_t.hpp>
-#include <lockstep/job_t.hpp>
 #include <lockstep/program_event_t.hpp>
 #include <string>
 
 #include "clients/analysis/log/damage.hpp"
+#include "clients/analysis/log/program_parts.hpp"
 #include "clients/analysis/log/run.hpp"
 #include "clients/analysis/measure/lateness.hpp"
 #include "clients/analysis/measure/measured_step.hpp"
@@ -23,7 +23,7 @@ public:
     virtual void on_axis(const std::string& name) = 0;
     virtual void on_position(const axis_position_t& message) = 0;
     virtual void on_run(std::size_t lane, const Run& run) = 0;
-    virtual void on_job(const job_t& message, LogPlace place) = 0;
+    virtual void on_job(const RecordedJob& message, LogPlace place) = 0;
     /// `event`: what the message switches.
     virtual void on_event(const program_event_t& message, const ProgramEvent& event) = 0;
     /// The content cannot be read or decoded.

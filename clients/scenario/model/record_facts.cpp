@@ -26,7 +26,7 @@ public:
                                                                          message.tail != 0};
     }
     void on_steps(const step_batch_t& /*message*/, LogPlace /*place*/) override {}
-    void on_job(const job_t& /*message*/, LogPlace /*place*/) override {}
+    void on_job(const analysis::RecordedJob& /*message*/, LogPlace /*place*/) override {}
     void on_foreign(std::string_view /*channel*/) override {}
     void on_damage(LogPlace /*place*/, std::string /*what*/) override {}
 

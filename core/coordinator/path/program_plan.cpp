@@ -29,6 +29,11 @@ PlanError outside_travel(const AxisConfig& axis, double mm, std::int32_t line) {
                 number(axis.position_max_mm) + unit};
 }
 
+void end(Leg& leg, std::uint32_t before, const AxisCounts& at) {
+    leg.end = before;
+    leg.to = at;
+}
+
 }  // namespace
 
 Ticks ticks_of(const Dwell& dwell, double tick_s) {
@@ -141,24 +146,26 @@ void ProgramPlanner::note_arc(const ProgramMove& arc, const std::vector<std::siz
     move.lead = std::max<std::int64_t>(move.lead, 1);
 }
 
-std::expected<std::vector<Leg>, PlanError> ProgramPlanner::plan(const Program& program, const AxisCounts& start) const {
-    if (const auto fits = check_start(program.head(), start); !fits) { return std::unexpected(fits.error()); }
-    const auto axes = axes_of(program.axes).value();
-    std::vector<Leg> legs;
+std::expected<std::vector<Leg>, PlanError> ProgramPlanner::plan(const ProgramHead& head, const ProgramBlocks& blocks,
+                                                                const AxisCounts& start) const {
+    if (const auto fits = check_start(head, start); !fits) { return std::unexpected(fits.error()); }
+    const auto axes = axes_of(head.axes).value();
+    std::vector<Leg> legs{{.from = start, .to = start}};
     AxisCounts at = start;
-    const auto blocks = static_cast<std::uint32_t>(program.blocks.size());
-    for (std::uint32_t b = 0; b <= blocks; ++b) {
-        Leg leg{.first = b, .end = b, .from = at, .to = at};
-        for (; b < blocks && !ends_leg(program.blocks[b]); ++b) {
-            const auto move = move_of(program.blocks[b], b, axes, at);
-            if (!move) { return std::unexpected(move.error()); }
-            leg.moves = leg.moves || move->has_value();
+    std::uint32_t b = 0;
+    for (; !blocks.ends_before(b); ++b) {
+        const Block* block = blocks.block(b);
+        if (block == nullptr) {
+            return std::unexpected(PlanError{FaultCode::BadProgram, 0, "a part of the program cannot be read"});
         }
-        leg.end = b;
-        leg.to = at;
-        leg.then_pause = b < blocks && std::holds_alternative<Pause>(program.blocks[b].action);
-        legs.push_back(std::move(leg));
+        const auto move = move_of(*block, b, axes, at);
+        if (!move) { return std::unexpected(move.error()); }
+        legs.back().moves = legs.back().moves || move->has_value();
+        if (!ends_leg(*block)) { continue; }
+        end(legs.back(), b, at);
+        legs.push_back({.first = b + 1, .from = at, .to = at});
     }
+    end(legs.back(), b, at);
     return legs;
 }
 
@@ -215,18 +222,13 @@ std::expected<std::optional<PathMove>, PlanError> ProgramPlanner::move_of(const 
     return move;
 }
 
-void ProgramPlanner::each_move(const Program& program, const Leg& leg,
-                               const std::function<void(const PathMove&)>& visit) const {
+std::vector<PathMove> ProgramPlanner::moves_of(const Program& program, const Leg& leg) const {
+    std::vector<PathMove> moves;
     const auto axes = axes_of(program.axes).value();
     AxisCounts at = leg.from;
     for (std::uint32_t b = leg.first; b < leg.end; ++b) {
-        if (const auto move = move_of(program.blocks[b], b, axes, at).value()) { visit(*move); }
+        if (const auto move = move_of(program.blocks[b], b, axes, at).value()) { moves.push_back(*move); }
     }
-}
-
-std::vector<PathMove> ProgramPlanner::moves_of(const Program& program, const Leg& leg) const {
-    std::vector<PathMove> moves;
-    each_move(program, leg, [&moves](const PathMove& move) { moves.push_back(move); });
     return moves;
 }
 

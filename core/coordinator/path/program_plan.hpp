@@ -2,7 +2,6 @@
 #pragma once
 
 #include <expected>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -22,8 +21,7 @@ struct Leg {
     std::uint32_t first = 0;  // of the program's blocks, up to
     std::uint32_t end = 0;    // this one, which is the pause or the rest if there is one
     bool moves = false;       // a block moves or dwells
-    bool then_pause = false;
-    AxisCounts from;  // whole steps
+    AxisCounts from;          // whole steps
     AxisCounts to;
 };
 
@@ -50,7 +48,11 @@ public:
     /// The whole program from where the axes stand. Errors: an axis the machine lacks, a start elsewhere than the
     /// program's (StartMismatch), a start or a target outside the travel (OutsideTravel), a move that is too long to
     /// count.
-    std::expected<std::vector<Leg>, PlanError> plan(const Program& program, const AxisCounts& start) const;
+    std::expected<std::vector<Leg>, PlanError> plan(const ProgramHead& head, const ProgramBlocks& blocks,
+                                                    const AxisCounts& start) const;
+    std::expected<std::vector<Leg>, PlanError> plan(const Program& program, const AxisCounts& start) const {
+        return plan(program.head(), WholeProgram(borrowed(program)), start);
+    }
 
     /// What the frames of a leg are made of: of the blocks from `first` on, where the axes stand at `from`. It is
     /// resumed before it makes any. By the LAI method the whole program is known.
@@ -61,7 +63,6 @@ public:
     }
 
     /// The moves of a leg from whole step to whole step, and its dwells.
-    void each_move(const Program& program, const Leg& leg, const std::function<void(const PathMove&)>& visit) const;
     std::vector<PathMove> moves_of(const Program& program, const Leg& leg) const;
 
     /// The places of axes in the machine. Error: one that it lacks.

@@ -97,7 +97,7 @@ void LogReader::skip_damage(LogDamage::Kind kind) {
     at_ = to;
 }
 
-LogEvent LogReader::event_at(std::uint64_t offset, const Header& header) {
+LogEvent LogReader::read_event(std::uint64_t offset, const Header& header) {
     const auto bytes = file_.view(offset, static_cast<std::size_t>(header.event_bytes()));
     if (bytes.size() < header.event_bytes()) { return {}; }  // reading failed: next() reports it
     const auto channel = bytes.subspan(kHeaderBytes, header.channel_bytes);
@@ -118,7 +118,7 @@ std::expected<std::optional<LogEvent>, std::string> LogReader::next() {
             skip_damage(header ? LogDamage::Kind::WrongLength : LogDamage::Kind::NoEvent);
             continue;
         }
-        const LogEvent event = event_at(at_, *header);
+        const LogEvent event = read_event(at_, *header);
         at_ = end;
         if (!file_.failed()) { return event; }
     }

@@ -51,6 +51,11 @@ public:
 
     /// The next event, or none at the end. Its pointers are valid until the next call. Error: reading failed.
     std::expected<std::optional<LogEvent>, std::string> next();
+    /// The event that begins at this byte, or the next behind it; next() goes on from there.
+    std::expected<std::optional<LogEvent>, std::string> event_at(std::uint64_t offset) {
+        at_ = offset;
+        return next();
+    }
 
     const std::vector<LogDamage>& damages() const { return damages_; }
     std::uint64_t damaged_stretches() const { return damaged_stretches_; }
@@ -71,7 +76,7 @@ private:
     bool begins_event(std::uint64_t offset);
     std::optional<std::uint64_t> find_sync(std::uint64_t from, std::uint64_t to);
     bool hides_another(std::uint64_t offset, std::uint64_t end);
-    LogEvent event_at(std::uint64_t offset, const Header& header);
+    LogEvent read_event(std::uint64_t offset, const Header& header);
     void skip_damage(LogDamage::Kind kind);
 
     FileWindow file_;

@@ -21,7 +21,7 @@ public:
     }
 
 private:
-    const std::vector<AxisMotion::TimedPiece>& pieces_;
+    const std::deque<AxisMotion::TimedPiece>& pieces_;
     double mm_per_step_;
     std::size_t piece_ = 0;
 };

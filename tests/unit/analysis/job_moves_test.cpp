@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "clients/analysis/log/recorded_program.hpp"
 #include "tests/unit/analysis/log_makers.hpp"
 
 namespace lockstep::analysis {
@@ -24,7 +25,13 @@ protected:
         }
     }
 
-    JobMoves job{AskedPath::of(test::two_axes(), test::path_through({{0, 0}, {1, 1}, {2, 1}, {3, 1}})).value(), true};
+    static AskedPath asked() {
+        const auto program =
+            std::make_shared<const RecordedProgram>(test::path_through({{0, 0}, {1, 1}, {2, 1}, {3, 1}}));
+        return AskedPath::of(test::two_axes(), program->head(), program).value();
+    }
+
+    JobMoves job{asked(), true};
 };
 
 TEST_F(LateSteps, InTheOrderOfTimeEachMoveHasItsDistance) {

@@ -41,7 +41,7 @@ struct LoggedSteps final : LogListener {
     }
     void on_position(const axis_position_t&, LogPlace) override {}
     void on_run(const run_t&, LogPlace) override {}
-    void on_job(const job_t&, LogPlace) override {}
+    void on_job(const RecordedJob&, LogPlace) override {}
     void on_foreign(std::string_view) override {}
     void on_damage(LogPlace, std::string what) override { ADD_FAILURE() << what; }
     std::map<std::string, std::vector<Step>> axes;

@@ -214,14 +214,15 @@ void JobPlayer::refused(const char* what, const Reply& reply) {
     if (!disturbed()) { bench_.object(what, "it was " + answer_text(reply)); }
 }
 
-/// Continues to the next event, planned or not.
+/// Continues to the next event, planned or not. A hold that one coordinator refused may be obeyed by another later.
 void JobPlayer::go_on() {
-    if (in(MachinePhase::Paused)) { return resume(); }
+    const auto is_held = [this] { return in(MachinePhase::Paused) || in(MachinePhase::Holding); };
+    if (is_held()) { return resume(); }
     const bool more = next_ < task_.interrupts.size();
     const double after_s = more ? task_.interrupts[next_].after_s : 0;
     const Tick due = moving_since_ + Ticks{static_cast<std::int64_t>(after_s * bench_.machine().ticks_per_second())};
-    (void)bench_.await([&] { return ended() || in(MachinePhase::Paused) || (more && bench_.vm().now() >= due); },
-                       ample_seconds(), "a motion");
+    (void)bench_.await([&] { return ended() || is_held() || (more && bench_.vm().now() >= due); }, ample_seconds(),
+                       "a motion");
     if (!bench_.over() && more && in(MachinePhase::Running) && bench_.vm().now() >= due) {
         interrupt(task_.interrupts[next_++]);
     }
