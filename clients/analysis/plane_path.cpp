@@ -4,6 +4,7 @@
 #include <limits>
 #include <variant>
 
+#include "clients/drawing/thinned.hpp"
 #include "core/arc_path.hpp"
 
 namespace lockstep::analysis {
@@ -50,18 +51,16 @@ std::vector<drawing::Point> asked_in_plane(const RecordedProgram& program, std::
     const auto x = static_cast<std::size_t>(std::ranges::find(head.axes, "X") - head.axes.begin());
     const auto y = static_cast<std::size_t>(std::ranges::find(head.axes, "Y") - head.axes.begin());
     if (x == head.axes.size() || y == head.axes.size()) { return {}; }
-    std::vector<drawing::Point> points = {{head.start_mm.at(x), head.start_mm.at(y)}};
+    drawing::ThinnedPath path(at_most);
+    path.add({head.start_mm.at(x), head.start_mm.at(y)});
     std::vector<double> at = head.start_mm;
     for (std::uint32_t number = 0; const Block* block = program.block(number); ++number) {
         const auto* move = std::get_if<ProgramMove>(&block->action);
         if (move == nullptr) { continue; }
-        each_chord(*move, at, kChord_mm, [&](const std::vector<double>& to) {
-            if (points.size() <= at_most) { points.push_back({to.at(x), to.at(y)}); }
-        });
-        if (points.size() > at_most) { return {}; }
+        each_chord(*move, at, kChord_mm, [&](const std::vector<double>& to) { path.add({to.at(x), to.at(y)}); });
         at = move->target_mm;
     }
-    return points;
+    return path.points();
 }
 
 }  // namespace lockstep::analysis

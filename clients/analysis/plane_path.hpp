@@ -18,8 +18,8 @@ struct PlanePaths {
 /// None unless there are axes X and Y whose steps per mm are known.
 std::optional<PlanePaths> paths_in_plane(const Analysis& analysis);
 
-/// The places a program leads through in the X-Y plane, in mm; none unless it has both axes, and none if there are more
-/// than `at_most`.
+/// The places a program leads through in the X-Y plane, in mm; none unless it has both axes. Of more than
+/// `at_most` places those are left out that a picture does not need.
 std::vector<drawing::Point> asked_in_plane(const RecordedProgram& program, std::size_t at_most);
 
 }  // namespace lockstep::analysis

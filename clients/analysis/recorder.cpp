@@ -134,7 +134,10 @@ bool Recorder::is_during(Tick tick, const JobLog& job) const {
 }
 
 void Recorder::keep_asked_way(const RecordedProgram& program) {
-    auto way = asked_in_plane(program, Analysis::kAskedPointsKept - asked_points_);
+    constexpr std::size_t kFewest = 1000;  // a path of fewer points may be drawn too coarsely
+    const std::size_t most = Analysis::kAskedPointsKept - asked_points_;
+    if (most < kFewest) { return; }
+    auto way = asked_in_plane(program, most);
     if (way.size() < 2) { return; }
     asked_points_ += way.size();
     analysis_.asked_ways_mm.push_back(std::move(way));

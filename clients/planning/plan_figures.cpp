@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "clients/drawing/motion_figures.hpp"
-
 namespace lockstep {
 namespace {
 
@@ -21,52 +19,83 @@ std::size_t place_of(const MachineConfig& machine, const std::string& name, std:
     return place < machine.axes.size() ? place : std::min(otherwise, machine.axes.size() - 1);
 }
 
-/// The speed is linear between the ends of a piece.
-drawing::AxisCurve speed_curve(const MachineConfig& machine, const std::vector<LegPlan>& legs, std::size_t i) {
-    const AxisConfig& axis = machine.axes[i];
-    const double ticks_per_s = machine.ticks_per_second();
-    drawing::AxisCurve curve{.axis = axis.name, .limit = axis.max_velocity_mm_s};
-    Ticks start;
-    const auto add = [&](Ticks at, double steps_per_tick) {
-        curve.time_s.push_back(static_cast<double>((start + at).value) / ticks_per_s);
-        curve.value.push_back(steps_per_tick * ticks_per_s / axis.steps_per_mm);
-    };
-    for (const LegPlan& leg : legs) {
-        add({}, 0);
-        for (const auto& [begin, from, piece] : leg.axes[i].pieces()) {
-            const double change = piece.acceleration.steps_per_tick2();
-            const double first = piece.velocity.steps_per_tick() + change / 2;
-            add(begin, first);
-            add(begin + piece.ticks, first + change * static_cast<double>(piece.ticks.value));
-        }
-        add(leg.duration, 0);
-        start += leg.duration;
+Position place_at(const AxisTrack& track, Ticks t) {
+    Position at = track.from;
+    for (const Piece& piece : track.body) {
+        if (t <= piece.ticks) { return at + piece.covered(t); }
+        at = at + piece.covered();
+        t = t - piece.ticks;
     }
-    return curve;
+    return at;
 }
 
 }  // namespace
 
-drawing::Figure plan_path_figure(const MachineConfig& machine, const ProgramPlan& plan,
-                                 const std::vector<LegPlan>& legs) {
-    const std::size_t x = place_of(machine, "X", 0);
-    const std::size_t y = place_of(machine, "Y", 1);
-    drawing::PlanePath way{{plan.start_mm[x]}, {plan.start_mm[y]}};
-    const auto add = [&](const LegPlan& leg, Ticks at) {
-        way.x.push_back(to_mm(machine.axes[x], leg.axes[x].at(at).as_steps()));
-        way.y.push_back(to_mm(machine.axes[y], leg.axes[y].at(at).as_steps()));
-    };
-    for (const LegPlan& leg : legs) {
-        for (std::size_t k = 0; k < leg.moves.size(); ++k) { add(leg, leg.end(k)); }
+PlanDrawing::PlanDrawing(const MachineConfig& machine)
+    : ticks_per_s_(machine.ticks_per_second()), x_(place_of(machine, "X", 0)), y_(place_of(machine, "Y", 1)) {
+    for (const AxisConfig& axis : machine.axes) {
+        axes_.push_back({axis.name, axis.steps_per_mm, axis.max_velocity_mm_s, {}});
     }
-    return drawing::path_figure(plan.program + ": path", in_a_line(plan),
-                                {.x = machine.axes[x].name, .y = machine.axes[y].name}, way, {});
 }
 
-drawing::Figure plan_speed_figure(const MachineConfig& machine, const ProgramPlan& plan,
-                                  const std::vector<LegPlan>& legs) {
+void PlanDrawing::take(const PlannedFrame& planned) {
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        if (planned.is_first) { axes_[i].speed.add({static_cast<double>(planned.begin.value) / ticks_per_s_, 0}); }
+        add_speeds(planned.frame.axes[i], planned.begin, axes_[i]);
+        if (!planned.frame.last) { continue; }
+        const Ticks end = planned.begin + planned.frame.ticks;
+        axes_[i].speed.add({static_cast<double>(end.value) / ticks_per_s_, 0});
+    }
+    add_places(planned.frame);
+}
+
+/// The speed is linear between the ends of a piece.
+void PlanDrawing::add_speeds(const AxisTrack& track, Ticks begin, Axis& axis) {
+    for (const Piece& piece : track.body) {
+        const double change = piece.acceleration.steps_per_tick2();
+        const double first = piece.velocity.steps_per_tick() + change / 2;
+        const double last = first + change * static_cast<double>(piece.ticks.value);
+        const double scale = ticks_per_s_ / axis.steps_per_mm;
+        axis.speed.add({static_cast<double>(begin.value) / ticks_per_s_, first * scale});
+        begin += piece.ticks;
+        axis.speed.add({static_cast<double>(begin.value) / ticks_per_s_, last * scale});
+    }
+}
+
+/// At both ends of each piece of both axes.
+void PlanDrawing::add_places(const PathFrame& frame) {
+    std::vector<Ticks> ends{Ticks{}};
+    for (const std::size_t axis : {x_, y_}) {
+        Ticks end;
+        for (const Piece& piece : frame.axes[axis].body) { ends.push_back(end += piece.ticks); }
+    }
+    std::ranges::sort(ends);
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    for (const Ticks t : ends) {
+        path_.add({place_at(frame.axes[x_], t).as_steps() / axes_[x_].steps_per_mm,
+                   place_at(frame.axes[y_], t).as_steps() / axes_[y_].steps_per_mm});
+    }
+}
+
+drawing::Figure PlanDrawing::path(const ProgramPlan& plan) const {
+    drawing::PlanePath way{{plan.start_mm[x_]}, {plan.start_mm[y_]}};
+    for (const drawing::Point& point : path_.points()) {
+        way.x.push_back(point.x);
+        way.y.push_back(point.y);
+    }
+    return drawing::path_figure(plan.program + ": path", in_a_line(plan), {.x = axes_[x_].name, .y = axes_[y_].name},
+                                way, {});
+}
+
+drawing::Figure PlanDrawing::speed(const ProgramPlan& plan) const {
     std::vector<drawing::AxisCurve> curves;
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) { curves.push_back(speed_curve(machine, legs, i)); }
+    for (const Axis& axis : axes_) {
+        curves.push_back({.axis = axis.name, .limit = axis.max_velocity_mm_s});
+        for (const drawing::Point& point : axis.speed.points()) {
+            curves.back().time_s.push_back(point.x);
+            curves.back().value.push_back(point.y);
+        }
+    }
     return drawing::speed_figure(plan.program + ": planned speed of each axis", in_a_line(plan), curves);
 }
 

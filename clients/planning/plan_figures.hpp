@@ -1,18 +1,44 @@
-// The figures of a plan: the path in the plane of its first two axes, and each axis's planned speed.
+// The figures of a plan: the path in the plane of its first two axes, and each axis's planned speed. They are collected
+// frame by frame, in bounded memory.
 #pragma once
 
+#include <vector>
+
 #include "clients/drawing/figure.hpp"
-#include "clients/planning/leg_plan.hpp"
+#include "clients/drawing/motion_figures.hpp"
+#include "clients/drawing/thinned.hpp"
 #include "clients/planning/plan_summary.hpp"
 
 namespace lockstep {
 
-/// Axes X and Y if the machine has them, else its first two; for a single axis, that over itself.
-drawing::Figure plan_path_figure(const MachineConfig& machine, const ProgramPlan& plan,
-                                 const std::vector<LegPlan>& legs);
+class PlanDrawing {
+public:
+    explicit PlanDrawing(const MachineConfig& machine);
 
-/// Paths follow each other without the pauses between them.
-drawing::Figure plan_speed_figure(const MachineConfig& machine, const ProgramPlan& plan,
-                                  const std::vector<LegPlan>& legs);
+    /// In the order of the plan.
+    void take(const PlannedFrame& planned);
+
+    /// Axes X and Y if the machine has them, else its first two; for a single axis, that over itself.
+    drawing::Figure path(const ProgramPlan& plan) const;
+    /// Legs follow each other without the pauses between them.
+    drawing::Figure speed(const ProgramPlan& plan) const;
+
+private:
+    struct Axis {
+        std::string name;
+        double steps_per_mm = 1;
+        double max_velocity_mm_s = 0;
+        drawing::ThinnedCurve speed;  // mm/s over seconds
+    };
+
+    void add_speeds(const AxisTrack& track, Ticks begin, Axis& axis);
+    void add_places(const PathFrame& frame);
+
+    double ticks_per_s_;
+    std::vector<Axis> axes_;
+    std::size_t x_;  // the plane's axes
+    std::size_t y_;
+    drawing::ThinnedPath path_;  // mm
+};
 
 }  // namespace lockstep

@@ -37,14 +37,16 @@ public:
 private:
     std::expected<void, PlanError> plan(FrameSource& source, std::uint32_t first) {
         source.resume({first, {}}, positions_of(at_), planning_.overrides);
+        bool is_first = true;
         for (source.read_ahead(); !source.is_done(); source.read_ahead()) {
             const auto frame = source.next();
             if (!frame) {
                 return std::unexpected(PlanError{FaultCode::FrameBeyondLimits, source.line_of(frame.error().at.block),
                                                  "no motion from rest keeps the limits of all axes here"});
             }
+            const Ticks begin = totals_.duration();
             totals_.take(**frame, source.begins());
-            if (planning_.each_frame) { planning_.each_frame(totals_.duration()); }
+            if (planning_.each_frame) { planning_.each_frame({**frame, begin, std::exchange(is_first, false)}); }
         }
         totals_.end_leg();
         return {};
@@ -104,9 +106,10 @@ std::expected<ProgramPlan, PlanError> plan_blocks(const MachineConfig& machine, 
     return plan;
 }
 
-std::expected<ProgramPlan, PlanError> plan_program(const MachineConfig& machine, const Program& program) {
+std::expected<ProgramPlan, PlanError> plan_program(const MachineConfig& machine, const Program& program,
+                                                   const OnPlannedFrame& each_frame) {
     return plan_blocks(machine, program.head(), std::make_shared<WholeProgram>(borrowed(program)),
-                       {.start = start_counts(machine, program.head())});
+                       {.start = start_counts(machine, program.head()), .overrides = {}, .each_frame = each_frame});
 }
 
 proto::PlanReport to_report(const ProgramPlan& plan, int lines) {

@@ -33,10 +33,17 @@ struct ProgramPlan {
 /// Counts for every axis of the machine: the program's start if it names the axis, else the park position.
 AxisCounts start_counts(const MachineConfig& machine, const ProgramHead& program);
 
+struct PlannedFrame {
+    const PathFrame& frame;
+    Ticks begin;            // since the begin of the program; pauses are left out
+    bool is_first = false;  // of a leg: the machine comes from rest
+};
+using OnPlannedFrame = std::function<void(const PlannedFrame&)>;
+
 struct Planning {
     AxisCounts start;  // of all axes of the machine
     Overrides overrides;
-    std::function<void(Ticks)> each_frame;  // is called with how long the motion is so far; may be none
+    OnPlannedFrame each_frame;  // may be none
 };
 
 /// Plans the program as the coordinator does. The blocks are read once, in their order. Errors: as
@@ -45,7 +52,8 @@ std::expected<ProgramPlan, PlanError> plan_blocks(const MachineConfig& machine, 
                                                   std::shared_ptr<const ProgramBlocks> blocks,
                                                   const Planning& planning);
 /// From its start position.
-std::expected<ProgramPlan, PlanError> plan_program(const MachineConfig& machine, const Program& program);
+std::expected<ProgramPlan, PlanError> plan_program(const MachineConfig& machine, const Program& program,
+                                                   const OnPlannedFrame& each_frame = {});
 
 /// `lines`: of the G-code file.
 proto::PlanReport to_report(const ProgramPlan& plan, int lines);

@@ -56,11 +56,12 @@ public:
     Progress(std::string name, const ProgramText& text, double ticks_per_s, Output& output)
         : name_(std::move(name)), text_(text), ticks_per_s_(ticks_per_s), output_(output) {}
 
-    void show(Ticks planned) {
+    void show(const PlannedFrame& planned) {
+        const Ticks motion = planned.begin + planned.frame.ticks;
         const auto share = static_cast<int>(100 * text_.share_read());
         if (std::exchange(shown_, share) == share) { return; }
         output_.progress(name_ + ": " + std::to_string(share) + " %, " + std::to_string(text_.lines()) + " lines, " +
-                         duration_text(static_cast<double>(planned.value) / ticks_per_s_) + " of motion");
+                         duration_text(static_cast<double>(motion.value) / ticks_per_s_) + " of motion");
     }
 
 private:
@@ -71,7 +72,8 @@ private:
     int shown_ = 0;
 };
 
-std::expected<PlannedFile, Failure> plan_long_file(const ProgramOptions& options, Output& output) {
+std::expected<PlannedFile, Failure> plan_long_file(const ProgramOptions& options, Output& output,
+                                                   const OnSetup& on_setup) {
     auto setup = reading_setup(options);
     if (!setup) { return std::unexpected(setup.error()); }
     auto lines = LineReader::open(options.file);
@@ -79,9 +81,14 @@ std::expected<PlannedFile, Failure> plan_long_file(const ProgramOptions& options
     GcodeSetup reading = program_setup(options.file, setup->machine, setup->start_mm, options.switches, setup->values);
     const auto text = std::make_shared<ProgramText>(*std::move(lines), reading);
     Progress progress(options.file, *text, setup->machine.ticks_per_second(), output);
+    const OnPlannedFrame each_frame = on_setup ? on_setup(setup->machine) : OnPlannedFrame{};
     auto plan = plan_blocks(setup->machine, text->head(), text,
                             {.start = start_counts(setup->machine, text->head()),
-                             .each_frame = [&progress](Ticks planned) { progress.show(planned); }});
+                             .overrides = {},
+                             .each_frame = [&](const PlannedFrame& planned) {
+                                 progress.show(planned);
+                                 if (each_frame) { each_frame(planned); }
+                             }});
     if (!text->errors().empty()) { return std::unexpected(bad_file(options.file, text->errors())); }
     if (!plan) { return std::unexpected(not_planned(options.file, plan.error())); }
     return PlannedFile{std::move(setup->machine), *std::move(plan), text->lines(), text->notes(), std::move(reading)};
@@ -104,14 +111,15 @@ void add_start(CLI::App& verb, ProgramOptions& options) {
                     "the start position in mm: X=10,Y=5; axes not named are at their park positions");
 }
 
-std::expected<ProgramInput, Failure> read_program(const ProgramOptions& options) {
+std::expected<ProgramInput, Failure> read_program(const ProgramOptions& options, const OnSetup& on_setup) {
     const std::string& file = options.file;
     if (const auto text = read_text_file(file); !text) { return std::unexpected(bad_file(file, {text.error()})); }
     auto setup = reading_setup(options);
     if (!setup) { return std::unexpected(setup.error()); }
     auto read = read_program_file(file, setup->machine, setup->start_mm, options.switches, setup->values);
     if (!read) { return std::unexpected(bad_file(file, read.error())); }
-    auto plan = plan_program(setup->machine, read->reading.program);
+    auto plan =
+        plan_program(setup->machine, read->reading.program, on_setup ? on_setup(setup->machine) : OnPlannedFrame{});
     if (!plan) { return std::unexpected(not_planned(file, plan.error())); }
     const bool ends_open = !read->text.empty() && read->text.back() != '\n';
     const auto lines = std::ranges::count(read->text, '\n') + (ends_open ? 1 : 0);
@@ -121,9 +129,9 @@ std::expected<ProgramInput, Failure> read_program(const ProgramOptions& options)
                         std::move(read->text)};
 }
 
-std::expected<PlannedFile, Failure> plan_file(const ProgramOptions& options, Output& output) {
-    if (is_long_program(options.file)) { return plan_long_file(options, output); }
-    auto input = read_program(options);
+std::expected<PlannedFile, Failure> plan_file(const ProgramOptions& options, Output& output, const OnSetup& on_setup) {
+    if (is_long_program(options.file)) { return plan_long_file(options, output, on_setup); }
+    auto input = read_program(options, on_setup);
     if (!input) { return std::unexpected(input.error()); }
     return static_cast<PlannedFile&&>(*std::move(input));
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <expected>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -46,10 +47,14 @@ struct ProgramInput : PlannedFile {
     std::string text;
 };
 
+/// Once the machine is known: what takes the frames of the plan.
+using OnSetup = std::function<OnPlannedFrame(const MachineConfig& machine)>;
+
 /// Errors: everything that is wrong with the configuration, the start, the values or the program, by line and column.
-std::expected<ProgramInput, Failure> read_program(const ProgramOptions& options);
+std::expected<ProgramInput, Failure> read_program(const ProgramOptions& options, const OnSetup& on_setup = {});
 /// Of a file of any length: a long one is read as a stream, with progress. Errors: as read_program().
-std::expected<PlannedFile, Failure> plan_file(const ProgramOptions& options, Output& output);
+std::expected<PlannedFile, Failure> plan_file(const ProgramOptions& options, Output& output,
+                                              const OnSetup& on_setup = {});
 /// A line for each note.
 void warn(const PlannedFile& input, Output& output);
 

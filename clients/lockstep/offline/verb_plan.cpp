@@ -1,5 +1,6 @@
 // lockstep plan
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 
@@ -19,22 +20,18 @@ struct PlanOptions : ProgramOptions {
     std::string moves;
 };
 
-/// Of a program that is held as a whole.
-std::expected<void, Failure> draw(const PlanOptions& options, const ProgramInput& input) {
-    const auto legs = plan_legs(input.machine, input.program, start_counts(input.machine, input.program.head()));
-    if (!legs) { return std::unexpected(bad_file(options.file, {{legs.error().line, 0, legs.error().text}})); }
-    const auto drawn =
-        write_figures(options.svg_dir, {{"xy.svg", plan_path_figure(input.machine, input.plan, *legs)},
-                                        {"speed.svg", plan_speed_figure(input.machine, input.plan, *legs)}});
-    return drawn ? std::expected<void, Failure>{} : std::unexpected(bad_input(drawn.error()));
-}
-
 std::expected<PlannedFile, Failure> plan_and_draw(const PlanOptions& options, Output& output) {
     if (options.svg_dir.empty()) { return plan_file(options, output); }
-    auto input = read_program(options);
-    if (!input) { return std::unexpected(input.error()); }
-    if (const auto drawn = draw(options, *input); !drawn) { return std::unexpected(drawn.error()); }
-    return static_cast<PlannedFile&&>(*std::move(input));
+    std::optional<PlanDrawing> drawing;
+    auto planned = plan_file(options, output, [&drawing](const MachineConfig& machine) -> OnPlannedFrame {
+        drawing.emplace(machine);
+        return [&drawing](const PlannedFrame& frame) { drawing->take(frame); };
+    });
+    if (!planned) { return planned; }
+    const auto drawn = write_figures(
+        options.svg_dir, {{"xy.svg", drawing->path(planned->plan)}, {"speed.svg", drawing->speed(planned->plan)}});
+    if (!drawn) { return std::unexpected(bad_input(drawn.error())); }
+    return planned;
 }
 
 ExitCode report(const PlannedFile& planned, Output& output) {

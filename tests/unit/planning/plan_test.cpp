@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "clients/planning/leg_plan.hpp"
 #include "clients/planning/plan_figures.hpp"
 #include "clients/planning/plan_summary.hpp"
 #include "tests/unit/verification/recorded_machine.hpp"
@@ -125,8 +126,33 @@ TEST(Plan, NothingToMoveIsAPlanToo) {
     const auto plan = plan_program(machine, program_of(machine, "G21\n"));
     ASSERT_TRUE(plan.has_value());
     EXPECT_EQ(plan->duration, Ticks{});
-    EXPECT_EQ(plan_path_figure(machine, *plan, {}).rows.size(), 1U);
-    EXPECT_EQ(plan_speed_figure(machine, *plan, {}).rows.size(), 2U);
+    const PlanDrawing drawing(machine);
+    EXPECT_EQ(drawing.path(*plan).rows.size(), 1U);
+    EXPECT_EQ(drawing.speed(*plan).rows.size(), 2U);
+}
+
+/// Half a circle, and a pause: the path is round, and the speed is 0 at each rest.
+TEST(Plan, DrawsArcsAndRests) {
+    const MachineConfig machine = example("two-axis");
+    PlanDrawing drawing(machine);
+    const auto plan = plan_program(machine, program_of(machine, "G1 X60 Y50 F3000\nM0\nG3 X40 Y50 I-10 J0\nG1 X5 Y5\n"),
+                                   [&drawing](const PlannedFrame& frame) { drawing.take(frame); });
+    ASSERT_TRUE(plan.has_value());
+    const drawing::Figure figure = drawing.path(*plan);
+    const drawing::Series& way = figure.rows[0].series[0];
+    EXPECT_NEAR(std::ranges::max(way.y), 60, 0.05);
+    std::size_t on_arc = 0;
+    for (std::size_t i = 0; i < way.x.size(); ++i) {
+        if (way.y[i] < 50.1) { continue; }
+        EXPECT_NEAR(std::hypot(way.x[i] - 50, way.y[i] - 50), 10, 0.05);
+        ++on_arc;
+    }
+    EXPECT_GT(on_arc, 20U);
+    const drawing::Figure speeds = drawing.speed(*plan);
+    const drawing::Series& speed = speeds.rows[0].series[0];
+    EXPECT_EQ(std::ranges::count(speed.y, 0.0), 4) << "two legs, each from rest to rest";
+    EXPECT_NEAR(speed.x.back(), plan->duration_s, 1e-9);
+    EXPECT_TRUE(std::ranges::is_sorted(speed.x));
 }
 
 }  // namespace
