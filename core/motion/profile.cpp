@@ -1,7 +1,9 @@
 #include "core/motion/profile.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/motion/wide_math.hpp"
 
@@ -33,6 +35,46 @@ struct Shape {
         return static_cast<std::int64_t>(floor_div(twice, Int128{rise} + 2 * Int128{cruise} + fall));
     }
 };
+
+constexpr double kLimitRounding = 1e-9;  // relative: what doubles make of a limit
+
+/// No faster and no steeper than the limits allow.
+bool keeps(const Shape& shape, const PathLimits& limits) {
+    const auto peak = static_cast<double>(shape.peak());
+    const auto is_gentle = [&](std::int64_t end, std::int64_t ramp, double acceleration) {
+        const double change = peak - static_cast<double>(end);
+        const double per_subtick2 = acceleration / static_cast<double>(kSubticksPerTick) * kRawPerStepPerTick;
+        const double most = per_subtick2 * static_cast<double>(ramp) * (1 + kLimitRounding);
+        return ramp == 0 ? change <= 0 : change >= 0 && change <= most;
+    };
+    return peak <= limits.max_velocity * kRawPerStepPerTick * (1 + kLimitRounding) &&
+           is_gentle(shape.entry, shape.rise, limits.max_acceleration) &&
+           is_gentle(shape.exit, shape.fall, limits.max_deceleration);
+}
+
+/// Rounds a continuous optimum, in ticks, to whole quanta: less than one quantum is lost where the ramps can be rounded
+/// so that the limits hold, and one more otherwise. (With both ramps rounded up and one quantum more, neither the peak
+/// nor a ramp exceeds that of the optimum.)
+std::optional<Shape> rounded_in_all(Shape shape, double rise, double cruise, double fall,
+                                    const ProfileRequest& request) {
+    const std::int64_t q = request.quantum;
+    const std::int64_t shortest = std::max(q, round_up(rise + cruise + fall, q));
+    const auto roundings = [q](double ramp) {
+        const std::int64_t up = round_up(ramp, q);
+        return std::array{up, std::max<std::int64_t>(0, up - q), std::int64_t{0}};
+    };
+    for (const std::int64_t total : {shortest, shortest + q}) {
+        for (const std::int64_t whole_rise : roundings(rise)) {
+            for (const std::int64_t whole_fall : roundings(fall)) {
+                shape.rise = whole_rise;
+                shape.fall = whole_fall;
+                shape.cruise = total - whole_rise - whole_fall;
+                if (shape.cruise >= 0 && keeps(shape, request.limits)) { return shape; }
+            }
+        }
+    }
+    return std::nullopt;
+}
 
 /// Where rounding up has left the peak below an end's speed, that end's ramp is part of the cruise.
 void drop_inverted_ramps(Shape& shape) {
@@ -160,12 +202,13 @@ Profile plan_fastest(const ProfileRequest& request) {
     const double rise = (peak - e) / a;
     const double fall = (peak - x) / d;
     const double cruise = std::max(0.0, (distance - (e + peak) / 2 * rise - (peak + x) / 2 * fall) / peak);
-    Shape shape{.distance = (request.to - request.from).raw,
-                .entry = to_raw(e),
-                .exit = to_raw(x),
-                .rise = round_up(rise, request.quantum),
-                .cruise = round_up(cruise, request.quantum),
-                .fall = round_up(fall, request.quantum)};
+    Shape shape{.distance = (request.to - request.from).raw, .entry = to_raw(e), .exit = to_raw(x)};
+    if (const auto rounded = rounded_in_all(shape, rise, cruise, fall, request)) {
+        return build(request.from, *rounded);
+    }
+    shape.rise = round_up(rise, request.quantum);
+    shape.cruise = round_up(cruise, request.quantum);
+    shape.fall = round_up(fall, request.quantum);
     if (shape.rise + shape.cruise + shape.fall == 0) { shape.cruise = request.quantum; }
     drop_inverted_ramps(shape);
     return build(request.from, shape);

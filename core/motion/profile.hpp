@@ -64,9 +64,8 @@ struct ProfileRequest {
     std::int64_t quantum = kSubticksPerTick;  // phases last whole multiples of it: a tick, or 1 subtick
 };
 
-/// The fastest profile, each phase rounded up to the quantum: at most three quanta slower than the continuous
-/// optimum, never faster and never steeper. The peak is solved again for the rounded times. Entered above max_velocity
-/// it brakes to that first.
+/// The fastest profile in whole quanta: at most two quanta slower than the continuous optimum, never faster and never
+/// steeper. The peak is solved again for the rounded times. Entered above max_velocity it brakes to that first.
 Profile plan_fastest(const ProfileRequest& request);
 
 /// Constant deceleration over the whole of [from, to], from speed `entry` to `exit` (steps per tick), rounded to the

@@ -18,7 +18,7 @@ struct Machine {
 
     Machine(Limits limits, std::size_t axes, std::int64_t repeat) : engines(axes), moves(axes), next(axes) {
         for (std::vector<Piece>& pieces : moves) {
-            const std::vector<Piece> move = pieces_of(in_whole_ticks(limits));
+            const std::vector<Piece> move = pieces_of(limits);
             for (std::int64_t i = 0; i < repeat; ++i) { pieces.insert(pieces.end(), move.begin(), move.end()); }
             limits.max_velocity *= 0.99;
             limits.acceleration *= 0.995;

@@ -3,22 +3,34 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/motion/interpolate.hpp"
+#include "core/motion/profile.hpp"
+
 namespace lockstep::bench {
 namespace {
 
 /// The time to cover s from speed v at acceleration a.
 double time_to_cover(double s, double v, double a) { return 2 * s / (v + std::sqrt(v * v + 2 * a * s)); }
 
-std::int64_t raw(double steps) { return std::llround(steps * 0x1p64); }
+PathLimits path_limits(const Limits& limits) {
+    const double acceleration = limits.acceleration / kTicksPerSecond / kTicksPerSecond;
+    return {limits.start_velocity / kTicksPerSecond, limits.max_velocity / kTicksPerSecond, acceleration, acceleration};
+}
+
+Profile plan(const Limits& limits) {
+    const PathLimits path = path_limits(limits);
+    return plan_fastest({{}, Displacement::steps(limits.steps), path.start_velocity, path.start_velocity, path});
+}
 
 }  // namespace
 
 double Trapezoid::time_of(double s) const {
-    const double a = (top_velocity - start_velocity) / rise;
-    const double ramp = (start_velocity + top_velocity) / 2 * rise;
-    const double end = 2 * ramp + top_velocity * cruise;
-    if (s <= ramp) { return time_to_cover(s, start_velocity, a); }
-    return s <= end - ramp ? rise + (s - ramp) / top_velocity : duration() - time_to_cover(end - s, start_velocity, a);
+    const double risen = (start_velocity + top_velocity) / 2 * rise;
+    const double falls = (start_velocity + top_velocity) / 2 * fall;
+    const double end = risen + top_velocity * cruise + falls;
+    if (s <= risen) { return time_to_cover(s, start_velocity, (top_velocity - start_velocity) / rise); }
+    if (s <= end - falls) { return rise + (s - risen) / top_velocity; }
+    return duration() - time_to_cover(end - s, start_velocity, (top_velocity - start_velocity) / fall);
 }
 
 Trapezoid continuous(const Limits& limits) {
@@ -27,25 +39,19 @@ Trapezoid continuous(const Limits& limits) {
     const auto n = static_cast<double>(limits.steps);
     const double top = std::min(limits.max_velocity / kTicksPerSecond, std::sqrt(v0 * v0 + a * n));
     const double rise = (top - v0) / a;
-    return {v0, top, rise, std::max(0.0, (n - (v0 + top) * rise) / top)};
+    return {v0, top, rise, std::max(0.0, (n - (v0 + top) * rise) / top), rise};
 }
 
 Trapezoid in_whole_ticks(const Limits& limits) {
-    const Trapezoid ideal = continuous(limits);
-    const double rise = std::ceil(ideal.rise);
-    const double cruise = std::ceil(ideal.duration() - 1e-6) - 2 * rise;
-    Trapezoid plan{ideal.start_velocity, 0, rise, std::max(0.0, cruise)};
-    plan.top_velocity = (static_cast<double>(limits.steps) - plan.start_velocity * rise) / (rise + plan.cruise);
-    return plan;
+    const Profile profile = plan(limits);
+    const auto ticks = [](const Phase& phase) { return static_cast<double>(phase.duration.ceil().value); };
+    const bool is_triangle = profile.phases.size() == 2;
+    return {limits.start_velocity / kTicksPerSecond, profile.peak_velocity(), ticks(profile.phases.front()),
+            is_triangle ? 0 : ticks(profile.phases[1]), ticks(profile.phases.back())};
 }
 
-std::vector<Piece> pieces_of(const Trapezoid& plan) {
-    const double a = (plan.top_velocity - plan.start_velocity) / plan.rise;
-    const auto ticks = [](double t) { return Ticks{std::llround(t)}; };
-    std::vector<Piece> pieces{{ticks(plan.rise), {raw(plan.start_velocity - a / 2)}, {raw(a)}}};
-    if (plan.cruise > 0) { pieces.push_back({ticks(plan.cruise), {raw(plan.top_velocity)}, {0}}); }
-    pieces.push_back({ticks(plan.rise), {raw(plan.top_velocity + a / 2)}, {-raw(a)}});
-    return pieces;
+std::vector<Piece> pieces_of(const Limits& limits) {
+    return lockstep::pieces_of(plan(limits), rest_position(0, false), +1);
 }
 
 }  // namespace lockstep::bench

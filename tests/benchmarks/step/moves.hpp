@@ -32,17 +32,18 @@ struct Trapezoid {
     double top_velocity = 0;
     double rise = 0;
     double cruise = 0;
+    double fall = 0;
 
-    double duration() const { return 2 * rise + cruise; }
+    double duration() const { return rise + cruise + fall; }
     /// The time at which the position first is s.
     double time_of(double s) const;
 };
 
 /// The fastest trapezoid, unrounded.
 Trapezoid continuous(const Limits& limits);
-/// The same in whole ticks: phases are rounded up, and the top speed is reduced to make the exact number of steps.
+/// The same in whole ticks, as the product plans it.
 Trapezoid in_whole_ticks(const Limits& limits);
-/// The pieces that the engine executes; a triangle has two.
-std::vector<Piece> pieces_of(const Trapezoid& plan);
+/// The pieces of that plan, which the engine executes.
+std::vector<Piece> pieces_of(const Limits& limits);
 
 }  // namespace lockstep::bench

@@ -37,7 +37,7 @@ void report_accuracy(benchmark::State& state, const Limits& limits, Form form) {
     double off_plan = 0;
     double off_ideal = 0;
     double k = 0;
-    make_move(pieces_of(plan), segment, form, [&](StepEdge edge) {
+    make_move(pieces_of(limits), segment, form, [&](StepEdge edge) {
         const double time = static_cast<double>(edge.tick.value) - 0.5;
         off_plan = std::max(off_plan, std::abs(time - plan.time_of(k + 0.5)));
         off_ideal = std::max(off_ideal, std::abs(time - ideal.time_of(k + 0.5)));
@@ -52,7 +52,7 @@ void report_accuracy(benchmark::State& state, const Limits& limits, Form form) {
 
 template <typename Form>
 void step_one_axis(benchmark::State& state, const Limits& limits, std::int64_t moves, Form form) {
-    const std::vector<Piece> pieces = pieces_of(in_whole_ticks(limits));
+    const std::vector<Piece> pieces = pieces_of(limits);
     Times times;
     for (auto _ : state) {
         Segment segment{Tick{}, rest_position(0, false), {}};

@@ -28,17 +28,21 @@ double optimum_ticks(double n, const PathLimits& l) {
     return (top - v0) / a + (top - v0) / d + std::max(0.0, n - ramps) / top;
 }
 
-TEST(Planner, IsNeverFasterThanTheContinuousOptimumNorSlowerByMoreThanThreeTicks) {
+TEST(Planner, IsNeverFasterThanTheContinuousOptimumNorSlowerByMoreThanTwoTicks) {
+    constexpr int kRuns = 50'000;
     Random random(1);
-    for (int run = 0; run < 50'000; ++run) {
+    int within_one = 0;
+    for (int run = 0; run < kRuns; ++run) {
         const PathLimits l = random_limits(random);
         const auto n = static_cast<std::int64_t>(log_uniform(random, 1, 1e9));
         const Profile p = plan_fastest({{}, Displacement::steps(n), l.start_velocity, l.start_velocity, l});
         const double ticks = static_cast<double>(p.duration().value) / kSubticksPerTick;
         const double best = optimum_ticks(static_cast<double>(n), l);
         ASSERT_GE(ticks, best * (1 - 1e-9)) << "run " << run;
-        ASSERT_LE(ticks, best * (1 + 1e-9) + 3.001) << "run " << run;
+        ASSERT_LE(ticks, best * (1 + 1e-9) + 2.001) << "run " << run;
+        within_one += ticks <= best * (1 + 1e-9) + 1.001 ? 1 : 0;
     }
+    EXPECT_GT(within_one, kRuns / 2);
 }
 
 TEST(Planner, KeepsSpeedAndAccelerationLimitsInEveryPhase) {

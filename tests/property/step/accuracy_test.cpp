@@ -1,4 +1,5 @@
-// Steps are within half a tick of the plan, and within a tick of the continuous trapezoid; their number is exact.
+// Steps of the product's plan are within half a tick of it, and within 1.1 ticks of the continuous trapezoid; their
+// number is exact.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,10 +23,10 @@ double worst_distance(const std::vector<std::int64_t>& ticks, const Trapezoid& i
     return worst;
 }
 
-std::vector<std::int64_t> ticks_of_steps(const Trapezoid& plan) {
+std::vector<std::int64_t> ticks_of_steps(const Limits& limits) {
     std::vector<std::int64_t> ticks;
     StepEngine engine(Tick{}, rest_position(0, false));
-    for (const Piece& piece : pieces_of(plan)) {
+    for (const Piece& piece : pieces_of(limits)) {
         engine.begin(piece);
         engine.run(engine.now() + piece.ticks, [&](StepEdge edge) { ticks.push_back(edge.tick.value); });
     }
@@ -34,14 +35,14 @@ std::vector<std::int64_t> ticks_of_steps(const Trapezoid& plan) {
 
 class Accuracy : public ::testing::TestWithParam<Limits> {};
 
-TEST_P(Accuracy, EveryStepFallsWithinHalfATickOfThePlanAndATickOfTheContinuousTrapezoid) {
-    const std::vector<std::int64_t> ticks = ticks_of_steps(in_whole_ticks(GetParam()));
+TEST_P(Accuracy, EveryStepIsNearItsTimeOnThePlanAndOnTheContinuousTrapezoid) {
+    const std::vector<std::int64_t> ticks = ticks_of_steps(GetParam());
     EXPECT_EQ(static_cast<std::int64_t>(ticks.size()), GetParam().steps);
     EXPECT_LE(worst_distance(ticks, in_whole_ticks(GetParam())), 0.5 + 1e-4);  // the doubles of the ideal round too
-    EXPECT_LE(worst_distance(ticks, continuous(GetParam())), 1.0);
+    EXPECT_LE(worst_distance(ticks, continuous(GetParam())), 1.1);
 }
 
-INSTANTIATE_TEST_SUITE_P(LongMoves, Accuracy, ::testing::Values(kM1, kM2));
+INSTANTIATE_TEST_SUITE_P(Moves, Accuracy, ::testing::Values(kM1, kM2, kM3));
 
 }  // namespace
 }  // namespace lockstep::bench
