@@ -82,6 +82,11 @@ std::vector<ProgramChunk> ProgramSender::due(std::chrono::nanoseconds now) {
     return chunks;
 }
 
+bool ProgramSender::lacks_room() const {
+    if (is_done() || refusal_) { return false; }
+    return parts_.empty() ? room_ <= waiting_ : !parts_.front().sent && parts_.front().blocks > room_;
+}
+
 bool ProgramSender::take_answer(const Reply& reply) {
     if (reply.client != client_ || reply.sequence >> 32 != first_sequence_ >> 32) { return false; }
     for (; taken_ < reply.parts && !parts_.empty(); ++taken_) {

@@ -49,6 +49,8 @@ public:
     bool is_done() const { return is_ended_ && parts_.empty(); }
     /// Blocks that the coordinator has not taken.
     bool has_unsent() const { return waiting_ > 0; }
+    /// The coordinator has taken what was sent, and has no room for what comes next: it must run some of it first.
+    bool lacks_room() const;
     /// The coordinator takes no more of it.
     const std::optional<Reply>& refusal() const { return refusal_; }
 

@@ -80,11 +80,17 @@ proto::RunReport new_report(const Job& job) {
     return report;
 }
 
-/// Until the coordinator has all of the program: then it needs this process no more.
-std::expected<void, Failure> send_rest(Session& session, const StopSignal& stop) {
+/// Until the coordinator has all of the program: then it needs this process no more. `before_it_runs`: there must be
+/// room for all of it.
+std::expected<void, Failure> send_rest(Session& session, const StopSignal& stop, bool before_it_runs) {
     while (!session.sender()->is_done() && !session.sender()->refusal()) {
         if (stop.requested()) { return std::unexpected(failed("interrupted; the machine runs what was sent of it")); }
         if (session.is_silent()) { return std::unexpected(session.silent()); }
+        if (before_it_runs && session.sender()->lacks_room()) {
+            return std::unexpected(bad_input(
+                "with coordination: LAI a program is planned as a whole, so it has at most " +
+                std::to_string(kMaxProgramBlocks) + " blocks; cut it in two, or choose another coordination"));
+        }
         session.receive(100ms);
     }
     return {};
@@ -98,7 +104,7 @@ std::expected<Reply, Failure> begin(Session& session, const Job& job, const Stop
         if (!begun) { return std::unexpected(begun.error()); }
         program = *begun;
         const bool is_planned_whole = session.config().coordination == StepMethod::Lai;
-        const auto sent = is_planned_whole ? send_rest(session, stop) : std::expected<void, Failure>{};
+        const auto sent = is_planned_whole ? send_rest(session, stop, true) : std::expected<void, Failure>{};
         if (!sent) { return std::unexpected(sent.error()); }
     }
     if (job.program) {
@@ -191,7 +197,7 @@ ExitCode run_job(Session& session, const Job& job, Output& output) {
     if (reply->status == ReplyStatus::Refused) { return refused(job, *reply, report, output); }
     report.set_job(reply->job);
     if (job.detach && job.stream != nullptr) {
-        if (const auto sent = send_rest(session, stop); !sent) { return output.fail(sent.error()); }
+        if (const auto sent = send_rest(session, stop, false); !sent) { return output.fail(sent.error()); }
     }
     if (job.detach) { return end_begun(job, report, output); }
     output.print(title(job) + ": job " + std::to_string(reply->job) +

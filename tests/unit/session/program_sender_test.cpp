@@ -76,12 +76,19 @@ TEST_F(Sender, SendsNoMoreThanThereIsRoomFor) {
     append(4);
     sender.flush();
     EXPECT_TRUE(due(2ms).empty()) << "four blocks, and room for three";
+    EXPECT_TRUE(sender.lacks_room());
     EXPECT_EQ(sender.free_blocks(), 0u);
     const auto question = due(400ms);
     ASSERT_EQ(question.size(), 1u);
     EXPECT_TRUE(question[0].bytes.empty());
     answer(2, 4);
+    EXPECT_FALSE(sender.lacks_room());
     EXPECT_EQ(due(401ms).size(), 1u);
+    EXPECT_FALSE(sender.lacks_room()) << "it is under way";
+    answer(3, 0);
+    EXPECT_TRUE(sender.lacks_room());
+    sender.end();
+    EXPECT_FALSE(sender.lacks_room()) << "the end needs no room";
 }
 
 TEST_F(Sender, RepeatsWhatIsNotTaken) {
