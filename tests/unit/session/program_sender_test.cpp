@@ -91,6 +91,17 @@ TEST_F(Sender, SendsNoMoreThanThereIsRoomFor) {
     EXPECT_FALSE(sender.lacks_room()) << "the end needs no room";
 }
 
+TEST_F(Sender, LacksRoomForWhatDoesNotFillAPart) {
+    append(10);
+    sender.flush();
+    (void)due(0ns);
+    answer(1, 5);
+    EXPECT_FALSE(sender.lacks_room());
+    append(5);
+    EXPECT_EQ(sender.free_blocks(), 0u);
+    EXPECT_TRUE(sender.lacks_room());
+}
+
 TEST_F(Sender, RepeatsWhatIsNotTaken) {
     append(5000);
     const std::size_t parts = due(0ns).size();
