@@ -1,7 +1,12 @@
 #include "clients/simulation/simulate.hpp"
 
+#include <algorithm>
+#include <memory>
+
 #include "clients/simulation/machine_recorder.hpp"
 #include "clients/simulation/motion_clock.hpp"
+#include "clients/simulation/program_feed.hpp"
+#include "clients/simulation/sliding_rows.hpp"
 #include "services/documents/machine_file.hpp"
 
 namespace lockstep {
@@ -12,18 +17,25 @@ constexpr std::uint64_t kProgram = 1;
 
 class Simulation {
 public:
-    Simulation(const MachineConfig& machine, RecordSink& sink, const SimulationHooks& hooks)
-        : vm_({.machine = machine, .config_hash = config_hash(machine)}), recorder_(vm_, sink), hooks_(hooks) {
+    Simulation(const MachineConfig& machine, RecordSink& sink, const SimulationHooks& hooks,
+               const MakeRows& make_rows = memory_rows)
+        : vm_({.machine = machine, .config_hash = config_hash(machine), .make_rows = make_rows}),
+          recorder_(vm_, sink),
+          hooks_(hooks) {
         vm_.observe(clock_);
     }
 
     std::expected<SimulationResult, std::string> run(const Program& program);
+    std::expected<SimulationResult, std::string> run(ProgramText& program,
+                                                     const std::function<void(std::size_t)>& make_room);
 
 private:
     bool is(MachinePhase phase) const { return vm_.state() && vm_.state()->phase == phase; }
     bool at_rest() const { return is(MachinePhase::Idle) || is(MachinePhase::Fault) || is(MachinePhase::Paused); }
+    std::expected<SimulationResult, std::string> home_and_run(const std::function<bool()>& give_program);
     bool advance_while(const std::function<bool()>& busy);
-    const Reply* ask(CommandKind kind, std::uint64_t program);
+    void advance_a_turn(const std::function<bool()>& busy);
+    std::optional<Reply> ask(CommandKind kind, std::uint64_t program);
     bool do_job(CommandKind kind, std::uint64_t program);
     bool homed() const;
     SimulatedStage stage_since(Tick tick, double computing_s) const;
@@ -34,39 +46,52 @@ private:
     MotionClock clock_;
     MachineRecorder recorder_;
     const SimulationHooks& hooks_;
-    std::string trouble_;  // of the last command
+    std::optional<ProgramFeed> feed_;  // of a program that is read while it runs
+    std::string trouble_;              // of the last command
 };
 
 /// False: the caller cancelled.
 bool Simulation::advance_while(const std::function<bool()>& busy) {
     while (busy()) {
-        vm_.advance_until([&] { return !busy(); }, kTurn);
+        advance_a_turn(busy);
         const double progress = is(MachinePhase::Idle) || !vm_.state() ? 0 : vm_.state()->progress;
         if (hooks_.progress && !hooks_.progress(progress)) { return false; }
     }
     return true;
 }
 
-/// The reply, once the machine's state shows its effect; null: the caller cancelled.
-const Reply* Simulation::ask(CommandKind kind, std::uint64_t program) {
+/// The coordinator reads at most 200 blocks a slot, so it does not wait for a part of 1000 every two.
+void Simulation::advance_a_turn(const std::function<bool()>& busy) {
+    const auto is_over = [&] { return !busy(); };
+    const Ticks step = feed_ ? vm_.machine().slot_ticks() * 2 : kTurn;
+    const Tick end = vm_.now() + kTurn;
+    do {
+        if (feed_) { feed_->tend(); }
+        (void)vm_.advance_until(is_over, step);
+    } while (busy() && vm_.now() < end);
+}
+
+/// The reply, once the machine's state shows its effect; nothing: the caller cancelled.
+std::optional<Reply> Simulation::ask(CommandKind kind, std::uint64_t program) {
     const std::uint64_t sequence = vm_.command(kind, 0, program);
-    if (!advance_while([&] { return vm_.reply_to(sequence) == nullptr; })) { return nullptr; }
+    if (!advance_while([&] { return vm_.reply_to(sequence) == nullptr; })) { return std::nullopt; }
     const Tick answered = vm_.now();
-    if (!advance_while([&] { return vm_.state()->tick <= answered; })) { return nullptr; }
-    const Reply* reply = vm_.reply_to(sequence);
+    if (!advance_while([&] { return vm_.state()->tick <= answered; })) { return std::nullopt; }
+    std::optional<Reply> reply = *vm_.reply_to(sequence);
+    vm_.forget_reply(sequence);
     if (reply->status == ReplyStatus::Refused) { trouble_ = reply->text; }
     return reply;
 }
 
 /// Runs to the job's end, resuming it at each pause. False: the caller cancelled.
 bool Simulation::do_job(CommandKind kind, std::uint64_t program) {
-    const Reply* reply = ask(kind, program);
-    if (reply == nullptr || reply->status == ReplyStatus::Refused) { return reply != nullptr; }
+    const std::optional<Reply> reply = ask(kind, program);
+    if (!reply || reply->status == ReplyStatus::Refused) { return reply.has_value(); }
     const std::uint64_t job = reply->job;
     const auto ended = [&] { return clock_.last_ended() && clock_.last_ended()->job == job; };
     while (!ended()) {
         if (!advance_while([&] { return !ended() && !is(MachinePhase::Paused); })) { return false; }
-        if (!ended() && ask(CommandKind::Resume, 0) == nullptr) { return false; }
+        if (!ended() && !ask(CommandKind::Resume, 0)) { return false; }
     }
     return advance_while([&] { return !at_rest(); });
 }
@@ -85,7 +110,10 @@ SimulationResult Simulation::finish(SimulationResult result) {
     if (const auto& state = vm_.state(); state && state->fault != 0) {
         result.fault = static_cast<FaultCode>(state->fault);
         result.fault_axis = state->fault_axis;
+    } else if (feed_ && state && state->job_fault != 0) {
+        result.fault = static_cast<FaultCode>(state->job_fault);
     }
+    if (trouble_.empty() && feed_) { trouble_ = feed_->trouble(); }
     if (result.fault != FaultCode::None && trouble_.empty()) {
         const FaultText* text = find_fault(result.fault);
         trouble_ = text != nullptr ? std::string(text->cause) : "unknown fault";
@@ -97,6 +125,23 @@ SimulationResult Simulation::finish(SimulationResult result) {
 }
 
 std::expected<SimulationResult, std::string> Simulation::run(const Program& program) {
+    return home_and_run([&] {
+        vm_.give_program(kProgram, program);
+        return true;
+    });
+}
+
+/// It runs as soon as its first part has arrived.
+std::expected<SimulationResult, std::string> Simulation::run(ProgramText& program,
+                                                             const std::function<void(std::size_t)>& make_room) {
+    return home_and_run([&] {
+        feed_.emplace(vm_, kProgram, program, make_room);
+        return advance_while([&] { return !feed_->has_begun(); });
+    });
+}
+
+/// `give_program`: false if the caller cancelled.
+std::expected<SimulationResult, std::string> Simulation::home_and_run(const std::function<bool()>& give_program) {
     const auto given_up = [] { return std::unexpected(std::string("cancelled before its end")); };
     SimulationResult result;
     const Tick power_up = vm_.now();
@@ -108,8 +153,7 @@ std::expected<SimulationResult, std::string> Simulation::run(const Program& prog
 
     const Tick begin = vm_.now();
     computing_s = stopwatch();
-    vm_.give_program(kProgram, program);
-    if (!do_job(CommandKind::Run, kProgram)) { return given_up(); }
+    if (!give_program() || !do_job(CommandKind::Run, kProgram)) { return given_up(); }
     result.running = stage_since(begin, computing_s);
     if (trouble_.empty()) {
         result.job = clock_.last_ended()->job;
@@ -124,6 +168,23 @@ std::expected<SimulationResult, std::string> Simulation::run(const Program& prog
 std::expected<SimulationResult, std::string> simulate(const MachineConfig& machine, const Program& program,
                                                       RecordSink& sink, const SimulationHooks& hooks) {
     return Simulation(machine, sink, hooks).run(program);
+}
+
+std::expected<SimulationResult, std::string> simulate(const MachineConfig& machine, ProgramText& program,
+                                                      RecordSink& sink, const SimulationHooks& hooks,
+                                                      std::uint64_t kept_bytes) {
+    SlidingRows* rows = nullptr;  // the coordinator's
+    const auto make_rows = [&](std::size_t width) {
+        const std::uint64_t most =
+            std::max<std::uint64_t>(2 * ProgramFeed::kBlocks, kept_bytes / (width * sizeof(double)));
+        auto made = std::make_unique<SlidingRows>(width, most);
+        rows = made.get();
+        return made;
+    };
+    Simulation simulation(machine, sink, hooks, make_rows);
+    auto result = simulation.run(program, [&](std::size_t blocks) { rows->widen(blocks); });
+    if (result && rows != nullptr) { result->most_blocks_kept = rows->most_kept(); }
+    return result;
 }
 
 }  // namespace lockstep

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "clients/planning/program_text.hpp"
 #include "core/coordinator/coordinator.hpp"
 #include "core/faults.hpp"
 #include "core/machine.hpp"
@@ -35,6 +36,7 @@ struct SimulationResult {
     Ticks motion;                            // of the program's motion, pauses left out
     std::vector<std::int64_t> final_counts;  // machine coordinates, steps
     std::int64_t steps = 0;                  // of all axes, homing included
+    std::uint64_t most_blocks_kept = 0;      // at once, of a program that was read while it ran
     SimulatedStage homing;
     SimulatedStage running;
 };
@@ -50,5 +52,14 @@ struct SimulationHooks {
 /// configuration prevents it. A program that fails is a result, and is recorded.
 std::expected<SimulationResult, std::string> simulate(const MachineConfig& machine, const Program& program,
                                                       RecordSink& sink, const SimulationHooks& hooks = {});
+
+/// The same for a program of any length: the machine runs it while it is read, so that memory does not grow with it.
+/// It was checked as a whole before. If it has a wrong line nevertheless, the machine runs what is before it; the
+/// result says so. `kept_bytes`: of blocks that the machine has not run, unless the planner must look further ahead.
+/// Not by the LAI method, which plans programs as a whole.
+inline constexpr std::uint64_t kKeptBlockBytes = 8'000'000;
+std::expected<SimulationResult, std::string> simulate(const MachineConfig& machine, ProgramText& program,
+                                                      RecordSink& sink, const SimulationHooks& hooks = {},
+                                                      std::uint64_t kept_bytes = kKeptBlockBytes);
 
 }  // namespace lockstep

@@ -34,8 +34,7 @@ public:
 
 private:
     static constexpr std::size_t kBlocksInJob = 2000;  // the maximum in a job's own message
-    static constexpr std::size_t kPartBytes = 32'768;
-    static constexpr std::size_t kProgramsKept = 16;  // more than the coordinator keeps
+    static constexpr std::size_t kProgramsKept = 16;   // more than the coordinator keeps
 
     void record_program(Tick now, const JobEvent& event, JobRecord& record);
     void record_parts(Tick now, std::uint64_t id, const Program& program);

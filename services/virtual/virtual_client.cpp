@@ -53,4 +53,8 @@ const Reply* VirtualClient::reply_to(std::uint64_t sequence) const {
     return found == replies_.end() ? nullptr : &*found;
 }
 
+void VirtualClient::forget_reply(std::uint64_t sequence) {
+    std::erase_if(replies_, [sequence](const Reply& reply) { return reply.sequence == sequence; });
+}
+
 }  // namespace lockstep

@@ -27,6 +27,8 @@ public:
     const std::vector<Reply>& replies() const { return replies_; }
     /// Null: none has come yet.
     const Reply* reply_to(std::uint64_t sequence) const;
+    /// Frees its memory.
+    void forget_reply(std::uint64_t sequence);
 
 private:
     void receive(const AxisState& state);

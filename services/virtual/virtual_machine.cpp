@@ -44,7 +44,8 @@ void VirtualMachine::start_coordinator(std::size_t process, std::uint64_t config
     const Identity identity = static_cast<Identity>(clocks_.machine(now_).value) + process;
     CoordinatorProcess& it = coordinator(process);
     it.coordinator.emplace(options_.machine, identity, config_hash, methods::begin_steps,
-                           coordinators_.size() > 1 ? std::optional(options_.on_takeover) : std::nullopt);
+                           coordinators_.size() > 1 ? std::optional(options_.on_takeover) : std::nullopt,
+                           options_.make_rows);
     if (options_.flight) { it.flight.emplace(options_.machine, options_.flight(process)); }
 }
 

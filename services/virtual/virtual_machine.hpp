@@ -52,6 +52,8 @@ struct VirtualOptions {
     std::vector<AxisClocks> clocks;
     /// Where each process notes its flight; asked for at each of its starts. Empty: nowhere.
     std::function<FlightLog&(std::size_t process)> flight = {};
+    /// Where coordinators keep programs.
+    MakeRows make_rows = memory_rows;
 };
 
 class VirtualMachine {
@@ -88,6 +90,8 @@ public:
     const std::vector<Reply>& replies() const { return client_.replies(); }
     /// The reply to a command, once it has come.
     const Reply* reply_to(std::uint64_t sequence) const { return client_.reply_to(sequence); }
+    /// So that replies() does not grow for as long as the machine runs.
+    void forget_reply(std::uint64_t sequence) { client_.forget_reply(sequence); }
 
     /// The coordinator that owns the machine, as a process; of several that think so the one of the highest term.
     std::optional<std::size_t> owner() const;

@@ -1,4 +1,6 @@
 // lockstep simulate
+#include <expected>
+#include <functional>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -6,10 +8,13 @@
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/offline/program_input.hpp"
 #include "clients/lockstep/verb.hpp"
+#include "clients/planning/program_text.hpp"
 #include "clients/session/reports.hpp"
 #include "clients/simulation/simulate.hpp"
+#include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/format.hpp"
 #include "clients/text/output.hpp"
+#include "services/documents/program_file.hpp"
 #include "services/record/job_recorder.hpp"
 #include "services/record/new_log_file.hpp"
 #include "services/runtime/clock.hpp"
@@ -30,11 +35,11 @@ std::string outcome_of(const SimulationResult& result) {
     return result.job == 0 ? "failed" : std::string(name_of(result.outcome));
 }
 
-proto::RunReport run_report(const ProgramInput& input, const SimulationResult& result) {
+proto::RunReport run_report(const PlannedFile& input, const SimulationResult& result) {
     proto::RunReport report;
     report.set_job(result.job);
     report.set_kind("run");
-    report.set_name(input.program.name);
+    report.set_name(input.plan.program);
     report.set_outcome(outcome_of(result));
     report.set_planned_s(input.plan.duration_s);
     report.set_real_s(static_cast<double>(result.motion.value) / input.machine.ticks_per_second());
@@ -56,10 +61,10 @@ std::string speed_row(const std::string& name, const SimulatedStage& stage) {
            fixed(stage.times_real_time(), 0) + " times real time";
 }
 
-std::string in_words(const SimulateOptions& options, const ProgramInput& input, const SimulationResult& result) {
+std::string in_words(const SimulateOptions& options, const PlannedFile& input, const SimulationResult& result) {
     const SimulatedStage all{result.homing.machine_s + result.running.machine_s,
                              result.homing.computing_s + result.running.computing_s};
-    std::string text = input.program.name + ": " + outcome_of(result) + ", " + std::to_string(result.steps) +
+    std::string text = input.plan.program + ": " + outcome_of(result) + ", " + std::to_string(result.steps) +
                        " steps recorded in " + options.log + "; " + fixed(all.times_real_time(), 0) +
                        " times real time";
     if (!options.speed_report) { return text; }
@@ -68,29 +73,60 @@ std::string in_words(const SimulateOptions& options, const ProgramInput& input, 
            " thousand steps a second";
 }
 
-ExitCode simulate_verb(const SimulateOptions& options) {
-    Output output(options.json);
-    const auto input = read_program(options);
-    if (!input) { return output.fail(input.error()); }
-    warn(*input, output);
+using Simulate = std::function<std::expected<SimulationResult, std::string>(RecordSink&, const SimulationHooks&)>;
+
+ExitCode record_simulation(const SimulateOptions& options, const PlannedFile& input, const Simulate& run,
+                           Output& output) {
+    warn(input, output);
     auto log = NewLogFile::begin(options.log, options.force);
     if (!log) { return output.fail(bad_input(log.error())); }
     const StopSignal stop;
-    const auto result = simulate(input->machine, input->program, log->sink(),
-                                 {.progress =
-                                      [&](double done) {
-                                          if (output.is_terminal()) {
-                                              output.progress("simulating " + fixed(done * 100, 0) + " %");
-                                          }
-                                          return !stop.requested();
-                                      },
-                                  .stopwatch = seconds_now});
+    const auto result = run(log->sink(), {.progress =
+                                              [&](double done) {
+                                                  if (output.is_terminal()) {
+                                                      output.progress("simulating " + fixed(done * 100, 0) + " %");
+                                                  }
+                                                  return !stop.requested();
+                                              },
+                                          .stopwatch = seconds_now});
     if (!result) { return output.fail(failed(result.error() + "; no log was written")); }
     if (auto kept = log->keep(); !kept) { return output.fail(failed(kept.error())); }
-    output.print(in_words(options, *input, *result));
-    output.report(run_report(*input, *result));
+    output.print(in_words(options, input, *result));
+    output.report(run_report(input, *result));
     if (!result->trouble.empty()) { output.warn(result->trouble); }
     return result->job != 0 && result->outcome == JobOutcome::Done ? kExitDone : kExitFailed;
+}
+
+ExitCode simulate_short_file(const SimulateOptions& options) {
+    Output output(options.json);
+    const auto input = read_program(options);
+    if (!input) { return output.fail(input.error()); }
+    const auto run = [&](RecordSink& sink, const SimulationHooks& hooks) {
+        return simulate(input->machine, input->program, sink, hooks);
+    };
+    return record_simulation(options, *input, run, output);
+}
+
+/// It is read twice: checked first, then run. Opened before the first time: what replaces a file of this name
+/// meanwhile is not run.
+ExitCode simulate_long_file(const SimulateOptions& options) {
+    Output output(options.json);
+    auto lines = LineReader::open(options.file);
+    if (!lines) { return output.fail(bad_file(options.file, {{.message = lines.error()}})); }
+    const auto input = plan_file(options, output);
+    if (!input) { return output.fail(input.error()); }
+    ProgramText text(*std::move(lines), input->setup);
+    const auto run = [&](RecordSink& sink, const SimulationHooks& hooks) {
+        return simulate(input->machine, text, sink, hooks);
+    };
+    return record_simulation(options, *input, run, output);
+}
+
+/// The LAI method plans a program as a whole.
+bool is_streamed(const SimulateOptions& options) {
+    if (!is_long_program(options.file)) { return false; }
+    const auto machine = choose_machine(options.machine_file);
+    return machine && machine->config.coordination != StepMethod::Lai;
 }
 
 }  // namespace
@@ -108,7 +144,11 @@ void add_simulate(CLI::App& app, Action& action) {
     verb->footer(
         footer("  lockstep simulate plate.gcode --machine mill.textproto --log plate.lcm\n"
                "  lockstep verify plate.lcm\n"));
-    verb->callback([&action, options] { action = [options] { return simulate_verb(*options); }; });
+    verb->callback([&action, options] {
+        action = [options] {
+            return is_streamed(*options) ? simulate_long_file(*options) : simulate_short_file(*options);
+        };
+    });
 }
 
 }  // namespace lockstep

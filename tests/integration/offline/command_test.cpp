@@ -198,6 +198,36 @@ TEST_F(Command, BadInputIsReportedWithItsPlaceAndExits2) {
     EXPECT_FALSE(std::filesystem::exists(log));
 }
 
+/// Of 70,002 lines, more than 2 MB.
+std::string long_program() {
+    std::string text = "G21 G90 F6000\nG0 X20 Y20\n";
+    for (int k = 0; k < 35'000; ++k) { text += "G1 X20.0125 Y20.0000 Z5.0000 (there)\nG1 X20.0000 (and back)\n"; }
+    return text;
+}
+
+TEST_F(Command, ALongFileIsSimulatedAsItIsRead) {
+    const std::string job = file("long.gcode", long_program()) + " --machine deploy/examples/three-axis.textproto";
+    ASSERT_GT(std::filesystem::file_size(directory / "long.gcode"), 2'000'000U);
+    const auto planned = report_of<proto::PlanReport>(run("plan " + job + " --json"));
+    const auto simulated = run("simulate " + job + " --log " + log + " --json");
+    ASSERT_EQ(simulated.exit, 0);
+    const auto done = report_of<proto::RunReport>(simulated);
+    EXPECT_EQ(done.outcome(), "done");
+    EXPECT_EQ(done.name(), "long.gcode");
+    EXPECT_DOUBLE_EQ(done.real_s(), planned.duration_s());
+    EXPECT_TRUE(report_of<proto::VerifyReport>(run("verify " + log + " --json")).exact());
+}
+
+TEST_F(Command, ALongFileWithAnErrorIsNotSimulated) {
+    const std::string job = file("long.gcode", long_program() + "G1 X900\nG1 X20\nG1 Q1\n");
+    const auto simulated =
+        run("simulate " + job + " --machine deploy/examples/three-axis.textproto --log " + log + " 2>&1");
+    EXPECT_EQ(simulated.exit, 2);
+    EXPECT_NE(simulated.out.find("long.gcode:70003:"), std::string::npos) << simulated.out;
+    EXPECT_NE(simulated.out.find("long.gcode:70005:"), std::string::npos) << simulated.out;
+    EXPECT_FALSE(std::filesystem::exists(log));
+}
+
 TEST_F(Command, AFileThatIsNotALogExits2) {
     EXPECT_EQ(run("verify deploy/examples/plate.gcode 2>&1").exit, 2);
     EXPECT_EQ(run("analyze deploy/examples/plate.gcode 2>&1").exit, 2);
