@@ -261,7 +261,8 @@ void FramePlanner::slow_down(const FitFailure& failure, Ticks ticks, int attempt
     is_traced_ = false;
     const double at = as_double(failure.at);
     const double share = at / as_double(ticks);
-    const double slower = failure.is_full ? std::clamp(share * share, kSlowest, kSlower) : kSlower;
+    const double needed = attempt < kAttempts / 2 ? std::clamp(share * share, kSlowest, kSlower) : kSlowest;
+    const double slower = failure.is_full ? needed : kSlower;
     const double from = failure.is_full ? 0 : at - static_cast<double>(kSlowTicks << std::min(attempt, 8));
     const double to = failure.is_full ? as_double(ticks) : at;
     if (!has_made_) { start_slower(slower); }

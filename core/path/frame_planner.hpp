@@ -94,7 +94,7 @@ private:
 
     static constexpr int kAttempts = 16;
     static constexpr double kSlower = 0.7;             // of the square of the speed
-    static constexpr double kSlowest = 0.2;            // at once
+    static constexpr double kSlowest = 0.2;            // at once; likewise if half of the attempts did not suffice
     static constexpr std::int64_t kSlowTicks = 8192;   // before a place without pieces the path is slowed for so long
     static constexpr std::int64_t kMargin_ticks = 64;  // that the path must be known for behind a frame
 

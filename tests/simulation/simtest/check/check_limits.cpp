@@ -130,7 +130,8 @@ private:
         if (speed > most) { object("speed", n + m, speed, most, m); }
     }
 
-    /// Of all moves in which the steps can be. Joined moves lead from one's direction to the other's.
+    /// Of all moves in which the steps can be. Joined moves lead from one's direction to the other's; with a wide
+    /// tolerance further, since a parabola that is within it of a corner is steeper at its ends than the lines there.
     double feed(std::size_t from, std::size_t to) const {
         const auto first = static_cast<std::size_t>((*at_)[from].first);
         const auto last = static_cast<std::size_t>((*at_)[to].last);
@@ -138,10 +139,23 @@ private:
         for (std::size_t k = first > 0 ? first - 1 : 0; k < course_.stretches.size() && k <= last + 1; ++k) {
             const bool is_beside = k < first || k > last;
             if (!is_beside || course_.stretches[k].is_joined) {
-                fastest = std::max(fastest, course_.stretches[k].fastest[axis_]);
+                fastest = std::max(fastest, course_.stretches[k].fastest[axis_] + steeper(k));
             }
         }
         return fastest;
+    }
+
+    /// |x| from -1 to 1 is within 1/8 of x^2 + 1/8, which has twice its slope at the ends.
+    double steeper(std::size_t stretch) const {
+        constexpr double kSlopePerTolerance = 8;
+        const Stretch& it = course_.stretches[stretch];
+        if (!it.is_joined || it.tolerance <= 1) { return 0; }
+        double ticks = 0;
+        for (std::size_t axis = 0; axis < it.to.size(); ++axis) {
+            const double way = std::abs(it.to[axis] - course_.at(stretch, axis));
+            if (way > 0) { ticks = std::max(ticks, way / it.fastest[axis]); }
+        }
+        return ticks > 0 ? kSlopePerTolerance * it.tolerance / ticks : 0;
     }
 
     void check_change(std::size_t n, std::size_t m) {

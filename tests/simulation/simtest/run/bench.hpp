@@ -58,6 +58,7 @@ public:
     Recording& recording() { return played_.recording; }
     VirtualMachine& vm() { return vm_; }
     bool lossy() const { return scenario_.lossy(); }
+    bool has_standby() const { return scenario_.coordinators > 1; }
     double slot_s() const { return static_cast<double>(machine().timing.slot_us) * 1e-6; }
     std::vector<std::size_t> steps_made() const;
 

@@ -54,7 +54,7 @@ bool is_refusal(const Reply& reply, FaultCode why) {
     return reply.status == ReplyStatus::Refused && reply.fault == static_cast<std::uint16_t>(why);
 }
 
-/// A machine in Fault accepts nothing before a reset. Another owner may not know of the fault.
+/// A machine in Fault accepts nothing before a reset. With a standby another owner may not know of the fault, and obey.
 void ask_in_fault(Bench& bench) {
     const auto before = bench.steps_made();
     const Reply* reply = bench.ask(CommandKind::Home);
@@ -154,7 +154,7 @@ void make_ready(Bench& bench, Counts& at) {
         if (in(MachinePhase::Idle)) {
             play_homing(bench, at);
         } else if (bench.faulted()) {
-            if (bench.asks_in_fault()) { ask_in_fault(bench); }
+            if (bench.asks_in_fault() && !bench.has_standby()) { ask_in_fault(bench); }
             const Reply* reply = bench.ask(CommandKind::Reset);
             if (reply != nullptr && reply->status != ReplyStatus::Accepted) {
                 bench.object("reset", answer_text(*reply));
