@@ -19,9 +19,12 @@ Int128 curvature(const Phase& phase) {
     return phase.to.raw - phase.from.raw - Int128{phase.entry} * phase.duration.value;
 }
 
+/// At most so long that sums of phases can be counted; 0 for what is no number.
 std::int64_t round_up(double ticks, std::int64_t quantum) {
-    const double quanta = ticks * static_cast<double>(kSubticksPerTick) / static_cast<double>(quantum);
-    return static_cast<std::int64_t>(std::ceil(quanta - 1e-9)) * quantum;
+    constexpr double kLongest_ticks = 0x1p45;
+    const double subticks = std::min(ticks, kLongest_ticks) * static_cast<double>(kSubticksPerTick);
+    const double quanta = std::ceil(subticks / static_cast<double>(quantum) - 1e-9);
+    return quanta > 0 ? static_cast<std::int64_t>(quanta) * quantum : 0;
 }
 
 /// Whole numbers of subticks for the three phases, and the peak speed that covers the distance in them.
