@@ -19,9 +19,13 @@ bool within_speed(double velocity, const AxisLimits& limits) {
     return std::abs(velocity) <= limits.max_velocity * (1 + kCheckRounding) + one_tick(limits);
 }
 
+/// A piece that turns does both, so that what is cut from it keeps the limits, too.
 bool within_acceleration(double before, double after, double ticks, const AxisLimits& limits) {
+    const bool turns = before * after < 0 && std::min(std::abs(before), std::abs(after)) > one_tick(limits);
     const bool speeds_up = std::abs(after) > std::abs(before);
-    const double most = speeds_up ? limits.max_acceleration : limits.max_deceleration;
+    const double most = turns       ? std::min(limits.max_acceleration, limits.max_deceleration)
+                        : speeds_up ? limits.max_acceleration
+                                    : limits.max_deceleration;
     return std::abs(after - before) <= most * ticks * (1 + kCheckRounding) + kSpeedRounding;
 }
 
