@@ -24,12 +24,4 @@ void StepEngine::rebase(Position at) {
 
 void StepEngine::halt() { end_ = now_; }
 
-void StepEngine::advance(const Stretch& stretch, std::int64_t ticks) {
-    const Displacement travel{stretch.travel(ticks)};
-    position_ = stretch.backward ? position_ - travel : position_ + travel;
-    const auto gained = static_cast<std::uint64_t>(ticks) * static_cast<std::uint64_t>(acceleration_.raw);
-    velocity_.raw = static_cast<std::int64_t>(static_cast<std::uint64_t>(velocity_.raw) + gained);
-    now_ += Ticks{ticks};
-}
-
 }  // namespace lockstep

@@ -13,12 +13,6 @@
 
 namespace lockstep {
 
-/// What was done of a stretch: how many of its ticks, and whether to go on.
-struct Walked {
-    std::int64_t ticks = 0;
-    bool going = true;
-};
-
 /// One axis in motion, piece after piece. At rest, with no piece, its velocity is 0.
 class StepEngine {
 public:
@@ -36,10 +30,10 @@ public:
     template <typename OnStep>
     Tick run(Tick until, OnStep&& on_step);
 
-    /// The same, stretch by stretch, for those who find the steps of a stretch their own way: calls
-    /// walk(Stretch, Tick of its start) for each in order, which returns what it has done of it. See walk.hpp.
-    template <typename Walk>
-    Tick run_stretches(Tick until, std::uint64_t crossover, Walk&& walk_stretch);
+    /// run() in its parts, for those who find the steps of a stretch their own way: the stretch that comes next, in
+    /// motion and before `until`; and its first `ticks` ticks executed, over which it travels `travel`. See walk.hpp.
+    Stretch next(Tick until, std::uint64_t crossover) const;
+    void pass(const Stretch& stretch, std::int64_t ticks, Int128 travel);
 
     /// To a later instant, at rest, position unchanged.
     void wait(Tick until);
@@ -56,8 +50,6 @@ public:
     Ticks remaining() const { return end_ - now_; }
 
 private:
-    void advance(const Stretch& stretch, std::int64_t ticks);
-
     Tick now_;
     Tick end_;
     Position position_;
@@ -65,25 +57,25 @@ private:
     Acceleration acceleration_;
 };
 
-template <typename Walk>
-Tick StepEngine::run_stretches(Tick until, std::uint64_t crossover, Walk&& walk_stretch) {
-    Walked walked;
-    while (walked.going && now_ < until && !idle()) {
-        const Ticks ticks = (until < end_ ? until : end_) - now_;
-        const Stretch stretch = next_stretch(position_, velocity_, acceleration_, ticks, crossover);
-        walked = walk_stretch(stretch, now_);
-        advance(stretch, walked.ticks);
-    }
-    return now_;
+inline Stretch StepEngine::next(Tick until, std::uint64_t crossover) const {
+    return next_stretch(position_, velocity_, acceleration_, (until < end_ ? until : end_) - now_, crossover);
+}
+
+inline void StepEngine::pass(const Stretch& stretch, std::int64_t ticks, Int128 travel) {
+    position_ = stretch.backward ? position_ - Displacement{travel} : position_ + Displacement{travel};
+    const auto gained = static_cast<std::uint64_t>(ticks) * static_cast<std::uint64_t>(acceleration_.raw);
+    velocity_.raw = static_cast<std::int64_t>(static_cast<std::uint64_t>(velocity_.raw) + gained);
+    now_ += Ticks{ticks};
 }
 
 template <typename OnStep>
 Tick StepEngine::run(Tick until, OnStep&& on_step) {
-    return run_stretches(until, kCrossover, [&](const Stretch& stretch, Tick start) {
+    bool going = true;
+    while (going && now_ < until && !idle()) {
+        const Stretch stretch = next(until, kCrossover);
         const auto direction = static_cast<std::int8_t>(stretch.backward ? -1 : 1);
-        bool going = true;
         const std::int64_t ticks = walk(stretch, [&](std::int64_t n) {
-            const StepEdge edge{start + Ticks{n}, direction};
+            const StepEdge edge{now_ + Ticks{n}, direction};
             if constexpr (std::is_void_v<decltype(on_step(edge))>) {
                 on_step(edge);
             } else {
@@ -91,8 +83,9 @@ Tick StepEngine::run(Tick until, OnStep&& on_step) {
             }
             return going;
         });
-        return Walked{ticks, going};
-    });
+        pass(stretch, ticks, stretch.travel(ticks));
+    }
+    return now_;
 }
 
 /// Calls on_step(StepEdge) for every step of an executable segment, in order.

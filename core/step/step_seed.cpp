@@ -5,14 +5,6 @@
 
 namespace lockstep {
 
-StepSeed::StepSeed(const Stretch& stretch)
-    : gap((static_cast<double>(~stretch.phase) + 1.0) * 0x1p-64),
-      a(static_cast<double>(stretch.acceleration) * 0x1p-64),
-      w(static_cast<double>(stretch.speed) * 0x1p-64 - 0.5 * a),
-      last(static_cast<double>(stretch.ticks - 1)),
-      inverse_a(1.0 / a),
-      curved(std::abs(w) < 0x1p40 * std::abs(a)) {}
-
 SeedBatch StepSeed::batch(std::int64_t k) const {
     constexpr int kSize = static_cast<int>(kSeedBatch);
     const double first = gap + static_cast<double>(k - 1);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -23,7 +24,14 @@ struct StepSeed {
     double inverse_a = 0;
     bool curved = false;  // |w| < 2^40 |a|: the root may be written without a division per step
 
-    explicit StepSeed(const Stretch& stretch);
+    /// The phase is halved first: a signed integer becomes a double without a branch. What is lost is 2^-64 step.
+    explicit StepSeed(const Stretch& stretch)
+        : gap((static_cast<double>(static_cast<std::int64_t>(~stretch.phase >> 1)) + 0.5) * 0x1p-63),
+          a(static_cast<double>(stretch.acceleration) * 0x1p-64),
+          w(static_cast<double>(stretch.speed) * 0x1p-64 - 0.5 * a),
+          last(static_cast<double>(stretch.ticks - 1)),
+          inverse_a(1.0 / a),
+          curved(std::abs(w) < 0x1p40 * std::abs(a)) {}
 
     /// The ticks of steps k, k+1, ..., k + kSeedBatch - 1, nearly. k >= 1. All in 1 ... ticks, also past the last step.
     SeedBatch batch(std::int64_t k) const;

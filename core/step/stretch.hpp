@@ -5,6 +5,7 @@
 // Ticks are numbered 1 ... ticks. Tick n has the speed u + (n-1)a and ends n*u + a*n(n-1)/2 beyond the start.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "core/units.hpp"
@@ -28,20 +29,50 @@ struct Stretch {
         const auto k = static_cast<std::uint64_t>(n);
         return phase + k * speed + (k >> 1) * ((k - 1) | 1) * static_cast<std::uint64_t>(acceleration);
     }
-    /// The distance covered in the first n ticks, exactly.
+    /// The distance covered in the first n >= 0 ticks, exactly.
     Int128 travel(std::int64_t n) const {
-        const Int128 k = n;
-        return k * speed + k * (k - 1) / 2 * acceleration;
+        const auto k = static_cast<std::uint64_t>(n);
+        const Int128 half = Int128{acceleration} * static_cast<std::int64_t>(k >> 1);
+        return static_cast<Int128>(UInt128{k} * speed) + half * ((k - 1) | 1);
+    }
+    /// How many steps fall within a distance from the start.
+    std::int64_t steps_over(Int128 distance) const {
+        return static_cast<std::int64_t>((Int128{phase} + distance) >> 64);
     }
     /// How many steps fall in the first n ticks.
-    std::int64_t steps_in(std::int64_t n) const { return static_cast<std::int64_t>((Int128{phase} + travel(n)) >> 64); }
+    std::int64_t steps_in(std::int64_t n) const { return steps_over(travel(n)); }
     /// Whether tick n makes a step: the phase after a carry is less than what was added.
     bool carries_at(std::int64_t n) const { return phase_after(n) < speed_at(n); }
 };
 
+/// How many ticks from the first one keep their speed within [lower, upper], the first one being so.
+inline std::int64_t ticks_within(const Stretch& stretch, std::uint64_t lower, std::uint64_t upper) {
+    const std::uint64_t last = stretch.speed_at(stretch.ticks);
+    const bool certain = last < kHalfStep;  // else it may have wrapped below 0
+    if ((certain && last >= lower && last <= upper) || stretch.acceleration == 0) { return stretch.ticks; }
+    const bool rising = stretch.acceleration > 0;
+    const std::uint64_t room = rising ? upper - stretch.speed : stretch.speed - lower;
+    const auto a = static_cast<std::uint64_t>(stretch.acceleration);
+    return std::min(stretch.ticks, 1 + static_cast<std::int64_t>(room / (rising ? a : 0 - a)));
+}
+
 /// The longest stretch that the next `ticks` >= 1 ticks of an axis begin with. `velocity` is the register before its
 /// first tick. A stretch ends where the velocity changes sign or the speed passes `crossover`.
-Stretch next_stretch(Position from, Velocity velocity, Acceleration acceleration, Ticks ticks, std::uint64_t crossover);
+inline Stretch next_stretch(Position from, Velocity velocity, Acceleration acceleration, Ticks ticks,
+                            std::uint64_t crossover) {
+    const auto a = static_cast<std::uint64_t>(acceleration.raw);
+    const auto first = static_cast<std::uint64_t>(velocity.raw) + a;
+    const bool backward = static_cast<std::int64_t>(first) < 0;
+    Stretch stretch{.phase = backward ? ~from.phase() : from.phase(),
+                    .speed = backward ? 0 - first : first,
+                    .acceleration = backward ? static_cast<std::int64_t>(0 - a) : acceleration.raw,
+                    .ticks = ticks.value,
+                    .backward = backward};
+    stretch.fast = stretch.speed >= crossover;
+    stretch.ticks =
+        stretch.fast ? ticks_within(stretch, crossover, kHalfStep) : ticks_within(stretch, 0, crossover - 1);
+    return stretch;
+}
 
 /// The tick of step k, 1 <= k <= steps_in(ticks), by bisection: exact and bounded, the last resort of faster ways.
 std::int64_t search_step(const Stretch& stretch, std::int64_t k);

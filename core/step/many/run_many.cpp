@@ -1,43 +1,42 @@
 #include "core/step/many/run_many.hpp"
 
-#include "core/step/many/vector_walk.hpp"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/step/many/run_many.cpp"
+#include <hwy/foreach_target.h>
+// Above: this file again for each instruction set. Below: once in each pass.
+#include <hwy/highway.h>
 
-namespace lockstep {
-namespace {
+#include "core/step/many/vector_walk-inl.hpp"
 
-/// Below this many steps a vector is not worth its start.
-constexpr std::size_t kFewSteps = 5;
+HWY_BEFORE_NAMESPACE();
+namespace lockstep::HWY_NAMESPACE {
 
-/// Roots in vectors; but at constant speed, or for a few steps, nothing is cheaper than one at a time.
-void write_steps(const Stretch& stretch, std::size_t steps, Tick start, std::int64_t* out) {
-    const auto write = [&](std::int64_t n) {
-        *out++ = EdgeBuffer::pack(start + Ticks{n}, stretch.backward);
-        return true;
-    };
-    if (stretch.acceleration == 0) {
-        walk_cruise(stretch, write);
-    } else if (steps < kFewSteps) {
-        walk_roots(stretch, write);
-    } else {
-        vector_walk(stretch, steps, start, out);
+HWY_ATTR void run_axis(StepEngine& axis, Tick until, EdgeBuffer& edges) {
+    while (axis.now() < until && !axis.idle()) {
+        const Stretch stretch = axis.next(until, kNeverFast);
+        const Int128 travel = stretch.travel(stretch.ticks);
+        const auto steps = static_cast<std::size_t>(stretch.steps_over(travel));
+        const std::span<std::int64_t> room = edges.free();
+        if (steps > room.size()) { return; }
+        if (steps > 0) { vector_walk(stretch, steps, axis.now(), room.data()); }
+        edges.filled(steps);
+        axis.pass(stretch, stretch.ticks, travel);
     }
 }
 
-}  // namespace
+}  // namespace lockstep::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
 
-void run_into(StepEngine& axis, Tick until, EdgeBuffer& edges) {
-    axis.run_stretches(until, kNeverFast, [&](const Stretch& stretch, Tick start) {
-        const std::span<std::int64_t> room = edges.free();
-        const auto steps = static_cast<std::size_t>(stretch.steps_in(stretch.ticks));
-        if (steps > room.size()) { return Walked{0, false}; }
-        if (steps > 0) { write_steps(stretch, steps, start, room.data()); }
-        edges.filled(steps);
-        return Walked{stretch.ticks, true};
-    });
-}
+#if HWY_ONCE
+namespace lockstep {
+
+HWY_EXPORT(run_axis);
+
+void run_into(StepEngine& axis, Tick until, EdgeBuffer& edges) { HWY_DYNAMIC_DISPATCH(run_axis)(axis, until, edges); }
 
 void run_many(std::span<StepEngine> axes, Tick until, std::span<EdgeBuffer> edges) {
     for (std::size_t i = 0; i < axes.size(); ++i) { run_into(axes[i], until, edges[i]); }
 }
 
 }  // namespace lockstep
+#endif

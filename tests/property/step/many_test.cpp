@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/step/many/run_many.hpp"
-#include "core/step/many/vector_walk.hpp"
 #include "core/step/tick_engine.hpp"
 #include "tests/property/step/print_segment.hpp"
 #include "tests/property/step/random_segment.hpp"
