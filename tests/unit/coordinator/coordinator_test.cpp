@@ -33,6 +33,7 @@ protected:
         ++axis_.stamp;
         const CoordinatorOutputs out =
             coordinator_.step({Tick{axis_.stamp * 1000}, std::span(&axis_, 1), {}, commands});
+        replies_ = out.replies;
         if (coordinator_.owns_machine()) { axis_.term = coordinator_.term(); }
         for (const AxisCommand& order : out.axis_commands) { axis_.command_done = order.sequence; }
         for (const Frame& frame : out.frames) {
@@ -54,6 +55,7 @@ protected:
     Coordinator coordinator_{machine(), 1'000'000, 1, methods::begin_steps};
     AxisState axis_{.identity = 5, .stamp = 1000, .homed = true, .phase = AxisPhase::Standby, .config_hash = 1};
     MachineState state_;
+    std::vector<Reply> replies_;
     std::uint64_t sequence_ = 0;
 };
 
@@ -103,6 +105,122 @@ TEST_F(CoordinatorAlone, ReportsWhatIsLeftOfAJobAndWhereItMayRest) {
     ASSERT_FALSE(state_.rests.empty());
     EXPECT_EQ(state_.rests.front().frame, axis_.ran);
     EXPECT_EQ(state_.rests.back().frame, state_.sent);
+}
+
+TEST_F(CoordinatorAlone, ReportsRestsFromTheStartOfTheEpochWhileAnAxisDoesNotFollowIt) {
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 1000));
+    coordinator_.accept_program(
+        1, {.name = "far", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, ProgramMove{{90}, 20, false}}}});
+    ask(CommandKind::Run, 1);
+    for (int i = 0; i < 100 && state_.sent == 0; ++i) { slot(); }
+    ASSERT_GT(state_.sent, 0u);
+    ASSERT_FALSE(state_.rests.empty());
+    EXPECT_EQ(state_.rests.front().frame, 0u) << "it rests there if no frame arrives";
+}
+
+TEST_F(CoordinatorAlone, AnswersARequestForTheLeaseOnce) {
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 1000));
+    const Command command{.client = 1,
+                          .sequence = 1,
+                          .kind = CommandKind::TakeLease,
+                          .writer = {.id = 7, .name = "anna", .host = "bench"}};
+    for (int n = 0; n < 2; ++n) {
+        slot(std::span(&command, 1));
+        ASSERT_EQ(replies_.size(), 1u);
+        EXPECT_EQ(replies_[0].status, ReplyStatus::Accepted) << "also when it comes again";
+    }
+    EXPECT_EQ(state_.lease->writer.name, "anna");
+}
+
+TEST_F(CoordinatorAlone, IsNotReadyWhileAnAxisDoesNotFollowIt) {
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 1000));
+    const auto pass = [&](int slots, const Term& followed) {
+        axis_.term = followed;
+        for (int i = 0; i < slots; ++i) {
+            ++axis_.stamp;
+            (void)coordinator_.step({Tick{axis_.stamp * 1000}, std::span(&axis_, 1), {}, {}});
+        }
+    };
+    const Term own = coordinator_.term();
+    pass(1, {});
+    EXPECT_EQ(coordinator_.phase(), MachinePhase::Idle) << "one state may be damaged";
+    pass(5, {});
+    EXPECT_EQ(coordinator_.phase(), MachinePhase::Waiting);
+    pass(5, own);
+    EXPECT_EQ(coordinator_.phase(), MachinePhase::Idle);
+}
+
+/// A standby of the machine above; its owner runs a job, and falls silent.
+class StandbyAlone : public CoordinatorAlone {
+protected:
+    StandbyAlone() {
+        standby_.accept_program(
+            1, {.name = "far", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, ProgramMove{{90}, 20, false}}}});
+        owner_ = {.term = {500, 4},
+                  .phase = MachinePhase::Running,
+                  .epoch = first_epoch({500, 4}) + 1,
+                  .job = 3,
+                  .job_begun = {500, 4},
+                  .config_hash = 1,
+                  .lease = HeldLease{{.id = 7, .name = "anna", .host = "bench"}, Tick{77}},
+                  .program = 1};
+        axis_.term = owner_.term;
+        for (int i = 0; i < 20; ++i) { pass(true, true); }
+    }
+    void pass(bool owner_speaks, bool axis_speaks) {
+        axis_.stamp += 1;
+        axis_.hears_owner = owner_speaks;
+        owner_.stamp = axis_.stamp;
+        const std::span<const AxisState> axes(&axis_, axis_speaks ? 1 : 0);
+        const std::span<const MachineState> others(&owner_, owner_speaks ? 1 : 0);
+        const CoordinatorOutputs& out = standby_.step({Tick{axis_.stamp * 1000}, axes, others, {}});
+        if (out.state) { state_ = *out.state; }
+        for (const CoordinatorNotice& notice : out.notices) {
+            if (notice.kind == CoordinatorNotice::Kind::JobCutShort) { doubts_.push_back(notice.doubt); }
+        }
+    }
+    bool takes_over() {
+        for (int i = 0; i < 200 && !standby_.owns_machine(); ++i) { pass(false, true); }
+        return standby_.owns_machine();
+    }
+    Coordinator standby_{machine(), 1'000'000, 1, methods::begin_steps, OnTakeover::Continue};
+    MachineState owner_;
+    std::vector<TakeoverDoubt> doubts_;
+};
+
+TEST_F(StandbyAlone, TakesOverTheLeaseOfTheOwnersWriter) {
+    ASSERT_TRUE(takes_over());
+    pass(false, true);
+    EXPECT_EQ(state_.lease, owner_.lease);
+}
+
+/// Its devices may have been switched off: where it is when it comes back proves nothing.
+TEST_F(StandbyAlone, EndsTheJobWhenAnAxisFallsSilentBeforeItIsGoneOnWith) {
+    ASSERT_TRUE(takes_over());
+    pass(false, true);
+    ASSERT_TRUE(doubts_.empty());
+    for (int i = 0; i < 100; ++i) { pass(false, false); }
+    EXPECT_EQ(doubts_, std::vector<TakeoverDoubt>{TakeoverDoubt::AxisInDoubt});
+    EXPECT_EQ(state_.outcome, JobOutcome::Stopped);
+}
+
+/// Its frames would have to jump. The fault is of no axis.
+TEST_F(StandbyAlone, FailsWhereNoFrameLeadsFromWhereTheAxisRests) {
+    ProgramMove wide{{90}, 20, false};
+    wide.tolerance_mm = 10;
+    standby_.accept_program(1, {.name = "far", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, wide}}});
+    axis_.epoch = owner_.epoch;
+    axis_.ran = 5;
+    axis_.position = Position::steps(2500);
+    const Displacement place_mm = Displacement::steps(20);
+    owner_.rests = {{5, {0, place_mm}, false, digest_of(std::span(&axis_.position, 1))}};
+    for (int i = 0; i < 5; ++i) { pass(true, true); }
+    ASSERT_TRUE(takes_over());
+    axis_.term = standby_.term();
+    for (int i = 0; i < 300 && standby_.phase() != MachinePhase::Fault; ++i) { pass(false, true); }
+    EXPECT_TRUE(doubts_.empty());
+    EXPECT_EQ(static_cast<FaultCode>(state_.fault), FaultCode::FrameBeyondLimits);
+    EXPECT_EQ(state_.fault_axis, 0u);
 }
 
 }  // namespace

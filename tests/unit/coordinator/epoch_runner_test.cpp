@@ -118,6 +118,44 @@ TEST(EpochRunner, AnAxisThatMovesLongAfterAllTailsIsOverdue) {
     EXPECT_FALSE(runner.evaluate(slot, says(slot, 20, 21, 0, {})).has_value());
 }
 
+/// Its last frames may begin in the future still.
+TEST(EpochRunner, SendsNoFrameOfAnEpochBefore) {
+    EpochRunner runner = on_a_long_move();
+    Slot slot = 101;
+    for (; runner.sent() < 3; ++slot) { (void)runner.send(slot, says(slot, 0, {}, 0, {})); }
+    runner.stop(slot);
+    runner.begin(2, {0, {}}, {Position{}}, {});
+    for (const Slot last = slot + 30; slot < last; ++slot) {
+        for (const Frame& frame : runner.send(slot, says(slot, 0, {}, 0, {}, 2))) { EXPECT_EQ(frame.epoch, 2u); }
+    }
+    EXPECT_GT(runner.sent(), 0u);
+}
+
+/// So many mm along its block.
+TEST(EpochRunner, KnowsWhereTheProgramIsAtTheEndOfEachFrame) {
+    EpochRunner runner = on_a_long_move();
+    for (Slot slot = 101; runner.sent() < 40; ++slot) {
+        for (const Frame& frame : runner.send(slot, says(slot, runner.sent(), {}, 0, {}))) {
+            EXPECT_NEAR(100 * runner.place_at(frame.start).along.as_steps(), frame.axes[0].from.as_steps(), 1e-6)
+                << frame.number;
+        }
+    }
+}
+
+/// It remembers only the last frames.
+TEST(EpochRunner, OfATimeLongAgoKnowsTheFirstPlaceThatItRemembers) {
+    EpochRunner runner = on_a_long_move();
+    Position early;
+    for (Slot slot = 101; runner.sent() < 200; ++slot) {
+        for (const Frame& frame : runner.send(slot, says(slot, runner.sent(), {}, 0, {}))) {
+            if (frame.number == 130) { early = frame.axes[0].from; }
+        }
+    }
+    const double along_steps = 100 * runner.place_at(*runner.start() + Ticks{1}).along.as_steps();
+    EXPECT_GT(along_steps, early.as_steps());
+    EXPECT_EQ(runner.place_at(*runner.start() + Ticks{1}), runner.place_at(*runner.start() + Ticks{5000}));
+}
+
 Program moves_of_0_05_mm(int count) {
     Program program{.name = "many", .axes = {"X"}, .start_mm = {0}};
     for (int line = 1; line <= count; ++line) {
@@ -155,6 +193,7 @@ public:
         frames_->resume(place, at, overrides);
     }
     bool read() override { return frames_->read(); }
+    bool lacks_blocks() override { return !*known_; }
     bool is_ready() override { return *known_ && frames_->is_ready(); }
     bool is_done() const override { return frames_->is_done(); }
     std::expected<const PathFrame*, PathStuck> next() override {
@@ -250,6 +289,39 @@ TEST_F(LatePlanner, RestsOnThePathAndGoesOnFromThere) {
     }
     EXPECT_TRUE(is_done);
     EXPECT_EQ(rest.count(), 10'000);
+}
+
+TEST_F(LatePlanner, LacksBlocksWhereTheFrameThatWasDueCouldNotBeMadeWhateverCameAfterwards) {
+    is_known = true;
+    go_on(1000);
+    for (const FrameNumber sent = runner.sent(); runner.sent() == sent;) { go_on(slot + 1); }
+    is_known = false;
+    go_on(slot + machine.timing.frame_slots);  // the next one is due
+    ASSERT_FALSE(runner.was_late());
+    is_known = true;  // but this process stalls
+    slot += 50;
+    go_on(slot + 1);
+    EXPECT_TRUE(runner.was_late());
+    EXPECT_TRUE(runner.lacked_blocks());
+}
+
+TEST_F(LatePlanner, LacksBlocksWhereItFindsNoneAfterItsOwnStall) {
+    is_known = true;
+    go_on(1000);
+    is_known = false;
+    slot += 50;
+    go_on(slot + 1);
+    EXPECT_TRUE(runner.was_late());
+    EXPECT_TRUE(runner.lacked_blocks());
+}
+
+TEST_F(LatePlanner, LacksNoBlocksWhereOnlyThisProcessWasLate) {
+    is_known = true;
+    go_on(1000);
+    slot += 50;
+    go_on(slot + 1);
+    EXPECT_TRUE(runner.was_late());
+    EXPECT_FALSE(runner.lacked_blocks());
 }
 
 /// Three axes after frame 3 of a move of the first, which was stopped behind it.

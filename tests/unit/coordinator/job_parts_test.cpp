@@ -24,6 +24,15 @@ TEST(JobCount, ReportsTheLineOnlyOfTheJobThatATakeoverEnded) {
     EXPECT_EQ(log.begun_in(), (Term{6, 1}));
 }
 
+TEST(JobCount, SaysWhyAProgramEndedBeforeItsEndUntilTheNextJobBegins) {
+    JobCount log;
+    (void)log.begin({5, 1});
+    log.cut(17, FaultCode::SenderSilent);
+    EXPECT_EQ(log.fault(), FaultCode::SenderSilent);
+    (void)log.begin({5, 1});
+    EXPECT_EQ(log.fault(), FaultCode::None);
+}
+
 TEST(JobCount, GoesOnCountingFromTheOwnerBefore) {
     JobCount log;
     log.inherit({.job = 8, .outcome = JobOutcome::Done, .job_begun = {4, 4}});
@@ -98,6 +107,13 @@ TEST_F(OwnTargetsOfTwo, RefuseAnAxisThatIsNotHomedAndATimeThatIsTooShort) {
     y.homed = false;
     axes.take(y, slot);
     EXPECT_EQ(targets(20, 40).error().why, FaultCode::NotHomed);
+}
+
+TEST_F(OwnTargetsOfTwo, LastAsLongAsAskedOrAsTheSlowestAxisTakes) {
+    EXPECT_DOUBLE_EQ(targets(20, 40, Ticks{3'000'000})->remaining_s(loop().now, machine), 3);
+    const double fastest_s = 40.0 / 50;  // of Y, at its greatest velocity all the way
+    EXPECT_NEAR(targets(20, 40)->remaining_s(loop().now, machine), fastest_s, 0.15);
+    EXPECT_GT(targets(20, 40)->remaining_s(loop().now, machine), fastest_s);
 }
 
 class Inherited : public CoordinatorParts {

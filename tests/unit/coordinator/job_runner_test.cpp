@@ -2,6 +2,7 @@
 #include "core/coordinator/jobs/job_runner.hpp"
 
 #include "coordinator_parts.hpp"
+#include "core/coordinator/path/program_frames.hpp"
 #include "core/methods/paper_steps.hpp"
 
 namespace lockstep {
@@ -49,6 +50,40 @@ TEST_F(Running, RefusesAProgramThatHasNotArrived) {
     const CommandResult result = ask([&](auto& l) { return jobs.run({.kind = CommandKind::Run, .program = 9}, l); });
     EXPECT_EQ(result.error().why, FaultCode::UnknownProgram);
     EXPECT_FALSE(jobs.exists());
+}
+
+TEST_F(Running, RefusesAProgramThatEndsBeforeItsEndWithTheLine) {
+    const Block too_far{1, ProgramMove{{101, 0}, 20}};
+    programs.accept(2, {.name = "far", .axes = {"X", "Y"}, .start_mm = {0, 0}, .blocks = {too_far}});
+    const CommandResult result = ask([&](auto& l) { return jobs.run({.kind = CommandKind::Run, .program = 2}, l); });
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().why, FaultCode::OutsideTravel);
+    EXPECT_TRUE(result.error().text.starts_with("line 1: X 101")) << result.error().text;
+}
+
+TEST_F(Running, AProgramThatMovesNothingEndsAtOnce) {
+    Program still{.name = "still", .axes = {"X", "Y"}, .start_mm = {0, 0}, .blocks = {}};
+    still.blocks.assign(ProgramFrames::kBlocksAtOnce - 1, {1, Dwell{0}});
+    programs.accept(1, still);
+    ASSERT_EQ(run(), FaultCode::None);
+    EXPECT_FALSE(jobs.exists());
+    EXPECT_TRUE(has_job_event(JobEvent::Kind::Ended));
+    EXPECT_FALSE(has_job_event(JobEvent::Kind::EpochBegun));
+}
+
+TEST_F(Running, AnEventOfAProgramThatMovesNothingIsOfNoEpoch) {
+    accept(1, 20, 40);
+    ASSERT_EQ(run(), FaultCode::None);
+    ask([&](auto& l) { jobs.interrupt(Intent::Stop, l); });
+    jobs.stand_down();
+    condition.enter(MachinePhase::Idle, out.notices);
+    const Block event{3, ProgramEvent{.kind = ProgramEvent::Kind::OutputOn, .index = 2}};
+    programs.accept(1, {.name = "on", .axes = {"X", "Y"}, .start_mm = {0, 0}, .blocks = {event}});
+    ASSERT_EQ(run(), FaultCode::None);
+    ASSERT_EQ(out.events.size(), 1u);
+    EXPECT_EQ(out.events[0].epoch, 0u) << "no axis moved since this job began";
+    EXPECT_EQ(out.events[0].line, 3);
+    EXPECT_TRUE(out.events[0].at_rest);
 }
 
 TEST_F(Running, AFaultInMotionStopsOnThePathBeforeTheMachineIsInFault) {
@@ -109,6 +144,40 @@ TEST_F(Running, StandingDownForgetsTheJobWithoutARecord) {
     MachineState state;
     jobs.report(state, loop());
     EXPECT_EQ(state.outcome, JobOutcome::Stopped);
+}
+
+class RunningByLai : public CoordinatorParts {
+protected:
+    RunningByLai() {
+        receive_all();
+        condition.enter(MachinePhase::Idle, out.notices);
+    }
+    static const MachineConfig& by_lai(MachineConfig& machine) {
+        machine.coordination = StepMethod::Lai;
+        return machine;
+    }
+    CommandResult run(double feed_mm_s) {
+        programs.accept(1, {.name = "slow",
+                            .axes = {"X", "Y"},
+                            .start_mm = {0, 0},
+                            .blocks = {{4, ProgramMove{{10, 10}, 20}}, {5, ProgramMove{{20, 10}, feed_mm_s}}}});
+        CoordinatorLoop l = loop();
+        return jobs.run({.kind = CommandKind::Run, .program = 1}, l);
+    }
+    JobRunner jobs{by_lai(machine), 1, methods::begin_steps, std::nullopt};
+};
+
+TEST_F(RunningByLai, RefusesAMoveThatIsTooSlowWithItsLine) {
+    const CommandResult result = run(1);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().why, FaultCode::BadProgram);
+    EXPECT_TRUE(result.error().text.starts_with("line 5: ")) << result.error().text;
+    EXPECT_FALSE(jobs.exists());
+}
+
+TEST_F(RunningByLai, RunsMovesOfAtLeastAPulsePerPeriod) {
+    EXPECT_TRUE(run(20));
+    EXPECT_TRUE(jobs.is_on_path());
 }
 
 }  // namespace

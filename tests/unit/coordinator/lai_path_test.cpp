@@ -83,6 +83,25 @@ TEST(LaiPath, TheSpeedChangesByOnePulsePerPeriodWhereThatIsWhatTheAxisCanDo) {
               10);  // floor(sqrt(107))
 }
 
+/// 32.5 pulses per period are the most that the axis does.
+TEST(LaiPath, ALongMoveGoesAsFastAsWholePulsesAllow) {
+    const Path path = path_through({{0, 0}, {4000, 0}});
+    std::int64_t fastest = 0;
+    for (const PathMove& period : path.moves) { fastest = std::max(fastest, period.lead); }
+    EXPECT_EQ(fastest, 32);
+}
+
+TEST(LaiPath, AShortAxisKeepsItsGreatestVelocityWithItsRoundedPulses) {
+    const std::vector<AxisLimits> limits{axis_of(5000, 60'000), axis_of(2500, 60'000)};  // 32.5 and 16.25 per period
+    const PathMove move = make_move({0, 0}, {4000, 3600}, limits, kScale, 0);
+    const Path path = plan_lai_path({move}, {}, limits, kScale, kTick_ns, kBounds);
+    for (const PathMove& period : path.moves) {
+        EXPECT_LE(period.to[1] - period.from[1], 16);
+        EXPECT_LE(std::abs(static_cast<double>(period.to[1]) - 0.9 * static_cast<double>(period.to[0])), 0.5 + 1e-9);
+    }
+    EXPECT_EQ(path.moves.back().to, (AxisCounts{4000, 3600}));
+}
+
 TEST(LaiPath, ShortAxesAreOnTheLineToTheNearestStep) {
     std::mt19937_64 random(7);
     const auto length = [&] { return static_cast<std::int64_t>(random() % 4001) - 2000; };
@@ -176,6 +195,17 @@ TEST(LaiPath, AMachineThatCannotChangeSpeedByWholePulsesIsRefused) {
     MachineConfig one = machine_of(5, 800);
     one.axes.pop_back();
     EXPECT_FALSE(suits_lai_path(one).has_value());
+}
+
+TEST(LaiPath, FramesThatCarryOneMoveEachPeriodAreShortEnoughAndLongerOnesAreNot) {
+    MachineConfig machine = machine_of(5, 800);
+    machine.timing.frame_slots = 5;
+    machine.timing.slot_us = 15'599;
+    ASSERT_EQ(bounds_of(machine).least_move, kPeriod);
+    EXPECT_TRUE(suits_lai_path(machine).has_value());
+    machine.timing.slot_us = 15'601;
+    ASSERT_GT(bounds_of(machine).least_move, kPeriod);
+    EXPECT_NE(suits_lai_path(machine).error().find("lower timing.frame_slots"), std::string::npos);
 }
 
 TEST(LaiPath, AFeedBelowOnePulsePerPeriodIsRefused) {

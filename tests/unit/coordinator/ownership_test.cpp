@@ -202,5 +202,14 @@ TEST(Ownership, ClaimedInVainIsGivenUp) {
     EXPECT_EQ(scene.look_for(5 * kSilence, [&] { scene.axes_follow(kOther); }), Change::StoodDown);
 }
 
+TEST(Ownership, IsClaimedAgainOnlyAfterAnotherSilence) {
+    Scene scene;
+    (void)scene.look_for(2 * kSilence, [] {});
+    ASSERT_EQ(scene.look_for(5 * kSilence, [&] { scene.axes_follow(kOther); }), Change::StoodDown);
+    const auto silent = [&] { scene.axes_follow(kOther, false); };
+    EXPECT_EQ(scene.look_for(kSilence, silent), Change::None);
+    EXPECT_EQ(scene.look_for(1, silent), Change::Claimed);
+}
+
 }  // namespace
 }  // namespace lockstep

@@ -201,6 +201,17 @@ TEST_F(LaiFramesTest, EndWhereTheProgramDoes) {
     EXPECT_EQ(rest_of(frames.back())[1].count(), 4800);
 }
 
+/// The long axis leads: its steps are the way along the block.
+TEST_F(LaiFramesTest, RestWhereTheyReport) {
+    OwnedSource source = this->source();
+    for (const PathFrame& frame : up_to(source, 1000)) {
+        const Position lead = rest_of(frame)[frame.rest.block == 0 ? 0 : 1];
+        const double before = frame.rest.block == 0 ? 0 : 800;  // of the first move
+        if (frame.rest.block == 1) { continue; }                // the dwell
+        EXPECT_NEAR(frame.rest.along.as_steps(), lead.as_steps() - before, 1e-6) << frame.rest.block;
+    }
+}
+
 /// Also behind a rest within a period.
 TEST_F(LaiFramesTest, AreTheSameWhenResumedTwiceAtOnePlace) {
     OwnedSource source = this->source();
@@ -217,6 +228,55 @@ TEST_F(LaiFramesTest, AreTheSameWhenResumedTwiceAtOnePlace) {
         for (std::size_t k = 0; k < a.size(); ++k) { EXPECT_TRUE(are_same(a[k], b[k])) << rests << ": " << k; }
         EXPECT_EQ(rest_of(a.back())[1].count(), 4800);
     }
+}
+
+class LaiFramesBehindADwell : public Frames {
+protected:
+    LaiFramesBehindADwell() : Frames(program(), lai()) {}
+    static MachineConfig lai() {
+        MachineConfig machine = two_long_axes();
+        machine.coordination = StepMethod::Lai;
+        return machine;
+    }
+    /// The dwell lasts as long as a frame.
+    static Program program() {
+        return {.name = "dwell",
+                .axes = {"X", "Y"},
+                .start_mm = {0, 0},
+                .blocks = {{1, Dwell{0.05}}, {2, ProgramEvent{}}, {3, ProgramMove{{40, 10}, 50, false}}}};
+    }
+};
+
+TEST_F(LaiFramesBehindADwell, NameTheMoveThatBeginsWhereAFrameEnds) {
+    OwnedSource source = this->source();
+    const auto frame = source->next().value();
+    ASSERT_EQ(frame->ticks, Ticks{50'000});
+    ASSERT_EQ(source->begins().size(), 2u);
+    EXPECT_EQ(source->begins()[1].block, 2u);
+    EXPECT_EQ(source->begins()[1].at, 50'000);
+    ASSERT_EQ(source->events().size(), 1u) << "the event between them is due there";
+    EXPECT_EQ(source->events()[0].at, Ticks{50'000});
+}
+
+TEST(ProgramPlan, ABlockThatTakesNoTimeIsNoMove) {
+    const ProgramPlanner planner(two_long_axes());
+    const Program program{.name = "still",
+                          .axes = {"X", "Y"},
+                          .start_mm = {0, 0},
+                          .blocks = {{1, Dwell{0}}, {2, ProgramMove{{0, 0}, 10, false}}}};
+    const auto legs = planner.plan(program, {0, 0});
+    ASSERT_TRUE(legs);
+    EXPECT_FALSE(legs->front().moves);
+    EXPECT_TRUE(planner.moves_of(program, legs->front()).empty());
+}
+
+TEST(ProgramPlan, AStartElsewhereIsOfNoLine) {
+    const ProgramPlanner planner(two_long_axes());
+    const auto legs = planner.plan(line_in_parts(10, 10), {80, 0});
+    ASSERT_FALSE(legs);
+    EXPECT_EQ(legs.error().fault, FaultCode::StartMismatch);
+    EXPECT_EQ(legs.error().line, 0);
+    EXPECT_EQ(legs.error().text, "the program starts at X 0 mm, the axis is at 1 mm");
 }
 
 }  // namespace

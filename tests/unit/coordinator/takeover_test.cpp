@@ -162,6 +162,28 @@ TEST_F(RestOfJob, BeforeItsFirstFrameStartsOnWholeSteps) {
     EXPECT_EQ(found->place, (PathPlace{0, {}}));
 }
 
+/// Only before the first frame: one that was run has brought the axes to where it says.
+TEST_F(RestOfJob, IsInDoubtBehindItsFirstFrameElsewhereThanThatEnds) {
+    rest_at(0);
+    last.rests[0].frame = 1;
+    for (AxisView& axis : axes) { axis.state->ran = 1; }
+    EXPECT_EQ(doubt(), TakeoverDoubt::NotAsked);
+    last.rests[0].digest += 1;
+    EXPECT_EQ(doubt(), TakeoverDoubt::Misplaced);
+}
+
+/// Joining moves and whole steps take an axis so far from the program.
+TEST_F(RestOfJob, GoesOnThreeStepsFromThePlaceOfTheProgramAndNoFarther) {
+    for (AxisConfig& axis : machine.axes) { axis.steps_per_mm = 64; }  // steps are exact in mm
+    program.blocks.insert(program.blocks.begin(), {0, Dwell{1}});
+    for (const int off : {3, 4}) {
+        const std::vector<Position> positions{Position::steps(640 + off), Position::steps(1280)};
+        for (std::size_t i = 0; i < 2; ++i) { axes[i].state->position = positions[i]; }
+        last.rests = {{kRan, {0, {}}, false, digest_of(positions)}};
+        EXPECT_EQ(doubt(), off == 3 ? TakeoverDoubt::NotAsked : TakeoverDoubt::Misplaced) << off;
+    }
+}
+
 TEST(TakeoverDoubtText, NamesEachDoubt) {
     EXPECT_NE(text_of(TakeoverDoubt::NotAsked).find("--on-takeover"), std::string_view::npos);
     EXPECT_NE(text_of(TakeoverDoubt::FramesDiffer).find("same frames"), std::string_view::npos);

@@ -122,5 +122,17 @@ TEST(ValueKeeper, ProgramsThatArriveDuringAJobDoNotReplaceItsValues) {
     EXPECT_EQ(keeper.values(), with_x(2));
 }
 
+TEST(ValueKeeper, WhatAProgramLeavesMayArriveWhileItRuns) {
+    ValueKeeper keeper(3, with_x(1));
+    ASSERT_TRUE(keeper.accept(7, {3, {}}, {}));
+    ASSERT_TRUE(keeper.accept(8, {3, {}}, {}));
+    keeper.take(begun(7));
+    keeper.note_left(8, with_x(4));
+    keeper.note_left(7, with_x(2));
+    keeper.note_left(8, with_x(5));
+    keeper.take(ended(7, JobOutcome::Done));
+    EXPECT_EQ(keeper.values(), with_x(2)) << "and not what another program leaves";
+}
+
 }  // namespace
 }  // namespace lockstep

@@ -38,6 +38,7 @@ protected:
 
 TEST_F(Lease, EveryClientMayGiveCommandsWhileThereIsNoWriter) {
     EXPECT_EQ(holder(), "nobody");
+    EXPECT_EQ(lease.writer(), 0u);
     EXPECT_EQ(check(anna(), CommandKind::Home), FaultCode::None);
     EXPECT_EQ(check({}, CommandKind::Run), FaultCode::None) << "also one that names no writer";
 }
@@ -51,6 +52,18 @@ TEST_F(Lease, CommandsOfOtherWritersAreRefusedWithTheHolderAndSinceWhen) {
     EXPECT_EQ(refused.error().text, "anna on bench has been the machine's writer for 65 s");
     EXPECT_THAT(find_fault(FaultCode::WriterHeld)->by_hand, HasSubstr("--take"));
     EXPECT_EQ(check(anna(), CommandKind::Move), FaultCode::None);
+}
+
+TEST_F(Lease, NamesHowLongItHasBeenHeldInAUnitThatFits) {
+    ASSERT_EQ(take(anna(), 1), FaultCode::None);
+    const auto said_after = [&](std::int64_t seconds) {
+        const Tick now{slot * 1000 + seconds * 1'000'000};
+        return lease.check(asking(bert(), 2, CommandKind::Move), now).error().text;
+    };
+    for (const auto& [seconds, said] : std::initializer_list<std::pair<std::int64_t, const char*>>{
+             {119, "for 119 s"}, {120, "for 2 min"}, {7199, "for 119 min"}, {7200, "for 2 h"}, {36'000, "for 10 h"}}) {
+        EXPECT_TRUE(said_after(seconds).ends_with(said)) << said_after(seconds);
+    }
 }
 
 TEST_F(Lease, HoldsAndStopsAreEverybodys) {
@@ -137,6 +150,22 @@ TEST_F(Lease, ANewOwnerAdoptsItForAWriterThatKeepsIt) {
     lease.adopt(published, slot);
     pass(kLeaseSilence_slots + 2);
     EXPECT_EQ(holder(), "nobody") << "its writer did not keep it";
+}
+
+TEST_F(Lease, AClientThatKeepsItOftenCountsOnce) {
+    ASSERT_EQ(take(anna(), 2), FaultCode::None);
+    for (int n = 0; n < 100; ++n) { ASSERT_EQ(take(anna(), 1), FaultCode::None); }
+    lease.give(1);
+    EXPECT_EQ(holder(), "anna") << "her other client has it still";
+    lease.give(2);
+    EXPECT_EQ(holder(), "nobody");
+}
+
+TEST_F(Lease, TheFirstClientThatKeepsAnAdoptedOneStandsForItsWriter) {
+    lease.adopt(HeldLease{anna(), Tick{5}}, slot);
+    ASSERT_EQ(take(anna(), 1), FaultCode::None);
+    lease.give(1);
+    EXPECT_EQ(holder(), "nobody");
 }
 
 TEST_F(Lease, ALeaseWithoutAnIdentityIsRefused) { EXPECT_EQ(take({}, 1), FaultCode::BadProgram); }

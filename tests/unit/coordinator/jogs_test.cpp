@@ -1,0 +1,88 @@
+// Jogs by hand: who holds which axis, and the orders that the axes get while they are held.
+#include "core/coordinator/jobs/jogs.hpp"
+
+#include "coordinator_parts.hpp"
+
+namespace lockstep {
+namespace {
+
+class Jogged : public CoordinatorParts {
+protected:
+    Jogged() { receive_all(); }
+    static Command pressed(std::uint64_t sequence, double distance_mm = 0) {
+        return {.client = 1,
+                .sequence = sequence,
+                .kind = CommandKind::Jog,
+                .jogs = {{.axis = 0, .speed_mm_s = 5, .distance_mm = distance_mm}}};
+    }
+    void press(const Command& command, bool is_late = false) {
+        CoordinatorLoop l = loop();
+        l.is_late = is_late;
+        ASSERT_TRUE(jogs.press(command, l));
+        EXPECT_FALSE(jogs.advance(l));
+    }
+    bool renew(const Command& command) { return jogs.renew(command, loop()); }
+    void advance() {
+        CoordinatorLoop l = loop();
+        EXPECT_FALSE(jogs.advance(l));
+    }
+    bool was_halted() const {
+        return std::ranges::count(out.axis_commands, AxisCommandKind::Halt, &AxisCommand::kind) != 0;
+    }
+    Jogs jogs{machine};
+};
+
+TEST_F(Jogged, AnAxisIsOrderedAtOnceAndForAsLongAsAJogHolds) {
+    press(pressed(1));
+    ASSERT_EQ(out.axis_commands.size(), 1u);
+    EXPECT_EQ(out.axis_commands[0].kind, AxisCommandKind::Jog);
+    EXPECT_EQ(out.axis_commands[0].until, Tick{slot * 1000} + machine.jog_hold_ticks());
+    EXPECT_EQ(out.axis_commands[0].target_steps, 10'000) << "to the end of its travel";
+}
+
+TEST_F(Jogged, AKeyThatArrivesAfterAStallMovesNothingUntilItIsRenewed) {
+    press(pressed(1), true);
+    EXPECT_TRUE(out.axis_commands.empty()) << "its client may be dead";
+    ++slot;
+    EXPECT_TRUE(renew(pressed(1)));
+    advance();
+    EXPECT_EQ(out.axis_commands.size(), 1u);
+}
+
+TEST_F(Jogged, AKeyIsRenewedOnlyByItsClientAndItsCommand) {
+    press(pressed(1));
+    EXPECT_TRUE(renew(pressed(1)));
+    EXPECT_FALSE(renew(pressed(2)));
+    Command other = pressed(1);
+    other.client = 2;
+    EXPECT_FALSE(renew(other));
+}
+
+/// Another key is pressed beside it: an axis that goes on as before is not to stop.
+TEST_F(Jogged, AnAxisThatIsAskedForTheSameAgainGoesOn) {
+    AxisState state = state_of(0);
+    state.homed = false;  // it knows no end: its target is as far from where the key was pressed
+    axes.take(state, slot);
+    machine.axes[0].unhomed_jog_mm_s = 5;
+    press(pressed(1));
+    ++slot;
+    state.stamp = slot;
+    state.position = Position::steps(50);
+    state.at_rest = false;
+    axes.take(state, slot);
+    press(pressed(2));
+    EXPECT_FALSE(was_halted());
+    press(pressed(3, 20));
+    EXPECT_TRUE(was_halted()) << "for another way it stops first";
+}
+
+TEST_F(Jogged, NothingIsHeldWhenAllIsReleased) {
+    press(pressed(1));
+    EXPECT_FALSE(jogs.none());
+    jogs.release_all();
+    EXPECT_TRUE(jogs.none());
+    EXPECT_FALSE(renew(pressed(1)));
+}
+
+}  // namespace
+}  // namespace lockstep
