@@ -143,6 +143,35 @@ TEST_F(Checks, DetectAStartThatJumpsTooFar) {
     EXPECT_TRUE(has(violations, "start") || has(violations, "stop"));
 }
 
+/// Forty exact moves of one step of each axis, at little more than half the start velocity.
+class ChecksOfShortMoves : public Checks {
+protected:
+    ChecksOfShortMoves() : Checks(scenario()) {}
+
+    static Scenario scenario() {
+        Scenario scenario = two_axes();
+        std::vector<Block>& blocks = scenario.tasks[0].program.blocks;
+        blocks.clear();
+        for (std::int32_t k = 1; k <= 40; ++k) {
+            const double place = 10 + 0.005 * k;
+            blocks.push_back(
+                {k, ProgramMove{.target_mm = {place, place}, .feed_mm_s = 4, .mode = PathMode::ExactPath}});
+        }
+        return scenario;
+    }
+};
+
+/// From the middle on four times as fast.
+TEST_F(ChecksOfShortMoves, DetectAJumpBeyondOneStartVelocityHoweverManyTheyAre) {
+    const Tick from = job_steps(0)[20].tick;
+    for (std::size_t i = 0; i < 2; ++i) {
+        for (StepEdge& step : job_steps(i)) {
+            if (step.tick > from) { step.tick = from + Ticks{(step.tick - from).value / 4}; }
+        }
+    }
+    EXPECT_TRUE(has(check_limits(recording), "sudden change"));
+}
+
 TEST_F(Checks, DetectAFrameThatWasNotArmed) {
     recording.axes[1].tracks.back().armed = 0;
     EXPECT_TRUE(has(check_frames(recording), "frames"));
@@ -213,6 +242,21 @@ public:
 private:
     ClaimCheck& claims_;
 };
+
+/// Y moves in the last move only. A curve over all of them moves it before that.
+TEST(Joints, OfJoinedMovesAreThoseOfEveryAxis) {
+    const Scenario scenario = two_axes();
+    const auto joints_of_y = [&](PathMode mode) {
+        Program program{.name = "curve", .axes = {"X", "Y"}, .start_mm = {10, 10}, .blocks = {}};
+        for (const std::vector<double>& place : {std::vector{10.05, 10.0}, {10.1, 10.0}, {10.15, 10.05}}) {
+            program.blocks.push_back({1, ProgramMove{.target_mm = place, .rapid = true, .mode = mode}});
+        }
+        const Joints joints(course_of(program, scenario.machine, {2000, 2000}), 1);
+        return std::vector{joints.up_to(0.5), joints.up_to(1.5), joints.up_to(2.5)};
+    };
+    EXPECT_EQ(joints_of_y(PathMode::Blend), (std::vector<std::size_t>{0, 1, 2}));
+    EXPECT_EQ(joints_of_y(PathMode::ExactPath), (std::vector<std::size_t>{0, 0, 1}));
+}
 
 TEST(Claims, WithAnExtraStepAreUntrue) {
     const Scenario scenario = two_axes();

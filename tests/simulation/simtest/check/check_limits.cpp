@@ -162,8 +162,8 @@ private:
         const double t1 = time(n - m, n);
         const double t2 = time(n, n + m);
         const double between = (t1 + t2 + rounding_) / 2 + kJointTicks;
-        const std::size_t jumps = joints(n - m, n + m);
-        if (jumps > 0 || turns(n - m, n + m)) { return check_change_either_way(n, m, between, jumps); }
+        const bool may_jump = joints(n - m, n + m) > 0;
+        if (may_jump || turns(n - m, n + m)) { return check_change_either_way(n, m, between, may_jump); }
         const double fewest = least(static_cast<double>(m));
         const double most = most_of(static_cast<double>(m));
         const double rises = fewest / (t2 + rounding_) - most / std::max(t1 - rounding_, 1e-3);
@@ -179,7 +179,8 @@ private:
         return std::abs(distance(from, to)) < static_cast<double>(to - from);
     }
 
-    void check_change_either_way(std::size_t n, std::size_t m, double between, std::size_t jumps) {
+    /// However many joints follow each other: their jumps add up to at most one start velocity.
+    void check_change_either_way(std::size_t n, std::size_t m, double between, bool may_jump) {
         struct Mean {
             double low, high;
         };
@@ -193,19 +194,21 @@ private:
         const Mean before = mean(n - m, n);
         const Mean after = mean(n, n + m);
         const double change = std::max(after.low - before.high, before.low - after.high);
-        const double most =
-            std::max(limits_.accel, limits_.decel) * between + static_cast<double>(jumps) * limits_.start;
+        const double most = std::max(limits_.accel, limits_.decel) * between + (may_jump ? limits_.start : 0);
         if (change > most) { object("sudden change", n, change, most, m); }
     }
 
     /// The first crossing is at most one step from the position of rest. An axis that did not rest, but moved slowly,
-    /// can have accelerated over one step.
+    /// can have accelerated over one step. With joints it can have got faster by one start velocity more: from the
+    /// crossing back into the gap its speed is at least a line that is so much lower, with less than a step below it.
     double speed_beside_rest(std::size_t gap, double rate) const {
-        const double joined = static_cast<double>(joints_beside_rest(gap)) * limits_.start;
         const bool between = gap > 0 && gap < steps_.size();
         const double slow = between ? 1 / (time(gap - 1, gap) - rounding_) : 0;
+        if (joints_beside_rest(gap) > 0) {
+            return limits_.start + std::sqrt(slow * slow + 2 * std::max(limits_.accel, limits_.decel));
+        }
         const double slowest = std::max(limits_.start, slow);
-        return std::sqrt(slowest * slowest + 2 * rate) + joined;
+        return std::sqrt(slowest * slowest + 2 * rate);
     }
     void check_from_rest(std::size_t begin, std::size_t m) {
         check_ramp("start", begin, begin, m, speed_beside_rest(begin, limits_.accel), limits_.accel);

@@ -16,8 +16,9 @@ Violations check_counts(const Recording& recording);
 /// half-step crossings are all within the tick before their step.
 ///
 /// For any two adjacent windows of steps, the mean speeds differ by at most a times the time between their middles,
-/// plus one start velocity for each joint of moves that can be in them. The mean of a window is computed with its time
-/// one tick longer or shorter, and its way 0.08 step longer or shorter. All windows of 1, 4, 16 ... steps are checked;
+/// plus one start velocity if joints of moves can be in them: over every stretch of time the speed changes by at most
+/// one start velocity more than the acceleration does in that time. The mean of a window is computed with its time one
+/// tick longer or shorter, and its way 0.08 step longer or shorter. All windows of 1, 4, 16 ... steps are checked;
 /// rests with v^2 = v0^2 + 2 a s.
 Violations check_limits(const Recording& recording, const Followings& followings);
 

@@ -238,10 +238,13 @@ std::int64_t nearest_step(const AxisConfig& axis, double mm) {
 
 Joints::Joints(const Course& course, std::size_t axis) : before_{0, 0} {
     for (std::size_t k = 1; k < course.stretches.size(); ++k) {
+        const Stretch& before = course.stretches[k - 1];
+        const Stretch& behind = course.stretches[k];
         const bool moved = course.at(k, axis) != course.at(k - 1, axis);
         const bool moves = course.at(k + 1, axis) != course.at(k, axis);
-        const bool at_pause = course.stretches[k - 1].pauses || course.stretches[k].pauses;
-        before_.push_back(before_.back() + ((moved || moves) && !at_pause ? 1 : 0));
+        const bool is_moved = moved || moves || before.is_joined || behind.is_joined;
+        const bool at_pause = before.pauses || behind.pauses;
+        before_.push_back(before_.back() + (is_moved && !at_pause ? 1 : 0));
     }
 }
 

@@ -44,7 +44,9 @@ struct Course {
     }
 };
 
-/// Ends of moves of an axis, where its speed may change at once. Pauses have none.
+/// Ends of moves of an axis, where its speed may change at once. Pauses have none. Joined moves are moves of every
+/// axis: one that the program moves in any of them is moved by the curve in the others, too, as far as the tolerance
+/// allows.
 class Joints {
 public:
     Joints(const Course& course, std::size_t axis);
