@@ -158,19 +158,29 @@ double Bench::most_feed() const {
     return most;
 }
 
-/// A restarted coordinator is followed, and answers, when the axes rest. A tail along a path can be long.
+/// A restarted coordinator is followed, and answers, when the axes rest. A tail along a path can be long. A command, or
+/// its answer, can also be lost by a fault that comes after it.
 const Reply* Bench::await_reply(std::uint64_t sequence) {
     constexpr int kMostRepeats = 20;
+    const auto is_answered = [&] { return vm_.reply_to(sequence) != nullptr; };
     const Tick asked = vm_.now();
     const Ticks patience{static_cast<std::int64_t>(outage_s_ * machine().ticks_per_second())};
-    for (int tries = 0; vm_.reply_to(sequence) == nullptr && may_lose(); ++tries) {
-        if (tries > kMostRepeats && vm_.now() > std::max(asked, watch_.moved()) + patience) { break; }
-        wait_slots(kAnswerSlots);
-        if (vm_.reply_to(sequence) == nullptr) { vm_.repeat_command(); }
+    for (int tries = 0; !is_answered(); ++tries) {
+        bool may_be_lost = may_lose();
+        if (may_be_lost) {
+            if (tries > kMostRepeats && vm_.now() > std::max(asked, watch_.moved()) + patience) { break; }
+            wait_slots(kAnswerSlots);
+        } else {
+            const Tick deadline = vm_.now() + machine().slot_ticks() * static_cast<std::int64_t>(kAnswerSlots);
+            while (!is_answered() && vm_.now() < deadline) {
+                advance();
+                may_be_lost = may_be_lost || may_lose();
+            }
+            if (!may_be_lost) { break; }
+        }
+        if (!is_answered()) { vm_.repeat_command(); }
     }
-    const Tick deadline = vm_.now() + machine().slot_ticks() * static_cast<std::int64_t>(kAnswerSlots);
-    while (vm_.reply_to(sequence) == nullptr && vm_.now() < deadline) { advance(); }
-    if (vm_.reply_to(sequence) == nullptr) { object("liveness", "no answer to a command"); }
+    if (!is_answered()) { object("liveness", "no answer to a command"); }
     return vm_.reply_to(sequence);
 }
 
