@@ -22,7 +22,7 @@ bool DeviceTime::look(Tick own, const Device& device, bool in_use) {
         now_ = own;
         return true;
     }
-    const bool proves_nothing = stands_still && !device.shares_clock && shown_.known();
+    const bool proves_nothing = stands_still && !device.shares_clock && shown_.known() && !in_doubt_;
     if (!proves_nothing && !certain(own, device.shares_clock ? own : device.now)) { return false; }
     if (!machine_.known()) { return false; }
     now_ = machine_.advance(own, in_use);
@@ -33,7 +33,8 @@ bool DeviceTime::look(Tick own, const Device& device, bool in_use) {
 bool DeviceTime::certain(Tick own, Tick shown) {
     if (std::exchange(changed_, false)) { shown_ = ClockEstimator(tick_ns_); }
     const auto finding = shown_.offer({own, shown, shown, own});
-    if (finding == ClockEstimator::Finding::Doubtful) { return false; }
+    in_doubt_ = finding == ClockEstimator::Finding::Doubtful;
+    if (in_doubt_) { return false; }
     if (finding == ClockEstimator::Finding::ClockSet) { own_was_set(own, shown); }
     own_ = own;
     seen_ = shown;

@@ -89,6 +89,33 @@ private:
     Tick start_;
 };
 
+/// Two faults at once: only when the device goes on can its clock tell that this process's was set. Until then the
+/// coordinator has told.
+TEST(DeviceTime, IsRightAgainAfterTheClockWasSetBackWhileTheDeviceStoodStill) {
+    constexpr Ticks kLoop{500};
+    MachineConfig machine{.tick_ns = 1000, .timing = {.time_source = TimeSource::Network}, .axes = {screw()}};
+    DeviceTime time(0, machine);
+    Tick now;  // machine time
+    Ticks own_ahead{4'000'000};
+    Tick shown{12'345};
+    int loops = 0;
+    const auto look = [&](bool stands_still) {
+        now += kLoop;
+        if (!stands_still) { shown += kLoop; }
+        const Tick own = now + own_ahead;
+        if (++loops % 5 == 0) { time.take({own - Ticks{200}, now - Ticks{100}, now - Ticks{100}, own}); }
+        return time.look(own, {.now = shown}, true);
+    };
+    for (int i = 0; i < 2000; ++i) { look(false); }
+    ASSERT_LE(std::abs((time.now() - now).value), time.error().value);
+    own_ahead = own_ahead - Ticks{7'251'060};
+    EXPECT_FALSE(look(false));
+    for (int i = 0; i < 28; ++i) { EXPECT_FALSE(look(true)) << "its time is in doubt"; }
+    for (int i = 0; i < 2000; ++i) { look(false); }
+    EXPECT_LE(std::abs((time.now() - now).value), time.error().value);
+    EXPECT_LE(time.error(), Ticks{15'000}) << "what it lost in doubt, which is slewed";
+}
+
 TEST(DeviceTime, AFrameIsWithinTheReportedErrorForAnyClocks) {
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         LoadedFrames frames(seed);
