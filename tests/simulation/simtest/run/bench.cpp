@@ -127,6 +127,9 @@ void Bench::settle(double seconds) {
                vm_.now() - watch_.moved() > rest;
     };
     if (!advance_until(settled, limit + rest)) { object("liveness", "the machine did not come to rest"); }
+    if (watch_.is_taking_over()) {
+        (void)advance_until([&] { return !watch_.is_taking_over(); }, limit);
+    }
 }
 
 const Reply* Bench::ask(CommandKind kind, std::uint64_t program) {

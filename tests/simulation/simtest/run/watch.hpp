@@ -28,6 +28,12 @@ public:
     /// The phase of the machine is that of its owner; Waiting: it has no owner.
     MachinePhase phase() const;
     FaultCode fault() const { return fault_; }
+    /// A coordinator has taken over and does not own all axes yet: only then it continues the job of the other one, or
+    /// does not.
+    bool is_taking_over() const {
+        const auto owner = vm_.owner();
+        return on_takeover_ == OnTakeover::Continue && owner && *owner != job_of_ && phase() == MachinePhase::Waiting;
+    }
     /// The outcome of the last job; none while it is in progress. A job ends with its coordinator, or after a takeover.
     std::optional<JobOutcome> outcome() const { return outcome_; }
     bool was_moving_at(std::uint64_t command) const {
