@@ -93,7 +93,9 @@ private:
 /// coordinator has told.
 TEST(DeviceTime, IsRightAgainAfterTheClockWasSetBackWhileTheDeviceStoodStill) {
     constexpr Ticks kLoop{500};
-    MachineConfig machine{.tick_ns = 1000, .timing = {.time_source = TimeSource::Network}, .axes = {screw()}};
+    MachineConfig machine;
+    machine.timing.time_source = TimeSource::Network;
+    machine.axes = {screw()};
     DeviceTime time(0, machine);
     Tick now;  // machine time
     Ticks own_ahead{4'000'000};
