@@ -22,7 +22,8 @@ bool DeviceTime::look(Tick own, const Device& device, bool in_use) {
         now_ = own;
         return true;
     }
-    const bool proves_nothing = stands_still && !device.shares_clock && shown_.known() && !in_doubt_;
+    const bool proves_nothing = stands_still && !device.shares_clock && shown_.known();
+    stood_still_ = stood_still_ || proves_nothing;
     if (!proves_nothing && !certain(own, device.shares_clock ? own : device.now)) { return false; }
     if (!machine_.known()) { return false; }
     now_ = machine_.advance(own, in_use);
@@ -33,21 +34,22 @@ bool DeviceTime::look(Tick own, const Device& device, bool in_use) {
 bool DeviceTime::certain(Tick own, Tick shown) {
     if (std::exchange(changed_, false)) { shown_ = ClockEstimator(tick_ns_); }
     const auto finding = shown_.offer({own, shown, shown, own});
-    in_doubt_ = finding == ClockEstimator::Finding::Doubtful;
-    if (in_doubt_) { return false; }
+    if (finding == ClockEstimator::Finding::Doubtful) { return false; }
     if (finding == ClockEstimator::Finding::ClockSet) { own_was_set(own, shown); }
+    stood_still_ = false;
     own_ = own;
     seen_ = shown;
     return true;
 }
 
-/// What this process's clock says of the time since the last look, beyond what the device's says.
+/// What this process's clock says of the time since the last look, beyond what the device's says. If the device stood
+/// still meanwhile, that says nothing of machine time; the exchanges with the coordinator do.
 void DeviceTime::own_was_set(Tick own, Tick shown) {
     const auto by_device = static_cast<double>((shown - seen_).value);
     const Ticks passed{std::llround(by_device / (1 + shown_.rate()))};
     const Ticks error{2 + std::llround(std::ceil(std::abs(by_device) * shown_.rate_error()))};
     const Ticks by = own - own_ - passed;
-    machine_.own_was_set(by, error);
+    if (!stood_still_) { machine_.own_was_set(by, error); }
     shown_.own_was_set(by, error);
 }
 

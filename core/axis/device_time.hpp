@@ -36,9 +36,9 @@ public:
     };
     /// Each loop, when this process's clock reads `own`. False: the machine time is not known yet; or, for one loop, it
     /// is in doubt: this process's clock does not go by the device's, which nobody can set. If it was set, the device's
-    /// tells by how much. A device's clock that stands still proves nothing, unless there was a doubt before: if it
-    /// does so for long, the device is given up (core/axis/device/device_watch.hpp), and until then its axis is not
-    /// silent. `in_use`: the axis moves, its time is slewed and not set.
+    /// tells by how much. A device's clock that stands still proves nothing: if it does so for long, the device is
+    /// given up (core/axis/device/device_watch.hpp), and until then its axis is not silent. `in_use`: the axis moves,
+    /// its time is slewed and not set.
     bool look(Tick own, const Device& device, bool in_use);
 
     /// What is looked at from the next look on is another device's clock.
@@ -85,11 +85,11 @@ private:
     TimeSource source_;
     Ticks ptp_error_;
     MachineTime machine_;
-    ClockEstimator shown_;  // by the device
-    bool changed_ = false;  // it is another's
-    bool in_doubt_ = false;
-    Tick own_;   // this process's clock, at the last look without doubt
-    Tick seen_;  // the device's, then
+    ClockEstimator shown_;      // by the device
+    bool changed_ = false;      // it is another's
+    Tick own_;                  // this process's clock, at the last look without doubt
+    Tick seen_;                 // the device's, then
+    bool stood_still_ = false;  // the device's, at a look since
     Tick now_;
     Tick device_;
 

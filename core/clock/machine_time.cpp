@@ -8,7 +8,6 @@ namespace lockstep {
 
 Tick MachineTime::advance(Tick own, bool in_use) {
     const Tick estimate = coordinator_.at(own).other;
-    steps_ = coordinator_.steps();
     if (!begun_) {
         begun_ = true;
         own_ = own;

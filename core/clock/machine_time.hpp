@@ -14,10 +14,9 @@ public:
 
     /// An exchange with the coordinator.
     void take(const ClockExchange& exchange) { coordinator_.take(exchange); }
-    /// Since the last call of `advance` the own clock was set forward by so much, which is known within `error`.
+    /// The own clock was set forward by so much, which is known within `error`.
     void own_was_set(Ticks by, Ticks error) {
-        const bool is_known = coordinator_.steps() != steps_;  // by two exchanges since
-        if (!is_known) { coordinator_.own_was_set(by, error); }
+        coordinator_.own_was_set(by, error);
         own_ += by;
     }
     /// Whether the coordinator has answered yet; before that nothing else may be asked.
@@ -40,10 +39,9 @@ private:
 
     ClockEstimator coordinator_;
     bool begun_ = false;
-    Tick own_;                 // at the last call
-    std::uint64_t steps_ = 0;  // of a clock, which the exchanges had shown by then
-    Tick machine_;             // what was shown then
-    double beyond_ = 0;        // and the part of a tick, 0 ... 1
+    Tick own_;           // at the last call
+    Tick machine_;       // what was shown then
+    double beyond_ = 0;  // and the part of a tick, 0 ... 1
 };
 
 }  // namespace lockstep
