@@ -11,7 +11,8 @@ constexpr double kStopShare = 0.8;   // of the start velocity, where the path be
 constexpr double kRestShare = 0.4;   // where it rests for a short time: two jumps follow each other
 constexpr double kWorthSlowing = 2;  // the pieces beside it are passed more slowly, too
 constexpr int kMostHalves = 40;
-constexpr std::size_t kChargedParts = 4;  // a straight piece whose joints are paid for needs nodes to change speed at
+constexpr std::size_t kLeastParts =
+    4;  // of a piece between joints that are passed more slowly: nodes to change speed at
 
 /// The angle by which a piece turns over `length`, rad.
 double turn_of(const Quadratic& piece, double length, std::span<const double> steps_per_mm) {
@@ -179,7 +180,7 @@ void SpeedWindow::close_pending(const Quadratic* next) {
     if (piece.is_charged && piece.shape.is_straight) { slow_joints(piece, before(), next); }
     Joint begin = joint(before(), &*pending_);
     begin.cap = std::min({begin.cap, piece.begin_cap, pieces_.empty() ? kMost : pieces_.back().end_cap});
-    cut_piece(piece, begin);
+    cut_piece(piece, begin, next);
     before_ = pending_;
 }
 
@@ -190,7 +191,14 @@ bool SpeedWindow::is_passed(const Quadratic& piece, const Quadratic* next) const
     return piece.length - begin_u_ <= (goes_on ? kLeastBegin_mm : 0);
 }
 
-void SpeedWindow::cut_piece(const JoinedPiece& piece, const Joint& begin) {
+/// Both of its ends are slower than it may be between them.
+bool SpeedWindow::is_slow_at_ends(const JoinedPiece& piece, const Joint& begin, const Quadratic* next) const {
+    const Interval whole{.from = before_ ? 0 : begin_u_, .to = piece.shape.length};
+    const double top = IntervalBounds(setup_, piece, whole).cap(overrides_);
+    return begin.cap < top && std::min(joint(&piece.shape, next).cap, piece.end_cap) < top;
+}
+
+void SpeedWindow::cut_piece(const JoinedPiece& piece, const Joint& begin, const Quadratic* next) {
     const Quadratic& shape = piece.shape;
     const double from = before_ ? 0 : begin_u_;
     const double length = shape.length - from;
@@ -213,7 +221,7 @@ void SpeedWindow::cut_piece(const JoinedPiece& piece, const Joint& begin) {
         const double by_length = length / kMaxInterval_mm;
         const double by_turn = turn_of(shape, length, setup_.steps_per_mm) / kMaxTurn;
         parts = 1 + static_cast<std::size_t>(std::max(by_length, by_turn));
-        if (shape.is_straight) { parts = std::max(parts, kChargedParts); }
+        if (parts < kLeastParts && (shape.is_straight || is_slow_at_ends(piece, begin, next))) { parts = kLeastParts; }
     }
     for (std::size_t k = 0; k < parts; ++k) {
         part.from = from + length * static_cast<double>(k) / static_cast<double>(parts);

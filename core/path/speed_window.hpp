@@ -91,7 +91,8 @@ private:
     FastPassage fast_passage(const JoinedPiece& piece, const Quadratic* before, const Quadratic* next) const;
     void charge(JoinedPiece& piece, const Quadratic* before, const Quadratic* next) const;
     void slow_joints(JoinedPiece& piece, const Quadratic* before, const Quadratic* next) const;
-    void cut_piece(const JoinedPiece& piece, const Joint& begin);
+    bool is_slow_at_ends(const JoinedPiece& piece, const Joint& begin, const Quadratic* next) const;
+    void cut_piece(const JoinedPiece& piece, const Joint& begin, const Quadratic* next);
     void look_ahead();
     bool may_rise(std::size_t piece) const;
     void turn_piece(std::size_t number, bool is_under_way);

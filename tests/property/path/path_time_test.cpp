@@ -157,6 +157,25 @@ TEST(PathTime, OfRandomPolylinesIsNearTheLeast) {
     }
 }
 
+/// Within ChordJoiner::kLook_mm only one of the turns is a corner; the others are joints at half the start velocity,
+/// between pieces of a single curve each. It must get faster between them.
+TEST(PathTime, OfShortWaysForthAndBackIsNotThatOfTheirTurns) {
+    const PathSetup setup = setup_of({{.steps_per_mm = 3000,
+                                       .start_velocity = 0.014,
+                                       .max_velocity = 0.145,
+                                       .acceleration = 4.2,
+                                       .deceleration = 3.5}});
+    constexpr double kWay_mm = 0.049;
+    TestProgram program;
+    for (int k = 0; k < 6; ++k) {
+        program.add({0.02}, 0);
+        program.add({k % 2 == 0 ? kWay_mm : 0}, 0);
+    }
+    const PathRun run = run_path(setup, program);
+    expect_within_limits(setup, run);
+    EXPECT_LT(run.seconds(), 2 * 6 * kWay_mm / 0.145);
+}
+
 TEST(PathTime, DoesNotGrowWithTheNumberOfPieces) {
     const PathSetup setup = setup_of(mill());
     EXPECT_LT(run_path(setup, cut_line(200, 0.01)).pieces_per_s(), 20);

@@ -124,25 +124,36 @@ private:
 
     void check_speed(std::size_t n, std::size_t m) {
         if (joints(n, n + m) > 0) { return; }
-        const double asked = at_ == nullptr ? limits_.top : feed(n, n + m) * kRounding * hurry_;
-        const double most = std::min(limits_.top, asked + kFeedShare * limits_.start);
-        const double speed = least(std::abs(distance(n, n + m))) / (time(n, n + m) + rounding_);
+        const double way = least(std::abs(distance(n, n + m)));
+        const double ticks = time(n, n + m) + rounding_;
+        check_speed(way / ticks, limits_.top, n, m);
+        if (at_ == nullptr) { return; }
+        const Asked asked = asked_of(n, n + m);
+        const double feed = asked.feed * kRounding * hurry_ + kFeedShare * limits_.start;
+        check_speed((way - asked.moved) / ticks, std::min(limits_.top, feed), n, m);
+    }
+    void check_speed(double speed, double most, std::size_t n, std::size_t m) {
         if (speed > most) { object("speed", n + m, speed, most, m); }
     }
 
+    struct Asked {
+        double feed = 0;   // steps per tick
+        double moved = 0;  // steps: the way to a whole step, in the same time
+    };
     /// Of all moves in which the steps can be. Joined moves lead from one's direction to the other's; with a wide
     /// tolerance further, since a parabola that is within it of a corner is steeper at its ends than the lines there.
-    double feed(std::size_t from, std::size_t to) const {
+    Asked asked_of(std::size_t from, std::size_t to) const {
         const auto first = static_cast<std::size_t>((*at_)[from].first);
         const auto last = static_cast<std::size_t>((*at_)[to].last);
-        double fastest = 0;
+        Asked most;
         for (std::size_t k = first > 0 ? first - 1 : 0; k < course_.stretches.size() && k <= last + 1; ++k) {
+            const Stretch& stretch = course_.stretches[k];
             const bool is_beside = k < first || k > last;
-            if (!is_beside || course_.stretches[k].is_joined) {
-                fastest = std::max(fastest, course_.stretches[k].fastest[axis_] + steeper(k));
-            }
+            if (is_beside && !stretch.is_joined) { continue; }
+            most.feed = std::max(most.feed, stretch.fastest[axis_] + steeper(k));
+            if (!stretch.moved.empty()) { most.moved = std::max(most.moved, stretch.moved[axis_]); }
         }
-        return fastest;
+        return most;
     }
 
     /// |x| from -1 to 1 is within 1/8 of x^2 + 1/8, which has twice its slope at the ends.

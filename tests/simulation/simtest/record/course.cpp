@@ -70,6 +70,7 @@ private:
         const double radius = std::hypot(x, y);
         const double steps = std::max(scale_of(first), scale_of(second)) * std::max(radius, std::hypot(to_x, to_y));
         const double chords = std::ceil(sweep / std::sqrt(8 * 0.02 / std::max(steps, 1.0)));
+        arc_ = course_.stretches.size();
         for (double k = 1; k < chords; ++k) {
             ProgramMove chord = move;
             const double share = k / chords;
@@ -154,8 +155,15 @@ private:
 
     /// The machine rests on whole steps.
     void come_to_rest() {
-        for (double& place : at_) { place = std::round(place); }
-        if (!course_.stretches.empty()) { course_.stretches.back().to = at_; }
+        Places moved;
+        for (double& place : at_) {
+            moved.push_back(std::abs(std::round(place) - place));
+            place = std::round(place);
+        }
+        if (course_.stretches.empty()) { return; }
+        course_.stretches.back().to = at_;
+        if (!course_.stretches.back().is_arc) { return; }
+        for (std::size_t k = arc_; k < course_.stretches.size(); ++k) { course_.stretches[k].moved = moved; }
     }
 
     Places start_of(std::size_t k) const {
@@ -226,6 +234,7 @@ private:
     Places at_;
     std::vector<double> programmed_mm_;  // where the last move leads to, of the program's axes
     Course course_;
+    std::size_t arc_ = 0;        // the first chord of the last arc
     std::vector<double> feed_;   // of each stretch; 0: none
     std::vector<Places> asked_;  // where each stretch leads to by the program
 };

@@ -24,6 +24,7 @@ struct Stretch {
     bool is_arc = false;     // a chord of one
     double tolerance = 1;    // steps, where it is joined
     double within = 0;       // steps: how far an axis may be from it, whole pulses included
+    Places moved = {};       // steps: of an arc behind which the machine rests, how far its end is from the program's
     double seconds = 0;      // of a dwell
     bool rests = false;      // a dwell or pause
     bool pauses = false;
