@@ -3,7 +3,8 @@ from dataclasses import dataclass, field
 
 PROGRAMS = """
   unit_protocol unit_axis unit_motion unit_step unit_coordinator
-  property_axis property_clock property_motion papers_lai property_step unit_states
+  property_axis property_clock property_motion papers_lai papers_spielauer papers_methods property_step
+  unit_states
 """.split()
 SIMULATION = "lockstep-simtest"
 TARGETS = [*PROGRAMS, SIMULATION]

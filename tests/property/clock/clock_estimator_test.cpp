@@ -45,6 +45,22 @@ TEST(ClockEstimator, TheBoundComesToHalfTheLeastRoundTrip) {
     }
 }
 
+TEST(ClockEstimator, ADoubtThatIsRefutedIsForgotten) {
+    ClockEstimator doubted(kTick_ns);
+    Tick now{1000};
+    const auto exchange = [&](Ticks ahead) {
+        const Tick other = now - Ticks{50} + ahead;
+        return ClockExchange{now - Ticks{100}, other, other, now};
+    };
+    for (int i = 0; i < 20; ++i, now += Ticks{1000}) { doubted.take(exchange({})); }
+    EXPECT_EQ(doubted.offer(exchange(Ticks{5000})), ClockEstimator::Finding::Doubtful);
+    now += Ticks{1000};
+    doubted.take(exchange({}));
+    ClockEstimator fresh(kTick_ns);
+    fresh.take(exchange({}));
+    EXPECT_LE(doubted.at(now).error, fresh.at(now).error);
+}
+
 TEST(ClockEstimator, TheRateIsFound) {
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
         TwoClocks clocks(seed);

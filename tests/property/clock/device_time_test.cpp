@@ -138,7 +138,20 @@ TEST(DeviceTime, TheEndOfALongTailIsWithinTheReportedError) {
         const Ticks lasts = std::accumulate(tail.commanded_ticks.begin(), tail.commanded_ticks.end(), Ticks{});
         const Ticks off = tail.start + total_ticks(tail.pieces) - frames.device_at(tail.commanded_start + lasts);
         ASSERT_LE(std::abs(off.value), tail.clock_error.value + 2) << "seed " << seed;
+        ASSERT_LE(tail.clock_error.value, 10'000) << "12 s: the error of the rate, and no more";
     }
+}
+
+TEST(DeviceTime, OfClocksThatGoAlikeTheRateIsNone) {
+    MachineConfig machine;
+    machine.timing.time_source = TimeSource::Network;
+    machine.axes = {screw()};
+    DeviceTime time(0, machine);
+    for (Tick now{500}; now < Tick{1'000'000}; now += Ticks{500}) {
+        time.take({now - Ticks{200}, now - Ticks{100}, now - Ticks{100}, now});
+        (void)time.look(now, {.now = now + Ticks{12'345}}, true);
+    }
+    EXPECT_NEAR(time.device_clock().rate, 0, 2 * ClockEstimator::kMaxRate);
 }
 
 TEST(DeviceTime, AShortFrameIsNotAcceleratedToCorrectALongOne) {

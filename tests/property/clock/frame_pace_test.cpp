@@ -231,5 +231,26 @@ TEST(FramePace, AnErrorIsCorrectedWithoutOvershoot) {
     }
 }
 
+AxisLimits some_limits() {
+    return {.start_velocity = 1e-3, .max_velocity = 1e-2, .max_acceleration = 1e-6, .max_deceleration = 1e-6};
+}
+
+TEST(FramePace, ATailMakesUpForAllThatABodyMakesUpForInParts) {
+    const Ticks lasts{200'000};
+    FramePace pace(lasts, some_limits());
+    pace.begin(Tick{1'000'000}, 0);
+    const FramePace::Stretch late{lasts, 1, Tick{1'000'000} + lasts + Ticks{5}, 0};
+    EXPECT_EQ(pace.tail(late).end, late.asked_end);
+    EXPECT_LT(pace.body(late).end, late.asked_end);
+}
+
+TEST(FramePace, ANewBeginningKeepsNoPartOfATick) {
+    FramePace pace(Ticks{5000}, some_limits());
+    pace.begin(Tick{0}, 1e-4);
+    (void)pace.body({Ticks{4900}, 1, Tick{4900}, 1e-4});  // by the rate nearly half a tick more
+    pace.begin(Tick{1'000'000}, 1e-4);
+    EXPECT_EQ(pace.body({Ticks{2000}, 1, Tick{1'002'000}, 1e-4}).end, Tick{1'002'000});
+}
+
 }  // namespace
 }  // namespace lockstep

@@ -121,6 +121,28 @@ TEST_F(Peers, AreNotNeededForAnEmergencyStop) {
     EXPECT_EQ(orders_of<device::StopNow>(loop(83)).size(), 1u);
 }
 
+class StoppedAxis : public ControllerRig {};
+
+TEST_F(StoppedAxis, IsInFaultBehindAnEmergencyStopAtRestToo) {
+    requests.push_back({.client = 4, .sequence = 1, .kind = CommandKind::EmergencyStop});
+    EXPECT_TRUE(orders_of<device::StopNow>(loop(10)).empty());
+    EXPECT_EQ(state.phase, AxisPhase::Fault);
+    EXPECT_EQ(state.fault, static_cast<std::uint16_t>(FaultCode::EmergencyStopped));
+}
+
+TEST_F(StoppedAxis, SaysThatItsDeviceWasStoppedByAnotherProcess) {
+    owned(10, 20);
+    command(AxisCommandKind::MoveOwn, 5000);
+    owner_reports(21);
+    loop(21);
+    device.run = device.run_asked = 4;
+    device.finished = device.stopped_by_host = true;
+    const AxisOutputs out = loop(22);
+    EXPECT_TRUE(has_notice(out, AxisNotice::Kind::Fault, FaultCode::EmergencyStopped));
+    EXPECT_EQ(state.fault, static_cast<std::uint16_t>(FaultCode::EmergencyStopped));
+    EXPECT_FALSE(state.homed);
+}
+
 class OwnMovesOfAnAxis : public ControllerRig {};
 
 TEST_F(OwnMovesOfAnAxis, HaltWhenTheOwnerIsSilentButNotByTheAxissOwnStall) {

@@ -19,14 +19,15 @@ protected:
                     .freshness_slots = 2,
                     .send_ahead_slots = 12,
                     .frame_slots = 5};
-        const AxisConfig axis{.name = "X",
-                              .steps_per_mm = 100,
-                              .start_velocity_mm_s = 10,
-                              .max_velocity_mm_s = 100,
-                              .max_accel_mm_s2 = 1000,
-                              .max_decel_mm_s2 = 1000,
-                              .position_min_mm = -100,
-                              .position_max_mm = 100};
+        AxisConfig axis{.name = "X",
+                        .steps_per_mm = 100,
+                        .start_velocity_mm_s = 10,
+                        .max_velocity_mm_s = 100,
+                        .max_accel_mm_s2 = 1000,
+                        .max_decel_mm_s2 = 1000,
+                        .position_min_mm = -100,
+                        .position_max_mm = 100};
+        axis.homing = {.search_velocity_mm_s = 10, .latch_velocity_mm_s = 2, .pulloff_mm = 1, .park_mm = 5};
         m.axes = {axis, axis};
         m.axes[1].name = "Y";
         return m;

@@ -110,6 +110,14 @@ TEST_F(Watch, ARunThatWasNotOrderedIsRefuted) {
     EXPECT_NE(look().find("of run 9"), std::string::npos);
 }
 
+TEST_F(Watch, TheFrameOfTheRunBeforeIsShownUntilTheNewOneIsTaken) {
+    shown_.frame = 7;
+    EXPECT_EQ(look(), "");
+    watch_.take(device::BeginRun{4});
+    shown_.run_asked = 4;
+    EXPECT_EQ(look(), "");
+}
+
 TEST_F(Watch, AFrameThatWasNotLoadedIsNone) {
     (void)look();
     order_run(4, Ticks{2000});

@@ -87,6 +87,15 @@ TEST_F(HomingSequence, WhereTheSecondTouchMissesTheSwitchIsSearchedAnew) {
     EXPECT_TRUE(touch(-700).zeroed);
 }
 
+TEST_F(HomingSequence, TheFourthTouchIsTheLastEvenIfItMisses) {
+    homing.begin(false);
+    touch(-700);
+    touch(-600);
+    EXPECT_EQ(homing.next(stands_at(-500)).fault, FaultCode::None);
+    EXPECT_EQ(homing.stage(), HomingStage::Search);
+    EXPECT_EQ(touch(-700).fault, FaultCode::HomeSwitchUnsteady);
+}
+
 TEST_F(HomingSequence, AnAxisThatStartsBehindItsSwitchTouchesItTwiceToo) {
     EXPECT_EQ(homing.begin(true).move->trigger, Trigger::HomeOpens);
     homing.next({.by_trigger = true, .count = 0, .trigger_count = 0});

@@ -19,6 +19,16 @@ protected:
         own.move({.sequence = sequence, .kind = AxisCommandKind::MoveOwn, .target_steps = target}, !own.is_running(),
                  l);
     }
+    void order_jog(std::int64_t target) {
+        AxisLoop l = loop();
+        condition.orders.begin(++sequence);
+        own.jog({.sequence = sequence,
+                 .kind = AxisCommandKind::Jog,
+                 .target_steps = target,
+                 .speed_mm_s = 20,
+                 .until = now + Ticks{200'000}},
+                !own.is_running(), l);
+    }
     void end_run(DeviceStatus status) {
         show(status);
         AxisLoop l = loop();
@@ -90,6 +100,48 @@ TEST_F(OwnMoving, AFaultHaltsTheMoveAtItsNextFrame) {
     EXPECT_EQ(ordered<device::Veto>(), 1);
     own.feed(l);
     EXPECT_EQ(ordered<device::Veto>(), 1) << "halted once";
+}
+
+TEST_F(OwnMoving, AJogGoesOnBeforeItsFirstRenewal) {
+    order_jog(3000);
+    EXPECT_EQ(ordered<device::LoadFrame>(), 1);
+    now += Ticks{10'000};
+    AxisLoop l = loop();
+    own.feed(l);
+    EXPECT_GE(ordered<device::LoadFrame>(), 1);
+}
+
+TEST_F(OwnMoving, EndsTheOrderOfAJogToWhereItStands) {
+    DeviceStatus there = at_rest();
+    there.position = rest_position(500, false);
+    show(there, true);
+    order_jog(500);
+    EXPECT_FALSE(own.is_running());
+    EXPECT_EQ(condition.orders.done(), 1u);
+}
+
+TEST_F(OwnMoving, AParkThatIsHaltedAStepOutsideTheTravelLosesTheZero) {
+    for (const std::int64_t outside : {1, 0}) {
+        AxisLoop l = loop();
+        condition.orders.begin(++sequence);
+        own.home({.sequence = sequence, .kind = AxisCommandKind::Home}, true, l);
+        DeviceStatus touch = at_rest();
+        touch.home = touch.stopped_by_trigger = true;
+        DeviceStatus off = at_rest();
+        off.position = rest_position(100, false);
+        end_run(touch);  // the search
+        end_run(off);
+        end_run(touch);  // the latch: parks from here
+        ASSERT_TRUE(condition.position.homed());
+        const std::int64_t min_steps = limits_of(machine().axes[0], machine().tick_ns).min_steps;
+        AxisLoop halting = loop();
+        own.halt(halting);
+        DeviceStatus end = at_rest();
+        end.position = rest_position(condition.position.zero_count() + min_steps - outside, false);
+        end_run(end);
+        EXPECT_FALSE(own.is_running());
+        EXPECT_EQ(condition.position.homed(), outside == 0);
+    }
 }
 
 TEST_F(OwnMoving, HomingSearchesTheSwitch) {

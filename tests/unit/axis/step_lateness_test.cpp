@@ -64,6 +64,17 @@ TEST(StepLateness, EndsWhereTheRunWasCut) {
     EXPECT_EQ(latenesses(lateness, next), (std::vector<std::int64_t>{0, 0}));
 }
 
+TEST(StepLateness, StepsWaitUntilTheRingIsFullHoweverManyCameBefore) {
+    constexpr auto kMost = static_cast<std::int64_t>(StepLateness::kMaxWaiting);
+    StepLateness lateness;
+    const ExecutedTrack first = steady({1'000'000}, kMost / 2);
+    const ExecutedTrack second = steady({1'000'000 + 100 * kMost / 2}, kMost);
+    for (const ExecutedTrack& track : {first, second}) {
+        for (const StepEdge step : planned_steps(track)) { lateness.made(step); }
+        EXPECT_EQ(latenesses(lateness, track), std::vector<std::int64_t>(planned_steps(track).size(), 0));
+    }
+}
+
 TEST(StepLateness, OfStepsThatAreNotThePlansIsNotGuessed) {
     StepLateness lateness;
     const ExecutedTrack track = steady({1'000'000}, 3);

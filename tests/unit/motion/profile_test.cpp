@@ -50,6 +50,25 @@ TEST(PlanFastest, TwoToTheFortyStepsEndExactly) {
     EXPECT_LT(std::abs((at - Position::steps(n)).as_steps()), 1e-4);
 }
 
+TEST(PlanFastest, ItsPiecesReachAnEndWithinATick) {
+    const PathLimits l = limits(500, 6'000, 4'200, 4'200);
+    for (std::int64_t steps = 100; steps < 140; ++steps) {
+        const Profile p = plan_fastest({{}, Displacement::steps(steps), l.start_velocity, l.start_velocity, l, 1});
+        Position at = Position::steps(0);
+        Ticks lasts;
+        for (const Piece& piece : pieces_of(p, at, +1)) {
+            at = at + piece.covered();
+            lasts += piece.ticks;
+        }
+        EXPECT_EQ(lasts, p.duration().ceil());
+        EXPECT_LT(std::abs((at - Position::steps(steps)).as_steps()), 1e-6) << steps;
+    }
+}
+
+TEST(PlanBrakeThrough, TakesAtLeastASubtick) {
+    EXPECT_EQ(plan_brake_through({}, Displacement{1}, 0.5, 0.5).duration().value, 1);
+}
+
 TEST(PlanFastest, TheProfileIsAnchoredAtBothEndsOfEveryPhase) {
     const Profile p = fastest(12'345, limits(500, 6'000, 4'200, 2'100));
     Subticks clock;
