@@ -56,6 +56,7 @@ double ArcPath::at(std::size_t axis, double share) const {
 
 std::vector<double> ArcPath::at(double share) const {
     std::vector<double> place;
+    place.reserve(from_.size());
     for (std::size_t i = 0; i < from_.size(); ++i) { place.push_back(at(i, share)); }
     return place;
 }
@@ -75,7 +76,7 @@ std::pair<double, double> ArcPath::extent(std::size_t axis) const {
         greatest = std::max(greatest, at(axis, share));
     };
     const double last = first + std::floor(sweep_ / kQuarterTurn);
-    for (double k = 0; k <= 4; ++k) {
+    for (int k = 0; k <= 4; ++k) {
         note(first + k);
         note(last - k);
     }
@@ -88,7 +89,7 @@ void ArcPath::each_chord(double tolerance_mm,
     const double radius = std::max({radius_begin_, radius_end_, kLeastRadius_mm});
     const double share = std::clamp(1 - tolerance_mm / radius, 0.0, 1 - 1e-15);
     const double chords = std::clamp(std::ceil(sweep_ / (2 * std::acos(share))), 1.0, kMostChords);
-    for (double k = 1; k < chords; ++k) { visit(at(k / chords)); }
+    for (std::int64_t k = 1; k < static_cast<std::int64_t>(chords); ++k) { visit(at(static_cast<double>(k) / chords)); }
     visit({to_.begin(), to_.end()});
 }
 

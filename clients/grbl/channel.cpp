@@ -31,6 +31,11 @@ std::expected<Descriptor, std::string> listen_at(const std::string& address, std
     return Descriptor(listener->socket);
 }
 
+bool has_waiting(const Descriptor& listener) {
+    pollfd waits{.fd = listener.get(), .events = POLLIN, .revents = 0};
+    return poll(&waits, 1, 0) > 0;
+}
+
 std::optional<Descriptor> accept_from(const Descriptor& listener) {
     Descriptor connection(accept4(listener.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
     if (!connection.is_open()) { return std::nullopt; }

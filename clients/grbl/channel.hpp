@@ -12,6 +12,8 @@ namespace lockstep::grbl {
 
 /// Listens there. Error: the address cannot be used, and why.
 std::expected<Descriptor, std::string> listen_at(const std::string& address, std::uint16_t port);
+/// Whether a connection waits.
+bool has_waiting(const Descriptor& listener);
 /// A connection that waits; nothing: none does.
 std::optional<Descriptor> accept_from(const Descriptor& listener);
 /// The address of the other side; empty: it is not known.

@@ -66,13 +66,23 @@ void MachineLink::carry_out(Request&& request, Grbl& grbl) {
     }
 }
 
-void MachineLink::release() {
+void MachineLink::leave() {
     jog_.release();
     jog_.pass(monotonic_now() + 1ms);
     new_jog_.reset();
     has_jog_ = false;
     for (Open& open : open_) { open.number = 0; }
     lines_.leave();
+}
+
+bool MachineLink::is_stuck() const {
+    const auto& state = session_.state();
+    if (!state || session_.is_silent()) { return true; }
+    const MachinePhase phase = state->state.phase;
+    return phase == MachinePhase::Holding || phase == MachinePhase::Paused || phase == MachinePhase::Fault;
+}
+
+void MachineLink::release() {
     for (const nanoseconds begin = monotonic_now(); !lines_.has_left() && monotonic_now() - begin < kPatience;) {
         session_.receive(5ms);
         lines_.pass(session_.state()->state, rests(), monotonic_now());

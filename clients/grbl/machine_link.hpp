@@ -43,6 +43,12 @@ public:
     /// Receives messages for so long, renews the jog, and tells the connection what has changed.
     void pass(std::chrono::nanoseconds time, Grbl& grbl);
     /// Nobody listens any more: the jog is released, what was accepted is run, and answers are of no interest.
+    void leave();
+    /// No line, no jog and no command is in progress.
+    bool is_idle() const { return open_.empty() && !has_jog_ && lines_.is_idle(); }
+    /// The machine waits for a person, or is not there: what was accepted may not end by itself.
+    bool is_stuck() const;
+    /// Behind leave(): the machine gets what it still lacks of the lines that it runs, and another may command it.
     void release();
 
 private:

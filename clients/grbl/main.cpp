@@ -50,8 +50,32 @@ void carry_out(grbl::MachineLink& link, grbl::Grbl& protocol) {
     }
 }
 
+/// Where senders come in.
+struct Doors {
+    Descriptor listener;
+    std::optional<grbl::Terminal> terminal;
+
+    bool has_next() const { return grbl::has_waiting(listener) || (terminal && terminal->is_used()); }
+};
+
+/// Behind a sender that has left: the machine runs the lines that it has begun with, and then spindle and coolant are
+/// switched off. The next sender need not wait for that.
+void see_off(grbl::MachineLink& link, grbl::Grbl& protocol, const Doors& doors, const StopSignal& stop) {
+    protocol.leave();
+    link.leave();
+    const auto begin = std::chrono::steady_clock::now();
+    const auto may_wait = [&] { return !stop.requested() || std::chrono::steady_clock::now() - begin < 3s; };
+    while (protocol.is_to_switch_off() || !link.is_idle()) {
+        if (link.is_stuck() || doors.has_next() || !may_wait()) { break; }
+        link.pass(5ms, protocol);
+        carry_out(link, protocol);
+        (void)protocol.take_output();
+    }
+    link.release();
+}
+
 /// One sender at a time: it is served until it leaves, a signal comes, or the machine is another.
-void serve(const Descriptor& sender, const Descriptor& listener, const ChosenMachine& machine, Session& session,
+void serve(const Descriptor& sender, const Doors& doors, const ChosenMachine& machine, Session& session,
            const Options& options, const StopSignal& stop) {
     grbl::SettingsStore settings(machine);
     grbl::MachineLink link(session, settings, options.take);
@@ -67,25 +91,25 @@ void serve(const Descriptor& sender, const Descriptor& listener, const ChosenMac
         carry_out(link, protocol);
         link.pass(2ms, protocol);
         if (!write_to(sender, protocol.take_output()) || renewal.is_due(session)) { break; }
-        if (const auto second = grbl::accept_from(listener)) {
+        if (const auto second = grbl::accept_from(doors.listener)) {
             (void)write_to(*second, "[MSG:another sender is connected]\r\n");
         }
     }
-    link.release();
+    see_off(link, protocol, doors, stop);
 }
 
 /// Until a signal comes, or the machine is another.
-void serve_all(const Descriptor& listener, const std::optional<grbl::Terminal>& terminal, const ChosenMachine& machine,
-               Session& session, const Options& options, const StopSignal& stop) {
+void serve_all(const Doors& doors, const ChosenMachine& machine, Session& session, const Options& options,
+               const StopSignal& stop) {
     Renewal renewal(options.machine_file);
     while (!stop.requested() && !renewal.is_due(session)) {
-        if (const auto sender = grbl::accept_from(listener)) {
+        if (const auto sender = grbl::accept_from(doors.listener)) {
             session.write_as(writer_at(grbl::peer_of(*sender)));
-            serve(*sender, listener, machine, session, options, stop);
+            serve(*sender, doors, machine, session, options, stop);
         }
-        if (terminal && terminal->is_used()) {
+        if (doors.terminal && doors.terminal->is_used()) {
             session.write_as(writer_at(options.terminal));
-            serve(terminal->descriptor(), listener, machine, session, options, stop);
+            serve(doors.terminal->descriptor(), doors, machine, session, options, stop);
         }
         session.receive(20ms);
     }
@@ -95,13 +119,13 @@ int run(const Options& options) {
     Output output(false);
     auto machine = choose_machine(options.machine_file);
     if (!machine) { return output.fail(machine.error()); }
-    const auto listener = grbl::listen_at(options.address, options.port);
+    auto listener = grbl::listen_at(options.address, options.port);
     if (!listener) { return output.fail(failed(listener.error())); }
-    std::optional<grbl::Terminal> terminal;
+    Doors doors{.listener = *std::move(listener), .terminal = {}};
     if (!options.terminal.empty()) {
         auto opened = grbl::Terminal::open(options.terminal);
         if (!opened) { return output.fail(failed(opened.error())); }
-        terminal.emplace(std::move(*opened));
+        doors.terminal.emplace(std::move(*opened));
     }
     std::signal(SIGPIPE, SIG_IGN);
     const StopSignal stop;
@@ -109,9 +133,9 @@ int run(const Options& options) {
         auto session = Session::open(*machine, Purpose::Command);
         if (!session) { return output.fail(session.error()); }
         output.print("machine '" + machine->config.name + "' takes grbl's protocol at " + options.address + ", port " +
-                     std::to_string(options.port) + (terminal ? ", and at " + options.terminal : ""));
+                     std::to_string(options.port) + (doors.terminal ? ", and at " + options.terminal : ""));
         std::cout << std::flush;
-        serve_all(*listener, terminal, *machine, *session, options, stop);
+        serve_all(doors, *machine, *session, options, stop);
         machine = choose_machine(options.machine_file);
         if (!machine) { return output.fail(machine.error()); }
     }
@@ -124,8 +148,8 @@ int main(int argc, char** argv) {
     CLI::App app{
         "Lets a sender of grbl 1.1's protocol use a machine, over TCP or a pseudo-terminal, one sender at a time, "
         "until "
-        "SIGTERM or SIGINT. When the sender disconnects, its jog brakes, and the lines that the machine has begun with "
-        "are run."};
+        "SIGTERM or SIGINT. When the sender disconnects, its jog brakes, the lines that the machine has begun with are "
+        "run, and then spindle and coolant are switched off."};
     Options options;
     app.add_option("--machine", options.machine_file,
                    "the machine's configuration file; else $LOCKSTEP_MACHINE, else the machine that is up on this "

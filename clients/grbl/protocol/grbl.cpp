@@ -141,6 +141,16 @@ void Grbl::soft_reset() {
         before == State::Run || before == State::Hold || before == State::HoldEnding || before == State::Home;
     if (moves) { stop(); }
     modes_ = {.is_unlocked = modes_.is_unlocked};
+    forget_lines();
+    greet();
+}
+
+void Grbl::leave() {
+    bytes_.clear();
+    forget_lines();
+}
+
+void Grbl::forget_lines() {
     is_to_switch_off_ = lines_.switch_off() || is_to_switch_off_;
     lines_.reset();
     waits_for_.reset();
@@ -149,7 +159,6 @@ void Grbl::soft_reset() {
     next_jog_.reset();
     next_line_.reset();
     planned_mm_.clear();
-    greet();
 }
 
 /// Until the machine rests nothing is known of its place.

@@ -33,6 +33,10 @@ public:
     void answer(std::uint64_t number, const Answer& answer);
     /// The jog that was answered before is over.
     void end_jog();
+    /// The sender has gone: its lines that were not accepted are dropped. When the machine rests behind the others,
+    /// spindle and coolant are switched off.
+    void leave();
+    bool is_to_switch_off() const { return is_to_switch_off_; }
     /// Lines that were accepted will not be run: an alarm.
     void abort(const std::string& why);
 
@@ -42,6 +46,7 @@ public:
 private:
     void do_real_time(unsigned char byte);
     void soft_reset();
+    void forget_lines();
     void hold();
     void stop();
     void turn(const Overrides& overrides);

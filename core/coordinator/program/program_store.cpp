@@ -40,8 +40,11 @@ ProgramStore::Entry& ProgramStore::begin(std::uint64_t id, const ProgramHead& he
     forget(id);
     Entry entry{.id = id};
     auto program = KnownProgram::begin(machine_, head, make_rows_(KnownProgram::row_width(head)));
-    if (program) { entry.program = std::make_shared<KnownProgram>(*std::move(program)); }
-    if (!program) { refuse(entry.refusal.emplace(), program.error()); }
+    if (program) {
+        entry.program = std::make_shared<KnownProgram>(*std::move(program));
+    } else {
+        refuse(entry.refusal.emplace(), program.error());
+    }
     programs_.push_back(std::move(entry));
     for (auto old = programs_.begin(); programs_.size() > kProgramsKept && &*old != &programs_.back();) {
         old = old->program.use_count() > 1 ? std::next(old) : programs_.erase(old);

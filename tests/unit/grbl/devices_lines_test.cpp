@@ -75,5 +75,23 @@ TEST_F(DevicesByLines, AreSwitchedOffByAResetInMotion) {
     EXPECT_THAT(sender->text(), Not(HasSubstr("ALARM")));
 }
 
+TEST_F(DevicesByLines, AreSwitchedOffBehindTheMotionOfASenderThatLeaves) {
+    sender->send("M3 S800\nM8\nG1 X30 F1200\n");
+    ASSERT_TRUE(passes_until([&] { return devices().flood; }, 1));
+    pass(0.5);
+    sender->leave();
+    ASSERT_TRUE(passes_until([&] { return vm.state()->phase == MachinePhase::Idle; }, 5));
+    EXPECT_EQ(vm.axis_states()[0]->position.count(), 3000) << "what was accepted is run";
+    EXPECT_TRUE(passes_until([&] { return devices() == ProgramDevices{}; }, 1));
+}
+
+TEST_F(DevicesByLines, AreSwitchedOffAtOnceWhereASenderLeavesAMachineAtRest) {
+    sender->send("M4 S800\n");
+    ASSERT_TRUE(passes_until([&] { return devices().spindle == Spindle::Reverse; }, 1));
+    pass(1);
+    sender->leave();
+    EXPECT_TRUE(passes_until([&] { return devices().spindle == Spindle::Stopped; }, 1));
+}
+
 }  // namespace
 }  // namespace lockstep::grbl

@@ -94,7 +94,10 @@ public:
     std::string take_text() { return std::exchange(text_, {}); }
     const std::string& text() const { return text_; }
     /// The sender's process ends.
-    void leave() { lines_.leave(); }
+    void leave() {
+        grbl_.leave();
+        lines_.leave();
+    }
 
 private:
     std::vector<const AxisState*> axes() const {

@@ -17,6 +17,7 @@ protected:
         record();
         ASSERT_EQ(run_lockstep({"home"}).code, 0);
     }
+    void configure(MachineConfig& machine) override { machine.unassigned.spindle = WordRule::Ignore; }
     static Sender ready() {
         Sender sender = connected();
         EXPECT_TRUE(eventually([&] { return sender.status().starts_with("Idle"); }));
@@ -89,6 +90,17 @@ TEST_F(BrokenSender, ThatDiesInTheMiddleOfALineLeavesItsWholeLines) {
     rests_at(20);
     Sender next = ready();
     goes_on(next, 35);
+}
+
+TEST_F(BrokenSender, ThatDiesHasTheSpindleSwitchedOffBehindItsMotion) {
+    {
+        Sender sender = ready();
+        ASSERT_TRUE(sender.answers("M3 S800", "ok"));
+        begin_rows(sender, 2);
+        EXPECT_TRUE(eventually([&] { return status().devices().has_spindle(); }));
+    }
+    rests_at(20);
+    EXPECT_TRUE(eventually([&] { return !status().has_devices(); }));
 }
 
 TEST_F(BrokenSender, OfGarbageIsServedAgainAfterAReset) {
