@@ -178,7 +178,8 @@ std::expected<void, std::string> suits_lai_path(const MachineConfig& machine) {
 }
 
 std::expected<void, std::string> check_lai_move(const PathMove& move, std::int64_t tick_ns) {
-    const double pulses = move.asked_velocity({}) * static_cast<double>(kLaiPeriod_ns / tick_ns);
+    const std::int64_t period_ticks = kLaiPeriod_ns / tick_ns;
+    const double pulses = move.asked_velocity({}) * static_cast<double>(period_ticks);
     if (move.lead == 0 || pulses >= 1 - methods::kPulseHair) { return {}; }
     const double slowest = move.mm_per_lead() / (static_cast<double>(kLaiPeriod_ns) * 1e-9);
     return std::unexpected("coordination LAI makes at least one pulse per 6.5 ms: the feed must be at least " +

@@ -20,6 +20,7 @@ enum class Cause : std::uint8_t {
     Push,
     DamagedFrame,
     Device,
+    SilentDevice,
     OwnClocks
 };
 
@@ -68,6 +69,8 @@ constexpr std::array kExplanations{
     Explanation{Cause::DamagedFrame, FaultCode::DeviceFault},
     Explanation{Cause::DamagedFrame, FaultCode::FramesDiffer},
     Explanation{Cause::Device, FaultCode::DeviceLost},
+    // A device that takes no segments can run out of room for frames before it counts as lost.
+    Explanation{Cause::SilentDevice, FaultCode::DeviceFault},
     // A process that does not receive the coordinator's clock for long is no longer certain of the time.
     Explanation{Cause::OwnClocks, FaultCode::ClockUncertain},
 };
@@ -100,6 +103,9 @@ std::vector<Cause> causes_in(const Recording& recording) {
     if (recording.network.corrupted > 0) { causes.push_back(Cause::Corruption); }
     for (const VirtualFault& fault : recording.faults) {
         causes.push_back(cause_of(fault, recording.machine));
+        const bool is_silent =
+            fault.kind == VirtualFault::Kind::StopDevice || fault.kind == VirtualFault::Kind::KillDevice;
+        if (is_silent) { causes.push_back(Cause::SilentDevice); }
         if (fault.in_loop) { causes.push_back(Cause::Stall); }
     }
     const bool disturbed = recording.lossy() || !recording.faults.empty();
