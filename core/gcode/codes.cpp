@@ -128,10 +128,10 @@ constexpr std::array kRefused{
 
 const Code* find_code(char letter, int tenths) {
     static const auto kIndex = [] {
-        std::array<std::array<std::int8_t, 1000>, 2> index{};
+        std::array<std::array<std::int16_t, 1000>, 2> index{};
         for (auto& codes : index) { codes.fill(-1); }
         for (std::size_t i = 0; i < kCodes.size(); ++i) {
-            index[kCodes[i].letter == 'M'][static_cast<std::size_t>(kCodes[i].tenths)] = static_cast<std::int8_t>(i);
+            index[kCodes[i].letter == 'M'][static_cast<std::size_t>(kCodes[i].tenths)] = static_cast<std::int16_t>(i);
         }
         return index;
     }();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include "core/gcode/curves/spline_curve.hpp"
@@ -108,7 +109,10 @@ private:
 void cut(const Arc& arc, const Point& from, double tolerance, const TakeChord& take) {
     const Cylinder cylinder = cylinder_of(arc, from);
     const double chords = std::max(chords_of(cylinder, tolerance), 1.0);
-    for (double i = 1; i < chords; ++i) { take(between(from, arc.target, i / chords, cylinder.at(i / chords))); }
+    for (std::int64_t i = 1; static_cast<double>(i) < chords; ++i) {
+        const double share = static_cast<double>(i) / chords;
+        take(between(from, arc.target, share, cylinder.at(share)));
+    }
     take(arc.target);
 }
 
