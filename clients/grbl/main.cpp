@@ -59,8 +59,8 @@ struct Doors {
 };
 
 /// Behind a sender that has left: the machine runs the lines that it has begun with, and then spindle and coolant are
-/// switched off. The next sender need not wait for that.
-void see_off(grbl::MachineLink& link, grbl::Grbl& protocol, const Doors& doors, const StopSignal& stop) {
+/// switched off. True: the next sender has come before that.
+bool see_off(grbl::MachineLink& link, grbl::Grbl& protocol, const Doors& doors, const StopSignal& stop) {
     protocol.leave();
     link.leave();
     const auto begin = std::chrono::steady_clock::now();
@@ -72,15 +72,18 @@ void see_off(grbl::MachineLink& link, grbl::Grbl& protocol, const Doors& doors, 
         (void)protocol.take_output();
     }
     link.release();
+    return protocol.is_to_switch_off() && doors.has_next();
 }
 
-/// One sender at a time: it is served until it leaves, a signal comes, or the machine is another.
-void serve(const Descriptor& sender, const Doors& doors, const ChosenMachine& machine, Session& session,
-           const Options& options, const StopSignal& stop) {
+/// One sender at a time: it is served until it leaves, a signal comes, or the machine is another. `is_to_switch_off`:
+/// what the sender before has left on; returned: what this one has.
+bool serve(const Descriptor& sender, const Doors& doors, bool is_to_switch_off, const ChosenMachine& machine,
+           Session& session, const Options& options, const StopSignal& stop) {
     grbl::SettingsStore settings(machine);
     grbl::MachineLink link(session, settings, options.take);
     grbl::Grbl protocol(session.config(), LOCKSTEP_VERSION);
     protocol.see_next(settings.next());
+    if (is_to_switch_off) { protocol.switch_off_at_rest(); }
     Renewal renewal(options.machine_file);
     link.pass(50ms, protocol);
     protocol.greet();
@@ -95,21 +98,22 @@ void serve(const Descriptor& sender, const Doors& doors, const ChosenMachine& ma
             (void)write_to(*second, "[MSG:another sender is connected]\r\n");
         }
     }
-    see_off(link, protocol, doors, stop);
+    return see_off(link, protocol, doors, stop);
 }
 
 /// Until a signal comes, or the machine is another.
 void serve_all(const Doors& doors, const ChosenMachine& machine, Session& session, const Options& options,
                const StopSignal& stop) {
     Renewal renewal(options.machine_file);
+    bool is_on = false;
     while (!stop.requested() && !renewal.is_due(session)) {
         if (const auto sender = grbl::accept_from(doors.listener)) {
             session.write_as(writer_at(grbl::peer_of(*sender)));
-            serve(*sender, doors, machine, session, options, stop);
+            is_on = serve(*sender, doors, is_on, machine, session, options, stop);
         }
         if (doors.terminal && doors.terminal->is_used()) {
             session.write_as(writer_at(options.terminal));
-            serve(doors.terminal->descriptor(), doors, machine, session, options, stop);
+            is_on = serve(doors.terminal->descriptor(), doors, is_on, machine, session, options, stop);
         }
         session.receive(20ms);
     }

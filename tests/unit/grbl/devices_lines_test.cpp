@@ -85,6 +85,23 @@ TEST_F(DevicesByLines, AreSwitchedOffBehindTheMotionOfASenderThatLeaves) {
     EXPECT_TRUE(passes_until([&] { return devices() == ProgramDevices{}; }, 1));
 }
 
+TEST_F(DevicesByLines, AreSwitchedOffBeforeTheNextSendersFirstLine) {
+    sender->send("M3 S800\nG1 X30 F1200\n");
+    ASSERT_TRUE(passes_until([&] { return devices().spindle == Spindle::Forward; }, 1));
+    pass(0.5);
+    sender->leave();
+    pass(0.1);
+    sender.emplace(vm, 71, true);
+    ASSERT_EQ(devices().spindle, Spindle::Forward);
+    ASSERT_TRUE(passes_until([&] { return devices().spindle == Spindle::Stopped; }, 5));
+    EXPECT_EQ(vm.axis_states()[0]->position.count(), 3000);
+    sender->send("M4 S500\n");
+    ASSERT_TRUE(passes_until([&] { return devices().spindle == Spindle::Reverse; }, 1));
+    pass(1);
+    EXPECT_EQ(devices().spindle, Spindle::Reverse);
+    EXPECT_THAT(sender->text(), Not(HasSubstr("error")));
+}
+
 TEST_F(DevicesByLines, AreSwitchedOffAtOnceWhereASenderLeavesAMachineAtRest) {
     sender->send("M4 S800\n");
     ASSERT_TRUE(passes_until([&] { return devices().spindle == Spindle::Reverse; }, 1));

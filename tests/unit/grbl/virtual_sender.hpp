@@ -70,8 +70,9 @@ private:
 /// As lockstep-grbl joins them.
 class VirtualSender {
 public:
-    explicit VirtualSender(VirtualMachine& machine, Identity client = 70)
+    explicit VirtualSender(VirtualMachine& machine, Identity client = 70, bool is_to_switch_off = false)
         : machine_(machine), port_(machine, client), lines_(machine.machine(), port_), grbl_(machine.machine(), "1") {
+        if (is_to_switch_off) { grbl_.switch_off_at_rest(); }
         pass();
         grbl_.greet();
     }
