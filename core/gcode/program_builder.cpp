@@ -37,6 +37,7 @@ Point place_in(const GcodeSetup& setup, double GcodeAxis::*coordinate) {
 
 std::vector<std::optional<std::size_t>> axis_places(const GcodeSetup& setup) {
     std::vector<std::optional<std::size_t>> places;
+    places.reserve(setup.axes.size());
     for (const GcodeAxis& axis : setup.axes) { places.push_back(place_of_name(axis.name)); }
     return places;
 }

@@ -14,6 +14,7 @@ AxisLimits frame_limits_of(const MachineConfig& machine, std::size_t axis) {
 
 std::vector<AxisLimits> frame_limits_of(const MachineConfig& machine) {
     std::vector<AxisLimits> limits;
+    limits.reserve(machine.axes.size());
     for (std::size_t i = 0; i < machine.axes.size(); ++i) { limits.push_back(frame_limits_of(machine, i)); }
     return limits;
 }

@@ -113,7 +113,7 @@ void ChordJoiner::find_corners(bool is_end) {
 bool ChordJoiner::is_corner(std::size_t k) const {
     const PathPoint& point = points_[k];
     if (point.turn <= kCornerTurn) { return false; }
-    for (std::size_t j = k; j-- > 1 && point.along - points_[j].along < kLook_mm;) {
+    for (std::size_t j = k - 1; j >= 1 && point.along - points_[j].along < kLook_mm; --j) {
         if (points_[j].turn >= point.turn) { return false; }
     }
     for (std::size_t j = k + 1; j < measured_ && points_[j].along - point.along < kLook_mm; ++j) {

@@ -4,7 +4,7 @@
 
 namespace lockstep {
 
-ProgramFrames::ProgramFrames(const MachineConfig& machine, std::shared_ptr<const ProgramBlocks> program,
+ProgramFrames::ProgramFrames(const MachineConfig& machine, const std::shared_ptr<const ProgramBlocks>& program,
                              std::uint32_t first, const AxisCounts& from)
     : tick_s_(static_cast<double>(machine.tick_ns) * 1e-9), planner_(path_setup_of(machine)) {
     for (const AxisConfig& axis : machine.axes) { steps_per_mm_.push_back(axis.steps_per_mm); }

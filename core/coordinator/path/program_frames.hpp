@@ -10,8 +10,8 @@ namespace lockstep {
 
 class ProgramFrames final : public FrameSource {
 public:
-    ProgramFrames(const MachineConfig& machine, std::shared_ptr<const ProgramBlocks> program, std::uint32_t first,
-                  const AxisCounts& from);
+    ProgramFrames(const MachineConfig& machine, const std::shared_ptr<const ProgramBlocks>& program,
+                  std::uint32_t first, const AxisCounts& from);
 
     std::unique_ptr<FrameSource> clone() const override { return std::make_unique<ProgramFrames>(*this); }
     bool begin(const std::shared_ptr<const ProgramBlocks>& program, std::span<const std::size_t> axes,

@@ -139,6 +139,7 @@ PathMove ProgramPlanner::path_move(const ProgramMove& linear, const AxisCounts& 
 /// An arc has a length where its ends are the same, too.
 void ProgramPlanner::note_arc(const ProgramMove& arc, const std::vector<std::size_t>& axes, PathMove& move) const {
     std::vector<double> from_mm;
+    from_mm.reserve(axes.size());
     for (const std::size_t axis : axes) {
         from_mm.push_back(to_mm(machine_.axes[axis], static_cast<double>(move.from[axis])));
     }

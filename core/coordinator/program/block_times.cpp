@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/check.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -39,6 +41,7 @@ void BlockTimes::add_move(std::span<const double> way_mm, double feed_mm_s) {
 void BlockTimes::add_arc(const ArcPath& arc, std::pair<std::size_t, std::size_t> plane, std::span<const double> way_mm,
                          double feed_mm_s) {
     const auto [first, second] = plane;
+    check(first < way_mm.size() && second < way_mm.size(), "an arc is in the plane of two axes");
     const double length = arc.length_mm();
     const double in_plane = arc.plane_length_mm() / length;
     Way way{.length_mm = length, .speed_mm_s = feed_mm_s > 0 ? feed_mm_s : kMaxFeed_mm_s, .acceleration_mm_s2 = 0};
@@ -55,7 +58,7 @@ void BlockTimes::add_arc(const ArcPath& arc, std::pair<std::size_t, std::size_t>
     }
     std::vector<double> ends = begins;
     const auto turn = [&](std::vector<double>& direction, double share) {
-        direction[first] = in_plane * arc.turn_first(share);
+        direction[first] = in_plane * arc.turn_first(share);  // NOLINT(clang-analyzer-core.NullDereference): see check
         direction[second] = in_plane * arc.turn_second(share);
     };
     turn(begins, 0);

@@ -85,7 +85,7 @@ struct CoordinatorInputs {
     std::span<const AxisState> axes;
     std::span<const MachineState> others;  // coordinators of the same machine; its own states are left out by identity
     std::span<const Command> commands;
-    std::span<const ProgramPart> parts = {};
+    std::span<const ProgramPart> parts;
 };
 
 /// A part of a program that was taken: the record keeps it.

@@ -43,7 +43,7 @@ void Recorder::clear() {
 }
 
 std::string Recorder::not_open(const OWord& word) const {
-    std::string text = shown_word(word.keyword, word.label) + " does not fit; ";
+    const std::string text = shown_word(word.keyword, word.label) + " does not fit; ";
     if (open_.empty()) { return text + "nothing is open here"; }
     const Open& last = open_.back();
     return text + "open is " + shown_word(last.keyword, last.label) + " of line " +
@@ -90,7 +90,7 @@ std::optional<std::string> Recorder::close(const OWord& word) {
     if (open_.empty() || open_.back().label != word.label || end_of(open_.back().keyword) != word.keyword) {
         return not_open(word);
     }
-    Open& open = open_.back();
+    const Open& open = open_.back();
     const std::size_t here = body_.lines.size() - 1;
     for (const std::size_t line : open.branches) { body_.lines[line].branch = here; }
     for (const std::size_t line : open.exits) { body_.lines[line].end = here; }

@@ -148,10 +148,12 @@ private:
     }
 
     void peck(double feed) {
-        for (double depth = cycle_.clear - cycle_.peck; depth > cycle_.bottom; depth -= cycle_.peck) {
+        double depth = cycle_.clear - cycle_.peck;
+        while (depth > cycle_.bottom) {
             go(depth, feed);
             if (context_.motion == 830) { go(cycle_.clear, 0); }
             go(depth + kPeckClearance_mm, 0);
+            depth -= cycle_.peck;
         }
     }
 
