@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/path/travel_end.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -120,8 +122,11 @@ private:
         const double y = arc_.is_clockwise ? -d.y : d.y;
         at[arc_.first] = (arc_.centre_first_mm + radius * d.x) * setup_.steps_per_mm[arc_.first];
         at[arc_.second] = (arc_.centre_second_mm + radius * y) * setup_.steps_per_mm[arc_.second];
-        if (!is_off_) { return at; }
-        for (std::size_t i = 0; i < at.size(); ++i) { at[i] += off_[i] * (1 - share); }
+        for (std::size_t i = 0; i < at.size(); ++i) {
+            if (is_off_) { at[i] += off_[i] * (1 - share); }
+            const TravelEnds travel = travel_ends_of(setup_.limits[i]);
+            at[i] = std::clamp(at[i], travel.least, travel.greatest);
+        }
         return at;
     }
 
@@ -140,6 +145,7 @@ private:
             piece.bend[i] = -8 * (middle[i] - half_way[i]) / (piece.length * piece.length);
         }
         piece.is_straight = false;
+        keep_within_travel(setup_, piece);
         at_ = end;
         out_.mark(0, block_, along_);
         out_.add(piece);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/path/travel_end.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -145,17 +147,14 @@ bool ChordJoiner::try_chords(std::size_t chords, Quadratic& best) {
     return true;
 }
 
-/// A wide tolerance could lead out of it. Within a step of it axes are on its last step.
+/// A wide tolerance could lead out of it.
 bool ChordJoiner::is_within_travel(const Quadratic& piece) const {
-    constexpr double kLastStep = 1 - kPulseShare - kFitShare - kRoundingShare;
     for (std::size_t i = 0; i < setup_.axes(); ++i) {
         const double turn = piece.bend[i] == 0 ? 0 : piece.length / 2 - piece.slope[i] / piece.bend[i];
-        const AxisLimits& axis = setup_.limits[i];
+        const TravelEnds travel = travel_ends_of(setup_.limits[i]);
         for (const double u : {std::clamp(turn, 0.0, piece.length), piece.length}) {
             const double at = piece.place(i, u);
-            const bool is_outside = at < static_cast<double>(axis.min_steps) - kLastStep ||
-                                    at > static_cast<double>(axis.max_steps) + kLastStep;
-            if (is_outside) { return false; }
+            if (at < travel.least || at > travel.greatest) { return false; }
         }
     }
     return true;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/path/travel_end.hpp"
+
 namespace lockstep {
 
 PathPlanner::PathPlanner(const PathSetup& setup)
@@ -103,6 +105,7 @@ bool PathPlanner::move_end(const AxisVector& end) {
         last.slope[i] = (end[i] - last.from[i]) / last.length;
         moves = moves || last.slope[i] != 0;
     }
+    keep_within_travel(setup_, last);
     return moves;
 }
 

@@ -126,5 +126,27 @@ TEST(PathMemory, DependsOnTheWayToStopAndNotOnTheProgram) {
     EXPECT_LT(kept, 2'000U);
 }
 
+/// The place where it turns is rounded to the last step of the travel; the machine rested beside the arc's begin.
+TEST(Path, OfAnArcThatTouchesTheEndOfTheTravelEndsAtTheLastStep) {
+    constexpr std::int64_t kLast = 100;
+    PathSetup setup = setup_of(std::vector<TestAxis>(2), Ticks{5'000});
+    setup.limits[0].min_steps = -kLast;
+    setup.limits[0].max_steps = kLast;
+    for (const double beyond : {0.0, 0.3, 0.36, 0.4, 0.45, 0.49, 0.499}) {
+        for (double angle = 0.1; angle < 6.2; angle += 0.4) {
+            const double radius = (kLast + beyond) / setup.steps_per_mm[0];
+            const Place begin{radius * std::cos(angle), radius * std::sin(angle)};
+            TestProgram program;
+            program.add(begin, 50);
+            program.moves.back().settings.mode = PathMode::ExactStop;
+            program.add(begin, 2);
+            program.moves.back().arc = ArcShape{.first = 0, .second = 1};
+            const PathRun run = run_path(setup, program);
+            expect_within_limits(setup, run);
+            ASSERT_FALSE(testing::Test::HasFailure()) << beyond << " steps beyond, from " << angle << " rad";
+        }
+    }
+}
+
 }  // namespace
 }  // namespace lockstep

@@ -1,0 +1,40 @@
+// How a path keeps to the travel: a place beyond it that is rounded to its last step is still this step's.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/path/path_setup.hpp"
+#include "core/path/quadratic.hpp"
+
+namespace lockstep {
+
+/// Steps that a path may lead beyond the last step of the travel.
+inline constexpr double kMostBeyond_steps = 1 - kPulseShare - kFitShare - kRoundingShare;
+
+struct TravelEnds {
+    double least;
+    double greatest;
+};
+inline TravelEnds travel_ends_of(const AxisLimits& axis) {
+    return {static_cast<double>(axis.min_steps) - kMostBeyond_steps,
+            static_cast<double>(axis.max_steps) + kMostBeyond_steps};
+}
+
+/// Bends a piece whose ends are within the travel less, where it leads beyond it. A parabola through (0, x0) and (L,
+/// x1) touches a line that is p and q away from them if its bend is 2 (sqrt p + sqrt q)^2 / L^2.
+inline void keep_within_travel(const PathSetup& setup, Quadratic& piece) {
+    const auto most = [&piece](double p, double q) {
+        const double root = (std::sqrt(std::max(p, 0.0)) + std::sqrt(std::max(q, 0.0))) / piece.length;
+        return 2 * root * root;
+    };
+    for (std::size_t i = 0; i < setup.axes(); ++i) {
+        const TravelEnds travel = travel_ends_of(setup.limits[i]);
+        const double begin = piece.from[i];
+        const double end = piece.place(i, piece.length);
+        piece.bend[i] = std::clamp(piece.bend[i], -most(travel.greatest - begin, travel.greatest - end),
+                                   most(begin - travel.least, end - travel.least));
+    }
+}
+
+}  // namespace lockstep
