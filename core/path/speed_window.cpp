@@ -11,8 +11,7 @@ constexpr double kStopShare = 0.8;   // of the start velocity, where the path be
 constexpr double kRestShare = 0.4;   // where it rests for a short time: two jumps follow each other
 constexpr double kWorthSlowing = 2;  // the pieces beside it are passed more slowly, too
 constexpr int kMostHalves = 40;
-constexpr std::size_t kLeastParts =
-    4;  // of a piece between joints that are passed more slowly: nodes to change speed at
+constexpr std::size_t kLeastParts = 4;  // of a piece between joints that are passed more slowly than it may be
 
 /// The angle by which a piece turns over `length`, rad.
 double turn_of(const Quadratic& piece, double length, std::span<const double> steps_per_mm) {
