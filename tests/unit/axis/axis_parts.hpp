@@ -6,32 +6,13 @@
 #include <algorithm>
 
 #include "core/axis/state/axis_loop.hpp"
+#include "tests/unit/axis/pair_machine.hpp"
 
 namespace lockstep {
 
 class AxisParts : public testing::Test {
 protected:
-    static MachineConfig machine() {
-        MachineConfig m{.name = "pair"};
-        m.timing = {.slot_us = 1000,
-                    .stall_slots = 1,
-                    .late_check_slots = 0,
-                    .freshness_slots = 2,
-                    .send_ahead_slots = 12,
-                    .frame_slots = 5};
-        AxisConfig axis{.name = "X",
-                        .steps_per_mm = 100,
-                        .start_velocity_mm_s = 10,
-                        .max_velocity_mm_s = 100,
-                        .max_accel_mm_s2 = 1000,
-                        .max_decel_mm_s2 = 1000,
-                        .position_min_mm = -100,
-                        .position_max_mm = 100};
-        axis.homing = {.search_velocity_mm_s = 10, .latch_velocity_mm_s = 2, .pulloff_mm = 1, .park_mm = 5};
-        m.axes = {axis, axis};
-        m.axes[1].name = "Y";
-        return m;
-    }
+    static MachineConfig machine() { return pair_machine(); }
 
     /// A device at rest that has ended its newest run and has room for everything.
     DeviceStatus at_rest() const {

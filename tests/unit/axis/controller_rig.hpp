@@ -9,6 +9,7 @@
 #include "core/axis/axis_controller.hpp"
 #include "core/methods/paper_steps.hpp"
 #include "tests/unit/axis/known_epoch.hpp"
+#include "tests/unit/axis/pair_machine.hpp"
 
 namespace lockstep {
 
@@ -16,27 +17,7 @@ class ControllerRig : public testing::Test {
 protected:
     static constexpr std::int64_t kSlot = 1000;  // ticks
 
-    static MachineConfig machine() {
-        AxisConfig axis{.name = "X",
-                        .steps_per_mm = 100,
-                        .start_velocity_mm_s = 10,
-                        .max_velocity_mm_s = 100,
-                        .max_accel_mm_s2 = 1000,
-                        .max_decel_mm_s2 = 1000,
-                        .position_min_mm = -100,
-                        .position_max_mm = 100};
-        axis.homing = {.search_velocity_mm_s = 10, .latch_velocity_mm_s = 2, .pulloff_mm = 1, .park_mm = 5};
-        MachineConfig m{.name = "pair",
-                        .timing = {.slot_us = 1000,
-                                   .stall_slots = 1,
-                                   .late_check_slots = 0,
-                                   .freshness_slots = 2,
-                                   .send_ahead_slots = 12,
-                                   .frame_slots = 5}};
-        m.axes = {axis, axis};
-        m.axes[1].name = "Y";
-        return m;
-    }
+    static MachineConfig machine() { return pair_machine(); }
     static DeviceStatus resting_device() {
         return {.power_up = 9, .run = 3, .run_asked = 3, .finished = true, .free_segments = 1000};
     }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/unit/axis/known_epoch.hpp"
+#include "tests/unit/axis/pair_machine.hpp"
 
 namespace lockstep {
 namespace {
@@ -11,26 +12,7 @@ namespace {
 constexpr std::int64_t kSlot = 1000;  // ticks
 constexpr Slot kFirstStart = 100;     // of frame 1
 
-MachineConfig machine() {
-    MachineConfig m{.name = "pair",
-                    .timing = {.slot_us = 1000,
-                               .stall_slots = 1,
-                               .late_check_slots = 0,
-                               .freshness_slots = 2,
-                               .send_ahead_slots = 12,
-                               .frame_slots = 5}};
-    const AxisConfig axis{.name = "X",
-                          .steps_per_mm = 100,
-                          .start_velocity_mm_s = 10,
-                          .max_velocity_mm_s = 100,
-                          .max_accel_mm_s2 = 1000,
-                          .max_decel_mm_s2 = 1000,
-                          .position_min_mm = -100,
-                          .position_max_mm = 100};
-    m.axes = {axis, axis};
-    m.axes[1].name = "Y";
-    return m;
-}
+MachineConfig machine() { return pair_machine(); }
 
 constexpr Velocity kSlow{static_cast<std::int64_t>(0x1p64 * 500e-6)};   // 500 steps/s, below the start velocity
 constexpr Velocity kTooFast{static_cast<std::int64_t>(0x1p64 * 2e-2)};  // 20,000 steps/s, above the limit

@@ -1,4 +1,5 @@
-// What a frame may ask of an axis whose device has a clock of its own.
+// The limits that frames keep. They are below an axis's own limits if its device has a clock of its own, because
+// corrections of that clock change speeds.
 #include "core/motion/frame_limits.hpp"
 
 #include <gtest/gtest.h>
