@@ -9,6 +9,7 @@
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/output.hpp"
 #include "services/network/host_name.hpp"
+#include "services/runtime/clock.hpp"
 #include "services/runtime/stop_signal.hpp"
 
 namespace {
@@ -63,8 +64,8 @@ struct Doors {
 bool see_off(grbl::MachineLink& link, grbl::Grbl& protocol, const Doors& doors, const StopSignal& stop) {
     protocol.leave();
     link.leave();
-    const auto begin = std::chrono::steady_clock::now();
-    const auto may_wait = [&] { return !stop.requested() || std::chrono::steady_clock::now() - begin < 3s; };
+    const auto begin = monotonic_now();
+    const auto may_wait = [&] { return !stop.requested() || monotonic_now() - begin < 3s; };
     while (protocol.is_to_switch_off() || !link.is_idle()) {
         if (link.is_stuck() || doors.has_next() || !may_wait()) { break; }
         link.pass(5ms, protocol);
@@ -76,7 +77,7 @@ bool see_off(grbl::MachineLink& link, grbl::Grbl& protocol, const Doors& doors, 
 }
 
 /// One sender at a time: it is served until it leaves, a signal comes, or the machine is another. `is_to_switch_off`:
-/// what the sender before has left on; returned: what this one has.
+/// the sender before has left spindle or coolant on. Returns whether this one has.
 bool serve(const Descriptor& sender, const Doors& doors, bool is_to_switch_off, const ChosenMachine& machine,
            Session& session, const Options& options, const StopSignal& stop) {
     grbl::SettingsStore settings(machine);
@@ -105,15 +106,16 @@ bool serve(const Descriptor& sender, const Doors& doors, bool is_to_switch_off, 
 void serve_all(const Doors& doors, const ChosenMachine& machine, Session& session, const Options& options,
                const StopSignal& stop) {
     Renewal renewal(options.machine_file);
-    bool is_on = false;
+    bool is_to_switch_off = false;
     while (!stop.requested() && !renewal.is_due(session)) {
         if (const auto sender = grbl::accept_from(doors.listener)) {
             session.write_as(writer_at(grbl::peer_of(*sender)));
-            is_on = serve(*sender, doors, is_on, machine, session, options, stop);
+            is_to_switch_off = serve(*sender, doors, is_to_switch_off, machine, session, options, stop);
         }
         if (doors.terminal && doors.terminal->is_used()) {
             session.write_as(writer_at(options.terminal));
-            is_on = serve(doors.terminal->descriptor(), doors, is_on, machine, session, options, stop);
+            is_to_switch_off =
+                serve(doors.terminal->descriptor(), doors, is_to_switch_off, machine, session, options, stop);
         }
         session.receive(20ms);
     }

@@ -37,7 +37,7 @@ public:
     /// spindle and coolant are switched off.
     void leave();
     bool is_to_switch_off() const { return is_to_switch_off_; }
-    /// What another sender has left on.
+    /// The sender before has left spindle or coolant on: they are switched off when the machine rests.
     void switch_off_at_rest() { is_to_switch_off_ = true; }
     /// Lines that were accepted will not be run: an alarm.
     void abort(const std::string& why);
