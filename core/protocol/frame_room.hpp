@@ -13,6 +13,8 @@ namespace lockstep {
 inline constexpr int kDeviceRingEntries = 1024;
 /// The most frames that an axis keeps.
 inline constexpr std::size_t kMaxFramesKept = 16;
+/// What a body and a tail may need more for their device's clock: a piece each.
+inline constexpr std::size_t kDevicePieces = 2;
 /// Fewer pieces in a frame are not worth a configuration.
 inline constexpr int kLeastBodyPieces = 32;
 
@@ -24,7 +26,7 @@ constexpr int frames_ahead(const ProtocolTiming& t) {
 /// How many pieces the body of a frame may have for each axis, so that all frames ahead, with their tails and the piece
 /// more that each may need for its device, have room in the device's ring. Below kLeastBodyPieces: too many are ahead.
 constexpr int body_pieces(const ProtocolTiming& t) {
-    const int room = kDeviceRingEntries / frames_ahead(t) - static_cast<int>(kMaxTailPieces) - 2;
+    const int room = kDeviceRingEntries / frames_ahead(t) - static_cast<int>(kMaxTailPieces + kDevicePieces);
     return std::min(room, static_cast<int>(kMaxBodyPieces));
 }
 

@@ -38,6 +38,8 @@ public:
     /// Its newest run has ended, and none is asked for.
     bool has_ended() const { return status_.finished && is_in_newest_run() && status_.run_asked == newest_run_; }
 
+    /// Room in the segment ring that is not reserved.
+    std::size_t free_segments() const { return free_segments_; }
     /// Reserves room in the segment ring until the next look. False: there is not enough.
     bool reserve(std::size_t segments) {
         if (segments > free_segments_) { return false; }

@@ -3,8 +3,14 @@
 #include <utility>
 
 #include "core/check.hpp"
+#include "core/protocol/frame_room.hpp"
 
 namespace lockstep {
+namespace {
+
+std::size_t segments_of(const AxisTrack& track) { return track.body.size() + track.tail.size() + kDevicePieces; }
+
+}  // namespace
 
 void EpochFollowing::take(const AxisState& peer, Slot now) {
     if (peer.stamp <= now + rules::kHopSlots) { follower_.receive(peer); }
@@ -15,6 +21,7 @@ void EpochFollowing::take(const MachineState& owner, Slot now) {
 }
 
 void EpochFollowing::take(const Frame& frame, std::optional<Position> rest, AxisLoop& loop) {
+    if (!has_room(frame, loop.device)) { return; }
     const bool was_open = is_open();
     const FrameNumber held = was_open ? follower_.held() : 0;
     const FaultCode fault = follower_.offer(frame, rest);
@@ -23,7 +30,12 @@ void EpochFollowing::take(const Frame& frame, std::optional<Position> rest, Axis
     if (!is_open() || follower_.held() == held) { return; }
     last_refusal_ = FaultCode::None;
     if (held == 0) { loop.begin_run(Trigger::None, false); }
+    lockstep::check(loop.device.reserve(segments_of(frame.axes[axis_])), "there is room for the frame");
     loop.load(check_found(follower_.find(follower_.held()), "the follower keeps the newest frame it holds"));
+}
+
+bool EpochFollowing::has_room(const Frame& frame, const DeviceView& device) const {
+    return axis_ >= frame.axes.size() || segments_of(frame.axes[axis_]) <= device.free_segments();
 }
 
 void EpochFollowing::begin(Epoch epoch, AxisLoop& loop) {

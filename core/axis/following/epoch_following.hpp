@@ -13,7 +13,7 @@ namespace lockstep {
 class EpochFollowing {
 public:
     /// `axis`: its place in the configuration.
-    EpochFollowing(std::size_t axis, const MachineConfig& machine) : follower_(axis, machine) {}
+    EpochFollowing(std::size_t axis, const MachineConfig& machine) : axis_(axis), follower_(axis, machine) {}
 
     /// An epoch is in progress on this axis.
     bool is_open() const { return follower_.open(); }
@@ -26,7 +26,8 @@ public:
     // Messages. A peer's state stamped later than any clock error explains is ignored.
     void take(const AxisState& peer, Slot now);
     void take(const MachineState& owner, Slot now);
-    /// From the owner. `rest`: where the axis rests, if it may begin an epoch.
+    /// From the owner. `rest`: where the axis rests, if it may begin an epoch. A frame for which the device has no room
+    /// yet is left alone: it comes again.
     void take(const Frame& frame, std::optional<Position> rest, AxisLoop& loop);
 
     /// Makes the checks that are due.
@@ -40,10 +41,12 @@ public:
     void end(AxisLoop& loop);
 
 private:
+    bool has_room(const Frame& frame, const DeviceView& device) const;
     bool is_left_behind(const DeviceStatus& device) const;
     void begin(Epoch epoch, AxisLoop& loop);
     void refuse(const Frame& frame, FaultCode why, AxisLoop& loop);
 
+    std::size_t axis_;
     SetpointFollower follower_;
     RunRecorder recorder_;
     FrameNumber ran_ = 0;

@@ -2,6 +2,7 @@
 #include "core/axis/following/epoch_following.hpp"
 
 #include "axis_parts.hpp"
+#include "core/protocol/frame_room.hpp"
 #include "tests/unit/axis/known_epoch.hpp"
 
 namespace lockstep {
@@ -45,6 +46,24 @@ TEST_F(Following, BeginsARunWithTheFirstFrameAndLoadsEachFrameOnce) {
     receive(frame(2));
     EXPECT_EQ(ordered<device::BeginRun>(), 0);
     EXPECT_EQ(ordered<device::LoadFrame>(), 1);
+}
+
+TEST_F(Following, LeavesAFrameAloneUntilTheDeviceHasRoom) {
+    const std::uint32_t needed = 1 + kDevicePieces;
+    DeviceStatus status = at_rest();
+    status.free_segments = 2 * needed - 1;
+    show(status, true);
+    receive(frame(1));
+    EXPECT_EQ(ordered<device::LoadFrame>(), 1);
+    receive(frame(2));
+    EXPECT_EQ(ordered<device::LoadFrame>(), 0);
+    EXPECT_EQ(following.follower().held(), 1);
+    EXPECT_EQ(following.refused_frames(), 0u);
+    status.free_segments = needed;
+    show(status);
+    receive(frame(2));
+    EXPECT_EQ(ordered<device::LoadFrame>(), 1);
+    EXPECT_EQ(following.follower().held(), 2);
 }
 
 TEST_F(Following, ReportsARepeatedRefusalOnceAndCountsEach) {
