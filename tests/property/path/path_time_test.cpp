@@ -176,6 +176,21 @@ TEST(PathTime, OfShortWaysForthAndBackIsNotThatOfTheirTurns) {
     EXPECT_LT(run.seconds(), 2 * 6 * kWay_mm / 0.145);
 }
 
+/// Axes that take seconds to their start velocity. What the joint costs is spread over the whole line before it: at the
+/// greatest speed that allows, no acceleration would be left to brake with, and tails went on for most of the line.
+TEST(PathTime, OfAStopOnALongLineBeforeASharpJointIsShort) {
+    const PathSetup setup =
+        setup_of({{10.8, 84, 350, 2100, 940}, {720, 4.76, 4.76, 0.88, 0.88}, {480, 40, 40, 10, 4}}, Ticks{20'000});
+    for (const Place& to : {Place{158, -2.92, -3.7}, Place{105, -2.32, -3.64}, Place{110.6, -2.93, -3.57}}) {
+        TestProgram program;
+        program.add(to, 0);
+        program.add({to[0], to[1], to[2] + 3}, 5);
+        const PathRun run = run_path(setup, program);
+        expect_within_limits(setup, run);
+        for (const PathFrame& frame : run.frames) { EXPECT_LT(total_ticks(frame.axes[0].tail), Ticks{3'500'000}); }
+    }
+}
+
 TEST(PathTime, DoesNotGrowWithTheNumberOfPieces) {
     const PathSetup setup = setup_of(mill());
     EXPECT_LT(run_path(setup, cut_line(200, 0.01)).pieces_per_s(), 20);
