@@ -4,13 +4,12 @@
 
 namespace lockstep {
 
-std::expected<Program, std::string> program_from(const Program& program, std::int32_t line, std::vector<double> at_mm) {
+std::expected<Program, std::int32_t> program_from(const Program& program, std::int32_t line,
+                                                  std::vector<double> at_mm) {
     const auto first = std::find_if(program.blocks.begin(), program.blocks.end(),
                                     [&](const Block& block) { return block.line >= line; });
     if (first == program.blocks.end()) {
-        const std::int32_t last = program.blocks.empty() ? 0 : program.blocks.back().line;
-        return std::unexpected("nothing is left from line " + std::to_string(line) + "; the last motion is in line " +
-                               std::to_string(last));
+        return std::unexpected(program.blocks.empty() ? 0 : program.blocks.back().line);
     }
     std::vector<double> begins_mm = program.start_mm;
     for (auto block = program.blocks.begin(); block != first; ++block) {

@@ -108,7 +108,8 @@ struct Program {
 };
 
 /// What is left of a program from the first block of `line` or behind it, for axes that stand at `at_mm`: they first
-/// go, as fast as they can and straight, to where that block begins. Error: there is no such block; the last there is.
-std::expected<Program, std::string> program_from(const Program& program, std::int32_t line, std::vector<double> at_mm);
+/// go, as fast as they can and straight, to where that block begins. Error: there is no such block; the line of the
+/// last.
+std::expected<Program, std::int32_t> program_from(const Program& program, std::int32_t line, std::vector<double> at_mm);
 
 }  // namespace lockstep

@@ -40,7 +40,7 @@ void measure_speed(Outcome& outcome) {
 
 Row run(const StepMove& move, const Ideal& ideal, const methods::Method& method) {
     auto train = method.run(move, methods::Fit::Nearest);
-    if (!train) { return {method, std::unexpected(train.error())}; }
+    if (!train) { return {method, std::unexpected(text_of(train.error()))}; }
     Outcome outcome{.train = *std::move(train)};
     measure_errors(ideal.step_times_s(method.crossing), outcome);
     measure_speed(outcome);

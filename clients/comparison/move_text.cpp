@@ -40,7 +40,7 @@ std::expected<StepMove, std::string> parse_move(std::string_view text) {
     move.deceleration = move.acceleration;
     if (parts.size() == 5) { numbers = numbers && read(parts[4], move.deceleration); }
     if (!numbers) { return refused("START, MAX, ACCEL and DECEL must be numbers"); }
-    if (auto valid = methods::check(move); !valid) { return refused(valid.error()); }
+    if (auto valid = methods::check(move); !valid) { return refused(text_of(valid.error())); }
     return move;
 }
 

@@ -18,9 +18,9 @@ public:
     const std::string& text() const { return text_; }
 
     /// Error where the move must be made exactly and cannot be.
-    std::expected<void, std::string> allowed_by(Fit fit) const {
+    std::expected<void, StepError> allowed_by(Fit fit) const {
         if (fit == Fit::Nearest || text_.empty()) { return {}; }
-        return std::unexpected(text_);
+        return std::unexpected(StepError{.why = StepError::Why::Inexact, .nearest = text_});
     }
 
 private:

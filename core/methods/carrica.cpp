@@ -89,13 +89,12 @@ CarricaSteps::CarricaSteps(const StepMove& made, double clock_s, std::string nea
     reference_.change = rounded_up(made.acceleration * clock_s * clock_s);
 }
 
-std::expected<CarricaSteps, std::string> CarricaSteps::of(const StepMove& move, Fit fit,
-                                                          const CarricaParameters& parameters) {
+std::expected<CarricaSteps, StepError> CarricaSteps::of(const StepMove& move, Fit fit,
+                                                        const CarricaParameters& parameters) {
     const double clock_s = parameters.clock_s;
     if (auto valid = check(move); !valid) { return std::unexpected(valid.error()); }
     if (move.max * clock_s > 1) {
-        return std::unexpected("a step takes at least one clock period of " + short_number(clock_s * 1e9) +
-                               " ns: the maximum must not be above " + short_number(1 / clock_s) + " steps/s");
+        return std::unexpected(StepError{.why = StepError::Why::TooFast, .most = 1 / clock_s});
     }
     Adjustments changed;
     const StepMove made = expressible(move, changed);

@@ -28,8 +28,8 @@ double carrica_speed_gap(double steps_per_s, double clock_s);
 class CarricaSteps {
 public:
     /// Error: as carrica's.
-    static std::expected<CarricaSteps, std::string> of(const StepMove& move, Fit fit,
-                                                       const CarricaParameters& parameters = {});
+    static std::expected<CarricaSteps, StepError> of(const StepMove& move, Fit fit,
+                                                     const CarricaParameters& parameters = {});
 
     /// Call it for each of the move's steps once.
     double next_s();

@@ -3,17 +3,14 @@
 #include <cmath>
 
 #include "core/motion/ideal.hpp"
-#include "core/number_text.hpp"
 
 namespace lockstep::methods {
 
-std::expected<CarricaTable, std::string> carrica_table(const StepMove& move,
-                                                       const CarricaOffLineParameters& parameters) {
+std::expected<CarricaTable, StepError> carrica_table(const StepMove& move, const CarricaOffLineParameters& parameters) {
     const double timer_s = parameters.timer_s;
     if (auto valid = check(move); !valid) { return std::unexpected(valid.error()); }
     if (move.max * timer_s > 1) {
-        return std::unexpected("a step takes at least one count of " + short_number(timer_s * 1e9) +
-                               " ns: the maximum must not be above " + short_number(1 / timer_s) + " steps/s");
+        return std::unexpected(StepError{.why = StepError::Why::TooFast, .most = 1 / timer_s});
     }
     if (auto valid = check_length(move, timer_s); !valid) { return std::unexpected(valid.error()); }
     CarricaTable table;

@@ -21,8 +21,8 @@ struct CarricaOffLineParameters {
 using CarricaTable = std::vector<std::uint32_t>;
 
 /// Error: as carrica_off_line's.
-std::expected<CarricaTable, std::string> carrica_table(const StepMove& move,
-                                                       const CarricaOffLineParameters& parameters = {});
+std::expected<CarricaTable, StepError> carrica_table(const StepMove& move,
+                                                     const CarricaOffLineParameters& parameters = {});
 
 /// Expresses every move. Step k is where the position is k. Error: the maximum is above one step per count, or the move
 /// lasts more counts than kMaxClocks.

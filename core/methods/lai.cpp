@@ -34,14 +34,13 @@ LaiSpeeds expressible(const StepMove& move, double period_s, Adjustments& change
 LaiSteps::LaiSteps(std::int64_t steps, const LaiSpeeds& speeds, double clock_s, std::string nearest)
     : axis_(steps, speeds), clock_s_(clock_s), nearest_(std::move(nearest)) {}
 
-std::expected<LaiSteps, std::string> LaiSteps::of(const StepMove& move, Fit fit, const LaiParameters& parameters) {
+std::expected<LaiSteps, StepError> LaiSteps::of(const StepMove& move, Fit fit, const LaiParameters& parameters) {
     const double period_s = parameters.period_s;
     if (auto valid = check(move); !valid) { return std::unexpected(valid.error()); }
     const double most = static_cast<double>(kMaxPeriodPulses) / period_s;
     if (move.max < (1 - kPulseHair) / period_s || move.max > most) {
-        return std::unexpected("speeds are 1 to 255 whole pulses per " + short_number(period_s * 1e3) +
-                               " ms: the maximum must be " + short_number(1 / period_s) + " to " + short_number(most) +
-                               " steps/s");
+        return std::unexpected(StepError{
+            .why = StepError::Why::PulsesPerPeriod, .clock_s = period_s, .least = 1 / period_s, .most = most});
     }
     Adjustments changed;
     const LaiSpeeds speeds = expressible(move, period_s, changed);

@@ -18,7 +18,7 @@ struct LaiParameters {
 class LaiSteps {
 public:
     /// Error: as lai's.
-    static std::expected<LaiSteps, std::string> of(const StepMove& move, Fit fit, const LaiParameters& parameters = {});
+    static std::expected<LaiSteps, StepError> of(const StepMove& move, Fit fit, const LaiParameters& parameters = {});
 
     /// Call it for each of the move's steps once.
     double next_s();

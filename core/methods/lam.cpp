@@ -37,7 +37,7 @@ LamSteps::LamSteps(std::int64_t steps, const LamParameters& made, std::string ne
     (void)controller_.clock({.data_ready = true, .destination = steps});
 }
 
-std::expected<LamSteps, std::string> LamSteps::of(const StepMove& move, Fit fit, const LamParameters& parameters) {
+std::expected<LamSteps, StepError> LamSteps::of(const StepMove& move, Fit fit, const LamParameters& parameters) {
     if (auto valid = check(move); !valid) { return std::unexpected(valid.error()); }
     Adjustments changed;
     const LamParameters made = expressible(move, parameters, changed);

@@ -13,7 +13,7 @@ namespace lockstep::methods {
 class LamSteps {
 public:
     /// Error: as lam's.
-    static std::expected<LamSteps, std::string> of(const StepMove& move, Fit fit, const LamParameters& parameters = {});
+    static std::expected<LamSteps, StepError> of(const StepMove& move, Fit fit, const LamParameters& parameters = {});
 
     /// Call it for each of the move's steps once.
     double next_s();

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/motion/step_error.hpp"
 #include "core/motion/step_move.hpp"
 
 namespace lockstep::methods {
@@ -29,17 +30,16 @@ struct StepTrain {
     std::string nearest;          // what was changed of the move; empty: nothing
 };
 
-/// Error: what the method cannot do, and what would be possible.
-using StepResult = std::expected<StepTrain, std::string>;
+using StepResult = std::expected<StepTrain, StepError>;
 
 /// Nothing, or what is wrong with the move whatever the method: no steps, too many, no acceleration, a start above the
 /// maximum.
-std::expected<void, std::string> check(const StepMove& move);
+std::expected<void, StepError> check(const StepMove& move);
 
 /// The whole train of `count` steps, from a method's own maker of them, one after the other: next_s(), clock_s() and
 /// nearest(), as StepTrain has them.
 template <typename Steps>
-StepResult train_of(std::expected<Steps, std::string> steps, std::int64_t count) {
+StepResult train_of(std::expected<Steps, StepError> steps, std::int64_t count) {
     if (!steps) { return std::unexpected(std::move(steps.error())); }
     StepTrain train{.clock_s = steps->clock_s(), .nearest = steps->nearest()};
     train.times_s.reserve(static_cast<std::size_t>(count));
@@ -48,6 +48,6 @@ StepResult train_of(std::expected<Steps, std::string> steps, std::int64_t count)
 }
 
 /// Error where following the move by a clock of `clock_s` would take more than kMaxClocks.
-std::expected<void, std::string> check_length(const StepMove& move, double clock_s);
+std::expected<void, StepError> check_length(const StepMove& move, double clock_s);
 
 }  // namespace lockstep::methods

@@ -43,10 +43,10 @@ private:
     Steps steps_;
 };
 
-using Begun = std::expected<std::unique_ptr<StepSource>, std::string>;
+using Begun = std::expected<std::unique_ptr<StepSource>, StepError>;
 
 template <typename Steps>
-Begun begun(std::expected<Steps, std::string> steps) {
+Begun begun(std::expected<Steps, StepError> steps) {
     if (!steps) { return std::unexpected(std::move(steps.error())); }
     return std::make_unique<PaperSteps<Steps>>(std::move(*steps));
 }
@@ -61,7 +61,7 @@ Begun begin_steps(StepMethod method, const StepMove& move) {
         case StepMethod::Lam: return begun(LamSteps::of(for_lam(move), Fit::Nearest));
         case StepMethod::Carrica: return begun(CarricaSteps::of(for_carrica(move), Fit::Nearest));
     }
-    return std::unexpected(std::string("moves of this method are pieces, not single steps"));
+    return std::unexpected(StepError{StepError::Why::NoSingleSteps});
 }
 
 }  // namespace lockstep::methods

@@ -9,6 +9,6 @@ namespace lockstep::methods {
 /// it (suits.hpp): spielauer, lai and lam start slowly whatever the start speed, lai changes its speed by one pulse per
 /// period, carrica's least speed lies two steps' acceleration below the start speed. Error: the method cannot make the
 /// move, or is Ranade's, whose moves are pieces and not steps (core/motion/profile.hpp).
-std::expected<std::unique_ptr<StepSource>, std::string> begin_steps(StepMethod method, const StepMove& move);
+std::expected<std::unique_ptr<StepSource>, StepError> begin_steps(StepMethod method, const StepMove& move);
 
 }  // namespace lockstep::methods

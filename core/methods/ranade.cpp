@@ -2,7 +2,6 @@
 
 #include "core/motion/interpolate.hpp"
 #include "core/motion/profile.hpp"
-#include "core/number_text.hpp"
 #include "core/step/engine.hpp"
 
 namespace lockstep::methods {
@@ -11,8 +10,7 @@ StepResult ranade(const StepMove& move, Fit, const RanadeParameters& parameters)
     if (auto valid = check(move); !valid) { return std::unexpected(valid.error()); }
     const double tick = parameters.tick_s;
     if (move.max * tick >= kMaxStepsPerTick) {
-        return std::unexpected("one step takes more than two ticks of " + short_number(tick * 1e6) +
-                               " us: the maximum must be below " + short_number(kMaxStepsPerTick / tick) + " steps/s");
+        return std::unexpected(StepError{.why = StepError::Why::TooFast, .most = kMaxStepsPerTick / tick});
     }
     if (auto valid = check_length(move, tick); !valid) { return std::unexpected(valid.error()); }
     const PathLimits limits{move.start * tick, move.max * tick, move.acceleration * tick * tick,

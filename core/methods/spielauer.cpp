@@ -34,14 +34,11 @@ SpielauerPlan plan_spielauer(const StepMove& move, double step_length) {
 SpielauerSteps::SpielauerSteps(const StepMove& move, const SpielauerParameters& parameters)
     : move_(move), parameters_(parameters), plan_(plan_spielauer(move, parameters.step_length)) {}
 
-std::expected<SpielauerSteps, std::string> SpielauerSteps::of(const StepMove& move, Fit fit,
-                                                              const SpielauerParameters& parameters) {
+std::expected<SpielauerSteps, StepError> SpielauerSteps::of(const StepMove& move, Fit fit,
+                                                            const SpielauerParameters& parameters) {
     if (auto valid = check(move); !valid) { return std::unexpected(valid.error()); }
     const double fastest = parameters.timer_hz * parameters.step_length;
-    if (move.max > fastest) {
-        return std::unexpected("a step takes at least one count of the timer: the maximum must not be above " +
-                               short_number(fastest) + " steps/s");
-    }
+    if (move.max > fastest) { return std::unexpected(StepError{.why = StepError::Why::TooFast, .most = fastest}); }
     Adjustments changed;
     if (move.start > 0) { changed.add("knows no start speed", "starts and ends at rest"); }
     if (auto allowed = changed.allowed_by(fit); !allowed) { return std::unexpected(allowed.error()); }

@@ -47,8 +47,8 @@ public:
     /// The move must pass check() (method.hpp).
     explicit SpielauerSteps(const StepMove& move, const SpielauerParameters& parameters = {});
     /// The same where the method can make it. Error: as spielauer's.
-    static std::expected<SpielauerSteps, std::string> of(const StepMove& move, Fit fit,
-                                                         const SpielauerParameters& parameters = {});
+    static std::expected<SpielauerSteps, StepError> of(const StepMove& move, Fit fit,
+                                                       const SpielauerParameters& parameters = {});
 
     /// How long the next step is waited for. Call these two for each of the move's steps once.
     std::int64_t next_count();

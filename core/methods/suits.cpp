@@ -12,17 +12,15 @@
 namespace lockstep::methods {
 namespace {
 
-using Suits = std::expected<void, std::string>;
+using Suits = std::expected<void, Unsuited>;
+using Why = Unsuited::Why;
 
 constexpr double kMinTicksPerStep = 3;           // rounded to ticks, a wait is still longer than the engine's two
 constexpr std::int64_t kLongestTried = 200'000;  // steps
 
-Suits unsuited(std::string why) { return std::unexpected(std::move(why)); }
-
 Suits brakes_as_it_accelerates(const SpeedLimits& limits) {
     if (limits.acceleration == limits.deceleration) { return {}; }
-    return unsuited("it has no deceleration of its own: " + short_number(limits.deceleration) +
-                    " steps/s^2 must equal the acceleration, " + short_number(limits.acceleration));
+    return std::unexpected(Unsuited{Why::OneAcceleration, limits.deceleration, limits.acceleration});
 }
 
 /// Lai's acceleration: one pulse per period and period.
@@ -35,15 +33,13 @@ Suits changes_by_whole_pulses(const SpeedLimits& limits) {
     const double least = one_pulse();
     const double most = std::min(limits.acceleration, limits.deceleration);
     if (least <= most) { return {}; }
-    return unsuited("it changes its speed by whole pulses per 6.5 ms, " + short_number(least) +
-                    " steps/s^2 at least: acceleration and deceleration must not be below that, and one is " +
-                    short_number(most));
+    return std::unexpected(Unsuited{Why::WholePulses, most, least});
 }
 
 /// Every step of one move; the wait for each against all before it.
 Suits keeps_limits(StepMethod method, const SpeedLimits& limits, std::int64_t steps) {
     auto source = begin_steps(method, {steps, limits.start, limits.max, limits.acceleration, limits.deceleration});
-    if (!source) { return unsuited(source.error()); }
+    if (!source) { return std::unexpected(Unsuited{.why = Why::NotMade, .error = source.error()}); }
     LimitWatch watch({limits.start, limits.acceleration, limits.deceleration});
     std::optional<LimitWatch::Breach> breach;
     double before_s = 0;
@@ -54,9 +50,7 @@ Suits keeps_limits(StepMethod method, const SpeedLimits& limits, std::int64_t st
     }
     if (!breach) { breach = watch.rest(); }
     if (!breach) { return {}; }
-    return unsuited(
-        "in a move of " + std::to_string(steps) + " steps its speed jumps by " + short_number(breach->change) +
-        " steps/s beyond what the acceleration allows; the start velocity allows " + short_number(breach->allowed));
+    return std::unexpected(Unsuited{Why::BreaksLimits, breach->change, breach->allowed, steps});
 }
 
 Suits keeps_limits(StepMethod method, const SpeedLimits& limits) {
@@ -73,6 +67,25 @@ Suits keeps_limits(StepMethod method, const SpeedLimits& limits) {
 
 }  // namespace
 
+std::string text_of(const Unsuited& unsuited) {
+    const std::string value = short_number(unsuited.value);
+    const std::string limit = short_number(unsuited.limit);
+    switch (unsuited.why) {
+        case Why::TooFast:
+            return "its steps are rounded to ticks: the maximum velocity is " + value +
+                   " steps/s and must not be above a third of a step per tick, " + limit;
+        case Why::OneAcceleration:
+            return "it has no deceleration of its own: " + value + " steps/s^2 must equal the acceleration, " + limit;
+        case Why::WholePulses:
+            return "it changes its speed by whole pulses per 6.5 ms, " + limit +
+                   " steps/s^2 at least: acceleration and deceleration must not be below that, and one is " + value;
+        case Why::NotMade: return text_of(unsuited.error.value());
+        case Why::BreaksLimits: break;
+    }
+    return "in a move of " + std::to_string(unsuited.steps) + " steps its speed jumps by " + value +
+           " steps/s beyond what the acceleration allows; the start velocity allows " + limit;
+}
+
 SpeedLimits speed_limits_of(const AxisConfig& axis, std::int64_t tick_ns) {
     return {.start = axis.start_velocity_mm_s * axis.steps_per_mm,
             .max = axis.max_velocity_mm_s * axis.steps_per_mm,
@@ -84,10 +97,7 @@ SpeedLimits speed_limits_of(const AxisConfig& axis, std::int64_t tick_ns) {
 Suits suits(StepMethod method, const SpeedLimits& limits) {
     if (method == StepMethod::Ranade) { return {}; }
     const double fastest = 1 / (kMinTicksPerStep * limits.tick_s);
-    if (limits.max > fastest) {
-        return unsuited("its steps are rounded to ticks: the maximum velocity is " + short_number(limits.max) +
-                        " steps/s and must not be above a third of a step per tick, " + short_number(fastest));
-    }
+    if (limits.max > fastest) { return std::unexpected(Unsuited{Why::TooFast, limits.max, fastest}); }
     if (method == StepMethod::Carrica || method == StepMethod::Lam) {
         if (auto same = brakes_as_it_accelerates(limits); !same) { return same; }
     }

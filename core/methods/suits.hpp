@@ -6,10 +6,13 @@
 // against LimitWatch (limit_watch.hpp).
 #pragma once
 
+#include <cstdint>
 #include <expected>
+#include <optional>
 #include <string>
 
 #include "core/machine.hpp"
+#include "core/motion/step_error.hpp"
 
 namespace lockstep::methods {
 
@@ -24,7 +27,26 @@ struct SpeedLimits {
 
 SpeedLimits speed_limits_of(const AxisConfig& axis, std::int64_t tick_ns);
 
-/// Error: what the method cannot do, with the value and the limit, and what would help.
-std::expected<void, std::string> suits(StepMethod method, const SpeedLimits& limits);
+/// Why a method does not suit an axis.
+struct Unsuited {
+    enum class Why : std::uint8_t {
+        TooFast,          // `value` steps/s; steps rounded to ticks allow `limit`
+        OneAcceleration,  // it brakes as it accelerates: `value` steps/s^2 is not `limit`
+        WholePulses,      // `value` steps/s^2 is less than one pulse per period and period, `limit`
+        NotMade,          // a move that was tried out: `error`
+        BreaksLimits,     // a move of `steps` that was tried out changes its speed by `value` steps/s more than the
+                          // acceleration allows; the start velocity allows `limit`
+    };
+    Why why;
+    double value = 0;
+    double limit = 0;
+    std::int64_t steps = 0;
+    std::optional<StepError> error = {};
+};
+
+/// What the method cannot do, with the value and the limit, and what would help.
+std::string text_of(const Unsuited& unsuited);
+
+std::expected<void, Unsuited> suits(StepMethod method, const SpeedLimits& limits);
 
 }  // namespace lockstep::methods

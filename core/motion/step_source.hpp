@@ -5,10 +5,10 @@
 #include <array>
 #include <expected>
 #include <memory>
-#include <string>
 #include <string_view>
 
 #include "core/machine.hpp"
+#include "core/motion/step_error.hpp"
 #include "core/motion/step_move.hpp"
 
 namespace lockstep {
@@ -26,7 +26,7 @@ public:
     virtual double next_s() = 0;
 };
 
-/// Begins a move by a method. Error: the method cannot make the move.
-using BeginSteps = std::expected<std::unique_ptr<StepSource>, std::string> (*)(StepMethod, const StepMove&);
+/// Begins a move by a method.
+using BeginSteps = std::expected<std::unique_ptr<StepSource>, StepError> (*)(StepMethod, const StepMove&);
 
 }  // namespace lockstep

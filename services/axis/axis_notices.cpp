@@ -22,18 +22,18 @@ std::string_view stage_name(std::uint64_t stage) {
 
 void log_notice(const AxisNotice& notice) {
     using Kind = AxisNotice::Kind;
-    const std::string number = std::to_string(notice.number);
     switch (notice.kind) {
         case Kind::PositionProved: return log_info("homed: the device stands where the position was kept");
         case Kind::PositionUnproved:
             return log_event(spdlog::level::info, notice.fault, "not homed: " + remedy(notice.fault));
-        case Kind::OwnerAdopted: return log_info("follows the owner of term " + number);
-        case Kind::EpochBegun: return log_info("epoch " + number + " begun");
-        case Kind::EpochEnded: return log_info("epoch " + number + " ended, at rest");
+        case Kind::OwnerAdopted: return log_info("follows the owner of term {}", notice.number);
+        case Kind::EpochBegun: return log_info("epoch {} begun", notice.number);
+        case Kind::EpochEnded: return log_info("epoch {} ended, at rest", notice.number);
         case Kind::FrameRefused:
-            return log_event(spdlog::level::err, notice.fault, "frame " + number + " refused: " + remedy(notice.fault));
-        case Kind::Vetoed: return log_info("frame " + number + " and those after it are vetoed");
-        case Kind::HomingStage: return log_info("homing: " + std::string(stage_name(notice.number)));
+            return log_event(spdlog::level::err, notice.fault,
+                             "frame " + std::to_string(notice.number) + " refused: " + remedy(notice.fault));
+        case Kind::Vetoed: return log_info("frame {} and those after it are vetoed", notice.number);
+        case Kind::HomingStage: return log_info("homing: {}", stage_name(notice.number));
         case Kind::Homed: return log_info("homed and parked");
         case Kind::Fault: return log_event(spdlog::level::err, notice.fault, remedy(notice.fault));
         case Kind::Reset: return log_info("reset");

@@ -137,7 +137,7 @@ private:
             if (auto may = coordinator_.check_writer(chunk.writer, looped_); !may) { return may; }
         }
         const auto accepted = values_.accept(chunk, part, {coordinator_.owns_machine(), coordinator_.has_job()});
-        return accepted ? CommandResult{} : refuse(FaultCode::BadProgram, accepted.error());
+        return accepted ? CommandResult{} : refuse(FaultCode::BadProgram, text_of(accepted.error()));
     }
 
     void record_taken(Tick now, const std::vector<TakenPart>& taken) {

@@ -4,8 +4,8 @@
 
 namespace lockstep {
 
-std::expected<void, std::string> ValuesStore::accept(const ProgramChunk& chunk, const ProgramDocument& part,
-                                                     ValueKeeper::Circumstances now) {
+std::expected<void, ValuesRefusal> ValuesStore::accept(const ProgramChunk& chunk, const ProgramDocument& part,
+                                                       ValueKeeper::Circumstances now) {
     if (!part.values) { return {}; }
     if (chunk.index == 0) { return keeper_.accept(chunk.program, *part.values, now); }
     if (part.values->after) { keeper_.note_left(chunk.program, *part.values->after); }

@@ -26,8 +26,8 @@ public:
 
     ValueKeeper& keeper() { return keeper_; }
     /// A program's first part, as ValueKeeper::accept, or another one with the values that it leaves.
-    std::expected<void, std::string> accept(const ProgramChunk& chunk, const ProgramDocument& part,
-                                            ValueKeeper::Circumstances now);
+    std::expected<void, ValuesRefusal> accept(const ProgramChunk& chunk, const ProgramDocument& part,
+                                              ValueKeeper::Circumstances now);
     /// The owner's values, in a coordinator that does not own the machine.
     void follow(const MachineValues& values);
     /// In each loop of the owner: writes a change. Returns the values to publish, valid until the next call: after each

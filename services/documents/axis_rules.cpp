@@ -210,8 +210,8 @@ private:
         if (!std::ranges::all_of(kLimits, is_sound)) { return; }
         const auto suits = methods::suits(axis_.method, methods::speed_limits_of(axis_, machine_.tick_ns));
         problems_.require(suits.has_value(), "method",
-                          "method is " + std::string(name_of(axis_.method)) + "; " + (suits ? "" : suits.error()) +
-                              "; change the limits, or choose another method");
+                          "method is " + std::string(name_of(axis_.method)) + "; " +
+                              (suits ? "" : text_of(suits.error())) + "; change the limits, or choose another method");
     }
 
     void check_place() {

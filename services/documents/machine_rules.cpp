@@ -182,7 +182,7 @@ std::vector<Problem> machine_problems(const MachineConfig& machine) {
                          " axes; write one axis { ... } for each, 1 to " + std::to_string(kMaxAxes));
     if (machine.coordination == StepMethod::Lai && problems.empty()) {
         const auto suits = suits_lai_path(machine);
-        problems.require(suits.has_value(), "coordination", suits ? "" : suits.error());
+        problems.require(suits.has_value(), "coordination", suits ? "" : text_of(suits.error()));
     }
     return problems.take();
 }

@@ -16,6 +16,9 @@ SOURCES = ("core", "sim_fpga", "services", "clients", "tests")
 FORBIDDEN_IN_CORE = re.compile(
     r"#include <(chrono|thread|mutex|iostream|fstream|ctime|condition_variable|filesystem|unistd\.h|sys/.*)>"
     r"|clock_gettime|std::chrono|std::rand\b|random_device|spdlog")
+# Code decides by the errors of core (docs/decisions/code/typed-errors-in-core.md).
+SENTENCE = re.compile(r"std::(un)?expected<.*std::string>[ (;]")
+MAY_RETURN_SENTENCES = {"core/coordinator/program/row_store.hpp"}
 MAX_LINES = 500
 UNFINISHED = re.compile(r"\b(TODO|FIXME|XXX)\b")
 
@@ -35,6 +38,8 @@ def breaches(root, layer, path):
     for number, line in enumerate(lines, 1):
         if layer == "core" and FORBIDDEN_IN_CORE.search(line):
             yield f"{name}:{number}: core has no I/O, threads or clocks: {line.strip()}"
+        if layer == "core" and SENTENCE.search(line) and name not in MAY_RETURN_SENTENCES:
+            yield f"{name}:{number}: an error of core is a type with values, not a sentence: {line.strip()}"
         if UNFINISHED.search(line):
             yield f"{name}:{number}: unfinished: {line.strip()}"
 

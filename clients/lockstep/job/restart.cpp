@@ -29,7 +29,10 @@ std::expected<Rest, std::string> rest_of(const Program& program, ModalState moda
                                          const MachineConfig& machine, const std::vector<double>& stands_mm) {
     const std::vector<double> begins_mm = place_before(program, options.from_line);
     auto left = program_from(program, options.from_line, begins_mm);
-    if (!left) { return std::unexpected(left.error()); }
+    if (!left) {
+        return std::unexpected("nothing is left from line " + std::to_string(options.from_line) +
+                               "; the last motion is in line " + std::to_string(left.error()));
+    }
     auto moves = find_approach(options, machine, program, stands_mm, begins_mm);
     if (!moves) { return std::unexpected(moves.error()); }
     left->start_mm = stands_mm;

@@ -5,14 +5,13 @@
 #include <utility>
 
 #include "core/motion/interpolate.hpp"
-#include "core/motion/profile.hpp"
 #include "core/number_text.hpp"
 
 namespace lockstep {
 namespace {
 
-/// What a move in a given time lacks, in the units of its user.
-std::string text_of(const Infeasible& lack, const AxisConfig& axis, std::int64_t tick_ns, const OwnMoveRequest& move) {
+std::string text_in_time(const Infeasible& lack, const AxisConfig& axis, std::int64_t tick_ns,
+                         const OwnMoveRequest& move) {
     const double tick_s = static_cast<double>(tick_ns) * 1e-9;
     const std::string time = short_number(static_cast<double>(move.ticks.value) * tick_s) + " s";
     return short_number(to_mm(axis, static_cast<double>(move.steps))) + " mm in " + time +
@@ -23,6 +22,16 @@ std::string text_of(const Infeasible& lack, const AxisConfig& axis, std::int64_t
 
 }  // namespace
 
+std::string text_of(const OwnMoveError& error, const AxisConfig& axis, std::int64_t tick_ns,
+                    const OwnMoveRequest& move) {
+    if (const auto* other = std::get_if<NotInTime>(&error)) {
+        return "axis " + axis.name + " cannot move in a given time by method " + std::string(name_of(other->method)) +
+               "; leave the time out, or configure RANADE";
+    }
+    if (const auto* lack = std::get_if<Infeasible>(&error)) { return text_in_time(*lack, axis, tick_ns, move); }
+    return "axis " + axis.name + ": " + text_of(std::get<StepError>(error));
+}
+
 StepMove step_move_of(const AxisConfig& axis, const OwnMoveRequest& move) {
     const double per_mm = axis.steps_per_mm;
     const double max = move.speed_mm_s * per_mm;
@@ -30,16 +39,15 @@ StepMove step_move_of(const AxisConfig& axis, const OwnMoveRequest& move) {
             axis.max_decel_mm_s2 * per_mm};
 }
 
-std::expected<OwnPieces, std::string> OwnPieces::plan(const AxisConfig& axis, std::int64_t tick_ns, StepMethod method,
-                                                      const OwnMoveRequest& move, BeginSteps begin_steps) {
+std::expected<OwnPieces, OwnMoveError> OwnPieces::plan(const AxisConfig& axis, std::int64_t tick_ns, StepMethod method,
+                                                       const OwnMoveRequest& move, BeginSteps begin_steps) {
     if (method == StepMethod::Ranade) { return planned(axis, tick_ns, move); }
     if (move.ticks == Ticks{}) { return stepped(axis, tick_ns, method, move, begin_steps); }
-    return std::unexpected("axis " + axis.name + " cannot move in a given time by method " +
-                           std::string(name_of(method)) + "; leave the time out, or configure RANADE");
+    return std::unexpected(NotInTime{method});
 }
 
-std::expected<OwnPieces, std::string> OwnPieces::planned(const AxisConfig& axis, std::int64_t tick_ns,
-                                                         const OwnMoveRequest& move) {
+std::expected<OwnPieces, OwnMoveError> OwnPieces::planned(const AxisConfig& axis, std::int64_t tick_ns,
+                                                          const OwnMoveRequest& move) {
     const AxisLimits of_axis = limits_of(axis, tick_ns);
     const double speed = move.speed_mm_s * axis.steps_per_mm * static_cast<double>(tick_ns) * 1e-9;
     const PathLimits limits{std::min(of_axis.start_velocity, speed), speed, of_axis.max_acceleration,
@@ -51,19 +59,19 @@ std::expected<OwnPieces, std::string> OwnPieces::planned(const AxisConfig& axis,
     } else if (auto in_time = plan_in_time(way, move.ticks, limits)) {
         profile = *in_time;
     } else {
-        return std::unexpected(text_of(in_time.error(), axis, tick_ns, move));
+        return std::unexpected(in_time.error());
     }
     return OwnPieces(Planned{pieces_of(profile, Position{}, +1)});
 }
 
-std::expected<OwnPieces, std::string> OwnPieces::stepped(const AxisConfig& axis, std::int64_t tick_ns,
-                                                         StepMethod method, const OwnMoveRequest& move,
-                                                         BeginSteps begin_steps) {
+std::expected<OwnPieces, OwnMoveError> OwnPieces::stepped(const AxisConfig& axis, std::int64_t tick_ns,
+                                                          StepMethod method, const OwnMoveRequest& move,
+                                                          BeginSteps begin_steps) {
     const double ticks_per_s = 1e9 / static_cast<double>(tick_ns);
     const double start = axis.start_velocity_mm_s * axis.steps_per_mm;
     const StepMove asked = step_move_of(axis, move);
     auto source = begin_steps(method, asked);
-    if (!source) { return std::unexpected("axis " + axis.name + ": " + source.error()); }
+    if (!source) { return std::unexpected(source.error()); }
     const LimitWatch watch({start, asked.acceleration, asked.deceleration});
     return OwnPieces(Stepped{std::move(*source), watch, ticks_per_s, move.steps});
 }

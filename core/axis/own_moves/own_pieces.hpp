@@ -16,6 +16,7 @@
 #include "core/axis/own_moves/step_pieces.hpp"
 #include "core/machine.hpp"
 #include "core/motion/limit_watch.hpp"
+#include "core/motion/profile.hpp"
 #include "core/motion/step_source.hpp"
 
 namespace lockstep {
@@ -27,15 +28,25 @@ struct OwnMoveRequest {
     Ticks ticks;             // how long it lasts, exactly; 0: as fast as the limits allow
 };
 
+/// A method other than Ranade's takes no time.
+struct NotInTime {
+    StepMethod method;
+};
+/// Why a move cannot be made.
+using OwnMoveError = std::variant<NotInTime, Infeasible, StepError>;
+
+/// What the move lacks, and what could be made instead, in the units of its user.
+std::string text_of(const OwnMoveError& error, const AxisConfig& axis, std::int64_t tick_ns,
+                    const OwnMoveRequest& move);
+
 /// The move in steps and seconds, within the axis's limits.
 StepMove step_move_of(const AxisConfig& axis, const OwnMoveRequest& move);
 
 class OwnPieces {
 public:
-    /// By the axis's own method, or another. `begin_steps`: of methods other than Ranade's. Error: what the move lacks,
-    /// and what could be made instead.
-    static std::expected<OwnPieces, std::string> plan(const AxisConfig& axis, std::int64_t tick_ns, StepMethod method,
-                                                      const OwnMoveRequest& move, BeginSteps begin_steps);
+    /// By the axis's own method, or another. `begin_steps`: of methods other than Ranade's.
+    static std::expected<OwnPieces, OwnMoveError> plan(const AxisConfig& axis, std::int64_t tick_ns, StepMethod method,
+                                                       const OwnMoveRequest& move, BeginSteps begin_steps);
 
     /// The next piece; it lasts little longer than `most` where a step or a profile allows it to be cut. None after the
     /// last one, or where the step to come would break the axis's limits.
@@ -74,11 +85,11 @@ private:
     using Maker = std::variant<Planned, Stepped>;
     explicit OwnPieces(Maker maker) : maker_(std::move(maker)) {}
 
-    static std::expected<OwnPieces, std::string> planned(const AxisConfig& axis, std::int64_t tick_ns,
-                                                         const OwnMoveRequest& move);
-    static std::expected<OwnPieces, std::string> stepped(const AxisConfig& axis, std::int64_t tick_ns,
-                                                         StepMethod method, const OwnMoveRequest& move,
-                                                         BeginSteps begin_steps);
+    static std::expected<OwnPieces, OwnMoveError> planned(const AxisConfig& axis, std::int64_t tick_ns,
+                                                          const OwnMoveRequest& move);
+    static std::expected<OwnPieces, OwnMoveError> stepped(const AxisConfig& axis, std::int64_t tick_ns,
+                                                          StepMethod method, const OwnMoveRequest& move,
+                                                          BeginSteps begin_steps);
 
     Maker maker_;
 };

@@ -14,7 +14,8 @@ CommandResult check_move(std::size_t axis, const OwnMoveRequest& move, const Coo
     const AxisConfig& config = loop.machine.axes[axis];
     if (!loop.axes.state(axis)->homed) { return refuse(FaultCode::NotHomed, "axis " + config.name + " is not homed"); }
     const auto pieces = OwnPieces::plan(config, loop.machine.tick_ns, config.method, move, begin_steps);
-    return pieces ? CommandResult{} : refuse(FaultCode::BadProgram, pieces.error());
+    if (pieces) { return {}; }
+    return refuse(FaultCode::BadProgram, text_of(pieces.error(), config, loop.machine.tick_ns, move));
 }
 
 /// As asked, or as the continuous ideal has it: methods differ from that by what they round.

@@ -138,30 +138,32 @@ private:
     Path path_;
 };
 
-/// Whether an axis has the least of something, in its user's unit.
-std::expected<void, std::string> at_least(const AxisConfig& axis, const char* key, double value, double least) {
-    if (value >= least * (1 - methods::kPulseHair)) { return {}; }
-    return std::unexpected("axis " + axis.name +
-                           ": coordination LAI changes speed by whole pulses per 6.5 ms, which takes " + key +
-                           " of at least " + short_number(least) + "; it is " + short_number(value) +
-                           " (more steps_per_mm help too, or coordination: RANADE)");
-}
-
 }  // namespace
 
-std::expected<void, std::string> suits_lai_path(const MachineConfig& machine) {
-    if (machine.axes.size() < 2) {
-        return std::unexpected(std::string("coordination LAI is for two and more axes; the machine has one"));
+std::string text_of(const LaiLack& lack) {
+    const std::string value = short_number(lack.value);
+    switch (lack.why) {
+        case LaiLack::Why::Axes: return "coordination LAI is for two and more axes; the machine has one";
+        case LaiLack::Why::Tick: return "coordination LAI needs a tick_ns that divides 6500000; it is " + value;
+        case LaiLack::Why::FrameRoom:
+            return "coordination LAI makes a move each 6.5 ms, frames as long as these carry one each " + value +
+                   " ms; lower timing.frame_slots or timing.slot_us";
+        case LaiLack::Why::Limit: break;
     }
+    return "axis " + lack.axis + ": coordination LAI changes speed by whole pulses per 6.5 ms, which takes " +
+           std::string(lack.key) + " of at least " + short_number(lack.least) + "; it is " + value +
+           " (more steps_per_mm help too, or coordination: RANADE)";
+}
+
+std::expected<void, LaiLack> suits_lai_path(const MachineConfig& machine) {
+    using Why = LaiLack::Why;
+    if (machine.axes.size() < 2) { return std::unexpected(LaiLack{Why::Axes}); }
     if (kLaiPeriod_ns % machine.tick_ns != 0) {
-        return std::unexpected("coordination LAI needs a tick_ns that divides 6500000; it is " +
-                               std::to_string(machine.tick_ns));
+        return std::unexpected(LaiLack{Why::Tick, static_cast<double>(machine.tick_ns)});
     }
     const std::int64_t least_ns = bounds_of(machine).least_move.value * machine.tick_ns;
     if (kLaiPeriod_ns < least_ns) {
-        return std::unexpected("coordination LAI makes a move each 6.5 ms, frames as long as these carry one each " +
-                               short_number(static_cast<double>(least_ns) * 1e-6) +
-                               " ms; lower timing.frame_slots or timing.slot_us");
+        return std::unexpected(LaiLack{Why::FrameRoom, static_cast<double>(least_ns) * 1e-6});
     }
     const double period_s = static_cast<double>(kLaiPeriod_ns) * 1e-9;
     for (const AxisConfig& axis : machine.axes) {
@@ -171,19 +173,18 @@ std::expected<void, std::string> suits_lai_path(const MachineConfig& machine) {
                                                 std::tuple{"max_velocity_mm_s", axis.max_velocity_mm_s, speed},
                                                 std::tuple{"max_accel_mm_s2", axis.max_accel_mm_s2, acceleration},
                                                 std::tuple{"max_decel_mm_s2", axis.max_decel_mm_s2, acceleration}}) {
-            if (auto fits = at_least(axis, key, value, least); !fits) { return fits; }
+            const bool is_enough = value >= least * (1 - methods::kPulseHair);
+            if (!is_enough) { return std::unexpected(LaiLack{Why::Limit, value, least, key, axis.name}); }
         }
     }
     return {};
 }
 
-std::expected<void, std::string> check_lai_move(const PathMove& move, std::int64_t tick_ns) {
+std::expected<void, double> check_lai_move(const PathMove& move, std::int64_t tick_ns) {
     const std::int64_t period_ticks = kLaiPeriod_ns / tick_ns;
     const double pulses = move.asked_velocity({}) * static_cast<double>(period_ticks);
     if (move.lead == 0 || pulses >= 1 - methods::kPulseHair) { return {}; }
-    const double slowest = move.mm_per_lead() / (static_cast<double>(kLaiPeriod_ns) * 1e-9);
-    return std::unexpected("coordination LAI makes at least one pulse per 6.5 ms: the feed must be at least " +
-                           short_number(slowest) + " mm/s here");
+    return std::unexpected(move.mm_per_lead() / (static_cast<double>(kLaiPeriod_ns) * 1e-9));
 }
 
 Path plan_lai_path(const std::vector<PathMove>& moves, Displacement along, std::span<const AxisLimits> limits,

@@ -24,14 +24,28 @@ namespace lockstep {
 
 inline constexpr std::int64_t kLaiPeriod_ns = 6'500'000;
 
-/// Nothing, or what the machine lacks for moves by this method, with value, limit and remedy: two axes, frames of at
-/// most so many periods that their pieces fit, a tick that divides the period; and of every axis two pulses per period
-/// of start velocity and two per period and period of acceleration and deceleration, so that a change by one pulse
-/// leaves as much to stop with.
-std::expected<void, std::string> suits_lai_path(const MachineConfig& machine);
+/// What a machine lacks for moves by this method.
+struct LaiLack {
+    enum class Why : std::uint8_t {
+        Axes,       // it has fewer than two
+        Tick,       // `value` ns does not divide the period
+        FrameRoom,  // frames as long as its own carry a move each `value` ms: their pieces do not fit
+        Limit,      // `key` of `axis` is `value`, and `least` is needed: two pulses per period of speed, and two per
+                    // period and period of acceleration, so that a change by one pulse leaves as much to stop with
+    };
+    Why why;
+    double value = 0;
+    double least = 0;
+    std::string_view key = {};
+    std::string axis = {};
+};
+/// With value, limit and remedy.
+std::string text_of(const LaiLack& lack);
 
-/// Nothing, or why a move cannot be made: it is to be slower than one pulse per period.
-std::expected<void, std::string> check_lai_move(const PathMove& move, std::int64_t tick_ns);
+std::expected<void, LaiLack> suits_lai_path(const MachineConfig& machine);
+
+/// Error: a move is to be slower than one pulse per period; the least feed, mm/s.
+std::expected<void, double> check_lai_move(const PathMove& move, std::int64_t tick_ns);
 
 /// How short axes follow the long one.
 enum class LaiFollowing {

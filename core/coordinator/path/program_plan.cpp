@@ -10,6 +10,7 @@
 #include "core/coordinator/path/lai_frames.hpp"
 #include "core/coordinator/path/program_frames.hpp"
 #include "core/motion/frame_limits.hpp"
+#include "core/number_text.hpp"
 
 namespace lockstep {
 namespace {
@@ -214,7 +215,12 @@ std::expected<std::optional<PathMove>, PlanError> ProgramPlanner::move_of(const 
         at = *to;
         if (machine_.coordination == StepMethod::Lai) {
             const auto fits = check_lai_move(move, machine_.tick_ns);
-            if (!fits) { return std::unexpected(PlanError{FaultCode::BadProgram, block.line, fits.error()}); }
+            if (!fits) {
+                return std::unexpected(
+                    PlanError{FaultCode::BadProgram, block.line,
+                              "coordination LAI makes at least one pulse per 6.5 ms: the feed must be at least " +
+                                  short_number(fits.error()) + " mm/s here"});
+            }
         }
     }
     move.line = block.line;

@@ -2,12 +2,18 @@
 
 namespace lockstep {
 
-std::expected<void, std::string> ValueKeeper::accept(std::uint64_t program, const gcode::ProgramValues& values,
-                                                     Circumstances now) {
+std::string text_of(const ValuesRefusal& refusal) {
+    if (refusal.why == ValuesRefusal::Why::JobInProgress) {
+        return "a job is in progress, and depends on these values; wait for its end, or: lockstep stop";
+    }
+    return "the machine's offsets or tools have changed since this was read: revision " + std::to_string(refusal.read) +
+           ", now " + std::to_string(refusal.now) + "; give the command again";
+}
+
+std::expected<void, ValuesRefusal> ValueKeeper::accept(std::uint64_t program, const gcode::ProgramValues& values,
+                                                       Circumstances now) {
     if (now.owns_machine && values.revision != revision_) {
-        return std::unexpected("the machine's offsets or tools have changed since this was read: revision " +
-                               std::to_string(values.revision) + ", now " + std::to_string(revision_) +
-                               "; give the command again");
+        return std::unexpected(ValuesRefusal{ValuesRefusal::Why::Changed, values.revision, revision_});
     }
     if (values.at_once) { return edit(values, now); }
     arrived_.push_back({program, values.revision, values.after});
@@ -15,12 +21,9 @@ std::expected<void, std::string> ValueKeeper::accept(std::uint64_t program, cons
     return {};
 }
 
-std::expected<void, std::string> ValueKeeper::edit(const gcode::ProgramValues& values, Circumstances now) {
+std::expected<void, ValuesRefusal> ValueKeeper::edit(const gcode::ProgramValues& values, Circumstances now) {
     if (!now.owns_machine || !values.after) { return {}; }
-    if (now.has_job) {
-        return std::unexpected(
-            "a job is in progress, and depends on these values; wait for its end, or: lockstep stop");
-    }
+    if (now.has_job) { return std::unexpected(ValuesRefusal{ValuesRefusal::Why::JobInProgress}); }
     change(*values.after);
     return {};
 }

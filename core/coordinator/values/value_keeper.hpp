@@ -17,6 +17,19 @@
 
 namespace lockstep {
 
+/// Why a program or an edit of the values is refused.
+struct ValuesRefusal {
+    enum class Why : std::uint8_t {
+        Changed,        // since it was read, at revision `read`; they are at `now`
+        JobInProgress,  // which depends on these values
+    };
+    Why why;
+    std::uint64_t read = 0;
+    std::uint64_t now = 0;
+};
+/// With the remedy.
+std::string text_of(const ValuesRefusal& refusal);
+
 class ValueKeeper {
 public:
     ValueKeeper(std::uint64_t revision, gcode::KeptValues values) : revision_(revision), values_(std::move(values)) {}
@@ -31,9 +44,9 @@ public:
         bool owns_machine = true;  // else the owner decides, and this coordinator may have to continue the program
         bool has_job = false;      // in motion, held, or inherited by a takeover
     };
-    /// A program has arrived, or its first part. Error: why it is refused.
-    std::expected<void, std::string> accept(std::uint64_t program, const gcode::ProgramValues& values,
-                                            Circumstances now);
+    /// A program has arrived, or its first part.
+    std::expected<void, ValuesRefusal> accept(std::uint64_t program, const gcode::ProgramValues& values,
+                                              Circumstances now);
     /// The last part of a program has arrived: the values that it leaves.
     void note_left(std::uint64_t program, const gcode::KeptValues& after);
     void take(const JobEvent& event);
@@ -50,7 +63,7 @@ private:
     };
     static constexpr std::size_t kMostArrived = 4;  // as many as there are programs in the ProgramStore
 
-    std::expected<void, std::string> edit(const gcode::ProgramValues& values, Circumstances now);
+    std::expected<void, ValuesRefusal> edit(const gcode::ProgramValues& values, Circumstances now);
     void change(const gcode::KeptValues& values);
     std::optional<gcode::KeptValues> after(std::uint64_t program) const;
 

@@ -34,9 +34,10 @@ auto find_in(const Table& table, std::string_view text) -> std::optional<typenam
     return std::nullopt;
 }
 
-std::unexpected<std::string> outside(std::string_view name, double argument, std::string_view limit) {
-    return std::unexpected(std::string(name) + " of " + number_text(argument) + "; its argument is " +
-                           std::string(limit));
+using Why = ArgumentError::Why;
+
+std::unexpected<ArgumentError> wrong(Why why, double argument = 0, double power = 0) {
+    return std::unexpected(ArgumentError{why, argument, power});
 }
 
 double modulo(double left, double right) {
@@ -44,11 +45,8 @@ double modulo(double left, double right) {
     return rest < 0 ? rest + std::abs(right) : rest;
 }
 
-std::expected<double, std::string> power(double left, double right) {
-    if (left < 0 && right != std::floor(right)) {
-        return std::unexpected("a negative number, " + number_text(left) + ", to the power " + number_text(right) +
-                               "; the power must be whole");
-    }
+std::expected<double, ArgumentError> power(double left, double right) {
+    if (left < 0 && right != std::floor(right)) { return wrong(Why::FractionalPower, left, right); }
     return std::pow(left, right);
 }
 
@@ -72,26 +70,42 @@ int precedence(Operator op) {
     }
 }
 
-std::expected<double, std::string> apply(Function function, double x) {
+std::string text_of(const ArgumentError& error, std::string_view name) {
+    const auto outside = [&](const char* range) {
+        return std::string(name) + " of " + number_text(error.argument) + "; its argument is " + range;
+    };
+    switch (error.why) {
+        case Why::BeyondOne: return outside("within -1 to 1");
+        case Why::NotAboveZero: return outside("above 0");
+        case Why::BelowZero: return outside("0 or above");
+        case Why::FractionalPower:
+            return "a negative number, " + number_text(error.argument) + ", to the power " + number_text(error.power) +
+                   "; the power must be whole";
+        case Why::DivisionByZero: break;
+    }
+    return name == "/" ? "a division by 0" : "a division by 0 with " + std::string(name);
+}
+
+std::expected<double, ArgumentError> apply(Function function, double x) {
     switch (function) {
         case Function::Abs: return std::abs(x);
         case Function::Acos:
-            if (std::abs(x) > 1) { return outside("ACOS", x, "within -1 to 1"); }
+            if (std::abs(x) > 1) { return wrong(Why::BeyondOne, x); }
             return std::acos(x) * kDegrees;
         case Function::Asin:
-            if (std::abs(x) > 1) { return outside("ASIN", x, "within -1 to 1"); }
+            if (std::abs(x) > 1) { return wrong(Why::BeyondOne, x); }
             return std::asin(x) * kDegrees;
         case Function::Cos: return std::cos(x / kDegrees);
         case Function::Exp: return std::exp(x);
         case Function::Fix: return std::floor(x);
         case Function::Fup: return std::ceil(x);
         case Function::Ln:
-            if (x <= 0) { return outside("LN", x, "above 0"); }
+            if (x <= 0) { return wrong(Why::NotAboveZero, x); }
             return std::log(x);
         case Function::Round: return std::round(x);
         case Function::Sin: return std::sin(x / kDegrees);
         case Function::Sqrt:
-            if (x < 0) { return outside("SQRT", x, "0 or above"); }
+            if (x < 0) { return wrong(Why::BelowZero, x); }
             return std::sqrt(x);
         case Function::Tan: return std::tan(x / kDegrees);
         case Function::Atan:
@@ -100,15 +114,15 @@ std::expected<double, std::string> apply(Function function, double x) {
     return x;
 }
 
-std::expected<double, std::string> apply(Operator op, double left, double right) {
+std::expected<double, ArgumentError> apply(Operator op, double left, double right) {
     switch (op) {
         case Operator::Power: return power(left, right);
         case Operator::Times: return left * right;
         case Operator::Over:
-            if (right == 0) { return std::unexpected(std::string("a division by 0")); }
+            if (right == 0) { return wrong(Why::DivisionByZero); }
             return left / right;
         case Operator::Mod:
-            if (right == 0) { return std::unexpected(std::string("a division by 0 with MOD")); }
+            if (right == 0) { return wrong(Why::DivisionByZero); }
             return modulo(left, right);
         case Operator::Plus: return left + right;
         case Operator::Minus: return left - right;

@@ -25,9 +25,19 @@ std::optional<Named<Operator>> find_operator(std::string_view text);
 /// 1 binds least: AND OR XOR; then comparisons; + and -; * / MOD; ** binds most.
 int precedence(Operator op);
 
-/// Error: what is wrong with the arguments. Not for Atan, which has two, and Exists.
-std::expected<double, std::string> apply(Function function, double argument);
-std::expected<double, std::string> apply(Operator op, double left, double right);
+/// What is wrong with the arguments of a function or an operator.
+struct ArgumentError {
+    enum class Why : std::uint8_t { BeyondOne, NotAboveZero, BelowZero, FractionalPower, DivisionByZero };
+    Why why;
+    double argument = 0;
+    double power = 0;
+};
+/// `name`: of the function or operator.
+std::string text_of(const ArgumentError& error, std::string_view name);
+
+/// Not for Atan, which has two arguments, and Exists.
+std::expected<double, ArgumentError> apply(Function function, double argument);
+std::expected<double, ArgumentError> apply(Operator op, double left, double right);
 
 inline constexpr double kDegrees = 57.295779513082320876798154814105;  // of a radian
 

@@ -147,7 +147,7 @@ double Reader::operand_and_operators(int least_precedence) {
         if (error_) { return 0; }
         const auto result = apply(op->meaning, left, right);
         if (!result || !std::isfinite(*result)) {
-            fail(begin, result ? "the result is too large" : result.error());
+            fail(begin, result ? "the result is too large" : text_of(result.error(), op->name));
             return 0;
         }
         left = *result;
@@ -163,7 +163,9 @@ double Reader::function_value(Named<Function> function) {
     const double argument = expression();
     if (error_) { return 0; }
     const auto result = apply(function.meaning, argument);
-    if (!result || !std::isfinite(*result)) { fail(begin, result ? "the result is too large" : result.error()); }
+    if (!result || !std::isfinite(*result)) {
+        fail(begin, result ? "the result is too large" : text_of(result.error(), function.name));
+    }
     return result.value_or(0);
 }
 

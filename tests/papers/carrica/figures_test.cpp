@@ -51,7 +51,7 @@ std::vector<Level> levels(const StepTrain& train, double clock_s) {
 
 TEST(CarricaFigure4, WhileAcceleratingTheSpeedIsVmaxOver7Then6And5DownTo1) {
     const auto train = carrica(kFigure4, Fit::Exact, {.clock_s = kClock4_s});
-    ASSERT_TRUE(train.has_value()) << train.error();
+    ASSERT_TRUE(train.has_value()) << text_of(train.error());
     const auto found = levels(*train, kClock4_s);
     ASSERT_GE(found.size(), 7U);
     for (std::size_t i = 0; i < 7; ++i) { EXPECT_EQ(found[i].n, 7 - static_cast<std::int64_t>(i)); }
@@ -70,7 +70,7 @@ TEST(CarricaFigure4, NChangesWhereTheReferenceReachesTheNextPossibleSpeed) {
 
 TEST(CarricaFigure4, TheOffLineTableHasTheSameSpeedsButMixesNeighboursToKeepTheMeanOne) {
     const auto train = carrica_off_line(kFigure4, Fit::Exact, {.timer_s = kClock4_s});
-    ASSERT_TRUE(train.has_value()) << train.error();
+    ASSERT_TRUE(train.has_value()) << text_of(train.error());
     EXPECT_GT(levels(*train, kClock4_s).size(), 100U);
     const auto ideal = Ideal(kFigure4).step_times_s(Crossing::Whole);
     for (std::size_t i = 0; i < ideal.size(); ++i) { ASSERT_NEAR(train->times_s[i], ideal[i], 0.501 * kClock4_s); }
@@ -80,7 +80,7 @@ TEST(CarricaFigure4, TheOffLineTableHasTheSameSpeedsButMixesNeighboursToKeepTheM
 /// than the acceleration times a wait: no two neighbouring speeds may differ by more than both together.
 TEST(CarricaFigure7, AtHighSpeedTheProfileIsContinuousOverTheWholeRange) {
     const auto train = carrica(kFigure7, Fit::Exact, {.clock_s = kClock7_s});
-    ASSERT_TRUE(train.has_value()) << train.error();
+    ASSERT_TRUE(train.has_value()) << text_of(train.error());
     const auto found = waits(*train);
     for (std::size_t i = 1; i < found.size(); ++i) {
         const auto [shorter, longer] = std::minmax(found[i - 1], found[i]);
@@ -113,7 +113,7 @@ TEST(CarricaOffLine, TheMemoryGrowsWithTheLengthOfTheMove) {
 TEST(CarricaOffLine, RefusesAStepShorterThanACountWithAReason) {
     const auto train = carrica_off_line({100, 0, 2e6, 4'200, 4'200}, Fit::Nearest);
     ASSERT_FALSE(train.has_value());
-    EXPECT_NE(train.error().find("800 ns"), std::string::npos);
+    EXPECT_EQ(train.error().why, StepError::Why::TooFast);
 }
 
 /// Section II: 6 us give a quantisation "level of 2000 steps" around 15,000 steps/s. By Eq. (10) they do not.

@@ -102,14 +102,14 @@ TEST(LaiMethod, AMoveOfItsOwnKindIsMadeExactly) {
     const double period_s = LaiParameters{}.period_s;
     const StepMove move{4'000, 0, 4 / period_s, 1 / period_s / period_s, 1 / period_s / period_s};
     const auto train = lai(move, Fit::Exact);
-    ASSERT_TRUE(train.has_value()) << train.error();
+    ASSERT_TRUE(train.has_value()) << text_of(train.error());
     EXPECT_EQ(train->times_s.size(), 4'000U);
     EXPECT_NEAR(train->times_s[2'000] - train->times_s[1'999], period_s / 4, 1e-9);
 }
 
 TEST(LaiMethod, RefusesImpossibleMovesWithAReason) {
     const StepMove move{12'000, 500, 6'000, 4'200, 4'200};
-    EXPECT_NE(lai(move, Fit::Exact).error().find("whole pulses"), std::string::npos);
+    EXPECT_NE(lai(move, Fit::Exact).error().nearest.find("whole pulses"), std::string::npos);
     EXPECT_FALSE(lai({12'000, 0, 60'000, 4'200, 4'200}, Fit::Nearest).has_value());  // 390 pulses do not fit 8 bits
     EXPECT_FALSE(lai({12'000, 0, 100, 4'200, 4'200}, Fit::Nearest).has_value());     // not one pulse a period
 }

@@ -146,7 +146,7 @@ TEST(LamFigure3, TheLeftLimitStopsPulsesAtOnceAndAfterADelayTheAxisInitializes) 
 
 TEST(LamMethod, RefusesOrApproximatesImpossibleMovesWithAReason) {
     const StepMove move{328, 100, 1'667, 4'200, 4'200};
-    EXPECT_NE(lam(move, Fit::Exact).error().find("no acceleration to choose"), std::string::npos);
+    EXPECT_NE(lam(move, Fit::Exact).error().nearest.find("no acceleration to choose"), std::string::npos);
     const auto train = lam(move, Fit::Nearest);
     ASSERT_TRUE(train.has_value());
     EXPECT_EQ(train->times_s.size(), 328U);

@@ -20,7 +20,7 @@ TEST(EveryMethod, MakesExactlyTheStepsAskedForInOrder) {
     for (const StepMove& move : kMoves) {
         for (const Method& method : methods()) {
             const StepResult train = method.run(move, Fit::Nearest);
-            ASSERT_TRUE(train.has_value()) << method.name << ": " << train.error();
+            ASSERT_TRUE(train.has_value()) << method.name << ": " << text_of(train.error());
             EXPECT_EQ(train->times_s.size(), static_cast<std::size_t>(move.steps)) << method.name;
             EXPECT_GT(train->times_s.front(), 0) << method.name;
             EXPECT_EQ(std::ranges::adjacent_find(train->times_s, std::greater_equal{}), train->times_s.end())
@@ -35,7 +35,7 @@ TEST(EveryMethod, RefusesExactlyWhereItWouldChangeTheMove) {
             const StepResult exact = method.run(move, Fit::Exact);
             const StepResult nearest = method.run(move, Fit::Nearest);
             EXPECT_EQ(exact.has_value(), nearest->nearest.empty()) << method.name;
-            if (!exact) { EXPECT_EQ(exact.error(), nearest->nearest); }
+            if (!exact) { EXPECT_EQ(exact.error().nearest, nearest->nearest); }
         }
     }
 }

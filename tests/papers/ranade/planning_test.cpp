@@ -41,7 +41,7 @@ TEST(RanadeFigure3, EighteenHundredStepsAreNoTriangleButATrapezoid) {
 TEST(RanadeFigure4, EachWaitLiesBetweenTheReciprocalsOfTheSpeedsAtItsEnds) {
     const StepMove move{1'200, 1'000, 3'800, 11'200, 11'200};
     const auto train = methods::ranade(move, methods::Fit::Exact);
-    ASSERT_TRUE(train.has_value()) << train.error();
+    ASSERT_TRUE(train.has_value()) << text_of(train.error());
     const double top_s = (move.max - move.start) / move.acceleration;
     const auto speed = [&](double time_s) {
         return move.start + move.acceleration * (time_s < top_s ? time_s : 2 * top_s - time_s);

@@ -82,7 +82,7 @@ TEST(StepPieces, EveryMethodsTrainIsMet) {
     for (const StepMethod method : {StepMethod::Spielauer, StepMethod::Lai, StepMethod::Lam, StepMethod::Carrica}) {
         for (const std::int64_t count : {1, 2, 7, 100, 20'000}) {
             auto source = methods::begin_steps(method, {count, 500, 8'000, 30'000, 30'000});
-            ASSERT_TRUE(source.has_value()) << source.error();
+            ASSERT_TRUE(source.has_value()) << text_of(source.error());
             std::vector<double> steps;
             for (std::int64_t k = 0; k < count; ++k) { steps.push_back((*source)->next_s() * 1e6); }
             expect_exact(steps);

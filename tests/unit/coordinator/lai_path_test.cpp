@@ -188,9 +188,9 @@ MachineConfig machine_of(double start_mm_s, double accel_mm_s2) {
 
 TEST(LaiPath, AMachineThatCannotChangeSpeedByWholePulsesIsRefused) {
     EXPECT_TRUE(suits_lai_path(machine_of(5, 800)).has_value());
-    EXPECT_NE(suits_lai_path(machine_of(3, 800)).error().find("start_velocity_mm_s of at least 3.84615"),
+    EXPECT_NE(text_of(suits_lai_path(machine_of(3, 800)).error()).find("start_velocity_mm_s of at least 3.84615"),
               std::string::npos);
-    EXPECT_NE(suits_lai_path(machine_of(5, 500)).error().find("max_accel_mm_s2 of at least 591.716"),
+    EXPECT_NE(text_of(suits_lai_path(machine_of(5, 500)).error()).find("max_accel_mm_s2 of at least 591.716"),
               std::string::npos);
     MachineConfig one = machine_of(5, 800);
     one.axes.pop_back();
@@ -205,7 +205,7 @@ TEST(LaiPath, FramesThatCarryOneMoveEachPeriodAreShortEnoughAndLongerOnesAreNot)
     EXPECT_TRUE(suits_lai_path(machine).has_value());
     machine.timing.slot_us = 15'601;
     ASSERT_GT(bounds_of(machine).least_move, kPeriod);
-    EXPECT_NE(suits_lai_path(machine).error().find("lower timing.frame_slots"), std::string::npos);
+    EXPECT_NE(text_of(suits_lai_path(machine).error()).find("lower timing.frame_slots"), std::string::npos);
 }
 
 TEST(LaiPath, AFeedBelowOnePulsePerPeriodIsRefused) {
@@ -213,7 +213,7 @@ TEST(LaiPath, AFeedBelowOnePulsePerPeriodIsRefused) {
         return check_lai_move(make_move({0, 0}, {800, 0}, kLimits, kScale, feed_mm_s * 1e-6), kTick_ns);
     };
     EXPECT_TRUE(checked(2).has_value());
-    EXPECT_NE(checked(1).error().find("at least 1.92308 mm/s"), std::string::npos);
+    EXPECT_NEAR(checked(1).error(), 1.92308, 1e-5);
 }
 
 }  // namespace

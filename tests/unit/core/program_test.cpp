@@ -42,9 +42,7 @@ TEST(ProgramFrom, ALineWithoutMotionMeansTheNextWithMotion) {
     EXPECT_EQ(rest->blocks.front().line, 5);
 }
 
-TEST(ProgramFrom, ALineAfterTheLastIsRefused) {
-    EXPECT_EQ(program_from(square(), 7, {20, 30}).error(), "nothing is left from line 7; the last motion is in line 6");
-}
+TEST(ProgramFrom, ALineAfterTheLastIsRefused) { EXPECT_EQ(program_from(square(), 7, {20, 30}).error(), 6); }
 
 }  // namespace
 }  // namespace lockstep

@@ -1,0 +1,23 @@
+// Which calls of a program's own code have allocated memory in its main thread, in a file that a test maps too.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+
+namespace lockstep {
+
+/// The directory of the files; each is named by its process's id.
+inline constexpr const char* kAllocationDirectory = "LOCKSTEP_ALLOCATIONS";
+
+struct AllocationCount {
+    struct Place {
+        std::atomic<std::uint64_t> address;  // of the call's return, in the program's file; 0: free
+        std::atomic<std::uint64_t> calls;
+    };
+    std::atomic<std::uint64_t> own;    // called by the program's code, through the C or C++ library or not
+    std::atomic<std::uint64_t> other;  // by libraries: Cyclone DDS allocates each message that it sends
+    std::array<Place, 500> places;     // of own ones
+};
+
+}  // namespace lockstep
