@@ -32,6 +32,7 @@ public:
 
     /// A new last element with whatever value an earlier one had: every field of it is to be set.
     T& append() {
+        if (items_.capacity() == 0) { items_.reserve(kLeastPlaces); }
         if (size_ == items_.size()) { items_.emplace_back(); }
         return items_[size_++];
     }
@@ -47,6 +48,8 @@ public:
     const T* end() const { return items_.data() + size_; }
 
 private:
+    static constexpr std::size_t kLeastPlaces = 8;  // more than most loops fill
+
     std::vector<T> items_;
     std::size_t size_ = 0;  // of those in use
 };

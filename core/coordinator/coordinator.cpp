@@ -5,6 +5,11 @@
 #include "core/coordinator/reply.hpp"
 
 namespace lockstep {
+namespace {
+
+constexpr std::size_t kRepliesAtOnce = 16;  // more than a loop usually gives
+
+}  // namespace
 
 Coordinator::Coordinator(const MachineConfig& machine, Identity identity, std::uint64_t config_hash,
                          BeginSteps begin_steps, std::optional<OnTakeover> standby, MakeRows make_rows)
@@ -17,7 +22,9 @@ Coordinator::Coordinator(const MachineConfig& machine, Identity identity, std::u
       orders_(machine.axes.size()),
       lease_(machine),
       programs_(machine, std::move(make_rows)),
-      jobs_(machine, config_hash, begin_steps, standby) {}
+      jobs_(machine, config_hash, begin_steps, standby) {
+    out_.replies.reserve(kRepliesAtOnce);
+}
 
 CoordinatorOutputs& Coordinator::step(const CoordinatorInputs& inputs) {
     out_.clear();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -29,11 +30,25 @@ public:
     PositionKeeper(std::filesystem::path path, NewestFile::OnFailure on_failure) : file_(std::move(path), on_failure) {}
 
     void keep(const KeptPosition& position) {
-        file_.keep(position.run, [position] { return position_text(position); });
+        {
+            const std::scoped_lock lock(mutex_);
+            newest_ = position;
+        }
+        file_.keep(position.run, [this] { return text(); });
     }
 
 private:
-    NewestFile file_;
+    /// For the writing thread, which may find a newer position than the one that it was told of.
+    std::string text() {
+        std::unique_lock lock(mutex_);
+        const KeptPosition newest = newest_;
+        lock.unlock();
+        return position_text(newest);
+    }
+
+    std::mutex mutex_;
+    KeptPosition newest_;
+    NewestFile file_;  // its thread ends first
 };
 
 }  // namespace lockstep

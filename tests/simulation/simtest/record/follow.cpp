@@ -140,6 +140,7 @@ private:
         std::size_t may_have = 0;  // steps possibly made
         Tick next_made = kNever;   // latest time of the next step
         Tick next_may = kNever;
+        double earliest = 0;  // place of its next step; when it is no longer bound, it may stay behind the others
     };
 
     Tick next_tick() const { return std::ranges::min_element(axes_, {}, &Axis::next_made)->next_made; }
@@ -172,7 +173,8 @@ private:
 
     void make_possible(Tick tick, Axis& axis) {
         while (axis.next_may <= tick) {
-            following_.at_step[axis.index][axis.may_have++].first = places_.reached().first;
+            if (tick <= axis.until) { axis.earliest = places_.reached().first; }
+            following_.at_step[axis.index][axis.may_have++].first = axis.earliest;
             look_ahead(axis);
         }
         counts_[axis.index] = tick > axis.until ? Range{} : range(axis);
@@ -232,12 +234,44 @@ std::vector<Tick> bound_until(const Recording& recording, const std::map<Epoch, 
     return until;
 }
 
+namespace {
+
+/// A new owner may know the program no further than to the end of a move: there the machine rests on whole steps, and
+/// the move leads to them.
+bool leads_to_rest(const Recording& recording, JobRecord& job) {
+    std::vector<double> rest;
+    for (std::size_t i = 0; i < recording.axes.size(); ++i) {
+        std::int64_t count = job.course.from[i];
+        for (const StepEdge& step : recording.steps_of(job, i)) { count += step.direction; }
+        rest.push_back(static_cast<double>(count));
+    }
+    const auto is_its_end = [&rest](const Stretch& stretch) {
+        return std::ranges::equal(stretch.to, rest, {}, [](double place) { return std::round(place); });
+    };
+    const auto last = std::ranges::find_if(job.course.stretches, is_its_end);
+    if (last == job.course.stretches.end()) { return false; }
+    last->to = rest;
+    return true;
+}
+
+Following follow(const Recording& recording, const JobRecord& job, const std::map<Epoch, EpochRuns>& epochs) {
+    const std::vector<Tick> until = bound_until(recording, epochs, job);
+    Following following = follow(recording, job, until);
+    if (!following.departure || job.outcome == JobOutcome::Done) { return following; }
+    JobRecord cut = job;
+    if (!leads_to_rest(recording, cut)) { return following; }
+    Following to_rest = follow(recording, cut, until);
+    return to_rest.departure ? following : to_rest;
+}
+
+}  // namespace
+
 Followings follow_all(const Recording& recording) {
     const auto epochs = epoch_runs(recording);
     Followings all;
     for (const JobRecord& job : recording.jobs) {
         all.emplace_back();
-        if (!job.homing) { all.back() = follow(recording, job, bound_until(recording, epochs, job)); }
+        if (!job.homing) { all.back() = follow(recording, job, epochs); }
     }
     return all;
 }
