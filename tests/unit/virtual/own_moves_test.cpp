@@ -114,7 +114,7 @@ protected:
 TEST_P(ByEachMethod, AMoveEndsExactlyAndEveryStepIsAtTheMethodsOwnTick) {
     const AxisConfig& axis = vm.machine().axes[0];
     const auto suits = methods::suits(GetParam(), methods::speed_limits_of(axis, vm.machine().tick_ns));
-    ASSERT_TRUE(suits) << suits.error();
+    ASSERT_TRUE(suits) << text_of(suits.error());
     home();
     for (const double to_mm : {75.0, 4.0, 4.01, 4.06, 3.99, 60.0, 0.0}) {
         const std::int64_t before = counts()[0];
