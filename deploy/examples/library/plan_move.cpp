@@ -9,7 +9,7 @@ int main() {
     for (const methods::Method& method : methods::methods()) {
         const methods::StepResult train = method.run(move, methods::Fit::Nearest);
         if (!train) {
-            std::printf("%-20s %s\n", method.name.data(), train.error().c_str());
+            std::printf("%-20s %s\n", method.name.data(), text_of(train.error()).c_str());
             continue;
         }
         const auto& times = train->times_s;
