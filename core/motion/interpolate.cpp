@@ -38,7 +38,7 @@ Ticks PieceSource::stretch_end(const PathMove*& move, double& acceleration) cons
     constexpr Subticks kHalfTick{kSubticksPerTick / 2};
     move = &path_.moves[path_.move_at(subticks(now_))];
     const Subticks middle = subticks(now_) + kHalfTick;
-    Subticks phase_end = move->start + move->gone;
+    Subticks phase_end = move->start;
     for (const Phase& phase : move->profile.phases) {
         phase_end = phase_end + phase.duration;
         acceleration = phase.acceleration();

@@ -13,11 +13,8 @@ Position PathMove::axis_at(std::size_t i, Displacement s) const {
     return rest_position(from[i], backward) + Displacement{backward ? -magnitude : magnitude};
 }
 
-double PathMove::asked_velocity(const Overrides& overrides) const {
-    const bool rapid = feed_mm_per_tick <= 0;
-    const double asked =
-        rapid ? own.max_velocity * overrides.rapid() : feed_mm_per_tick / mm_per_lead() * overrides.feed();
-    return std::min(asked, own.max_velocity);
+double PathMove::asked_velocity() const {
+    return feed_mm_per_tick > 0 ? std::min(feed_mm_per_tick / mm_per_lead(), own.max_velocity) : own.max_velocity;
 }
 
 std::size_t Path::move_at(Subticks t) const {

@@ -6,7 +6,6 @@
 
 #include "core/machine.hpp"
 #include "core/motion/profile.hpp"
-#include "core/overrides.hpp"
 #include "core/path_place.hpp"
 #include "core/static_vector.hpp"
 
@@ -32,16 +31,15 @@ struct PathMove {
     double length_mm = 0;
     double feed_mm_per_tick = 0;  // asked; 0: as fast as the axes allow
     PathLimits own;               // of the lead axis, so that no axis breaks its own
-    PathLimits limits;            // what feed, frames and the corners beside it leave of them: set by planning
+    PathLimits limits;            // what feed and frames leave of them: set by planning
     Ticks dwell;                  // where lead is 0
     Subticks start;               // after the path's start
-    Subticks gone;                // under way for so long when its profile begins: it was planned again
     Profile profile;
 
-    Subticks end() const { return start + gone + profile.duration(); }
+    Subticks end() const { return start + profile.duration(); }
     /// How far its lead axis is, and how fast, at a time of the path from where its profile begins.
-    Displacement along_at(Subticks t) const { return profile.at(t - start - gone); }
-    double velocity_at(Subticks t) const { return profile.velocity_at(t - start - gone); }
+    Displacement along_at(Subticks t) const { return profile.at(t - start); }
+    double velocity_at(Subticks t) const { return profile.velocity_at(t - start); }
     /// Steps of axis `i` over steps of the lead axis, with its sign.
     double share(std::size_t i) const { return static_cast<double>(to[i] - from[i]) / static_cast<double>(lead); }
     /// Steps of axis `i` per mm of path; none in a dwell.
@@ -50,7 +48,7 @@ struct PathMove {
     double mm_per_lead() const { return length_mm / static_cast<double>(lead); }
     double remaining_mm(Displacement along) const { return length_mm - along.as_steps() * mm_per_lead(); }
     /// What is asked of the lead axis, in steps per tick, as far as the axes allow it.
-    double asked_velocity(const Overrides& overrides) const;
+    double asked_velocity() const;
     /// mm per tick.
     double start_speed() const { return limits.start_velocity * mm_per_lead(); }
     double top_speed() const { return limits.max_velocity * mm_per_lead(); }

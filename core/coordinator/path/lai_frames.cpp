@@ -24,7 +24,7 @@ void LaiFrames::resume(const PathPlace& place, std::span<const Position> at, con
     const std::vector<PathMove> left(path_.moves.begin() + static_cast<std::ptrdiff_t>(spot.move), path_.moves.end());
     path_ = left.empty()
                 ? Path{}
-                : plan_lai_path(left, spot.along, limits_, steps_per_mm_, machine_.tick_ns, bounds_of(machine_));
+                : plan_lai_path(left, spot.along, limits_, steps_per_mm_, machine_.tick_ns, least_move(machine_));
     made_ = {};
     at_.clear();
     for (const Position& position : at) { at_.append(position); }

@@ -26,17 +26,15 @@ std::int64_t change_of(const AxisLimits& axis, double period) {
 class LaiPlanner {
 public:
     LaiPlanner(std::span<const AxisLimits> limits, std::span<const double> steps_per_mm, std::int64_t tick_ns,
-               const PathBounds& bounds, LaiFollowing following)
+               Ticks least, LaiFollowing following)
         : limits_(limits),
           steps_per_mm_(steps_per_mm),
           period_{kLaiPeriod_ns / tick_ns},
-          bounds_(bounds),
+          least_(least),
           published_(following == LaiFollowing::AsPublished) {}
 
     /// A dwell, or the rest of a period that was held in: by itself, from rest to rest.
-    void alone(const PathMove& move, Displacement along = {}) {
-        append(plan_path({move}, along, limits_, bounds_).moves.front());
-    }
+    void alone(const PathMove& move, Displacement along = {}) { append(plan_alone(move, along, least_)); }
 
     /// A straight move from rest to rest, period by period. Its parts are numbered from `part`.
     void straight(const PathMove& move, std::uint32_t part) {
@@ -96,7 +94,7 @@ private:
     /// Of the long axis, so that no axis breaks its limits, rounding to whole pulses included.
     methods::LaiSpeeds speeds_of(const PathMove& move) const {
         std::int64_t change = methods::kMaxPeriodPulses;
-        double top = std::min(static_cast<double>(methods::kMaxPeriodPulses), move.asked_velocity({}) * period());
+        double top = std::min(static_cast<double>(methods::kMaxPeriodPulses), move.asked_velocity() * period());
         for (std::size_t i = 0; i < limits_.size(); ++i) {
             const double share = std::abs(move.share(i));
             if (share == 0) { continue; }
@@ -133,7 +131,7 @@ private:
     std::span<const AxisLimits> limits_;
     std::span<const double> steps_per_mm_;
     Ticks period_;
-    PathBounds bounds_;
+    Ticks least_;
     bool published_;
     Path path_;
 };
@@ -161,7 +159,7 @@ std::expected<void, LaiLack> suits_lai_path(const MachineConfig& machine) {
     if (kLaiPeriod_ns % machine.tick_ns != 0) {
         return std::unexpected(LaiLack{Why::Tick, static_cast<double>(machine.tick_ns)});
     }
-    const std::int64_t least_ns = bounds_of(machine).least_move.value * machine.tick_ns;
+    const std::int64_t least_ns = least_move(machine).value * machine.tick_ns;
     if (kLaiPeriod_ns < least_ns) {
         return std::unexpected(LaiLack{Why::FrameRoom, static_cast<double>(least_ns) * 1e-6});
     }
@@ -182,15 +180,14 @@ std::expected<void, LaiLack> suits_lai_path(const MachineConfig& machine) {
 
 std::expected<void, double> check_lai_move(const PathMove& move, std::int64_t tick_ns) {
     const std::int64_t period_ticks = kLaiPeriod_ns / tick_ns;
-    const double pulses = move.asked_velocity({}) * static_cast<double>(period_ticks);
+    const double pulses = move.asked_velocity() * static_cast<double>(period_ticks);
     if (move.lead == 0 || pulses >= 1 - methods::kPulseHair) { return {}; }
     return std::unexpected(move.mm_per_lead() / (static_cast<double>(kLaiPeriod_ns) * 1e-9));
 }
 
 Path plan_lai_path(const std::vector<PathMove>& moves, Displacement along, std::span<const AxisLimits> limits,
-                   std::span<const double> steps_per_mm, std::int64_t tick_ns, const PathBounds& bounds,
-                   LaiFollowing following) {
-    LaiPlanner planner(limits, steps_per_mm, tick_ns, bounds, following);
+                   std::span<const double> steps_per_mm, std::int64_t tick_ns, Ticks least, LaiFollowing following) {
+    LaiPlanner planner(limits, steps_per_mm, tick_ns, least, following);
     std::size_t next = 0;
     if (along > Displacement{}) { planner.alone(moves[next++], along); }
     while (next < moves.size()) {

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "core/machine.hpp"
-#include "core/motion/lookahead.hpp"
+#include "core/motion/moves.hpp"
 
 namespace lockstep {
 
@@ -53,10 +53,10 @@ enum class LaiFollowing {
     AsPublished,  // rounded in each period, with both compensations; what is left over is made behind the fall
 };
 
-/// Moves as plan_path takes them, or what is left of a path made here, the first `along` its lead axis. What is left
+/// Moves as make_move makes them, or what is left of a path made here, the first `along` its lead axis. What is left
 /// of a period that was held in is made first, as a move of its own.
 Path plan_lai_path(const std::vector<PathMove>& moves, Displacement along, std::span<const AxisLimits> limits,
-                   std::span<const double> steps_per_mm, std::int64_t tick_ns, const PathBounds& bounds,
+                   std::span<const double> steps_per_mm, std::int64_t tick_ns, Ticks least,
                    LaiFollowing following = LaiFollowing::OnTheLine);
 
 }  // namespace lockstep

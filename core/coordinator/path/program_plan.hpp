@@ -11,7 +11,7 @@
 #include "core/coordinator/path/frame_source.hpp"
 #include "core/faults.hpp"
 #include "core/machine.hpp"
-#include "core/motion/lookahead.hpp"
+#include "core/motion/moves.hpp"
 #include "core/program_blocks.hpp"
 
 namespace lockstep {

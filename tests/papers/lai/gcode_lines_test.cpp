@@ -74,7 +74,7 @@ Path planned(const std::vector<PathMove>& moves, const MachineConfig& machine, L
         limits.push_back(limits_of(axis, machine.tick_ns));
         scale.push_back(axis.steps_per_mm);
     }
-    return plan_lai_path(moves, {}, limits, scale, machine.tick_ns, bounds_of(machine), following);
+    return plan_lai_path(moves, {}, limits, scale, machine.tick_ns, least_move(machine), following);
 }
 
 /// The pulses of one line, period for period.

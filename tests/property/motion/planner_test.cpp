@@ -5,11 +5,51 @@
 #include <random>
 
 #include "core/motion/interpolate.hpp"
-#include "core/motion/lookahead.hpp"
-#include "tests/property/motion/random_path.hpp"
+#include "core/motion/moves.hpp"
 
 namespace lockstep {
 namespace {
+
+using Random = std::mt19937_64;
+
+double log_uniform(Random& random, double low, double high) {
+    return low * std::pow(high / low, std::uniform_real_distribution<>(0, 1)(random));
+}
+
+struct Machine {
+    std::vector<AxisLimits> limits;
+    std::vector<double> steps_per_mm;
+};
+
+Machine random_machine(Random& random, std::size_t axes) {
+    Machine m;
+    for (std::size_t i = 0; i < axes; ++i) {
+        const double scale = log_uniform(random, 20, 800);
+        const double top = log_uniform(random, 20, 200) * scale * 1e-6;
+        m.steps_per_mm.push_back(scale);
+        m.limits.push_back({.start_velocity = log_uniform(random, 2, 15) * scale * 1e-6,
+                            .max_velocity = std::min(top, 0.4),
+                            .max_acceleration = log_uniform(random, 200, 5'000) * scale * 1e-12,
+                            .max_deceleration = log_uniform(random, 200, 5'000) * scale * 1e-12});
+    }
+    return m;
+}
+
+PathMove random_move(Random& random, const Machine& m) {
+    std::uniform_real_distribution<> unit(-1, 1);
+    AxisCounts from;
+    for (std::size_t i = 0; i < m.limits.size(); ++i) { from.append(0); }
+    for (;;) {
+        const double size_mm = log_uniform(random, 0.05, 20);
+        AxisCounts to = from;
+        for (std::size_t i = 0; i < m.limits.size(); ++i) {
+            if (random() % 4 != 0) { to[i] += std::llround(unit(random) * size_mm * m.steps_per_mm[i]); }
+        }
+        const double feed = random() % 3 == 0 ? 0 : log_uniform(random, 1e-5, 2e-4);
+        const PathMove move = make_move(from, to, m.limits, m.steps_per_mm, feed);
+        if (move.lead != 0) { return move; }
+    }
+}
 
 PathLimits random_limits(Random& random) {
     PathLimits l;
@@ -81,64 +121,11 @@ TEST(PlanInTime, AMoveIsFeasibleIfAndOnlyIfTheGivenTimeIsNotBelowTheFastest) {
     }
 }
 
-TEST(JoinedMoves, KeepEveryAxisWithinItsLimitsThroughEveryCorner) {
-    Random random(4);
-    for (int run = 0; run < 300; ++run) {
-        const Machine m = random_machine(random, 1 + random() % 5);
-        const Path path = plan_path(random_moves(random, m, 1 + random() % 40), {}, m.limits, kBounds);
-        SCOPED_TRACE(run);
-        PathLimitWatch watch(m, path);
-        ASSERT_NO_FATAL_FAILURE(watch.follow(path, Ticks{0}, path.duration().ceil()));
-        ASSERT_NO_FATAL_FAILURE(watch.expect_rest());
-        for (std::size_t i = 0; i < m.limits.size(); ++i) { EXPECT_EQ(watch.at()[i].count(), path.moves.back().to[i]); }
-    }
-}
-
-TEST(JoinedMoves, EveryStopOnThePathKeepsTheLimitsAndFitsATail) {
-    Random random(5);
-    for (int run = 0; run < 200; ++run) {
-        const Machine m = random_machine(random, 1 + random() % 4);
-        const Path path = plan_path(random_moves(random, m, 1 + random() % 60), {}, m.limits, kBounds);
-        for (int stop = 0; stop < 10; ++stop) {
-            const auto whole = path.duration().floor().value;
-            const Ticks when{static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(whole))};
-            const Path tail = brake_from(path, subticks(when), m.limits);
-            ASSERT_LE(tail.moves.size(), kBounds.stop_moves) << "run " << run;
-            if (tail.empty()) { continue; }
-            std::vector<Position> at;
-            for (std::size_t i = 0; i < m.limits.size(); ++i) {
-                const PathMove& move = path.moves[path.move_at(subticks(when))];
-                at.push_back(move.axis_at(i, move.along_at(subticks(when))));
-            }
-            std::vector<Piece> pieces(m.limits.size());
-            PieceSource source(tail, Ticks{0}, tail.duration().ceil(), at);
-            std::vector<double> speed(m.limits.size());
-            while (source.next(pieces)) {
-                for (std::size_t i = 0; i < pieces.size(); ++i) {
-                    const double a = pieces[i].acceleration.steps_per_tick2();
-                    const double v0 = pieces[i].velocity.steps_per_tick() + a / 2;
-                    const double v1 = v0 + a * static_cast<double>(pieces[i].ticks.value);
-                    const bool speeding = std::abs(v1) > std::abs(v0);
-                    ASSERT_LE(std::abs(a),
-                              (speeding ? m.limits[i].max_acceleration : m.limits[i].max_deceleration) * (1 + 1e-6));
-                    speed[i] = v1;
-                }
-            }
-            for (std::size_t i = 0; i < speed.size(); ++i) {
-                ASSERT_LE(std::abs(speed[i]),
-                          m.limits[i].start_velocity * (1 + 1e-6) + 2 * m.limits[i].max_deceleration)
-                    << "run " << run;
-            }
-        }
-    }
-}
-
 TEST(Interpolation, EveryAxisIsWithinOneStepOfTheLineAtEveryTick) {
     Random random(6);
     for (int run = 0; run < 40; ++run) {
         const Machine m = random_machine(random, 3);
-        const auto moves = random_moves(random, m, 1);
-        const Path path = plan_path(moves, {}, m.limits, kBounds);
+        const Path path{{plan_alone(random_move(random, m), {}, Ticks{400})}};
         const PathMove& move = path.moves[0];
         std::vector<Position> at;
         for (std::size_t i = 0; i < 3; ++i) { at.push_back(start_of(path, i, 0)); }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::int64_t kTick_ns = 1000;
 constexpr Ticks kPeriod{6500};
-constexpr PathBounds kBounds{Ticks{400}, 28};
+constexpr Ticks kLeastMove{400};
 
 /// Two pulses per period to start with; a change of one pulse per period takes half the acceleration.
 AxisLimits axis_of(double steps_per_s, double steps_per_s2) {
@@ -31,7 +31,7 @@ Path path_through(const std::vector<AxisCounts>& places, LaiFollowing following 
         moves.push_back(make_move(places[i - 1], places[i], kLimits, kScale, 0));
         moves.back().block = static_cast<std::uint32_t>(i);
     }
-    return plan_lai_path(moves, {}, kLimits, kScale, kTick_ns, kBounds, following);
+    return plan_lai_path(moves, {}, kLimits, kScale, kTick_ns, kLeastMove, following);
 }
 
 /// Runs the path to `end` as one frame, the tail behind it, and asks both axes.
@@ -94,7 +94,7 @@ TEST(LaiPath, ALongMoveGoesAsFastAsWholePulsesAllow) {
 TEST(LaiPath, AShortAxisKeepsItsGreatestVelocityWithItsRoundedPulses) {
     const std::vector<AxisLimits> limits{axis_of(5000, 60'000), axis_of(2500, 60'000)};  // 32.5 and 16.25 per period
     const PathMove move = make_move({0, 0}, {4000, 3600}, limits, kScale, 0);
-    const Path path = plan_lai_path({move}, {}, limits, kScale, kTick_ns, kBounds);
+    const Path path = plan_lai_path({move}, {}, limits, kScale, kTick_ns, kLeastMove);
     for (const PathMove& period : path.moves) {
         EXPECT_LE(period.to[1] - period.from[1], 16);
         EXPECT_LE(std::abs(static_cast<double>(period.to[1]) - 0.9 * static_cast<double>(period.to[0])), 0.5 + 1e-9);
@@ -149,7 +149,7 @@ TEST(LaiPath, WhatIsLeftOfAHeldMoveIsMadeFromRestAndEndsWhereItShould) {
     for (std::size_t held = 1; held < whole.moves.size(); ++held) {
         const std::vector<PathMove> left(whole.moves.begin() + static_cast<std::ptrdiff_t>(held), whole.moves.end());
         const Displacement along{Displacement::steps(left.front().lead).raw / 3};
-        const Path rest = plan_lai_path(left, along, kLimits, kScale, kTick_ns, kBounds);
+        const Path rest = plan_lai_path(left, along, kLimits, kScale, kTick_ns, kLeastMove);
         EXPECT_EQ(rest.moves.front().from, left.front().from);
         EXPECT_EQ(rest.moves.front().to, left.front().to);
         EXPECT_EQ(rest.moves.back().to, (AxisCounts{0, 0}));
@@ -201,10 +201,10 @@ TEST(LaiPath, FramesThatCarryOneMoveEachPeriodAreShortEnoughAndLongerOnesAreNot)
     MachineConfig machine = machine_of(5, 800);
     machine.timing.frame_slots = 5;
     machine.timing.slot_us = 15'599;
-    ASSERT_EQ(bounds_of(machine).least_move, kPeriod);
+    ASSERT_EQ(least_move(machine), kPeriod);
     EXPECT_TRUE(suits_lai_path(machine).has_value());
     machine.timing.slot_us = 15'601;
-    ASSERT_GT(bounds_of(machine).least_move, kPeriod);
+    ASSERT_GT(least_move(machine), kPeriod);
     EXPECT_NE(text_of(suits_lai_path(machine).error()).find("lower timing.frame_slots"), std::string::npos);
 }
 

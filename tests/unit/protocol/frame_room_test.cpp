@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/machine.hpp"
-#include "core/motion/lookahead.hpp"
+#include "core/motion/moves.hpp"
 #include "core/protocol/frame_room.hpp"
 
 namespace lockstep {
@@ -15,10 +15,10 @@ constexpr ProtocolTiming kQuiet{.slot_us = 1000,
                                 .send_ahead_slots = 11,
                                 .frame_slots = 5};
 
-// docs/decisions/motion/short-moves-are-slowed.md
+/// Moves by Lai's method, whose frames have the pieces of each move.
 TEST(FrameRoom, SetsTheShortestMove) {
-    EXPECT_EQ(bounds_of({.timing = {}}).least_move, Ticks{50'000 / 12 + 1});
-    EXPECT_EQ(bounds_of({.timing = kQuiet}).least_move, Ticks{5000 / 44 + 1});
+    EXPECT_EQ(least_move({.timing = {}}), Ticks{50'000 / 12 + 1});
+    EXPECT_EQ(least_move({.timing = kQuiet}), Ticks{5000 / 44 + 1});
 }
 
 TEST(FrameRoom, OfTheLeastFrameIsEnoughForWhatIsSentAheadAndNoShorterOneIs) {
