@@ -46,7 +46,6 @@ struct PathMove {
     double slope(std::size_t i) const { return lead == 0 ? 0 : static_cast<double>(to[i] - from[i]) / length_mm; }
     /// mm of path per step of the lead axis: turns speeds of one move into those of the next.
     double mm_per_lead() const { return length_mm / static_cast<double>(lead); }
-    double remaining_mm(Displacement along) const { return length_mm - along.as_steps() * mm_per_lead(); }
     /// What is asked of the lead axis, in steps per tick, as far as the axes allow it.
     double asked_velocity() const;
     /// mm per tick.

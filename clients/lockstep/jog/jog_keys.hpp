@@ -26,8 +26,7 @@ public:
     /// The axes to jog now.
     std::vector<JogAxis> jogs(std::chrono::nanoseconds now) const;
     bool must_quit() const { return must_quit_; }
-    /// Of the axis's own usual speed, in percent.
-    int speed_percent() const { return speed_percent_; }
+    /// A share of the axis's own usual speed.
     double speed_mm_s(std::size_t axis) const;
 
     /// The keys of an axis, minus and plus: "left, right". Empty: it has none.
