@@ -77,7 +77,7 @@ TEST_F(LoopAllocations, ThereAreNoneWhileAJobRunsIsHeldAndResumed) {
         ASSERT_TRUE(processes[name]->is_watched()) << name;
     }
     std::string program = "G21 G90\n";
-    for (int line = 0; line < 40; ++line) {
+    for (int line = 0; line < 80; ++line) {
         program +=
             std::string("G1 X") + (line % 2 == 0 ? "20" : "50") + " Y" + std::to_string(line % 3 * 10) + " F3000\n";
     }
