@@ -41,7 +41,7 @@ struct Unsuited {
     double value = 0;
     double limit = 0;
     std::int64_t steps = 0;
-    std::optional<StepError> error = {};
+    std::optional<StepError> error;
 };
 
 /// What the method cannot do, with the value and the limit, and what would help.

@@ -23,7 +23,7 @@ struct StepError {
     double clock_s = 0;
     double least = 0;
     double most = 0;
-    std::string nearest = {};  // what would be changed of the move
+    std::string nearest;  // what would be changed of the move
 };
 
 /// What the method cannot do, and what would be possible.

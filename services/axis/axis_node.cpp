@@ -9,7 +9,7 @@
 namespace lockstep {
 
 AxisDevice simulated_device(const AxisConfig& axis, std::int64_t tick_ns, Tick now) {
-    RegisterWindow window = RegisterWindow::in_process();
+    const RegisterWindow window = RegisterWindow::in_process();
     return {window,
             std::make_unique<SimulatedDevice>(window, Plant(axis, tick_ns), tick_ns, now,
                                               static_cast<std::uint64_t>(now.value)),

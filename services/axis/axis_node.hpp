@@ -106,8 +106,8 @@ private:
         AxisDevice device;
         DeviceDriver driver;
         DeviceWatch watch;
-        std::optional<Tick> first = {};  // its first clock reading
-        bool lives = false;              // its clock advances
+        std::optional<Tick> first;  // its first clock reading
+        bool lives = false;         // its clock advances
     };
     bool has_device() const { return found_ && found_->lives; }
     /// At the start: the node reports nothing until it is clear whether there is a device.

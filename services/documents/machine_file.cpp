@@ -13,9 +13,9 @@ namespace lockstep {
 std::expected<MachineConfig, Diagnostics> parse_machine(std::string_view text) {
     TextSource source;
     proto::Machine message;
-    if (Diagnostics errors = source.parse(text, message); !errors.empty()) { return std::unexpected(errors); }
+    if (const Diagnostics errors = source.parse(text, message); !errors.empty()) { return std::unexpected(errors); }
     MachineDraft draft = machine_from_proto(message);
-    if (Diagnostics errors = machine_errors(draft, source, *message.GetDescriptor()); !errors.empty()) {
+    if (const Diagnostics errors = machine_errors(draft, source, *message.GetDescriptor()); !errors.empty()) {
         return std::unexpected(errors);
     }
     return std::move(draft.machine);

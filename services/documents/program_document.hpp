@@ -25,7 +25,7 @@ inline constexpr std::size_t kMaxProgramName = 255;
 struct ProgramDocument {
     Program program;
     std::optional<gcode::ProgramValues> values;
-    std::string cut = {};  // why the program ends before its end; empty: it does not
+    std::string cut;  // why the program ends before its end; empty: it does not
 };
 
 std::vector<std::uint8_t> program_bytes(const Program& program, const std::optional<gcode::ProgramValues>& values = {});

@@ -31,7 +31,7 @@ struct NumberedEvent {
 struct FlightSnapshot {
     FlightSource source;
     std::vector<NumberedEvent> events;
-    std::string note = {};  // why the process ended itself; empty: it did not, or could not note it
+    std::string note;  // why the process ended itself; empty: it did not, or could not note it
 };
 
 /// The name of a process, as the machine's file has its axes; empty for the coordinator.

@@ -22,10 +22,10 @@ inline constexpr std::size_t kLogFileBytes = 4 << 20;
 inline constexpr std::size_t kOlderLogFiles = 2;
 
 struct LogTarget {
-    std::string service;                             // "coordinator", "axis", ...
-    std::string axis;                                // empty: none
-    std::optional<std::filesystem::path> file = {};  // none: standard error
-    bool in_background = false;                      // for a process with a loop, which then never waits for the disk
+    std::string service;                        // "coordinator", "axis", ...
+    std::string axis;                           // empty: none
+    std::optional<std::filesystem::path> file;  // none: standard error
+    bool in_background = false;                 // for a process with a loop, which then never waits for the disk
 };
 
 /// Makes it spdlog's default logger. Error: the file cannot be opened, with its name and the reason.

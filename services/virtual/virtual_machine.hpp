@@ -51,7 +51,7 @@ struct VirtualOptions {
     /// one time asks for a machine whose time_source is Network.
     std::vector<AxisClocks> clocks;
     /// Where each process notes its flight; asked for at each of its starts. Empty: nowhere.
-    std::function<FlightLog&(std::size_t process)> flight = {};
+    std::function<FlightLog&(std::size_t process)> flight;
     /// Where coordinators keep programs.
     MakeRows make_rows = memory_rows;
 };
@@ -123,8 +123,8 @@ private:
     };
     /// A stall of a process between what its loop decides and what it does about it.
     struct Stall {
-        Tick until{};  // in its next loop, if that is to come
-        std::variant<std::monostate, AxisOutputs, CoordinatorOutputs> decided{};  // and not done
+        Tick until{};                                                           // in its next loop, if that is to come
+        std::variant<std::monostate, AxisOutputs, CoordinatorOutputs> decided;  // and not done
     };
 
     // Processes begin and end.

@@ -71,8 +71,8 @@ struct AxisNotice {
     };
     Kind kind = Kind::Fault;
     FaultCode fault = FaultCode::None;
-    std::uint64_t number = 0;               // a term, an epoch, a frame, a stage: as the kind says
-    std::optional<FailedCheck> check = {};  // Vetoed: why
+    std::uint64_t number = 0;          // a term, an epoch, a frame, a stage: as the kind says
+    std::optional<FailedCheck> check;  // Vetoed: why
 };
 
 struct AxisOutputs {

@@ -36,8 +36,8 @@ struct LaiLack {
     Why why;
     double value = 0;
     double least = 0;
-    std::string_view key = {};
-    std::string axis = {};
+    std::string_view key;
+    std::string axis;
 };
 /// With value, limit and remedy.
 std::string text_of(const LaiLack& lack);

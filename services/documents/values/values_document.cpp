@@ -17,7 +17,7 @@ std::string values_text(const RevisedValues& values) {
 std::expected<RevisedValues, Diagnostics> values_from_text(std::string_view text) {
     proto::KeptValues message;
     TextSource source;
-    if (Diagnostics errors = source.parse(text, message); !errors.empty()) { return std::unexpected(errors); }
+    if (const Diagnostics errors = source.parse(text, message); !errors.empty()) { return std::unexpected(errors); }
     auto values = values_from_proto(message);
     if (!values) { return std::unexpected(Diagnostics{{.message = values.error()}}); }
     return *std::move(values);

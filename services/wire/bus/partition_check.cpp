@@ -6,20 +6,6 @@
 #include "services/wire/dds/partitions.hpp"
 
 namespace lockstep {
-namespace {
-
-/// Empty: it is in none or in several partitions, or it has left.
-std::string only_partition(const dds_builtintopic_endpoint_t* publication) {
-    std::uint32_t count = 0;
-    char** names = nullptr;
-    if (publication == nullptr || !dds_qget_partition(publication->qos, &count, &names)) { return ""; }
-    std::string name = count == 1 ? names[0] : "";
-    for (std::uint32_t i = 0; i < count; ++i) { dds_free(names[i]); }
-    dds_free(names);
-    return name;
-}
-
-}  // namespace
 
 PartitionCheck::Known& PartitionCheck::known_writer(dds_entity_t reader, dds_instance_handle_t writer) {
     const auto known = std::ranges::find(known_, writer, &Known::writer);
@@ -27,7 +13,7 @@ PartitionCheck::Known& PartitionCheck::known_writer(dds_entity_t reader, dds_ins
     if (known_.size() == kMaxKnown) { known_.erase(known_.begin()); }
     const std::unique_ptr<dds_builtintopic_endpoint_t, decltype(&dds_builtintopic_free_endpoint)> publication(
         dds_get_matched_publication_data(reader, writer), &dds_builtintopic_free_endpoint);
-    return known_.emplace_back(writer, only_partition(publication.get()), std::nullopt);
+    return known_.emplace_back(writer, publication ? only_partition(publication->qos) : "", std::nullopt);
 }
 
 bool PartitionCheck::may_write_for(dds_entity_t reader, dds_instance_handle_t writer, std::uint32_t axis) {

@@ -85,7 +85,7 @@ std::expected<std::shared_ptr<const Domain>, std::string> Domain::join(const Net
     static std::mutex mutex;
     static std::map<std::uint32_t, std::weak_ptr<const Domain>> domains;
     const std::lock_guard lock(mutex);
-    const auto known = domains[network.domain].lock();
+    auto known = domains[network.domain].lock();
     if (!known) {
         auto made = make(network, is_secured);
         if (made) { domains[network.domain] = *made; }

@@ -23,6 +23,7 @@ std::string cannot_join(const NetworkConfig& network, const Membership& membersh
 Qos partition_qos(const std::vector<std::string>& partitions) {
     Qos qos{dds_create_qos(), &dds_delete_qos};
     std::vector<const char*> names;
+    names.reserve(partitions.size());
     for (const std::string& partition : partitions) { names.push_back(partition.c_str()); }
     dds_qset_partition(qos.get(), static_cast<std::uint32_t>(names.size()), names.data());
     return qos;

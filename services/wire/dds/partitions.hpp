@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <dds/dds.h>
+
 #include "services/wire/dds/protocol_version.hpp"
 
 namespace lockstep {
@@ -23,6 +25,17 @@ inline std::string partition_of(const std::string& machine, std::optional<std::u
 /// Where all processes read.
 inline std::vector<std::string> read_partitions(const std::string& machine) {
     return {partition_of(machine), partition_of(machine) + "/*"};
+}
+
+/// Where a writer or reader with these settings is. Empty: in none, or in several.
+inline std::string only_partition(const dds_qos_t* qos) {
+    std::uint32_t count = 0;
+    char** names = nullptr;
+    if (!dds_qget_partition(qos, &count, &names)) { return ""; }
+    std::string name = count == 1 ? names[0] : "";
+    for (std::uint32_t i = 0; i < count; ++i) { dds_free(names[i]); }
+    dds_free(static_cast<void*>(names));
+    return name;
 }
 
 }  // namespace lockstep

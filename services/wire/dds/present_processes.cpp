@@ -22,17 +22,6 @@ std::string user_data(const dds_qos_t* qos) {
     return text;
 }
 
-/// Empty: it is in none or in several.
-std::string only_partition(const dds_qos_t* qos) {
-    std::uint32_t count = 0;
-    char** names = nullptr;
-    if (!dds_qget_partition(qos, &count, &names)) { return ""; }
-    std::string name = count == 1 ? names[0] : "";
-    for (std::uint32_t i = 0; i < count; ++i) { dds_free(names[i]); }
-    dds_free(names);
-    return name;
-}
-
 /// Partitions of axes are PREFIX/NUMBER.
 std::optional<std::uint32_t> axis_in(std::string_view partition, std::string_view prefix) {
     if (!partition.starts_with(prefix) || !partition.substr(prefix.size()).starts_with('/')) { return std::nullopt; }

@@ -26,7 +26,7 @@ namespace lockstep {
 /// The fields in order: '8', '4', '1' are numbers of so many bytes, 's' is a string, 'n' the number of elements of the
 /// arrays that follow it, given by the size of their elements.
 template <typename Message>
-inline constexpr std::string_view kLcmLayout = "";
+inline constexpr std::string_view kLcmLayout;
 template <>
 inline constexpr std::string_view kLcmLayout<axis_health_t> = "88ss88888888888448881888888888";
 template <>
