@@ -27,8 +27,8 @@ PathMove remainder_of(const PathMove& move, Subticks t) {
     return rest;
 }
 
-/// A brake lasts whole subticks. What is left of the move at t may be so short that this would bend it by more than all
-/// of the braking: it would speed up.
+/// The time of braking is rounded to whole subticks. If the move has very little time left at t, the rounding changes
+/// its speed by more than the braking does, and it would speed up.
 bool is_too_short_to_brake(const PathMove& move, Subticks t) {
     const double left = static_cast<double>((move.end() - t).value) / static_cast<double>(kSubticksPerTick);
     const double subtick = 1.0 / static_cast<double>(kSubticksPerTick);

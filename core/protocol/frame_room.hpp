@@ -13,7 +13,7 @@ namespace lockstep {
 inline constexpr int kDeviceRingEntries = 1024;
 /// The most frames that an axis keeps.
 inline constexpr std::size_t kMaxFramesKept = 16;
-/// What a body and a tail may need more for their device's clock: a piece each.
+/// A frame is fitted to its device's clock. This can add one piece to its body and one to its tail.
 inline constexpr std::size_t kDevicePieces = 2;
 /// Fewer pieces in a frame are not worth a configuration.
 inline constexpr int kLeastBodyPieces = 32;

@@ -29,6 +29,7 @@ class PositionKeeper {
 public:
     PositionKeeper(std::filesystem::path path, NewestFile::OnFailure on_failure) : file_(std::move(path), on_failure) {}
 
+    /// Called in the loop: a function that held a copy of the position would be allocated.
     void keep(const KeptPosition& position) {
         {
             const std::scoped_lock lock(mutex_);

@@ -24,7 +24,7 @@ namespace lockstep {
 
 inline constexpr std::int64_t kLaiPeriod_ns = 6'500'000;
 
-/// What a machine lacks for moves by this method.
+/// Why a machine cannot make its moves by this method.
 struct LaiLack {
     enum class Why : std::uint8_t {
         Axes,       // it has fewer than two

@@ -176,8 +176,8 @@ TEST(PathTime, OfShortWaysForthAndBackIsNotThatOfTheirTurns) {
     EXPECT_LT(run.seconds(), 2 * 6 * kWay_mm / 0.145);
 }
 
-/// Axes that take seconds to their start velocity. What the joint costs is spread over the whole line before it: at the
-/// greatest speed that allows, no acceleration would be left to brake with, and tails went on for most of the line.
+/// These axes need seconds to reach their start velocity. The planner spreads the cost of the joint over the whole line
+/// before it. The greatest speed of the line once spent all acceleration on that, so that a stop took most of the line.
 TEST(PathTime, OfAStopOnALongLineBeforeASharpJointIsShort) {
     const PathSetup setup =
         setup_of({{10.8, 84, 350, 2100, 940}, {720, 4.76, 4.76, 0.88, 0.88}, {480, 40, 40, 10, 4}}, Ticks{20'000});

@@ -8,6 +8,7 @@
 
 #include "core/faults.hpp"
 #include "services/virtual/virtual_machine.hpp"
+#include "tests/unit/axis/pair_machine.hpp"
 
 namespace lockstep {
 
@@ -16,28 +17,16 @@ inline constexpr std::size_t kX = 0;
 inline constexpr std::size_t kY = 1;
 inline constexpr std::size_t kCoordinator = 2;
 
-/// Two axes, X and Y, 100 mm of travel, 100 steps/mm.
+/// Two axes, X and Y, 100 mm of travel, 100 steps/mm, with slides that start near the switches.
 inline MachineConfig small_machine() {
-    AxisConfig axis{.name = "X",
-                    .steps_per_mm = 100,
-                    .start_velocity_mm_s = 10,
-                    .max_velocity_mm_s = 100,
-                    .max_accel_mm_s2 = 1000,
-                    .max_decel_mm_s2 = 1000,
-                    .position_min_mm = 0,
-                    .position_max_mm = 100};
-    axis.homing = {
-        .search_velocity_mm_s = 10, .latch_velocity_mm_s = 2, .pulloff_mm = 1, .switch_position_mm = -1, .park_mm = 5};
-    axis.plant = {.start_position_mm = 8, .travel_margin_mm = 2, .max_torque_accel_mm_s2 = 1500, .max_jump_mm_s = 15};
-    MachineConfig machine{.name = "rig",
-                          .timing = {.slot_us = 1000,
-                                     .stall_slots = 1,
-                                     .late_check_slots = 0,
-                                     .freshness_slots = 2,
-                                     .send_ahead_slots = 12,
-                                     .frame_slots = 5}};
-    machine.axes = {axis, axis};
-    machine.axes[1].name = "Y";
+    MachineConfig machine = pair_machine();
+    machine.name = "rig";
+    for (AxisConfig& axis : machine.axes) {
+        axis.position_min_mm = 0;
+        axis.homing.switch_position_mm = -1;
+        axis.plant = {
+            .start_position_mm = 8, .travel_margin_mm = 2, .max_torque_accel_mm_s2 = 1500, .max_jump_mm_s = 15};
+    }
     return machine;
 }
 
