@@ -1,12 +1,12 @@
-# make demo | make test | make build | make package: each does what it needs before, and can be run again.
-# With ARCH=arm64: for boards of 64-bit ARM, on another machine.
+# make demo | make test | make build | make package: each first does what it needs, and can be run again. ARCH=arm64
+# builds for boards of 64-bit ARM on another machine.
 HERE := $(shell dpkg --print-architecture)
 ARCH  = $(HERE)
 JOBS ?= $(shell nproc)
 ifeq ($(ARCH),$(HERE))
 BUILD ?= build
-# The demonstration's programs come from a build that is there, or are built by themselves.
-# -O1 takes two thirds of the time.
+# The demonstration uses the programs of an existing build, otherwise it builds only these. With -O1 that takes two
+# thirds of the time.
 QUICK := -DBUILD_TESTING=OFF -DLOCKSTEP_SPY=OFF -DLOCKSTEP_WERROR=OFF "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"
 DEMO  ?= $(if $(wildcard $(BUILD)/CMakeCache.txt),$(BUILD),build-demo)
 TEST   = tests/run $(BUILD) $(JOBS)
@@ -19,7 +19,7 @@ endif
 
 .PHONY: build test demo bench package clean
 
-# $(call configure,DIRECTORY,OPTIONS): silent unless it fails.
+# $(call configure,DIRECTORY,OPTIONS): prints nothing unless it fails.
 configure = cmake -S . -B $(1) -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON $(2) >$(1).configure.log 2>&1 || \
   { cat $(1).configure.log; rm -f $(1).configure.log; exit 1; }; rm -f $(1).configure.log
 
@@ -39,7 +39,7 @@ demo:
 	@cmake --build $(DEMO) -j $(JOBS) --target lockstep lockstep-coordinator lockstep-axis lockstep-web
 	@deploy/demo $(DEMO)
 
-# lockstep_*.deb and lockstep-dev_*.deb, in the build directory.
+# Makes lockstep_*.deb and lockstep-dev_*.deb in the build directory.
 package: build
 	@cd $(BUILD) && cpack --config CPackConfig.cmake
 

@@ -11,10 +11,10 @@ namespace {
 
 constexpr double kQuarterTurn = std::numbers::pi / 2;
 constexpr double kWhole = 2 * std::numbers::pi;
-constexpr double kSameAngle = 1e-9;  // rad: the ends of a whole turn, as core/path/arc_cutter.cpp has it
+constexpr double kSameAngle = 1e-9;  // rad; ends closer than this make a whole turn, as in core/path/arc_cutter.cpp
 constexpr double kMostChords = 100'000;
 
-// The radii at the ends may differ by the first, or by the second and a thousandth of the radius.
+// The radii at the ends may differ by kRadiusError_mm, or by kRadiusErrorShare of the radius up to kMostRadiusError_mm.
 constexpr double kMostRadiusError_mm = 1.27;
 constexpr double kRadiusError_mm = 0.0127;
 constexpr double kRadiusErrorShare = 0.001;
@@ -61,7 +61,8 @@ std::vector<double> ArcPath::at(double share) const {
     return place;
 }
 
-/// Its ends, and where it crosses the axis's direction from the centre: the first and the last turn have all of these.
+/// The extremes are at the ends, or where the arc crosses the axis's direction from the centre. It is enough to look at
+/// the first and the last turn.
 std::pair<double, double> ArcPath::extent(std::size_t axis) const {
     double least = std::min(from_[axis], to_[axis]);
     double greatest = std::max(from_[axis], to_[axis]);
@@ -83,7 +84,7 @@ std::pair<double, double> ArcPath::extent(std::size_t axis) const {
     return {least, greatest};
 }
 
-/// A chord over the angle a leaves its arc by r (1 - cos(a/2)).
+/// A chord over the angle a deviates from its arc by r (1 - cos(a/2)).
 void ArcPath::each_chord(double tolerance_mm,
                          const std::function<void(const std::vector<double>& to_mm)>& visit) const {
     const double radius = std::max({radius_begin_, radius_end_, kLeastRadius_mm});

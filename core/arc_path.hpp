@@ -1,5 +1,5 @@
-// An arc, helix or spiral between two places: its length, its extent, and chords of it. For travel checks, estimates
-// and pictures; the planner cuts arcs for itself (core/path/arc_cutter.hpp).
+// An arc, helix or spiral between two places: its length, its extent and its chords. Travel checks, estimates and
+// pictures use it. The planner cuts arcs with core/path/arc_cutter.hpp.
 #pragma once
 
 #include <cmath>
@@ -16,28 +16,28 @@ namespace lockstep {
 
 class ArcPath {
 public:
-    /// Places in mm, one number per axis that the shape's axes count. `from` and `to` must outlive it.
+    /// `from_mm` and `to_mm` have one place per axis; the shape's axes are indices into them. Both must outlive it.
     ArcPath(const ArcShape& shape, std::span<const double> from_mm, std::span<const double> to_mm);
 
-    /// Distances of the ends from the centre.
+    /// Distances of the ends from the centre, in mm.
     double radius_begin() const { return radius_begin_; }
     double radius_end() const { return radius_end_; }
-    /// The angle that it goes through, above 0.
+    /// The angle of the whole arc in rad, above 0.
     double sweep() const { return sweep_; }
-    /// Along the path of all axes; a spiral's as if its radius were the mean.
+    /// The length of the path of all axes. For a spiral it is computed with the mean radius.
     double length_mm() const;
-    /// Of the axes of its plane alone.
+    /// The length of the path in the plane only.
     double plane_length_mm() const { return sweep_ * (radius_begin_ + radius_end_) / 2; }
     /// The place of an axis at a share of the angle, from 0 to 1.
     double at(std::size_t axis, double share) const;
     std::vector<double> at(double share) const;
     /// The least and the greatest place of an axis.
     std::pair<double, double> extent(std::size_t axis) const;
-    /// The direction in the plane at a share of the angle, of length 1: its first and its second axis.
+    /// The direction of travel at a share of the angle: its unit vector along the plane's first and second axis.
     double turn_first(double share) const { return -sign() * std::sin(angle_at(share)); }
     double turn_second(double share) const { return sign() * std::cos(angle_at(share)); }
 
-    /// The end of each chord, in order; the last is the arc's own end. A chord leaves the arc by the tolerance at most.
+    /// Visits the end of each chord in order; the last is the arc's end. A chord deviates by at most the tolerance.
     void each_chord(double tolerance_mm, const std::function<void(const std::vector<double>& to_mm)>& visit) const;
 
 private:
@@ -53,16 +53,16 @@ private:
     double sweep_ = 0;
 };
 
-/// Why an arc with these distances (mm) of its ends from the centre cannot be run, as "does not close: ...": it has no
-/// radius, or they differ by more than LinuxCNC's tolerances. Empty: it can.
+/// Returns why an arc with these distances (mm) of its ends from the centre cannot be run, such as "does not close:
+/// ...": a radius is 0, or the two differ by more than LinuxCNC's tolerances. Returns an empty text if it can be run.
 std::string why_no_arc(double radius_begin, double radius_end);
 inline std::string why_no_arc(const ArcPath& arc) { return why_no_arc(arc.radius_begin(), arc.radius_end()); }
 
-/// The ends of the chords of a move: of a straight one, its end alone.
+/// Visits the ends of the chords of a move. A straight move is one chord.
 void each_chord(const ProgramMove& move, std::span<const double> from_mm, double tolerance_mm,
                 const std::function<void(const std::vector<double>& to_mm)>& visit);
 
-/// Along the path of all axes.
+/// The length of the path of all axes.
 double length_mm(const ProgramMove& move, std::span<const double> from_mm);
 
 }  // namespace lockstep

@@ -1,11 +1,11 @@
-// The unit of an axis's places: mm, or degrees where it turns. The machine's keys say mm for both.
+// The unit of an axis's places: mm, or degrees if it is rotary. The keys of the machine's file say mm for both.
 #pragma once
 
 #include <string_view>
 
 namespace lockstep {
 
-/// By its name, as G-code has it: A, B and C turn about X, Y and Z.
+/// Decides by the name, as G-code does: A, B and C turn about X, Y and Z.
 constexpr bool is_rotary(std::string_view axis) {
     return axis.size() == 1 && std::string_view("ABCabc").contains(axis.front());
 }

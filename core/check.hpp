@@ -1,4 +1,4 @@
-// Checks of what this code promises itself: pre-conditions and invariants. They are on in every build.
+// Checks of preconditions and invariants. They are on in every build.
 //
 // A failed check is a defect of the program, never bad input. Continuing could move an axis to a wrong place, so the
 // process reports the check and ends. That is the safe state of the machine: a device executes only frames that all
@@ -10,11 +10,11 @@
 
 namespace lockstep {
 
-/// Receives the promise that does not hold and the place of its check, just before the process aborts. It must not
+/// Receives the broken promise and the source location of its check, just before the process aborts. It must not
 /// throw, and must not rely on the state of the code that failed.
 using CheckReporter = void (*)(std::string_view promise, const std::source_location& where);
 
-/// Replaces the reporter of this process and returns the one before. The first one writes a line to standard error.
+/// Sets the reporter of this process and returns the previous one. The default writes a line to standard error.
 CheckReporter set_check_reporter(CheckReporter reporter);
 
 /// Reports the promise as broken, and aborts.
@@ -26,7 +26,7 @@ inline void check(bool holds, std::string_view promise,
     if (!holds) [[unlikely]] { fail_check(promise, where); }
 }
 
-/// What `pointer` points at, which must be there.
+/// Returns what `pointer` points at. A null pointer is a failed check.
 template <typename T>
 T& check_found(T* pointer, std::string_view promise,
                const std::source_location& where = std::source_location::current()) {

@@ -22,7 +22,7 @@ std::string_view text_of(Remedy remedy) {
         case Remedy::Status: return "lockstep status";
         case Remedy::Again: break;
     }
-    return "ask again";
+    return "give the command again";
 }
 
 }  // namespace

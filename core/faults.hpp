@@ -10,18 +10,18 @@
 
 namespace lockstep {
 
-/// What a person asks the machine for against a fault or a refusal.
+/// What a person can do about a fault or a refusal.
 enum class Remedy : std::uint8_t {
-    Wait,  // until what is in progress has ended
+    Wait,  // until the current activity has ended
     Home,
     Resume,
     Stop,
     Reset,
-    Status,  // look
-    Again    // ask for what was refused
+    Status,  // look at the state
+    Again    // repeat the refused command
 };
 
-/// Done in their order, or any one of them.
+/// Remedies to apply in this order, or, if is_choice, any one of them.
 struct Remedies {
     std::array<Remedy, 2> steps{};
     std::size_t count = 0;
@@ -33,7 +33,7 @@ constexpr Remedies in_order(Remedy only) { return {{only}, 1, false}; }
 constexpr Remedies in_order(Remedy first, Remedy second) { return {{first, second}, 2, false}; }
 constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, true}; }
 
-// X(name, number, text name, cause, what to see to by hand first, remedies)
+// X(name, number, text name, cause, what to check by hand first, remedies)
 // clang-format off
 #define LOCKSTEP_FAULTS(X) \
     X(NotHomed, 101, "not-homed", "an axis that must move has not been homed", \
@@ -51,7 +51,7 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
     X(AxisMissing, 107, "axis-missing", "an axis is not received", \
       "start its lockstep-axis, or check the network", in_order(Remedy::Again)) \
     X(AxisLost, 108, "axis-lost", "an axis fell silent while moving", \
-      "see its log, and start it where it does not run", in_order(Remedy::Reset, Remedy::Home)) \
+      "see its log, and start it if it is not running", in_order(Remedy::Reset, Remedy::Home)) \
     X(Busy, 109, "busy", "the machine is doing something else", \
       "", either(Remedy::Wait, Remedy::Stop)) \
     X(NothingToDo, 110, "nothing-to-do", "there is nothing to hold, resume or stop", \
@@ -71,8 +71,8 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
     X(InFault, 117, "in-fault", "the machine is in Fault", \
       "", in_order(Remedy::Status, Remedy::Reset)) \
     X(EmergencyStopped, 118, "emergency-stopped", "an emergency stop was commanded", \
-      "see that it is safe; the homing is suspect", in_order(Remedy::Reset, Remedy::Home)) \
-    X(UnknownProgram, 119, "unknown-program", "the program named has not arrived whole", \
+      "make sure that the machine is safe; an axis that was stopped in motion must be homed again", in_order(Remedy::Reset, Remedy::Home)) \
+    X(UnknownProgram, 119, "unknown-program", "the named program has not arrived completely", \
       "send it again", {}) \
     X(SecondCoordinator, 120, "second-coordinator", "another coordinator runs this machine", \
       "stop one of them", {}) \
@@ -86,43 +86,43 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
       "lockstep analyze --incident names it; check the network, or give the slots more time: lockstep doctor --timing", in_order(Remedy::Reset, Remedy::Home)) \
     X(ClockUncertain, 125, "clock-uncertain", "an axis's clock may be further off than timing.clock_error_limit_us", \
       "check the network to that axis, or give the slots more time; lockstep status shows each clock's error", in_order(Remedy::Reset)) \
-    X(CoordinatorChanged, 126, "coordinator-changed", "another coordinator has taken the machine over since this was asked; it was perhaps begun", \
+    X(CoordinatorChanged, 126, "coordinator-changed", "another coordinator has taken the machine over since this command was given; the command may have begun", \
       "", in_order(Remedy::Status, Remedy::Again)) \
     X(PositionNotKept, 127, "position-not-kept", "no position of the axis has been kept", \
       "", in_order(Remedy::Home)) \
     X(PositionUnreadable, 128, "position-unreadable", "the axis's kept position cannot be read, or is damaged", \
       "see its log", in_order(Remedy::Home)) \
-    X(PositionForeign, 129, "position-foreign", "the kept position is of another machine or axis", \
+    X(PositionForeign, 129, "position-foreign", "the kept position belongs to another machine or axis", \
       "give each machine a position_directory of its own", in_order(Remedy::Home)) \
     X(PositionRescaled, 130, "position-rescaled", "steps_per_mm or the home switch have changed in the configuration since the position was kept", \
       "", in_order(Remedy::Home)) \
     X(DevicePoweredUp, 131, "device-powered-up", "the axis's device was powered up after the position was kept", \
       "", in_order(Remedy::Home)) \
-    X(DeviceHasRun, 132, "device-has-run", "the device has run, or was about to, since the axis's position was kept", \
+    X(DeviceHasRun, 132, "device-has-run", "the device has run, or had an order to run, since the axis's position was kept", \
       "", in_order(Remedy::Home)) \
     X(PositionPushed, 133, "position-pushed", "the encoder shows that the axis was moved without pulses", \
       "", in_order(Remedy::Home)) \
-    X(HomeSwitchUnsteady, 134, "home-switch-unsteady", "the home switch closed at another place with every touch", \
+    X(HomeSwitchUnsteady, 134, "home-switch-unsteady", "the home switch closed at a different place at each touch", \
       "see whether the switch sticks, bounces or slips, or the slide; or raise homing.touch_tolerance_mm", in_order(Remedy::Reset, Remedy::Home)) \
-    X(DeviceLost, 135, "device-lost", "the axis's device died, was exchanged, or its registers make no sense", \
-      "the axis's log says which device and why; see that it runs", in_order(Remedy::Reset, Remedy::Home)) \
+    X(DeviceLost, 135, "device-lost", "the axis's device died or was exchanged, or its registers are not plausible", \
+      "the axis's log says which device and why; make sure that it runs", in_order(Remedy::Reset, Remedy::Home)) \
     X(DeviceMissing, 136, "device-missing", "the axis waits for its device", \
-      "the axis's log says for which, and why; start it: the axis takes it by itself", in_order(Remedy::Again)) \
-    X(NotAtRest, 137, "not-at-rest", "an axis has not come to rest though all its frames are over", \
+      "the axis's log names the device and the reason; start the device, and the axis connects to it by itself", in_order(Remedy::Again)) \
+    X(NotAtRest, 137, "not-at-rest", "an axis has not come to rest although all its frames have ended", \
       "see its log; restart its lockstep-axis if a reset does not help", in_order(Remedy::Reset, Remedy::Home)) \
     X(Held, 140, "held", "a job is held or paused", \
       "", either(Remedy::Resume, Remedy::Stop)) \
-    X(NotReady, 141, "not-ready", "not every axis follows the coordinator and rests yet", \
+    X(NotReady, 141, "not-ready", "not all axes follow the coordinator and are at rest yet", \
       "", in_order(Remedy::Wait, Remedy::Again)) \
     X(CoordinatorSilent, 142, "coordinator-silent", "the coordinator fell silent while the axis moved by itself; the axis halted", \
-      "see the coordinator's log and the network, and start it where it does not run", in_order(Remedy::Reset, Remedy::Home)) \
+      "see the coordinator's log and the network, and start it if it is not running", in_order(Remedy::Reset, Remedy::Home)) \
     X(SenderSilent, 143, "sender-silent", "the sender of the program fell silent before the program's end", \
       "go on from the line that lockstep status names: lockstep run FILE --from-line LINE", {}) \
     X(ProgramNotKept, 144, "program-not-kept", "the coordinator cannot keep more of the program on its disk", \
       "make room on the coordinator's disk; go on from the line that lockstep status names: lockstep run FILE --from-line LINE", {}) \
     X(ProgramCutShort, 145, "program-cut-short", "the program's sender could not read it to its end", \
       "see the sender's message; go on from its line: lockstep run FILE --from-line LINE", {}) \
-    X(WriterHeld, 150, "writer-held", "another writer has the machine: the other clients watch, hold and stop it", \
+    X(WriterHeld, 150, "writer-held", "another writer has the machine; other clients can only watch, hold and stop it", \
       "wait until the writer gives it back; or take it over: give the command again with --take", {})
 // clang-format on
 
@@ -137,20 +137,20 @@ struct FaultText {
     FaultCode code;
     std::string_view name;
     std::string_view cause;
-    std::string_view by_hand;  // empty: nothing
+    std::string_view by_hand;  // empty: nothing to do by hand
     Remedies remedies;
 };
 
-/// Null for None and for numbers that are not in the table.
+/// Returns null for None and for numbers that are not in the table.
 const FaultText* find_fault(FaultCode code);
 
-/// By its stable name; null where there is none such.
+/// Finds a fault by its stable name. Returns null if no fault has it.
 const FaultText* find_fault(std::string_view name);
 
-/// For a person: what to see to by hand, then the commands.
+/// Text for a person: what to check by hand, then the commands.
 std::string remedy_text(const FaultText& fault);
 
-/// "not-homed" and the like; "none" for None, "unknown" outside the table.
+/// The stable name, such as "not-homed"; "none" for None, "unknown" for numbers outside the table.
 std::string_view name_of(FaultCode code);
 
 }  // namespace lockstep

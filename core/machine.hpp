@@ -1,4 +1,4 @@
-// The machine as configured, in the units its user writes (mm, mm/s), and the same in the units of motion.
+// The configuration of a machine in its user's units (mm, mm/s), and the conversion to the units of motion.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace lockstep {
 
-/// How the steps of an axis's own moves are made (core/methods): homing, and moves from point to point by itself.
+/// The method that makes the steps of an axis's own moves (core/methods): homing, and point-to-point moves of one axis.
 enum class StepMethod : std::uint8_t { Ranade, Spielauer, Lai, Lam, Carrica };
 
 /// How an axis finds its zero. Speeds are positive; `toward_min` says which end it searches.
@@ -22,24 +22,24 @@ struct HomingConfig {
     bool toward_min = true;
     double search_velocity_mm_s = 0;   // not above start_velocity: the switch stops the pulses at once
     double latch_velocity_mm_s = 0;    // the slow second approach that sets the zero
-    double pulloff_mm = 0;             // how far off the switch before the latch
+    double pulloff_mm = 0;             // distance off the switch before the latch
     double touch_tolerance_mm = 0.02;  // by how much two touches of the switch may differ; never less than a step
     double switch_position_mm = 0;     // where the switch closes, in machine coordinates
     double park_mm = 0;                // where the axis waits after homing
 };
 
-/// What the simulated hardware behind an axis is like.
+/// Properties of the simulated hardware behind an axis.
 struct PlantConfig {
     double start_position_mm = 0;       // where the slide stands at power-up, in machine coordinates
     double travel_margin_mm = 0;        // from the end of travel to the limit switch
     double max_torque_accel_mm_s2 = 0;  // the motor loses steps above this
-    double max_jump_mm_s = 0;           // and when asked to jump further than this
+    double max_jump_mm_s = 0;           // it also loses steps at larger jumps of speed
 };
 
 struct AxisConfig {
     std::string name;
-    std::string host;            // where it runs; empty: wherever it is started
-    std::string device = "sim";  // simulated in its process; "shm:NAME", of lockstep-fpga; "uio:PATH", a mapped one
+    std::string host;            // on which it runs; empty: any host
+    std::string device = "sim";  // simulated in its process; "shm:NAME": one of lockstep-fpga; "uio:PATH": mapped
     double steps_per_mm = 0;
     double start_velocity_mm_s = 0;
     double max_velocity_mm_s = 0;
@@ -48,8 +48,8 @@ struct AxisConfig {
     double position_min_mm = 0;
     double position_max_mm = 0;
     StepMethod method = StepMethod::Ranade;
-    std::optional<double> unhomed_jog_mm_s;  // how fast it may be jogged unhomed; none: not at all
-    std::optional<double> safe_height_mm;    // where it is clear of the work; none: nothing is known of it
+    std::optional<double> unhomed_jog_mm_s;  // greatest speed of a jog while unhomed; none: no such jog
+    std::optional<double> safe_height_mm;    // where it is clear of the work; none: not known
     HomingConfig homing;
     PlantConfig plant;
 };
@@ -58,49 +58,49 @@ struct NetworkConfig {
     std::string interface = "lo";
     std::uint32_t domain = 0;
     std::string lcm_url = "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304";
-    std::vector<std::string> peers;  // hosts to look for processes on, without multicast; none: multicast finds them
-    std::size_t processes = 0;       // that hear each other: the more, the less often each asks the others
-    bool one_host = false;  // axes' states go through memory that all processes share, and seldom on the network
+    std::vector<std::string> peers;  // hosts that discovery asks, without multicast; none: it multicasts
+    std::size_t processes = 0;       // their number; with more, each sends discovery and repair messages less often
+    bool one_host = false;           // states of axes go through shared memory, and only seldom over the network
 };
 
-/// The flight recorder: what each process noted last, kept for the time after a fault.
+/// The flight recorder: keeps the latest notes of each process for the analysis of a fault.
 struct FlightConfig {
     bool kept = true;
     std::int64_t memory_kb = 1024;
-    int files = 20;  // of each process
+    int files = 20;  // kept for each process
     bool operator==(const FlightConfig&) const = default;
 };
 
-/// The logs that the axes and the coordinator keep by themselves, each on the board it runs on.
+/// The logs that the axes and the coordinator write themselves, each on its own board.
 struct RecordConfig {
     bool own_logs = true;
-    std::string directory;  // empty: where the host keeps such files
+    std::string directory;  // empty: the host's default directory
     std::int64_t size_limit_mb = 256;
     FlightConfig flight;
     bool operator==(const RecordConfig&) const = default;
 };
 
-/// Whether the machine's processes prove to each other who they are.
+/// Whether the machine's processes authenticate each other.
 struct SecurityConfig {
-    std::string directory;  // with certificates, keys and permissions; empty: nobody is asked who he is
+    std::string directory;  // of certificates, keys and permissions; empty: no authentication
     bool enabled() const { return !directory.empty(); }
     bool operator==(const SecurityConfig&) const = default;
 };
 
-/// What the machine's processes ask of the scheduler of their host.
+/// What the machine's processes request from their host's scheduler.
 struct RealTimeConfig {
-    int priority = 0;       // of SCHED_FIFO, with memory locked and touched beforehand; 0: nothing is asked
-    std::vector<int> cpus;  // the processors that they may run on; empty: all
+    int priority = 0;       // under SCHED_FIFO, with memory locked and touched beforehand; 0: no request
+    std::vector<int> cpus;  // processors that the processes may use; empty: all
     bool operator==(const RealTimeConfig&) const = default;
 };
 
-/// The page to operate the machine (lockstep-web). Nothing in motion depends on it.
+/// The web page to operate the machine (lockstep-web). Nothing in motion depends on it.
 struct WebConfig {
-    std::string address = "127.0.0.1";  // where it listens; beyond this host only with a certificate
+    std::string address = "127.0.0.1";  // of the listening socket; other hosts can connect only with a certificate
     int port = 2302;
     std::string certificate_file;  // PEM; empty: no TLS
     std::string key_file;
-    std::vector<std::string> host_names;  // under which it may be opened, besides the address and this host's own
+    std::vector<std::string> host_names;  // accepted in URLs, besides the address and this host's own name
     bool operator==(const WebConfig&) const = default;
 };
 
@@ -111,12 +111,12 @@ struct MachineConfig {
     NetworkConfig network;
     SecurityConfig security;
     RecordConfig record;
-    std::string position_directory;  // where axes keep their positions; empty: where the host keeps such files
-    StepMethod coordination = StepMethod::Ranade;  // of moves of several axes together: Ranade or Lai
-    std::string coordinator_host;                  // where it runs; empty: wherever it is started
+    std::string position_directory;                // where axes store their positions; empty: the host's default
+    StepMethod coordination = StepMethod::Ranade;  // of coordinated moves of several axes: Ranade or Lai
+    std::string coordinator_host;                  // on which it runs; empty: any host
     RealTimeConfig real_time;
     UnassignedWords unassigned;
-    std::string subroutine_directory;  // of programs; empty: where the program is
+    std::string subroutine_directory;  // searched after the program's own; empty: only that
     std::optional<WebConfig> web;      // none: `lockstep up` starts no page
     std::vector<AxisConfig> axes;
 
@@ -127,7 +127,7 @@ struct MachineConfig {
     Ticks slot_ticks() const { return {timing.slot_us * 1000 / tick_ns}; }
     Ticks jog_hold_ticks() const { return {timing.jog_hold_us * 1000 / tick_ns}; }
     Ticks clock_error_limit() const { return {timing.clock_error_limit_us * 1000 / tick_ns}; }
-    /// To begin: a quarter is kept in hand, since the bound grows while exchanges are lost.
+    /// The limit for beginning a move: over the network three quarters, since the bound grows while exchanges are lost.
     Ticks clock_error_to_begin() const {
         return timing.time_source == TimeSource::Network ? Ticks{(clock_error_limit().value * 3 + 3) / 4}
                                                          : clock_error_limit();

@@ -3,7 +3,7 @@
 
 Usage: make_fault_reference.py ROOT [--check]
 
---check writes nothing and exits 1 where docs/faults.md is not what the table says.
+--check writes nothing and exits with 1 if docs/faults.md differs from the table.
 """
 import argparse
 import pathlib

@@ -5,9 +5,9 @@
 
 namespace lockstep {
 
-/// With nine digits at most, as few as say it.
+/// With at most nine digits, without trailing zeros.
 std::string number_text(double value);
-/// With six digits at most: for limits and remedies in messages.
+/// With at most six digits, for limits and remedies in messages.
 std::string short_number(double value);
 
 }  // namespace lockstep

@@ -1,10 +1,10 @@
-// What an operator's dials make of the speeds that a program asks for.
+// The operator's overrides of a program's speeds.
 #pragma once
 
 namespace lockstep {
 
-/// In percent of what is programmed. Feed moves go at `feed` of their feed, rapid ones at `rapid` of what the axes
-/// allow. Neither ever takes an axis beyond its limits.
+/// Feed moves run at `feed` times their programmed feed, rapid moves at `rapid` times the speed that the axes allow.
+/// Neither takes an axis beyond its limits.
 struct Overrides {
     static constexpr int kLeast = 10;
     static constexpr int kMost = 200;

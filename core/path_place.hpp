@@ -1,4 +1,4 @@
-// Where on a program the machine rests, or goes on.
+// The place in a program where the machine rests or continues.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace lockstep {
 
-/// In `block` of the program, so far `along` its move, in 2^-64 mm. By the LAI method: in 2^-64 steps of the lead axis.
+/// A distance `along` the move of `block`, in 2^-64 mm. With the LAI method it is in 2^-64 steps of the lead axis.
 struct PathPlace {
     std::uint32_t block = 0;
     Displacement along;

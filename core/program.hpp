@@ -1,4 +1,4 @@
-// A motion program: what a G-code file becomes and what a coordinator plans. Everything modal is resolved.
+// A motion program: made from a G-code file, planned by a coordinator. Everything modal is resolved.
 #pragma once
 
 #include <cstddef>
@@ -23,20 +23,20 @@ enum class PathMode : std::uint8_t {
     ExactStop,  // the machine rests at the end of every move (G61.1)
 };
 
-/// The way of a move between its ends: an arc in the plane of two axes. All other axes move in proportion to its angle
-/// (a helix). Where the distances of its ends from the centre differ, the radius changes in proportion to the angle.
+/// An arc in the plane of two axes, as the path of a move. All other axes move in proportion to its angle (a helix). If
+/// the distances of its ends from the centre differ, the radius changes in proportion to the angle (a spiral).
 struct ArcShape {
-    std::size_t first = 0;   // axes of the plane, by their places in the move's target:
+    std::size_t first = 0;   // axes of the plane, as indices into the move's target;
     std::size_t second = 1;  // counter-clockwise is from the first to the second
     double centre_first_mm = 0;
     double centre_second_mm = 0;
     bool is_clockwise = false;
-    std::int32_t turns = 1;  // from 1: the arc ends when it reaches its end for this number of times
+    std::int32_t turns = 1;  // at least 1: the arc ends when it reaches its end for the nth time
     bool operator==(const ArcShape&) const = default;
 };
 
 inline constexpr std::int32_t kMaxTurns = 100'000;
-inline constexpr double kMaxCentre_mm = 1e9;      // either way: nearly straight arcs have theirs far away
+inline constexpr double kMaxCentre_mm = 1e9;      // either way; the centres of nearly straight arcs are far away
 inline constexpr double kMaxTolerance_mm = 1000;  // of a joined path
 
 /// A move to an absolute place in machine coordinates, one number per axis of the program.
@@ -46,7 +46,7 @@ struct ProgramMove {
     bool rapid = false;           // as fast as the axes' limits allow
     std::optional<ArcShape> arc;  // absent: straight
     PathMode mode = PathMode::Blend;
-    double tolerance_mm = 0;     // Blend: of each axis, steps included; never less than one step
+    double tolerance_mm = 0;     // for Blend: of each axis, steps included; at least one step
     bool is_feed_fixed = false;  // the feed override has no effect (M49)
 };
 
@@ -54,16 +54,16 @@ struct Dwell {
     double seconds = 0;
 };
 
-/// Rest until a person says to go on (M0).
+/// Rest until a person resumes (M0).
 struct Pause {};
 
-/// Come to rest, and go on by itself: a sender that has no more for now ends what it has sent with it.
+/// Come to rest, then continue without a resume. A sender that has no more blocks for now sends it as the last one.
 struct Settle {};
 
 inline constexpr std::int32_t kMaxEventIndex = 1'000'000;
 inline constexpr std::uint32_t kMaxEventsTogether = 100;  // between two moves, dwells or pauses
 
-/// A word of a program for a device that is no axis. The coordinator publishes it when the motion comes to its place.
+/// A word of a program for a device other than an axis. The coordinator publishes it when the motion reaches its place.
 struct ProgramEvent {
     enum class Kind : std::uint8_t {
         SpindleStop,     // M5
@@ -87,17 +87,17 @@ struct ProgramEvent {
 };
 
 struct Block {
-    std::int32_t line = 0;  // in the G-code file, from 1; 0 where there is none
+    std::int32_t line = 0;  // in the G-code file, from 1; 0 if it has none
     std::variant<ProgramMove, Dwell, Pause, Settle, ProgramEvent> action;
 };
 
 struct ProgramHead {
     std::string name;
     std::vector<std::string> axes;
-    std::vector<double> start_mm;  // where the machine stood when the program was made; refused from elsewhere
+    std::vector<double> start_mm;  // position when the program was made; it is refused at another
 };
 
-/// A program that is known as a whole.
+/// A complete program.
 struct Program {
     std::string name;
     std::vector<std::string> axes;
@@ -107,9 +107,9 @@ struct Program {
     ProgramHead head() const { return {name, axes, start_mm}; }
 };
 
-/// What is left of a program from the first block of `line` or behind it, for axes that stand at `at_mm`: they first
-/// go, as fast as they can and straight, to where that block begins. Error: there is no such block; the line of the
-/// last.
+/// Returns the part of a program from the first block at or after `line`, for axes that stand at `at_mm`. Unless the
+/// axes are already where that block begins, a straight rapid move to there comes first. If no such block exists, the
+/// error is the line of the last block (0: no blocks).
 std::expected<Program, std::int32_t> program_from(const Program& program, std::int32_t line, std::vector<double> at_mm);
 
 }  // namespace lockstep

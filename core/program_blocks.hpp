@@ -1,4 +1,4 @@
-// The blocks of a program as a stream: all of them, or those that are known so far.
+// The blocks of a program as a stream: all blocks, or those received so far.
 #pragma once
 
 #include <memory>
@@ -15,14 +15,14 @@ class ProgramBlocks {
 public:
     virtual ~ProgramBlocks() = default;
     virtual const std::vector<std::string>& axes() const = 0;
-    /// Valid until another block is asked for. Null: it is not at hand yet, or there is none.
+    /// Returns null if the block is not available yet or does not exist. Valid until another block is requested.
     virtual const Block* block(std::uint32_t number) const = 0;
-    /// There is no block of this number, and none will come.
+    /// True if no block has this number and none will arrive.
     virtual bool ends_before(std::uint32_t number) const = 0;
-    /// Where the program has its axes before a block that is at hand, in mm. Valid until another place or block is
-    /// asked for. Nothing: it is not at hand yet.
+    /// The position of the axes in the program before a block, in mm. Valid until another place or block is requested.
+    /// Returns nullopt if the block is not available yet.
     virtual std::optional<std::span<const double>> place_before(std::uint32_t number) const = 0;
-    /// About how long the program takes from a place on, as far as it is known. 0: it is not estimated.
+    /// The estimated duration of the program from a place on, as far as blocks are known. 0 without an estimate.
     virtual double seconds_from(const PathPlace& /*place*/) const { return 0; }
 };
 
@@ -49,7 +49,7 @@ private:
     std::shared_ptr<const Program> program_;
 };
 
-/// For as long as the caller keeps the program.
+/// A pointer without ownership: the caller must keep the program alive.
 inline std::shared_ptr<const Program> borrowed(const Program& program) {
     return {std::shared_ptr<const Program>{}, &program};
 }

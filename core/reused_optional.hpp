@@ -1,4 +1,4 @@
-// A value that is there or not, and keeps what it holds of memory while it is not there.
+// An optional value that keeps its allocated memory while it is absent.
 #pragma once
 
 #include "core/check.hpp"
@@ -20,7 +20,7 @@ public:
     ReusedOptional& operator=(ReusedOptional&&) = default;
     ~ReusedOptional() = default;
 
-    /// From now on there is a value. It is what an earlier one was: every field of it is to be set.
+    /// Makes the value present. It has the content of an earlier value, so the caller must set every field.
     T& renew() {
         has_value_ = true;
         return value_;

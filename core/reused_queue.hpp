@@ -1,5 +1,5 @@
-// A queue that keeps its elements, and what they hold of memory, when they are taken out: once it has been full it
-// allocates nothing. An element stays at its address while others come and go.
+// A queue that keeps removed elements and their allocated memory for reuse. Once it has reached its greatest size it
+// allocates nothing. An element keeps its address while others are added and removed.
 #pragma once
 
 #include <cstddef>
@@ -32,7 +32,7 @@ public:
     }
     ~ReusedQueue() = default;
 
-    /// A new last element with whatever value an earlier one had: every field of it is to be set.
+    /// Adds a last element with the content of an earlier one, so the caller must set every field.
     T& append() {
         if (size_ == items_.size()) { grow(); }
         return *items_[place(size_++)];
@@ -59,7 +59,7 @@ private:
         const std::size_t behind = first_ + i;
         return behind < items_.size() ? behind : behind - items_.size();
     }
-    /// By one element, behind the last one in the ring.
+    /// Adds one unused element behind the last one in the ring.
     void grow() {
         if (first_ == 0) { return items_.push_back(std::make_unique<T>()); }
         items_.insert(items_.begin() + static_cast<std::ptrdiff_t>(first_), std::make_unique<T>());
@@ -68,7 +68,7 @@ private:
 
     std::vector<std::unique_ptr<T>> items_;  // a ring
     std::size_t first_ = 0;
-    std::size_t size_ = 0;  // of those in use
+    std::size_t size_ = 0;  // number of elements in use
 };
 
 }  // namespace lockstep

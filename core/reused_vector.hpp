@@ -1,5 +1,5 @@
-// A vector that keeps its elements, and what they hold of memory, when it is cleared: a loop that fills it again each
-// time allocates nothing once it has been full.
+// A vector that keeps its elements and their allocated memory when it is cleared. A loop that refills it allocates
+// nothing once the vector has reached its greatest size.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +30,7 @@ public:
     }
     ~ReusedVector() = default;
 
-    /// A new last element with whatever value an earlier one had: every field of it is to be set.
+    /// Adds a last element with the content of an earlier one, so the caller must set every field.
     T& append() {
         if (items_.capacity() == 0) { items_.reserve(kLeastPlaces); }
         if (size_ == items_.size()) { items_.emplace_back(); }
@@ -51,7 +51,7 @@ private:
     static constexpr std::size_t kLeastPlaces = 8;  // more than most loops fill
 
     std::vector<T> items_;
-    std::size_t size_ = 0;  // of those in use
+    std::size_t size_ = 0;  // number of elements in use
 };
 
 }  // namespace lockstep

@@ -17,7 +17,7 @@ public:
     StaticVector(std::initializer_list<T> values) {
         for (const T& value : values) { append(value); }
     }
-    /// Copies only the values below the size: unused capacity costs nothing.
+    /// Copies only the values in use, so unused capacity costs nothing.
     StaticVector(const StaticVector& other) : size_(other.size_) { std::copy_n(other.begin(), size_, begin()); }
     StaticVector& operator=(const StaticVector& other) {
         if (this == &other) { return *this; }
@@ -33,21 +33,21 @@ public:
     bool full() const { return size_ == Capacity; }
     void clear() { size_ = 0; }
 
-    /// False, and nothing has changed, if the vector is full.
+    /// Returns false and changes nothing if the vector is full.
     [[nodiscard]] bool push_back(const T& value) {
         if (full()) { return false; }
         items_[size_++] = value;
         return true;
     }
 
-    /// For values that cannot exceed the capacity: the check ends the process if they do.
+    /// For code that cannot exceed the capacity. If it does, the check ends the process.
     void append(const T& value) { check(push_back(value), "a bounded vector has room for what is appended"); }
 
     void pop_back() {
         check(!empty(), "the last value of a vector exists");
         --size_;
     }
-    /// Removes the first `count` values; the others move up.
+    /// Removes the first `count` values and moves the others to the front.
     void erase_front(std::size_t count) {
         check(count <= size_, "a vector holds the values that are removed");
         std::move(begin() + count, end(), begin());

@@ -1,4 +1,4 @@
-// What becomes of words for devices that the machine does not have.
+// How words for devices that the machine does not have are handled.
 #pragma once
 
 #include <cstdint>
@@ -7,12 +7,12 @@ namespace lockstep {
 
 enum class WordRule : std::uint8_t {
     Refuse,
-    Ignore,  // the word is an event on the path, and nothing switches
+    Ignore,  // the word is published as an event on the path; nothing switches
 };
 
 enum class ToolChange : std::uint8_t {
     Pause,  // until a person resumes
-    GoOn,   // an event on the path, which something else waits for or acts on
+    GoOn,   // published as an event on the path, for another program to act on
 };
 
 struct UnassignedWords {

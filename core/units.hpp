@@ -1,8 +1,8 @@
-// The quantities of motion as types of their own: what is not meant to be mixed does not compile.
+// A separate type for each quantity of motion, so that mixing them does not compile.
 //
 // Time on an axis is counted in ticks of the step clock (1 us unless configured). Instants (Tick) and durations
-// (Ticks) differ. Space is counted in steps and fractions of 2^-64 step; instants in space (Position) and
-// differences (Displacement) differ too. There is no floating point here: everything is exact.
+// (Ticks) are different types. Space is counted in steps and fractions of 2^-64 step; places (Position) and
+// differences (Displacement) are different types too. There is no floating point here: everything is exact.
 #pragma once
 
 #include <compare>
@@ -39,7 +39,7 @@ struct Tick {
     }
 };
 
-/// How long a span is, forward or backward.
+/// The absolute length of a span.
 constexpr Ticks length_of(Ticks span) { return {span.value < 0 ? -span.value : span.value}; }
 
 /// Fractions of a step in one step.
@@ -58,13 +58,13 @@ struct Displacement {
     constexpr double as_steps() const { return static_cast<double>(raw) * 0x1p-64; }
 };
 
-/// A position of one axis, in units of 2^-64 step. The number of pulses that stand for it, its count, is the
-/// nearest whole step, halves up: a step falls where a position crosses a half.
+/// A position of one axis, in units of 2^-64 step. Its count, the number of pulses, is the nearest whole step, halves
+/// rounded up. So a step occurs where the position crosses a half.
 struct Position {
     Int128 raw = 0;
     constexpr auto operator<=>(const Position&) const = default;
     static constexpr Position steps(std::int64_t n) { return {Int128{n} * kOneStep}; }
-    /// From what travels on a wire or in a register: the count, and the low 64 bits of position + 1/2 step.
+    /// From the form used on the wire and in registers: the count, and the low 64 bits of position + 1/2 step.
     static constexpr Position from_count(std::int64_t count, std::uint64_t phase) {
         return {Int128{count} * kOneStep + Int128{phase} - kHalfStep};
     }
@@ -81,7 +81,7 @@ struct Position {
 inline constexpr std::uint64_t kRestPhase = std::uint64_t{1} << 63;
 
 /// Where an axis at rest on `count` starts its next motion. Backward motion starts one unit lower, so that its
-/// steps fall on the same ticks as those of the mirrored forward motion, also where a half is met exactly.
+/// steps fall on the same ticks as those of the mirrored forward motion, even if the position meets a half exactly.
 constexpr Position rest_position(std::int64_t count, bool backward) {
     return {Position::steps(count).raw - (backward ? 1 : 0)};
 }
@@ -100,7 +100,7 @@ struct Acceleration {
     constexpr double steps_per_tick2() const { return static_cast<double>(raw) * 0x1p-64; }
 };
 
-/// The fastest an axis can go: one step per two ticks.
+/// The greatest speed of an axis: one step per two ticks.
 inline constexpr double kMaxStepsPerTick = 0.5;
 
 }  // namespace lockstep

@@ -20,8 +20,8 @@ install(FILES deploy/completion/lockstep.bash RENAME lockstep
 install(FILES deploy/completion/_lockstep
   DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT lockstep)
 
-# The manual is the programs' own --help. It is the same for every processor: if they are built for another
-# one and cannot run here, the pages of this machine's own build are used, if it exists.
+# The manual consists of the programs' own --help, which is the same for every processor. Programs built for another
+# processor cannot run here. In that case it uses the pages of this machine's own build, if that exists.
 set(MANUAL ${PROJECT_BINARY_DIR}/man)
 if(CMAKE_CROSSCOMPILING)
   set(MANUAL ${PROJECT_SOURCE_DIR}/build/man)
@@ -40,7 +40,8 @@ install(FILES deploy/systemd/lockstep-coordinator.service deploy/systemd/lockste
   deploy/systemd/lockstep-logger.service deploy/systemd/lockstep-web.service
   DESTINATION lib/systemd/system COMPONENT lockstep)
 
-# core, the simulated device and the driver of its registers, with headers where their #include lines find them.
+# Installs core, the simulated device and the driver of its registers, with headers where their #include lines find
+# them.
 install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR}-dev COMPONENT lockstep-dev)
 install(TARGETS lockstep_core lockstep_core_many lockstep_sim_fpga lockstep_device_driver EXPORT lockstep
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT lockstep-dev
@@ -61,8 +62,8 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/lockstep-config-version.c
 install(FILES ${PROJECT_BINARY_DIR}/lockstep-config.cmake ${PROJECT_BINARY_DIR}/lockstep-config-version.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/lockstep COMPONENT lockstep-dev)
 
-set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # `make package` builds what it packs
-# The content of `lockstep`.
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # installing and packing do not first build all targets
+# Builds the content of the package `lockstep`.
 add_custom_target(package_files DEPENDS lockstep lockstep-coordinator lockstep-axis lockstep-fpga lockstep-grbl lockstep-web lockstep_lcm_python)
 if(TARGET manual)
   add_dependencies(package_files manual)

@@ -17,7 +17,7 @@ public:
     std::uint64_t head() const { return head_; }
     std::uint64_t lost() const { return lost_; }
 
-    /// False if there is no room. The host sees it once head() is published.
+    /// Stores a step. Returns false if there is no room. The host sees the step after head() is published.
     bool keep(StepEdge step) {
         if (head_ - tail_ >= registers::kCaptureRingEntries) { tail_ = window_.load(registers::kCaptureTail); }
         if (head_ - tail_ >= registers::kCaptureRingEntries) {

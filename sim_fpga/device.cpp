@@ -151,8 +151,8 @@ void SimulatedDevice::finish(std::uint64_t reason) {
     phase_ = Phase::AtRest;
 }
 
-/// The host withdraws ARMED before it lifts VETO for another run, and requests that run last: read in reverse order,
-/// no mixture of two runs' registers lets a frame through.
+/// The host withdraws ARMED before it lifts VETO for another run, and requests that run last. The registers are read in
+/// reverse order, so no mixture of the values of two runs lets a frame through.
 bool SimulatedDevice::may_run(FrameNumber frame) const {
     return !vetoed(frame) && window_.load(kArmed) >= frame && window_.load(kRunRequest) == run_;
 }

@@ -1,15 +1,15 @@
-// The simulated hardware of one axis, down to its registers: executes frames by itself, with the result of every tick.
+// The simulated hardware of one axis, down to its registers. It executes frames by itself, exact to the tick.
 //
 // A run goes from rest to rest. The host begins one by a new number in RUN_REQUEST, which is taken at rest only. Then:
-// - At the start tick of frame 1 its body runs, if ARMED >= 1 and VETO > 1. Vetoed, the run ends there. Found armed
-//   only after that tick, it is refused (BAD_SEGMENT).
+// - At the start tick of frame 1 its body runs, if ARMED >= 1 and VETO > 1. If it is vetoed, the run ends there. If it
+//   is found armed only after that tick, it is refused (BAD_SEGMENT).
 // - At the end of frame k's body, the run is finished if k was the last. Else, if frame k+1 is loaded, ARMED >= k+1 and
 //   VETO > k+1, its body runs: it must start at this tick and position, exactly. In every other case frame k's tail
 //   runs and the run is finished; a frame k+1 that was armed but does not join, or is malformed, sets BAD_SEGMENT.
 // - The first frame starts at the axis's position, or at rest_position(count): the same place, with its phase at rest.
 // - Pulses cease at once, and the run is finished, at a closed limit switch (in its direction), at the requested home
 //   level, and on STOP.
-// The host's registers take effect at the call of advance: in real time, at the loop's last round.
+// The host's registers take effect at calls of advance: in real time, once in each round of the loop.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ namespace lockstep {
 
 class SimulatedDevice {
 public:
-    /// Power-up at rest, having executed `now`: resets all registers. The window is this device's from now on; a
+    /// Powers up at rest after tick `now`, and resets all registers. The window belongs to this device from then on; a
     /// driver attaches to a copy. tick_ns: the value of TICK_NS. power_up: the value of POWER_UP; different each time,
     /// if a host depends on it.
     SimulatedDevice(RegisterWindow window, Plant plant, std::int64_t tick_ns, Tick now, std::uint64_t power_up = 0);
@@ -42,7 +42,7 @@ public:
     /// A frame or a tail is in progress.
     bool in_motion() const { return phase_ == Phase::Body || phase_ == Phase::Tail; }
     const Plant& plant() const { return plant_; }
-    /// To disturb it. The inputs are read again at the next call of advance.
+    /// For disturbances of the plant. The inputs are read again at the next call of advance.
     Plant& plant() { return plant_; }
 
 private:

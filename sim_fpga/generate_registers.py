@@ -19,7 +19,7 @@ def without_meanings(node):
 
 
 def checksum(source):
-    """What both sides must agree on: everything but the explanations."""
+    """The checksum of everything on which both sides must agree: all but the meanings."""
     text = json.dumps(without_meanings(source), sort_keys=True, separators=(",", ":"))
     return int.from_bytes(hashlib.sha256(text.encode()).digest()[:8], "big")
 
@@ -39,7 +39,7 @@ def extents(source):
 
 
 def verify(source):
-    """Words are aligned and inside the window, and no two share a byte."""
+    """Checks that words are aligned and inside the window, and that no two share a byte."""
     end = 0
     for name, start, stop in sorted(extents(source), key=lambda extent: extent[1]):
         assert start % 8 == 0 and start >= end, f"{name}: not aligned, or it overlaps what is before it"

@@ -6,8 +6,8 @@
 namespace lockstep {
 namespace {
 
-/// Whole steps from power-up to a place in mm, including the side where a switch there is closed: a place that is a
-/// whole step up to rounding is that step.
+/// Whole steps, rounded to the side on which a switch at the place is closed. A place that differs from a whole step
+/// only by rounding is that step.
 constexpr double kRounding = 1e-6;
 std::int64_t steps_down(double steps) { return std::llround(std::floor(steps + kRounding)); }
 std::int64_t steps_up(double steps) { return std::llround(std::ceil(steps - kRounding)); }
@@ -28,7 +28,7 @@ Plant::Plant(const AxisConfig& axis, std::int64_t tick_ns)
     max_gap_ = axis.plant.max_jump_mm_s * steps_per_mm_ * tick_s + std::sqrt(2 * max_acceleration_);
 }
 
-/// A pulse falls where the commanded position crosses a half: half a step before its count, in its direction.
+/// A pulse occurs where the commanded position crosses a half: half a step before its count, in its direction.
 void Plant::evaluate(StepEdge edge) {
     const double place = static_cast<double>(pulses_) - 0.5 * edge.direction;
     const auto ticks = static_cast<double>((edge.tick - evaluated_).value);
@@ -37,7 +37,7 @@ void Plant::evaluate(StepEdge edge) {
     if (stops_or_turns && std::abs(speed_) <= max_gap_) { speed_ = 0; }
     const double change = max_acceleration_ * ticks;
     speed_ = std::clamp(commanded, speed_ - change, speed_ + change);
-    const double rounding = 2 * std::abs(commanded) / ticks;  // a tick at either end
+    const double rounding = 2 * std::abs(commanded) / ticks;  // one tick at either end
     slips_ = std::abs(commanded - speed_) > max_gap_ + rounding;
     evaluated_ = edge.tick;
     evaluated_place_ = place;

@@ -7,9 +7,10 @@
 // the two then differ by more than max_jump_mm_s + sqrt(2 A), plus the effect of rounding pulses to ticks, the rotor
 // slips: every pulse is a step lost. sqrt(2 A), in steps and ticks, is the speed gained in the first step from a rest
 // just after a pulse, which pulses cannot distinguish from a jump. So jumps of up to max_jump, accelerations of up to
-// A, and both together lose nothing; at a speed within a jump it stops or reverses at once, any number of times; a
-// greater jump loses at once; a greater acceleration a loses from about the speed (max_jump + sqrt(2 A)) * a / (a - A)
-// on, where the rotor lags by that much. A dead stop loses nothing: no pulse follows it that could be lost.
+// A, and both together lose no steps. At a speed within a jump the motor stops or reverses at once, any number of
+// times. A greater jump loses steps at once. A greater acceleration a loses steps from about the speed
+// (max_jump + sqrt(2 A)) * a / (a - A) on, where the rotor lags by that much. A sudden stop loses nothing, because no
+// pulse follows it.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +28,7 @@ struct PlantInputs {
     constexpr bool operator==(const PlantInputs&) const = default;
 };
 
-/// The switches by their readings.
+/// One of the switches.
 using PlantContact = bool PlantInputs::*;
 
 class Plant {
@@ -36,15 +37,15 @@ public:
     /// capability: at 0 it loses every step.
     Plant(const AxisConfig& axis, std::int64_t tick_ns);
 
-    /// One pulse. Ticks rise from call to call.
+    /// One pulse. Ticks must rise from call to call.
     void step(StepEdge edge) {
         pulses_ += edge.direction;
         if (edge.tick - evaluated_ >= kWindow) { evaluate(edge); }
         slide_ += slips_ ? 0 : edge.direction;
     }
-    /// Moves the slide without pulses, like a hand.
+    /// Moves the slide without pulses, as if by hand.
     void push(std::int64_t steps) { slide_ += steps; }
-    /// A switch that is stuck has this reading for any position; nothing: it works again.
+    /// Makes a switch stick: it has this reading for any position. With nullopt it works again.
     void stick(PlantContact contact, std::optional<bool> reads) {
         stuck_closed_.*contact = reads == true;
         stuck_open_.*contact = reads == false;

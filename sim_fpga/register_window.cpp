@@ -20,7 +20,7 @@ std::unexpected<std::string> system_error(const std::string& what, const char* a
     return std::unexpected(what + ": cannot " + action + ": " + std::strerror(errno));
 }
 
-/// A mapping that its last user removes. The file stays open: it has the lock that shows that the owner lives.
+/// Removes a mapping after its last use. The file stays open until then: its lock shows that the owner is alive.
 struct Unmap {
     int file;
     std::string unlink_name;  // empty: not created here
@@ -42,7 +42,7 @@ std::expected<std::string, std::string> shm_name(const std::string& name) {
 
 bool lock(int file) { return ::flock(file, LOCK_EX | LOCK_NB) == 0; }
 
-/// Removes the memory of a dead process. False if a living one holds it.
+/// Removes the memory of a dead process. Returns false if a living process holds it.
 bool remove_stale(const std::string& name) {
     const int file = ::shm_open(name.c_str(), O_RDWR, 0);
     if (file < 0) { return errno == ENOENT; }
@@ -91,7 +91,7 @@ std::expected<RegisterWindow, std::string> RegisterWindow::open_shared(const std
 std::expected<RegisterWindow, std::string> RegisterWindow::create_file(const std::filesystem::path& path) {
     const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0660);
     if (file < 0) { return system_error(path.string(), "make it"); }
-    // Emptied, so that nothing of an earlier device is left; locked first, so that no living device's is removed.
+    // Empties the file, so that nothing of an earlier device is left. Locks it first, to keep that of a living device.
     if (!lock(file) || ::ftruncate(file, 0) != 0 ||
         ::ftruncate(file, static_cast<off_t>(registers::kWindowBytes)) != 0) {
         const auto error = system_error(path.string(), "lock and size it (is another device using it?)");

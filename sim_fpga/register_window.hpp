@@ -19,7 +19,7 @@
 namespace lockstep {
 
 /// A handle: all copies access the same registers. The last copy unmaps, and removes the name if it was created here.
-/// Registers whose memory is removed while mapped read 0 from then on, all of them, in this process (page_guard.hpp).
+/// If the memory is removed while it is mapped, all registers read 0 from then on in this process (page_guard.hpp).
 class RegisterWindow {
 public:
     /// Zeroed memory of this process.
@@ -29,10 +29,10 @@ public:
     static std::expected<RegisterWindow, std::string> create_shared(const std::string& name);
     /// Attaches to memory of create_shared, of this or another process.
     static std::expected<RegisterWindow, std::string> open_shared(const std::string& name);
-    /// The same in a file of this path, which stays when this process ends. Also an error if a living process has
+    /// Does the same in a file, which remains when this process ends. Returns an error also if a living process has
     /// it.
     static std::expected<RegisterWindow, std::string> create_file(const std::filesystem::path& path);
-    /// Attaches to a file or device that can be mapped read-write from its start. Error also where a file is too short.
+    /// Attaches to a file or device that can be mapped read-write from its start. Also fails if a file is too short.
     static std::expected<RegisterWindow, std::string> open_file(const std::filesystem::path& path);
 
     /// offset: in bytes, a multiple of 8, below registers::kWindowBytes.

@@ -24,7 +24,7 @@ struct SegmentEntry {
     bool last_frame() const { return (flags & registers::kSegmentRingFlagsLastFrame) != 0; }
 };
 
-/// A frame whose pieces join each other and can be executed: the body's pieces, then the tail's.
+/// A frame with pieces that join each other and can be executed: the body's pieces, then the tail's.
 struct LoadedFrame {
     FrameNumber number = 0;
     bool last = false;
@@ -38,13 +38,13 @@ public:
 
     /// Entries taken since power-up.
     std::uint64_t taken() const { return tail_; }
-    /// The oldest entry. None if the ring is empty, or the host's head is impossible.
+    /// The oldest entry. Returns nullopt if the ring is empty, or the host's head is impossible.
     std::optional<SegmentEntry> front() const;
-    /// Takes entries as long as the oldest is of `run`, or of any other run.
+    /// Takes entries off the ring while the oldest is of `run`, or while it is of any other run.
     void drop_run(std::uint64_t run);
     void drop_other_runs(std::uint64_t run);
-    /// Takes the oldest entry's frame. False, and `frame` must not be used, if it does not begin with its
-    /// first piece, a piece does not start where and when the one before ends or cannot be executed, or it is too long.
+    /// Takes the oldest entry's frame. Returns false if it does not begin with its first piece, a piece does not start
+    /// where and when the one before ends or cannot be executed, or it is too long. `frame` must not be used then.
     [[nodiscard]] bool take_frame(LoadedFrame& frame);
 
 private:

@@ -1,4 +1,5 @@
-// A directory of a test's own, removed with all that is in it: the same test may run in two programs at once.
+// A directory for one test, removed with its contents at the end. Its name is unique: two programs may run the same
+// test.
 #pragma once
 
 #include <stdlib.h>

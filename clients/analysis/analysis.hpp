@@ -1,7 +1,7 @@
-// The content of a log of lcm-logger or of the simulator: of each axis and of each job.
+// The content of a log written by lcm-logger or by the simulator, for each axis and each job.
 //
-// The log is read once, in bounded memory, however long it is. Damaged or missing messages are reported, and the rest
-// is read.
+// The log is read once, in memory that does not grow with its length. Damaged or missing messages are reported, and the
+// rest is read.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@
 
 namespace lockstep::analysis {
 
-/// A job as the coordinator recorded it. Microseconds of machine time.
+/// A job as the coordinator recorded it. Times are microseconds of machine time.
 struct JobLog {
     std::int64_t coordinator = 0;
     std::uint64_t job = 0;
@@ -38,18 +38,18 @@ struct JobLog {
     std::optional<std::int64_t> ended_us;
     std::string name;                        // of the program; empty for homing
     std::int64_t epochs = 0;                 // motions from rest to rest that its axes ran together
-    std::int64_t legs = 0;                   // as many as its program has; more epochs than that are interruptions
+    std::int64_t legs = 0;                   // motions from rest to rest as planned; further epochs are interruptions
     std::optional<std::string> unplannable;  // why the commanded motion is not known
     std::int64_t move_count = 0;
-    std::vector<MoveLog> moves;    // the first, as many as are kept
+    std::vector<MoveLog> moves;    // the first ones, as many as are kept
     std::optional<Ticks> planned;  // as programmed
-    bool overridden = false;       // it ran with other feeds and rapids than programmed
-    std::int64_t asked_steps = 0;  // of all axes, whatever moves are kept
+    bool overridden = false;       // it ran with feeds or rapids other than programmed
+    std::int64_t asked_steps = 0;  // of all axes in all moves, kept or not
     std::int64_t made_steps = 0;
     std::int64_t unasked_steps = 0;  // that belong to no move
     std::int64_t moves_not_whole = 0;
     std::optional<double> largest_distance_mm;  // from the commanded line, if known
-    std::int64_t moves_without_distance = 0;    // since steps are missing from the log, or come too late in it
+    std::int64_t moves_without_distance = 0;    // because steps are missing from the log or come too late in it
     std::vector<std::string> axes_not_known;    // the log lacks steps of these axes
     TickHistogram late;                         // of its steps
 
@@ -71,36 +71,37 @@ struct Analysis {
     std::vector<std::unique_ptr<AxisLog>> axes;  // in the configuration's order; by name without one
     std::vector<JobLog> jobs;                    // in the order they began, the first kJobsKept
     std::uint64_t jobs_not_kept = 0;
-    std::int64_t missing_job_events = 0;           // between the first and the last of each coordinator
+    std::int64_t missing_job_events = 0;           // between the first and the last event of each coordinator
     RecordEnd end;                                 // messages missing after the last ones in the log
     std::uint64_t events = 0;                      // read, of every kind
-    std::map<std::string, std::uint64_t> foreign;  // events of channels that are not this machine's
+    std::map<std::string, std::uint64_t> foreign;  // events of other channels and machines, by name
     std::int64_t steps_of_no_job = 0;              // made before any job begins in the log
     std::uint64_t runs = 0;                        // frames and tails begun, as recorded for verification
-    std::vector<Damage> damages;                   // by reason; the last of kDamagesKept is of all further reasons
+    std::vector<Damage> damages;                   // by reason; the last of kDamagesKept collects all further reasons
     std::vector<Event> happened;                   // in the order of time
     std::uint64_t events_not_kept = 0;
     std::vector<HappenedEvent> program_events;  // the first of the log, in the order of time
     std::uint64_t program_events_not_kept = 0;
     std::vector<PairSkew> step_skew;                         // between axes that ran frames together
     std::optional<double> largest_distance_mm;               // of any step from the commanded line, all axes together
-    std::vector<std::vector<drawing::Point>> asked_ways_mm;  // X-Y, of each program that differs from the one before
+    std::vector<std::vector<drawing::Point>> asked_ways_mm;  // X-Y, of each program that differs from the previous one
     std::vector<std::vector<drawing::Point>> stepped_ways;   // X-Y, steps
 
     std::int64_t tick_ns() const { return config ? config->tick_ns : MachineConfig{}.tick_ns; }
-    /// The configured axis of that name, or null.
+    /// The configured axis of this name, or null.
     const AxisConfig* axis_config(const std::string& name) const;
-    /// From the configuration, or else from the axis's own messages; none if neither has it.
+    /// From the configuration, else from the axis's own messages; nullopt if neither contains it.
     std::optional<double> steps_per_mm(const AxisLog& axis) const;
-    /// Axes of the configuration without any message in the log.
+    /// Configured axes without any message in the log.
     std::vector<std::string> absent_axes() const;
-    /// The first and the last step of any axis; none without steps.
+    /// The first and the last step of any axis; nullopt without steps.
     std::optional<Tick> first_tick() const;
     std::optional<Tick> last_tick() const;
     double seconds(Ticks ticks) const {
         return static_cast<double>(ticks.value) * static_cast<double>(tick_ns()) * 1e-9;
     }
-    /// Microseconds of machine time as ticks, and back; no number is too large.
+    /// Converts microseconds of machine time to ticks, and back. The result is limited to +-kEnd, so any number is
+    /// valid.
     Tick tick_at(std::int64_t microseconds) const {
         return {static_cast<std::int64_t>(std::clamp(Int128{microseconds} * 1000 / tick_ns(), -kEnd, kEnd))};
     }
@@ -108,18 +109,18 @@ struct Analysis {
         return static_cast<std::int64_t>(std::clamp(Int128{tick.value} * tick_ns() / 1000, -kEnd, kEnd));
     }
     double microseconds(Ticks ticks) const { return seconds(ticks) * 1e6; }
-    /// After the log's first step.
+    /// Seconds after the log's first step.
     double seconds_at(Tick tick) const { return seconds(tick - first_tick().value_or(tick)); }
 };
 
 struct AnalysisOptions {
     std::optional<std::filesystem::path> csv_dir;  // created if missing
     std::optional<std::filesystem::path> svg_dir;
-    std::optional<std::string> machine;    // which, if the log holds several; else the first
-    std::function<void(double)> progress;  // 0 ... 1, now and then
+    std::optional<std::string> machine;    // the machine to analyze if the log has several; else the first one
+    std::function<void(double)> progress;  // called with 0 ... 1 from time to time
 };
 
-/// The error is a sentence for the user: the file is missing, a directory, empty or not a log; or a file or directory
+/// The error is a sentence for the user. The log is missing, a directory, empty or not a log, or a file or directory
 /// cannot be written.
 std::expected<Analysis, std::string> analyze_log(const std::filesystem::path& log, const AnalysisOptions& options = {});
 

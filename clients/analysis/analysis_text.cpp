@@ -26,7 +26,7 @@ std::int64_t total(const Analysis& analysis, std::int64_t (*of)(const AxisLog&))
 std::int64_t steps_of(const AxisLog& axis) { return axis.counts().steps; }
 std::int64_t missing_batches_of(const AxisLog& axis) { return axis.statistics().missing_batches(); }
 
-/// Axes of which the log lacks steps.
+/// Axes with steps that the log lacks.
 std::vector<std::string> axes_not_known(const Analysis& analysis) {
     std::vector<std::string> names = analysis.absent_axes();
     for (const JobLog& job : analysis.jobs) {
@@ -56,7 +56,7 @@ double seconds(const Analysis& analysis) {
     return first ? analysis.seconds(*analysis.last_tick() - *first) : 0;
 }
 
-/// A position, speed or acceleration in mm, or in steps if mm are not known.
+/// Converts a position, speed or acceleration to mm, or keeps steps if the steps per mm are not known.
 struct Lengths {
     double per_step = 1;
     double ticks_per_s = 1;

@@ -44,7 +44,7 @@ std::expected<void, std::string> AxisLog::finish() {
     return steps ? position_csv_->close() : steps;
 }
 
-/// The steps between the last one recorded and a later position.
+/// The steps from the last recorded step to a later position.
 std::int64_t AxisLog::unrecorded_at(const PositionSample& sample) const {
     const bool is_later = !stream_.last_tick() || sample.tick >= *stream_.last_tick();
     return is_later ? sample.position_steps - stream_.position_steps().value_or(first_position_steps_) : 0;

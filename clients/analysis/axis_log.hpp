@@ -27,7 +27,7 @@ struct PositionSample {
     double velocity_mm_per_s = 0;
 };
 
-/// How late an axis's steps were, against the ticks commanded: ticks.
+/// How late an axis's steps were against the commanded ticks, in ticks.
 struct LateFigures {
     TickHistogram amounts;
     Course course;
@@ -50,10 +50,10 @@ public:
     AxisLog(const AxisLog&) = delete;
     AxisLog& operator=(const AxisLog&) = delete;
 
-    /// From now on every step and position is also written to `steps_<axis>.csv` and `positions_<axis>.csv`.
+    /// Also writes every later step and position to `steps_<axis>.csv` and `positions_<axis>.csv`.
     std::expected<void, std::string> write_csv(const std::filesystem::path& directory);
 
-    /// Later steps also go to this object, which must outlive the log's end.
+    /// Passes later steps to `listener` too, which must live until the end of the log.
     void set_listener(MeasuredListener& listener, std::size_t lane) { statistics_.set_listener(listener, lane); }
     void take(StepBatch batch);
     void take(const PositionSample& sample);
@@ -61,26 +61,27 @@ public:
     void take_slack(Sample slack_ms) { slack_.add(slack_ms); }
     MessageNumbers& position_numbers() { return position_numbers_; }
     MessageNumbers& figure_numbers() { return figure_numbers_; }
-    /// Call once, at the end. The error is that of a file that was not written completely.
+    /// Call once, at the end. Fails if a file was not written completely.
     std::expected<void, std::string> finish();
 
     const std::string& name() const { return name_; }
     const StreamCounts& counts() const { return stream_.counts(); }
     const AxisStatistics& statistics() const { return statistics_; }
-    /// How far its steps were from the commanded ticks, and over time, signed: ticks.
+    /// How late its steps were against the commanded ticks: a histogram, and signed over time, in ticks.
     const TickHistogram& late() const { return late_.amounts; }
     std::vector<Sample> late_course() const { return late_.course.samples(); }
-    /// The minimum time between a frame's arrival and its start, over time: ms.
+    /// The minimum time between a frame's arrival and its start, over time, in ms.
     std::vector<Sample> slack() const { return slack_.samples(); }
     const Trace& trace() const { return trace_; }
     std::int64_t positions() const { return positions_; }
-    /// Messages between the first and the last in the log.
+    /// Missing messages between the first and the last in the log.
     std::int64_t missing_positions() const { return position_numbers_.missing_within(); }
     std::int64_t missing_figures() const { return figure_numbers_.missing_within(); }
-    /// From the axis's own messages; none if they do not contain it.
+    /// From the axis's own messages; nullopt if they do not contain it.
     std::optional<double> steps_per_mm() const { return steps_per_mm_; }
-    /// The distance of the last position message from the last step recorded before it, or of a message between them
-    /// after a return of the axis: the log ends too early for these steps, or its end is lost. 0 if they agree.
+    /// The steps from the last recorded step to the last position message. If these agree, the largest distance of any
+    /// position message in between, since the axis may have returned. Not 0 if the log ends too early for these steps,
+    /// or if its end is lost.
     std::int64_t unrecorded_steps() const;
 
 private:
@@ -103,7 +104,7 @@ private:
     StepStream stream_{{&statistics_, &trace_}};
 };
 
-/// The minimum number of an axis's steps that were made and are not in the log.
+/// The minimum number of steps that an axis made and the log lacks.
 std::int64_t missing_steps_of(const AxisLog& axis);
 
 }  // namespace lockstep::analysis

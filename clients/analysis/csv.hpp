@@ -1,4 +1,4 @@
-// Writes lines of whole numbers and decimals to a file, fast.
+// Writes lines of integers, decimals and texts to a file, fast.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@
 
 namespace lockstep::analysis {
 
-/// As a cell: in quotes if it contains a comma, a quote or a line end (RFC 4180).
+/// The text of a cell, in quotes if it contains a comma, a quote or a line end (RFC 4180).
 std::string csv_text(std::string_view text);
 
-/// A CSV file. Numbers are written exactly, decimals in their shortest form that reads back the same.
+/// A CSV file. Integers are written exactly, decimals in the shortest form that reads back the same.
 class CsvFile {
 public:
     /// Creates or replaces the file with its header line. The error names the file and the reason.
@@ -40,7 +40,7 @@ private:
     std::string buffer_;
 };
 
-/// `steps_<axis>.csv`: tick and position (steps) after each step.
+/// `steps_<axis>.csv`: the tick of each step and the position after it, in steps.
 class StepCsv final : public StepListener {
 public:
     static constexpr std::string_view kHeader = "tick,position";

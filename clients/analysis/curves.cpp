@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// An axis's curve without its points, and the factors from its ticks and steps to seconds and lengths.
+/// An axis's curve, and the factors that convert its ticks and steps to seconds and lengths.
 struct Scaled {
     drawing::AxisCurve curve;
     double length_per_step = 1;
@@ -38,7 +38,7 @@ Scaled scaled(const Analysis& analysis, const AxisLog& axis) {
     return out;
 }
 
-/// Samples of a quantity, broken where steps are missing.
+/// Adds samples of a quantity, and a break where steps are missing.
 void add_samples(const std::vector<Sample>& samples, double scale, Scaled& out) {
     const auto& gaps = out.curve.missing;
     std::size_t next_gap = 0;

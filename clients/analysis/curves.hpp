@@ -1,5 +1,5 @@
-// The motion of each axis over time, as curves. Seconds after the log's first step; mm, or steps if steps per mm
-// are not known. A curve is broken where steps are missing.
+// The motion of each axis over time, as curves. Times are seconds after the log's first step. Lengths are mm, or steps
+// if the steps per mm are not known. A curve is broken where steps are missing.
 #pragma once
 
 #include <vector>
@@ -9,14 +9,14 @@
 
 namespace lockstep::analysis {
 
-/// Speeds and positions range from the first step of any axis to the last: an axis rests before its own first step and
-/// after its last.
+/// Speeds and positions range from the first step of any axis to the last step of any axis. An axis rests before its
+/// own first step and after its own last step.
 std::vector<drawing::AxisCurve> speed_curves(const Analysis& analysis);  // per s
 std::vector<drawing::AxisCurve> position_curves(const Analysis& analysis);
 std::vector<drawing::AxisCurve> acceleration_curves(const Analysis& analysis);  // per s^2
 /// How late the steps were against the commanded ticks, in microseconds.
 std::vector<drawing::AxisCurve> lateness_curves(const Analysis& analysis);
-/// The time between the arrival of the latest frame of each second and its start, in milliseconds.
+/// The minimum time between a frame's arrival and its start, in the second before each report, in milliseconds.
 std::vector<drawing::AxisCurve> slack_curves(const Analysis& analysis);
 
 }  // namespace lockstep::analysis

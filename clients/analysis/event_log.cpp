@@ -17,7 +17,7 @@ Event fault_event(const axis_position_t& message) {
     return event;
 }
 
-/// For a run that was cut: its last step, since which the axis stands; its start if it made none.
+/// When a run that was cut made its last step; its start if it made none.
 Tick ceased(const Run& run) {
     StepMaker steps(run);
     Tick last = run.commanded_start();
@@ -33,7 +33,8 @@ void EventLog::take(const axis_position_t& message) {
     if (message.fault != 0 && message.fault != before) { note(fault_event(message)); }
 }
 
-/// A frame's own end is not an event: a tail runs only if the next frame was vetoed or not received.
+/// The end of a frame is not an event. A tail is one, because it runs only if the next frame was vetoed or not
+/// received.
 void EventLog::take(const std::string& axis, const Run& run) {
     if (run.epoch == 0) { return; }
     if (run.cut) {

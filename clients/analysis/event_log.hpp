@@ -1,4 +1,4 @@
-// Events that interrupted motion, with the positions of the axes: faults, stops, tails, restarts.
+// Events that interrupted or changed motion (faults, stops, tails, overrides), with the positions of the axes.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +18,10 @@ namespace lockstep::analysis {
 struct Event {
     Tick at;  // machine time
     std::string what;
-    std::string axis;    // empty: the machine's
-    std::string remedy;  // empty: none is known
+    std::string axis;    // empty: an event of the machine
+    std::string remedy;  // empty if none is known
     bool is_fault = false;
-    std::optional<std::uint64_t> job;              // in motion then
+    std::optional<std::uint64_t> job;              // in motion at that time
     std::optional<std::int32_t> line;              // of its program
     std::map<std::string, std::int64_t> at_steps;  // of each axis, as last received
 };
@@ -34,7 +34,7 @@ public:
     void take(const std::string& axis, const Run& run);
     void note(Event event);
 
-    std::vector<Event>& events() { return events_; }  // in the order of the log, the first kEventsKept
+    std::vector<Event>& events() { return events_; }  // the first kEventsKept, in the order of the log
     std::uint64_t not_kept() const { return not_kept_; }
 
 private:

@@ -12,10 +12,10 @@
 
 namespace lockstep::analysis {
 
-/// Time counts from the log's first step. Lengths are in steps for an axis whose steps per mm are not known.
+/// Time counts from the log's first step. Lengths are in steps if an axis's steps per mm are not known.
 drawing::Figure speed_figure(const Analysis& analysis);
 drawing::Figure position_figure(const Analysis& analysis);
-/// The path in the X-Y plane; without such a plane the positions over time.
+/// The path in the X-Y plane, or the positions over time if there is no such plane.
 drawing::Figure path_figure(const Analysis& analysis, const std::optional<PlanePaths>& plane);
 
 /// Writes all three. The error names the file.

@@ -15,8 +15,8 @@ namespace {
 
 using Findings = std::vector<Finding>;
 
-constexpr double kOverLimit = 1.02;  // a speed is measured to within 0.1 %, and planned up to the limit
-constexpr Ticks kRounding{2};        // a step's error besides its clock's
+constexpr double kOverLimit = 1.02;  // speeds are planned up to the limit and measured to within 0.1 %
+constexpr Ticks kRounding{2};        // a step's error in addition to its clock's
 
 std::string name_of(const JobLog& job) {
     return fmt::format("job {} ({})", job.job, job.name.empty() ? job.kind : job.name);
@@ -28,20 +28,21 @@ std::int64_t total(const Analysis& analysis, std::int64_t JobLog::*of) {
     return sum;
 }
 
-/// Messages of steps that lie between others in the log. A log may begin after the machine did.
+/// Missing messages of steps between others in the log. A log may begin after the machine, so earlier messages do not
+/// count.
 std::int64_t missing_between(const AxisLog& axis) {
     std::int64_t missing = 0;
     for (const Break& what : axis.statistics().breaks()) { missing += what.from ? what.missing_batches : 0; }
     return missing;
 }
 
-/// The log lacks steps, or may lack them, since a part cannot be read.
+/// Whether the log lacks steps, or may lack them because a part cannot be read.
 bool lacks_steps(const Analysis& analysis) {
     const auto lacks = [](const auto& axis) { return missing_steps_of(*axis) != 0 || missing_between(*axis) != 0; };
     return !analysis.damages.empty() || analysis.end.lacks_steps() || std::ranges::any_of(analysis.axes, lacks);
 }
 
-/// The log also lacks no axis, and does not end within a job.
+/// Whether the log has all steps and all axes, and does not end within a job.
 bool has_all_steps(const Analysis& analysis) {
     const auto is_cut = [](const JobLog& job) { return job.outcome.empty() || !job.axes_not_known.empty(); };
     return !lacks_steps(analysis) && analysis.absent_axes().empty() && std::ranges::none_of(analysis.jobs, is_cut);
@@ -53,7 +54,7 @@ Finding unknown(const std::string& what, const std::string& why) {
                                         what, why)};
 }
 
-/// Missing axes and jobs of the whole log, and the consequences.
+/// Notes axes and jobs that the log lacks, and the consequences.
 void check_presence(const Analysis& analysis, Findings& found) {
     const auto absent = analysis.absent_axes();
     if (!absent.empty()) {
@@ -78,7 +79,7 @@ void check_outcome(const JobLog& job, Findings& found) {
     }
 }
 
-/// If a job was not done, the rest is not missed. If the record lacks steps, the steps made are unknown.
+/// Only a job that is done must have all its steps. If the record lacks steps, the number of steps made is unknown.
 void check_steps(const JobLog& job, bool record_lacks_steps, Findings& found) {
     if (job.is_whole() || job.outcome != "done") { return; }
     const std::string moves = grouped(job.moves_not_whole) + " of " + plural(job.move_count, "move");
@@ -181,8 +182,8 @@ void check_times(const Analysis& analysis, Findings& found) {
                             "the times commanded are not in this log"));
 }
 
-/// The maximum distance of exact steps of all axes from the line: a step of each, and the motion of each within the
-/// uncertainty of its clock.
+/// The maximum distance from the line that exact steps can have: one step of each axis, and the motion of each axis
+/// within the uncertainty of its clock.
 double exact_distance_mm(const Analysis& analysis) {
     double squares = 0;
     double by_clocks = 0;
@@ -211,7 +212,7 @@ void check_distance(const Analysis& analysis, Findings& found) {
                             "steps of an axis are not in this log, or come too late in it"));
 }
 
-/// Makes no statement about the time before the log.
+/// The finding does not cover the time before the log.
 void check_missing(const Analysis& analysis, Findings& found) {
     if (!has_all_steps(analysis)) { return; }
     const auto lacks = [](const auto& axis) { return axis->statistics().missing_batches() != 0; };
@@ -222,7 +223,7 @@ void check_missing(const Analysis& analysis, Findings& found) {
              (analysis.end.open.empty() ? "no step is missing" : "no step is known to be missing") + since});
         return;
     }
-    std::vector<std::string> names;  // the log does not show whether there are more axes
+    std::vector<std::string> names;  // without a configuration the log does not show whether there are more axes
     for (const auto& axis : analysis.axes) { names.push_back(axis->name()); }
     found.push_back({Grade::Good, "no step of " + in_words(names) +
                                       (analysis.end.open.empty() ? " is missing" : " is known to be missing") + since});

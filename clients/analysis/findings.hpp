@@ -11,10 +11,10 @@
 namespace lockstep::analysis {
 
 enum class Grade : std::uint8_t {
-    Good,      // as commanded
+    Good,      // the motion is as commanded
     Doubtful,  // the record lacks something, or the motion is not exactly as commanded
     Unknown,   // the log lacks the data for the answer
-    Bad,       // not as commanded
+    Bad,       // the motion is not as commanded
 };
 
 std::string_view name_of(Grade grade);
@@ -30,7 +30,7 @@ std::vector<Finding> findings(const Analysis& analysis);
 /// The most serious grade.
 Grade worst_grade(const std::vector<Finding>& findings);
 
-/// "good: nothing is missing, ..." in a line.
+/// The worst grade and its first finding in a line: "good: nothing is missing, ...".
 std::string headline(const std::vector<Finding>& findings);
 
 }  // namespace lockstep::analysis

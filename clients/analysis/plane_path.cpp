@@ -10,9 +10,9 @@
 namespace lockstep::analysis {
 namespace {
 
-constexpr double kChord_mm = 0.01;  // a chord is drawn so far from its arc at most
+constexpr double kChord_mm = 0.01;  // maximum distance of a drawn chord from its arc
 
-/// Steps per mm of an axis that has made steps.
+/// The steps per mm of this axis; nullopt if it has made no steps.
 std::optional<double> scale_of(const Analysis& analysis, const std::string& name) {
     for (const auto& log : analysis.axes) {
         if (log->name() == name && log->statistics().first()) { return analysis.steps_per_mm(*log); }
@@ -20,7 +20,7 @@ std::optional<double> scale_of(const Analysis& analysis, const std::string& name
     return std::nullopt;
 }
 
-/// Lengths along each axis are divided by its scale.
+/// Joins the ways to one path with a break between them, and divides the lengths along each axis by its scale.
 drawing::PlanePath joined(const std::vector<std::vector<drawing::Point>>& ways, double scale_x, double scale_y) {
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     drawing::PlanePath path;

@@ -8,18 +8,18 @@
 
 namespace lockstep::analysis {
 
-/// In mm. Stepped contains the steps of the jobs that have a program, or all steps if no job has one; broken where
-/// steps are missing.
+/// In mm. `stepped` contains the steps of the jobs that have a program, or all steps if no job has one. It is broken
+/// where steps are missing.
 struct PlanePaths {
     drawing::PlanePath asked;
     drawing::PlanePath stepped;
 };
 
-/// None unless there are axes X and Y whose steps per mm are known.
+/// Returns nullopt unless there are axes X and Y with known steps per mm.
 std::optional<PlanePaths> paths_in_plane(const Analysis& analysis);
 
-/// The places a program leads through in the X-Y plane, in mm; none unless it has both axes. Of more than
-/// `at_most` places those are left out that a picture does not need.
+/// The points of a program's path in the X-Y plane, in mm; empty unless the program has both axes. If there are more
+/// than `at_most`, leaves out those that a picture does not need.
 std::vector<drawing::Point> asked_in_plane(const RecordedProgram& program, std::size_t at_most);
 
 }  // namespace lockstep::analysis

@@ -1,4 +1,4 @@
-// Whether the record in a log is complete, as text: what is missing, and what is unknown.
+// Whether the record in a log is complete, as text about missing and unknown parts.
 #pragma once
 
 #include <string>
@@ -10,12 +10,12 @@ namespace lockstep::analysis {
 
 struct RecordState {
     std::vector<std::string> missing;
-    std::vector<std::string> not_known;  // up to when the record is known to be complete; empty: to its end
+    std::vector<std::string> not_known;  // until when the record is known to be complete; empty if to its end
 
     bool is_complete() const { return missing.empty(); }
 };
 
-/// "axis X: 3 messages of steps are missing": between the first and the last that are there.
+/// "axis X: 3 messages of steps": missing between the first and the last message in the log.
 std::string missing_between(const std::string& process, std::int64_t messages, const std::string& what);
 
 RecordState record_state(const Analysis& analysis);

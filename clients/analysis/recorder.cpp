@@ -12,7 +12,8 @@
 namespace lockstep::analysis {
 namespace {
 
-/// An axis reports its position in every slot: one that is silent for so long has ended, or is not in the log.
+/// An axis reports its position in every slot. If it is silent for this long, it has ended or the log lacks its
+/// messages.
 constexpr std::int64_t kSilence_us = 500'000;
 
 }  // namespace
@@ -56,7 +57,7 @@ void Recorder::on_job(const RecordedJob& message, LogPlace place) {
     } else if (message.event == "override") {
         record->overridden = true;
         events_.note({.at = analysis_.tick_at(message.utime),
-                      .what = fmt::format("overrides turned to feed {} %, rapid {} %, for all behind frame {}",
+                      .what = fmt::format("overrides changed to feed {} %, rapid {} %, for all frames after frame {}",
                                           message.feed_percent, message.rapid_percent, message.behind_frame),
                       .axis = {},
                       .remedy = {}});
@@ -75,7 +76,7 @@ void Recorder::on_event(const program_event_t& message, const ProgramEvent& even
 
 void Recorder::on_damage(LogPlace place, const std::string& what) { note_damage(analysis_.damages, place, what); }
 
-/// Null: more jobs than are kept.
+/// Returns null if there are more jobs than are kept.
 JobLog* Recorder::job(const job_t& message) {
     const auto number = static_cast<std::uint64_t>(message.job);
     const auto known = std::ranges::find_if(analysis_.jobs.rbegin(), analysis_.jobs.rend(), [&](const JobLog& job) {
@@ -134,7 +135,7 @@ bool Recorder::is_during(Tick tick, const JobLog& job) const {
 }
 
 void Recorder::keep_asked_way(const RecordedProgram& program) {
-    constexpr std::size_t kFewest = 1000;  // a path of fewer points may be drawn too coarsely
+    constexpr std::size_t kFewest = 1000;  // a path limited to fewer points may be drawn too coarsely
     const std::size_t most = Analysis::kAskedPointsKept - asked_points_;
     if (most < kFewest) { return; }
     auto way = asked_in_plane(program, most);
@@ -143,7 +144,7 @@ void Recorder::keep_asked_way(const RecordedProgram& program) {
     analysis_.asked_ways_mm.push_back(std::move(way));
 }
 
-/// The program; null if there is none, or it cannot be read.
+/// Reads the configuration into the analysis and returns the program; null if there is none, or if it cannot be read.
 std::shared_ptr<const RecordedProgram> Recorder::read_documents(const RecordedJob& message, LogPlace place) {
     auto config = parse_machine(message.config);
     if (config) {
@@ -158,7 +159,7 @@ std::shared_ptr<const RecordedProgram> Recorder::read_documents(const RecordedJo
     return nullptr;
 }
 
-/// Notes the axes of whose motion in the job the log lacks steps.
+/// Notes the axes with steps in the job that the log lacks.
 void Recorder::note_unknown(JobLog& job, const std::vector<std::string>& axes, JobMoves& moves) const {
     const Tick begun = analysis_.tick_at(*job.begun_us + kSilence_us);
     for (std::size_t axis = 0; axis < moves.asked().axes(); ++axis) {

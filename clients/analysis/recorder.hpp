@@ -1,4 +1,4 @@
-// Collects what concerns a machine as a whole: its jobs and their moves, relations between axes, and errors.
+// Collects the data of the whole machine: jobs and their moves, relations between axes, and errors.
 #pragma once
 
 #include <cstdint>
@@ -31,16 +31,16 @@ public:
     void on_damage(LogPlace place, const std::string& what) override;
     void on_late(const std::string& axis, const SharedLate& steps) override;
 
-    /// Call once, at the end of the log. Moves all results out, with the sorter's results for each axis.
+    /// Call once, at the end of the log. Moves all results out, including the sorter's results for each axis.
     Analysis finish(Sorter& sorter);
 
 private:
     struct Lane {
         std::string axis;
         LateFigures late;
-        std::optional<std::int64_t> seen_us{};  // by its newest position or step
-        std::int64_t incarnation = 0;           // of its newest position's process
-        std::int64_t sequence = 0;              // of that position
+        std::optional<std::int64_t> seen_us{};  // time of its newest position or step
+        std::int64_t incarnation = 0;           // process of its newest position
+        std::int64_t sequence = 0;              // number of that position
     };
 
     JobLog* job(const job_t& message);
@@ -60,9 +60,9 @@ private:
         note_moves(analysis_.jobs[job], moves);
     }};
     StepMerge merge_;
-    std::vector<Lane> lanes_;  // by number
+    std::vector<Lane> lanes_;  // by lane number
     Analysis analysis_;
-    RecordedJob latest_program_;  // the job that had it
+    RecordedJob latest_program_;  // the job with the latest program
     std::size_t moves_kept_ = 0;
     std::size_t asked_points_ = 0;
 };

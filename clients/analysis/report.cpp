@@ -126,7 +126,7 @@ void fill(const Analysis& analysis, const Event& event, proto::LogEvent& report)
     }
 }
 
-/// Steps where the machine's configuration is known.
+/// Adds steps only if the machine's configuration is known.
 void fill(const Analysis& analysis, const ProgramPlace& place,
           google::protobuf::RepeatedPtrField<proto::FinalPosition>& out) {
     for (const auto& [axis, mm] : place) {

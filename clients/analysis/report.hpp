@@ -1,4 +1,4 @@
-// An analysis as the report that `lockstep analyze --json` prints.
+// Converts an analysis to the report that `lockstep analyze --json` prints.
 #pragma once
 
 #include "clients/analysis/analysis.hpp"

@@ -86,7 +86,7 @@ void Sorter::on_foreign(std::string_view channel) { ++foreign_[std::string(chann
 
 void Sorter::on_damage(LogPlace place, std::string what) { listener_.on_damage(place, what); }
 
-/// Whether the message is of the analysed machine; if none was chosen, the first message selects it.
+/// Whether the message is of the analyzed machine. If none was chosen, the first message selects it.
 bool Sorter::is_ours(const std::string& machine) {
     if (!machine_) { machine_ = machine; }
     if (machine == *machine_) { return true; }
@@ -94,7 +94,7 @@ bool Sorter::is_ours(const std::string& machine) {
     return false;
 }
 
-/// Null: it is of another machine, or impossible.
+/// Returns null if the message is of another machine or has an impossible axis.
 Sorter::Lane* Sorter::lane(const std::string& machine, const std::string& axis, LogPlace place) {
     if (!is_axis_name(axis)) {
         on_damage(place, "an axis's name is not valid");

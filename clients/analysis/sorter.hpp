@@ -1,5 +1,5 @@
-// Sorts a log's messages by machine and axis. Measures each axis's own figures, and passes on what concerns several
-// axes, or jobs.
+// Sorts a log's messages by machine and axis. Measures the figures of each single axis, and passes on messages that
+// concern several axes or jobs.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,7 @@ public:
     /// Delivers the waiting steps. Call once, at the end of the log. The error is that of the first file that could not
     /// be written.
     std::expected<void, std::string> finish();
-    /// Moves the axes out, by name, with the counts.
+    /// Moves the axes, in the order of their names, and the counts into `analysis`.
     void give(Analysis& analysis);
 
 private:
@@ -53,7 +53,7 @@ private:
 
     const AnalysisOptions& options_;
     SortedListener& listener_;
-    std::optional<std::string> machine_;  // the analysed one: as chosen, or the first received
+    std::optional<std::string> machine_;  // the analyzed machine: as chosen, or the first received
     std::map<std::string, Lane> lanes_;
     std::map<std::string, std::uint64_t> foreign_;
     std::uint64_t runs_ = 0;

@@ -1,5 +1,5 @@
-// Passes all calls of a listener on to another, in the same order, on its own thread: the caller does not wait for
-// the work. One of these between two stages makes both work in parallel.
+// Passes all calls of a listener on to another in the same order, on a separate thread. The caller does not wait for
+// the work. A StageThread between two stages makes both work in parallel.
 #pragma once
 
 #include <condition_variable>
@@ -16,11 +16,11 @@ namespace lockstep::analysis {
 
 class StageThread final : public SortedListener {
 public:
-    /// So many calls are handed over at once, and the queue holds so many batches: this bounds the memory.
+    /// The number of calls in a batch, and the maximum number of batches in the queue. They bound the memory.
     static constexpr std::size_t kTogether = 16;
     static constexpr std::size_t kMaxWaiting = 4;
 
-    /// `listener` is the other thread's until finish().
+    /// The other thread uses `listener` until finish().
     explicit StageThread(SortedListener& listener);
     StageThread(const StageThread&) = delete;
     StageThread& operator=(const StageThread&) = delete;
@@ -35,7 +35,7 @@ public:
     void on_damage(LogPlace place, const std::string& what) override;
     void on_late(const std::string& axis, const SharedLate& steps) override;
 
-    /// Waits until all calls were passed on.
+    /// Waits until all calls are passed on.
     void finish();
 
 private:
@@ -44,7 +44,7 @@ private:
 
     void add(Call call);
     void hand_over();
-    Batch next();  // empty: no more will come
+    Batch next();  // empty after the last one
     void run(SortedListener& listener);
 
     Batch batch_;

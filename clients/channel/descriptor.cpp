@@ -9,7 +9,7 @@
 namespace lockstep {
 namespace {
 
-constexpr int kReadPatience_ms = 500;  // for another side that reads nothing
+constexpr int kReadPatience_ms = 500;  // while the other side reads nothing
 
 }  // namespace
 

@@ -7,7 +7,7 @@
 
 namespace lockstep {
 
-/// Closed with the object.
+/// Owns a file descriptor; the destructor closes it.
 class Descriptor {
 public:
     explicit Descriptor(int fd = -1) : fd_(fd) {}
@@ -22,12 +22,14 @@ private:
     int fd_;
 };
 
-/// The bytes that arrive within the time, perhaps none. nullopt: the other side has closed the connection.
+/// Returns the bytes that arrive within the time; empty if none arrive, nullopt if the other side has closed the
+/// connection.
 std::optional<std::string> read_from(const Descriptor& from, std::chrono::milliseconds within);
-/// False: the other side is gone, or has not read for long.
+/// Returns false if the other side is gone or has read nothing for 500 ms.
 bool write_to(const Descriptor& to, const std::string& bytes);
 
-/// poll(): the events of `events` that came, and those that always come.
+/// Calls poll() and returns the events that occurred: those of `events`, and POLLERR, POLLHUP and POLLNVAL, which
+/// poll() always reports. Returns 0 if the time expires.
 short wait_for(int fd, short events, int within_ms);
 
 }  // namespace lockstep

@@ -13,7 +13,7 @@ struct Listener {
     bool is_loopback = false;
 };
 
-/// `address`: of IPv4 or IPv6; port 0: any free one. Error: why not, and the remedy.
+/// `address` is an IPv4 or IPv6 address. Port 0 selects any free port. The error names the cause and the remedy.
 std::expected<Listener, std::string> listen_at(const std::string& address, std::uint16_t port);
 
 }  // namespace lockstep

@@ -8,10 +8,11 @@
 
 namespace lockstep {
 
-/// `place`: a path that begins with / or ., at `baud`; else HOST:PORT. Error: it cannot be opened, why, and what to do.
+/// `place` is HOST:PORT, or the path of a serial line that begins with / or . and runs at `baud`. The error names the
+/// cause and the remedy.
 std::expected<Descriptor, std::string> open_port(const std::string& place, int baud);
 
-/// Those that a serial line may have.
+/// Whether open_port() supports this baud rate.
 bool is_baud(int baud);
 
 }  // namespace lockstep

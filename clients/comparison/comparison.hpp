@@ -1,7 +1,8 @@
-// One move by the published methods of step generation, and its errors against the continuous ideal.
+// Runs one move with the published methods of step generation and measures their errors against the continuous ideal.
 //
-// Errors are step times minus the ideal's, in us, each in the method's own convention for a step's place. Peaks are
-// measured from the steps as `lockstep analyze` measures them (clients/analysis/measure/speed_meter.hpp), in whole us.
+// An error is a step time minus the ideal's step time, in us. The ideal's step times follow the method's own convention
+// for a step's place (Crossing). Peaks are measured from step times rounded to whole us, as `lockstep analyze` measures
+// them (clients/analysis/measure/speed_meter.hpp).
 #pragma once
 
 #include <optional>
@@ -20,11 +21,11 @@ struct Outcome {
     methods::StepTrain train;
     std::vector<double> errors_us;  // of each step
     double duration_s = 0;          // until the last step
-    double ratio = 0;               // to the ideal's last step
-    double largest_error_us = 0;    // signed: below 0, early
+    double ratio = 0;               // of duration_s to the time of the ideal's last step
+    double largest_error_us = 0;    // negative if the step is early
     double rms_error_us = 0;
     double peak_speed = 0;                    // steps/s
-    std::optional<double> peak_acceleration;  // steps/s^2, either way; nothing if the move is too short
+    std::optional<double> peak_acceleration;  // steps/s^2, up or down; nullopt if the move is too short
 
     /// Speed over time, for a picture.
     std::vector<double> speed_time_s;
@@ -45,7 +46,7 @@ struct Comparison {
     std::vector<LineDeviation> lines;
 };
 
-/// The move must pass methods::check(). In the methods' order as given.
+/// The move must pass methods::check(). The rows have the order of `methods`.
 Comparison compare(const StepMove& move, std::span<const methods::Method> methods);
 
 }  // namespace lockstep::comparison

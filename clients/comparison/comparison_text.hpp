@@ -7,7 +7,7 @@
 
 namespace lockstep::comparison {
 
-/// Tables of the methods and of the lines, and a sentence for what each method changed or refused.
+/// Tables of the methods and of the lines, and a sentence for each method that changed or refused the move.
 std::string to_text(const Comparison& comparison);
 
 /// Every step: method, number of the step, time and error.

@@ -31,7 +31,7 @@ drawing::Chart speed_chart(const Comparison& comparison) {
     return chart;
 }
 
-/// In ms if us would need five digits.
+/// The unit is ms if the error in us would need five digits.
 drawing::Chart error_chart(const Row& row, std::size_t place) {
     const bool in_ms = std::abs(row.outcome->largest_error_us) >= 10'000;
     drawing::Chart chart{.title = "step time error of " + std::string(row.method.name), .y_label = in_ms ? "ms" : "µs"};

@@ -17,7 +17,7 @@ PeriodPulses length(std::int64_t from_x, std::int64_t pulses_per_unit) {
     return {(kTo - from_x) * pulses_per_unit, kTo * pulses_per_unit};
 }
 
-/// The shortest time between two pulses of y, the longer axis of every line, as a rate.
+/// The greatest pulse rate of y, the longer axis of every line, from the shortest time between two of its pulses.
 double peak_rate(const std::vector<LaiPoint>& points) {
     std::int64_t shortest = methods::kDdaClocks;
     const LaiPoint* before = nullptr;

@@ -11,9 +11,9 @@ enum class Rating { Good, Doubtful, Bad };
 struct Finding {
     Rating rating = Rating::Good;
     std::string what;    // the checked property, in a word or two
-    std::string found;   // its state, and the consequence if it is not good
-    std::string remedy;  // the command or the key that corrects it; empty: nothing needs to be done
-    std::string host;    // the host concerned; empty: not known
+    std::string found;   // its state, and the consequence if the state is not good
+    std::string remedy;  // the command or the key that corrects it; empty if nothing needs to be done
+    std::string host;    // the host concerned; empty if not known
 };
 
 using Findings = std::vector<Finding>;

@@ -30,7 +30,7 @@ using std::chrono::nanoseconds;
 
 std::string cause() { return std::strerror(errno); }
 
-/// In its own thread: the granted scheduling ends with it.
+/// Uses a separate thread, so that the granted scheduling ends with that thread.
 std::string try_scheduler() {
     std::string why;
     std::jthread([&] {
@@ -76,7 +76,7 @@ InterfaceFacts look_at_interface(const std::string& name) {
 }
 
 std::int64_t receive_buffer_given(std::int64_t asked) {
-    return buffer_given(SO_RCVBUF, asked) / 2;  // the kernel counts its own share too
+    return buffer_given(SO_RCVBUF, asked) / 2;  // the kernel doubles the size for its own use
 }
 
 std::int64_t send_buffer_given(std::int64_t asked) { return buffer_given(SO_SNDBUF, asked); }

@@ -1,4 +1,4 @@
-// Measures the host: one function for each thing that the doctor rates.
+// Measures the host, with one function for each property that the doctor rates.
 #pragma once
 
 #include <chrono>
@@ -12,18 +12,20 @@
 namespace lockstep::doctor {
 
 InterfaceFacts look_at_interface(const std::string& name);
-/// The size that the kernel grants to a socket that requests so many bytes.
+/// The receive buffer, in bytes, that the kernel grants to a socket that requests `asked` bytes.
 std::int64_t receive_buffer_given(std::int64_t asked);
-/// The same for sending, with the kernel's own share.
+/// The send buffer that the kernel grants, including the share that the kernel uses itself.
 std::int64_t send_buffer_given(std::int64_t asked);
-/// Publishes a message on a channel of the doctor's own, and waits for it. No value: LCM cannot be opened.
+/// Publishes a message on a channel that only the doctor uses, and waits for it. Returns nullopt if LCM cannot be
+/// opened.
 std::optional<bool> receives_own_message(const std::string& lcm_url);
 RealTimeFacts look_at_real_time();
 ClockFacts look_at_clock();
-/// Wakes each `period` for so long, as a service does; reports the share that is done, 0 to 1.
+/// Wakes every `period` during the time `during`, as a service does, and reports the completed share, 0 to 1.
 StallFacts look_for_stalls(std::chrono::nanoseconds period, std::chrono::nanoseconds during,
                            const std::function<void(double)>& progress);
-/// Whether a file could be created there, or in the nearest folder above it that exists. Empty: yes; else why not.
+/// Checks whether a file could be created in the directory, or in its nearest existing parent if it does not exist.
+/// Returns the reason if not, else an empty text.
 std::string why_not_writable(const std::string& directory);
 
 }  // namespace lockstep::doctor

@@ -76,7 +76,7 @@ Finding rate_send_buffer(std::int64_t needed, std::int64_t given) {
 }
 
 Finding rate_states(const MachineConfig& machine, const std::expected<std::string, std::string>& memory) {
-    constexpr std::size_t kMany = 16;  // axes on a host, whose states are then most of its work
+    constexpr std::size_t kMany = 16;  // axes; on a host with so many, their states are most of its work
     const std::size_t axes = machine.axes.size();
     const bool shares = machine.network.one_host;
     if (shares && !memory) {

@@ -16,25 +16,25 @@ struct InterfaceFacts {
     bool exists = false;
     bool up = false;
     bool has_address = false;  // of IPv4
-    bool multicast = false;    // as reported by the interface; lo does not report it, but supports it
+    bool multicast = false;    // as the interface reports it; lo does not report it, but supports it
 };
 Finding rate_interface(const NetworkConfig& network, const InterfaceFacts& facts);
 
-/// route: the result of check_multicast. received: whether a datagram sent by LCM came back; no value: not tried.
+/// route: the result of check_multicast. received: whether a datagram sent by LCM came back; nullopt if not tried.
 Finding rate_route(const NetworkConfig& network, const std::expected<void, std::string>& route,
                    std::optional<bool> received);
 
-/// The receive buffer that an LCM URL asks for, in bytes; 0: none.
+/// The receive buffer that an LCM URL requests, in bytes; 0 if it requests none.
 std::int64_t buffer_asked(const std::string& lcm_url);
-/// Bytes of a receive buffer: as the URL requests, as the kernel granted.
+/// The size of the receive buffer in bytes: `asked` by the URL, `given` by the kernel.
 Finding rate_buffer(std::int64_t asked, std::int64_t given);
-/// Bytes of a send buffer: as a machine's peers require (peer_send_buffer), as the kernel granted.
+/// The size of the send buffer in bytes: `needed` for the machine's peers (peer_send_buffer), `given` by the kernel.
 Finding rate_send_buffer(std::int64_t needed, std::int64_t given);
 
-/// memory: the file of the axes' states with network.one_host, or why it cannot be created.
+/// memory: the file of the axes' states with network.one_host, or the reason why it cannot be created.
 Finding rate_states(const MachineConfig& machine, const std::expected<std::string, std::string>& memory);
 
-/// Empty: permitted; else why not.
+/// Each text is the reason for a refusal, or empty if the host permits it.
 struct RealTimeFacts {
     std::string scheduler;
     std::string memory;
@@ -42,29 +42,30 @@ struct RealTimeFacts {
 Finding rate_scheduler(const RealTimeConfig& wanted, const RealTimeFacts& facts);
 Finding rate_memory(const RealTimeConfig& wanted, const RealTimeFacts& facts);
 
-/// How late a thread woke that was scheduled each quarter of a slot.
+/// The delays with which a thread woke that was scheduled every quarter of a slot.
 struct StallFacts {
     double worst_us = 0;
     double p99_us = 0;
     double seconds = 0;  // duration of the measurement
 };
 Finding rate_stalls(const ProtocolTiming& timing, const StallFacts& facts);
-/// The shortest slot that the machine's clocks allow: with clocks of their own, four times the limit of their error.
+/// The shortest slot that the machine's clocks allow: four times the limit of their error, or 0 if the axes share one
+/// clock.
 std::int64_t least_slot_us(const ProtocolTiming& timing);
 /// The shortest timing with which a host may stall for twice as long as measured.
 ProtocolTiming timing_for(const StallFacts& facts, std::int64_t least_slot_us = 0);
 
 struct ClockFacts {
     std::string source;         // the kernel's clocksource
-    bool synchronised = false;  // a service reports that it keeps the clock
-    int tai_offset_s = 0;       // of CLOCK_TAI; 0: it is not set
+    bool synchronised = false;  // by a time service, as the kernel reports
+    int tai_offset_s = 0;       // of CLOCK_TAI; 0 if not set
 };
 Finding rate_clock(TimeSource source, const ClockFacts& facts);
 
 /// answer: the result of attaching to the device.
 Finding rate_device(const AxisConfig& axis, const std::expected<void, std::string>& answer);
 
-/// writable: empty, or why not.
+/// not_writable: the reason why `path` cannot be written, or empty.
 Finding rate_directory(const std::string& what, const std::string& path, const std::string& not_writable);
 
 /// A member's keys on this host.
@@ -72,7 +73,7 @@ struct KeyFacts {
     std::string member;
     bool here = false;
     bool is_out = false;  // it cannot join with these keys
-    std::string trouble;  // an error now or soon, and the remedy; empty: none
+    std::string trouble;  // a present or impending error with its remedy, or empty
     int days_left = 0;
 };
 Finding rate_keys(const KeyFacts& facts);
@@ -82,8 +83,8 @@ struct ProcessFacts {
     std::string name;
     bool received = false;
     std::uint64_t config_hash = 0;
-    std::vector<std::string> hosts = {};  // on which processes of it run
-    bool may_be_two = false;              // a coordinator and its standby
+    std::vector<std::string> hosts = {};  // on which this process runs
+    bool may_be_two = false;              // for a coordinator and its standby
 };
 Finding rate_process(const ProcessFacts& facts, std::uint64_t config_hash);
 

@@ -22,16 +22,17 @@ void keep(const Column& column, const std::vector<Point>& from, std::vector<Poin
     for (auto place = places.begin(); place != end; ++place) { to.push_back(from[*place]); }
 }
 
-/// Above 0 if b is to the left of a: turned from it by less than half a circle.
+/// Positive if b is to the left of a, by less than half a turn.
 double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
 
-/// The directions in which a line from `anchor` may leave and still pass every point since within the tolerance:
-/// between two rays, less than half a circle apart.
+/// The directions in which a line from `anchor` passes every later point within the tolerance. They lie between two
+/// rays that are less than half a turn apart.
 class Sleeve {
 public:
     Sleeve(Point anchor, double tolerance) : anchor_(anchor), tolerance_(tolerance) {}
 
-    /// False if `point` is out of the sleeve, or nearer to the anchor than the path has been: it reversed.
+    /// Returns false if `point` is outside the sleeve, or if the path reversed: it is nearer to the anchor than the
+    /// farthest point by more than the tolerance.
     bool takes(Point point) {
         const Point to{point.x - anchor_.x, point.y - anchor_.y};
         const double square = to.x * to.x + to.y * to.y;
@@ -42,7 +43,8 @@ public:
     }
 
 private:
-    /// The point's own sleeve lies between the tangents from the anchor to its circle. `tangent`: their length.
+    /// Narrows the sleeve to the tangents from the anchor to the tolerance circle around the point. `tangent`: their
+    /// length.
     bool narrow(Point to, double tangent) {
         const Point right{to.x * tangent + to.y * tolerance_, to.y * tangent - to.x * tolerance_};
         const Point left{to.x * tangent - to.y * tolerance_, to.y * tangent + to.x * tolerance_};

@@ -24,7 +24,7 @@ TextStyle anchored(TextStyle style, Anchor anchor) {
     return style;
 }
 
-/// The curve in pixels, parted where a value is missing.
+/// The curve in pixels, split where a value is not finite.
 Lines unbroken(const Series& series, const Panel& panel) {
     Lines lines(1);
     for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) {
@@ -75,7 +75,7 @@ void draw_spans(Svg& svg, const Chart& chart, const Panel& panel) {
     }
 }
 
-/// One for all that fall into the same pixel.
+/// Draws one line for all moments within the same pixel.
 void draw_moments(Svg& svg, const Chart& chart, const Panel& panel) {
     double last = panel.box.x - 1;
     for (const double moment : chart.moments.x) {
@@ -110,7 +110,7 @@ void draw_level_labels(Svg& svg, const Chart& chart, const Panel& panel) {
     svg.text({panel.box.right(), y}, words, style);
 }
 
-/// The text is at the dot's right, or at its left if it would exceed the chart.
+/// The text is to the right of the dot, or to its left if it would exceed the chart.
 void draw_marks(Svg& svg, const Chart& chart, const Panel& panel) {
     for (const Mark& mark : chart.marks) {
         const Point at = panel.at(mark.x, mark.y);

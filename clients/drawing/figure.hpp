@@ -1,8 +1,8 @@
-// Charts for people: rows of line charts over one shared x axis, as one self-contained SVG.
+// Rows of line charts over one shared x axis, as one self-contained SVG.
 //
-// Data are plain arrays in the units of their labels. A figure stays small for any input: a curve over a
-// rising x keeps its first, lowest, highest and last value in every pixel column, so that no peak is lost; any other
-// path is thinned to within a fifth of a pixel.
+// Data are plain arrays in the units of their labels. A figure stays small for any input. A curve over a rising x keeps
+// its first, lowest, highest and last value in every pixel column, so that no peak is lost. Any other path is thinned
+// to within a fifth of a pixel.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ struct Stroke {
 
 /// One curve. x and y have the same length. A value that is not finite breaks the curve.
 struct Series {
-    std::string label;  // in the legend, once per label and figure; empty: not in the legend
+    std::string label;  // appears once in the figure's legend; empty: not in the legend
     std::vector<double> x;
     std::vector<double> y;
     Stroke stroke;
@@ -69,7 +69,7 @@ struct Figure {
     std::string title;
     std::string subtitle;    // the figures that matter, in a line
     std::string x_label;     // with the unit: "time, s"
-    std::string span_label;  // what the spans are, in the legend where there are any
+    std::string span_label;  // explains the spans in the legend, if there are any
     std::vector<Chart> rows;
     bool equal_aspect = false;
 };

@@ -10,7 +10,7 @@ namespace {
 constexpr double kWidth = 960;
 constexpr double kMaxEqualHeight = 640;
 constexpr double kMinSide = 220;    // of a chart of equal aspect
-constexpr double kEqualTicks = 60;  // pixels from tick to tick, both ways
+constexpr double kEqualTicks = 60;  // pixels between ticks, in both directions
 constexpr double kRowTitleHeight = 24;
 constexpr double kAxisRoom = 80;  // for a chart of equal aspect: the labels at its left, and the margin
 constexpr double kRowGap = 14;
@@ -25,7 +25,7 @@ public:
         low_ = std::min(low_, value);
         high_ = std::max(high_, value);
     }
-    /// Widened by `margin` of its length to either side; around a single value by a tenth of it.
+    /// The range, widened on each side by its length times `margin`; a single value is widened by a tenth of itself.
     Range range(double margin) const {
         if (low_ > high_) { return {0, 1}; }
         const double smallest = std::max(std::abs(low_), std::abs(high_)) * 1e-9;
@@ -101,8 +101,8 @@ double widest(const std::vector<AxisTick>& ticks) {
 
 int wanted_ticks(double pixels, double apart) { return std::max(2, static_cast<int>(pixels / apart)); }
 
-/// Both ranges widened around their middles so that a unit has the same length in both directions; the box is
-/// made as small as the data allow.
+/// Widens both ranges around their middles so that a unit has the same length in both directions. Makes the box as
+/// small as the data allow.
 void equalise(Panel& panel) {
     const double room = panel.box.width;
     const double scale = std::min(room / panel.x.span(), kMaxEqualHeight / panel.y.span());  // pixels per unit
@@ -143,7 +143,7 @@ double stack(std::vector<Panel>& panels, double top, bool equal_aspect) {
     return top - kRowGap;
 }
 
-/// As wide as its widest part requires.
+/// The width that the widest part requires, at most kWidth.
 double width_of(const Figure& figure, const std::vector<Panel>& panels) {
     double width = std::max(text_width(figure.title, kTitleText), text_width(figure.subtitle, kSubtitleText)) + kMargin;
     for (const Panel& panel : panels) { width = std::max(width, kAxisRoom + panel.box.width); }

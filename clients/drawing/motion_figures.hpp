@@ -9,13 +9,14 @@
 
 namespace lockstep::drawing {
 
-/// One quantity of one axis over time. time_s and value have the same length; a value that is not finite breaks the
+/// One quantity of one axis over time. time_s and value have the same length. A value that is not finite breaks the
+/// curve.
 struct AxisCurve {
     std::string axis;
     std::vector<double> time_s;
     std::vector<double> value;
     std::string unit = "mm";      // of length: "mm" or "steps"
-    std::optional<double> limit;  // of speed, in unit/s, either way
+    std::optional<double> limit;  // of speed, in unit/s, in both directions
     std::vector<Span> missing;    // seconds
 };
 
@@ -24,7 +25,7 @@ Figure speed_figure(std::string title, std::string subtitle, const std::vector<A
 /// A row for each axis: its position.
 Figure position_figure(std::string title, std::string subtitle, const std::vector<AxisCurve>& axes);
 
-/// A path in a plane, point by point; a value that is not finite breaks it.
+/// The points of a path in a plane. A value that is not finite breaks the path.
 struct PlanePath {
     std::vector<double> x;
     std::vector<double> y;

@@ -1,4 +1,5 @@
-// Colours that stay apart for colour-blind eyes and in print (after Okabe and Ito, 2008), and the chart's greys.
+// Colours that remain distinct for colour-blind readers and in print (after Okabe and Ito, 2008), and the chart's
+// greys.
 #pragma once
 
 #include <array>

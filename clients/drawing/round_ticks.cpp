@@ -26,7 +26,7 @@ Step round_step(double rough) {
     return {factor * power, static_cast<int>(std::max(0.0, -(exponent + shift)))};
 }
 
-/// Thousands are set apart from five digits on.
+/// Separates thousands in numbers of five digits or more.
 std::string group_thousands(std::string_view digits) {
     const std::size_t whole = std::min(digits.find('.'), digits.size());
     std::string out;

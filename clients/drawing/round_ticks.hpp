@@ -1,4 +1,4 @@
-// The tick marks of an axis: round numbers, 1, 2 or 5 times a power of ten, with the digits they need.
+// The tick marks of an axis: multiples of 1, 2 or 5 times a power of ten, with the digits they need.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ struct AxisTick {
     std::string label;  // "−0.25", "20 000"
 };
 
-/// Marks within the range, about `wanted` of them, never more than 2 * wanted + 2. `range.low < range.high`.
+/// About `wanted` marks within the range, never more than 2 * wanted + 2. Requires range.low < range.high.
 std::vector<AxisTick> round_ticks(Range range, int wanted);
 
 }  // namespace lockstep::drawing

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::string_view kFont = "'DejaVu Sans','Segoe UI',Helvetica,Arial,sans-serif";
 
-/// Hundredths of a pixel are finer than any screen.
+/// Rounds to hundredths of a pixel, which is finer than any screen.
 void append_number(std::string& out, double value) {
     std::array<char, 32> text{};
     const double rounded = std::round(value * 100) / 100 + 0.0;  // + 0.0: no "-0"
@@ -119,7 +119,7 @@ void Svg::path(const std::vector<std::vector<Point>>& lines, const Stroke& style
             out_ += ',';
             append_number(out_, points[i].y);
         }
-        if (points.size() == 1) { out_ += "h0"; }  // a point of its own is a round dot
+        if (points.size() == 1) { out_ += "h0"; }  // draws a single point as a round dot
     }
     out_ += "\"/>\n";
 }

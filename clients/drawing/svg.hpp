@@ -1,4 +1,4 @@
-// SVG text, element by element. Lengths are pixels, y grows downwards, colours are as SVG writes them.
+// Writes SVG, element by element. Lengths are pixels, y grows downwards, and colours are as SVG writes them.
 #pragma once
 
 #include <string>
@@ -30,11 +30,11 @@ struct TextStyle {
     double size = 12;
     std::string_view colour = palette::kInk;
     bool bold = false;
-    bool halo = false;  // of paper colour, where it stands over curves
+    bool halo = false;  // of paper colour, for text over curves
     Anchor anchor = Anchor::Start;
 };
 
-/// `text` with the characters XML reserves written as entities, and those it forbids as '?'.
+/// Writes the characters that XML reserves as entities, and those that it forbids as '?'.
 std::string escape_xml(std::string_view text);
 
 /// The approximate width of a text in a common sans-serif font.

@@ -16,7 +16,7 @@ double extent_of(const std::vector<Point>& points) {
 
 }  // namespace
 
-/// Four points of each column are left, of eight times as many columns as a picture has.
+/// Thinning keeps four points of each of kMostPoints / 8 columns, eight times as many columns as a picture has.
 void ThinnedCurve::add(Point point) {
     points_.push_back(point);
     if (points_.size() < kMostPoints) { return; }

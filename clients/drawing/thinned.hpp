@@ -1,5 +1,5 @@
-// Points of a drawing that come one by one, in bounded memory: they are thinned out as they become many, and stay finer
-// than a picture shows.
+// Collects the points of a drawing one by one in bounded memory. Many points are thinned out, but remain finer than a
+// picture shows.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace lockstep::drawing {
 
-/// A value over x, which never falls. Peaks stay.
+/// A value over an x that never falls. Peaks are kept.
 class ThinnedCurve {
 public:
     static constexpr std::size_t kMostPoints = 60'000;
@@ -21,7 +21,7 @@ private:
     std::vector<Point> points_;
 };
 
-/// A path in a plane. It stays within a 1/20,000 of its extent as long as its shape allows that.
+/// A path in a plane, kept within 1/20,000 of its extent as long as its shape allows that.
 class ThinnedPath {
 public:
     static constexpr std::size_t kMostPoints = 200'000;

@@ -1,6 +1,6 @@
-// One table for the whole log, for PlotJuggler and spreadsheets: a row for each instant with a message, time_s first,
-// then one column for each signal ("mill/X/position_mm"); empty if there was no value at that instant. time_s
-// counts from the first sample of the log and rises strictly from row to row.
+// One table for the whole log, for PlotJuggler and spreadsheets. It has a row for each instant with a message. The
+// first column is time_s, then follows one column for each signal ("mill/X/position_mm"). A cell is empty if there was
+// no value at that instant. time_s counts from the first sample of the log and rises strictly from row to row.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace lockstep::exporting {
 
-/// The columns of the table, found in a first reading of the log.
+/// The columns of the table, collected in a first pass over the log.
 class Columns {
 public:
     static constexpr std::size_t kMaxTopics = 1024;
@@ -21,9 +21,9 @@ public:
     void add(const Sample& sample);
     std::string header() const;
     std::size_t count() const { return names_.size(); }
-    /// The first column of a topic; none: it was not added.
+    /// The first column of a topic; nullopt if the topic was not added.
     std::optional<std::size_t> of(const Topic& topic) const;
-    /// Of the first sample.
+    /// The time of the earliest sample.
     std::int64_t utime_begin() const { return utime_begin_.value_or(0); }
 
 private:
@@ -34,7 +34,7 @@ private:
 
 class CsvTable final : public SampleWriter {
 public:
-    /// The maximum delay of samples against others of their time; later ones are left out.
+    /// A row is written once a sample is this much newer; samples that come after their row was written are left out.
     static constexpr std::int64_t kPatience_us = 2'000'000;
     static constexpr std::size_t kMaxRowsHeld = 1 << 16;
 

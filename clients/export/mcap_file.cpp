@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
 enum Opcode : std::uint8_t { kHeader = 1, kFooter = 2, kSchema = 3, kChannel = 4, kMessage = 5, kDataEnd = 15 };
 
-/// A record's fields: numbers little-endian, texts after their length.
+/// A record's fields. Numbers are little-endian; a text follows its length.
 class Fields {
 public:
     template <typename Number>
@@ -38,7 +38,7 @@ private:
     std::string bytes_;
 };
 
-/// Names in a damaged log may be any bytes: JSON is UTF-8.
+/// Names in a damaged log may be any bytes, but JSON must be UTF-8.
 std::string printable(std::string text) {
     for (char& c : text) { c = c >= ' ' && c <= '~' ? c : '?'; }
     return text;
@@ -69,7 +69,7 @@ std::string schema_of(const Sample& sample) {
     return to_json(schema);
 }
 
-/// Values that are not numbers are left out: JSON cannot represent them.
+/// Leaves out values that are not finite, because JSON cannot represent them.
 std::string message_of(const Sample& sample) {
     Struct message;
     for (const auto& [name, value] : sample.signals) {
@@ -105,7 +105,7 @@ void McapFile::record(std::uint8_t opcode, const std::string& content) {
     out_ << head << content;
 }
 
-/// A channel's number is also its schema's. Null: there are too many.
+/// A channel and its schema have the same number. Returns null if there are too many topics.
 McapFile::Channel* McapFile::channel(const Sample& sample) {
     if (const auto known = channels_.find(sample.topic); known != channels_.end()) { return &known->second; }
     if (channels_.size() == kMaxTopics) { return nullptr; }

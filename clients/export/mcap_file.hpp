@@ -1,6 +1,6 @@
-// MCAP, the container that Foxglove and PlotJuggler read (https://mcap.dev/spec): a channel for each topic, its
-// messages as JSON with a JSON Schema. Records are in the order of the log, without chunks, index or checksums, all
-// of which are optional in the format; readers go through the file once.
+// MCAP, the container that Foxglove and PlotJuggler read (https://mcap.dev/spec). Each topic has a channel with
+// messages in JSON and a JSON Schema. Records are in the order of the log. Chunks, index and checksums are optional in
+// the format and left out; readers go through the file once.
 #pragma once
 
 #include <cstdint>

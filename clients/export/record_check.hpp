@@ -1,4 +1,5 @@
-// Whether the exported log has the complete record: from the numbers of its messages, and its processes' marks.
+// Checks whether the exported log has the complete record, from the message numbers and from the marks of the recording
+// processes.
 #pragma once
 
 #include <map>

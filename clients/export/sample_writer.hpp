@@ -1,4 +1,4 @@
-// One format: takes the samples of a log one by one.
+// Writes the samples of a log one by one in one format.
 #pragma once
 
 #include <cstdint>

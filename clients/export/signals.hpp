@@ -1,4 +1,4 @@
-// The exported signals of each recorded message: by name, units last. One table for all formats.
+// The exported signals of each recorded message, for all formats. A signal's name ends with its unit.
 #pragma once
 
 #include <cstdint>

@@ -54,7 +54,8 @@ std::string peer_of(const Descriptor& connection) {
     return is_known ? text : "";
 }
 
-/// The other end is opened once, so that it is raw, and that its hang-up can be seen.
+/// Opens the other end once and closes it, to set it to raw mode and so that poll() reports POLLHUP while nobody uses
+/// it.
 std::expected<Terminal, std::string> Terminal::open(const std::string& link) {
     Descriptor master(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
     if (!master.is_open() || grantpt(master.get()) != 0 || unlockpt(master.get()) != 0) {

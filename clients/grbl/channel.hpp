@@ -1,4 +1,4 @@
-// The two ways in which a sender connects: TCP, and a pseudo-terminal in place of a serial line.
+// The two ways to connect a sender: TCP, and a pseudo-terminal in place of a serial line.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,16 @@
 
 namespace lockstep::grbl {
 
-/// Listens there. Error: the address cannot be used, and why.
+/// Listens at the address. The error says why the address cannot be used.
 std::expected<Descriptor, std::string> listen_at(const std::string& address, std::uint16_t port);
 /// Whether a connection waits.
 bool has_waiting(const Descriptor& listener);
-/// A connection that waits; nothing: none does.
+/// Accepts a waiting connection; nullopt if none waits.
 std::optional<Descriptor> accept_from(const Descriptor& listener);
-/// The address of the other side; empty: it is not known.
+/// The address of the other side; empty if not known.
 std::string peer_of(const Descriptor& connection);
 
-/// A pseudo-terminal, with a symbolic link to it that is removed with the object.
+/// A pseudo-terminal and a symbolic link to it. The destructor removes the link.
 class Terminal {
 public:
     static std::expected<Terminal, std::string> open(const std::string& link);
@@ -27,7 +27,7 @@ public:
     Terminal& operator=(Terminal&&) = delete;
     ~Terminal();
     const Descriptor& descriptor() const { return master_; }
-    /// A process has it open.
+    /// Whether a process has the terminal open.
     bool is_used() const;
 
 private:

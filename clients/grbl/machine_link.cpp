@@ -32,7 +32,7 @@ Command command_of(const Request& request) {
 
 }  // namespace
 
-/// Holds, stops and releases are everybody's.
+/// Holds, stops and jog cancels need no lease.
 bool MachineLink::claim(const Request& request, Grbl& grbl) {
     using Kind = Request::Kind;
     if (request.kind == Kind::Hold || request.kind == Kind::Stop || request.kind == Kind::CancelJog) { return true; }
@@ -108,7 +108,8 @@ void MachineLink::pass(nanoseconds time, Grbl& grbl) {
     pass_lease(grbl);
 }
 
-/// Where another has taken the machine over, it runs what it has of the sender's lines, and the others are dropped.
+/// If another writer takes the machine over, the machine runs the sender's lines that it has, and the other lines are
+/// dropped.
 void MachineLink::pass_lease(Grbl& grbl) {
     const bool has_work = !open_.empty() || has_jog_ || !lines_.is_idle();
     const auto lost = lease_.pass(has_work, monotonic_now());
@@ -176,7 +177,7 @@ void MachineLink::set_values(const Request& request, Grbl& grbl) {
                 stored ? Answer{.is_done = true} : Answer{.text = stored.error().errors.front().message});
 }
 
-/// Every axis, as it last reported.
+/// Whether every axis is at rest, according to its latest report.
 bool MachineLink::rests() const {
     for (std::size_t i = 0; i < session_.config().axes.size(); ++i) {
         if (!session_.axis(i) || !session_.axis(i)->state.at_rest) { return false; }

@@ -1,5 +1,5 @@
-// A sender's requests as commands to the machine, and the machine's state for the sender. It waits for nothing except
-// where offsets are stored.
+// Turns a sender's requests into commands to the machine, and the machine's state into the sender's view. Requests
+// block only to take the lease and to store offsets.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@
 
 namespace lockstep::grbl {
 
-/// A session as the messages of programs.
+/// Sends the messages of programs through a session.
 class SessionPort : public MachinePort {
 public:
     explicit SessionPort(Session& session) : session_(session) {}
@@ -30,7 +30,7 @@ private:
 
 class MachineLink {
 public:
-    /// `takes_over`: the sender's work takes the machine from another writer, too.
+    /// `takes_over`: the sender's work takes the machine over even from another writer.
     MachineLink(Session& session, SettingsStore& settings, bool takes_over)
         : session_(session),
           settings_(settings),
@@ -40,36 +40,38 @@ public:
           lines_(session.config(), port_) {}
 
     void carry_out(Request&& request, Grbl& grbl);
-    /// Receives messages for so long, renews the jog, and tells the connection what has changed.
+    /// Receives messages for `time`, renews the jog, and tells `grbl` the changes.
     void pass(std::chrono::nanoseconds time, Grbl& grbl);
-    /// Nobody listens any more: the jog is released, what was accepted is run, and answers are of no interest.
+    /// Call when the sender has gone. Releases the jog, lets the machine finish the lines that it runs, and drops
+    /// answers.
     void leave();
-    /// No line, no jog and no command is in progress.
+    /// Whether no line, no jog and no command is in progress.
     bool is_idle() const { return open_.empty() && !has_jog_ && lines_.is_idle(); }
-    /// The machine waits for a person, or is not there: what was accepted may not end by itself.
+    /// Whether the machine waits for a person or is not received, so that accepted lines may never end.
     bool is_stuck() const;
-    /// Behind leave(): the machine gets what it still lacks of the lines that it runs, and another may command it.
+    /// Call after leave(). Sends the machine the rest of the lines that it runs, for at most 3 s, and gives the lease
+    /// back.
     void release();
 
 private:
     /// A command that was sent and not answered, or a job that has not ended.
     struct Open {
         Command command;
-        std::uint64_t number = 0;  // of the request; 0: nobody waits for it
+        std::uint64_t number = 0;  // of the request; 0 if nobody waits for it
         std::chrono::nanoseconds sent{};
-        std::uint64_t job = 0;  // once it is accepted, where the request is answered at its end
+        std::uint64_t job = 0;  // of an accepted request that is answered when this job ends
     };
-    /// False: another writer has the machine, and the request was answered with that.
+    /// Takes the lease. If another writer has the machine, answers the request with the refusal and returns false.
     bool claim(const Request& request, Grbl& grbl);
     void pass_lease(Grbl& grbl);
     void send(Command command, std::uint64_t number);
-    /// True: it is over.
+    /// Returns true if the command or job is over.
     bool follow(Open& open, Grbl& grbl);
     bool has_ended(const Open& open, Grbl& grbl) const;
     void follow_jog(Grbl& grbl);
     void pass_lines(Grbl& grbl);
     void set_values(const Request& request, Grbl& grbl);
-    /// False: it was refused, and answered with that.
+    /// Returns false if the change was refused; the request is then answered with the refusal.
     bool change_settings(const Request& request, Grbl& grbl);
     bool rests() const;
     MachineView view();
@@ -81,7 +83,7 @@ private:
     SessionPort port_;
     LineRunner lines_;
     std::vector<Open> open_;
-    std::optional<std::uint64_t> new_jog_;  // its request
+    std::optional<std::uint64_t> new_jog_;  // its request, not answered yet
     bool has_jog_ = false;
     gcode::KeptValues values_;
 };

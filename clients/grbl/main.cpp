@@ -1,4 +1,4 @@
-// lockstep-grbl: the command line, and the loop between a sender and the machine.
+// lockstep-grbl: its command line, and the loop that connects a sender to the machine.
 #include <csignal>
 #include <iostream>
 
@@ -28,7 +28,7 @@ struct Options {
 /// `place`: the sender's address, or the terminal.
 LeaseHolder writer_at(const std::string& place) { return {.name = "the grbl sender at " + place, .host = host_name()}; }
 
-/// The machine was brought up again with another configuration, and its file describes it.
+/// Detects that the machine was brought up again with another configuration, and that the machine's file has it.
 class Renewal {
 public:
     explicit Renewal(std::string machine_file) : machine_file_(std::move(machine_file)) {}
@@ -51,7 +51,7 @@ void carry_out(grbl::MachineLink& link, grbl::Grbl& protocol) {
     }
 }
 
-/// Where senders come in.
+/// The places at which senders connect.
 struct Doors {
     Descriptor listener;
     std::optional<grbl::Terminal> terminal;
@@ -59,8 +59,8 @@ struct Doors {
     bool has_next() const { return grbl::has_waiting(listener) || (terminal && terminal->is_used()); }
 };
 
-/// Behind a sender that has left: the machine runs the lines that it has begun with, and then spindle and coolant are
-/// switched off. True: the next sender has come before that.
+/// Call when a sender has left. Waits until the machine has run the lines that it has begun, and spindle and coolant
+/// are switched off. Returns true if the next sender came before they were switched off.
 bool see_off(grbl::MachineLink& link, grbl::Grbl& protocol, const Doors& doors, const StopSignal& stop) {
     protocol.leave();
     link.leave();
@@ -76,8 +76,8 @@ bool see_off(grbl::MachineLink& link, grbl::Grbl& protocol, const Doors& doors, 
     return protocol.is_to_switch_off() && doors.has_next();
 }
 
-/// One sender at a time: it is served until it leaves, a signal comes, or the machine is another. `is_to_switch_off`:
-/// the sender before has left spindle or coolant on. Returns whether this one has.
+/// Serves one sender until it leaves, a signal comes, or the machine's configuration changes. `is_to_switch_off`: the
+/// previous sender left spindle or coolant on. Returns whether this sender did.
 bool serve(const Descriptor& sender, const Doors& doors, bool is_to_switch_off, const ChosenMachine& machine,
            Session& session, const Options& options, const StopSignal& stop) {
     grbl::SettingsStore settings(machine);
@@ -102,7 +102,7 @@ bool serve(const Descriptor& sender, const Doors& doors, bool is_to_switch_off, 
     return see_off(link, protocol, doors, stop);
 }
 
-/// Until a signal comes, or the machine is another.
+/// Serves senders one after another until a signal comes or the machine's configuration changes.
 void serve_all(const Doors& doors, const ChosenMachine& machine, Session& session, const Options& options,
                const StopSignal& stop) {
     Renewal renewal(options.machine_file);

@@ -1,4 +1,5 @@
-// The writer's lease of a sender: taken with its first work, given back when it has had none for a while.
+// The writer's lease of a sender. It is taken before the sender's first work and given back after kGiveAfter without
+// work.
 #pragma once
 
 #include <chrono>
@@ -11,13 +12,13 @@ namespace lockstep::grbl {
 
 class SenderLease {
 public:
-    /// `takes_over`: from another writer, too.
+    /// `takes_over`: takes the lease even from another writer.
     SenderLease(Session& session, bool takes_over) : session_(session), takes_over_(takes_over) {}
 
-    /// Before work is begun; waits for the coordinator's answer where it must ask for the lease. Returns the refusal:
-    /// another writer has it; nothing: there is none, or the coordinator is silent and refuses nothing.
+    /// Call before work. If the lease must be requested, waits for the coordinator's answer. Returns the refusal if
+    /// another writer has the lease; nullopt if it is held, or if the coordinator is silent.
     std::optional<Reply> claim(std::chrono::nanoseconds now);
-    /// In each loop. Returns who has taken the machine over, once: nobody did.
+    /// Call in each loop. If the lease was lost, returns once a text that names the new writer; else nullopt.
     std::optional<std::string> pass(bool has_work, std::chrono::nanoseconds now);
     void give() { session_.give_lease(); }
 
@@ -27,7 +28,7 @@ private:
     Session& session_;
     bool takes_over_;
     bool is_held_ = false;
-    std::chrono::nanoseconds worked_{};  // when there last was work
+    std::chrono::nanoseconds worked_{};  // time of the latest work
 };
 
 }  // namespace lockstep::grbl

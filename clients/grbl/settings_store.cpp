@@ -11,7 +11,7 @@ std::unexpected<Refused> not_kept(const std::string& why) { return std::unexpect
 
 }  // namespace
 
-/// Settings may have been written since the machine was brought up.
+/// Loads the file again, because settings may have been written since the machine was brought up.
 SettingsStore::SettingsStore(const ChosenMachine& machine) : source_(machine.source), next_(machine.config) {
     if (const auto loaded = load_machine(source_)) { next_ = loaded->config; }
 }

@@ -1,4 +1,4 @@
-// The settings that senders write, in their file beside the machine's file.
+// Stores the settings that senders write, in a separate file beside the machine's file.
 #pragma once
 
 #include <expected>
@@ -13,12 +13,12 @@ class SettingsStore {
 public:
     explicit SettingsStore(const ChosenMachine& machine);
 
-    /// The machine as it is when it is next brought up.
+    /// The configuration that the machine will have when it is next brought up.
     const MachineConfig& next() const { return next_; }
-    /// They are on the disk on return. Error: the machine cannot have them, or the file cannot be written; it is as it
-    /// was.
+    /// The settings are on the disk on return. If the machine cannot have them or the file cannot be written, returns
+    /// an error and leaves the file unchanged.
     std::expected<void, Refused> keep(const KeptSettings& settings);
-    /// Removes all of them.
+    /// Removes all settings.
     std::expected<void, Refused> drop();
 
 private:

@@ -30,7 +30,7 @@ bool is_symptom(const FlightEvent& event) {
     }
 }
 
-/// Whether the event reports an absent process: it may return without harm.
+/// Whether the event reports an absent process, which may return without harm.
 bool may_heal(const FlightEvent& event) {
     if (event.kind == FlightKind::PeerRestarted) { return true; }
     const auto reason = static_cast<IncidentReason>(event.detail);
@@ -53,8 +53,8 @@ bool is_of_coordinator(const Incident& incident, const Entry& entry, FlightKind 
     return entry.event.kind == kind && incident.processes[entry.process].who == kFlightCoordinator;
 }
 
-/// Where the epoch of the machine's fault began, or all of the timeline without one: before it the machine had gone on
-/// from whatever happened.
+/// The timeline from the beginning of the epoch in which the coordinator noted a fault, because the machine continued
+/// after all earlier events. The whole timeline if the coordinator noted no fault.
 std::span<const Entry> since_it_went_on(const Incident& incident) {
     const std::span<const Entry> all = incident.timeline;
     const auto is_fault = [&](const Entry& entry) { return is_of_coordinator(incident, entry, FlightKind::Fault); };
@@ -65,7 +65,7 @@ std::span<const Entry> since_it_went_on(const Incident& incident) {
     return {begun, all.end()};
 }
 
-/// The first symptom. A process that was absent and returned frames earlier did no harm.
+/// The first symptom. Skips an absence if the process returned more than reach() before the first grave symptom.
 const Entry* first_symptom(const Incident& incident) {
     const auto entries = since_it_went_on(incident);
     const auto grave =
@@ -79,7 +79,7 @@ const Entry* first_symptom(const Incident& incident) {
     return found == entries.end() ? nullptr : &*found;
 }
 
-/// The processes that may have caused the symptom; the process itself if it names none.
+/// The processes that may have caused the symptom. If the symptom names none, the process that noted it.
 std::vector<FlightPeer> suspects_of(const Incident& incident, const Entry& symptom) {
     const FlightEvent& event = symptom.event;
     const FlightPeer self = incident.processes[symptom.process].who;
@@ -98,7 +98,7 @@ std::vector<FlightPeer> suspects_of(const Incident& incident, const Entry& sympt
     return lacking;
 }
 
-/// A fault that an axis or the machine notices in itself is its own cause, except for those of a missing peer.
+/// A fault that an axis or the machine notices in itself is its own cause, unless a missing peer can cause the fault.
 bool is_own_fault(const FlightEvent& event) {
     const bool is_fault = event.kind == FlightKind::Fault || event.kind == FlightKind::PeerFault;
     return is_fault && event.fault != FaultCode::AxisLost && event.fault != FaultCode::FramesDiffer &&
@@ -153,7 +153,7 @@ Cause cause_of(const Incident& incident, const Entry& symptom) {
     return unknown(incident, symptom);
 }
 
-/// For an incident without symptoms: a process ended, or nothing was wrong.
+/// The cause of an incident without symptoms: a process ended, or nothing was wrong.
 Cause cause_without_symptom(const Incident& incident) {
     for (const Process& process : incident.processes) {
         if (process.ended) { return {CauseKind::Ended, process.who, end_text(incident, process), process.last, {}}; }

@@ -1,9 +1,11 @@
-// The cause of an incident, as far as the processes' notes show it; which process noticed it first; and how it ended.
+// Finds the cause of an incident as far as the processes' notes show it, the process that noticed it first, and how it
+// ended.
 //
-// The first symptom names suspects: of an axis without evidence those it lacks, of a lost frame the coordinator, of a
-// fault its axis. A suspect is explained by its own notes and those of others: it ended, it stood still, it refused, it
-// was cut off. Only a standstill longer than the machine's stall_slots can have had an effect, and only if it overlaps
-// the time in which the frame in question was sent and decided.
+// The first symptom names suspects. If an axis lacks evidence, the suspects are the axes that it has no evidence of. If
+// a frame is not held, it is the coordinator. For a fault, it is the axis with the fault. The notes of the suspect and
+// of others show what happened to it: its process ended, it stalled, it refused a frame, or it was cut off. A
+// standstill counts only if it lasts at least the machine's stall_slots and overlaps the time in which the frame in
+// question was sent and decided.
 #pragma once
 
 #include <optional>
@@ -16,14 +18,14 @@
 namespace lockstep::incident {
 
 enum class CauseKind : std::uint8_t {
-    Ended,          // a process ended: killed, or crashed
-    Stalled,        // a process stood still, and continued
-    Hangs,          // a process still stands still
-    HostStalled,    // several stood still at the same time
-    CutOff,         // the network carried nothing of one process, or between two
-    Fault,          // an axis or the machine noticed one in itself
+    Ended,          // a process was killed or crashed
+    Stalled,        // a process did not run for a while, and continued
+    Hangs,          // a process still does not run
+    HostStalled,    // several processes did not run at the same time
+    CutOff,         // the network carried no messages of one process, or between two
+    Fault,          // an axis or the machine noticed a fault of its own
     Refused,        // an axis refused a frame
-    EmergencyStop,  // was commanded
+    EmergencyStop,  // somebody commanded an emergency stop
     Asked,          // nothing was wrong: a person requested the notes
     Unknown         // the files do not show it
 };
@@ -31,7 +33,7 @@ std::string_view name_of(CauseKind kind);
 
 struct Cause {
     CauseKind kind = CauseKind::Unknown;
-    std::optional<FlightPeer> who;  // nothing: no single process
+    std::optional<FlightPeer> who;  // nullopt if it is no single process
     std::string text;               // a sentence without its stop
     std::optional<Tick> at;
     Ticks lasts;
@@ -39,8 +41,8 @@ struct Cause {
 
 struct Evaluation {
     Cause cause;
-    Tick noticed;                    // by the process in the story; without a symptom, the time of the cause
-    std::optional<Tick> rest;        // all axes are; nothing: none was moving, or it is not known
+    Tick noticed;                    // by the process in the story; the time of the cause if there is no symptom
+    std::optional<Tick> rest;        // when all axes are at rest; nullopt if none was moving, or if not known
     std::vector<std::string> story;  // the cause, the first symptom, the end: a sentence each
 };
 

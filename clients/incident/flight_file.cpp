@@ -17,7 +17,7 @@ std::string no_incident(const std::filesystem::path& path) {
            "alone";
 }
 
-/// The machine in its process's configuration. If that cannot be read, the data of the head alone.
+/// The machine from the process's configuration. If that cannot be read, only the data of the head.
 MachineConfig machine_of(const FlightSource& source) {
     auto machine = parse_machine(source.config);
     return machine ? *std::move(machine) : MachineConfig{.name = source.machine, .tick_ns = source.tick_ns};

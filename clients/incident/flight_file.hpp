@@ -14,13 +14,13 @@ namespace lockstep::incident {
 struct FlightFile {
     std::filesystem::path path;
     FlightHead head;
-    MachineConfig machine;  // as its process had it
+    MachineConfig machine;  // as the process configured it
     std::vector<NumberedEvent> events;
-    std::string note;  // why its process ended itself; empty: unknown
+    std::string note;  // why the process ended itself; empty if unknown
     std::vector<analysis::Damage> damages;
 };
 
-/// Error, for the user: the file is missing or not an incident file, and what to give instead.
+/// The error tells the user that the file is missing or not an incident file, and which file to give instead.
 std::expected<FlightFile, std::string> read_flight_file(const std::filesystem::path& path);
 
 }  // namespace lockstep::incident

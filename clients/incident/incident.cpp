@@ -8,8 +8,8 @@
 namespace lockstep::incident {
 namespace {
 
-constexpr double kApart_s = 10;                              // of machine time: another incident
-constexpr std::int64_t kApart_us = 24LL * 3600 * 1'000'000;  // of wall time: machine time restarted between them
+constexpr double kApart_s = 10;                              // of machine time between two incidents
+constexpr std::int64_t kApart_us = 24LL * 3600 * 1'000'000;  // of wall time: machine time restarted between the marks
 
 using Group = std::vector<const FlightFile*>;
 
@@ -32,7 +32,7 @@ std::vector<Group> grouped(const std::vector<FlightFile>& files) {
     return groups;
 }
 
-/// The place of a process in the machine: coordinators first.
+/// The axis with this process; any other process is a coordinator.
 FlightPeer who_is(const MachineConfig& machine, const std::string& process) {
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         if (process == flight_process(machine.axes[i].name)) { return flight_axis(i); }

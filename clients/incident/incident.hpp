@@ -1,4 +1,4 @@
-// An incident: the notes of all processes around one fault, in one order, by machine time.
+// An incident: the notes of all processes around one fault, ordered by machine time.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,17 @@
 
 namespace lockstep::incident {
 
-/// One life of a process with notes.
+/// One life (incarnation) of a process with notes.
 struct Process {
     std::string name;  // "axis X", "coordinator"; "axis X, restarted"
     FlightPeer who;
     Identity incarnation = 0;
-    Tick first;              // noted
-    Tick last;               // noted
-    bool ended = false;      // without being asked to, after `last`
-    std::string note;        // why it ended itself; empty: unknown
-    bool was_asked = false;  // its notes were read on request, whether it ran or not
-    Ticks clock_error;       // uncertainty of its times in machine time
+    Tick first;              // time of its first note
+    Tick last;               // time of its last note
+    bool ended = false;      // without a request, after `last`
+    std::string note;        // why it ended itself; empty if unknown
+    bool was_asked = false;  // its notes were read on request; it may run or not
+    Ticks clock_error;       // uncertainty of its times against machine time
     std::vector<std::string> files;
 };
 
@@ -33,7 +33,7 @@ struct Entry {
 struct Incident {
     MachineConfig machine;
     std::int64_t wall_us = 0;         // when its first file was written
-    std::vector<Process> processes;   // the coordinators, then the axes as configured; each in the order of its lives
+    std::vector<Process> processes;   // the coordinators, then the axes as configured; each with its lives in order
     std::vector<Entry> timeline;      // in the order of time
     std::vector<std::string> unread;  // errors in reading, by file and place
     std::vector<std::string> absent;  // processes without a file
@@ -42,8 +42,8 @@ struct Incident {
     Ticks slots(std::int64_t count) const { return machine.slot_ticks() * count; }
 };
 
-/// The files by incident, the oldest first: those whose marks follow each other within seconds of machine time. Files
-/// of one process may overlap. `files` are of one machine.
+/// Groups the files by incident, the oldest first. Files belong to one incident if their marks follow each other within
+/// 10 s of machine time. Files of one process may overlap. All `files` must be of one machine.
 std::vector<Incident> incidents_of(const std::vector<FlightFile>& files);
 
 }  // namespace lockstep::incident

@@ -1,4 +1,4 @@
-// The incident files that a user names: each one, or their directory.
+// Reads the incident files that a user names, singly or by their directory.
 #pragma once
 
 #include <expected>
@@ -15,7 +15,7 @@ struct IncidentInput {
     std::vector<std::string> left_out;          // files of a directory that are not incident files, and why
 };
 
-/// Error: a named file does not exist or holds no incident; or the files are of several machines.
+/// Fails if a named file does not exist or holds no incident, or if the files are of several machines.
 std::expected<IncidentInput, std::string> read_incidents(const std::vector<std::filesystem::path>& named);
 
 }  // namespace lockstep

@@ -1,4 +1,4 @@
-// Remarks on an incident besides the notes.
+// Remarks on an incident in addition to the processes' notes.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace lockstep::incident {
 /// "2026-11-21 10:01:36 UTC"
 std::string wall_time(std::int64_t wall_us);
 
-/// A sentence each: the uncertainty of times, processes without a file, parts that could not be read.
+/// Sentences about the uncertainty of times, processes without a file, and parts that could not be read.
 std::vector<std::string> notes_of(const Incident& incident);
 
 }  // namespace lockstep::incident

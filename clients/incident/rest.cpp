@@ -11,7 +11,8 @@ bool is_moving(const FlightEvent& state) {
            phase == AxisPhase::Decelerate;
 }
 
-/// In an epoch: by the end of the tail it ran, or the epoch's. Outside: by its states.
+/// Finds when one axis came to rest. In an epoch this is the end of the tail that it ran, or the end of the epoch.
+/// Outside an epoch its states show it.
 class RestWatch {
 public:
     explicit RestWatch(Tick since) : since_(since) {}
@@ -54,7 +55,7 @@ private:
 
 }  // namespace
 
-/// If a process ended, its device's later motion is not known: another life of it does not show this.
+/// If a process ended, the later motion of its device is not known. The next life of the process does not show it.
 std::optional<Tick> all_at_rest(const Incident& incident, Tick since) {
     std::optional<Tick> all;
     for (std::size_t process = 0; process < incident.processes.size(); ++process) {

@@ -1,4 +1,4 @@
-// When a machine came to rest, from its axes' notes.
+// Finds when a machine came to rest, from its axes' notes.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,7 @@
 
 namespace lockstep::incident {
 
-/// When the last of the axes that moved at `since` came to rest. Nothing: none moved, or it is not known.
+/// When the last of the axes that moved at `since` came to rest. Returns nullopt if none moved, or if not known.
 std::optional<Tick> all_at_rest(const Incident& incident, Tick since);
 
 }  // namespace lockstep::incident

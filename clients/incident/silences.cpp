@@ -11,7 +11,7 @@ bool is_silence(const FlightEvent& event) {
     return event.kind == FlightKind::PeerSilent || (event.kind == FlightKind::PeerReceived && event.lasts > Ticks{});
 }
 
-/// The processes that are part of all of them.
+/// The processes that are observer or subject of every silence.
 std::vector<FlightPeer> common(const std::vector<Silence>& silences) {
     std::vector<FlightPeer> in_all;
     for (const FlightPeer who : {silences.front().observer, silences.front().about}) {

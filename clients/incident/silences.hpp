@@ -1,4 +1,5 @@
-// Which process did not receive which around an incident, and the conclusion about the network between them.
+// Finds which process received nothing from which other around an incident, and concludes which part of the network was
+// cut.
 #pragma once
 
 #include <optional>
@@ -14,20 +15,20 @@ struct Silence {
     FlightPeer observer;
     FlightPeer about;
     Tick from;
-    Ticks lasts;  // as far as it is known
+    Ticks lasts;  // as far as known
 };
 
-/// Those that overlap the time span, one of each pair.
+/// The silences that overlap the time from `from` to `to`, one of each pair (observer, about).
 std::vector<Silence> silences(const Incident& incident, Tick from, Tick to);
 
-/// The cut part of the network, if the silences have no other cause.
+/// The part of the network that was cut, if the silences have no other cause.
 struct CutOff {
-    std::optional<FlightPeer> who;  // of one process to or from all others; nothing: one link, or no pattern
+    std::optional<FlightPeer> who;  // cut off from all others; nullopt if one link was cut, or without a pattern
     Tick from;
     Ticks lasts;
     std::string text;  // "axis Y was cut off: it received no process, and no process received it"
 };
-/// Nothing if there are none.
+/// Returns nullopt if there are no silences.
 std::optional<CutOff> cut_off(const Incident& incident, const std::vector<Silence>& silences);
 
 }  // namespace lockstep::incident

@@ -27,13 +27,13 @@ const Entry* standstill(const Incident& incident, FlightPeer who, Tick at) {
     return longest;
 }
 
-/// For how long both stood still.
+/// How long both processes stood still at the same time.
 Ticks overlap(const Entry& a, const Entry& b) {
     const Tick from = std::max(a.tick - a.event.lasts, b.tick - b.event.lasts);
     return std::max(Ticks{}, std::min(a.tick, b.tick) - from);
 }
 
-/// Another process had replaced it long before.
+/// Whether another process had replaced it between `ended` and `by`.
 bool has_successor_since(const Incident& incident, FlightPeer who, Tick ended, Tick by) {
     return std::ranges::any_of(incident.processes, [&](const Process& process) {
         return process.who == who && process.first > ended && process.first < by;
@@ -89,7 +89,7 @@ std::optional<Cause> explain_by_standstill(const Incident& incident, FlightPeer 
                  from, lasts};
 }
 
-/// A process whose notes were read from outside, and end long before the others'.
+/// Blames a process if its notes were read on request and end more than freshness_slots before `at`.
 std::optional<Cause> explain_by_hanging(const Incident& incident, FlightPeer suspect, Tick at) {
     const Ticks quiet = incident.slots(incident.machine.timing.freshness_slots);
     for (const Process& process : incident.processes) {

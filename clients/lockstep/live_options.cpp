@@ -22,7 +22,8 @@ void add_take(CLI::App& verb, LiveOptions& options) {
 CLI::Option* add_all_hosts(CLI::App& verb, AllHosts& all) {
     CLI::Option* asked = verb.add_flag(
         "--all", all.asked, "on every host that the machine's file names: on the others over ssh, all at once");
-    verb.add_option("--ssh", all.ssh, "with --all: the command that runs another on a host, whose name follows it")
+    verb.add_option("--ssh", all.ssh,
+                    "with --all: the command that runs a command on another host; the host's name is appended to it")
         ->needs(asked)
         ->capture_default_str();
     return asked;

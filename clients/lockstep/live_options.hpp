@@ -1,4 +1,4 @@
-// Options that are common to several verbs.
+// Options common to several verbs.
 #pragma once
 
 #include <string>
@@ -16,26 +16,26 @@ struct AllHosts;
 struct LiveOptions {
     std::string machine_file;
     bool json = false;
-    bool take = false;  // of verbs with add_take()
+    bool take = false;  // for verbs with add_take()
 };
 
 void add_live_options(CLI::App& verb, LiveOptions& options);
 
-/// --take: for a verb that moves or changes the machine.
+/// Adds --take, for a verb that moves or changes the machine.
 void add_take(CLI::App& verb, LiveOptions& options);
 
-/// --all and --ssh.
+/// Adds --all and --ssh.
 CLI::Option* add_all_hosts(CLI::App& verb, AllHosts& all);
 
-/// --detach: for a verb that otherwise waits for its job's end.
+/// Adds --detach, for a verb that otherwise waits for the end of its job.
 void add_detach(CLI::App& verb, bool& detach);
 
-/// The effect of an interrupt on such a verb's job.
+/// Help text: the effect of an interrupt on the job of such a verb.
 inline constexpr const char* kInterrupted =
     "Ctrl-C stops the machine on its path and drops the rest; a closed terminal (SIGHUP) holds it: go on with\n"
     "lockstep resume. With --detach, or under nohup, it goes on by itself.\n";
 
-/// Examples, one per line, then the exit codes.
+/// The help's footer: examples, one per line, then the exit codes.
 std::string footer(const std::string& examples);
 
 }  // namespace lockstep

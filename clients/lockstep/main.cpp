@@ -1,4 +1,4 @@
-// lockstep: the command.
+// The lockstep command.
 #include <algorithm>
 #include <string>
 #include <string_view>
@@ -47,7 +47,7 @@ void add_verbs(CLI::App& app, Action& action) {
     add_scenario(app, action);
 }
 
-/// CLI11's message, except for an unknown verb: CLI11 would report a missing one. Adds which help to read.
+/// CLI11's message, except for an unknown verb, which CLI11 would report as missing. Adds which help to read.
 std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error, const std::string& first) {
     const auto verbs = app.get_subcommands([](const CLI::App*) { return true; });
     const bool known = std::ranges::any_of(verbs, [&](const CLI::App* verb) { return verb->get_name() == first; });
@@ -56,7 +56,7 @@ std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error, con
     return (is_verb ? "there is no verb '" + first + "'" : error.what()) + std::string("; see: lockstep --help");
 }
 
-/// Help and version go to standard output; anything else is bad usage, reported as JSON if JSON was requested.
+/// Prints help and version to standard output. Reports everything else as bad usage, in JSON if JSON was requested.
 int report_usage(const CLI::App& app, const CLI::ParseError& error, const std::string& first, bool json) {
     if (error.get_exit_code() == 0) { return app.exit(error); }
     return Output(json).fail(bad_input(what_is_wrong(app, error, first)));

@@ -1,4 +1,4 @@
-// One verb of the command: its options, and its action. One file per verb adds it.
+// The verbs of the command, with their options and actions. A separate file adds each verb.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@ class App;
 
 namespace lockstep {
 
-/// The action of the parsed command line; the verb sets it.
+/// The action of the parsed command line. The chosen verb sets it.
 using Action = std::function<ExitCode()>;
 
 void add_check(CLI::App& app, Action& action);

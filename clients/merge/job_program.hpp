@@ -15,16 +15,16 @@ class JobProgram {
 public:
     explicit JobProgram(std::optional<ProgramInParts> program) : program_(program) {}
 
-    /// Whether the message is a part of it that is new.
+    /// Returns true if the message is a new part of the program.
     bool takes(const HeldMessage& message);
-    /// Parts that are in no log.
+    /// Number of parts that no log contains.
     std::int64_t missing() const;
 
 private:
     std::optional<ProgramInParts> program_;
     std::int64_t parts_ = 0;
-    std::set<std::int64_t> came_;       // by their places in it
-    std::set<std::int64_t> sequences_;  // of the messages
+    std::set<std::int64_t> came_;       // indices of the parts that were found
+    std::set<std::int64_t> sequences_;  // sequence numbers of their messages
 };
 
 }  // namespace lockstep::merge

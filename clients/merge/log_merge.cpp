@@ -64,8 +64,7 @@ public:
     }
 
 private:
-    /// Logs that begin later than all messages held are not open yet: of a log in many files, only those in progress
-    /// are.
+    /// Opens a log only when the merge reaches its beginning. Of a log split into many files, few are open at a time.
     std::expected<void, std::string> begin_due() {
         while (!waiting_.empty()) {
             const std::size_t first = lowest();
@@ -89,12 +88,12 @@ private:
         return inputs_[i].fill(options_.window_us, kMostBytesHeld - std::min(kMostBytesHeld, others));
     }
 
-    /// A log without messages is opened first: its errors should be reported.
+    /// A log without messages of the record is opened first, so that its errors are reported.
     std::int64_t begins(std::size_t i) const {
         return inputs_[i].begins_utime().value_or(std::numeric_limits<std::int64_t>::min());
     }
 
-    /// The input whose next message is the first of all; the number of inputs: none has one.
+    /// Returns the input with the earliest next message, or the number of inputs if none has a message left.
     std::size_t lowest() const {
         std::size_t lowest = inputs_.size();
         for (std::size_t i = 0; i < inputs_.size(); ++i) {
@@ -122,7 +121,7 @@ private:
         pass_on(from, message);
     }
 
-    /// The parts of the program, and nothing else, are written from before the span: no numbers are missing there.
+    /// From before the span only parts of the program are written. Other messages there do not count as missing.
     bool is_before(const HeldMessage& message) const { return message.id.utime < options_.span.from_us; }
 
     void pass_on(std::size_t from, const HeldMessage& message) {
@@ -157,7 +156,7 @@ private:
     const MergeOptions& options_;
     RecordSink& to_;
     std::vector<MergeInput> inputs_;
-    std::vector<std::size_t> waiting_;  // inputs not begun, the first to begin last
+    std::vector<std::size_t> waiting_;  // inputs not opened yet, the earliest last
     MissingWatch missing_;
     JobProgram program_;
     WrittenLately lately_;

@@ -1,8 +1,8 @@
-// One log to be merged, read a little ahead of the merge, so that its messages come out in the order of machine
+// One log to be merged. It is read a little ahead of the merge, so that its messages come out in the order of machine
 // time.
 //
-// A log is nearly in order: no message comes after one that is `window_us` younger. A message that is later still
-// comes out late.
+// A log must be nearly in order: no message may follow one that is more than `window_us` newer. A message that is later
+// still comes out late.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@
 namespace lockstep::merge {
 
 struct HeldMessage {
-    MessageId id;               // of a foreign channel: the time of the record's message before it
-    std::uint64_t arrival = 0;  // its place among the input's messages
+    MessageId id;               // of a foreign channel: the time of the record's message before this one
+    std::uint64_t arrival = 0;  // index among the input's messages
     bool is_foreign = false;
     std::vector<std::uint8_t> data;
 
@@ -32,7 +32,7 @@ struct HeldMessage {
 
 class MergeInput {
 public:
-    /// Error: the file cannot be read, with its name and the reason.
+    /// The error names the file and the reason why it cannot be read.
     static std::expected<MergeInput, std::string> open(const std::filesystem::path& path);
 
     const std::filesystem::path& path() const { return path_; }
@@ -40,15 +40,16 @@ public:
     std::uint64_t bytes_read() const { return bytes_read_; }
     std::uint64_t bytes_held() const { return bytes_held_; }
     std::uint64_t messages() const { return messages_; }
-    /// By reason; complete when the input is at its end.
+    /// One entry per reason. Complete only when the input is at its end.
     const std::vector<analysis::Damage>& damages() const { return damages_; }
 
-    /// The time of its first message of the record; none if it has none. The file is open only from the first fill on.
+    /// Time of the log's first message of the record, nullopt if it has none. The file stays open only from the first
+    /// fill() on.
     std::optional<std::int64_t> begins_utime() const { return begins_utime_; }
 
-    /// Reads until the window is full, or `most_bytes` are held, or the log ends. Error: reading failed.
+    /// Reads until the window is full, `most_bytes` are held, or the log ends. Fails if the file cannot be read.
     std::expected<void, std::string> fill(std::int64_t window_us, std::uint64_t most_bytes);
-    /// The next message; null: none is left.
+    /// Returns the next message, or null if none is left.
     const HeldMessage* front() const { return held_.empty() ? nullptr : &*held_.begin(); }
     HeldMessage take();
 
@@ -61,14 +62,14 @@ private:
     std::filesystem::path path_;
     std::uint64_t file_bytes_ = 0;
     std::optional<std::int64_t> begins_utime_;
-    std::optional<LogReader> reader_;  // none: not begun, or at its end
+    std::optional<LogReader> reader_;  // nullopt before the first fill() and at the end
     bool has_ended_ = false;
     std::set<HeldMessage> held_;
     std::uint64_t bytes_held_ = 0;
     std::uint64_t bytes_read_ = 0;
     std::uint64_t messages_ = 0;
-    std::int64_t latest_utime_ = 0;  // of the record's message read last
-    std::int64_t newest_utime_ = 0;  // of all read
+    std::int64_t latest_utime_ = 0;  // of the last message of the record that was read
+    std::int64_t newest_utime_ = 0;  // the largest of all messages read
     std::vector<analysis::Damage> damages_;
 };
 

@@ -79,12 +79,14 @@ std::string oddities(const Merged& merged) {
     const auto count = [](std::uint64_t number) { return plural(static_cast<std::int64_t>(number), "message"); };
     std::string text;
     if (merged.differing > 0) {
-        text += count(merged.differing) + " left out that had the number of another, but not its content\n";
+        text += count(merged.differing) + " left out: the number of another message, but other content\n";
     }
     text += line_of("jobs", merged.missing_job_events, "events") +
             line_of("jobs", merged.missing_program_parts, "programs");
     for (const std::string& line : analysis::missing_sentences(merged.end)) { text += "  " + line + "\n"; }
-    if (merged.late > 0) { text += count(merged.late) + " later than the window: written behind younger ones\n"; }
+    if (merged.late > 0) {
+        text += count(merged.late) + " came later than the window allows: written after newer ones\n";
+    }
     if (merged.foreign > 0) { text += count(merged.foreign) + " of other channels, kept from each log\n"; }
     return text;
 }

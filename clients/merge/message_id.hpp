@@ -26,7 +26,7 @@ struct MessageId {
     auto operator<=>(const MessageId&) const = default;
 };
 
-/// None: the channel is not of the record. Error: why the message is impossible.
+/// Returns nullopt for a channel that is not part of the record. The error says why the message is impossible.
 std::expected<std::optional<MessageId>, std::string> identify(const LogEvent& event);
 
 }  // namespace lockstep::merge

@@ -79,7 +79,7 @@ MissingWatch::~MissingWatch() = default;
 
 bool MissingWatch::is_new(const MessageId& id) { return !id.number || seen_[whose(id)].add(id.number->sequence); }
 
-/// Events are numbered with their coordinator's jobs: they count as messages of that channel.
+/// Events and jobs of a coordinator share one numbering, so events count as messages of the job channel.
 MissingWatch::Whose MissingWatch::whose(const MessageId& id) {
     constexpr std::string_view kEvents = "EVENTS";
     std::string channel = id.channel;

@@ -1,4 +1,4 @@
-// Finds what is missing of a record while it is merged: steps and runs, by the numbers of their messages.
+// Finds the messages that a record lacks, by gaps in their sequence numbers, while the record is merged.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@
 
 namespace lockstep::merge {
 
-/// Steps that are in no log: those after the step at from_tick, which led to from_step, up to the one at to_tick,
-/// before which the axis stood at to_step. Ticks of machine time; steps in machine coordinates. If from_* are none,
+/// Steps that no log contains. The last step before them is at from_tick and leads to from_step. The first step after
+/// them is at to_tick and starts at to_step. Ticks of machine time; steps in machine coordinates. from_* are nullopt if
 /// the log lacks the axis's first steps.
 struct MissingSteps {
     std::string axis;
@@ -30,14 +30,14 @@ struct MissingSteps {
     std::optional<Tick> to_tick;
 };
 
-/// Frames and tails that are in no log.
+/// Frames and tails that no log contains.
 struct MissingRuns {
     std::string axis;
     std::int64_t incarnation = 0;  // of the axis's process
     analysis::Numbers numbers;
 };
 
-/// The record of one axis. Its name is that of its channel if logs of several machines are merged.
+/// The record of one axis.
 struct AxisRecord {
     std::string machine;
     std::string axis;
@@ -58,19 +58,19 @@ struct AxisRecord {
 
 class MissingWatch {
 public:
-    static constexpr std::size_t kListed = 1000;  // of each axis; all are counted
+    static constexpr std::size_t kListed = 1000;  // per axis; the counts include the rest
 
-    /// `begins_late`: messages before the first one of a process do not count as missing.
+    /// If `begins_late`, messages before the first one of a process do not count as missing.
     explicit MissingWatch(bool begins_late);
     ~MissingWatch();
 
-    /// Whether it is new; a message without a number always is. Messages of a channel come nearly in order.
+    /// Returns true if the message is new or has no number. Messages of a channel must come nearly in order.
     bool is_new(const MessageId& id);
     /// Call it with each new message.
     void take(const MessageId& id, const std::vector<std::uint8_t>& data);
-    /// By axis. Call once, at the end.
+    /// Returns the record of each axis. Call it once, at the end.
     std::vector<AxisRecord> finish();
-    /// Between the first and the last of each coordinator: events of jobs, or parts of their programs.
+    /// Number of job events or program parts (`kind`) missing between the first and the last of each coordinator.
     std::int64_t missing_of_jobs(RecordKind kind) const;
     /// Call once, at the end.
     analysis::RecordEnd end();
@@ -88,7 +88,7 @@ private:
 
     std::map<Whose, analysis::NumberSet> seen_;
     std::map<std::pair<std::string, std::string>, std::unique_ptr<Axis>> axes_;  // by machine and name
-    std::map<Whose, analysis::RecordingProcess> processes_;                      // the process of each numbered message
+    std::map<Whose, analysis::RecordingProcess> processes_;                      // the process that published them
     analysis::RecordEndCheck marks_;
 };
 

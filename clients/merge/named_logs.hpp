@@ -1,4 +1,4 @@
-// The logs that a user names: each one, or their directory.
+// The logs that a user names, singly or by their directory.
 #pragma once
 
 #include <expected>
@@ -10,7 +10,7 @@
 
 namespace lockstep::merge {
 
-/// A directory stands for all *.lcm in it, in the order of their names. Error: there is none in it.
+/// A directory stands for all *.lcm files in it, in the order of their names. Fails if it contains none.
 std::expected<std::vector<GivenLog>, std::string> named_logs(const std::vector<std::filesystem::path>& names);
 
 }  // namespace lockstep::merge

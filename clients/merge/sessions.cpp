@@ -54,7 +54,7 @@ std::expected<Contents, std::string> contents_of(const fs::path& path) {
     }
 }
 
-/// The session of each log, as the index of its first log.
+/// Returns the session of each log, as the index of the session's first log.
 std::vector<std::size_t> sessions_of(const std::vector<Contents>& logs) {
     std::vector<std::size_t> parent(logs.size());
     std::iota(parent.begin(), parent.end(), std::size_t{0});
@@ -99,7 +99,7 @@ std::vector<JobSpan> spans_of(std::vector<job_t> events) {
         if (its != spans.rend() && !its->ended_us) { its->ended_us = event.utime; }
     }
     const auto same = [](const JobSpan& a, const JobSpan& b) { return a.job == b.job && a.begun_us == b.begun_us; };
-    spans.erase(std::unique(spans.begin(), spans.end(), same), spans.end());  // several logs have it
+    spans.erase(std::unique(spans.begin(), spans.end(), same), spans.end());  // several logs contain the same job
     return spans;
 }
 

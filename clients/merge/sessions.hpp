@@ -1,5 +1,5 @@
-// Finds logs that belong together: processes that published their record at the same time know each other, and their
-// logs show it by marks (record_mark_t). A directory also keeps the logs of all earlier sessions.
+// Finds logs of one session: logs with marks (record_mark_t) of the same process belong together. A directory may also
+// contain the logs of all earlier sessions.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace lockstep::merge {
 
-/// A log to be merged. `is_named`: by the user, not found in a directory.
+/// A log to be merged. `is_named` is true if the user named the file, false if it was found in a directory.
 struct GivenLog {
     std::filesystem::path path;
     bool is_named = true;
@@ -22,9 +22,9 @@ struct JobSpan {
     std::int64_t job = 0;
     std::int64_t begun_us = 0;
     std::optional<std::int64_t> ended_us;
-    std::int64_t coordinator = 0;  // that began it
+    std::int64_t coordinator = 0;  // the one that began it
     std::optional<std::int64_t>
-        program;  // of that coordinator, recorded in parts; none: recorded with the job, or none
+        program;  // the program's number at that coordinator if it was recorded in parts, otherwise nullopt
 };
 
 struct ChosenLogs {
@@ -34,24 +34,25 @@ struct ChosenLogs {
     std::vector<JobSpan> jobs;  // in the chosen logs, by time
 };
 
-/// The sessions of the named logs; if none is named, the one whose logs were written last. Logs without marks are
-/// always chosen: their session is unknown. `all`: every log.
+/// Chooses all logs of the named logs' sessions, or of the session written last if no log is named. Logs without marks
+/// are always chosen, because their session is unknown. With `all`, chooses every log.
 std::expected<ChosenLogs, std::string> choose_logs(const std::vector<GivenLog>& given, bool all);
 
-/// A program that was recorded in parts: its coordinator, and its number there.
+/// A program that was recorded in parts: its coordinator, and its number at that coordinator.
 struct ProgramInParts {
     std::int64_t coordinator = 0;
     std::int64_t program = 0;
 };
 
-/// A range of machine time, in microseconds; none: without that limit.
+/// A range of machine time, in microseconds; nullopt means unlimited.
 struct TimeSpan {
     std::optional<std::int64_t> from_us;
-    std::optional<std::int64_t> until_us;   // not in it
-    std::optional<ProgramInParts> program;  // with all its parts, also those recorded before
+    std::optional<std::int64_t> until_us;   // exclusive
+    std::optional<ProgramInParts> program;  // all its parts are included, also those recorded before
 };
 
-/// The newest job of that number, with its program, and the rest after it. None: there is none.
+/// Returns the span of the newest job with that number, from the end of the job before to the begin of the next one,
+/// and the job's program. Returns nullopt if no such job exists.
 std::optional<TimeSpan> span_of_job(const std::vector<JobSpan>& jobs, std::int64_t job);
 
 }  // namespace lockstep::merge

@@ -15,7 +15,7 @@ class WrittenLately {
 public:
     explicit WrittenLately(std::int64_t span_us) : span_us_(span_us) {}
 
-    /// False: it is a repeat.
+    /// Returns false if the message is a repeat.
     bool add(const HeldMessage& message) {
         written_.erase(written_.begin(), written_.lower_bound({message.id.utime - span_us_, 0}));
         return written_.emplace(message.id.utime, hash_of(message)).second;

@@ -14,7 +14,7 @@ const Block* CountedBlocks::block(std::uint32_t number) const {
     return block;
 }
 
-/// A wrong block ends the program, so it is looked at before it is asked for.
+/// An invalid block ends the program, so the next block is checked here before it is read.
 bool CountedBlocks::ends_before(std::uint32_t number) const {
     if (blocks_->ends_before(number)) { return true; }
     if (number == next_) { (void)block(number); }

@@ -1,4 +1,4 @@
-// The blocks of a program on their way to its planner: checked, and its moves counted.
+// Passes a program's blocks to its planner, checks them and counts the moves.
 #pragma once
 
 #include <memory>
@@ -9,10 +9,10 @@
 
 namespace lockstep {
 
-/// Blocks are taken in their order. Behind the first one that is wrong there is none.
+/// Blocks must be read in order. The program ends before the first invalid block.
 class CountedBlocks final : public ProgramBlocks {
 public:
-    /// `axes`: those of the machine that the program names.
+    /// `axes`: indices of the machine's axes that the program names.
     CountedBlocks(const ProgramPlanner& planner, std::shared_ptr<const ProgramBlocks> blocks,
                   std::vector<std::size_t> axes, AxisCounts start);
 
@@ -25,7 +25,7 @@ public:
 
     int moves() const { return moves_; }
     double length_mm() const { return length_mm_; }
-    /// What is wrong with a target.
+    /// The error of the first invalid block; nullopt if there is none.
     const std::optional<PlanError>& error() const { return error_; }
 
 private:
@@ -34,7 +34,7 @@ private:
     const ProgramPlanner& planner_;
     std::shared_ptr<const ProgramBlocks> blocks_;
     std::vector<std::size_t> axes_;
-    // A source of frames reads what it is made of; what is noted here changes nothing for it.
+    // Mutable because a FrameSource reads its blocks through const functions. The counts do not affect the blocks.
     mutable AxisCounts at_;
     mutable std::uint32_t next_ = 0;
     mutable int moves_ = 0;

@@ -19,7 +19,7 @@ public:
           end_(leg.end),
           at_(leg.from) {}
 
-    /// Nothing: there is no more.
+    /// Returns nullopt after the last move.
     std::optional<PlannedMove> read() {
         while (next_ < end_) {
             const std::uint32_t number = next_++;
@@ -52,7 +52,7 @@ public:
         source_->resume({leg.first, {}}, at, {});
     }
 
-    /// With `visit` each move is forgotten when the next one has begun.
+    /// With `visit`, each move is visited and dropped when the next one has begun.
     std::expected<LegPlan, PlanError> run(const OnPlannedMove& visit) {
         for (source_->read_ahead(); !source_->is_done(); source_->read_ahead()) {
             const auto frame = source_->next();
@@ -74,7 +74,7 @@ private:
         plan_.moves.push_back(*std::exchange(waiting_, moves_.read()));
     }
 
-    /// Begins are in the order of the moves.
+    /// The source lists begins in the order of the moves.
     void take(const PathFrame& frame) {
         for (const MoveBegin& begin : source_->begins()) {
             const Ticks at = plan_.duration + Ticks{std::llround(begin.at)};
@@ -97,7 +97,7 @@ private:
 
     std::unique_ptr<FrameSource> source_;
     MoveReader moves_;
-    std::optional<PlannedMove> waiting_;  // has not begun yet
+    std::optional<PlannedMove> waiting_;  // the next move to begin
     LegPlan plan_;
 };
 

@@ -1,4 +1,4 @@
-// The planned motion of legs, from the frames that the coordinator makes of them.
+// The planned motion of a program's legs, computed from the same frames that the coordinator makes.
 #pragma once
 
 #include <deque>
@@ -22,7 +22,7 @@ public:
 
     explicit AxisMotion(Position from) : to_(from) {}
     void add(const Piece& piece);
-    /// at() is not asked for earlier times any more.
+    /// Drops the pieces that end by `t`. Do not call at() for earlier times afterwards.
     void forget_before(Ticks t);
 
     const std::deque<TimedPiece>& pieces() const { return pieces_; }
@@ -38,8 +38,8 @@ private:
 struct PlannedMove {
     std::int32_t line = 0;
     std::uint32_t block = 0;
-    double length_mm = 0;  // 0: a dwell
-    Ticks begin;           // until the next one begins
+    double length_mm = 0;  // 0 for a dwell
+    Ticks begin;           // the move lasts until the next one begins
 };
 
 struct LegPlan {
@@ -48,23 +48,24 @@ struct LegPlan {
     Ticks duration;
 
     Ticks end(std::size_t move) const { return move + 1 < moves.size() ? moves[move + 1].begin : duration; }
-    /// Where an axis is when a move begins, and when it ends: on a joined path less than a step from the program's
-    /// place.
+    /// The axis's position in steps when a move begins and when it ends. On a joined path it is less than a step from
+    /// the program's position.
     std::int64_t from(std::size_t move, std::size_t axis) const { return axes[axis].at(moves[move].begin).count(); }
     std::int64_t to(std::size_t move, std::size_t axis) const { return axes[axis].at(end(move)).count(); }
 };
 
-/// The legs in which something moves or dwells, from rest to rest; between two of them the program waits for a person.
-/// Errors: as ProgramPlanner::plan; the axes' limits contradict each other.
+/// Plans the legs in which an axis moves or the program dwells. A leg goes from rest to rest; between two legs the
+/// program waits for a person. Fails like ProgramPlanner::plan, or if the axes' limits contradict each other.
 std::expected<std::vector<LegPlan>, PlanError> plan_legs(const MachineConfig& machine, const Program& program,
                                                          const AxisCounts& start);
 
-/// Of a program of any length: what is planned is forgotten move by move.
+/// The totals of a program of any length: each move is dropped once it has been visited.
 struct PlannedLegs {
     std::int64_t legs = 0;
     Ticks duration;
 };
-/// `leg` is a part of the leg's plan, with this move in front. Its duration is that of the motion planned so far.
+/// `leg` is a part of the leg's plan. Its first move is the visited one; its duration is that of the motion planned so
+/// far.
 using OnPlannedMove = std::function<void(const LegPlan& leg)>;
 std::expected<PlannedLegs, PlanError> each_planned_move(const MachineConfig& machine, const ProgramHead& head,
                                                         const std::shared_ptr<const ProgramBlocks>& blocks,

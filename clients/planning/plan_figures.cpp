@@ -49,7 +49,7 @@ void PlanDrawing::take(const PlannedFrame& planned) {
     add_places(planned.frame);
 }
 
-/// The speed is linear between the ends of a piece.
+/// Adds the speeds at both ends of each piece. Between them the speed is linear.
 void PlanDrawing::add_speeds(const AxisTrack& track, Ticks begin, Axis& axis) {
     for (const Piece& piece : track.body) {
         const double change = piece.acceleration.steps_per_tick2();
@@ -62,7 +62,7 @@ void PlanDrawing::add_speeds(const AxisTrack& track, Ticks begin, Axis& axis) {
     }
 }
 
-/// At both ends of each piece of both axes.
+/// Adds the points at both ends of each piece of both axes.
 void PlanDrawing::add_places(const PathFrame& frame) {
     std::vector<Ticks> ends{Ticks{}};
     for (const std::size_t axis : {x_, y_}) {

@@ -15,12 +15,12 @@ class PlanDrawing {
 public:
     explicit PlanDrawing(const MachineConfig& machine);
 
-    /// In the order of the plan.
+    /// Frames must come in the order of the plan.
     void take(const PlannedFrame& planned);
 
-    /// Axes X and Y if the machine has them, else its first two; for a single axis, that over itself.
+    /// Axes X and Y if the machine has them, else its first two; a single axis is drawn against itself.
     drawing::Figure path(const ProgramPlan& plan) const;
-    /// Legs follow each other without the pauses between them.
+    /// The pauses between legs are left out.
     drawing::Figure speed(const ProgramPlan& plan) const;
 
 private:

@@ -8,7 +8,7 @@
 namespace lockstep {
 namespace {
 
-/// Goes through a program from rest to rest.
+/// Plans a program leg by leg, from rest to rest.
 class LegByLeg {
 public:
     LegByLeg(const MachineConfig& machine, std::shared_ptr<const CountedBlocks> blocks, const Planning& planning)
@@ -18,7 +18,7 @@ public:
           at_(planning.start),
           totals_(machine, planning.start) {}
 
-    /// Error: the axes' limits contradict each other.
+    /// Fails if the axes' limits contradict each other.
     std::expected<void, PlanError> run() {
         for (std::uint32_t first = 0; !blocks_->ends_before(first);) {
             const auto source = planner_.frames(blocks_, first, at_);

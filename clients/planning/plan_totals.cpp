@@ -9,7 +9,7 @@
 namespace lockstep {
 namespace {
 
-/// The way of the pieces up to a tick.
+/// Returns the position after the first `t` ticks of the track.
 Position position_at(const AxisTrack& track, Ticks t) {
     Position at = track.from;
     for (const Piece& piece : track.body) {
@@ -39,7 +39,7 @@ void PlanTotals::take(const PathFrame& frame, const std::vector<MoveBegin>& begi
     duration_ += frame.ticks;
 }
 
-/// A move ends where the next one begins. One that begins at a frame's end may be named for the next frame too.
+/// A move ends where the next one begins. A begin at the end of a frame may be listed for the next frame again.
 void PlanTotals::note_begins(const PathFrame& frame, const std::vector<MoveBegin>& begins) {
     corners_.clear();
     if (ends_move_) { corners_.push_back(Ticks{}); }
@@ -81,7 +81,7 @@ void PlanTotals::note_pieces(const AxisTrack& track, std::size_t axis) {
     }
 }
 
-/// By the LAI method speed changes by jumps from period to period: within a move these are its acceleration.
+/// With the LAI method the speed jumps from period to period. Within a move these jumps count as acceleration.
 void PlanTotals::note_jump(std::size_t axis, double change, bool is_between_moves) {
     AxisPlan& plan = axes_[axis];
     const double mm_s = std::abs(change) / machine_.axes[axis].steps_per_mm * machine_.ticks_per_second();

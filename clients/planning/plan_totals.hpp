@@ -13,10 +13,10 @@ namespace lockstep {
 
 struct AxisPlan {
     std::string name;
-    std::int64_t steps = 0;  // both ways together
+    std::int64_t steps = 0;  // in both directions together
     double peak_velocity_mm_s = 0;
     double peak_acceleration_mm_s2 = 0;  // of its pieces, rising or falling
-    double peak_jump_mm_s = 0;           // the largest sudden change of its speed: in a corner, from and to rest
+    double peak_jump_mm_s = 0;           // largest sudden change of its speed: in a corner, at the start or at the stop
     double min_mm = 0;                   // the range of its positions, its start included
     double max_mm = 0;
 };
@@ -25,9 +25,9 @@ class PlanTotals {
 public:
     PlanTotals(const MachineConfig& machine, const AxisCounts& start);
 
-    /// `begins`: of the moves that begin in the frame.
+    /// `begins`: where moves begin in the frame.
     void take(const PathFrame& frame, const std::vector<MoveBegin>& begins);
-    /// The machine rests.
+    /// The leg is complete and the machine at rest.
     void end_leg();
 
     Ticks duration() const { return duration_; }
@@ -35,7 +35,7 @@ public:
 
 private:
     struct Axis {
-        std::int64_t count = 0;  // where the last move began
+        std::int64_t count = 0;  // in steps, where the last move began
         double speed = 0;        // steps per tick, at the end of the last piece
         Position at;
     };
@@ -49,9 +49,9 @@ private:
     std::vector<AxisPlan> axes_;
     std::vector<Axis> now_;
     Ticks duration_;
-    std::int64_t begun_ = -1;     // the last block whose move began in this leg
+    std::int64_t begun_ = -1;     // the last block that began in this leg
     std::vector<Ticks> corners_;  // where moves begin in the frame, ascending
-    bool ends_move_ = true;       // a move begins with the next frame, as far as the last one tells
+    bool ends_move_ = true;       // a move begins with the next frame, or the leg does
 };
 
 }  // namespace lockstep

@@ -28,7 +28,7 @@ const Diagnostics& ProgramText::errors() {
     return errors_;
 }
 
-/// False: there is no more.
+/// Returns false if no line is left.
 bool ProgramText::read_line() const {
     if (is_over_) { return false; }
     const auto next = lines_.next();

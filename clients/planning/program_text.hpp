@@ -1,4 +1,4 @@
-// The blocks of a G-code file, read as they are asked for: the file may be of any length.
+// Reads the blocks of a G-code file on demand, so that the file may be of any length.
 #pragma once
 
 #include <deque>
@@ -11,8 +11,8 @@
 
 namespace lockstep {
 
-/// Blocks are asked for in their order; those before the last one asked for are forgotten. Behind the first wrong line
-/// there is no block. A subroutine stands before its call, or in a file of its name.
+/// Blocks must be requested in order; blocks before the last requested one are dropped. No block follows the first line
+/// with an error. A subroutine must precede its call or be in a file of its name.
 class ProgramText final : public ProgramBlocks {
 public:
     ProgramText(LineReader lines, const GcodeSetup& setup);
@@ -21,12 +21,12 @@ public:
     const std::vector<std::string>& axes() const override { return head_.axes; }
     const Block* block(std::uint32_t number) const override;
     bool ends_before(std::uint32_t number) const override;
-    /// Of the last one asked for.
+    /// The place before the last requested block.
     std::optional<std::span<const double>> place_before(std::uint32_t /*number*/) const override { return at_mm_; }
 
-    /// What is wrong, by line and column, at most kMaxGcodeErrors. Reads on behind the first wrong line.
+    /// The errors by line and column, at most kMaxGcodeErrors. Reads on after the first line with an error.
     const Diagnostics& errors();
-    /// Words that were passed over, and messages.
+    /// Ignored words, and messages.
     const std::vector<GcodeNote>& notes() const { return notes_; }
     int lines() const { return line_; }
     double share_read() const { return lines_.share_read(); }
@@ -35,16 +35,16 @@ private:
     bool read_line() const;
     void report(const GcodeError& error) const;
 
-    // Reading changes what is known, and nothing about the program.
+    // Mutable because const functions read ahead. Reading does not change the program.
     mutable LineReader lines_;
     mutable GcodeStream gcode_;
     ProgramHead head_;
-    mutable std::deque<Block> blocks_;   // from the last one asked for on
-    mutable std::uint32_t first_ = 0;    // of them
-    mutable std::vector<double> at_mm_;  // before them
+    mutable std::deque<Block> blocks_;   // from the last requested block on
+    mutable std::uint32_t first_ = 0;    // number of the first of blocks_
+    mutable std::vector<double> at_mm_;  // the place before blocks_
     mutable Diagnostics errors_;
     mutable std::vector<GcodeNote> notes_;
-    mutable int line_ = 0;  // the last one read
+    mutable int line_ = 0;  // number of the last line read
     mutable bool is_over_ = false;
     mutable bool has_repeated_ = false;
 };

@@ -9,7 +9,7 @@
 namespace lockstep::replay {
 namespace {
 
-constexpr std::int64_t kTick_ns = 1000;  // the same name for device and driver: everything is counted in ticks
+constexpr std::int64_t kTick_ns = 1000;  // any value, the same for device and driver: all times are in ticks
 constexpr std::size_t kStepsAtOnce = registers::kCaptureRingEntries / 2;
 
 /// An axis without a switch within reach.
@@ -23,7 +23,7 @@ AxisConfig endless_axis() {
     return axis;
 }
 
-/// Pieces beyond a frame's capacity are left out: then the device does not end at the recorded count.
+/// Drops pieces beyond a frame's capacity. The check at the end finds that the device then ends at another count.
 void copy_pieces(const Run& run, auto& pieces) {
     for (const Piece& piece : run.pieces) { (void)pieces.push_back(piece); }
 }
@@ -58,14 +58,14 @@ void DeviceReplay::on_run(const Run& run) {
     }
     if (held_) {
         load_frame(false);
-        play(held_->start + held_->ticks() - Ticks{1});  // at its end the next frame must be there
+        play(held_->start + held_->ticks() - Ticks{1});  // the next frame must be loaded before this one ends
     } else {
         begin_motion();
     }
     held_ = run;
 }
 
-/// False: the run is skipped, since a device that has just been powered up is at rest on a whole step.
+/// Returns false if the run must be skipped: a device that was just powered up is at rest on a whole step.
 bool DeviceReplay::power_up(const Run& run) {
     if (hardware_ && incarnation_ == run.incarnation) { return true; }
     if (run.tail || !starts_from_rest(run)) {
@@ -100,7 +100,7 @@ void DeviceReplay::on_end() {
     if (held_) { end_motion(); }
 }
 
-/// Writes the held frame, with its tail, as the driver does. Arms it.
+/// Writes the held frame with its tail through the driver and arms it.
 void DeviceReplay::load_frame(bool is_last) {
     const std::int64_t to_device = held_->zero_count - count_at_power_up_;
     device::LoadFrame frame{++frame_, held_->start, is_last, {}};
@@ -111,7 +111,7 @@ void DeviceReplay::load_frame(bool is_last) {
     order(device::Arm{frame_});
 }
 
-/// Reads the device's steps every so many steps, before its capture ring is full.
+/// Advances the device and reads its steps often enough that its capture ring never fills up.
 void DeviceReplay::play(Tick until) {
     const auto advance = [this](Tick to) {
         hardware_->device.advance(to);
@@ -140,7 +140,7 @@ void DeviceReplay::take(StepEdge made) {
     on_step_(step);
 }
 
-/// The held frame is followed only by its tail.
+/// No frame follows the held one, only its tail if it has one.
 void DeviceReplay::end_motion() {
     load_frame(!tail_);
     const Run& last = tail_ ? *tail_ : *held_;

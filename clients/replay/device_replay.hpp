@@ -1,8 +1,8 @@
-// One axis's recorded runs on a simulated device: written into the registers by the driver, frame by frame with their
-// tails, armed, and executed by the device alone. If pulses ceased early, by a switch or a stop, the host stops the
-// device there: the log does not contain the switches.
+// Runs one axis's recorded runs on a simulated device. The driver writes them into the registers, frame by frame with
+// their tails, and arms them; the device alone executes them. If pulses ceased early because of a switch or a stop, the
+// host stops the device at that step, because the log does not contain the switches.
 //
-// A device is powered up for each process on record, at its first motion from rest.
+// A new device is powered up for each recorded process, at the process's first motion from rest.
 #pragma once
 
 #include <cstdint>
@@ -19,20 +19,20 @@ namespace lockstep::replay {
 
 using analysis::Run;
 
-/// A step that the device made.
+/// A step of the simulated device.
 struct MadeStep {
     StepEdge edge;
     Tick commanded;                // machine time
-    Ticks clock_error;             // of its run
-    std::int64_t count = 0;        // after it, machine coordinates
-    std::int64_t incarnation = 0;  // of the process on record
+    Ticks clock_error;             // of the step's run
+    std::int64_t count = 0;        // position after it, machine coordinates
+    std::int64_t incarnation = 0;  // of the recorded process
 };
 
 class DeviceReplay final : public verification::RunFollower {
 public:
     using OnStep = std::function<void(const MadeStep&)>;
 
-    /// Counts the steps and runs into `findings`, and reports there each difference from the record.
+    /// Counts steps and runs into `findings` and reports each difference from the record there.
     DeviceReplay(std::string axis, verification::Findings& findings, OnStep on_step);
     ~DeviceReplay() override;
 
@@ -61,16 +61,16 @@ private:
     std::string axis_;
     verification::Findings& findings_;
     OnStep on_step_;
-    std::unique_ptr<Hardware> hardware_;  // none before the first motion from rest
+    std::unique_ptr<Hardware> hardware_;  // null before the first motion from rest
     std::int64_t incarnation_ = 0;
-    std::int64_t count_at_power_up_ = 0;  // of the device on record
-    std::uint64_t motion_ = 0;            // the device's number for it
-    FrameNumber frame_ = 0;               // of the motion, loaded last
-    std::optional<Run> held_;             // to be loaded when its successor is known
-    std::optional<Run> tail_;             // after the frame
-    std::optional<Run> newest_;           // the run being played; none: skipped
-    std::int64_t count_ = 0;              // machine coordinates, by its steps
-    std::optional<Tick> newest_step_;     // of that run
+    std::int64_t count_at_power_up_ = 0;  // of the recorded device
+    std::uint64_t motion_ = 0;            // its number in the device
+    FrameNumber frame_ = 0;               // number of the frame that was loaded last
+    std::optional<Run> held_;             // the frame to load when its successor is known
+    std::optional<Run> tail_;             // the run after held_
+    std::optional<Run> newest_;           // the run being replayed; nullopt if skipped
+    std::int64_t count_ = 0;              // position in machine coordinates
+    std::optional<Tick> newest_step_;     // the last step of that run
     std::deque<ExpectedStep> expected_;
 };
 

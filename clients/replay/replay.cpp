@@ -14,7 +14,7 @@ namespace {
 
 using analysis::LogPlace;
 
-/// Passes every message to the check, and all but steps to the replay's own log.
+/// Passes the messages to the check, and all but steps and marks to the replay's own log.
 class ReplayListener final : public analysis::LogListener {
 public:
     explicit ReplayListener(RecordSink* made) {

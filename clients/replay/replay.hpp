@@ -1,8 +1,8 @@
 // Replays a recorded run on simulated devices: checks that the recorded frames make the recorded steps.
 //
-// The frames on record are written into a device's registers by the driver and executed by the device alone; each of
-// its steps must be the recorded one, at its tick. Nothing is planned: `lockstep verify` does that. So this
-// distinguishes an error of the device from an error of the plan.
+// The driver writes the recorded frames into a device's registers, and the device alone executes them. Each of its
+// steps must equal the recorded one, at the same tick. Nothing is planned here; `lockstep verify` does that. So a
+// difference here is an error of the device, not of the plan.
 #pragma once
 
 #include <expected>
@@ -18,12 +18,12 @@ namespace lockstep::replay {
 
 using verification::Findings;
 
-/// `made`: the destination of the replay's own log; null: none. Error: the file is not a log, or contains no run.
-/// `progress` is called with 0 ... 1 now and then.
+/// `made` receives the replay's own log; it may be null. `progress` is called with 0 ... 1 now and then. Fails if the
+/// file is not a log or contains no run.
 std::expected<Findings, std::string> replay_log(const std::filesystem::path& log, RecordSink* made,
                                                 const std::function<void(double)>& progress = {});
 
-/// `log`: the one written, if any.
+/// `log`: path of the written log, empty if none.
 proto::ReplayReport to_report(const Findings& findings, const std::string& log);
 
 /// For a terminal: one paragraph, ends with a newline.

@@ -19,7 +19,7 @@ void ReplayedSteps::take(const MadeStep& step) {
                 .machine = machine_, .axis = axis_, .incarnation = static_cast<std::uint64_t>(incarnation_)},
             before, [this](step_batch_t& batch) { publish(batch); });
     }
-    if (batcher_->position_steps() != before) { batcher_->set_position(before); }  // zeroed
+    if (batcher_->position_steps() != before) { batcher_->set_position(before); }  // the axis was zeroed
     batcher_->poll(step.edge.tick);
     batcher_->add(step.edge);
     if (!first_) { first_ = step; }

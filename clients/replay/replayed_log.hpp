@@ -17,11 +17,11 @@ namespace lockstep::replay {
 /// The steps of one axis, as its process would have recorded them.
 class ReplayedSteps {
 public:
-    /// `sink` outlives it.
+    /// `sink` must outlive this object.
     ReplayedSteps(const std::string& machine, const std::string& axis, RecordSink& sink);
 
     void take(const MadeStep& step);
-    /// Microseconds of machine time, as far as the recorded log was read.
+    /// The time of the recorded log's last run, in microseconds of machine time.
     void set_time(std::int64_t utime) { utime_ = utime; }
     void finish();
 
@@ -32,14 +32,14 @@ private:
     std::string axis_;
     std::string channel_;
     RecordSink& sink_;
-    std::optional<StepBatcher> batcher_;  // of the process on record
+    std::optional<StepBatcher> batcher_;  // of the recorded process
     std::int64_t incarnation_ = 0;
     std::int64_t utime_ = 0;
-    std::optional<MadeStep> first_;  // of those not published
+    std::optional<MadeStep> first_;  // the first step not published yet
     MadeStep last_;
 };
 
-/// Passes everything but steps through unchanged.
+/// Passes all messages but steps on unchanged.
 class ReplayedLog {
 public:
     explicit ReplayedLog(RecordSink& sink) : sink_(sink) {}

@@ -12,14 +12,14 @@
 namespace lockstep::incident {
 namespace {
 
-/// The cause is shown above.
+/// Omits the first sentence, the cause, because the page shows it above.
 std::string story_list(const proto::IncidentReport& report) {
     std::string out;
     for (int i = 1; i < report.story_size(); ++i) { out += "<li>" + drawing::escape_xml(report.story(i)) + "</li>"; }
     return out;
 }
 
-/// The log's curves, and the offset of their seconds, which begin with the log's first step.
+/// The log's curves, and offset_s: their times begin at the log's first step, the page's when the incident was noticed.
 std::string log_charts(const proto::IncidentReport& report, const analysis::Analysis* log) {
     if (log == nullptr || !log->first_tick()) { return "null"; }
     std::string charts = analysis::page_charts(*log);

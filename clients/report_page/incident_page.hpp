@@ -12,7 +12,7 @@
 
 namespace lockstep::incident {
 
-/// `log`: of the run, for the curves; null: they are drawn from the axes' notes, ten per second.
+/// `log`: the run's log, from which the curves are drawn. If null, they are drawn from the axes' notes, ten per second.
 std::string to_html(const proto::IncidentReport& report, const analysis::Analysis* log);
 
 /// The error names the file and the reason.

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Makes one page of an HTML file and what it refers to, as a C++ string.
+"""Writes an HTML page, with its scripts and styles inlined, as a C++ string.
 
-Usage: inline_page.py NAME PAGE.html OUT.cpp    NAME is the string's. Scripts and styles are looked for beside the page.
+Usage: inline_page.py NAME PAGE.html OUT.cpp    NAME is the C++ variable. Scripts and styles are beside the page.
 """
 import pathlib
 import re

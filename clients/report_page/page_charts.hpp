@@ -1,4 +1,4 @@
-// The data that the report page draws, as JSON: rows over time of every axis, the path, how far steps were from their
+// The data that the report page draws, as JSON: rows over time of every axis, the path, and the step time errors.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 namespace lockstep::analysis {
 
 /// {whole: [s, s], rows: [{kind, name, what, unit, colour, x, y, limits, missing}], path: {asked, stepped} or null,
-/// step_times: [{name, colour, classes, counts}]}. x: seconds after the first step; null breaks a curve.
+/// step_times: [{name, colour, classes, counts}]}. x: seconds after the first step. A null interrupts a curve.
 std::string page_charts(const Analysis& analysis);
 
 }  // namespace lockstep::analysis

@@ -7,10 +7,10 @@
 
 namespace lockstep::analysis {
 
-/// JSON that is safe within a page: no tag begins or ends in it.
+/// Escapes JSON so that it contains no tag and is safe within a page.
 std::string within_page(std::string json);
 
-/// The template with each @NAME@ replaced by its text, in one pass: inserted texts are not searched again.
+/// Replaces each @NAME@ of the template by its text, in one pass: inserted texts are not searched again.
 std::string filled(std::string_view page, const std::map<std::string_view, std::string>& texts);
 
 }  // namespace lockstep::analysis

@@ -1,11 +1,11 @@
-// The pages before their data are inserted: made of the files in web/ when the command is built.
+// The templates of the pages. The build generates them from the files in web/.
 #pragma once
 
 #include <string_view>
 
 namespace lockstep::analysis {
 
-/// Places for data are named between at signs: @TITLE@ and so on.
+/// Placeholders for data are names between at signs, such as @TITLE@.
 extern const std::string_view kPageTemplate;      // of a log
 extern const std::string_view kIncidentTemplate;  // of an incident
 

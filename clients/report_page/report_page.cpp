@@ -17,7 +17,7 @@ namespace lockstep::analysis {
 namespace {
 
 constexpr std::string_view kMark = R"(<meta name="generator" content="lockstep analyze">)";
-constexpr std::size_t kMarkWithin = 1024;  // bytes of the page
+constexpr std::size_t kMarkWithin = 1024;  // at the beginning of the page
 
 std::string findings_list(const std::vector<Finding>& found) {
     std::string out;

@@ -11,10 +11,10 @@ namespace lockstep::analysis {
 
 std::string to_html(const Analysis& analysis);
 
-/// Whether a report may be written there: the path is free, or a report.
+/// Returns true if a report may be written there: the path does not exist, or is a report.
 bool may_replace(const std::filesystem::path& path);
 
-/// The reason why it may not.
+/// The message for a path that may not be replaced.
 std::string in_the_way(const std::filesystem::path& path);
 
 /// The error names the file and the reason.

@@ -9,7 +9,7 @@ namespace lockstep::sender {
 namespace {
 
 constexpr std::size_t kMostLine = 1024;  // of a controller's answers
-constexpr std::size_t kLeastRoom = 32;   // less is no size of a buffer
+constexpr std::size_t kLeastRoom = 32;   // a smaller number cannot be a buffer's size
 
 int number_in(std::string_view text) {
     int number = 0;
@@ -58,7 +58,7 @@ void GrblSender::do_line(const std::string& line, Time now) {
     }
 }
 
-/// Many controllers reset themselves when their line is opened.
+/// Many controllers reset themselves when their port is opened.
 void GrblSender::do_greeting(Time now) {
     if (phase_ == Phase::Greeting || phase_ == Phase::Asking) { return ask(now); }
     if (phase_ == Phase::Resetting) { return end_as(trouble_ ? Outcome::Failed : Outcome::Stopped); }
@@ -71,7 +71,7 @@ void GrblSender::ask(Time now) {
     enter(Phase::Asking, now);
 }
 
-/// "[OPT:VNM,35,1024]": the last is the size of the receive buffer, one byte of which grbl cannot use.
+/// "[OPT:VNM,35,1024]": the last number is the size of the receive buffer; grbl cannot use one byte of it.
 void GrblSender::read_options(const std::string& line) {
     const std::size_t comma = line.find(',', std::min(line.find(',') + 1, line.size()));
     if (comma == std::string::npos) { return; }
@@ -89,7 +89,7 @@ void GrblSender::do_ok(Time now) {
 }
 
 void GrblSender::do_error(const std::string& line, Time now) {
-    if (phase_ == Phase::Asking) { return enter(Phase::Streaming, now); }  // an old one, without $I
+    if (phase_ == Phase::Asking) { return enter(Phase::Streaming, now); }  // an old controller without $I
     const auto refused = phase_ == Phase::Streaming ? flow_.answer() : std::nullopt;
     if (!refused) { return; }
     const int number = number_in(std::string_view(line).substr(6));
@@ -99,7 +99,7 @@ void GrblSender::do_error(const std::string& line, Time now) {
          now);
 }
 
-/// The controller has stopped by itself.
+/// The controller has stopped the machine by itself.
 void GrblSender::do_alarm(const std::string& line) {
     if (phase_ == Phase::Over || phase_ == Phase::Resetting) { return; }
     const int number = number_in(std::string_view(line).substr(6));
@@ -119,7 +119,7 @@ void GrblSender::do_status(const std::string& line, Time now) {
         output_ += '\x18';
         enter(Phase::Resetting, now);
     }
-    // A second one: the first may have been on its way before the machine began.
+    // Waits for a second report: the first may have been sent before the machine began to move.
     if (phase_ == Phase::Finishing && rests_ > 1 && (status_.starts_with("Idle") || status_.starts_with("Check"))) {
         end_as(Outcome::Done);
     }

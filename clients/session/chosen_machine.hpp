@@ -1,4 +1,4 @@
-// The machine of a command, with its file.
+// The machine of a command, and its file.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@ struct ChosenMachine {
     std::filesystem::path file;
     MachineConfig config;
     std::uint64_t hash = 0;        // of the configuration
-    std::filesystem::path source;  // where a person changes it, and beside which senders keep settings; empty: unknown
-    KeptSettings settings;         // of senders, which are in `config` already
+    std::filesystem::path source;  // the file that people edit; senders keep settings beside it; empty if unknown
+    KeptSettings settings;         // of senders; `config` contains them already
 };
 
 }  // namespace lockstep

@@ -1,4 +1,4 @@
-// The live figures of an axis as its part of the status report, in the user's units.
+// Converts an axis's live figures to its part of the status report, in the user's units.
 #pragma once
 
 #include "core/machine.hpp"

@@ -10,10 +10,11 @@
 
 namespace lockstep {
 
-/// The position of every axis, in mm and to the step. Error: an axis is not received.
+/// Returns the position of every axis, in mm and exact to the step. Fails if an axis is not received.
 std::expected<std::vector<double>, Failure> start_places(Session& session);
 
-/// How long a program takes from there with the session's overrides, s. Error: why it cannot be planned.
+/// Returns how long a program takes from `start_mm` with the session's overrides, in s. The error says why it cannot be
+/// planned.
 std::expected<double, Failure> planned_seconds(const Session& session, const ProgramHead& head,
                                                std::shared_ptr<const ProgramBlocks> blocks,
                                                const std::vector<double>& start_mm);

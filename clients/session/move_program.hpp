@@ -17,26 +17,26 @@ struct AxisTarget {
     double mm = 0;
 };
 
-/// "X=-3.5". Error: what is wrong with it, and an example.
+/// Parses "X=-3.5". The error says what is wrong, and gives an example.
 std::expected<AxisTarget, std::string> parse_target(std::string_view word);
 
 struct MoveOptions {
     std::vector<std::string> targets;        // "X=10"; absolute machine mm
-    std::optional<double> feed_mm_min = {};  // along the path; none: rapid
+    std::optional<double> feed_mm_min = {};  // along the path; nullopt means rapid
     bool relative = false;                   // targets are relative to the axes' positions
     bool own = false;                        // each axis by itself, not in a line
-    std::optional<double> in_s = {};         // own: how long each axis's move lasts
+    std::optional<double> in_s = {};         // with `own`: how long each axis's move lasts
 };
 
-/// From the axes' positions; axes not named stay. Errors: an axis that the machine lacks or that is named twice, a
-/// place outside the travel, a feed or a time out of range, or of another kind of move.
+/// Starts at the axes' positions; axes that are not named stay. Fails if the machine lacks a named axis, an axis is
+/// named twice, a place is outside the travel, or a feed or time is out of range or belongs to the other kind of move.
 std::expected<Program, std::string> move_program(const MachineConfig& machine, const std::vector<double>& start_mm,
                                                  const MoveOptions& options);
 
-/// The requested duration of own moves, to the tick; 0: none.
+/// The requested duration of own moves in whole ticks; 0 if none was requested.
 Ticks ticks_of(const MachineConfig& machine, const MoveOptions& options);
 
-/// The axis's index in the configuration; capitals do not matter. Error: the names there are.
+/// Returns the axis's index in the configuration, ignoring case. The error lists the existing names.
 std::expected<std::size_t, std::string> find_axis(const MachineConfig& machine, std::string_view name);
 
 }  // namespace lockstep

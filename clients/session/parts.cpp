@@ -21,7 +21,7 @@ proto::AwaitedPart awaited(const std::string& name, const std::string& host, con
     return part;
 }
 
-/// Of an axis that is not received everywhere.
+/// The state of an axis that is not received by this client or not by the coordinator.
 std::string axis_state(const MachineConfig& machine, const KnownParts& known, std::size_t axis) {
     if (has_axis(known.axes_present, axis)) { return "started, not received by the coordinator"; }
     if (!is_present(known.present, axis)) { return kAbsent; }

@@ -1,4 +1,4 @@
-// The parts of a machine, coordinator and axes, each on its host: which are awaited, and in which state each is.
+// The parts of a machine, coordinator and axes, on their hosts: which parts are awaited, and the state of each.
 #pragma once
 
 #include <string>
@@ -21,10 +21,10 @@ struct KnownParts {
 
 KnownParts known_parts(const Session& session);
 
-/// "coordinator", "axis Z". Nothing: the coordinator.
+/// Returns "axis Z", or "coordinator" for nullopt.
 std::string part_name(const MachineConfig& machine, std::optional<std::size_t> axis);
 
-/// The parts that are not received, or not by the coordinator. Pure.
+/// The parts that are not received by this client, or not by the coordinator. Pure.
 std::vector<proto::AwaitedPart> awaited_parts(const MachineConfig& machine, const KnownParts& seen);
 
 void add_awaited(const Session& session, proto::StatusReport& report);

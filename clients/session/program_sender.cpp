@@ -37,7 +37,7 @@ void ProgramSender::flush() {
     parts_.push_back({open_.take(), blocks, share_, {}});
 }
 
-/// The last part may have no block: it says that it is the last.
+/// The last part may have no blocks; it marks the end.
 void ProgramSender::end(const std::optional<gcode::KeptValues>& after) {
     if (is_ended_) { return; }
     share_ = 1;

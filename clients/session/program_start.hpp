@@ -9,7 +9,8 @@
 
 namespace lockstep {
 
-/// "X=10,Y=5": the named axes there, the others parked as after homing. Error: what is wrong with it, and an example.
+/// Parses "X=10,Y=5". Axes that are not named are at their park position. The error says what is wrong, with an
+/// example.
 std::expected<std::vector<double>, std::string> places_at_start(const MachineConfig& machine, const std::string& start);
 
 }  // namespace lockstep

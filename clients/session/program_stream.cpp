@@ -16,7 +16,7 @@ std::expected<void, Diagnostics> ProgramStream::read_first() {
 
 std::expected<Program, Diagnostics> ProgramStream::skip_before(int line) {
     Program program{.name = head_.name, .axes = head_.axes, .start_mm = head_.start_mm, .blocks = {}};
-    std::optional<Block> feed;  // the last move with one
+    std::optional<Block> feed;  // the last move with a feed
     std::optional<Block> last;
     while (line_ + 1 < line && read_line() == Reading::Goes) {
         for (Block& block : blocks_) {
@@ -63,7 +63,7 @@ void ProgramStream::take_line(std::string_view line) {
     if (!done) {
         trouble_ =
             Diagnostic{.line = done.error().line, .column = done.error().column, .message = done.error().message};
-        return;  // what the line did before its error is left out
+        return;  // the line's blocks before its error are dropped
     }
     std::vector<Block> blocks = gcode_.take_blocks();
     blocks_.insert(blocks_.end(), std::make_move_iterator(blocks.begin()), std::make_move_iterator(blocks.end()));
@@ -97,7 +97,7 @@ void ProgramStream::finish(ProgramSender& sender) {
     sender.end(after == before_ ? std::nullopt : std::optional(after));
 }
 
-/// What came is sent at once; the machine runs to its end when no more has come for a while.
+/// Sends the received blocks at once. If nothing more comes for a while, the machine runs to their end and rests.
 void ProgramStream::settle(ProgramSender& sender, std::chrono::nanoseconds now) {
     sender.flush();
     if (!waits_since_) { waits_since_ = now; }

@@ -15,31 +15,31 @@ namespace lockstep {
 
 class ProgramStream {
 public:
-    /// `revision`: of the machine's values in the setup.
+    /// `revision`: the revision of the machine's values in `setup`.
     ProgramStream(LineReader lines, const GcodeSetup& setup, std::uint64_t revision);
 
     const ProgramHead& head() const { return head_; }
     gcode::ProgramValues values() const { return {.revision = revision_, .after = {}}; }
 
-    /// Reads the first lines, before anything moves. Error: one of them is wrong, or none can be read.
+    /// Reads the first lines before anything moves. Fails if one of them has an error or cannot be read.
     std::expected<void, Diagnostics> read_first();
-    /// Passes over the lines before this one. Returns the program's beginning, without what is not needed to go on
-    /// there: the last moves before the line, and the first ones from it on. Error: as read_first().
+    /// Skips the lines before `line`. Returns a program with the last feed move and the last move before the line,
+    /// which give the state there, and the first blocks from the line on. Fails like read_first().
     std::expected<Program, Diagnostics> skip_before(int line);
-    /// As that line finds it.
+    /// The modal state at the beginning of that line.
     const ModalState& modal() const { return modal_; }
-    /// Instead of what was read so far, from another start.
+    /// Replaces the blocks read so far by a program that starts elsewhere.
     void replace_first(const Program& program);
-    /// As Session::Feed. A pipe in which nothing is left for a moment lets the machine come to rest at the end of what
-    /// came. At an error the program is cut, and the machine runs what is before it.
+    /// A Session::Feed. If a pipe stays empty for kSettleAfter, the machine comes to rest at the end of the blocks
+    /// received. At an error it cuts the program, and the machine runs the part before the error.
     void feed(ProgramSender& sender, std::chrono::nanoseconds now);
 
-    /// Why it was cut, with its place; nothing: it was not.
+    /// Why the program was cut, with the place; nullopt if it was not.
     const std::optional<Diagnostic>& trouble() const { return trouble_; }
-    /// Words that were passed over, and messages, since the last call.
+    /// Ignored words, and messages, since the last call.
     std::vector<GcodeNote> take_notes() { return gcode_.take_notes(); }
 
-    static constexpr std::size_t kLinesFirst = 100'000;  // some tenths of a second
+    static constexpr std::size_t kLinesFirst = 100'000;  // takes some tenths of a second
     static constexpr std::size_t kLinesAtOnce = 5'000;
     static constexpr std::chrono::milliseconds kSettleAfter{200};
 
@@ -55,13 +55,13 @@ private:
     GcodeStream gcode_;
     ProgramHead head_;
     ModalState modal_;
-    gcode::KeptValues before_;  // the program
+    gcode::KeptValues before_;  // values before the program
     std::uint64_t revision_;
-    std::vector<Block> blocks_;  // read, from next_ on not appended yet
+    std::vector<Block> blocks_;  // blocks read; those from next_ on are not appended yet
     std::size_t next_ = 0;
-    int line_ = 0;  // the last one read
+    int line_ = 0;  // number of the last line read
     bool is_over_ = false;
-    bool is_settled_ = true;  // what was appended ends with a rest
+    bool is_settled_ = true;  // the appended blocks end with a rest
     std::optional<std::chrono::nanoseconds> waits_since_;
     std::optional<Diagnostic> trouble_;
 };

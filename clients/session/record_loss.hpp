@@ -8,9 +8,9 @@
 
 namespace lockstep {
 
-/// Of all processes that are received, since the start of each.
+/// The sum over all received processes, each since its start.
 std::uint64_t lost_records(const proto::StatusReport& status);
-/// Which processes lost how many, and the remedy; empty: none did.
+/// Says which processes lost how many messages, with the remedy; empty if none did.
 std::string record_loss_text(const proto::StatusReport& status);
 
 }  // namespace lockstep

@@ -7,7 +7,7 @@
 
 namespace lockstep {
 
-/// The reason and the remedy, or a CommandReport with both.
+/// Prints the reason and the remedy, or a CommandReport with both.
 ExitCode print_refusal(const Reply& reply, Output& output);
 
 }  // namespace lockstep

@@ -10,7 +10,7 @@
 namespace lockstep {
 namespace {
 
-/// Faults of the machine: they belong to no single axis.
+/// False for faults of the whole machine, which belong to no single axis.
 bool is_of_an_axis(FaultCode fault) {
     return fault != FaultCode::EmergencyStopped && fault != FaultCode::FrameLate &&
            fault != FaultCode::SecondCoordinator;

@@ -13,16 +13,16 @@
 
 namespace lockstep {
 
-/// axis: its name, if the fault is one axis's; empty: none.
+/// `axis`: name of the axis if the fault belongs to one axis, otherwise empty.
 proto::FaultReport fault_report(FaultCode fault, const std::string& axis);
 
-/// The machine's fault; nothing while there is none.
+/// The machine's fault; nullopt if there is none.
 std::optional<proto::FaultReport> fault_of(const MachineState& state, const MachineConfig& machine);
 
 /// "axis X: limit-hit (103): a limit switch closed", then the remedy on its own line; within `width` columns.
 std::string fault_text(const proto::FaultReport& fault, std::size_t width = 80);
 
-/// The devices that programs have switched. Nothing: all are off, and no tool is known.
+/// The devices that programs have switched; nullopt if all are off and no tool is known.
 std::optional<proto::DevicesReport> devices_report(const ProgramDevices& devices);
 
 /// The newest state of an axis; for an axis that was never received, only its name.

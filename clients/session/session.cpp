@@ -23,10 +23,10 @@ constexpr nanoseconds kAnswerPatience = 3s;
 constexpr nanoseconds kReceivedPatience = 5s;   // for an axis that the coordinator receives: this process will, too
 constexpr nanoseconds kAbsentPatience = 500ms;  // for an axis that the coordinator does not receive
 constexpr nanoseconds kPlanPatience = 60s;      // a coordinator that reads or plans a large program answers late
-constexpr std::size_t kRepliesKept = 64;        // that nobody has asked for
+constexpr std::size_t kRepliesKept = 64;        // that were not read
 constexpr nanoseconds kDiskPatience = 15s;      // a disk may hang for seconds
 
-static_assert(kPartBytes + 4096 <= lockstep_wire_MAX_CHUNK_BYTES);  // the last block, or the values
+static_assert(kPartBytes + 4096 <= lockstep_wire_MAX_CHUNK_BYTES);  // 4096: the last block, or the values
 
 template <typename Bus>
 std::expected<std::variant<ViewerBus, ClientBus>, std::string> open_as(const MachineConfig& machine,
@@ -52,7 +52,7 @@ Session::Session(const ChosenMachine& machine, Bus bus)
       healths_(axes_.size()) {}
 
 std::expected<Session, Failure> Session::join(const ChosenMachine& machine, Purpose purpose) {
-    forward_dds_log([](const std::string&) {});  // for silent(): only the verb writes to the terminal
+    forward_dds_log([](const std::string&) {});  // silent() quotes the log; only the verb writes to the terminal
     const bool looks = purpose == Purpose::Look;
     auto admission = admit(machine.config, looks ? viewer_member() : client_member());
     if (!admission) { return std::unexpected(failed(admission.error())); }
@@ -85,7 +85,7 @@ std::expected<void, Failure> Session::reach(nanoseconds patience) {
     return {};
 }
 
-/// Positions are as new as the machine's state: an axis's own may come later than the report that a job is done.
+/// Also waits for states as new as the machine's: an axis's state may come later than the report that a job is done.
 std::expected<void, Failure> Session::reach_axes() {
     const nanoseconds deadline = monotonic_now() + kReachPatience;
     const Slot known = state_ ? state_->state.stamp : Slot{};
@@ -150,7 +150,7 @@ void Session::take_messages() {
             standby_ = {state, now};
             return;
         }
-        // Of two coordinators the higher term counts, unless it has fallen silent and was replaced.
+        // Of two coordinators the one with the higher term counts, until it has been silent for 1 s.
         const bool is_lower = state_ && state.term < state_->state.term;
         if (!is_lower || now - state_->time > 1s) { state_ = {state, now}; }
     });
@@ -182,7 +182,7 @@ bool Session::axis_present(std::size_t i) const {
     return axes_[i] && monotonic_now() - axes_[i]->time <= longest_silence();
 }
 
-/// The owner may have been the standby before: its old state does not count.
+/// The owner may have been the standby before; then its old state does not count.
 bool Session::has_standby() const {
     const bool is_owner = standby_ && state_ && standby_->state.term.coordinator == state_->state.term.coordinator;
     return standby_ && !is_owner && monotonic_now() - standby_->time <= longest_silence();
@@ -227,7 +227,7 @@ Failure Session::silent() const {
     const std::string start = "lockstep up --machine " + machine_.file.string();
     const std::string received = received_axes();
     if (received.empty()) { return unreachable(none + ": is it up? " + start); }
-    return unreachable(none + ", though its axes do (" + received +
+    return unreachable(none + ", but its axes are received (" + received +
                        "): start lockstep-coordinator, or: lockstep down, " + start);
 }
 
@@ -321,7 +321,7 @@ void Session::close_stream() {
     sender_.reset();
 }
 
-/// Until `done` holds.
+/// Waits until `done` returns true.
 std::expected<void, Failure> Session::await_parts(const std::function<bool()>& done, const StopSignal* stop) {
     answered_ = monotonic_now();
     while (!done()) {

@@ -33,40 +33,42 @@ struct Received {
     std::chrono::nanoseconds time;  // CLOCK_MONOTONIC of this host
 };
 
-/// With security, a session that looks uses the keys of a viewer, one that commands those of a client.
+/// With security, a Look session uses a viewer's keys, a Command session a client's.
 enum class Purpose { Look, Command };
 
 class Session {
 public:
-    /// On the machine's network; nothing is received yet. Error: DDS cannot be opened, or security refuses the client.
+    /// Joins the machine's network; nothing is received yet. Fails if DDS cannot be opened, or security refuses the
+    /// client.
     static std::expected<Session, Failure> join(const ChosenMachine& machine, Purpose purpose);
     /// join() and reach().
     static std::expected<Session, Failure> open(const ChosenMachine& machine, Purpose purpose);
 
-    /// Waits until a coordinator publishes states and is matched with this client. Error: none is; which axes are
-    /// received, and the remedy.
+    /// Waits until a coordinator publishes states and is matched with this client. If none does, the error names the
+    /// axes that are received, and the remedy.
     std::expected<void, Failure> reach(std::chrono::nanoseconds patience = kReachPatience);
-    /// Waits until every axis is received. Error: an axis that is not.
+    /// Waits until every axis is received. The error names an axis that is not.
     std::expected<void, Failure> reach_axes();
-    /// Waits for the axes that the coordinator receives, and shortly for the others: those still missing count as
-    /// absent.
+    /// Waits for the axes that the coordinator receives, and briefly for the others. Axes that are still missing count
+    /// as absent.
     void await_axes();
-    /// Waits for the live figures of every axis that is received: they are published ten times a second.
+    /// Waits for the live figures of every received axis; axes publish them ten times a second.
     void await_healths(std::chrono::nanoseconds patience);
 
-    /// Receives events of programs from now on; waits until every coordinator's are received. Error: they are not.
+    /// Subscribes to events of programs, and waits until they are received from every coordinator. Fails if that takes
+    /// longer.
     std::expected<void, Failure> follow_events(std::chrono::nanoseconds patience);
-    /// Those received since the last call, oldest first. Those of a reader that is slow may be missing: see
+    /// Returns the events received since the last call, oldest first. A slow reader may miss events: see
     /// PublishedEvent::sequence.
     std::vector<PublishedEvent> take_events();
-    /// Waits for messages and takes them.
+    /// Waits for messages and processes them.
     void receive(std::chrono::nanoseconds at_most);
 
     const MachineConfig& config() const { return machine_.config; }
-    /// The coordinator runs another configuration than the client has: its positions and limits may differ.
+    /// True if the coordinator runs another configuration than the client has; its positions and limits may differ.
     bool config_differs() const { return state_ && state_->state.config_hash != machine_.hash; }
 
-    /// The newest received; nothing before the first.
+    /// The newest one received; nullopt before the first.
     const std::optional<Received<MachineState>>& state() const { return state_; }
     const std::optional<Received<AxisState>>& axis(std::size_t i) const { return axes_[i]; }
     const std::optional<AxisHealth>& health(std::size_t i) const { return healths_[i]; }
@@ -74,70 +76,75 @@ public:
     bool axis_present(std::size_t i) const;
     /// Whether a standby coordinator is received.
     bool has_standby() const;
-    /// No state of the coordinator for longer than any stall that the machine's timing allows.
+    /// True if no state of the coordinator came for longer than any stall that the machine's timing allows.
     bool is_silent() const;
     Failure silent() const;
     /// The machine's processes on the network, also those that publish nothing yet.
     std::vector<PresentProcess> present() const;
 
-    /// Repeats the command until the reply comes; fills in client and sequence. Error: no reply, or none soon after a
-    /// signal to `stop`.
+    /// Repeats the command until the reply comes. Fills in client and sequence. Fails if no reply comes, or none soon
+    /// after a signal to `stop`.
     std::expected<Reply, Failure> command(Command command, const StopSignal* stop = nullptr);
-    /// Gives the command this client's next number and sends it, for a command that is repeated while it holds.
+    /// Gives the command this client's next number and sends it. For a command that repeat() sends again as long as it
+    /// holds.
     void begin(Command& command);
     void repeat(const Command& command) { (void)client_bus().commands.write(command); }
-    // One writer at a time moves and changes the machine: its commands are accepted while it holds the lease. While
-    // nobody does, those of every client are.
-    /// Names this client as the writer, from now on. Give the lease back first. With an identity of 0 nobody shares it.
+    // One writer at a time may move and change the machine: while a writer holds the lease, only its commands are
+    // accepted. While nobody holds it, the commands of every client are accepted.
+    /// Sets the writer of all later commands. Give the lease back first. An id of 0 stands for this client's identity,
+    /// which no other client shares.
     void write_as(LeaseHolder writer) { lease_.write_as(std::move(writer)); }
-    /// Waits for the lease; the reply refuses it where another writer has it. receive() keeps it until give_lease(),
-    /// or until another takes it over. `takes_over`: from another writer, too. Error: as command().
+    /// Requests the lease and waits for the reply, which refuses it if another writer has it. `takes_over` takes it
+    /// from that writer. receive() keeps the lease until give_lease(), or until another writer takes it over. Fails
+    /// like command().
     std::expected<Reply, Failure> take_lease(bool takes_over = false, const StopSignal* stop = nullptr);
-    /// The same without waiting; lease_reply() has the answer once it has come.
+    /// Requests the lease without waiting; lease_reply() has the answer once it has come.
     void ask_for_lease(bool takes_over = false);
     const std::optional<Reply>& lease_reply() const { return lease_.answer(); }
-    /// Repeats what is due. receive() calls it: a client that does not receive for kLeaseSilence_ms loses the lease.
+    /// Sends the lease request when it is due. receive() calls this: a client that does not receive for
+    /// kLeaseSilence_ms loses the lease.
     void keep_lease();
-    /// Waits at most so long until the coordinator has answered. Without the lease nothing is sent.
+    /// Gives the lease back and waits at most `patience` for the coordinator's answer. Sends nothing without the lease.
     void give_lease(std::chrono::nanoseconds patience = {});
     bool holds_lease() const { return lease_.is_held(); }
     /// LeaseHolder::id of this client's writer.
     std::uint64_t writer_id() const { return lease_.writer().id; }
-    /// The writer that the coordinator publishes, this one or another. Null: nobody, or nothing is received yet.
+    /// The writer that the coordinator publishes, this client's or another. Null if there is none, or nothing is
+    /// received yet.
     const HeldLease* writer() const { return state_ && state_->state.lease ? &*state_->state.lease : nullptr; }
 
-    /// The newest reply to it. Null: none has come yet.
+    /// The newest reply to the command; null if none has come yet.
     const Reply* reply_to(const Command& command) const;
-    /// Sends an emergency stop to coordinator and axes: axes stop by themselves. Nothing: no coordinator replied in
-    /// time.
+    /// Sends an emergency stop to the coordinator and to the axes, which stop without the coordinator. Returns nullopt
+    /// if no coordinator replied in time.
     std::optional<Reply> stop_at_once(std::chrono::nanoseconds patience);
-    /// Sends a whole program, with the machine's values that it depends on and leaves; returns its id for a command.
-    /// Error: refused, no reply, or a signal to `stop`.
+    /// Sends a whole program, with the machine's values that it depends on and leaves. Returns its id for a command.
+    /// Fails if it is refused, if no reply comes, or at a signal to `stop`.
     std::expected<std::uint64_t, Failure> send(const Program& program, const StopSignal* stop = nullptr,
                                                const std::optional<gcode::ProgramValues>& values = {});
-    /// Begins a program that is sent while it is made, and while it runs. Every receive() sends what is due, and first
-    /// calls `feed` where there is room for more blocks. Returns its id for a command, as soon as the coordinator has
-    /// its first blocks. Error: as send().
+    /// Begins a program that is sent while it is being made and while it runs. Every receive() calls `feed` if there is
+    /// room for more blocks, then sends what is due. Returns the program's id for a command, as soon as the coordinator
+    /// has its first blocks. Fails like send().
     using Feed = std::function<void(ProgramSender& sender)>;
     std::expected<std::uint64_t, Failure> stream(const ProgramHead& head,
                                                  const std::optional<gcode::ProgramValues>& values, Feed feed,
                                                  const StopSignal* stop = nullptr);
-    /// As stream(), but waits for nothing: the caller appends to the sender and sees from it what the coordinator has
-    /// taken. Valid until another program is sent, or close_stream().
+    /// Like stream(), but does not wait and has no feed: the caller appends to the sender, which shows what the
+    /// coordinator has taken. The sender is valid until another program is sent, or close_stream().
     ProgramSender& open_stream(const ProgramHead& head, const std::optional<gcode::ProgramValues>& values = {});
-    /// No more is sent of the program.
+    /// Sends no more of the program.
     void close_stream();
-    /// As stream(), without waiting: sender() shows what the coordinator has taken.
+    /// Like stream(), without waiting: sender() shows what the coordinator has taken.
     std::uint64_t begin_stream(const ProgramHead& head, const std::optional<gcode::ProgramValues>& values, Feed feed);
-    /// Of the program sent last; null: none was.
+    /// The sender of the last program; null if none was sent.
     const ProgramSender* sender() const { return sender_ ? &*sender_ : nullptr; }
 
     /// The machine's offsets and tools. Waits until they are received.
     std::expected<RevisedValues, Failure> values();
-    /// The newest received; nothing before the first, or where they cannot be read.
+    /// The newest values received; nullopt before the first, or if they cannot be read.
     std::optional<RevisedValues> newest_values() const;
-    /// Waits until the coordinator has this revision, or a later one, on its disk. Error: it cannot write it, or does
-    /// not answer.
+    /// Waits until the coordinator reports that this revision, or a later one, is on its disk. Fails if it does not
+    /// report that in time.
     std::expected<void, Failure> await_kept(std::uint64_t revision);
     bool is_kept(std::uint64_t revision) const { return values_ && values_->revision >= revision && values_->on_disk; }
 
@@ -147,7 +154,7 @@ private:
     ViewerBus& viewer_bus() {
         return std::visit([](ViewerBus& bus) -> ViewerBus& { return bus; }, bus_);
     }
-    /// Only of a session with Purpose::Command.
+    /// Only for a session with Purpose::Command.
     ClientBus& client_bus() { return std::get<ClientBus>(bus_); }
     bool is_reached();
     void feed_and_send();
@@ -170,11 +177,11 @@ private:
     std::optional<MachineValues> values_;  // the owner's
     std::vector<std::optional<Received<AxisState>>> axes_;
     std::vector<std::optional<AxisHealth>> healths_;
-    std::map<std::uint64_t, Reply> replies_;  // to this client, not yet looked at
+    std::map<std::uint64_t, Reply> replies_;  // to this client, not read yet
     std::uint32_t programs_ = 0;              // sent so far
-    std::optional<ProgramSender> sender_;     // of the last one
+    std::optional<ProgramSender> sender_;     // of the last program
     Feed feed_;
-    std::optional<std::chrono::nanoseconds> answered_;  // when it last was
+    std::optional<std::chrono::nanoseconds> answered_;  // when the coordinator last answered sender_
 };
 
 }  // namespace lockstep

@@ -1,4 +1,4 @@
-// The writer's lease, as a session asks for it, keeps it and gives it back.
+// How a session requests the writer's lease, keeps it and gives it back.
 #include "clients/session/session.hpp"
 #include "services/runtime/clock.hpp"
 

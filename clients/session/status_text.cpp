@@ -46,7 +46,7 @@ std::string axis_row(const proto::AxisStatus& axis) {
                axis.present() ? axis.state() : "not received", axis.homed() ? "yes" : "no");
 }
 
-/// If axes have their own clocks: the maximum error of each.
+/// The maximum clock error of each axis with its own clock; empty if there is none.
 std::string clock_line(const proto::StatusReport& status) {
     std::string text;
     for (const proto::AxisStatus& axis : status.axes()) {
@@ -72,8 +72,8 @@ std::string unproved_lines(const proto::StatusReport& status) {
     return text;
 }
 
-/// "label: coordinator 2, X 1", of those with a count above 0; nothing if there is none. of_axis: returns an axis's
-/// count.
+/// Returns "label: coordinator 2, X 1" for the processes with a count above 0, or an empty text if there is none.
+/// `of_axis` returns an axis's count.
 template <typename OfAxis>
 std::string count_line(const std::string& label, std::uint64_t coordinator, const proto::StatusReport& status,
                        OfAxis of_axis) {
@@ -94,7 +94,7 @@ std::string process_lines(const proto::StatusReport& status) {
                       [](const Health& health) { return health.lost_log_lines(); });
 }
 
-/// Nothing while every client may give commands.
+/// Empty while every client may give commands.
 std::string writer_line(const proto::StatusReport& status) {
     const std::string writer = writer_text(status);
     if (writer.empty()) { return ""; }

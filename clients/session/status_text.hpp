@@ -10,7 +10,7 @@ namespace lockstep {
 /// A block of lines: the machine, a table of the axes, the faults with what to do.
 std::string status_text(const proto::StatusReport& status);
 
-/// "received 4 ms ago", of the coordinator, and whether a standby is.
+/// "received 4 ms ago, a standby is ready": the age of the coordinator's state, and whether a standby is received.
 std::string age_text(const proto::StatusReport& status);
 /// "anna on bench"; empty if there is no writer.
 std::string writer_text(const proto::StatusReport& status);

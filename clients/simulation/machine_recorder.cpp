@@ -11,7 +11,7 @@ MachineRecorder::MachineRecorder(VirtualMachine& vm, RecordSink& sink)
     vm.observe(*this);
 }
 
-/// An axis publishes its identity in its first loop; steps that it finds in its device before are another process's.
+/// An axis publishes its identity in its first loop. Steps that it finds in its device before are an earlier process's.
 void MachineRecorder::on_step(std::size_t axis, StepEdge step) {
     axes_[axis] ? axes_[axis]->step(step) : found_[axis].push_back(step);
     ++steps_;
@@ -32,7 +32,7 @@ void MachineRecorder::on_axis(std::size_t axis, Tick /*now*/, const AxisOutputs&
                       .published = recorder->published()});
 }
 
-/// As its sender has made it, by the coordinator whose jobs are recorded.
+/// Records the part as its sender has made it, if it is for the coordinator of the recorded jobs.
 void MachineRecorder::on_part(std::size_t process, Tick now, const ProgramPart& part) {
     if (!jobs_ || process != owning_) { return; }
     ProgramPartWriter writer(part.head);

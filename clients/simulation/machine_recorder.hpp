@@ -13,7 +13,7 @@ namespace lockstep {
 
 class MachineRecorder final : public VirtualObserver {
 public:
-    /// Observes the machine from its power-up on. Both, and the sink, outlive the recorder.
+    /// Observes the machine from its power-up on. The machine and the sink must outlive the recorder.
     MachineRecorder(VirtualMachine& vm, RecordSink& sink);
 
     void on_step(std::size_t axis, StepEdge step) override;
@@ -22,7 +22,7 @@ public:
     void on_coordinator(std::size_t process, Tick now, const CoordinatorOutputs& out) override;
     void on_fault(Tick now, const VirtualFault& fault, bool begins) override;
 
-    /// At the end: writes what is buffered.
+    /// Writes buffered messages. Call it at the end.
     void finish();
 
     std::int64_t steps() const { return steps_; }
@@ -33,10 +33,10 @@ private:
     MachineConfig machine_;
     RecordSink& sink_;
     std::vector<std::unique_ptr<AxisRecorder>> axes_;  // created when the axis's process publishes its identity
-    std::vector<std::vector<StepEdge>> found_;         // by a process before it has published it
-    Identity owner_ = 0;                               // whose jobs are recorded
+    std::vector<std::vector<StepEdge>> found_;         // steps found by a process before it published its identity
+    Identity owner_ = 0;                               // the coordinator of the recorded jobs
     std::size_t owning_ = 0;                           // its process
-    std::unique_ptr<JobRecorder> jobs_;                // likewise
+    std::unique_ptr<JobRecorder> jobs_;                // its recorder
     Tick now_;
     std::int64_t steps_ = 0;
 };

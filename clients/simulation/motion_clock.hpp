@@ -1,4 +1,4 @@
-// How long a job's epochs are in motion, from the outputs of the coordinator and the axes.
+// Measures how long a job's epochs are in motion, from the outputs of the coordinator and the axes.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ public:
         }
     }
 
-    /// Of the newest job, so far: from each epoch's start to the end of its last run.
+    /// The motion of the newest job so far: of each epoch, from its start to the end of its last run.
     Ticks motion() const { return before_ + (end_ - start_); }
     const std::optional<JobEvent>& last_ended() const { return last_ended_; }
 

@@ -35,7 +35,7 @@ void ProgramFeed::tend() {
     send({.program = program_, .index = index_ - 1, .is_question = true});
 }
 
-/// The last part may have no block: it says that it is the last.
+/// The last part may have no blocks; it marks the end.
 ProgramPart ProgramFeed::next_part() {
     ProgramPart part{.program = program_, .index = index_};
     if (index_ == 0) { part.head = text_.head(); }
@@ -57,8 +57,8 @@ void ProgramFeed::send(ProgramPart part) {
     unanswered_ = vm_.send(std::move(part));
 }
 
-/// A planner that lacks blocks while there is no room looks further ahead than the coordinator keeps blocks. The
-/// machine would rest for ever, so the coordinator keeps more.
+/// If the planner lacks blocks while there is no room, it looks further ahead than the coordinator keeps blocks. The
+/// machine would rest forever, so the coordinator is told to keep more.
 void ProgramFeed::take_answer(const Reply& reply) {
     if (reply.parts > index_) {
         index_ = reply.parts;

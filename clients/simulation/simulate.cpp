@@ -12,7 +12,7 @@
 namespace lockstep {
 namespace {
 
-constexpr Ticks kTurn{1'000'000};  // how far the machine runs between two checks of it
+constexpr Ticks kTurn{1'000'000};  // how long the machine runs between two checks
 constexpr std::uint64_t kProgram = 1;
 
 class Simulation {
@@ -50,7 +50,7 @@ private:
     std::string trouble_;              // of the last command
 };
 
-/// False: the caller cancelled.
+/// Returns false if the caller cancelled.
 bool Simulation::advance_while(const std::function<bool()>& busy) {
     while (busy()) {
         advance_a_turn(busy);
@@ -60,7 +60,7 @@ bool Simulation::advance_while(const std::function<bool()>& busy) {
     return true;
 }
 
-/// The coordinator reads at most 200 blocks a slot, so it does not wait for a part of 1000 every two.
+/// Feeds the program every two slots: the coordinator reads at most 200 blocks a slot, so a part of 1000 lasts longer.
 void Simulation::advance_a_turn(const std::function<bool()>& busy) {
     const auto is_over = [&] { return !busy(); };
     const Ticks step = feed_ ? vm_.machine().slot_ticks() * 2 : kTurn;
@@ -71,7 +71,7 @@ void Simulation::advance_a_turn(const std::function<bool()>& busy) {
     } while (busy() && vm_.now() < end);
 }
 
-/// The reply, once the machine's state shows its effect; nothing: the caller cancelled.
+/// Returns the reply once the machine's state shows its effect, or nullopt if the caller cancelled.
 std::optional<Reply> Simulation::ask(CommandKind kind, std::uint64_t program) {
     const std::uint64_t sequence = vm_.command(kind, 0, program);
     if (!advance_while([&] { return vm_.reply_to(sequence) == nullptr; })) { return std::nullopt; }
@@ -83,7 +83,7 @@ std::optional<Reply> Simulation::ask(CommandKind kind, std::uint64_t program) {
     return reply;
 }
 
-/// Runs to the job's end, resuming it at each pause. False: the caller cancelled.
+/// Runs to the job's end and resumes the job at each pause. Returns false if the caller cancelled.
 bool Simulation::do_job(CommandKind kind, std::uint64_t program) {
     const std::optional<Reply> reply = ask(kind, program);
     if (!reply || reply->status == ReplyStatus::Refused) { return reply.has_value(); }
@@ -131,7 +131,7 @@ std::expected<SimulationResult, std::string> Simulation::run(const Program& prog
     });
 }
 
-/// It runs as soon as its first part has arrived.
+/// Begins the program as soon as its first part has arrived.
 std::expected<SimulationResult, std::string> Simulation::run(ProgramText& program,
                                                              const std::function<void(std::size_t)>& make_room) {
     return home_and_run([&] {
@@ -140,7 +140,7 @@ std::expected<SimulationResult, std::string> Simulation::run(ProgramText& progra
     });
 }
 
-/// `give_program`: false if the caller cancelled.
+/// `give_program` returns false if the caller cancelled.
 std::expected<SimulationResult, std::string> Simulation::home_and_run(const std::function<bool()>& give_program) {
     const auto given_up = [] { return std::unexpected(std::string("cancelled before its end")); };
     SimulationResult result;

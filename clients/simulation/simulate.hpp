@@ -1,4 +1,4 @@
-// A program run from power-up to its end by a whole machine in virtual time.
+// Runs a program on a whole machine in virtual time, from power-up to the program's end.
 //
 // The same machine and program give the same record, byte for byte: identities, the origin of time and every delay
 // follow from them.
@@ -28,12 +28,12 @@ struct SimulatedStage {
 };
 
 struct SimulationResult {
-    std::uint64_t job = 0;  // 0: homing failed, the program was not begun
+    std::uint64_t job = 0;  // 0 if homing failed and the program was not begun
     JobOutcome outcome = JobOutcome::Failed;
     FaultCode fault = FaultCode::None;
     std::optional<std::size_t> fault_axis;
     std::string trouble;                     // as text; empty if there was none
-    Ticks motion;                            // of the program's motion, pauses left out
+    Ticks motion;                            // duration of the program's motion, without pauses
     std::vector<std::int64_t> final_counts;  // machine coordinates, steps
     std::int64_t steps = 0;                  // of all axes, homing included
     std::uint64_t most_blocks_kept = 0;      // at once, of a program that was read while it ran
@@ -42,21 +42,21 @@ struct SimulationResult {
 };
 
 struct SimulationHooks {
-    /// 0 ... 1 of the program, now and then. False: give up.
+    /// Called with the program's progress, 0 ... 1, now and then. Returns false to cancel.
     std::function<bool(double)> progress;
-    /// Seconds of this computer's time, from any origin: only for the figures of SimulatedStage.
+    /// Returns seconds of this computer's time, from any origin. Used only for the figures of SimulatedStage.
     std::function<double()> stopwatch;
 };
 
-/// Powers up, homes all axes, runs the program through its pauses. The error: cancelled by the caller, or the machine's
-/// configuration prevents it. A program that fails is a result, and is recorded.
+/// Powers up, homes all axes, runs the program through its pauses. Fails if the caller cancels. A program that fails is
+/// a result, and is recorded.
 std::expected<SimulationResult, std::string> simulate(const MachineConfig& machine, const Program& program,
                                                       RecordSink& sink, const SimulationHooks& hooks = {});
 
-/// The same for a program of any length: the machine runs it while it is read, so that memory does not grow with it.
-/// It was checked as a whole before. If it has a wrong line nevertheless, the machine runs what is before it; the
-/// result says so. `kept_bytes`: of blocks that the machine has not run, unless the planner must look further ahead.
-/// Not by the LAI method, which plans programs as a whole.
+/// The same for a program of any length: the machine runs it while it is read, so that memory does not grow with its
+/// length. The caller has checked the whole program before. If a line has an error nevertheless, the machine runs the
+/// lines before it, and the result says so. `kept_bytes` limits the kept blocks, unless the planner must look further
+/// ahead. Not for the LAI method, which plans programs as a whole.
 inline constexpr std::uint64_t kKeptBlockBytes = 8'000'000;
 std::expected<SimulationResult, std::string> simulate(const MachineConfig& machine, ProgramText& program,
                                                       RecordSink& sink, const SimulationHooks& hooks = {},

@@ -41,7 +41,7 @@ void warn_of_directory(const std::string& lost, const std::filesystem::path& pat
                 "$(id -un) " + path.string() + "; or set " + key + " in the machine's file to another one");
 }
 
-/// The services find the same, but report it only in their logs.
+/// The services find the same problems, but report them only in their logs.
 void warn_of_directories(const MachineConfig& machine, const Placement& placed, Output& output) {
     if (machine.record.own_logs) {
         warn_of_directory("no process here keeps its own log", own_log_directory(machine), "record { directory }",
@@ -91,7 +91,7 @@ std::expected<void, Failure> claim(const ChosenMachine& machine, const StateDire
     return {};
 }
 
-/// The process that never returns to its caller's terminal.
+/// Makes this process the supervisor, which never returns to the caller's terminal.
 [[noreturn]] void be_supervisor(const StateDirectory& state, const std::vector<ServiceLine>& lines) {
     setsid();
     const int log = open(state.log_file(kSupervisor).c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
@@ -108,7 +108,7 @@ std::string with_log(const std::string& what, const std::string& process, const 
     return what + (tail.empty() ? "; its log " + log + " is empty" : "; the end of its log " + log + ":\n" + tail);
 }
 
-/// An error of a process that was given up, or of a part that runs elsewhere; nothing while the start may succeed.
+/// An error of a process that was given up, or of a part that runs elsewhere; nullopt while the start may succeed.
 std::optional<std::string> trouble(const MachineConfig& machine, const OwnParts& parts, const StateDirectory& state,
                                    const ProcessRecord& supervisor, const std::vector<PresentProcess>& present) {
     for (const ProcessRecord& process : state.recorded()) {
@@ -120,7 +120,7 @@ std::optional<std::string> trouble(const MachineConfig& machine, const OwnParts&
     return foreign_part(machine, parts.placed, supervisor, present);
 }
 
-/// The parts that are still missing when patience ends.
+/// The error for the first part that is still missing at the deadline.
 Failure missing(const Session& session, const OwnParts& parts, const StateDirectory& state) {
     const auto present = session.present();
     const auto recorded = state.recorded();
@@ -145,7 +145,7 @@ Failure missing(const Session& session, const OwnParts& parts, const StateDirect
     return failed(with_log("the machine does not become idle", "coordinator", state));
 }
 
-/// For a machine on several hosts; empty: every part has one.
+/// The name of a part without a host, if the machine has several hosts; empty if every part has one.
 std::string part_without_host(const MachineConfig& machine) {
     if (hosts_of(machine).size() < 2) { return ""; }
     if (machine.coordinator_host.empty()) { return part_name(machine, {}); }
@@ -161,13 +161,13 @@ std::expected<OwnParts, Failure> prepare(const ChosenMachine& machine, const Lay
                                          const StateDirectory& state, Output& output) {
     const Placement placed = placed_on(machine.config, host_name());
     if (placed.empty()) {
-        return std::unexpected(bad_input(machine.file.string() + ": places nothing on this host, " + host_name() +
-                                         "; start the machine's parts on their hosts, or change `host`"));
+        return std::unexpected(bad_input(machine.file.string() + ": assigns no part of the machine to this host, " +
+                                         host_name() + "; start the machine's parts on their hosts, or change `host`"));
     }
     if (const std::string part = part_without_host(machine.config); !part.empty()) {
         return std::unexpected(bad_input(machine.file.string() + ": " + part +
-                                         " has no host, but other parts have one; up " +
-                                         "would start it on each of them: set its host"));
+                                         " has no host, but other parts do; lockstep up " +
+                                         "would start it on every host: set its host"));
     }
     const auto lines = service_lines(machine.config, placed, layout, program_folder(), state);
     if (auto checked = check_programs(lines); !checked) { return std::unexpected(checked.error()); }

@@ -13,8 +13,8 @@ namespace lockstep {
 
 using EditText = std::function<std::expected<std::string, Diagnostics>(std::string_view text)>;
 
-/// Under the file's own name, where a link leads to it. Error: the file cannot be read or written, or what `edit` says;
-/// the file is as it was.
+/// If `file` is a link, replaces the file that it leads to. Fails if the file cannot be read or written, or if `edit`
+/// fails; then the file stays unchanged.
 std::expected<void, Failure> edit_machine(const std::filesystem::path& file, const EditText& edit);
 
 }  // namespace lockstep

@@ -7,7 +7,7 @@
 namespace lockstep {
 namespace {
 
-/// Writes the notes of living processes; they run on, or stand still, and need not cooperate.
+/// Writes the notes of living processes, which may run or stand still and need not cooperate.
 void write_living(const std::filesystem::path& rings, const MachineConfig& machine, proto::FlightReport& report) {
     for (const auto& path : rings_in(rings)) {
         const auto snapshot = read_ring(path);

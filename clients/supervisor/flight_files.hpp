@@ -6,7 +6,7 @@
 
 namespace lockstep {
 
-/// Works for processes that run, are stopped, hang or have died: it reads their shared memory.
+/// Works for processes that run, are stopped, hang or have died, because it reads their shared memory.
 proto::FlightReport write_flight_files(const MachineConfig& machine);
 
 }  // namespace lockstep

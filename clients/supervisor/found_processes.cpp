@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The value of an option; empty: it is not given.
+/// The value of an option; empty if it is not given.
 std::string value_of(const std::vector<std::string>& words, const std::string& option) {
     const auto found = std::ranges::find(words, option);
     return found == words.end() || found + 1 == words.end() ? "" : *(found + 1);

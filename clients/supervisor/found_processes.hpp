@@ -8,12 +8,12 @@
 
 namespace lockstep {
 
-/// The services that were started with this machine file, and the supervisors that keep this lock open; not this
-/// process.
+/// Returns the services that were started with this machine file and the supervisors that keep this lock open, except
+/// this process.
 std::vector<ProcessRecord> found_processes(const std::filesystem::path& machine_file,
                                            const std::filesystem::path& lock);
 
-/// The name of a service in the record, from its command line; empty: it is no service of this machine file. Pure.
+/// Derives a service's name in the record from its command line; empty if it is no service of this machine file. Pure.
 std::string service_name(const std::vector<std::string>& words, const std::filesystem::path& machine_file);
 
 }  // namespace lockstep

@@ -15,17 +15,17 @@ namespace lockstep {
 /// The path of an installed machine's file; systemd's units read it too.
 inline constexpr const char* kInstalledMachine = "/etc/lockstep/machine.textproto";
 
-/// Chooses the file: pure, from the candidates. `up`: configuration files of the machines that are up;
-/// `installed`: empty if none is. Error: none or several are up, and how to choose.
+/// Chooses the file from the candidates. Pure. `up`: configuration files of the machines that are up. `installed`:
+/// empty if none is. If no file or several files qualify, the error says how to choose.
 std::expected<std::filesystem::path, Failure> choose_file(const std::string& option, const char* environment,
                                                           const std::vector<std::filesystem::path>& up,
                                                           const std::filesystem::path& installed = {});
 
-/// With the settings that senders have written: of a machine that is up on this host, those that were there when it was
-/// brought up. Error: everything that is wrong with its file.
+/// Reads the machine with the settings that senders have written. For a machine that is up on this host, these are the
+/// settings at the time when it was brought up. The error lists everything that is wrong with the file.
 std::expected<ChosenMachine, Failure> read_machine(const std::filesystem::path& file);
 
-/// Error: no machine chosen, or everything that is wrong with its file.
+/// Fails if no machine is chosen, or as read_machine().
 std::expected<ChosenMachine, Failure> choose_machine(const std::string& option);
 
 }  // namespace lockstep

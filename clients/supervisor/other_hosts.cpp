@@ -23,7 +23,7 @@ std::vector<std::string> words_of(const std::string& text) {
     return {std::istream_iterator<std::string>(stream), std::istream_iterator<std::string>()};
 }
 
-/// A file named by an option or the environment, which other hosts do not know.
+/// The file that the option or the environment names. Other hosts do not know the environment.
 std::string named_file(const std::string& option) {
     const char* named = std::getenv("LOCKSTEP_MACHINE");
     const std::string file = !option.empty() ? option : named == nullptr ? "" : named;
@@ -94,7 +94,7 @@ bool OtherHosts::finish(Output& output, std::size_t lines_where_well) {
         }
         if (is_well) { continue; }
         good = false;
-        output.warn(remote.host + ": it failed there, with code " +
+        output.warn(remote.host + ": lockstep failed on this host with code " +
                     (ended && WIFEXITED(status) ? std::to_string(WEXITSTATUS(status)) : std::string("unknown")) +
                     "; does `ssh " + remote.host + " lockstep status` work?");
     }

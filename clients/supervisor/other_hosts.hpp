@@ -12,20 +12,20 @@ namespace lockstep {
 
 struct AllHosts {
     bool asked = false;
-    std::string ssh = "ssh -o BatchMode=yes";  // words, which the host's name follows
+    std::string ssh = "ssh -o BatchMode=yes";  // words; the host's name is appended
 };
 
-/// While it exists, `lockstep VERB...` runs on every host that the machine's file names, but not on this one.
+/// Runs `lockstep VERB...` on every host that the machine's file names, except this one, while the object exists.
 class OtherHosts {
 public:
-    /// `machine_file`: as the option named it; empty: not named. The same path is named on all hosts.
+    /// `machine_file`: the value of the option, empty if not given. All hosts get the same path.
     OtherHosts(const AllHosts& all, const MachineConfig& machine, const std::string& machine_file,
                const std::vector<std::string>& verb);
     ~OtherHosts();
     OtherHosts(const OtherHosts&) = delete;
     OtherHosts& operator=(const OtherHosts&) = delete;
 
-    /// Waits for all, and prints the output of each after its host's name. False: one failed.
+    /// Waits for all hosts, and prints each line of output after its host's name. Returns false if one failed.
     bool finish(Output& output, std::size_t lines_where_well = std::numeric_limits<std::size_t>::max());
 
 private:

@@ -21,7 +21,7 @@ bool is_placed(const Placement& placed, const PresentProcess& process) {
     return process.axis ? std::ranges::find(placed.axes, *process.axis) != placed.axes.end() : placed.coordinator;
 }
 
-/// A killed process stays on the network until its lease ends; its number may be another program's by then.
+/// False if the number belongs to another program by now: a killed process stays on the network until its lease ends.
 bool is_service(pid_t pid) {
     return std::ranges::any_of(command_line_of(pid), [](const std::string& word) {
         return word.ends_with("lockstep-axis") || word.ends_with("lockstep-coordinator");

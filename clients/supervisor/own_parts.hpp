@@ -1,5 +1,5 @@
-// The parts of a machine that this host runs, while they are brought up. They are identified by process numbers and
-// this host's process table: clocks of other hosts and their processes do not matter.
+// Checks the parts of a machine that this host runs, while they are brought up. Identifies them by process ids and this
+// host's process table, so that clocks and processes of other hosts do not matter.
 #pragma once
 
 #include <optional>
@@ -14,12 +14,12 @@
 
 namespace lockstep {
 
-/// Whether every line but a device's and the page's runs, and is on the network.
+/// True if the processes of all lines, except devices and the page, run and are on the network.
 bool are_present(const std::vector<ServiceLine>& lines, const std::vector<ProcessRecord>& recorded,
                  const std::vector<PresentProcess>& present);
 
-/// A part that is placed here, but runs as a process that the recorded supervisor did not start, as text with the
-/// remedy.
+/// Describes a part that is placed on this host but runs as a process that the recorded supervisor did not start, with
+/// the remedy. Returns nullopt if there is none.
 std::optional<std::string> foreign_part(const MachineConfig& machine, const Placement& placed,
                                         const ProcessRecord& supervisor, const std::vector<PresentProcess>& present);
 

@@ -9,8 +9,8 @@
 
 namespace lockstep {
 
-/// Waits until lockstep-web serves the page: its addresses with their tokens, a line each. Error: it was given up, or
-/// the time passed, with the end of its log.
+/// Waits until lockstep-web serves the page. Returns its addresses with their tokens, one per line. Fails if the
+/// process was given up or the time has passed; the error has the end of its log.
 std::expected<std::string, std::string> await_page(const StateDirectory& state, std::chrono::nanoseconds patience);
 
 }  // namespace lockstep

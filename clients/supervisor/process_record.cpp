@@ -3,7 +3,7 @@
 #include <poll.h>
 #include <unistd.h>
 
-extern "C" {  // which this header of glibc 2.36 omits
+extern "C" {  // this header of glibc 2.36 lacks it
 #include <sys/pidfd.h>
 }
 
@@ -78,10 +78,10 @@ bool is_damaged(std::string_view text) {
 
 std::optional<std::uint64_t> start_of(pid_t pid) {
     const std::string id = std::to_string(pid);
-    std::ifstream stat("/proc/" + id + "/task/" + id + "/stat");  // /proc/ID/stat an emulator makes up for itself
+    std::ifstream stat("/proc/" + id + "/task/" + id + "/stat");  // an emulator replaces /proc/ID/stat by its own
     std::string text;
     if (!std::getline(stat, text, '\0')) { return std::nullopt; }
-    // Field 2 is the name in parentheses, which may hold anything; 3 is the state, 22 the start.
+    // Field 2 is the name in parentheses, which may contain any character. Field 3 is the state, 22 the start.
     std::istringstream fields(text.substr(std::min(text.size(), text.rfind(')') + 1)));
     std::string state;
     std::string skipped;

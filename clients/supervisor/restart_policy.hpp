@@ -1,4 +1,4 @@
-// When a process that ended unexpectedly is started again: soon at first, then later. Pure.
+// Decides when a process that ended unexpectedly is started again: soon at first, then later. Pure.
 //
 // A process that ends with an exit code has a reason that may last, so it is given up eventually. A process that a
 // signal ended has met a temporary fault: damaged packets, too little memory, a library call that never returned. It
@@ -22,7 +22,7 @@ enum class ProcessEnd { Exit, Signal };
 
 class RestartPolicy {
 public:
-    /// The process ended at `now`: returns the delay before it is started again. Nothing: give up.
+    /// Call it when the process has ended. Returns the delay before it is started again, or nullopt to give up.
     std::optional<std::chrono::milliseconds> after_end(std::chrono::nanoseconds now, ProcessEnd how) {
         while (!ends_.empty() && now - ends_.front().time > kRestartWindow) { ends_.pop_front(); }
         const auto is_exit = [](const End& end) { return end.how == ProcessEnd::Exit; };

@@ -33,7 +33,7 @@ std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Place
     for (const char* name : {"coordinator", "coordinator-2"}) {
         if (!placed.coordinator) { break; }
         std::vector<std::string> more{"--log", state.log_file(name).string()};
-        if (layout.standby) { more.emplace_back("--standby"); }  // both: one that restarts stands by
+        if (layout.standby) { more.emplace_back("--standby"); }  // both: a coordinator that restarts stands by
         if (layout.continues) { more.insert(more.end(), {"--on-takeover", "continue"}); }
         if (name != std::string_view("coordinator")) { more.emplace_back("--second"); }
         lines.push_back(line(name, begin("lockstep-coordinator"), more));

@@ -11,7 +11,7 @@
 
 namespace lockstep {
 
-enum class FpgaKind { AsConfigured, Sim, Shared };  // Sim: in the axis's process; Shared: in a process of its own
+enum class FpgaKind { AsConfigured, Sim, Shared };  // Sim: in the axis's process; Shared: in its own process
 
 /// The choices of `lockstep up`.
 struct Layout {
@@ -26,14 +26,14 @@ struct ServiceLine {
     std::vector<std::string> words;  // the program's path and its arguments
 };
 
-/// The name of lockstep-web in the record. The machine is up without it.
+/// The name of lockstep-web in the record. The machine counts as up without it.
 inline constexpr const char* kWeb = "web";
 
-/// The device of an axis whose FPGA is a process of its own, as open_window takes it.
+/// The name, for open_window(), of a device that runs in its own process.
 std::string shared_device(const MachineConfig& machine, const AxisConfig& axis);
 
-/// The machine's parts that are `placed` on this host. Devices first: an axis attaches to its own. Last, beside the
-/// coordinator, the page. `programs`: the directory of the services' executables.
+/// The machine's parts that are `placed` on this host. Devices come first, because axes attach to them. The page comes
+/// last, on the coordinator's host. `programs`: the directory of the services' executables.
 std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Placement& placed, const Layout& layout,
                                        const std::filesystem::path& programs, const StateDirectory& state);
 

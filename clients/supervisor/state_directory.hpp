@@ -26,28 +26,28 @@ public:
     std::filesystem::path page_file() const { return path_ / "page"; }
     std::filesystem::path log_file(const std::string& process) const { return path_ / (process + ".log"); }
 
-    /// Creates the directory. Error: why not, and the remedy.
+    /// Creates the directory. The error has the reason and the remedy.
     std::expected<void, std::string> make() const;
-    /// Claims the directory for this process and those that it forks from now on, until the last of them ends. False:
-    /// it is claimed already.
+    /// Claims the directory for this process and those that it forks from now on, until the last of them ends. Returns
+    /// false if it is claimed already.
     bool lock() const;
     void remove_logs() const;
-    /// Error: the file and why.
+    /// The error names the file and the reason.
     std::expected<void, std::string> write_machine_file(const std::string& text) const;
 
-    /// The file that the copy was made of, and the settings beside it at that time, which are in the copy.
+    /// Stores the path of the copied file, and the settings beside it at that time, which the copy includes.
     std::expected<void, std::string> write_source(const std::filesystem::path& file,
                                                   const KeptSettings& settings) const;
-    /// Empty: it is not known.
+    /// Empty if it is not known.
     std::filesystem::path source() const;
     std::filesystem::path settings_in_force() const { return path_ / "settings"; }
 
-    /// Readers see the old records or the new, never a part.
+    /// Replaces the records at once: readers see the old or the new ones, never a part.
     void record(const std::vector<ProcessRecord>& processes) const;
     std::vector<ProcessRecord> recorded() const;
-    /// The recorded processes that run now. If the record cannot be read, those that the host's process table shows.
+    /// The recorded processes that run now. If the record is unreliable, those that the host's process table shows.
     std::vector<ProcessRecord> running() const;
-    /// Why the record is unreliable; nothing: it is reliable, or the machine was never up.
+    /// Why the record is unreliable; nullopt if it is reliable or the machine was never up.
     std::optional<std::string> record_trouble() const;
     void forget_processes() const;
 
@@ -57,7 +57,7 @@ private:
     std::filesystem::path path_;
 };
 
-/// The names of the machines that are up on this host, as far as this root knows, in order.
+/// The names, in order, of the machines that are up on this host and use this state root.
 std::vector<std::string> machines_up();
 
 /// The last lines of a file, each indented; empty if there are none.

@@ -22,7 +22,7 @@ constexpr milliseconds kEndPatience = 4s;  // for the reaction to SIGTERM
 constexpr std::size_t kAtOnce = 16;        // processes that start together...
 constexpr milliseconds kApart = 150ms;     // ...and the others one by one: each start causes discovery traffic
 constexpr int kCannotExecute = 127;        // as in shells
-constexpr int kBadInput = 2;               // a service's own: another start would end in the same way
+constexpr int kBadInput = 2;               // exit code of a service; another start would end in the same way
 
 sigset_t handled_signals() {
     sigset_t set;
@@ -33,10 +33,10 @@ sigset_t handled_signals() {
 
 timespec to_timespec(nanoseconds time) { return {time.count() / 1'000'000'000, time.count() % 1'000'000'000}; }
 
-/// In the child: never returns. The program's output before its log is open goes to the log's file too.
+/// Runs in the child and never returns. The log's file also gets the output from before the program opens its log.
 [[noreturn]] void become(const ServiceLine& line, const std::filesystem::path& log, pid_t parent) {
     prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (getppid() != parent) { _exit(0); }  // the parent died before that took effect
+    if (getppid() != parent) { _exit(0); }  // the parent died before prctl took effect
     const sigset_t set = handled_signals();
     sigprocmask(SIG_UNBLOCK, &set, nullptr);
     const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
@@ -142,17 +142,17 @@ int Supervisor::wait_for_signal() const {
 }
 
 void Supervisor::end_all() {
-    log_info("ends all");
+    log_info("ending all processes");
     signal_all(SIGTERM);
     if (reap_all(kEndPatience)) { return; }
-    log_warning("not all ended on request; ends them by force");
+    log_warning("some processes did not end on SIGTERM; killing them");
     signal_all(SIGKILL);
     (void)reap_all(kEndPatience);
 }
 
 void Supervisor::signal_all(int signal) const {
     for (const Service& service : services_) {
-        if (service.process) { kill(service.process->pid, signal); }  // unreaped children: the numbers are still theirs
+        if (service.process) { kill(service.process->pid, signal); }  // children that are not reaped keep their numbers
     }
 }
 

@@ -1,7 +1,7 @@
 // Keeps a machine's processes running: starts them, restarts those that end unexpectedly, and ends all with itself.
 //
-// It takes no part in motion. A machine whose process died has come to rest by its own rules, and moves again only
-// on a person's command.
+// It takes no part in motion. When a process dies, the machine comes to rest by its own rules, and moves again only on
+// a person's command.
 #pragma once
 
 #include <chrono>
@@ -19,7 +19,7 @@ class Supervisor {
 public:
     Supervisor(const StateDirectory& state, const std::vector<ServiceLine>& lines);
 
-    /// Until SIGTERM or SIGINT. Its log goes to standard error.
+    /// Runs until SIGTERM or SIGINT. Logs to standard error.
     void run();
 
 private:
@@ -27,14 +27,14 @@ private:
         ServiceLine line;
         RestartPolicy policy = {};
         std::optional<ProcessRecord> process = {};
-        std::optional<std::chrono::nanoseconds> start_at = {};  // nothing: it runs, or was given up
+        std::optional<std::chrono::nanoseconds> start_at = {};  // nullopt if it runs or was given up
     };
 
     void start_due();
     void start(Service& service);
     void reap();
     void ended(Service& service, int status);
-    /// The next signal, or 0 when a start is due.
+    /// Waits for the next signal and returns it, or returns 0 when a start is due.
     int wait_for_signal() const;
     void end_all();
     void signal_all(int signal) const;

@@ -9,7 +9,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kSupervisorPatience = 10s;  // its own children have less
+constexpr auto kSupervisorPatience = 10s;  // longer than it waits for its own children
 constexpr auto kPatience = 3s;
 constexpr int kMaxRounds = 3;  // a supervisor may have started one more as it was ended
 

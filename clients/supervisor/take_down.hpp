@@ -14,8 +14,8 @@ struct TakenDown {
     std::vector<std::string> left;   // that did not end, even by force
 };
 
-/// The supervisor ends the rest; if it is gone or fails to, they are ended one by one. `also`: ended like the
-/// recorded ones, for a supervisor that may not have recorded itself yet.
+/// Lets the supervisor end the rest. If it is gone or fails to, ends them one by one. `also` is ended like the recorded
+/// ones: a supervisor that may not have recorded itself yet.
 TakenDown take_down(const StateDirectory& state, const std::optional<ProcessRecord>& also = {});
 
 }  // namespace lockstep

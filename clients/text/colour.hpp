@@ -15,7 +15,7 @@ inline constexpr std::string_view kWarning = "\x1b[33m";
 inline constexpr std::string_view kBold = "\x1b[1m";
 inline constexpr std::string_view kFaint = "\x1b[2m";
 
-/// Standard output is a terminal and NO_COLOR (no-color.org) is not set.
+/// True if standard output is a terminal and NO_COLOR (no-color.org) is not set.
 inline bool wants_colour() {
     const char* refused = std::getenv("NO_COLOR");
     return isatty(STDOUT_FILENO) == 1 && (refused == nullptr || *refused == '\0');

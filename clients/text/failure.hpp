@@ -11,7 +11,7 @@ namespace lockstep {
 
 struct Failure {
     ExitCode exit = kExitFailed;
-    std::string file;    // that the errors are about; empty: none
+    std::string file;    // the file with the errors; empty if none
     Diagnostics errors;  // each with the next step for the user
 };
 

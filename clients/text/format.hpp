@@ -6,13 +6,13 @@
 #include <string_view>
 
 #include "core/protocol/names.hpp"
-#include "services/record/job_recorder.hpp"  // the names of how jobs end
+#include "services/record/job_recorder.hpp"  // for the names of job outcomes
 
 namespace lockstep {
 
 /// With `digits` digits after the point.
 std::string fixed(double value, int digits);
-/// The name of an axis, with its unit unless it is the column's mm: "X", "C (deg)".
+/// The name of an axis, with its unit unless that is mm: "X", "C (deg)".
 std::string axis_label(const std::string& name);
 /// "8.2 s", "3 min 05 s", "2 h 03 min".
 std::string duration_text(double seconds);

@@ -21,7 +21,7 @@ public:
     /// A permanent line. Not with JSON.
     void print(const std::string& line);
     void warn(const std::string& line);
-    /// The JSON report; nothing in text mode, where the verb prints its own text.
+    /// Prints the JSON report. Does nothing in text mode, where the verb prints its own text.
     void report(const google::protobuf::Message& message);
     /// Reports the failure in either form; returns its exit code.
     ExitCode fail(const Failure& failure);
@@ -32,7 +32,7 @@ private:
     bool json_;
     bool is_terminal_;
     bool progress_shown_ = false;
-    double progress_time_s_;  // of the last line; at first, of the start
+    double progress_time_s_;  // time of the last line; at first, of the start
 };
 
 }  // namespace lockstep

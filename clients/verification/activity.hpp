@@ -1,15 +1,15 @@
-// When a machine's processes last published: shows which of them had ended by the end of a log.
+// Notes when a machine's processes last published, to find the processes that had ended by the end of a log.
 #pragma once
 
 #include <cstdint>
 
 namespace lockstep::verification {
 
-/// An axis reports its position in every slot. An axis that is not received for so long while others are has ended, or
-/// stands still; if no axis has published a step or a run for so long, none moves.
+/// An axis reports its position in every slot. If no message of it comes for so long while other axes are received, its
+/// process has ended or does not run. If no axis publishes a step or a run for so long, none moves.
 inline constexpr std::int64_t kSilence_us = 500'000;
 
-/// Of an axis: its newest process, and when that last published, in microseconds of machine time.
+/// The newest process of an axis, and when that process last published, in microseconds of machine time.
 struct AxisActivity {
     std::int64_t incarnation = 0;
     std::int64_t received_us = 0;
@@ -17,11 +17,11 @@ struct AxisActivity {
     bool is_moving = false;     // by its newest position
     bool announced_end = false;
 
-    /// Whether the log ends so early that messages related to its newest steps and runs may be missing.
+    /// True if the log ends so early that messages related to the axis's newest steps and runs may be missing.
     bool is_cut() const { return !announced_end && (is_moving || received_us - moved_us <= kSilence_us); }
 };
 
-/// Of a machine: when any process last published, and when any last published steps or runs.
+/// When any process of a machine last published, and when any last published steps or runs.
 struct MachineActivity {
     std::int64_t received_us = 0;
     std::int64_t moved_us = 0;

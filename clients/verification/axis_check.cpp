@@ -119,19 +119,19 @@ bool AxisCheck::is_before_log(const Run& run) const {
     return before_log_ && before_log_->first == run.incarnation && run.sequence <= before_log_->second;
 }
 
-/// For a step without a record of its run: the run ended before the log began.
+/// True for a step of a run that ended before the log began, so that the run is not recorded.
 bool AxisCheck::is_before_log(const SeenStep& seen) const {
     return runs_from_ && seen.incarnation == runs_from_->first && seen.edge.tick < runs_from_->second;
 }
 
-/// The log may lack the first runs of the first process (run_stream.hpp): their steps belong to no run on record.
+/// The log may lack the first runs of the first process (run_stream.hpp). Their steps belong to no recorded run.
 void AxisCheck::leave_out_before_log(const Run& first) {
     runs_from_ = {first.incarnation, first.start};
     before_log_steps_ += static_cast<std::int64_t>(
         std::erase_if(waiting_, [this](const SeenStep& seen) { return is_before_log(seen); }));
 }
 
-/// The first steps of a run that had begun before the log are in none of its messages.
+/// Skips the first steps of a run that began before the log, because the log does not contain them.
 void AxisCheck::pass_before_log() {
     if (!is_before_log(maker_->run()) || !steps_from_) { return; }
     while (maker_->next() != nullptr && maker_->next()->tick < *steps_from_) { pass_step(false); }
@@ -222,7 +222,7 @@ void AxisCheck::compare_time(const SeenStep& seen, const std::string& step) {
     findings_.clock_error = std::max(findings_.clock_error, seen.error + run.clock_error);
     if (late <= allowed(seen.error, run.clock_error)) { return; }
     differ(step + " was made at machine time " + std::to_string(seen.machine.value) + ", commanded for " +
-               std::to_string(maker_->commanded().value) + "; its clocks were known within " +
+               std::to_string(maker_->commanded().value) + "; the uncertainty of its clocks was " +
                plural((seen.error + run.clock_error).value, "tick"),
            maker_->commanded(), seen.machine);
 }
@@ -237,7 +237,8 @@ std::size_t AxisCheck::birth_of(std::int64_t incarnation) {
     return birth;
 }
 
-/// A step of the run's process; its own steps before its first run belong to orders of the process before it.
+/// True for a step of an earlier process than the run's. Steps that a process publishes before its first run belong to
+/// orders of an earlier process, too.
 bool AxisCheck::is_of_older_process(const SeenStep& seen) {
     const Run& run = maker_->run();
     if (seen.incarnation != run.incarnation) { return birth_of(seen.incarnation) < birth_of(run.incarnation); }
@@ -249,7 +250,8 @@ bool AxisCheck::is_of_newer_process(const SeenStep& seen) {
     return birth_of(seen.incarnation) > birth_of(maker_->run().incarnation);
 }
 
-/// The run is on record with its end, its last steps are not: at most as many as a process holds unpublished.
+/// The run is recorded with its end, but its last steps are not. There may be at most as many as a process holds
+/// unpublished.
 void AxisCheck::leave_run() {
     if (!last_run_ || last_run_->incarnation != maker_->run().incarnation) { unrecorded_ = 0; }
     std::int64_t steps = 0;
@@ -263,7 +265,7 @@ void AxisCheck::leave_run() {
     end_run();
 }
 
-/// Steps are on record, their runs are not.
+/// The steps are recorded, but their runs are not.
 void AxisCheck::leave_steps() {
     std::vector<SeenStep> left;
     for (; !waiting_.empty() && (!maker_ || is_of_older_process(waiting_.front())); waiting_.pop_front()) {
@@ -331,7 +333,7 @@ void AxisCheck::finish(const HasEnded& has_ended, LogEdges edges) {
     if (findings_.going() && follower_ != nullptr) { follower_->on_end(); }
 }
 
-/// Steps left by a process that has ended, or found in its device by one that had no run itself yet.
+/// True for steps that an ended process left, or that a new process found in its device before its first run.
 bool AxisCheck::is_left_at_end(const HasEnded& has_ended) {
     const std::int64_t of = waiting_.front().incarnation;
     const bool has_run = last_run_ && last_run_->incarnation == of;

@@ -1,9 +1,9 @@
-// Compares one axis's steps with the steps that its runs make: each step belongs to a run, each step of a run exists.
-// By the device's clock each is at its exact tick; if the device has its own clock, each step of a frame is also at the
-// commanded machine time, within the clocks' uncertainty.
+// Compares one axis's steps with the steps that its runs make: each step must belong to a run, and each step of a run
+// must exist. In the device's clock each step must be at its exact tick. If the device has its own clock, each step of
+// a frame must also be at the commanded machine time, within the clocks' uncertainty.
 //
-// A process that ended unexpectedly may have left its last runs or steps unrecorded. What it left is compared with the
-// plan, if there is one, and reported in a note.
+// A process that ended unexpectedly may have left its last runs or steps unrecorded. The steps that it left are
+// compared with the plan, if there is one, and reported in a note.
 #pragma once
 
 #include <cstddef>
@@ -31,7 +31,8 @@ class RunFollower {
 public:
     virtual ~RunFollower() = default;
     virtual void on_run(const Run& run) = 0;
-    /// A step of that run. `commanded`: in machine time. Not recorded: the process ended before publishing it.
+    /// A step of that run. `commanded`: in machine time. `is_recorded` is false if the log lacks the step: the process
+    /// ended before publishing it, or the log begins later.
     virtual void on_step(StepEdge step, Tick commanded, bool is_recorded) = 0;
     virtual void on_run_over() = 0;
     /// The end of the log.
@@ -40,36 +41,37 @@ public:
 
 /// Which part of an axis's record may lie outside the log.
 struct LogEdges {
-    bool begins_late = false;  // its process had published before
-    bool ends_early = false;   // it ends so soon after the newest steps and runs that related messages may follow
+    bool begins_late = false;  // its process had published before the log began
+    bool ends_early = false;   // it ends so soon after the newest steps and runs that related messages may be missing
 };
 
 class AxisCheck final : public analysis::StepListener {
 public:
     /// The motion at a tick of a run, as text.
     using Commanded = std::function<std::string(const Run&, Tick)>;
-    /// The runs that the plan allows the axis after its newest run, from a step at that tick on. Empty: none.
+    /// The runs that the plan allows the axis after its newest run, from a step at that tick on; empty if there are
+    /// none.
     using Planned = std::function<std::vector<Course>(Tick)>;
     /// Whether a process of the axis had ended by the end of the log.
     using HasEnded = std::function<bool(std::int64_t incarnation)>;
-    /// The maximum of steps that wait for the record of their run, which is written at its end.
+    /// The maximum number of steps that wait for the record of their run, which is written at the run's end.
     static constexpr std::size_t kMaxWaiting = 1 << 22;
 
     AxisCheck(std::string name, Findings& findings, Commanded commanded, Planned planned);
-    /// It outlives the check.
+    /// `follower` must outlive this object.
     void set_follower(RunFollower& follower) { follower_ = &follower; }
     AxisCheck(const AxisCheck&) = delete;  // the stream calls this object
     AxisCheck& operator=(const AxisCheck&) = delete;
 
     void take(analysis::StepBatch batch) { stream_.take(std::move(batch)); }
-    /// In the order of their numbers.
+    /// Runs must come in the order of their numbers.
     void take(Run run);
     void runs_missing(std::int64_t from, std::int64_t end);
-    /// The axis has reported it: the next run may be on a device that counts from 0.
+    /// The axis has reported a lost device: the next run may be on a device that counts from 0.
     void device_lost() { device_lost_ = true; }
-    /// From now on all messages of steps of that process from this number on are in the log.
+    /// Requires all messages of steps of that process from this number on to be in the log.
     void expect_from(std::int64_t incarnation, std::int64_t number) { marked_.try_emplace(incarnation, number); }
-    /// A run that had begun before the log did: its first steps may be missing. Call before it is taken.
+    /// Call it before take() for a run that began before the log: its first steps may be missing.
     void began_before_log(const Run& run);
     /// Call once, at the end of the log.
     void finish(const HasEnded& has_ended, LogEdges edges);
@@ -113,16 +115,16 @@ private:
     std::vector<std::int64_t> incarnations_;       // in the order of their first messages
     std::optional<StepMaker> maker_;               // of the run being compared
     std::optional<Run> last_run_;                  // the one before it
-    bool device_lost_ = false;                     // since the run before it
-    std::map<std::int64_t, std::int64_t> marked_;  // by process: the first message of steps that must be there
-    // If the log begins later than the process: device's time, and both of that process.
-    std::optional<std::pair<std::int64_t, std::int64_t>> before_log_;  // the last run begun before it: process, number
-    std::optional<std::pair<std::int64_t, Tick>> runs_from_;           // the start of the first run on record
-    std::optional<Tick> steps_from_;                                   // the first step on record
-    std::int64_t before_log_steps_ = 0;                                // on record, their runs are not
+    bool device_lost_ = false;                     // since last_run_
+    std::map<std::int64_t, std::int64_t> marked_;  // by process: the first message of steps that must be in the log
+    // For a log that begins later than the process. Ticks are in the device's time.
+    std::optional<std::pair<std::int64_t, std::int64_t>> before_log_;  // the last run before the log: process, number
+    std::optional<std::pair<std::int64_t, Tick>> runs_from_;           // process and start of the first recorded run
+    std::optional<Tick> steps_from_;                                   // the first recorded step
+    std::int64_t before_log_steps_ = 0;                                // recorded steps of runs that are not recorded
     std::int64_t unrecorded_ = 0;                                      // steps that a process did not publish
     std::int64_t steps_ = 0;                                           // compared and equal
-    std::optional<Tick> last_tick_;                                    // of these
+    std::optional<Tick> last_tick_;                                    // of the last of them
 };
 
 }  // namespace lockstep::verification

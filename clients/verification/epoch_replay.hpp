@@ -1,4 +1,4 @@
-// The frames of one epoch, made again by the coordinator's own planning, and its evaluation of how the epoch ended.
+// Makes the frames of one epoch again by the coordinator's own planning, and evaluates how the epoch ended.
 #pragma once
 
 #include <deque>
@@ -25,21 +25,21 @@ struct AxisEnd {
 
 class EpochReplay {
 public:
-    /// `begin`: of frame 1, as recorded.
+    /// `begin`: the recorded begin of frame 1.
     EpochReplay(const MachineConfig& machine, Epoch epoch, EpochStart start, const Overrides& overrides, Tick begin);
 
     Epoch epoch() const { return runner_.epoch(); }
-    /// It goes on behind the frames made so far: for the next epoch of the leg.
+    /// The source after the frames made so far, for the next epoch of the leg.
     const OwnedSource& source() const { return runner_.source(); }
 
-    /// The frames after this one are planned with other overrides. False: they are made already.
+    /// Plans the frames after `behind` with other overrides. Returns false if some of them are made already.
     bool turn(FrameNumber behind, const Overrides& overrides);
 
-    /// Null: the epoch has no such frame, or it was forgotten.
+    /// Returns null if the epoch has no such frame or it was dropped.
     const Frame* frame(FrameNumber number);
     void forget_before(FrameNumber number);
 
-    /// The events whose places are in the frames up to this one, each once.
+    /// Returns the events with places in the frames up to `ran`, each event once.
     std::vector<EpochRunner::Happened> take_events(FrameNumber ran);
 
     EpochEnd evaluate(std::span<const AxisEnd> axes) const;

@@ -64,7 +64,7 @@ PathEvent EventCheck::event_at(std::uint32_t block) const {
     return {block, its->line, std::get<ProgramEvent>(its->action)};
 }
 
-/// The coordinator before has published them, and did not report it before it ended.
+/// Skips events that were published again: the earlier coordinator published them but ended before it reported that.
 void EventCheck::skip_repeats() {
     const std::int64_t from = done_ == 0 ? 0 : program_->events()[done_ - 1] + 1;
     while (coordinators_.size() > 1) {
@@ -87,8 +87,8 @@ bool EventCheck::is_the_same(const program_event_t& recorded, const PathEvent& p
                              planned.line, {}, Tick{recorded.tick});
 }
 
-/// At rest it is published only if the axes came to rest before its time by the coordinator's clock, or by an owner
-/// that took over.
+/// An event with a place in motion may be published at rest only if the axes came to rest before its tick by the
+/// coordinator's clock, or by an owner that took over.
 bool EventCheck::is_in_time(const program_event_t& recorded, Tick planned) {
     const Tick seen{recorded.tick};
     if (recorded.at_rest != 0 && (is_heirs(recorded) || seen < planned)) { return true; }
@@ -115,7 +115,7 @@ bool EventCheck::is_of_rest(const program_event_t& recorded) {
                               recorded.line, {}, Tick{recorded.tick});
 }
 
-/// True: the record is known to be incomplete there, and the event is left out.
+/// Returns true if the record is known to be incomplete there; the event is then left out.
 bool EventCheck::lacks(const PathEvent& planned) {
     const std::string event = label_ + ": the event of " + place_of(planned) + ", " + text_of(planned.event) + ",";
     if (coordinators_.size() > 1) {
@@ -197,7 +197,7 @@ void EventCheck::end(bool is_done) {
     forget_job();
 }
 
-/// By the coordinator that ended the job.
+/// Compares the events of the coordinator that ended the job.
 void EventCheck::check_switched_off() {
     using Kind = ProgramEvent::Kind;
     std::vector<Kind> planned;
@@ -235,7 +235,7 @@ void EventCheck::finish() {
     }
 }
 
-/// Returns false.
+/// Always returns false.
 bool EventCheck::differ(const std::string& text, std::int32_t line, std::optional<Tick> expected,
                         std::optional<Tick> seen) {
     std::string commanded = label_;

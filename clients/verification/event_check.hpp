@@ -25,26 +25,26 @@ public:
     explicit EventCheck(Findings& findings) : findings_(findings) {}
 
     void take(const program_event_t& event);
-    /// Those so far are of jobs that the log does not begin with.
+    /// Drops the events so far: their jobs began before the log.
     void forget_all() { waiting_.clear(); }
-    /// The log begins later than the record: which devices were on is not known.
+    /// The log begins later than the record, so the state of the devices is not known.
     void begins_late() { knows_devices_ = false; }
 
     /// A job begins. `program`: null if it has no events.
     void begin(std::int64_t coordinator, std::int64_t job, const std::string& label,
                std::shared_ptr<const analysis::RecordedProgram> program);
-    /// After a takeover: another coordinator goes on with the job.
+    /// Another coordinator continues the job after a takeover.
     void continue_by(std::int64_t coordinator) { coordinators_.push_back(coordinator); }
     void begin_epoch(Epoch epoch, std::int64_t coordinator);
 
-    /// The events in the frames that were run. `may_end_early`: their coordinator may have ended, or given the job up,
-    /// before it published the last ones.
+    /// Compares the events in the frames that were run. `may_end_early`: their coordinator may have ended, or given the
+    /// job up, before it published the last ones.
     void check_motion(std::span<const EpochRunner::Happened> planned, bool may_end_early);
-    /// The axes rest: the events before block `must` have been published, those before `may` can have been.
+    /// Compares events at rest: those before block `must` must have been published, those before `may` may have been.
     void check_rest(std::uint32_t must, std::uint32_t may);
-    /// The rest of the job is not compared.
+    /// Leaves the remaining events of the job uncompared.
     void leave();
-    /// The job has ended: nothing more of it is on record than what the coordinator has switched off.
+    /// The job has ended. The only events left on record may be those by which the coordinator switched devices off.
     void end(bool is_done);
     /// Call once, at the end of a log that continues after the last motion.
     void finish();
@@ -54,7 +54,7 @@ private:
 
     const program_event_t* next();
     void pop();
-    /// Of another coordinator than the one that runs the epoch.
+    /// True for an event of another coordinator than the one that runs the epoch.
     bool is_heirs(const program_event_t& event) const { return event.coordinator != epoch_coordinator_; }
     bool is_the_same(const program_event_t& recorded, const PathEvent& planned);
     bool is_in_time(const program_event_t& recorded, Tick planned);
@@ -74,12 +74,12 @@ private:
     std::map<Whose, std::deque<program_event_t>> waiting_;
     bool knows_devices_ = true;
     ProgramDevices devices_;
-    // Of the job:
+    // The job in progress:
     std::int64_t job_ = 0;
     std::string label_;
-    std::vector<std::int64_t> coordinators_;  // in the order in which they ran it; none: no job is in progress
+    std::vector<std::int64_t> coordinators_;  // in the order in which they ran it; empty if no job is in progress
     std::shared_ptr<const analysis::RecordedProgram> program_;
-    std::size_t done_ = 0;  // so many of them are on record
+    std::size_t done_ = 0;  // so many of its events were found on record
     Epoch epoch_ = 0;       // the newest
     std::int64_t epoch_coordinator_ = 0;
 };

@@ -19,30 +19,30 @@ inline std::string plural(std::int64_t count, const std::string& one) {
 /// Where the log differs from what it must contain.
 struct Difference {
     std::string text;                   // the difference, with the values on both sides
-    std::string axis;                   // empty: no single axis
-    std::optional<Tick> tick_expected;  // none: no such step was expected
-    std::optional<Tick> tick_seen;      // none: the step was not made, or is not in the log
+    std::string axis;                   // empty if it is not of a single axis
+    std::optional<Tick> tick_expected;  // nullopt if no such step was expected
+    std::optional<Tick> tick_seen;      // nullopt if the step was not made, or is not in the log
     std::string commanded;              // the job, its line, epoch and frame there
 };
 
 struct Findings {
     std::int64_t steps = 0;                 // compared and equal
-    std::int64_t runs = 0;                  // of jobs, equal to what is planned for them
+    std::int64_t runs = 0;                  // of jobs, equal to their plan
     std::int64_t local_runs = 0;            // of axes on their own: homing, own moves
     std::int64_t jobs = 0;                  // moves and programs, from begin to end
     std::int64_t events = 0;                // of programs, each at its place
     std::optional<Tick> last_tick;          // of the steps compared
-    Ticks latest;                           // the largest time error of a step of a frame: machine time...
-    Ticks clock_error;                      // ...which was known within; 0: one clock drives all devices
+    Ticks latest;                           // the largest time error of a step of a frame, in machine time
+    Ticks clock_error;                      // uncertainty of machine time; 0 if one clock drives all devices
     std::optional<Difference> difference;   // the first
     std::optional<std::string> unreadable;  // the documents of the log that cannot be decoded
     std::vector<std::string> unknown;       // results that are unknown, since the log lacks data
     std::vector<std::string> notes;
     analysis::RecordEnd end;
 
-    /// Applies to what the log contains, if that suffices for a result.
+    /// True if the log suffices for a result and contains no difference.
     bool is_exact() const { return !difference && unknown.empty() && end.missing.empty(); }
-    /// Nothing is compared after the first difference.
+    /// Nothing more is compared after the first difference or an unreadable document.
     bool going() const { return !difference && !unreadable; }
     void add_unknown(std::string what) {
         if (going()) { unknown.push_back(std::move(what)); }

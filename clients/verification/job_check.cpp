@@ -25,7 +25,7 @@ std::size_t index_of(const MachineConfig& machine, const std::string& axis) {
     return static_cast<std::size_t>(std::ranges::find(machine.axes, axis, &AxisConfig::name) - machine.axes.begin());
 }
 
-/// In machine time. `clock_error`: the tolerance of each step.
+/// Returns the planned run, in machine time. `clock_error`: the tolerance of each step.
 Run planned_run(const Frame& frame, std::size_t axis, bool tail, Ticks clock_error) {
     const AxisTrack& track = frame.axes[axis];
     Run run{.epoch = frame.epoch,
@@ -81,7 +81,7 @@ void JobCheck::begins_late() {
     events_.begins_late();
 }
 
-/// A coordinator that another follows, or that gives a job up, may not have published the last events.
+/// A coordinator that ends or gives a job up may not have published the last events.
 void JobCheck::handle(const RecordedJob& record) {
     if (is_outdated(record)) { return; }
     const bool lacks_events = record.outcome == "failed" || (job_ && job_->coordinator != record.coordinator);
@@ -99,7 +99,7 @@ bool JobCheck::is_late(const RecordedJob& record) const {
     return record.event != "begun" && its != begun_.end() && begun_.back().first != record.coordinator;
 }
 
-/// Late, and of an epoch that no axis ran: a run of it would have been compared with this record before.
+/// True for a late record of an epoch that no axis ran: with a run of it, the record would have been handled before.
 bool JobCheck::is_outdated(const RecordedJob& record) {
     const bool is_its_turn = !job_ || job_->coordinator == record.coordinator;
     if (is_its_turn || !is_late(record)) { return false; }
@@ -108,7 +108,7 @@ bool JobCheck::is_outdated(const RecordedJob& record) {
     return true;
 }
 
-/// A record of a job by another coordinator than the one that began it: it continues the job after a takeover.
+/// A coordinator that records a job begun by another has continued it after a takeover.
 void JobCheck::note_owner(const RecordedJob& record) {
     if (!job_ || job_->number != record.job || job_->coordinator == record.coordinator) { return; }
     job_->coordinator = record.coordinator;
@@ -178,7 +178,7 @@ void JobCheck::turn(const RecordedJob& record) {
     }
 }
 
-/// The overrides that the coordinator changed in the epoch in progress; recorded before any affected frame runs.
+/// Handles the overrides changed in the epoch in progress. They are recorded before any affected frame runs.
 void JobCheck::handle_turns() {
     while (!records_.empty() && records_.front().event == "override") {
         handle(records_.front());
@@ -208,7 +208,7 @@ void JobCheck::end(const RecordedJob& record) {
     events_.end(record.outcome == "done");
 }
 
-/// The state of the job after the epoch.
+/// Compares the epoch's end, and takes the state of the job after it.
 void JobCheck::close_epoch(bool lacks_events) {
     if (!epoch_) { return; }
     plan_next(epoch_->replay);
@@ -218,7 +218,7 @@ void JobCheck::close_epoch(bool lacks_events) {
     epoch_.reset();
 }
 
-/// Whether the axis did not run its last frame and tail to their end.
+/// Returns true, and notes why, if the axis did not run its last frame and tail to their end.
 bool JobCheck::breaks_off(std::size_t i) {
     const Progress& axis = epoch_->axes[i];
     const std::string frame = "frame " + std::to_string(axis.ran);
@@ -233,7 +233,7 @@ bool JobCheck::breaks_off(std::size_t i) {
     return true;
 }
 
-/// With the coordinator's own evaluation of where the axes came to rest.
+/// Uses the coordinator's own evaluation of where the axes came to rest.
 void JobCheck::check_epoch(bool lacks_events) {
     std::vector<AxisEnd> ends;
     for (const Progress& axis : epoch_->axes) { ends.push_back({axis.ran, axis.at}); }
@@ -274,7 +274,7 @@ void JobCheck::finish(bool at_rest, const HasEnded& has_ended) {
                           (last ? "tick " + std::to_string(last->value) : "there") + " are compared");
 }
 
-/// Of the epoch in progress at the end of the log.
+/// Checks the events of the epoch in progress at the end of the log.
 void JobCheck::check_events_so_far() {
     if (!epoch_) { return; }
     FrameNumber ran = 0;
@@ -294,7 +294,7 @@ void JobCheck::note_beginning() {
     }
 }
 
-/// A job without an end, though all axes have come to rest, or have ended themselves.
+/// Handles a job without an end, although all axes have come to rest, or their processes have ended.
 void JobCheck::leave_job(const HasEnded& has_ended) {
     if (job_->replay) {
         for (std::size_t i = 0; epoch_ && i < epoch_->axes.size(); ++i) {
@@ -316,7 +316,7 @@ bool JobCheck::is_before_first_job(const Run& run) const {
     return begins_late_ && (!first_job_ || (first_epoch_ && run.epoch < *first_epoch_));
 }
 
-/// They count as runs without a plan.
+/// Counts them as runs without a plan.
 void JobCheck::leave_out(std::size_t runs) {
     left_out_ += runs;
     findings_.local_runs += static_cast<std::int64_t>(runs);
@@ -340,7 +340,7 @@ void JobCheck::take(const std::string& axis, const Run& run) {
     waiting_.emplace_back(axis, run);
 }
 
-/// False: the run's epoch is not known yet.
+/// Returns false if the run's epoch is not known yet.
 bool JobCheck::place(const std::string& axis, const Run& run) {
     const auto begins_it = [&](const RecordedJob& record) {
         return record.event == "epoch" && static_cast<Epoch>(record.epoch) == run.epoch;
@@ -391,8 +391,9 @@ void JobCheck::plan_next(EpochReplay replay) {
     }
 }
 
-/// Frames to come, none at first, and the tail of the last of them; finally the path's end, if there is no tail. Before
-/// its end an axis may have run or armed, without a record, all frames that were sent ahead, and the one in motion.
+/// Each course has further frames, or none, and then the tail of the last frame, or the path's end if it has no tail.
+/// Before its process ended, an axis may have run or armed, without a record, the frame in motion and all frames that
+/// were sent ahead.
 std::vector<Course> JobCheck::courses_of(EpochReplay& replay, std::size_t axis) const {
     const Progress& progress = epoch_->axes[axis];
     std::vector<Course> courses;
@@ -410,7 +411,7 @@ std::vector<Course> JobCheck::courses_of(EpochReplay& replay, std::size_t axis) 
     return courses;
 }
 
-/// A copy makes the frames ahead: those of the epoch itself may still be planned differently.
+/// A copy of the replay makes the frames ahead, because the epoch's own frames may still be planned differently.
 std::vector<Course> JobCheck::planned(const std::string& axis, Tick tick) {
     if (epoch_) {
         handle_turns();
@@ -422,7 +423,7 @@ std::vector<Course> JobCheck::planned(const std::string& axis, Tick tick) {
     return tick < last.start + last.ticks() ? found->second : std::vector<Course>{};
 }
 
-/// Empty: the run follows the axis's previous one.
+/// Returns an empty text if the run follows the axis's previous one.
 std::string JobCheck::out_of_order(const Progress& axis, const Run& run) const {
     const std::string after = " follows frame " + std::to_string(axis.ran);
     if (axis.cut || axis.in_tail) { return after + ", with which the epoch had ended"; }
@@ -442,7 +443,7 @@ std::string JobCheck::commanded(const Run& run, Tick tick) const {
     return text + "epoch " + std::to_string(run.epoch) + ", " + name_of(run);
 }
 
-/// A plan of a program that cannot be read any more says nothing about the record.
+/// If a program cannot be read any more, its plan proves nothing about the record.
 void JobCheck::differ(std::string text, const std::string& axis, const Run* run) {
     if (job_ && job_->replay && job_->replay->program()->failure()) {
         findings_.unreadable = job_->label + ": its program: " + *job_->replay->program()->failure();

@@ -24,7 +24,7 @@ using analysis::Run;
 
 class JobCheck {
 public:
-    /// The maximum of runs that wait for the record of their epoch, which is written before they begin.
+    /// The maximum number of runs that wait for the record of their epoch, which is written before they begin.
     static constexpr std::size_t kMaxWaiting = 4096;
 
     /// Whether an axis's process had ended by the end of the log.
@@ -34,11 +34,11 @@ public:
 
     void take(const RecordedJob& record);
     void take(const program_event_t& event);
-    /// The log begins later than the record: a job that had begun by then is not compared with its plan.
+    /// The log begins later than the record. A job that began before the log is not compared with its plan.
     void begins_late();
-    /// A run of a job; in the order of their numbers for each axis.
+    /// A run of a job. The runs of each axis must come in the order of their numbers.
     void take(const std::string& axis, const Run& run);
-    /// Call once, at the end of the log. `at_rest`: it continues long enough after the last motion on record.
+    /// Call once, at the end of the log. `at_rest`: the log continues long enough after the last motion on record.
     void finish(bool at_rest, const HasEnded& has_ended);
 
     /// The motion at a tick of a run: "job 2, run plate.gcode, line 57, epoch 9, frame 12".
@@ -54,7 +54,7 @@ private:
         std::int64_t number = 0;
         std::string label;                // "job 2, run plate.gcode"
         std::optional<JobReplay> replay;  // none for homing and own moves
-        std::string broken;               // why the runs are not the whole plan; empty: they are
+        std::string broken;               // why the runs are not the whole plan; empty if they are
         std::string broken_axis;
     };
     struct Progress {  // of an axis in an epoch
@@ -70,7 +70,7 @@ private:
     };
 
     bool has_own_clocks() const { return job_->replay->machine().timing.time_source == TimeSource::Network; }
-    /// No axis moves while its clock error may be larger.
+    /// The largest clock error with which an axis moves.
     Ticks known_within() const { return has_own_clocks() ? job_->replay->machine().clock_error_limit() : Ticks{}; }
     void handle(const RecordedJob& record);
     bool is_late(const RecordedJob& record) const;
@@ -104,14 +104,14 @@ private:
 
     Findings& findings_;
     EventCheck events_;
-    std::deque<RecordedJob> records_;  // handled at the first run after them: late runs of what they end come before
+    std::deque<RecordedJob> records_;  // handled only when a run needs them: late runs of an ended epoch may come
     std::deque<std::pair<std::string, Run>> waiting_;
     std::deque<std::pair<std::int64_t, std::int64_t>> begun_;  // the newest jobs: coordinator and number
     bool begins_late_ = false;
-    std::size_t left_out_ = 0;  // runs of such jobs
+    std::size_t left_out_ = 0;  // runs of jobs that began before the log
     std::int64_t newest_event_job_ = 0;
-    std::optional<std::int64_t> first_job_;  // whose beginning is in the log
-    std::optional<Epoch> first_epoch_;       // of a job whose beginning is
+    std::optional<std::int64_t> first_job_;  // the first with its beginning in the log
+    std::optional<Epoch> first_epoch_;       // the first of such a job
     std::optional<Job> job_;
     std::optional<EpochCheck> epoch_;
     std::deque<std::pair<Epoch, std::string>> labels_;    // of the newest epochs

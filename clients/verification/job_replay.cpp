@@ -19,7 +19,7 @@ std::expected<JobReplay, std::string> JobReplay::plan(const MachineConfig& machi
     return JobReplay(machine, std::move(program), std::move(*legs));
 }
 
-/// The coordinator records no epoch in which nothing is left to run.
+/// Skips legs without anything left to run, because the coordinator records no epoch for them.
 std::optional<EpochStart> JobReplay::next() {
     for (; leg_ < legs_.size(); ++leg_, source_ = {}) {
         const Leg& leg = legs_[leg_];

@@ -1,4 +1,4 @@
-// Plans a job again from its record: the epochs it has, given how each of them ended.
+// Plans a job again from its record: finds its epochs, given how each earlier one ended.
 #pragma once
 
 #include <expected>
@@ -18,20 +18,20 @@ using SharedProgram = std::shared_ptr<const analysis::RecordedProgram>;
 
 class JobReplay {
 public:
-    /// `start_counts`: one per axis of the machine. Error: the program cannot be planned from there.
+    /// `start_counts`: one per axis of the machine. Fails if the program cannot be planned from there.
     static std::expected<JobReplay, std::string> plan(const MachineConfig& machine, SharedProgram program,
                                                       const std::vector<std::int64_t>& start_counts);
 
     const MachineConfig& machine() const { return machine_; }
 
-    /// The next epoch; none: the program is done.
+    /// Returns the next epoch, or nullopt if the program is done.
     std::optional<EpochStart> next();
 
-    /// How an epoch ended, Complete or Interrupted, and its source.
+    /// Call it with the end of an epoch, Complete or Interrupted, and the epoch's source.
     void ended(const EpochEnd& end, OwnedSource source);
 
     const SharedProgram& program() const { return program_; }
-    /// The block from which axes move again: before it they rest. At the program's end there is no such block.
+    /// The first block of the next motion; the axes rest before it. At the program's end, the number of blocks.
     std::uint32_t moves_from() const;
 
     std::int32_t line_of(std::uint32_t block) const { return line_of(program_->block(block)); }
@@ -45,7 +45,7 @@ private:
     SharedProgram program_;
     std::vector<Leg> legs_;
     std::size_t leg_ = 0;
-    // Of the leg in progress; none: it has not begun.
+    // Of the leg in progress; source_ is null if the leg has not begun.
     OwnedSource source_;
     PathPlace place_;
     AxisPositions positions_;

@@ -42,7 +42,7 @@ class Comparison {
 public:
     Comparison(const Course& course, const LeftBy& by) : made_(course), by_(by), incarnation_(by.incarnation) {}
 
-    /// False: the step is not the course's next.
+    /// Returns false if the step is not the course's next one.
     bool take(const SeenStep& seen) {
         if (seen.incarnation != incarnation_) { go_to(seen); }
         if (made_.is_over() || !is_as_made(seen)) {
@@ -71,7 +71,7 @@ private:
         if (made_.commanded() + allowed(seen.error, made_.run().clock_error) < seen.machine) { return true; }
         return by_.zero_count && is_timely(seen) && made_.count_after() + *by_.zero_count != seen.count;
     }
-    /// Goes to the first step that the next process published, by its time and by the device's count.
+    /// Skips to the first step that the next process published, by its time and by the device's count.
     void go_to(const SeenStep& seen) {
         incarnation_ = seen.incarnation;
         for (; !made_.is_over() && is_before(seen); made_.pass()) { ++found_.unrecorded; }

@@ -58,7 +58,7 @@ void LogCheck::on_program_part(const program_part_t& message, analysis::LogPlace
     end_.saw(RecordKind::ProgramPart, message.machine, "", message.coordinator, message.sequence);
 }
 
-/// A process's mark about itself applies from there on in the log.
+/// A process's mark about itself applies to the rest of the log.
 void LogCheck::on_mark(const record_mark_t& message, analysis::LogPlace place) {
     end_.take(message);
     if (message.witness != message.process) { return; }
@@ -75,7 +75,7 @@ void LogCheck::on_mark(const record_mark_t& message, analysis::LogPlace place) {
     of->check.expect_from(message.incarnation, message.steps);
 }
 
-/// Whether the log begins with that message of a coordinator because it begins later, or lacks those before.
+/// Decides why the log lacks a coordinator's first messages: it begins later, or they are missing.
 void LogCheck::note_beginning(Machine& machine, std::int64_t coordinator, std::int64_t sequence, std::int64_t job) {
     if (std::exchange(machine.has_jobs, true) || sequence == 0) { return; }
     machine.jobs.begins_late();
@@ -90,7 +90,7 @@ void LogCheck::note_beginning(Machine& machine, std::int64_t coordinator, std::i
     findings_.notes.emplace_back(analysis::kWhereTheRestIs);
 }
 
-/// Of a job, or of an event of its program. Null: no machine is compared with it.
+/// Notes a record of a job, or of an event of its program. Returns null if it is compared with no machine.
 LogCheck::Machine* LogCheck::note_record(const auto& message, RecordKind kind, analysis::LogPlace place) {
     if (make_follower_) { return nullptr; }
     Machine* to = machine(message.machine, place);
@@ -109,7 +109,6 @@ void LogCheck::on_event(const program_event_t& message, analysis::LogPlace place
     if (Machine* to = note_record(message, RecordKind::Event, place)) { to->jobs.take(message); }
 }
 
-/// Only for axes that have moved.
 void LogCheck::on_position(const axis_position_t& message, analysis::LogPlace place) {
     if (analysis::is_countable(message.utime)) {
         Axis* of = axis(message.machine, message.axis, place);
@@ -176,7 +175,8 @@ void LogCheck::Axis::begin(std::int64_t utime, bool is_its_first) {
     is_late = !is_its_first;
 }
 
-/// A run is published at its end, with the time of its start. A process without published runs has begun none.
+/// A run is published at its end, with the time of its start. If the log has the axis's first messages, it has all
+/// runs.
 bool LogCheck::Axis::began_before_log(const run_t& message) const {
     return is_late && (!first_us || message.utime < *first_us + kStall_us);
 }
@@ -188,7 +188,7 @@ void LogCheck::Machine::note_message(Axis& axis, std::int64_t incarnation, std::
     last.received_us = utime;
 }
 
-/// A run is published at its end, with an older time.
+/// Uses the time of reception: a run is published at its end, with an older time.
 void LogCheck::Machine::note_motion(Axis& axis) {
     axis.last.moved_us = axis.last.received_us;
     last.moved_us = last.received_us;

@@ -50,11 +50,11 @@ private:
 
     struct Axis {
         Axis(const std::string& name, Findings& findings, JobCheck* jobs);
-        /// One of its messages, with the time at which it was published; `is_its_first`: of those of its
-        /// kind.
+        /// Call it for each of the axis's messages, with the time at which it was published. `is_its_first`: the
+        /// message is the first of its kind.
         void begin(std::int64_t utime, bool is_its_first);
         bool began_before_log(const run_t& message) const;
-        std::optional<std::int64_t> first_us;  // when it was first received
+        std::optional<std::int64_t> first_us;  // when the axis was first received
         bool is_late = true;                   // the log lacks its first messages
         AxisActivity last;
         std::unique_ptr<RunFollower> follower;

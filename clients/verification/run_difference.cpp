@@ -39,9 +39,9 @@ void find_step(const Run& planned, const Run& seen, RunDifference& difference) {
     if (found.next() != nullptr) { difference.tick_seen = found.next()->tick; }
 }
 
-constexpr double kStretchSlack_ticks = 512;  // pieces of a tick each keep theirs
+constexpr double kStretchSlack_ticks = 512;  // pieces of one tick each keep their length
 
-/// The speed at which the plan passes from one piece to the next, the smaller of both; 0 at a reversal. 2^-64 step.
+/// The planned speed between two pieces, the smaller of both sides; 0 at a reversal. In 2^-64 step per tick.
 Int128 joint_speed(const Piece& before, const Piece& after) {
     const Int128 ends = before.velocity_after(before.ticks) + before.acceleration.raw / 2;
     const Int128 begins = Int128{after.velocity.raw} + after.acceleration.raw / 2;
@@ -51,18 +51,18 @@ Int128 joint_speed(const Piece& before, const Piece& after) {
 
 /// The maximum distance of the end of piece `i`, not the last, from its planned place. A piece ends at a tick of the
 /// device's clock, at the plan's place by then, so the place is off by the motion between both.
-/// The start of the run and the places of all ends are known exactly, so nothing adds up over the pieces: the nearest
-/// tick is half a tick away at most. Where pieces of a tick each leave no room for the nearest,
-/// core/axis/device/retime.cpp limits the distance to half a tick as well. Velocities are whole numbers: n ticks leave
-/// up to n / 2 units of 2^-64 step, which the next piece compensates; kDoubles is for the product of a speed and a
-/// part of a tick.
+/// The start of the run and the places of all ends are known exactly, so errors do not add up over the pieces: the
+/// nearest tick is half a tick away at most. Where pieces of one tick each leave no room for the nearest tick,
+/// core/axis/device/retime.cpp limits the distance to half a tick as well. Velocities are whole numbers, so n ticks
+/// leave an error of up to n / 2 units of 2^-64 step, which the next piece compensates. kDoubles covers the rounding of
+/// a speed times a part of a tick.
 Displacement end_reach(const Run& planned, const Run& seen, std::size_t i) {
     constexpr Int128 kDoubles = 1 << 12;
     const Int128 half_tick = joint_speed(planned.pieces[i], planned.pieces[i + 1]) / 2;
     return Displacement{half_tick + seen.pieces[i].ticks.value / 2 + kDoubles};
 }
 
-/// The first piece after which the axis would not be at its planned place; none: it always is.
+/// Returns the number of the first piece after which the axis is not at its planned place, or nullopt if there is none.
 std::optional<std::size_t> misplaced_piece(const Run& planned, const Run& seen) {
     Position expected = planned.from;
     Position found = seen.from;
@@ -80,7 +80,7 @@ std::optional<std::size_t> misplaced_piece(const Run& planned, const Run& seen) 
     return std::nullopt;
 }
 
-/// The times for which the axis took the frame, compared with the planned ones: machine time.
+/// Compares the machine times for which the axis took the frame with the planned ones.
 std::optional<RunDifference> compare_commanded(const Run& planned, const Run& seen) {
     if (seen.commanded_start() != planned.start) {
         return RunDifference{"was executed for a start at tick " + std::to_string(seen.commanded_start().value) +

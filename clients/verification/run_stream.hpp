@@ -1,7 +1,7 @@
-// One axis's runs in the order of their numbers, from records that may come late, twice or never.
+// Delivers one axis's runs in the order of their numbers, from records that may come late, twice or never.
 //
-// For the first process a log may begin later than the process: then its first run in the log counts as the first.
-// Earlier ones are missing only if a preceding mark of that process shows that it had recorded fewer.
+// A log may begin later than its first process. Then that process's first run in the log counts as the first. Earlier
+// runs are missing only if a preceding mark of that process shows that it had recorded fewer.
 #pragma once
 
 #include <cstdint>
@@ -27,9 +27,9 @@ public:
     RunStream(OnRun on_run, OnMissing on_missing) : on_run_(std::move(on_run)), on_missing_(std::move(on_missing)) {}
 
     void take(Run run);
-    /// No run was received yet.
+    /// True if no run was received yet.
     bool is_empty() const { return !incarnation_; }
-    /// From now on all runs of that process from this number on are in the log.
+    /// Requires all runs of that process from this number on to be in the log.
     void expect_from(std::int64_t incarnation, std::int64_t number);
     /// Delivers the waiting runs. Call once, at the end of the log.
     void finish() { deliver(0); }
@@ -40,8 +40,8 @@ private:
     OnRun on_run_;
     OnMissing on_missing_;
     std::optional<std::int64_t> incarnation_;
-    std::optional<std::int64_t> expected_;         // none: the first that comes
-    std::map<std::int64_t, std::int64_t> marked_;  // the expected number of processes, before their first run
+    std::optional<std::int64_t> expected_;         // nullopt: accepts the first one
+    std::map<std::int64_t, std::int64_t> marked_;  // by process: the expected number, before its first run
     std::map<std::int64_t, Run> waiting_;
 };
 

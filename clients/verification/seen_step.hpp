@@ -11,10 +11,10 @@ namespace lockstep::verification {
 
 struct SeenStep {
     StepEdge edge;
-    std::int64_t count = 0;  // after it, by the log
+    std::int64_t count = 0;  // position after it, as the log counts
     std::int64_t incarnation = 0;
-    Tick machine;  // machine time at which it was made...
-    Ticks error;   // ...within
+    Tick machine;  // machine time at which it was made
+    Ticks error;   // uncertainty of `machine`
 };
 
 /// The tolerance of a step: the uncertainty of the time when it was made, and of the commanded time. Two ticks are for

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes a C++ source of the files of a directory: the assembler includes their bytes.
+"""Makes a C++ source that contains the files of a directory: the assembler includes their bytes.
 
 Usage: embed_page.py DIRECTORY OUT.cpp    A directory that is missing or empty gives a source without files.
 """

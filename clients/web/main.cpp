@@ -34,7 +34,7 @@ struct Options {
     std::string reports;
 };
 
-/// What the machine's file says, and over it what the command line does.
+/// The settings of the machine's file, overridden by those of the command line.
 WebConfig merged(const Options& options, const MachineConfig& machine) {
     WebConfig web = machine.web.value_or(WebConfig{});
     web.address = options.address.value_or(web.address);
@@ -72,7 +72,7 @@ web::AccessRules rules_of(const WebConfig& web, const Listener& listener, const 
     return rules;
 }
 
-/// The addresses have tokens, which have no place in a log: there, they go to a file of their own.
+/// The addresses contain tokens, which must not get into a log: with --page-file they go to that file instead.
 std::expected<void, std::string> publish(const Options& options, const std::string& address, const web::Tokens& tokens,
                                          const std::string& heading) {
     const std::string links = address + "#token=" + tokens.operate + "\n" + address + "#token=" + tokens.view + "\n";
@@ -107,8 +107,7 @@ ExitCode serve(const Options& options, const WebConfig& web, const ChosenMachine
                          .writer = "the page at " + address_text(web, listener)});
     if (!site) { return output.fail(failed(site.error())); }
     const std::string heading = "machine '" + machine.config.name +
-                                "': the page to operate it, and the one to view it; " + "the tokens are also in " +
-                                file.string();
+                                "': page addresses to operate and to view it; the tokens are also in " + file.string();
     const auto published = publish(options, address_text(web, listener), *tokens, heading);
     if (!published) { return output.fail(failed(published.error() + "; name another: --page-file FILE")); }
     while (!stop.requested()) { std::this_thread::sleep_for(50ms); }

@@ -28,7 +28,7 @@ Site::~Site() {
     }
 }
 
-/// In the machine's thread, which may begin before the server and end after it.
+/// Runs in the machine's thread, which may begin before the server and end after it.
 void Site::publish(const Snapshot& snapshot) {
     const std::lock_guard lock(mutex_);
     if (!server_) { return; }

@@ -1,4 +1,4 @@
-// The parts of the server together: the machine's thread, the thread for programs, and the thread of HTTP.
+// The whole server: the machine's thread, the thread for programs, and the thread of HTTP.
 #pragma once
 
 #include <expected>
@@ -23,7 +23,7 @@ struct SiteOptions {
 
 class Site {
 public:
-    /// Serves until it is destroyed. Error: why not.
+    /// Serves until the object is destroyed. The error says why it cannot serve.
     static std::expected<std::unique_ptr<Site>, std::string> open(Session session, const SiteOptions& options);
     ~Site();
     Site(const Site&) = delete;
@@ -39,7 +39,7 @@ private:
     ReportFiles reports_;
     MachineLoop loop_;
     Api api_;
-    std::mutex mutex_;  // of server_, as the machine's thread sees it
+    std::mutex mutex_;  // protects server_, which the machine's thread uses
     std::unique_ptr<Server> server_;
 };
 

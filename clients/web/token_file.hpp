@@ -1,4 +1,4 @@
-// The tokens of a server, in a file that only its user can read. They outlive the process, so that pages go on.
+// The tokens of a server, in a file that only its user can read. They outlive the process, so that pages keep working.
 #pragma once
 
 #include <expected>
@@ -9,8 +9,8 @@
 
 namespace lockstep::web {
 
-/// Two lines, "operate TOKEN" and "view TOKEN". Makes the file with mode 0600 where it is missing. Error: others can
-/// read it, it is not in this form, or it cannot be made; with the remedy.
+/// Reads two lines, "operate TOKEN" and "view TOKEN". Makes the file with mode 0600 if it is missing. Fails if others
+/// can read it, it is not in this form, or it cannot be made; the error has the remedy.
 std::expected<Tokens, std::string> tokens_of_file(const std::filesystem::path& file);
 
 }  // namespace lockstep::web

@@ -45,7 +45,7 @@ void AxisController::look(const AxisInputs& inputs, AxisLoop& loop) {
     }
 }
 
-/// What the device has done before is not this process's doing.
+/// What the device did before belongs to no run of this process.
 void AxisController::find_device(const AxisInputs& inputs, AxisLoop& loop) {
     loop.out.device_changed = true;
     const FaultCode unproved = condition_.position.claim(inputs.device, inputs.device_failed);
@@ -54,8 +54,8 @@ void AxisController::find_device(const AxisInputs& inputs, AxisLoop& loop) {
     loop.notice({AxisNotice::Kind::PositionProved, FaultCode::None, 0});
 }
 
-/// It makes no pulses, as far as is known, from where it was last seen: its run is at an end there. Where the slide is,
-/// only the device can prove, if it comes back.
+/// The device is assumed to make no pulses after its last reading, so its run ends there. Only the device itself can
+/// prove where the slide is, if it comes back.
 void AxisController::lose_device(AxisLoop& loop) {
     DeviceStatus end = device_.status();
     end.finished = end.stopped_by_host = true;
@@ -80,7 +80,8 @@ void AxisController::observe_run(AxisLoop& loop) {
     if (device_.status().finished) { end_run(loop); }
 }
 
-/// The three moving states follow the speed of the pulses themselves; an axis that others move without stands by.
+/// The three moving states follow the speed of the pulses. In a coordinated run an axis is in Standby while it does not
+/// move.
 void AxisController::follow_speed() {
     const AxisEvent event = trend_.take(device_.status().velocity);
     if (phase() == AxisPhase::Initialize || device_.status().finished) { return; }
@@ -113,7 +114,7 @@ void AxisController::end_run(AxisLoop& loop) {
     if (!is_own) { following_.end(loop); }
 }
 
-/// Also in a Fault that leaves the position known: the slide may be pushed before the reset.
+/// Also checks in a Fault that leaves the position known, because the slide may be pushed before the reset.
 void AxisController::check_encoder(AxisLoop& loop) {
     const std::int64_t error = condition_.position.following_error(device_.status());
     if (std::abs(error) <= kMaxFollowingError || !homed()) { return; }
@@ -140,7 +141,7 @@ void AxisController::receive(const AxisInputs& inputs, AxisLoop& loop) {
     }
 }
 
-/// What the last owner ordered is over.
+/// A new owner makes the orders of the last owner void.
 void AxisController::receive(const MachineState& state, AxisLoop& loop) {
     const OwnerLink::Sender sender = owner_.take(state, loop.slot, at_rest());
     if (sender == OwnerLink::Sender::Other) { return; }
@@ -163,7 +164,7 @@ void AxisController::carry_out(const AxisCommand& order, AxisLoop& loop) {
     }
 }
 
-/// Also at rest: whatever is on its way to this axis must not move it before a person has reset it.
+/// Also acts at rest, so that messages still on their way do not move this axis before a person has reset it.
 void AxisController::stop_now(AxisLoop& loop) {
     if (!is_resting()) {
         loop.out.orders.emplace_back(device::StopNow{});
@@ -181,7 +182,8 @@ void AxisController::reset(const AxisCommand& order, AxisLoop& loop) {
     condition_.orders.end(FaultCode::None);
 }
 
-/// Without its owner nobody can stop an axis in a move of its own: it stops itself. The fault halts the move.
+/// Without its owner no process can stop an axis in a move of its own, so the axis stops itself. The fault halts the
+/// move.
 void AxisController::move_on(AxisLoop& loop) {
     following_.check(loop);
     if (!own_.is_running()) { return; }
@@ -206,7 +208,7 @@ AxisState AxisController::state(const AxisLoop& loop, Ticks clock_error) const {
             .held = follower.held(),
             .veto = follower.veto(),
             .ran = following_.ran(),
-            .at_rest = at_rest(),  // it may run out what another process began
+            .at_rest = at_rest(),  // the device may still finish a run that another process began
             .homed = homed(),
             .phase = phase(),
             .fault = static_cast<std::uint16_t>(condition_.phases.fault()),

@@ -1,6 +1,6 @@
-// One axis, as a state machine fed with messages and time: `step` is all there is to it.
+// One axis, as a state machine with messages and time as inputs. Everything happens in `step`.
 //
-// Each loop it is given the time, one look at its device, and every message that came. It returns orders for the
+// In each loop it gets the time, one reading of its device, and every received message. It returns orders for the
 // device, its state once a slot, and a record of what was run. It does no I/O and reads no clock.
 #pragma once
 
@@ -17,8 +17,8 @@ namespace lockstep {
 
 class AxisController {
 public:
-    /// `identity` is new at every start of the process. `begin_steps`: the methods of the axis's own moves. `kept`:
-    /// what the process before it has left of the position.
+    /// `identity` is new at every start of the process. `begin_steps`: the methods of the axis's own moves. `kept`: the
+    /// position that the previous process kept.
     AxisController(std::size_t axis, const MachineConfig& machine, Identity identity, std::uint64_t config_hash,
                    BeginSteps begin_steps, KeptOrNot kept);
 
@@ -34,7 +34,7 @@ public:
     std::int64_t zero_count() const { return condition_.position.zero_count(); }
 
 private:
-    // The device, since the last loop.
+    // What the device did since the last loop.
     void look(const AxisInputs& inputs, AxisLoop& loop);
     void find_device(const AxisInputs& inputs, AxisLoop& loop);
     void lose_device(AxisLoop& loop);
@@ -53,7 +53,7 @@ private:
     void move_on(AxisLoop& loop);
     void publish(const AxisInputs& inputs, AxisLoop& loop);
     AxisState state(const AxisLoop& loop, Ticks clock_error) const;
-    /// It runs neither its own nor the owner's frames.
+    /// The axis runs neither its own nor the owner's frames.
     bool is_resting() const { return !following_.is_open() && !own_.is_running(); }
 
     std::size_t axis_;

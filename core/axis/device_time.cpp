@@ -30,7 +30,7 @@ bool DeviceTime::look(Tick own, const Device& device, bool in_use) {
     return true;
 }
 
-/// Takes a look at the device's clock.
+/// Takes a look at the device's clock. Returns false if this look leaves a doubt.
 bool DeviceTime::certain(Tick own, Tick shown) {
     if (std::exchange(changed_, false)) { shown_ = ClockEstimator(tick_ns_); }
     const auto finding = shown_.offer({own, shown, shown, own});
@@ -42,8 +42,9 @@ bool DeviceTime::certain(Tick own, Tick shown) {
     return true;
 }
 
-/// What this process's clock says of the time since the last look, beyond what the device's says. If the device stood
-/// still meanwhile, that says nothing of machine time; the exchanges with the coordinator do.
+/// This process's clock was set by the time that it counted since the last look beyond what the device's clock counted.
+/// If the device's clock stood still meanwhile, this says nothing about machine time, and the exchanges with the
+/// coordinator have to correct it.
 void DeviceTime::own_was_set(Tick own, Tick shown) {
     const auto by_device = static_cast<double>((shown - seen_).value);
     const Ticks passed{std::llround(by_device / (1 + shown_.rate()))};
@@ -67,7 +68,8 @@ Ticks DeviceTime::error() const {
     return most;
 }
 
-/// Relative to the last look: the two clocks' rates differ by parts in ten thousand, a status is a loop old at most.
+/// Converts relative to the last look. This is accurate, because the two rates differ by parts in ten thousand and a
+/// status is at most one loop old.
 Tick DeviceTime::to_machine(Tick device) const {
     if (source_ != TimeSource::Network) { return device; }
     return machine_.at(own_ + (device - shown_.at(own_).other));
@@ -128,7 +130,7 @@ FramePace::Stretch DeviceTime::stretch_of(const Pieces& pieces, Tick machine_end
     return {total_ticks(pieces), pieces.size(), to_device(machine_end), clocks()};
 }
 
-/// A body's error in the middle is that of its ends and what its rate bends it.
+/// The error in the middle of a body is the error of its ends plus the bow caused by its changing rate.
 void DeviceTime::stretch(device::LoadFrame& frame, Tick machine_end, Loaded& loaded) {
     const FramePace::Stretch asked = stretch_of(frame.track.body, machine_end);
     const Retiming body = pace_.body(asked);

@@ -1,15 +1,15 @@
-// Between the controller, which thinks in machine time, and the device, which counts ticks of its own clock.
+// Converts between the controller, which uses machine time, and the device, which counts ticks of its own clock.
 //
-// Where machine time is shared, or kept by PTP, the two are one number, and everything passes through unchanged. Over
-// the network there are three clocks: the coordinator's (machine time), this process's, and the device's. The first is
-// estimated from exchanges of messages, the last from looks at the device; their rates and offsets may change at any
-// time, so each frame's end is mapped again when the frame is loaded, and its start is where the frame before ended.
-// What has changed between two loads is made up for within the axis's limits (core/axis/device/frame_pace.hpp); what is
-// left counts as error until then.
+// If machine time is shared, or kept by PTP, both are the same number and everything passes unchanged. Over the network
+// there are three clocks: the coordinator's (machine time), this process's, and the device's. The coordinator's clock
+// is estimated from message exchanges, the device's from looks at the device. Their rates and offsets may change at any
+// time. So each frame's end is mapped when the frame is loaded, and its start is where the frame before ended. A change
+// of the estimates between two loads is corrected within the axis's limits (core/axis/device/frame_pace.hpp). The part
+// not corrected yet counts as error.
 //
-// An axis's own moves are not coordinated: they keep the device's ticks, so that each step is made at its method's own
-// tick; only their start is mapped. What is recorded of motion (steps, tracks) is in the device's time, with what it is
-// in machine time beside it.
+// An axis's own moves are not coordinated. They keep the device's ticks, so that each step is made at exactly the tick
+// of its method. Only their start is mapped. Steps and tracks are recorded in the device's time, together with their
+// machine time.
 #pragma once
 
 #include <deque>
@@ -27,46 +27,47 @@ public:
     /// `axis`: its place in the configuration.
     DeviceTime(std::size_t axis, const MachineConfig& machine);
 
-    /// An exchange with the coordinator, by this process's clock.
+    /// Takes an exchange with the coordinator, by this process's clock.
     void take(const ClockExchange& exchange) { machine_.take(exchange); }
 
     struct Device {
-        Tick now;                   // what it shows
-        bool shares_clock = false;  // it counts the ticks of this process's clock, though it may show them late
+        Tick now;                   // the tick that it shows
+        bool shares_clock = false;  // it counts the ticks of this process's clock, but may show them late
     };
-    /// Each loop, when this process's clock reads `own`. False: the machine time is not known yet; or, for one loop, it
-    /// is in doubt: this process's clock does not go by the device's, which nobody can set. If it was set, the device's
-    /// tells by how much. A device's clock that stands still proves nothing: if it does so for long, the device is
-    /// given up (core/axis/device/device_watch.hpp), and until then its axis is not silent. `in_use`: the axis moves,
-    /// its time is slewed and not set.
+    /// Call it in each loop. `own`: the reading of this process's clock. `in_use`: the axis moves, so machine time is
+    /// slewed and not set. Returns false while machine time is not known yet. Also returns false for one loop if this
+    /// process's clock disagrees with the device's. No one can set the device's clock, so it shows by how much this
+    /// process's clock was set. A device's clock that stands still proves nothing. If it does so for long, the device
+    /// is given up (core/axis/device/device_watch.hpp). Until then its axis still publishes.
     bool look(Tick own, const Device& device, bool in_use);
 
-    /// What is looked at from the next look on is another device's clock.
+    /// From the next look on the clock is that of another device.
     void change_device() { changed_ = true; }
 
-    /// At the last look, as all below.
+    /// Machine time at the last look. All members below refer to that look, too.
     Tick now() const { return now_; }
-    /// How far `now` may be off, and the bodies loaded into the device and not yet made. A tail is for when these fail,
-    /// and may be long: how far its end is off is said with its track, and no reason to stop.
+    /// Bound on the error of `now` and of the bodies that the device holds and has not finished. Tails do not count. A
+    /// tail is run only if a next body is missing, and may be long. The error of its end is recorded with its track,
+    /// and is no reason to stop.
     Ticks error() const;
-    /// The device's clock in machine time, as the exchanges have it: for the record. Motion goes by `now`, which is
-    /// slewed towards it.
+    /// Converts the device's clock to machine time as the exchanges determine it, for the record. Motion uses `now`,
+    /// which is slewed towards that time.
     ClockView device_clock() const;
 
     DeviceStatus in_machine_time(DeviceStatus status) const;
-    /// In the order in which they are to be given. A frame that does not fit the device's segments is left as it is,
-    /// and refused by the device.
+    /// Call it for all orders in the order in which the device gets them. A frame that does not fit the device's
+    /// segments stays unchanged, and the device refuses it.
     DeviceOrder in_device_time(DeviceOrder order);
-    /// As the device was given it: of the run in progress, before the next is begun. Tracks come in the order in which
-    /// they were run; the frames before it are forgotten.
+    /// Returns the track as the device was given it. Call it for tracks of the run in progress, before the next run
+    /// begins, in the order in which they were run. Frames before the track's frame are forgotten.
     ExecutedTrack in_device_time(ExecutedTrack track);
 
 private:
     struct Loaded {
-        device::LoadFrame frame;  // as the device has it
+        device::LoadFrame frame;  // as the device was given it
         Tick body_end;
         Tick end;
-        Ticks error;  // of its body, from end to end
+        Ticks error;  // of its whole body
         Ticks tail_error;
     };
 
@@ -85,19 +86,19 @@ private:
     TimeSource source_;
     Ticks ptp_error_;
     MachineTime machine_;
-    ClockEstimator shown_;      // by the device
-    bool changed_ = false;      // it is another's
-    Tick own_;                  // this process's clock, at the last look without doubt
-    Tick seen_;                 // the device's, then
-    bool stood_still_ = false;  // the device's, at a look since
+    ClockEstimator shown_;      // the device's clock
+    bool changed_ = false;      // the next look is at another device
+    Tick own_;                  // this process's clock at the last look without doubt
+    Tick seen_;                 // the device's clock at that look
+    bool stood_still_ = false;  // the device's clock stood still at a look since
     Tick now_;
     Tick device_;
 
     bool own_run_ = false;
-    std::optional<Tick> machine_end_;  // of the frame loaded last in this run
+    std::optional<Tick> machine_end_;  // end of the frame loaded last in this run
     FramePace pace_;
-    Ticks end_error_;            // of its end as the other
-    std::deque<Loaded> loaded_;  // and not yet recorded
+    Ticks end_error_;            // error of that end
+    std::deque<Loaded> loaded_;  // frames loaded and not yet recorded
 };
 
 }  // namespace lockstep

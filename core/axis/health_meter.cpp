@@ -30,7 +30,7 @@ HealthMeter::HealthMeter(std::size_t axis, Identity identity, std::int64_t tick_
 void HealthMeter::look(Tick now, const DeviceStatus& device) {
     now_ = now;
     free_segments_.add({device.free_segments});
-    if (!device.moving) { last_step_.reset(); }  // a standstill is no interval
+    if (!device.moving) { last_step_.reset(); }  // a standstill is no interval between steps
     if (device.finished && device.run == run_) { newest_setpoint_.reset(); }
 }
 
@@ -43,7 +43,7 @@ void HealthMeter::take(const AxisOutputs& out) {
     for (const ExecutedTrack& track : out.tracks) { tracks_.append() = track; }
 }
 
-/// A frame is loaded in the loop in which it came. Those of an axis's own moves came from nowhere.
+/// A frame is loaded in the loop in which it arrived. Frames of an axis's own moves do not count.
 void HealthMeter::take_order(const DeviceOrder& order) {
     if (const auto* run = std::get_if<device::BeginRun>(&order)) {
         run_ = run->run;
@@ -64,7 +64,7 @@ void HealthMeter::step(StepEdge step) {
 void HealthMeter::end_loop(std::uint32_t free_captures) {
     free_captures_.add({free_captures});
     for (const ExecutedTrack& track : tracks_) {
-        const bool is_own = track.epoch == 0;  // it keeps the device's ticks, whatever machine time does
+        const bool is_own = track.epoch == 0;  // an own move keeps the device's ticks and ignores machine time
         lateness_of_.ran(track, [&](Ticks late) {
             if (!is_own) { lateness_.add(late); }
         });

@@ -1,4 +1,4 @@
-// Measures how well an axis is doing: fed each loop with what happened, says it ten times a second. Reads no clock.
+// Measures the health of an axis from what happens in each loop, and reports it ten times a second. Reads no clock.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace lockstep {
 
-/// Extremes of the last ten periods, which are a second.
+/// Extremes of the last ten periods, which last a second together.
 class RecentExtremes {
 public:
     void add(Ticks value) { periods_[newest_].add(value); }
@@ -26,18 +26,19 @@ class HealthMeter {
 public:
     HealthMeter(std::size_t axis, Identity identity, std::int64_t tick_ns);
 
-    // Each loop in this order. Times are machine time.
+    // Called in each loop in this order. Times are machine time.
 
     void look(Tick now, const DeviceStatus& device);
-    /// What the controller decided: before its orders and tracks are put into the device's time.
+    /// Takes what the controller decided, before its orders and tracks are converted to the device's time.
     void take(const AxisOutputs& out);
     void step(StepEdge step);
-    /// After the loop's steps; so much room the capture ring had before they were taken off.
+    /// Call it after the loop's steps. `free_captures`: room in the capture ring before these steps were read.
     void end_loop(std::uint32_t free_captures);
-    /// How long it was from when the loop was to begin until it was done.
+    /// Takes the time from when the loop was due until its end.
     void loop_took(Ticks time);
 
-    /// Once a tenth of a second. Of `refused`, what the meter has seen itself need not be told: frames and commands.
+    /// Returns a report each tenth of a second. `refused` need not contain frames and commands, because the meter
+    /// counts these.
     std::optional<AxisHealth> report(Ticks clock_error, RefusalCounts refused);
 
 private:
@@ -56,9 +57,9 @@ private:
     StepLateness lateness_of_;
     ReusedVector<ExecutedTrack> tracks_;  // of this loop
     std::optional<Tick> last_step_;
-    std::uint64_t run_ = 0;  // begun last
+    std::uint64_t run_ = 0;  // the last run begun
     bool own_run_ = false;
-    std::optional<Tick> newest_setpoint_;  // when it came; nothing where no other is to come
+    std::optional<Tick> newest_setpoint_;  // when the newest frame arrived; empty if no other is awaited
 
     RecentExtremes lateness_;
     RecentExtremes interval_;

@@ -1,4 +1,4 @@
-// How late each step was: the device's capture against the tick at which the frame that was run has it.
+// Measures how late each step was: the tick captured by the device minus the planned tick of the frame that was run.
 #pragma once
 
 #include <cstddef>
@@ -11,18 +11,19 @@ namespace lockstep {
 
 class StepLateness {
 public:
-    /// No step is taken to be later, or earlier: one that seems so is another's.
+    /// The greatest lateness or earliness of a step. A captured step further off belongs to another planned step.
     static constexpr Ticks kMost{100'000};
-    /// Steps of tracks to come. Beyond that the oldest are forgotten, and their track is not compared.
+    /// How many captured steps may wait for their track. Beyond that the oldest are dropped, and their track is not
+    /// compared.
     static constexpr std::size_t kMaxWaiting = std::size_t{1} << 16;
 
     StepLateness() : waiting_(kMaxWaiting) {}
 
-    /// Every step, in order, in machine time.
+    /// Takes every captured step, in order, in machine time.
     void made(StepEdge step);
 
-    /// Every body and tail that was run, in order, as commanded, once its steps are made. Calls on_step(Ticks late) for
-    /// each step of it, up to the first that is missing.
+    /// Takes every body and tail that was run, in order, as commanded, after its steps were made. Calls on_step(Ticks
+    /// late) for each of its steps, up to the first one that is missing.
     template <typename OnStep>
     void ran(const ExecutedTrack& track, OnStep&& on_step);
 

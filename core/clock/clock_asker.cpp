@@ -16,7 +16,7 @@ std::optional<ClockRequest> ClockAsker::ask(Tick own) {
 std::optional<ClockExchange> ClockAsker::receive(const ClockReply& reply, Tick own) {
     const auto asked = std::ranges::find(open_, reply.request);
     if (asked == open_.end()) { return std::nullopt; }
-    open_.erase(asked);  // a copy that comes later would only seem slower
+    open_.erase(asked);  // a later copy of the reply would only prove less
     return ClockExchange{reply.request.sent, reply.received, reply.answered, own};
 }
 

@@ -1,4 +1,4 @@
-// An axis's side of an exchange: when to ask, and which reply answers what.
+// An axis's side of an exchange: decides when to ask, and matches replies to requests.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,8 @@ namespace lockstep {
 
 class ClockAsker {
 public:
-    /// Between two requests: a few in each stretch of time of which the estimator keeps the best.
+    /// The time between two requests. Several fall into each stretch of time of which the estimator keeps the best
+    /// exchange.
     static constexpr double kPeriod_s = 0.05;
 
     ClockAsker(std::uint32_t axis, Identity identity, std::int64_t tick_ns)
@@ -21,11 +22,11 @@ public:
     /// The request to send when the own clock reads `own`, if one is due.
     std::optional<ClockRequest> ask(Tick own);
 
-    /// The exchange that this reply ends. None: it answers no open request of this axis.
+    /// Returns the exchange that this reply completes, or nullopt if it answers no open request of this axis.
     std::optional<ClockExchange> receive(const ClockReply& reply, Tick own);
 
 private:
-    static constexpr std::size_t kOpen = 16;  // older requests will not be answered
+    static constexpr std::size_t kOpen = 16;  // the asker gives up older requests
 
     std::uint32_t axis_;
     Identity identity_;

@@ -9,7 +9,7 @@ namespace {
 constexpr double kWindow_s = 8;
 constexpr double kStretch_s = 0.25;
 constexpr double kStampRounding = 1;  // ticks: a clock shows the last tick that has begun
-constexpr double kWander = 1e-6;      // a quartz's rate within the window, from warmth
+constexpr double kWander = 1e-6;      // change of a quartz's rate within the window, by temperature
 
 double ticks_in(double seconds, std::int64_t tick_ns) { return seconds * 1e9 / static_cast<double>(tick_ns); }
 
@@ -74,13 +74,13 @@ bool ClockEstimator::agree(const Sample& one, const Sample& other) const {
     return std::abs(one.ahead - other.ahead) <= one.half + other.half + drift;
 }
 
-/// What an older one proves has widened since: worth it from a tick on.
+/// What an older sample proves has widened since. A newer one must prove at least a tick more.
 bool ClockEstimator::proves_more(const Sample& newer, const Sample& older) const {
     const double widened = rate_error_ * (newer.own - older.own);
     return newer.half < older.half || newer.half + kStampRounding < older.half + widened;
 }
 
-/// Of its stretch of time the one that now proves most; those that have left the window go.
+/// Keeps, of each stretch of time, the sample that now proves most. Discards samples that have left the window.
 void ClockEstimator::keep(const Sample& sample) {
     const auto stretch_of = [this](const Sample& s) { return std::floor(s.own / stretch_); };
     const bool same_stretch = !kept_.empty() && stretch_of(kept_.back()) == stretch_of(sample);
@@ -93,7 +93,7 @@ void ClockEstimator::keep(const Sample& sample) {
     fit();
 }
 
-/// The rate that the exchanges suggest, within what they prove.
+/// Fits the rate to the exchanges, within the bounds that they prove.
 void ClockEstimator::fit() {
     const Span proven = proven_rates();
     rate_ = std::clamp(slope(), proven.low, proven.high);
@@ -102,7 +102,7 @@ void ClockEstimator::fit() {
     then_ = proven_at(newest_);
 }
 
-/// From any two exchanges: what was least ahead then and most ahead now, and the other way round.
+/// Any two exchanges bound the rate: by the least lead then and the greatest lead now, and the other way round.
 ClockEstimator::Span ClockEstimator::proven_rates() const {
     Span rates{-kMaxRate, kMaxRate};
     for (std::size_t i = 0; i < kept_.size(); ++i) {
@@ -118,7 +118,7 @@ ClockEstimator::Span ClockEstimator::proven_rates() const {
     return {std::min(rates.low, rates.high), std::max(rates.low, rates.high)};
 }
 
-/// Linear regression, each exchange weighted by how much it proves.
+/// Linear regression. Each exchange is weighted by how narrow its bounds are.
 double ClockEstimator::slope() const {
     double weights = 0;
     double own = 0;
@@ -141,7 +141,7 @@ double ClockEstimator::slope() const {
     return spread > 0 ? together / spread : 0;
 }
 
-/// What all that is kept proves together. After the newest, the span only shifts and widens.
+/// What all kept samples prove together. After the newest sample the span only shifts and widens.
 ClockEstimator::Span ClockEstimator::ahead_at(double own) const {
     if (own < newest_) { return proven_at(own); }
     const double since = own - newest_;

@@ -1,7 +1,7 @@
-// Whether the coordinator's clock began again: its host was started again.
+// Detects that the coordinator's clock began again because its host was restarted.
 //
-// Machine time never goes backwards in a process, and an axis that holds on to the old time hears nobody and is heard
-// by nobody. So its process ends, and the one that is started after it takes the new time as it is.
+// Machine time never goes backwards in a process. An axis that keeps the old time cannot exchange states with others.
+// So its process ends, and the next process starts with the new time.
 #pragma once
 
 #include <optional>
@@ -15,8 +15,8 @@ public:
     explicit ClockReset(std::int64_t tick_ns)
         : beyond_slewing_{10'000'000'000 / tick_ns}, patience_{5'000'000'000 / tick_ns} {}
 
-    /// Each loop, by this process's clock. `error`: how far off its machine time may be. True: this process must end
-    /// and be started again. Only at rest, and only while a coordinator is received.
+    /// Call it in each loop. `own`: this process's clock. `error`: bound on the error of its machine time. Returns true
+    /// if this process must end and be started again: only at rest, and only while it receives a coordinator.
     bool must_restart(Tick own, bool receives_coordinator, bool at_rest, Ticks error) {
         if (receives_coordinator) { received_ = own; }
         const bool is_there = received_ && own - *received_ <= patience_;
@@ -32,7 +32,7 @@ private:
     Ticks beyond_slewing_;
     Ticks patience_;
     std::optional<Tick> received_;
-    std::optional<Tick> since_;  // nothing spoke against it
+    std::optional<Tick> since_;  // since when all conditions have held
 };
 
 }  // namespace lockstep

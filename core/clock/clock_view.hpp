@@ -1,4 +1,4 @@
-// One clock's times by another, as both were last looked at; and a stretch of time that both have measured.
+// Converts times of one clock to another: by their last common reading, or within a stretch of time that both measured.
 #pragma once
 
 #include <cmath>
@@ -7,13 +7,14 @@
 
 namespace lockstep {
 
-/// What another clock reads, near the instant at which the own one reads `own`. One clock by itself: all else 0.
+/// What another clock reads near the instant at which the own clock reads `own`. If there is only one clock, all else
+/// is 0.
 struct ClockView {
     Tick own;
-    Tick other;             // then
+    Tick other;             // its reading at `own`
     double rate = 0;        // the other's ticks in one own tick, minus 1
-    Ticks error;            // `other` is at most so far off...
-    double rate_error = 0;  // ...and by so much more for each tick before or after
+    Ticks error;            // bound on the error of `other`
+    double rate_error = 0;  // growth of that bound for each tick before or after `own`
 
     Tick at(Tick tick) const {
         const Ticks since = tick - own;
@@ -25,14 +26,14 @@ struct ClockView {
     }
 };
 
-/// The same stretch of time on two clocks; between its ends their readings are in proportion.
+/// The same stretch of time on two clocks. Between its ends their readings are proportional.
 struct ClockStretch {
     Tick from;
     Ticks ticks;  // above 0
     Tick other_from;
     Ticks other_ticks;
 
-    /// Rounded down; beyond the ends as well.
+    /// Rounds down. Also extrapolates beyond the ends.
     Tick at(Tick tick) const {
         if (ticks == other_ticks) { return other_from + (tick - from); }
         const Int128 share = Int128{(tick - from).value} * other_ticks.value;

@@ -1,5 +1,5 @@
-// Machine time as one process has it: its estimate of the coordinator's clock, made fit to be used. It never goes
-// backwards, and while the axis moves it is not set but slewed: it gains or loses kMaxSlew at most until it agrees.
+// Machine time of one process, made from its estimate of the coordinator's clock. It never goes backwards. While the
+// axis moves, it is slewed instead of set: it gains or loses at most kMaxSlew until it agrees with the estimate.
 #pragma once
 
 #include "core/clock/clock_estimator.hpp"
@@ -12,24 +12,24 @@ public:
 
     explicit MachineTime(std::int64_t tick_ns) : coordinator_(tick_ns) {}
 
-    /// An exchange with the coordinator.
+    /// Takes an exchange with the coordinator.
     void take(const ClockExchange& exchange) { coordinator_.take(exchange); }
-    /// The own clock was set forward by so much, which is known within `error`.
+    /// The own clock was set forward by `by`, which is known within `error`.
     void own_was_set(Ticks by, Ticks error) {
         coordinator_.own_was_set(by, error);
         own_ += by;
     }
-    /// Whether the coordinator has answered yet; before that nothing else may be asked.
+    /// Whether the coordinator has answered yet. Before that no other time may be read.
     bool known() const { return coordinator_.known(); }
 
-    /// The machine time when the own clock reads `own`. `in_use`: it is slewed.
+    /// Advances to the machine time at which the own clock reads `own`. `in_use`: machine time is slewed, not set.
     Tick advance(Tick own, bool in_use);
 
-    /// The same clock read ahead of time, or a little back, and the own clock's reading at a machine time.
+    /// Reads machine time a little ahead or back without advancing it, and converts a machine time to the own clock.
     Tick at(Tick own) const;
     Tick own_at(Tick machine) const;
 
-    /// How far `at` may be from the coordinator's clock: what is not slewed yet, and the estimate's bound.
+    /// Bound on the error of `at` against the coordinator's clock: the part not slewed yet plus the estimate's bound.
     Ticks error(Tick own) const;
 
     const ClockEstimator& estimate() const { return coordinator_; }
@@ -40,8 +40,8 @@ private:
     ClockEstimator coordinator_;
     bool begun_ = false;
     Tick own_;           // at the last call
-    Tick machine_;       // what was shown then
-    double beyond_ = 0;  // and the part of a tick, 0 ... 1
+    Tick machine_;       // what was shown at own_
+    double beyond_ = 0;  // fraction of a tick beyond machine_, 0 ... 1
 };
 
 }  // namespace lockstep

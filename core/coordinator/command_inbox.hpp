@@ -1,4 +1,4 @@
-// Clients' commands: each is answered once, and its answer is repeated to a client that repeats the command.
+// Commands of clients. Each is carried out once. If a client repeats a command, it gets the same answer again.
 #pragma once
 
 #include <span>
@@ -20,7 +20,8 @@ public:
         received_.clear();
     }
 
-    /// The newest answer to the command's client, where that is for this command or a later one. Null: it is new.
+    /// Returns the newest answer to the command's client if it is for this command or a later one, or null if the
+    /// command is new.
     const Reply* answer_to(const Command& command) const {
         const Reply* const last = replies_.find(command.client);
         return last != nullptr && command.sequence <= last->sequence ? last : nullptr;

@@ -38,7 +38,7 @@ CoordinatorOutputs& Coordinator::step(const CoordinatorInputs& inputs) {
     return out_;
 }
 
-/// The last step was longer ago than a jog's hold allows for.
+/// Whether the last step was longer ago than half of a jog's hold.
 bool Coordinator::is_late(Tick now) {
     const std::optional<Tick> last = std::exchange(stepped_, now);
     return last && now - *last > Ticks{machine_.jog_hold_ticks().value / 2};
@@ -51,14 +51,14 @@ void Coordinator::receive(const CoordinatorInputs& inputs, CoordinatorLoop& loop
     for (const ProgramPart& part : inputs.parts) { receive(part, loop); }
 }
 
-/// A standby keeps what it receives, and answers nothing.
+/// A standby keeps the parts that it receives, but does not answer.
 void Coordinator::receive(const ProgramPart& part, CoordinatorLoop& loop) {
     const ProgramStore::Taken taken = programs_.take(part, loop.slot);
     if (taken.is_new) { loop.out.taken.push_back({part.program, part.index}); }
     if (ownership_.owns()) { loop.out.replies.push_back(taken.reply); }
 }
 
-/// Another process of an axis knows nothing of what this one has asked of the axis: no job goes on with it.
+/// A new process of an axis does not know the orders to the process before it. So no job continues with it.
 void Coordinator::receive(const AxisState& state, CoordinatorLoop& loop) {
     const AxisRoster::Arrival arrival = axes_.arrival_of(state, loop.slot);
     if (arrival == AxisRoster::Arrival::Ignored) { return; }
@@ -83,8 +83,7 @@ void Coordinator::change_owner(CoordinatorLoop& loop) {
     }
 }
 
-/// Overrides remain, and the writer. The job that the last owner had begun is gone on with, or ended, wherever the axes
-/// came to rest.
+/// Keeps the overrides and the writer. The job of the last owner is continued or ended where the axes came to rest.
 void Coordinator::take_over(CoordinatorLoop& loop) {
     loop.notice({CoordinatorNotice::Kind::Claimed, FaultCode::None, loop.term.number});
     orders_.restart();
@@ -103,7 +102,7 @@ void Coordinator::stand_down(CoordinatorLoop& loop) {
     loop.enter(MachinePhase::Standby);
 }
 
-/// It publishes nothing that moves an axis.
+/// A standby publishes nothing that moves an axis.
 void Coordinator::stand_by(CoordinatorLoop& loop) {
     inbox_.take_each([&](const Command& command) { refuse_as_standby(command, loop.slot); });
     axes_.forget_missing(loop.slot);
@@ -111,8 +110,8 @@ void Coordinator::stand_by(CoordinatorLoop& loop) {
     if (gate_.enter(loop.slot)) { report(loop); }
 }
 
-/// The command was for another owner. If it is repeated after a takeover nobody knows whether it was begun, so it is
-/// refused then; an emergency stop may be done twice, and a lease be taken.
+/// The command was for another owner. If it is repeated after a takeover, no process knows whether it was begun, so it
+/// is refused then. An emergency stop and a command about the lease may be carried out twice.
 void Coordinator::refuse_as_standby(const Command& command, Slot now) {
     if (is_interrupt(command.kind)) { jobs_.note_interrupt(now); }
     const bool may_repeat = command.kind == CommandKind::EmergencyStop || is_about_lease(command.kind);
@@ -179,7 +178,8 @@ void Coordinator::answer(const Command& command, CoordinatorLoop& loop) {
     inbox_.note(loop.out.replies.back());
 }
 
-/// Each time it comes: a client repeats it to keep the lease. A jog does not outlast the lease that it began under.
+/// Answers every repetition, because a client repeats the command to keep the lease. A jog does not outlast the lease
+/// under which it began.
 bool Coordinator::answer_about_lease(const Command& command, CoordinatorLoop& loop) {
     if (!is_about_lease(command.kind)) { return false; }
     CommandResult result;
@@ -235,7 +235,7 @@ void Coordinator::advance(CoordinatorLoop& loop) {
     if (condition_.phase() == MachinePhase::Waiting) { leave_waiting(loop); }
 }
 
-/// When every axis is present with its device, follows this coordinator, has done its orders and rests.
+/// Leaves Waiting when every axis is present with its device, follows this coordinator, has done its orders and rests.
 void Coordinator::leave_waiting(CoordinatorLoop& loop) {
     const bool all_here = !axes_.missing(loop.slot) && !axes_.without_device();
     const bool all_follow = ownership_.acknowledged(axes_.views());
@@ -244,7 +244,7 @@ void Coordinator::leave_waiting(CoordinatorLoop& loop) {
     if (!jobs_.exists()) { loop.enter(MachinePhase::Idle); }
 }
 
-/// The memory of the last state's lease and rests is used again.
+/// Reuses the memory of the last state's lease and rests.
 void Coordinator::report(CoordinatorLoop& loop) const {
     MachineState& state = loop.out.state.renew();
     state = {.term = loop.term,

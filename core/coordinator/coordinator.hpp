@@ -1,5 +1,5 @@
-// The coordinator as a state machine fed with messages and time: plans jobs, runs their epochs, homes axes, answers
-// clients. `step` is all there is to it; it does no I/O and reads no clock.
+// The coordinator, as a state machine with messages and time as inputs. It plans jobs, runs their epochs, homes axes
+// and answers clients. Everything happens in `step`. It does no I/O and reads no clock.
 #pragma once
 
 #include <optional>
@@ -14,32 +14,32 @@ namespace lockstep {
 
 class Coordinator {
 public:
-    /// `identity` is the machine time of its start in ticks, and so new at every start. It receives before it claims
-    /// the machine; where another owns it, it stands by if it is told what to do on a takeover. `begin_steps`: the
-    /// methods of the axes' own moves.
+    /// `identity`: the machine time of its start in ticks, new at every start. The coordinator listens before it claims
+    /// the machine. While another one owns the machine, it stands by if `standby` is given. `begin_steps`: the methods
+    /// of the axes' own moves.
     Coordinator(const MachineConfig& machine, Identity identity, std::uint64_t config_hash, BeginSteps begin_steps,
                 std::optional<OnTakeover> standby = std::nullopt, MakeRows make_rows = memory_rows);
 
-    /// A program that has arrived whole; Command::program names it. Only the newest few are kept.
+    /// Takes a whole program. Command::program names it. Only the newest few are kept.
     void accept_program(std::uint64_t id, const Program& program) { programs_.accept(id, program); }
-    /// A command that names it is refused from now on; its job goes on.
+    /// From now on a command that names the program is refused. Its job continues.
     void forget_program(std::uint64_t id) { programs_.forget(id); }
 
     /// Valid until the next step. The caller may complete the state before it publishes it.
     CoordinatorOutputs& step(const CoordinatorInputs& inputs);
 
     MachinePhase phase() const { return condition_.phase(); }
-    /// In motion, held, or inherited by a takeover.
+    /// A job is in motion, held, or inherited by a takeover.
     bool has_job() const { return jobs_.has_any(); }
     bool owns_machine() const { return ownership_.owns(); }
-    /// Whether this writer may send programs and edits now. A standby refuses nothing: its owner does.
+    /// Whether this writer may send programs and edits now. A standby refuses nothing, because the owner does.
     CommandResult check_writer(std::uint64_t writer, Tick now) const { return lease_.check(writer, now); }
     const std::optional<HeldLease>& lease() const { return lease_.held(); }
-    /// Its own where it owns the machine; else the highest that is known.
+    /// Its own term if it owns the machine, otherwise the highest that is known.
     Term term() const { return ownership_.term(); }
 
 private:
-    // Whoever owns the machine.
+    // As owner and as standby.
     bool is_late(Tick now);
     void receive(const CoordinatorInputs& inputs, CoordinatorLoop& loop);
     void receive(const AxisState& state, CoordinatorLoop& loop);
@@ -50,7 +50,7 @@ private:
     void stand_by(CoordinatorLoop& loop);
     void refuse_as_standby(const Command& command, Slot now);
 
-    // The owner.
+    // As owner.
     void own(CoordinatorLoop& loop);
     void watch_axis(std::size_t axis, CoordinatorLoop& loop);
     void lose_axis(std::size_t axis, CoordinatorLoop& loop);
@@ -66,7 +66,7 @@ private:
 
     MachineConfig machine_;
     std::uint64_t config_hash_;
-    bool stands_by_;  // where another coordinator owns the machine; else it quits
+    bool stands_by_;  // while another coordinator owns the machine; otherwise it quits
     Ticks slot_;
     Ownership ownership_;
     AxisRoster axes_;

@@ -16,8 +16,8 @@ void Ownership::receive(const MachineState& other, Slot now) {
         return;
     }
     known_.receive(other.term, other.stamp);
-    // By network time the machine's time is each coordinator's own clock, so a stamp can only be compared with its
-    // like.
+    // With network time machine time is each coordinator's own clock, so a stamp can only be compared with stamps of
+    // the same coordinator.
     const Slot time = timing_.time_source == TimeSource::Network ? other.stamp : now;
     has_second_ = second_.proves(other.term.coordinator, other.stamp, time);
     const bool known = other_owner_ && other_owner_->term == other.term;

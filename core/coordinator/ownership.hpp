@@ -1,9 +1,9 @@
-// Who owns the machine, as one coordinator sees it: when it may claim the machine, and when it must stand down.
+// The ownership of the machine as one coordinator sees it: when it may claim the machine, and when it must stand down.
 //
-// Ownership is a term (core/protocol/messages.hpp). The axes decide: each follows one owner, changes to a higher term
-// only at rest and when its owner has been silent to it, and says in every state whom it follows and whether it hears
-// him. What moves needs all axes, so of two that think they own the machine at most one can move it; nobody has to
-// know that the other is dead.
+// Ownership is a term (core/protocol/messages.hpp). The axes decide. Each follows one owner. It changes to a higher
+// term only at rest and after it has not received its owner for silence_slots. It publishes in every state which owner
+// it follows and whether it receives that owner. Motion needs all axes. So of two coordinators that think they own the
+// machine at most one can move it, and neither has to know whether the other is dead.
 #pragma once
 
 #include <optional>
@@ -19,29 +19,30 @@ class Ownership {
 public:
     enum class Change : std::uint8_t { None, Claimed, StoodDown };
 
-    /// `self`: new at every start of the process. It owns nothing yet.
+    /// `self`: this process's identity, new at every start. It does not own the machine yet.
     Ownership(Identity self, const ProtocolTiming& timing) : self_(self), timing_(timing), second_(timing) {}
 
     void receive(const AxisState& axis);
     void receive(const MachineState& other, Slot now);
 
-    /// Once a slot, after all that was heard. Claims a term above all others where no owner was heard for
-    /// silence_slots, at least since the start, and every axis that is heard is at rest and hears none either; of two
-    /// that wait for this the elder goes first. Stands down where an axis follows a higher term; and, while it lacks
-    /// axes, before another's higher claim, or when all that are heard have long had another owner.
+    /// Call it once a slot, after all messages were received. Claims a term above all others when two conditions hold:
+    /// it has received no owner for silence_slots, counted from its start at the earliest, and every axis that it
+    /// receives is at rest and receives no owner. Of two coordinators that wait for this the elder claims first. Stands
+    /// down when an axis follows a higher term. While not all axes follow it, it also stands down before a higher claim
+    /// of another, or when all axes that it receives have long received another owner.
     Change evaluate(Tick now, Slot slot, std::span<const AxisView> axes);
 
     bool owns() const { return own_.has_value(); }
-    /// Its own where it owns the machine; else the highest number known, and itself.
+    /// Its own term if it owns the machine, otherwise the highest number known with its own identity.
     Term term() const { return own_.value_or(Term{known_.value().number, self_}); }
-    /// Every axis says that it follows this owner. Nothing may be moved before.
+    /// Every axis reports that it follows this owner. Nothing may be moved before that.
     bool acknowledged(std::span<const AxisView> axes) const;
-    /// Some axis has not followed it for longer than one damaged state may make it seem so.
+    /// Some axis has not followed this owner for longer than a single damaged state explains.
     bool lacks_axes(Slot now) const { return lacking_ && now - *lacking_ > rules::kHopSlots; }
-    /// The owner that is heard, or was heard last: what he said of the machine.
+    /// The newest state of the other owner that it receives or has received last.
     const std::optional<MachineState>& other_owner() const { return other_owner_; }
     bool receives_other_owner(Slot now) const { return other_owner_ && !silent(now); }
-    /// And it proved that it lives: what it publishes is not an old state sent again.
+    /// It also proved that it runs: its states are not old ones that were sent again.
     bool has_second_owner(Slot now) const { return has_second_ && receives_other_owner(now); }
 
 private:
@@ -50,7 +51,7 @@ private:
         return elder_received_ && now - *elder_received_ <= rules::silence_slots(timing_);
     }
     void forgive_own_stall(Slot slot);
-    static constexpr Slot kHeadStart = 4 * rules::kHopSlots;  // of the elder: its claim is heard before the other's
+    static constexpr Slot kHeadStart = 4 * rules::kHopSlots;  // so that the elder's claim is received first
 
     bool may_claim(Slot slot, std::span<const AxisView> axes);
     bool must_stand_down(Slot slot) const;
@@ -60,16 +61,16 @@ private:
     ProtocolTiming timing_;
     std::optional<Term> own_;
     std::optional<Slot> lacking_;  // since when not all axes follow it
-    std::optional<Slot> in_vain_;  // since when all that are heard follow another
-    HighestTerm known_;            // of all that speak
+    std::optional<Slot> in_vain_;  // since when all axes received follow another owner
+    HighestTerm known_;            // of all axes and coordinators
     HighestTerm followed_;         // by an axis
     std::optional<MachineState> other_owner_;
-    RepeatedTerm unconfirmed_;      // who speak as owners and are not believed yet
-    std::optional<Slot> received_;  // an owner; or when it began to listen
-    std::optional<Slot> vacant_;    // since when nothing else is in the way of a claim
+    RepeatedTerm unconfirmed_;      // terms of owners that are not accepted yet
+    std::optional<Slot> received_;  // when an owner was last received, or listening began
+    std::optional<Slot> vacant_;    // since when the conditions of a claim hold
     SecondProcess second_;
     bool has_second_ = false;
-    std::optional<Slot> elder_received_;  // who stands by for longer than this one
+    std::optional<Slot> elder_received_;  // newest state of a standby older than this one
     std::optional<Slot> evaluated_;
 };
 

@@ -52,7 +52,7 @@ void WriterLease::pass_to(const LeaseHolder& writer, Tick now) {
     members_.clear();
 }
 
-/// The one received longest ago gives way to a new one.
+/// A new client replaces the one received longest ago.
 void WriterLease::note(const Command& command, Slot slot) {
     const Identity client = command.client;
     std::erase_if(members_, [&](const Member& member) { return member.client == client || member.client == 0; });

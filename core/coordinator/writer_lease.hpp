@@ -1,5 +1,5 @@
-// The writer's lease: one writer at a time gives commands that move the machine or change it. The others watch; holds
-// and stops are everybody's. While there is no writer, every client may give commands.
+// The writer's lease: one writer at a time gives commands that move the machine or change it. The others watch. Every
+// client may hold and stop. While there is no writer, every client may give all commands.
 #pragma once
 
 #include <optional>
@@ -19,36 +19,38 @@ class WriterLease {
 public:
     explicit WriterLease(const MachineConfig& machine);
 
-    /// A TakeLease, also when it comes again: begins the lease, joins its writer's clients, or keeps it. A client from
-    /// which another writer has taken the lease keeps it no more: only a new request can get it.
+    /// Handles a TakeLease, also when it is repeated: begins the lease, joins its writer's clients, or keeps it. When
+    /// another writer has taken the lease over, a client's old request no longer keeps it. Only a new request can get
+    /// it.
     CommandResult take(const Command& command, Tick now, Slot slot);
     /// The lease ends with the last of its writer's clients.
     void give(Identity client);
-    /// Whether its client may give the command: it is the writer's, or only makes the machine safer.
+    /// Whether its client may give the command: no other writer holds the lease, or the command only makes the machine
+    /// safer.
     CommandResult check(const Command& command, Tick now) const;
     /// Whether this writer may send programs.
     CommandResult check(std::uint64_t writer, Tick now) const;
-    /// Once a slot: clients that are silent for kLeaseSilence_ms are gone. `missed`: slots before this one in which
-    /// this process was stalled.
+    /// Call it once a slot. Removes clients that are silent for kLeaseSilence_ms. `missed`: slots before this one in
+    /// which this process was stalled.
     void tend(Slot slot, Slot missed);
-    /// After a takeover: the lease of the last owner goes on, if its writer keeps it.
+    /// Adopts the lease of the last owner after a takeover. It continues if its writer keeps it.
     void adopt(const std::optional<HeldLease>& lease, Slot slot);
     void drop() { adopt({}, 0); }
 
     const std::optional<HeldLease>& held() const { return held_; }
-    /// LeaseHolder::id; 0: there is no writer.
+    /// LeaseHolder::id of the writer; 0: there is no writer.
     std::uint64_t writer() const { return held_ ? held_->writer.id : 0; }
 
 private:
     struct Member {
-        Identity client = 0;  // 0: one that was not received yet, after a takeover
+        Identity client = 0;  // 0: a client that was not received yet, after a takeover
         Slot received = 0;
         std::uint64_t sequence = 0;  // of its request
     };
     /// A client that has lost the lease to another writer.
     struct Loser {
         std::uint64_t sequence = 0;  // of its last request
-        std::string text;            // who has taken the machine over
+        std::string text;            // says which writer has taken the machine over
     };
     static constexpr std::size_t kMostMembers = ClientMemory<Loser>::kClients;
 

@@ -99,7 +99,7 @@ void AxisFlight::take_order(Tick now, const DeviceOrder& order) {
     }
 }
 
-/// The way to rest, from when it was begun.
+/// Notes the tails that were run, each at the tick at which it began.
 void AxisFlight::take_tracks(const AxisOutputs& out) {
     for (const ExecutedTrack& track : out.tracks) {
         if (!track.tail || track.epoch == 0) { continue; }
@@ -138,13 +138,13 @@ void AxisFlight::take_notice(Tick now, const AxisNotice& notice) {
     }
 }
 
-/// A motion that ended before its end though its owner, as far as it was heard, was running it, has been interrupted.
+/// A motion was interrupted if it ended early although the owner's last received phase is Running.
 void AxisFlight::end_epoch(Tick now) {
     const bool is_complete = last_frame_ && ran_ == *last_frame_;
     if (!is_complete && machine_phase_ == MachinePhase::Running) { log_.incident(now, IncidentReason::Interrupted); }
 }
 
-/// At each change of phase, and ten times a second.
+/// Notes the state at each change of phase, and ten times a second.
 void AxisFlight::note_state(Tick now, const AxisState& state) {
     const Ticks period{static_cast<std::int64_t>(machine_.ticks_per_second() / 10)};
     const bool is_new_phase = phase_ != state.phase;

@@ -1,4 +1,4 @@
-// What an axis's process notes: made of the inputs and outputs of its controller's step, and of nothing else.
+// Makes the notes of an axis's process, only from the inputs and outputs of its controller's step.
 #pragma once
 
 #include <vector>
@@ -11,10 +11,10 @@ namespace lockstep {
 
 class AxisFlight {
 public:
-    /// `log` outlives it.
+    /// `log` must outlive this object.
     AxisFlight(std::size_t axis, const MachineConfig& machine, FlightLog& log);
 
-    /// After each step: machine time, before anything is put into the device's.
+    /// Call it after each step, before orders are converted to the device's time. All times are machine time.
     void take(const AxisInputs& in, const AxisOutputs& out);
 
 private:
@@ -33,14 +33,14 @@ private:
     std::vector<PeerWatch> axes_;
     PeerWatch owner_;
     std::optional<MachinePhase> machine_phase_;
-    std::uint64_t order_ = 0;                // heard last
-    bool has_owner_ = false;                 // has ever followed one
-    Epoch epoch_ = 0;                        // begun last
-    bool own_run_ = false;                   // the device's present run is a move of the axis's own
-    std::optional<Tick> noted_;              // when its state was noted last
-    std::optional<AxisPhase> phase_;         // then
-    FrameNumber ran_ = 0;                    // of the device's run, begun
-    std::optional<FrameNumber> last_frame_;  // of the epoch, once it is known
+    std::uint64_t order_ = 0;                // number of the last order received
+    bool has_owner_ = false;                 // has ever followed an owner
+    Epoch epoch_ = 0;                        // the last epoch begun
+    bool own_run_ = false;                   // the device's current run is an own move of the axis
+    std::optional<Tick> noted_;              // when the state was last noted
+    std::optional<AxisPhase> phase_;         // phase at the last state
+    FrameNumber ran_ = 0;                    // the frame of the device's run that has begun
+    std::optional<FrameNumber> last_frame_;  // last frame of the epoch, once known
 };
 
 }  // namespace lockstep

@@ -3,7 +3,7 @@
 namespace lockstep {
 namespace {
 
-/// Nothing: it is noted elsewhere.
+/// Returns nullopt for notices that are not noted here.
 std::optional<FlightKind> kind_of(CoordinatorNotice::Kind kind) {
     using Kind = CoordinatorNotice::Kind;
     switch (kind) {
@@ -63,7 +63,7 @@ void CoordinatorFlight::receive(const CoordinatorInputs& in) {
         other_owner_.receive(in.now, {other.term.coordinator, static_cast<FaultCode>(other.fault), other.epoch, {}},
                              log_);
     }
-    for (const Command& command : in.commands) {  // a client repeats its own until it is answered
+    for (const Command& command : in.commands) {  // a client repeats its command until it is answered
         if (command.client == client_ && command.sequence == command_) { continue; }
         client_ = command.client;
         command_ = command.sequence;
@@ -102,7 +102,7 @@ void CoordinatorFlight::take_job(Tick now, const JobEvent& job) {
               .count = static_cast<std::int64_t>(job.job)});
 }
 
-/// Frames and orders are repeated until they have arrived: the first of each is noted.
+/// Notes only the first sending of each frame and order. They are repeated until they have arrived.
 void CoordinatorFlight::send(Tick now, const CoordinatorOutputs& out) {
     for (const Frame& frame : out.frames) {
         if (frame.epoch == epoch_ && frame.number <= sent_) { continue; }
@@ -125,7 +125,7 @@ void CoordinatorFlight::send(Tick now, const CoordinatorOutputs& out) {
     }
 }
 
-/// At each change of phase, and ten times a second.
+/// Notes the state at each change of phase, and ten times a second.
 void CoordinatorFlight::note_state(Tick now, const MachineState& state) {
     const Ticks period{static_cast<std::int64_t>(machine_.ticks_per_second() / 10)};
     const bool is_new_phase = phase_ != state.phase;

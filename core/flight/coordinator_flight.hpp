@@ -1,4 +1,4 @@
-// What a coordinator's process notes: made of the inputs and outputs of its step, and of nothing else.
+// Makes the notes of a coordinator's process, only from the inputs and outputs of its step.
 #pragma once
 
 #include <vector>
@@ -11,10 +11,10 @@ namespace lockstep {
 
 class CoordinatorFlight {
 public:
-    /// `log` outlives it.
+    /// `log` must outlive this object.
     CoordinatorFlight(const MachineConfig& machine, FlightLog& log);
 
-    /// After each step.
+    /// Call it after each step.
     void take(const CoordinatorInputs& in, const CoordinatorOutputs& out);
 
 private:
@@ -29,12 +29,12 @@ private:
     LoopWatch loop_;
     std::vector<PeerWatch> axes_;
     PeerWatch other_owner_;
-    bool knew_owner_ = false;  // before itself
-    Identity client_ = 0;      // whose command was heard last, and which
+    bool knew_owner_ = false;  // has received another owner
+    Identity client_ = 0;      // client and sequence of the last command received
     std::uint64_t command_ = 0;
-    Epoch epoch_ = 0;  // of the frame sent last
+    Epoch epoch_ = 0;  // epoch of the last frame sent
     FrameNumber sent_ = 0;
-    std::vector<std::uint64_t> orders_;  // sent last to each axis
+    std::vector<std::uint64_t> orders_;  // number of the last order sent to each axis
     std::optional<Tick> noted_;
     std::optional<MachinePhase> phase_;
 };

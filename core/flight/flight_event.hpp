@@ -1,7 +1,7 @@
-// What a process notes of itself for the time after a fault: what it heard, decided and said, as small values of one
-// size, so that keeping the last seconds of them costs next to nothing.
+// What a process notes of itself for analysis after a fault: what it received, decided and published. Events are small
+// values of one size, so keeping the last seconds of them costs almost nothing.
 //
-// Machine time throughout. What each kind fills in stands beside it; all else is 0.
+// All times are machine time. The fields that each kind fills in are listed beside it. All others are 0.
 #pragma once
 
 #include <cstdint>
@@ -14,55 +14,55 @@
 
 namespace lockstep {
 
-// X(name, text name). The text names are the files' and the reports'; none is used again for another thing.
-#define LOCKSTEP_FLIGHT_KINDS(X)                                                                                  \
-    /* heard */                                                                                                   \
-    X(PeerSilent, "peer-silent")             /* about; lasts: since its last word */                              \
-    X(PeerReceived, "peer-heard")            /* about; lasts: the silence that has ended; 0: its first word */    \
-    X(PeerVeto, "peer-veto")                 /* about, epoch, frame */                                            \
-    X(PeerFault, "peer-fault")               /* about, fault */                                                   \
-    X(PeerRestarted, "peer-restarted")       /* about: another process speaks for it now */                       \
-    X(CommandReceived, "command-heard")      /* detail: CommandKind */                                            \
-    X(OrderReceived, "order-heard")          /* detail: AxisCommandKind; count: its number */                     \
-    X(MachinePhaseReceived, "machine-phase") /* about: the coordinator; detail: MachinePhase */                   \
-    /* decided */                                                                                                 \
-    X(FrameHeld, "frame-held")         /* epoch, frame; lasts: from now to its start */                           \
-    X(FrameRefused, "frame-refused")   /* epoch, frame, fault */                                                  \
-    X(FrameArmed, "frame-armed")       /* epoch, frame */                                                         \
-    X(Vetoed, "vetoed")                /* epoch, frame; detail: VetoReason; count: bit i: axis i lacks */         \
-    X(TailRun, "tail-run")             /* epoch, frame: the frame's tail, from tick on; lasts: until rest */      \
-    X(PulsesStopped, "pulses-stopped") /* by an emergency stop */                                                 \
-    X(OwnerFollowed, "owner-followed") /* count: the term's number */                                             \
-    X(EpochBegun, "epoch-begun")       /* epoch */                                                                \
-    X(EpochEnded, "epoch-ended")       /* epoch */                                                                \
-    X(HomingStage, "homing-stage")     /* count: of the homing */                                                 \
-    X(Homed, "homed")                                                                                             \
-    X(Fault, "fault") /* fault; about: the coordinator names the axis */                                          \
-    X(Reset, "reset")                                                                                             \
-    X(CommandRefused, "command-refused") /* fault */                                                              \
-    X(AxisSeen, "axis-seen")             /* about */                                                              \
-    X(AxisGone, "axis-gone")             /* about */                                                              \
-    X(Interrupted, "interrupted")        /* frame: the last run; goes on from there */                            \
-    X(Claimed, "claimed")                /* count: the term's number; owns the machine */                         \
-    X(StoodDown, "stood-down")           /* count: the term's number; another owns the machine */                 \
-    X(JobCutShort, "job-cut-short")      /* count: near this line */                                              \
-    X(JobBegun, "job-begun")             /* count: its number */                                                  \
-    X(JobEnded, "job-ended")             /* count: its number; detail: JobOutcome */                              \
-    /* said */                                                                                                    \
-    X(State, "state")          /* detail: phase; epoch, frame: run; count, amount: steps, steps/s; */             \
-                               /* lasts: clock error. Coordinator: frame sent, count: line */                     \
-    X(Phase, "phase")          /* the same, where the phase has changed */                                        \
-    X(FrameSent, "frame-sent") /* epoch, frame; lasts: from now to its start */                                   \
-    X(OrderSent, "order-sent") /* about; detail: AxisCommandKind; count: its number */                            \
-    /* itself */                                                                                                  \
-    X(Started, "started")   /* its first loop */                                                                  \
-    X(Stalled, "stalled")   /* lasts: until now, in which its loop did not run */                                 \
-    X(Loops, "loops")       /* of the second before: count; lasts: the longest from one to the next */            \
-    X(Incident, "incident") /* detail: IncidentReason; about, or no process; what came before is worth keeping */ \
-    X(PositionClaimed, "position-claimed") /* at its start; fault: why the kept position is not believed */       \
-    X(JobContinued, "job-continued")       /* count: near this line */                                            \
-    X(Reopened, "reopened")                /* its DDS participant; detail: ReopenReason; count: how often */      \
-    X(LoopStuck, "loop-stuck")             /* lasts: its loop did not run; the process ends itself */
+// X(name, text name). Files and reports contain the text names. A name is never reused for another kind.
+#define LOCKSTEP_FLIGHT_KINDS(X)                                                                                     \
+    /* received */                                                                                                   \
+    X(PeerSilent, "peer-silent")             /* about; lasts: since its last message */                              \
+    X(PeerReceived, "peer-heard")            /* about; lasts: the silence that has ended; 0: its first message */    \
+    X(PeerVeto, "peer-veto")                 /* about, epoch, frame */                                               \
+    X(PeerFault, "peer-fault")               /* about, fault */                                                      \
+    X(PeerRestarted, "peer-restarted")       /* about; another process publishes for it now */                       \
+    X(CommandReceived, "command-heard")      /* detail: CommandKind */                                               \
+    X(OrderReceived, "order-heard")          /* detail: AxisCommandKind; count: its number */                        \
+    X(MachinePhaseReceived, "machine-phase") /* about: the coordinator; detail: MachinePhase */                      \
+    /* decided */                                                                                                    \
+    X(FrameHeld, "frame-held")         /* epoch, frame; lasts: from now to its start */                              \
+    X(FrameRefused, "frame-refused")   /* epoch, frame, fault */                                                     \
+    X(FrameArmed, "frame-armed")       /* epoch, frame */                                                            \
+    X(Vetoed, "vetoed")                /* epoch, frame; detail: VetoReason; count: bit i: no evidence from axis i */ \
+    X(TailRun, "tail-run")             /* epoch, frame: its tail began at `tick`; lasts: until rest */               \
+    X(PulsesStopped, "pulses-stopped") /* by an emergency stop */                                                    \
+    X(OwnerFollowed, "owner-followed") /* count: the term's number */                                                \
+    X(EpochBegun, "epoch-begun")       /* epoch */                                                                   \
+    X(EpochEnded, "epoch-ended")       /* epoch */                                                                   \
+    X(HomingStage, "homing-stage")     /* count: number of the stage */                                              \
+    X(Homed, "homed")                                                                                                \
+    X(Fault, "fault") /* fault; about: the axis, if the coordinator notes it */                                      \
+    X(Reset, "reset")                                                                                                \
+    X(CommandRefused, "command-refused") /* fault */                                                                 \
+    X(AxisSeen, "axis-seen")             /* about */                                                                 \
+    X(AxisGone, "axis-gone")             /* about */                                                                 \
+    X(Interrupted, "interrupted")        /* frame: the last one run; motion continues from there */                  \
+    X(Claimed, "claimed")                /* count: the term's number; now owns the machine */                        \
+    X(StoodDown, "stood-down")           /* count: the term's number; another owns the machine */                    \
+    X(JobCutShort, "job-cut-short")      /* count: near this line of the G-code */                                   \
+    X(JobBegun, "job-begun")             /* count: its number */                                                     \
+    X(JobEnded, "job-ended")             /* count: its number; detail: JobOutcome */                                 \
+    /* published */                                                                                                  \
+    X(State, "state")          /* detail: phase; epoch; frame: run; count: steps; amount: steps/s; */                \
+                               /* lasts: clock error. Coordinator: frame: sent; count: line */                       \
+    X(Phase, "phase")          /* the same, when the phase has changed */                                            \
+    X(FrameSent, "frame-sent") /* epoch, frame; lasts: from now to its start */                                      \
+    X(OrderSent, "order-sent") /* about; detail: AxisCommandKind; count: its number */                               \
+    /* about itself */                                                                                               \
+    X(Started, "started")   /* its first loop */                                                                     \
+    X(Stalled, "stalled")   /* lasts: how long its loop did not run until now */                                     \
+    X(Loops, "loops")       /* of the last second: count; lasts: the longest gap between two */                      \
+    X(Incident, "incident") /* detail: IncidentReason; about, if any; the events before it are worth a file */       \
+    X(PositionClaimed, "position-claimed") /* at its start; fault: why the kept position is refused */               \
+    X(JobContinued, "job-continued")       /* count: near this line of the G-code */                                 \
+    X(Reopened, "reopened")                /* its DDS participant; detail: ReopenReason; count: how often */         \
+    X(LoopStuck, "loop-stuck")             /* lasts: how long its loop did not run; the process ends itself */
 
 enum class FlightKind : std::uint8_t {
 #define X(name, text) name,
@@ -71,27 +71,27 @@ enum class FlightKind : std::uint8_t {
 };
 
 std::string_view name_of(FlightKind kind);
-/// Nothing where there is no such kind: a later version's.
+/// Returns nullopt if this version has no such kind; a later version may have it.
 std::optional<FlightKind> flight_kind(std::string_view name);
 
-/// Why an axis does not arm a frame. The first that applies.
+/// Why an axis does not arm a frame. The first reason that applies counts.
 enum class VetoReason : std::uint8_t {
-    TooLate,       // it looked too late to say anything of this frame any more
-    NotHeld,       // it has not got it
-    NoEvidence,    // of some other axis it has heard nothing fresh that says it holds it
-    Own,           // it is at fault or stopped, which it says by itself
-    NoCoordinator  // the coordinator has published nothing that is evidence for it
+    TooLate,       // its check came too late to arm or veto this frame
+    NotHeld,       // it does not hold the frame
+    NoEvidence,    // it lacks a fresh state of some other axis that holds the frame
+    Own,           // it is at fault or stopped, which its own state shows
+    NoCoordinator  // it lacks evidence from the coordinator
 };
 
 enum class IncidentReason : std::uint8_t {
-    Fault,        // its own, another's or the machine's
-    Veto,         // its own, that nobody asked for
-    Interrupted,  // motion ended before its end, and nobody asked for it
-    AxisLost,     // fell silent, or was restarted
-    OwnerLost,    // fell silent
+    Fault,        // of the process itself, of another one, or of the machine
+    Veto,         // its own veto, without a request
+    Interrupted,  // motion ended early without a request
+    AxisLost,     // an axis fell silent or was restarted
+    OwnerLost,    // the owner fell silent
     Takeover,     // another coordinator owns the machine
-    Asked,        // a person did
-    Ended         // the process did, and not because it was asked to
+    Asked,        // a person asked for a file
+    Ended         // the process ended without a request
 };
 std::string_view name_of(IncidentReason reason);
 std::optional<IncidentReason> incident_reason(std::string_view name);
@@ -122,13 +122,14 @@ struct FlightEvent {
 };
 static_assert(std::is_trivially_copyable_v<FlightEvent> && sizeof(FlightEvent) == 56);
 
-/// Where events are noted: it keeps the newest.
+/// Takes the events and keeps the newest ones.
 class FlightLog {
 public:
     virtual ~FlightLog() = default;
     /// Never waits.
     virtual void add(const FlightEvent& event) = 0;
-    /// Why the process is about to end by itself. Safe while the rest of the process is in an unknown state.
+    /// Sets the reason for which the process is about to end itself. Safe while the rest of the process is in an
+    /// unknown state.
     virtual void set_note(std::string_view text) = 0;
 
     void incident(Tick now, IncidentReason reason, FlightPeer about = {}) {

@@ -1,4 +1,4 @@
-// What a process notes of its own loop: that it stood still, and once a second how it runs.
+// What a process notes of its own loop: each stall, and once a second how it runs.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ public:
         : noted_(machine.slot_ticks() * std::max(1, machine.timing.stall_slots / 2)),
           second_{static_cast<std::int64_t>(machine.ticks_per_second())} {}
 
-    /// At each loop. Returns for how long it did not run, where that is worth a note; else 0.
+    /// Call it at each loop. Returns for how long the loop did not run if that is worth a note, otherwise 0.
     Ticks loop(Tick now, FlightLog& log) {
         if (!last_) { begin(now, log); }
         const Ticks gap = now - *last_;

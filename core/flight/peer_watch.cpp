@@ -30,7 +30,7 @@ void PeerWatch::receive(Tick now, const News& news, FlightLog& log) {
     log.incident(now, IncidentReason::Fault, peer_);
 }
 
-/// Of coordinators it is the owner's changes that count, and an axis's controller says so by itself.
+/// A changed identity of the owner is no incident here, because the axis's controller reports a new owner itself.
 void PeerWatch::receive_identity(Tick now, Identity identity, FlightLog& log) {
     if (last_->identity == identity) { return; }
     log.add({.tick = now, .kind = FlightKind::PeerRestarted, .about = peer_});

@@ -1,4 +1,4 @@
-// What one process notes of another that it hears: that it fell silent and came back, was restarted, vetoes, fails.
+// What one process notes of another that it receives: silence and return, restarts, vetoes and faults.
 #pragma once
 
 #include <optional>
@@ -8,9 +8,9 @@
 
 namespace lockstep {
 
-/// How long another's silence is before it is worth a note, and before it counts as lost.
+/// How long a peer must be silent before its silence is noted, and before it counts as lost.
 struct SilenceLimits {
-    Ticks noted;  // beyond this a check lacks evidence
+    Ticks noted;  // beyond this a check of a frame lacks evidence
     Ticks lost;
 };
 SilenceLimits silence_limits(const MachineConfig& machine);
@@ -26,7 +26,8 @@ public:
         std::optional<FrameNumber> veto;
     };
     void receive(Tick now, const News& news, FlightLog& log);
-    /// After what was heard in this loop. `missed`: for so long this process itself did not run, and heard nobody.
+    /// Call it after this loop's messages were received. `missed`: how long this process itself did not run and
+    /// received nothing.
     void look(Tick now, Ticks missed, FlightLog& log);
 
 private:
@@ -39,8 +40,8 @@ private:
     SilenceLimits limits_;
     std::optional<News> last_;
     Tick received_;
-    bool is_silent_ = false;  // and that is noted
-    bool is_lost_ = false;    // and that was an incident
+    bool is_silent_ = false;  // and the silence is noted
+    bool is_lost_ = false;    // and the loss was reported as an incident
 };
 
 }  // namespace lockstep

@@ -91,7 +91,7 @@ private:
         block_.set(*code, place);
     }
 
-    /// G80 beside another motion word of the block: the other holds.
+    /// If a block has G80 and another motion word, the other one counts.
     bool cancels(const Code& code) {
         constexpr int kCancel = 800;
         if (code.group != Group::Motion) { return false; }
@@ -132,7 +132,7 @@ private:
         if (std::abs(*coordinate) > kMaxNumber) { refuse_size(place); }
     }
 
-    /// As some senders add it: the exclusive or of all bytes before the *.
+    /// Some senders add a checksum: the exclusive or of all bytes before the *.
     void take_checksum(std::size_t place) {
         const double given = reader_.word_value(place);
         if (!reader_.error() && given != line_.checksum()) {

@@ -1,6 +1,6 @@
-// One block: a line's words sorted by what they mean, checked by themselves (RS274/NGC, sections 3.4 to 3.6).
+// One block: the words of a line, sorted by meaning and checked individually (RS274/NGC, sections 3.4 to 3.6).
 //
-// A block is what the line says; what it comes to depends on the lines before and is the interpreter's.
+// A block contains the words of its line only. The interpreter applies the effects of earlier lines.
 #pragma once
 
 #include <array>
@@ -16,9 +16,9 @@
 
 namespace lockstep::gcode {
 
-/// Numbers beyond this, either way, are refused: sums of them stay exact to far below a step.
+/// Greater numbers, positive or negative, are refused. So sums stay exact to far below a step.
 inline constexpr double kMaxNumber = 1e6;
-/// A block has so many M codes at most, as in LinuxCNC.
+/// The greatest number of M codes in a block, as in LinuxCNC.
 inline constexpr int kMaxMCodes = 4;
 
 constexpr std::uint32_t letter_bit(char letter) { return std::uint32_t{1} << (letter - 'A'); }
@@ -54,8 +54,8 @@ public:
     void set(char letter, double value, std::size_t place);
     void set(const Code& code, std::size_t place);
 
-    std::vector<Assignment> assignments;  // made when the whole block has been read
-    std::optional<std::size_t> comment;   // the last one's place: the only one that can say something
+    std::vector<Assignment> assignments;  // carried out after the whole block has been read
+    std::optional<std::size_t> comment;   // place of the last one; only this one can be a message
     std::optional<double> distance;       // @, polar
     std::optional<double> angle;          // ^, degrees
 

@@ -1,4 +1,4 @@
-// Interpreter: subroutines, of the program itself and of files.
+// Interpreter: subroutines, in the program itself and in files.
 #include <utility>
 
 #include "core/gcode/interpreter.hpp"
@@ -40,7 +40,7 @@ Result Interpreter::call(Reader& reader, const OWord& word) {
     return {};
 }
 
-/// Return or endsub, with a value or without.
+/// Handles return or endsub, with a value or without.
 Result Interpreter::leave(Frame& frame, Reader& reader) {
     if (reader.peek() == '[') {
         returned_ = reader.expression();
@@ -72,21 +72,21 @@ void Interpreter::unwind() {
     }
 }
 
-/// A text with subroutines: a file, or what follows in the program itself.
+/// A text with subroutines: a file, or the rest of the program.
 struct Interpreter::SubroutineText {
     std::string_view text;
     int first_line = 1;
-    std::string only;  // the subroutine to keep; empty: all
+    std::string only;  // the subroutine to store; empty: all
     std::string file;
 };
 
-/// As in LinuxCNC: in a file of its name, or else behind the call.
+/// Searches as LinuxCNC does: in a file of its name, otherwise behind the call.
 Result Interpreter::find_subroutine(const OWord& word) {
     const auto text = setup_.find_subroutine ? setup_.find_subroutine(word.label) : std::nullopt;
     return text ? load(word, *text) : load_later(word);
 }
 
-/// From a file of the subroutine's name, which may have others beside it.
+/// Loads a file with the subroutine's name. The file may contain other subroutines too.
 Result Interpreter::load(const OWord& word, std::string_view text) {
     const std::string file = word.label + ".ngc";
     if (const auto wrong = keep_subroutines({.text = text, .only = {}, .file = file})) {
@@ -105,11 +105,11 @@ Result Interpreter::load_later(const OWord& word) {
         called_early_.insert(word.label);
         return {};
     }
-    return error(word.place, shown_call(word.label) + " calls what is not there; write the subroutine" +
+    return error(word.place, shown_call(word.label) + " calls a subroutine that does not exist; write it" +
                                  (setup_.find_subroutine ? ", or a file " + word.label + ".ngc" : ""));
 }
 
-/// What is wrong outside the subroutines is no matter here.
+/// Stores the subroutines of a text. Ignores errors outside them.
 std::optional<GcodeError> Interpreter::keep_subroutines(const SubroutineText& source) {
     Recorder recorder;
     Line line;

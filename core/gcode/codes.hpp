@@ -1,4 +1,4 @@
-// The G and M codes that are taken, by modal group, and those that are refused with a reason.
+// The supported G and M codes by modal group, and the codes that are refused with a reason.
 #pragma once
 
 #include <array>
@@ -46,7 +46,7 @@ struct Code {
     char letter;
     int tenths;  // G92.1 is 921
     Group group;
-    std::string_view letters;  // that it uses besides axes, F, S and T
+    std::string_view letters;  // that it uses in addition to axes, F, S and T
 };
 
 struct RefusedCode {
@@ -56,9 +56,9 @@ struct RefusedCode {
     std::string_view reason;
 };
 
-/// nullptr: not taken.
+/// Returns null if the code is not supported.
 const Code* find_code(char letter, int tenths);
-/// nullptr: not known at all.
+/// Returns null if the code is not known at all.
 const RefusedCode* find_refused(char letter, int tenths);
 
 }  // namespace lockstep::gcode

@@ -1,6 +1,6 @@
-// What cutter compensation keeps between blocks: the last motion waits, because the next corner may move its end.
+// The state of cutter compensation between blocks. The last motion waits, because the next corner may move its end.
 //
-// While it is on, State's places are those of the program; the tool's centre is here.
+// While compensation is on, the places of State are programmed ones. The place of the tool's centre is here.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ namespace lockstep::gcode {
 struct CutMove {
     Point target{};
     Flat from;                   // where it begins, in the plane
-    Flat direction;              // of a straight motion, as programmed; 0: of the entry, or if the plane's axes rest
+    Flat direction;              // of a straight motion, as programmed; 0 for the entry, or if the plane's axes rest
     std::optional<Flat> centre;  // of an arc
     double radius = 0;           // of an arc, where it ends
     double sweep = 0;            // of an arc, as programmed, without whole turns
@@ -25,13 +25,13 @@ struct CutMove {
     bool rapid = false;
 };
 
-/// The motion that waits, or a motion or an event after it.
+/// The waiting motion, or a motion or an event after it.
 struct Waiting {
     int line = 0;
     std::variant<CutMove, Action> what;
 };
 
-/// The same place in both coordinates.
+/// One place in both coordinate systems.
 struct Standing {
     Point program{};
     Point machine{};
@@ -40,7 +40,7 @@ struct Standing {
 struct CutterState {
     bool entered = false;            // the entry motion has been read
     Flat at;                         // the tool's centre where the last motion ends
-    Flat tip;                        // added to the centre: the place on a lathe tool that its offset is measured to
+    Flat tip;                        // from the centre to the reference place of the offset of a lathe tool
     std::vector<Waiting> waiting;    // the first is a CutMove
     std::optional<Standing> stands;  // where the axes stand, until a motion without compensation ends
 };

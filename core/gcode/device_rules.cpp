@@ -1,4 +1,4 @@
-// ProgramBuilder: what becomes of words that move nothing.
+// ProgramBuilder: handles words that move no axis.
 #include "core/gcode/program_builder.hpp"
 
 namespace lockstep::gcode {
@@ -77,8 +77,8 @@ void ProgramBuilder::event(const Event& event) {
         case EventKind::AnalogOutput: return output(Kind::AnalogOutput);
         case EventKind::InputWait:
             if (is_refused(rules.inputs, "an input", "inputs")) { return; }
-            return note("an input", "an input is not configured: its words are passed over");
-        case EventKind::SpeedOverride:  // of M49 too, which has an effect, on the feed
+            return note("an input", "an input is not configured: M66 is ignored");
+        case EventKind::SpeedOverride:  // also from M49, which has an effect on the feed
             if (event.value != 0 || interpreter_->block().code(Group::Override) != kSpindleOverrideWord) { return; }
             return note("M51", "M51 P0 has no effect: the machine has no spindle override");
         case EventKind::AdaptiveFeed:

@@ -16,7 +16,7 @@ gcode::Setup setup_for(const GcodeSetup& setup, std::string_view text) {
     return result;
 }
 
-/// Takes a text's lines until one ends the program, or there are too many errors.
+/// Reads a text's lines until one ends the program, or there are too many errors.
 class GcodeReader {
 public:
     GcodeReader(std::string_view text, const GcodeSetup& setup, gcode::Sink sink)

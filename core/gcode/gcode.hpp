@@ -1,13 +1,13 @@
-// A G-code text becomes a motion program: everything modal resolved, every target absolute in machine coordinates.
+// Converts a G-code text to a motion program: everything modal resolved, every target absolute in machine coordinates.
 //
-// The language is RS-274/NGC as LinuxCNC has it; docs/gcode.md lists it, and tests/integration/oracle compares it with
-// LinuxCNC's own interpreter. What a machine adds:
+// The language is RS-274/NGC as in LinuxCNC; docs/gcode.md lists it, and tests/integration/oracle compares it with
+// LinuxCNC's own interpreter. Differences and additions:
 // - F below kMinFeedPerMinute is refused as a mistake in the units.
-// - A target outside travel is refused. A move to where the axes already stand is left out.
-// - Axes of longer names than a letter stay where they are.
+// - A target outside travel is refused. A move to the place where the axes already stand is omitted.
+// - Axes with names longer than a letter do not move.
 // - G28 and G30 go to the park position until G28.1 or G30.1 sets another; they do not home.
-// - Splines are cut into chords (chords.hpp), and arcs that lie in no plane of two axes.
-// - Coordinate systems, offsets and the tool table are inputs, and come back as the program leaves them.
+// - Splines become arcs (spline_arcs.hpp). Arcs that are not in the plane of two axes are cut into chords (chords.hpp).
+// - Coordinate systems, offsets and the tool table are inputs, and are returned as the program leaves them.
 // - Words for devices that the machine does not have are refused, or become events on the path, as `unassigned` says.
 #pragma once
 
@@ -25,11 +25,11 @@
 
 namespace lockstep {
 
-/// Reading stops after so many errors.
+/// Reading stops after this many errors.
 inline constexpr std::size_t kMaxGcodeErrors = 20;
-/// A target this little outside travel is the sum of roundings, and is meant to be on the limit.
+/// A target outside travel by at most this is on the limit: the difference is due to rounding.
 inline constexpr double kTravelTolerance_mm = 1e-6;
-/// Slower than this is a mistake in the units (mm/min, degrees/min).
+/// A slower feed counts as a mistake in the units (mm/min, degrees/min).
 inline constexpr double kMinFeedPerMinute = 0.01;
 
 /// All in machine coordinates, finite, min <= max.
@@ -44,7 +44,7 @@ struct GcodeAxis {
 struct GcodeSwitches {
     bool pause_at_m1 = false;        // optional stop
     bool skip_deletable = true;      // block delete: lines that begin with / are not run
-    bool ignore_unassigned = false;  // words for devices that the machine does not have are passed over
+    bool ignore_unassigned = false;  // skips words for devices that the machine does not have
 };
 
 struct GcodeSetup {
@@ -53,13 +53,13 @@ struct GcodeSetup {
     GcodeSwitches switches;
     UnassignedWords unassigned;
     gcode::KeptValues values;
-    double chord_tolerance_mm = 0.001;  // of curves that are cut into chords
+    double chord_tolerance_mm = 0.001;  // of chords of curves
     bool curves_as_chords = false;      // for a planner that takes straight moves only
     gcode::Limits limits;
     std::function<std::optional<std::string>(std::string_view name)> find_subroutine;
 };
 
-/// A word that was passed over, or a message of the program.
+/// A word that was skipped, or a message of the program.
 struct GcodeNote {
     int line = 0;
     std::string text;
@@ -67,17 +67,17 @@ struct GcodeNote {
 
 struct GcodeReading {
     Program program;
-    std::vector<GcodeNote> notes;  // each word's kind once, with its first line; messages all
-    gcode::KeptValues values;      // that the program leaves at its end
+    std::vector<GcodeNote> notes;  // each kind of word once, with its first line; all messages
+    gcode::KeptValues values;      // at the end of the program
 };
 
 /// The same text and setup give the same program, bit for bit. Errors are in the order of lines.
 std::expected<GcodeReading, std::vector<GcodeError>> read_gcode(std::string_view text, const GcodeSetup& setup);
 std::expected<Program, std::vector<GcodeError>> parse_gcode(std::string_view text, const GcodeSetup& setup);
 
-/// One motion of a program, before arcs and splines are cut.
+/// Receives one action of a program, before arcs and splines are cut.
 using TakeAction = std::function<void(const gcode::Action& action, int line)>;
-/// Hands out the program's actions, without looking at travel or devices.
+/// Passes the program's actions to `take`, without checks of travel or devices.
 std::expected<void, std::vector<GcodeError>> gcode_actions(std::string_view text, const GcodeSetup& setup,
                                                            const TakeAction& take);
 

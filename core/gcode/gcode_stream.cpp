@@ -30,7 +30,7 @@ struct GcodeStream::Parts {
     GcodeSetup setup;
     gcode::ProgramBuilder builder;
     gcode::Interpreter interpreter;
-    std::optional<GcodeError> wrong;  // with the line that is being taken
+    std::optional<GcodeError> wrong;  // in the present line
 };
 
 GcodeStream::GcodeStream(const GcodeSetup& setup) : parts_(std::make_unique<Parts>(setup)) {}

@@ -1,6 +1,6 @@
-// Reads a program line by line: for texts that are longer than memory, or not known yet.
+// Reads a program line by line, for texts that do not fit in memory or are not complete yet.
 //
-// A subroutine stands before its call, or in a file of its name.
+// A subroutine must be before its call, or in a file of its name.
 #pragma once
 
 #include <memory>
@@ -18,19 +18,19 @@ public:
     GcodeStream& operator=(GcodeStream&&) noexcept;
 
     ProgramHead head() const;
-    /// The next line, without its end. Error: the first thing wrong with it. Behind it lines can be read for their
-    /// errors only.
+    /// Reads the next line, without its line end. Returns its first error. After an error, further lines can be read
+    /// only to find their errors.
     std::expected<void, GcodeError> take(std::string_view line, int number);
-    /// The end of the text.
+    /// Ends the text.
     std::expected<void, GcodeError> finish();
-    /// M2, M30 or the second %: lines behind it are ignored.
+    /// True after M2, M30 or the second %. Later lines are ignored.
     bool is_ended() const;
 
-    /// What the lines since the last call have become.
+    /// The blocks of the lines since the last call.
     std::vector<Block> take_blocks();
-    /// Words that were passed over, and messages, since the last call.
+    /// Skipped words, and messages, since the last call.
     std::vector<GcodeNote> take_notes();
-    /// As the lines taken so far leave them.
+    /// The values and modes after the lines taken so far.
     gcode::KeptValues values() const;
     ModalState modal() const;
 

@@ -54,7 +54,7 @@ Result Interpreter::take_percent() {
     return {};
 }
 
-/// Comments before a /, block delete, line number. False: the line is not to be run.
+/// Skips comments before a /, block delete and line number. Returns false if the line must not be run.
 bool Interpreter::skip_head(const Line& line, Reader& reader) const {
     std::size_t place = 0;
     while (line.at(place) == '(') { place = line.end_of_comment(place); }
@@ -103,9 +103,10 @@ Result Interpreter::assign() {
 
 Result Interpreter::keep(const OWord& word, std::string_view text) {
     if (word.keyword == Keyword::Sub && called_early_.contains(word.label)) {
-        return error(word.place, "the subroutine " + word.label +
-                                     " stands behind its call and in the program's way; write it before the call, or "
-                                     "behind M2");
+        return error(word.place,
+                     "the subroutine " + word.label +
+                         " is defined after its call, in lines that the program runs; define it before the call, "
+                         "or after M2");
     }
     if (++kept_lines_ > setup_.limits.kept_lines) {
         recorder_.clear();
@@ -124,7 +125,7 @@ Result Interpreter::do_o_word(Reader& reader, const OWord& word) {
     return keep(word, line_.raw());
 }
 
-/// A subroutine waits for its call; anything else is done at once.
+/// Stores a subroutine for its call. Runs any other body at once.
 Result Interpreter::close_body() {
     const bool is_subroutine = recorder_.is_subroutine();
     Body body = recorder_.take_body();

@@ -1,7 +1,7 @@
-// The interpreter of G-code: takes the lines of a program one by one and hands out what they do.
+// The interpreter of G-code: takes the lines of a program one by one and emits their actions.
 //
-// The same lines, setup and state give the same actions and the same state. Loops and subroutines are kept until their
-// end has been read; all else is done at once, so a program may be as long as it likes.
+// The same lines, setup and state give the same actions and the same state. Loops and subroutines are stored until
+// their end has been read. All other lines are run at once, so a program may have any length.
 #pragma once
 
 #include <array>
@@ -26,15 +26,15 @@ public:
     Interpreter(const Interpreter&) = delete;
     Interpreter& operator=(const Interpreter&) = delete;
 
-    /// A line of the text, without its end. Error: the first thing wrong with it; what it did before that stays done.
+    /// Takes a line of the text, without its line end. Returns its first error. Effects of the words before it remain.
     Result take(std::string_view text, int number);
-    /// The end of the text. Error: a loop or a subroutine is not closed.
+    /// Ends the text. Returns an error if a loop or a subroutine is not closed.
     Result finish();
-    /// M2, M30 or the second %: lines behind it are ignored.
+    /// True after M2, M30 or the second %. Later lines are ignored.
     bool ended() const { return ended_; }
 
     const State& state() const { return state_; }
-    /// Of the last line that was done, for messages about it.
+    /// The last line that was run, and its block, for messages.
     const Line& line() const { return line_; }
     const Block& block() const { return block_; }
 
@@ -44,7 +44,7 @@ private:
         std::size_t next = 0;
         bool is_call = false;
         KeptModes kept;
-        std::map<std::size_t, double> repeats;  // left, by the loop's first line
+        std::map<std::size_t, double> repeats;  // remaining ones, by the loop's first line
     };
 
     std::optional<double> numbered(int number) const override;
@@ -92,8 +92,8 @@ private:
     KeptModes kept_;  // of the program itself
     Recorder recorder_;
     std::map<std::string, Body, std::less<>> subroutines_;
-    std::set<std::string, std::less<>> called_early_;  // subroutines that stand behind their first call
-    int program_line_ = 0;                             // the last one taken of the program itself
+    std::set<std::string, std::less<>> called_early_;  // subroutines that are behind their first call
+    int program_line_ = 0;                             // the last line taken of the program itself
     std::vector<Frame> frames_;
     int calls_ = 0;
     std::int64_t repeated_lines_ = 0;

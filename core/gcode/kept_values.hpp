@@ -26,22 +26,22 @@ struct CoordinateSystem {
 struct KeptValues {
     std::array<CoordinateSystem, kSystems> systems{};  // G54 to G59.3
     Point g92{};
-    bool g92_applies = false;          // else G92.3 can take the offsets up again
+    bool g92_applies = false;          // if false, G92.3 can restore the offsets
     std::optional<Point> home;         // G28.1; none: the park position
     std::optional<Point> second_home;  // G30.1
     std::map<int, Tool> tools;         // at most kMaxTools, by numbers from 1
     bool operator==(const KeptValues&) const = default;
 };
 
-/// `park`: where G28 and G30 lead without a place of their own.
+/// `park`: the target of G28 and G30 if they have no stored place.
 void set_kept_values(State& state, const KeptValues& values, const Point& park);
 KeptValues kept_values(const State& state, const Point& park);
 
-/// The values that a program was read with and leaves.
+/// The values with which a program was read, and those that it leaves.
 struct ProgramValues {
-    std::uint64_t revision = 0;       // of the machine's values that it was read with
-    std::optional<KeptValues> after;  // none: the same
-    bool at_once = false;             // an edit: `after` holds when it arrives, and there is nothing to run
+    std::uint64_t revision = 0;       // of the machine's values with which it was read
+    std::optional<KeptValues> after;  // none: unchanged
+    bool at_once = false;             // an edit: `after` applies on arrival, and there is nothing to run
 };
 
 }  // namespace lockstep::gcode

@@ -1,4 +1,4 @@
-// Interpreter: kept lines, run by what their O-words say.
+// Interpreter: runs stored lines according to their O-words.
 #include <cmath>
 
 #include "core/gcode/interpreter.hpp"
@@ -50,7 +50,7 @@ Result Interpreter::rest_is_empty(Reader& reader) const {
     return reader.error() ? Result(std::unexpected(*reader.error())) : Result{};
 }
 
-/// Frame::next is already the line behind.
+/// Frame::next is already the next line.
 Result Interpreter::do_flow(Frame& frame, std::size_t at, Reader& reader) {
     const KeptLine& line = frame.body->lines[at];
     switch (line.keyword) {
@@ -83,7 +83,7 @@ Result Interpreter::do_flow(Frame& frame, std::size_t at, Reader& reader) {
     }
 }
 
-/// At the elseif, else or endif behind an if that does not hold.
+/// Called at the elseif, else or endif behind an if that does not hold.
 Result Interpreter::choose_branch(Frame& frame) {
     while (true) {
         const KeptLine& line = frame.body->lines[frame.next];
@@ -101,7 +101,7 @@ Result Interpreter::choose_branch(Frame& frame) {
     }
 }
 
-/// At the end of a loop.
+/// Called at the end of a loop.
 Result Interpreter::go_round(Frame& frame, std::size_t at, Reader& reader) {
     const std::size_t begin = frame.body->lines[at].begin;
     bool again = true;

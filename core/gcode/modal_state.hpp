@@ -1,4 +1,4 @@
-// What holds at a line of a G-code program by the lines before it: what a program that goes on there takes up.
+// The modes at a line of a G-code program, as set by the lines before it. A program that continues there needs them.
 #pragma once
 
 #include <optional>
@@ -13,10 +13,10 @@ struct ModalState {
     bool inches = false;                // G20
     bool relative = false;              // G91
     std::optional<double> feed_mm_min;  // none: no F yet
-    std::vector<double> offset_mm;      // where each axis's own 0 is, machine coordinates
+    std::vector<double> offset_mm;      // place of each axis's program zero, machine coordinates
 };
 
-/// As the text leaves it at the end of the line before `line`. Lines that are wrong are passed over.
+/// The modes at the end of the line before `line`. Skips lines with errors.
 ModalState modal_state_at(std::string_view text, const GcodeSetup& setup, int line);
 
 }  // namespace lockstep

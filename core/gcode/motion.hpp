@@ -1,6 +1,6 @@
-// What a G-code program does, one value for each thing: motions in machine coordinates, and events.
+// The actions of a G-code program, one value for each: motions in machine coordinates, and events.
 //
-// Places are in mm, turning axes in degrees. Feeds are per minute: mm along the path of the linear axes; degrees where
+// Places are in mm, turning axes in degrees. Feeds are per minute: mm along the path of the linear axes; degrees if
 // only turning axes move.
 #pragma once
 
@@ -28,8 +28,8 @@ struct Straight {
     bool rapid = false;
 };
 
-/// An arc about a line through `centre` along `axis`; X, Y and Z go along it to the target, and the other axes evenly.
-/// Where the radius at the end differs from that at the start, it changes evenly.
+/// An arc about a line through `centre` along `axis`. X, Y and Z follow the arc to the target, and the other axes move
+/// in proportion to the angle. If the radii at the start and the end differ, the radius changes in proportion too.
 struct Arc {
     Point target{};
     Vector centre{};
@@ -38,7 +38,7 @@ struct Arc {
     double feed = 0;
 };
 
-/// A NURBS of order `order` (its degree and 1) on clamped knots one apart: the first and the last point are on it.
+/// A NURBS of order `order` (degree + 1) on clamped knots at distance 1. The first and the last point are on it.
 struct Spline {
     struct Control {
         Vector at{};
@@ -90,7 +90,7 @@ struct Event {
 
 using Action = std::variant<Straight, Arc, Spline, Dwell, Event>;
 
-/// Takes the actions in the order of the program; `line` is that of the text, from 1.
+/// Receives the actions in the order of the program; `line` is the line of the text, from 1.
 using Sink = std::function<void(const Action& action, int line)>;
 
 }  // namespace lockstep::gcode

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSecondsPerMinute = 60;
 constexpr double kLeastArc_mm = 1e-5;
-constexpr int kExactPathWord = 610;  // as Modal::path_mode has it
+constexpr int kExactPathWord = 610;  // values of Modal::path_mode
 constexpr int kExactStopWord = 611;
 
 std::optional<std::size_t> place_of_name(std::string_view name) {
@@ -110,7 +110,7 @@ void ProgramBuilder::take(const Action& action, int line, const Interpreter& int
     }
 }
 
-/// Each axis once a line: a curve may be outside with many chords.
+/// Reports each axis once per line, because many chords of a curve may be outside.
 void ProgramBuilder::fail(std::size_t axis, const std::string& message) {
     if (!outside_.insert(axis).second) { return; }
     const Line& line = interpreter_->line();
@@ -120,13 +120,13 @@ void ProgramBuilder::fail(std::size_t axis, const std::string& message) {
     errors_.push_back(line.error(place, word_text(line, place) + " takes " + message));
 }
 
-/// Cutter compensation hands out a motion when a later line has been read.
+/// The motion may be of an earlier line, because cutter compensation emits it after a later line was read.
 void ProgramBuilder::fail(const std::string& message) {
     const Line& line = interpreter_->line();
     errors_.push_back(line.number() == line_ ? line.error(0, message) : GcodeError{line_, 1, message});
 }
 
-/// A place outside the travel is reported, and returned unchanged, so that the lines behind it are checked as written.
+/// Reports a place outside the travel, but returns it unchanged, so that later lines are checked as written.
 double ProgramBuilder::within_travel(std::size_t i, double mm) {
     const GcodeAxis& axis = setup_.axes[i];
     const double nearest = std::clamp(mm, axis.min_mm, axis.max_mm);
@@ -139,7 +139,7 @@ double ProgramBuilder::within_travel(std::size_t i, double mm) {
     return mm;
 }
 
-/// Of an arc in the plane of two of the setup's axes. Nothing: it lies otherwise, so it has to be cut into chords.
+/// The shape of an arc in the plane of two of the setup's axes. Returns nullopt if the arc must be cut into chords.
 std::optional<ArcShape> ProgramBuilder::shape_of(const Arc& arc) const {
     if (setup_.curves_as_chords) { return std::nullopt; }
     const auto normal = static_cast<std::size_t>(std::ranges::find(arc.axis, 1.0) - arc.axis.begin());
@@ -208,7 +208,7 @@ void ProgramBuilder::move(const Point& target, double feed, bool rapid) {
     position_ = std::move(to);
 }
 
-/// With the modes that hold. `feed`: per minute.
+/// Makes a move with the present modes. `feed` is per minute.
 ProgramMove ProgramBuilder::move_to(const std::vector<double>& to, double feed, std::optional<ArcShape> arc) const {
     const Modal& modal = interpreter_->state().modal;
     ProgramMove move{.target_mm = to, .feed_mm_s = feed / kSecondsPerMinute, .arc = arc};
@@ -222,7 +222,7 @@ ProgramMove ProgramBuilder::move_to(const std::vector<double>& to, double feed, 
     return move;
 }
 
-/// A program's feed is along the path of all axes; this is the one that makes the linear ones go at F.
+/// The feed of a ProgramMove is along the path of all axes. Returns the one with which the linear axes move at F.
 double ProgramBuilder::feed_along_path(const ProgramMove& move) const {
     const std::vector<double>& target = move.target_mm;
     double linear = move.arc ? ArcPath(*move.arc, position_, target).plane_length_mm() : 0;

@@ -1,5 +1,5 @@
-// Makes a motion program of what an interpreter hands out: checks travel, cuts curves, and applies the machine's rules
-// to words that move nothing.
+// Makes a motion program from the actions of an interpreter: checks travel, cuts curves, and applies the machine's
+// rules to words that move no axis.
 #pragma once
 
 #include <optional>
@@ -14,17 +14,17 @@
 
 namespace lockstep::gcode {
 
-/// The letters that call the setup's axes; axes of longer names have none.
+/// The letters of the setup's axes. Axes with longer names have none.
 std::string axis_letters(const GcodeSetup& setup);
 /// The interpreter's setup and the state that a program of this machine begins with.
 Setup interpreter_setup(const GcodeSetup& setup);
 State start_state(const GcodeSetup& setup);
-/// Where the axes park, in the order of kAxisLetters.
+/// The park position, in the order of kAxisLetters.
 Point park_place(const GcodeSetup& setup);
-/// The axis of a G-code letter's place among kAxisLetters, for each axis of the setup; none for longer names.
+/// For each axis of the setup the index of its letter in kAxisLetters; none for longer names.
 std::vector<std::optional<std::size_t>> axis_places(const GcodeSetup& setup);
 
-/// An F so small is a mistake in the units. Of the block that the interpreter has just done.
+/// Returns an error if F in the interpreter's last block is so small that its units must be wrong.
 std::optional<GcodeError> slow_feed(const Interpreter& interpreter);
 
 ModalState modal_of(const State& now, const GcodeSetup& setup);
@@ -33,18 +33,18 @@ class ProgramBuilder {
 public:
     explicit ProgramBuilder(const GcodeSetup& setup);
 
-    /// The devices' state before the first action: the program's end switches off what is on then, too.
+    /// Sets the devices' state before the first action. The program's end also switches off devices that are on then.
     void begin(const Modal& modal) {
         spindle_turns_ = modal.spindle != Turning::Stopped;
         coolant_flows_ = modal.mist || modal.flood;
     }
-    /// `interpreter` is at the block that the action is of; it gives the places of words in errors.
+    /// `interpreter` is at the action's block; it provides the places of words for errors.
     void take(const Action& action, int line, const Interpreter& interpreter);
-    /// What was wrong with the actions since the last call.
+    /// The errors of the actions since the last call.
     std::vector<GcodeError> take_errors() { return std::exchange(errors_, {}); }
 
     ProgramHead head() const { return program_.head(); }
-    /// Those made since the last call.
+    /// The blocks and notes since the last call.
     std::vector<lockstep::Block> take_blocks() { return std::exchange(program_.blocks, {}); }
     std::vector<GcodeNote> take_notes() { return std::exchange(notes_, {}); }
 
@@ -61,9 +61,9 @@ private:
     void event(const Event& event);
     void end();
     void change_tool(int tool);
-    /// Reports the word as an error where its rule refuses it.
+    /// Reports the word as an error if its rule refuses it.
     bool is_refused(WordRule rule, const char* what, const char* key);
-    /// The event of a word for a device: none where the word is refused.
+    /// Appends the event of a word for a device, unless the word is refused.
     void device_event(WordRule rule, const char* what, const char* key, const ProgramEvent& event);
     void note(const std::string& kind, const std::string& text);
     void append(decltype(lockstep::Block::action) action);
@@ -79,8 +79,8 @@ private:
     Point at_{};
     std::vector<GcodeError> errors_;
     int line_ = 0;
-    std::set<std::size_t> outside_;      // axes that this line's errors name
-    std::uint32_t events_together_ = 0;  // since the last other block
+    std::set<std::size_t> outside_;      // axes named in this line's errors
+    std::uint32_t events_together_ = 0;  // events since the last block of another kind
     bool spindle_turns_ = false;
     bool coolant_flows_ = false;
     const Interpreter* interpreter_ = nullptr;

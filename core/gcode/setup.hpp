@@ -10,18 +10,18 @@
 
 namespace lockstep::gcode {
 
-/// A program that exceeds one of these is refused with its name.
+/// A program that exceeds one of these is refused, with the limit's name.
 struct Limits {
-    int call_depth = 10;                       // subroutines that call each other
+    int call_depth = 10;                       // of subroutines that call each other
     std::int64_t repeated_lines = 10'000'000;  // lines run in loops and subroutines, all together
     std::size_t kept_lines = 100'000;          // lines of loops and subroutines, all together
 };
 
 struct Setup {
-    std::string axes = "XYZABCUVW";  // the machine's axes, of these letters
+    std::string axes = "XYZABCUVW";  // those of these letters that the machine has
     bool skip_deletable = true;      // block delete: lines that begin with / are not run
     Limits limits;
-    /// The whole text, if it is known: a subroutine may then stand behind its call. It outlives the interpreter.
+    /// The whole text, if it is known. A subroutine may then be behind its call. It must outlive the interpreter.
     std::string_view program;
     /// The text of the file of a subroutine that the program calls but does not contain; the name is in small letters.
     std::function<std::optional<std::string>(std::string_view name)> find_subroutine;

@@ -1,4 +1,4 @@
-// The state of a machine as G-code sees it: a value that a program begins with and leaves changed.
+// The state of a machine for G-code. A program begins with a state and changes it.
 #pragma once
 
 #include <array>
@@ -21,14 +21,14 @@ enum class Side : std::uint8_t { None, Left, Right };             // G40 G41 G42
 enum class Turning : std::uint8_t { Stopped, Forward, Reverse };  // M5 M3 M4
 inline constexpr int kNoMotion = -1;                              // after G80, and at the start
 
-/// What a word sets and the lines after it keep.
+/// The modes: a word sets them, and they hold for the lines after it.
 struct Modal {
     int motion = kNoMotion;  // the G code's number times ten: G5.2 is 52
     Plane plane = Plane::XY;
     bool inches = false;            // G20
     bool relative = false;          // G91
     bool centres_absolute = false;  // G90.1
-    bool retract_to_start = false;  // G98; else G99: to R
+    bool retract_to_start = false;  // G98; false, G99: to R
     FeedMode feed_mode = FeedMode::PerMinute;
     double feed_linear = 0;   // mm/min; 0: none yet
     double feed_turning = 0;  // degrees/min
@@ -58,7 +58,7 @@ struct Tool {
     bool operator==(const Tool&) const = default;
 };
 
-/// Where the program's coordinates are: machine = turned(program + g92) + origin + tool.
+/// The origin of the program's coordinates: machine = turned(program + g92) + origin + tool.
 struct Offsets {
     Point origin{};       // of the chosen coordinate system
     double rotation = 0;  // of it, degrees counterclockwise about Z
@@ -67,7 +67,7 @@ struct Offsets {
     bool operator==(const Offsets&) const = default;
 };
 
-/// What a canned cycle's words leave for the same cycle behind it, in mm.
+/// Words of a canned cycle that also hold for the same cycle in later blocks, in mm.
 struct CycleWords {
     std::optional<double> clear;  // R
     std::optional<double> bottom;
@@ -78,11 +78,11 @@ struct CycleWords {
 
 inline constexpr int kMaxSplineOrder = 10;
 
-/// What a spline leaves for the blocks behind it, in mm.
+/// Data of a spline for later blocks, in mm.
 struct SplineWords {
     std::optional<Flat> direction;  // G5: its P and Q
     std::optional<Spline> nurbs;    // between G5.2 and G5.3
-    Point end{};                    // of it so far, in the program's coordinates
+    Point end{};                    // its end so far, in the program's coordinates
 };
 
 struct State {
@@ -105,20 +105,20 @@ inline constexpr int kSecondHomeParameter = 5181;  // G30
 inline constexpr int kG92UsedParameter = 5210;     // 1: the G92 offsets below hold
 inline constexpr int kG92Parameter = 5211;
 inline constexpr int kSystemParameter = 5220;  // 1 is G54
-/// Of a coordinate system's origin; its rotation is the tenth.
+/// The first of the parameters of a coordinate system: nine for its origin, the tenth is its rotation.
 constexpr int origin_parameter(std::size_t system) { return 5221 + static_cast<int>(system) * 20; }
 
 Point place_of(const ParameterValues& parameters, int first);
 void set_place(ParameterValues& parameters, int first, const Point& place);
 
-/// Between the program's coordinates and the machine's.
+/// Convert between the program's coordinates and the machine's.
 Point to_machine(const Offsets& offsets, const Point& program);
 Point to_program(const Offsets& offsets, const Point& machine);
 
 /// Chooses a coordinate system: 0 is G54.
 void begin_system(State& state, std::size_t system);
 
-/// Takes the offsets of the parameters, and the program's coordinates of where the axes stand.
+/// Takes the offsets from the parameters, and computes the axes' place in the program's coordinates.
 void begin(State& state);
 
 }  // namespace lockstep::gcode

@@ -1,4 +1,4 @@
-// Interpreter: the parameters that programs read but do not write.
+// Interpreter: the parameters that programs can read but not write.
 #include "core/gcode/interpreter.hpp"
 #include "core/gcode/run/compensation.hpp"
 

@@ -1,4 +1,4 @@
-// The lines of a text, whatever ends them: LF, CR LF, CR CR LF, CR, or the text's end.
+// Splits a text into lines. A line ends with LF, CR LF, CR CR LF, CR, or the text's end.
 #pragma once
 
 #include <algorithm>

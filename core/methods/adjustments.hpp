@@ -1,4 +1,4 @@
-// What a method changes of a move that it cannot express: refused or said, as the caller wants.
+// The changes that a method makes to a move that it cannot express. The caller refuses or reports them.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ public:
     }
     const std::string& text() const { return text_; }
 
-    /// Error where the move must be made exactly and cannot be.
+    /// Returns an error if the move must be made exactly and there are changes.
     std::expected<void, StepError> allowed_by(Fit fit) const {
         if (fit == Fit::Nearest || text_.empty()) { return {}; }
         return std::unexpected(StepError{.why = StepError::Why::Inexact, .nearest = text_});

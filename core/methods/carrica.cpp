@@ -10,11 +10,11 @@
 namespace lockstep::methods {
 namespace {
 
-constexpr double kOne = 0x1p60;  // a step, where speeds are steps per clock period
+constexpr double kOne = 0x1p60;  // one step; speeds are in steps per clock period
 
 std::int64_t rounded_up(double steps) { return static_cast<std::int64_t>(std::ceil(steps * kOne)); }
 
-/// The first of from ... to for which the condition holds; it holds for `to`, and for all behind the first.
+/// The first of from ... to for which the condition holds. It must hold for `to`, and for all values behind the first.
 template <typename Condition>
 std::int64_t first_where(std::int64_t from, std::int64_t to, const Condition& holds) {
     while (from < to) {
@@ -28,7 +28,7 @@ StepMove expressible(const StepMove& move, Adjustments& changed) {
     StepMove made = move;
     if (move.acceleration != move.deceleration) {
         made.acceleration = made.deceleration = std::min(move.acceleration, move.deceleration);
-        changed.add("has no deceleration of its own", short_number(made.acceleration) + " steps/s^2 both ways");
+        changed.add("has a deceleration equal to its acceleration", short_number(made.acceleration) + " steps/s^2");
     }
     const double first = std::min(move.max, std::sqrt(2 * made.acceleration));
     if (move.start == 0) {
@@ -56,7 +56,7 @@ bool CarricaSteps::Reference::steps_at(std::int64_t clocks) const {
     return Int128{clocks} * after(clocks) >= static_cast<Int128>(kOne);
 }
 
-/// While it falls, n V_ref rises to a peak, and rises again only once V_min is reached: a step falls in either rise.
+/// While V_ref falls, n V_ref rises to a peak, and rises again only after V_min. The step is in one of the two rises.
 std::int64_t CarricaSteps::Reference::wait() const {
     const auto holds = [this](std::int64_t clocks) { return steps_at(clocks); };
     const auto longest = [](std::int64_t slowest) { return static_cast<std::int64_t>(kOne) / slowest + 1; };
@@ -68,14 +68,14 @@ std::int64_t CarricaSteps::Reference::wait() const {
     return first_where(from, std::max(from, longest(min)), holds);
 }
 
-/// After a step: once it has begun to fall, it falls or waits for the steps to come down to it.
+/// Called after each step. Once V_ref has begun to fall, it falls, or stays level until the steps have come down to it.
 void CarricaSteps::Reference::brake_for(std::int64_t remaining) {
     const bool too_fast = static_cast<double>(remaining) <= brake_steps();
     if (too_fast) { slope = Slope::Falling; }
     if (!too_fast && slope == Slope::Falling) { slope = Slope::Level; }
 }
 
-/// Steps from here to V_min.
+/// The steps needed to slow down from here to V_min.
 double CarricaSteps::Reference::brake_steps() const {
     const double v = static_cast<double>(speed) / kOne;
     const double v0 = static_cast<double>(min) / kOne;

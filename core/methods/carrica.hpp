@@ -1,16 +1,16 @@
-// A counter times a reference speed, compared with one: no timer and no division.
+// Compares the product of a counter and a reference speed with one: needs no timer and no division.
 //
 // Source: Daniel Carrica, Marcos A. Funes, Sergio A. González, "Novel stepper motor controller based on FPGA hardware
-// implementation", Eqs. (5), (7), (9), (11) and Fig. 5. n counts clock periods T_c since the last step; a step falls
-// where
+// implementation", Eqs. (5), (7), (9), (11) and Fig. 5. n counts clock periods T_c since the last step. A step
+// occurs when
 //   n V_ref T_c >= 1,                                                                                         (11)
 // and n restarts at 0. V_ref is a trapezoid over time from V_min to V_max (Fig. 4). Only speeds 1/(n T_c) can be made,
-// each at or below the reference; near speed V neighbours are about V^2 T_c apart.
+// each at or below the reference; near speed V adjacent speeds differ by about V^2 T_c.
 //
-// Left open there and chosen here: V_ref changes every T_c, in fixed point of 2^-60 step per T_c, rounded up so that a
-// speed whose period is a whole number of T_c gets exactly that period. It falls while the steps that remain are no
-// more than (V_ref^2 - V_min^2)/(2a), looked at after each step: the steps made are a little slower than the reference,
-// and one that fell by time alone would be at V_min long before the last step.
+// The paper leaves the following open; chosen here: V_ref changes every T_c, in fixed point of 2^-60 step per T_c,
+// rounded up so that a speed with a period of whole T_c gets exactly that period. It falls while the remaining steps
+// are at most (V_ref^2 - V_min^2)/(2a), checked after each step. The steps are a little slower than the reference, so
+// if it fell by time alone, it would reach V_min long before the last step.
 #pragma once
 
 #include "core/methods/method.hpp"
@@ -21,17 +21,17 @@ struct CarricaParameters {
     double clock_s = 800e-9;  // T_c of the experiment of Figs. 6 and 7; 400 ns for Fig. 8
 };
 
-/// The speed next below 1/(n T_c), and how far it is: what the quantisation of speed costs near `steps_per_s`.
+/// The quantisation of speed near `steps_per_s`: the difference of the two next speeds 1/(n T_c) at or below it.
 double carrica_speed_gap(double steps_per_s, double clock_s);
 
-/// When steps fall, one after the other. A wait is found by bisection, to the clock period that counting would find.
+/// The times of steps, one after the other. Bisection finds the same wait, in clock periods, as counting would.
 class CarricaSteps {
 public:
-    /// Error: as carrica's.
+    /// Returns the errors of carrica().
     static std::expected<CarricaSteps, StepError> of(const StepMove& move, Fit fit,
                                                      const CarricaParameters& parameters = {});
 
-    /// Call it for each of the move's steps once.
+    /// Call it once for each step of the move.
     double next_s();
     double clock_s() const { return clock_s_; }
     const std::string& nearest() const { return nearest_; }
@@ -61,8 +61,8 @@ private:
     std::int64_t now_ = 0;
 };
 
-/// One acceleration for both ramps: the smaller of the two. From rest it begins at sqrt(2a), the speed after one step.
-/// Step k is where the position is k. Error: the maximum is above 1/T_c.
+/// Both ramps have the smaller of acceleration and deceleration. From rest it begins at sqrt(2a), the speed after one
+/// step. Step k is at position k. Returns an error if the maximum is above 1/T_c.
 StepResult carrica(const StepMove& move, Fit fit, const CarricaParameters& parameters = {});
 
 }  // namespace lockstep::methods

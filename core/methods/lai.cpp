@@ -24,7 +24,8 @@ LaiSpeeds expressible(const StepMove& move, double period_s, Adjustments& change
                     "from " + short_number(start) + " to " + short_number(max) + " steps/s");
     }
     if (differs(change, move.acceleration) || differs(change, move.deceleration)) {
-        changed.add("changes speed by whole pulses per period, alike both ways", short_number(change) + " steps/s^2");
+        changed.add("changes speed by whole pulses per period, with equal acceleration and deceleration",
+                    short_number(change) + " steps/s^2");
     }
     return speeds;
 }

@@ -14,13 +14,13 @@ struct LaiParameters {
     double period_s = 6.5e-3;  // the sampling time of Section 3.1
 };
 
-/// When pulses fall, one after the other.
+/// The times of pulses, one after the other.
 class LaiSteps {
 public:
-    /// Error: as lai's.
+    /// Returns the errors of lai().
     static std::expected<LaiSteps, StepError> of(const StepMove& move, Fit fit, const LaiParameters& parameters = {});
 
-    /// Call it for each of the move's steps once.
+    /// Call it once for each step of the move.
     double next_s();
     double clock_s() const { return clock_s_; }
     const std::string& nearest() const { return nearest_; }
@@ -35,9 +35,9 @@ private:
     std::int64_t now_ = 0;
 };
 
-/// Speeds become whole pulses per period, not above those asked; the acceleration a whole number of pulses per period
-/// and period, at least one (23,669 steps/s^2), both ways. Step k is where the position is k. Error: the maximum is
-/// below one pulse per period, or above what the DDA's register holds.
+/// Speeds become whole pulses per period, not above the requested ones. Acceleration and deceleration become the same
+/// whole number of pulses per period^2, at least one (23,669 steps/s^2). Step k is at position k. Returns an error if
+/// the maximum is below one pulse per period, or does not fit in the DDA's register.
 StepResult lai(const StepMove& move, Fit fit, const LaiParameters& parameters = {});
 
 }  // namespace lockstep::methods

@@ -8,7 +8,7 @@
 namespace lockstep::methods {
 namespace {
 
-/// The pulse of an axis at a clock of its DDA.
+/// Clocks the DDA of an axis. Returns the axis's pulse: +1, -1 or 0.
 std::int64_t clocked(Dda& dda, std::int64_t pulses) { return dda.clock() ? (pulses < 0 ? -1 : 1) : 0; }
 
 class Walk {

@@ -24,9 +24,9 @@ LamParameters expressible(const StepMove& move, const LamParameters& parameters,
     changed.add("has whole counts of " + short_number(f / 1e3) + " kHz",
                 "from " + short_number(f / static_cast<double>(made.start_delay)) + " to " +
                     short_number(f / static_cast<double>(made.cruise_delay)) + " steps/s");
-    changed.add("has no acceleration to choose", std::to_string(made.acceleration) + " counts fewer each pulse");
-    changed.add("has no deceleration to choose", std::to_string(made.deceleration) + " counts more each of the last " +
-                                                     std::to_string(made.brake_pulses) + " pulses");
+    changed.add("has a fixed acceleration", std::to_string(made.acceleration) + " counts fewer each pulse");
+    changed.add("has a fixed deceleration", std::to_string(made.deceleration) + " counts more each of the last " +
+                                                std::to_string(made.brake_pulses) + " pulses");
     return made;
 }
 

@@ -9,13 +9,13 @@
 
 namespace lockstep::methods {
 
-/// When pulses fall, one after the other.
+/// The times of pulses, one after the other.
 class LamSteps {
 public:
-    /// Error: as lam's.
+    /// Returns the errors of lam().
     static std::expected<LamSteps, StepError> of(const StepMove& move, Fit fit, const LamParameters& parameters = {});
 
-    /// Call it for each of the move's steps once.
+    /// Call it once for each step of the move.
     double next_s();
     double clock_s() const { return clock_s_; }
     const std::string& nearest() const { return nearest_; }
@@ -29,9 +29,9 @@ private:
     std::int64_t now_ = 0;
 };
 
-/// Start and cruise delays become the shortest whole counts of the clock, not faster than asked, at least two; a start
-/// from rest takes `parameters.start_delay`. Acceleration and deceleration are those of the counter, whatever is asked.
-/// Step k is where the position is k.
+/// Start and cruise delays become the shortest whole counts of the clock that are not faster than requested, at least
+/// two. A start from rest uses `parameters.start_delay`. Acceleration and deceleration are always those of the counter.
+/// Step k is at position k.
 StepResult lam(const StepMove& move, Fit fit, const LamParameters& parameters = {});
 
 }  // namespace lockstep::methods

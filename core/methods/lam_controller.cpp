@@ -73,7 +73,7 @@ LamOutputs LamController::count_down() {
     return {.pulse = true, .right = right_};
 }
 
-/// The wait for the next pulse.
+/// Sets the wait for the next pulse.
 void LamController::choose_delay() {
     if (distance() == 0) {
         state_ = LamState::Standby;

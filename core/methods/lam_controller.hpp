@@ -1,15 +1,14 @@
 // The state machine with a delay counter: Initialize, Standby, Accelerate, Cruise, Decelerate, Stop.
 //
 // Source: Lam Chee Yuen and Phaklen Ehkan, "Design and Implementation of FPGA Based Bipolar Stepper Motor Controller
-// for Linear Slide Application", Section III and Fig. 3. A pulse falls each time the delay counter has run out; then
+// for Linear Slide Application", Section III and Fig. 3. A pulse occurs each time the delay counter runs out; then
 //   delay_t = delay_(t-1) - 2 while accelerating (1), delay_t = delay_(t-1) + 10 while decelerating (2).
 //
-// Left open there and chosen here:
+// The paper leaves the following open; chosen here:
 // - Decelerate begins when 5 pulses or fewer remain. From the cruising delay 6 the last five waits are 16, 26, 36, 46
-// and
-//   46: the counter grows until it is 44 or more and then stays, and pulses end where the distance is 0. Both of the
+//   and 46: the counter grows until it is 44 or more and then stays, and pulses end when the distance is 0. Both of the
 //   paper's conditions for the end are met, and every destination is reached exactly.
-// - A limit switch counts only where the head moves towards it; otherwise leaving the left one would end at once.
+// - A limit switch counts only if the head moves towards it. Otherwise a move away from the left one would end at once.
 // - Initialize drives left at the starting delay; the predefined place is 50 pulses from the origin; the delay before
 //   Initialize begins again is a second.
 #pragma once
@@ -47,12 +46,12 @@ struct LamOutputs {
 
 class LamController {
 public:
-    /// At power-up: Initialize.
+    /// The state at power-up: Initialize.
     explicit LamController(const LamParameters& parameters = {});
     /// In Standby at `location`, as after initialisation.
     static LamController standing_at(std::int64_t location, const LamParameters& parameters = {});
 
-    /// One period of the clock.
+    /// Executes one period of the clock.
     LamOutputs clock(const LamInputs& inputs);
 
     LamState state() const { return state_; }
@@ -76,7 +75,7 @@ private:
     std::int64_t destination_ = 0;
     std::int64_t delay_;
     std::int64_t left_of_delay_;
-    std::int64_t recovery_ = 0;  // counts until Initialize begins again; 0: not after a limit
+    std::int64_t recovery_ = 0;  // counts until Initialize begins again after a limit; 0: no limit
     bool right_ = false;
 };
 

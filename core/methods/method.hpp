@@ -1,8 +1,8 @@
-// What the published step generation methods have in common: a planned move in, the times of its steps out.
+// The common interface of the published step generation methods: from a planned move to the times of its steps.
 //
-// Each method is as its authors published it, with their numbers as defaults. They are compared with each other and
-// with the continuous ideal, and an axis may make its own moves by any of them (paper_steps.hpp). Programs run by
-// core/motion, or by Lai's planner (core/coordinator/path/lai_path.hpp).
+// Each method is as its authors published it, with their numbers as defaults. `lockstep compare` compares them with
+// each other and with the continuous ideal. An axis may make its own moves by any of them (paper_steps.hpp). core/path
+// or Lai's planner (core/coordinator/path/lai_path.hpp) plans programs.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 namespace lockstep::methods {
 
 inline constexpr std::int64_t kMaxSteps = 10'000'000;
-/// How many periods of its clock a method is followed for.
+/// The longest move, in periods of the method's clock.
 inline constexpr double kMaxClocks = 5e8;
 
 /// What to do with a move that a method cannot express: refuse it, or make the nearest it can.
@@ -27,17 +27,17 @@ enum class Fit { Exact, Nearest };
 struct StepTrain {
     std::vector<double> times_s;  // of each step, from the start of the move
     double clock_s = 0;           // the method's resolution
-    std::string nearest;          // what was changed of the move; empty: nothing
+    std::string nearest;          // the changes made to the move; empty: none
 };
 
 using StepResult = std::expected<StepTrain, StepError>;
 
-/// Nothing, or what is wrong with the move whatever the method: no steps, too many, no acceleration, a start above the
+/// Returns an error for a move that no method can make: no steps, too many, no acceleration, a start speed above the
 /// maximum.
 std::expected<void, StepError> check(const StepMove& move);
 
-/// The whole train of `count` steps, from a method's own maker of them, one after the other: next_s(), clock_s() and
-/// nearest(), as StepTrain has them.
+/// Collects all `count` steps from a method's step generator, which has next_s(), clock_s() and nearest() with the
+/// meanings of StepTrain.
 template <typename Steps>
 StepResult train_of(std::expected<Steps, StepError> steps, std::int64_t count) {
     if (!steps) { return std::unexpected(std::move(steps.error())); }
@@ -47,7 +47,7 @@ StepResult train_of(std::expected<Steps, StepError> steps, std::int64_t count) {
     return train;
 }
 
-/// Error where following the move by a clock of `clock_s` would take more than kMaxClocks.
+/// Returns an error if the move takes more than kMaxClocks periods of a clock of `clock_s`.
 std::expected<void, StepError> check_length(const StepMove& move, double clock_s);
 
 }  // namespace lockstep::methods

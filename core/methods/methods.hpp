@@ -1,4 +1,4 @@
-// The five methods by name, and behind them the off-line table that one of their papers compares with.
+// The five methods by name, then the off-line table with which one of the papers compares its method.
 #pragma once
 
 #include <span>
@@ -18,7 +18,7 @@ struct Method {
 
 std::span<const Method> methods();
 
-/// Nothing where no method has that name.
+/// Returns null if no method has that name.
 const Method* find_method(std::string_view name);
 
 }  // namespace lockstep::methods

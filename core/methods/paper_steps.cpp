@@ -12,7 +12,7 @@
 namespace lockstep::methods {
 namespace {
 
-/// Its machine ramps from rest, by one pulse more or fewer in each period: with more at once, short moves end too fast.
+/// Lai: ramps from rest by one pulse more or fewer in each period. With larger changes, short moves end too fast.
 StepMove for_lai(StepMove move) {
     const double period_s = LaiParameters{}.period_s;
     move.start = 0;
@@ -20,13 +20,13 @@ StepMove for_lai(StepMove move) {
     return move;
 }
 
-/// Its counter begins at its own delay.
+/// Lam: the counter begins at its own delay.
 StepMove for_lam(StepMove move) {
     move.start = 0;
     return move;
 }
 
-/// It looks at its speed once a step: what two steps of acceleration add to V_min must not go beyond the start
+/// Carrica: the method checks its speed once a step. V_min plus two steps of acceleration must not exceed the start
 /// velocity.
 StepMove for_carrica(StepMove move) {
     move.start = std::sqrt(std::max(0.0, move.start * move.start - 4 * move.acceleration));

@@ -1,14 +1,15 @@
-// The steps of a move by one of the published methods, one after the other: a train of any length costs nothing ahead.
+// The steps of a move by one of the published methods, one after the other, so that nothing is computed in advance.
 #pragma once
 
 #include "core/motion/step_source.hpp"
 
 namespace lockstep::methods {
 
-/// A BeginSteps. The nearest that the method makes of the move as its paper has it, so that it keeps limits that suit
-/// it (suits.hpp): spielauer, lai and lam start slowly whatever the start speed, lai changes its speed by one pulse per
-/// period, carrica's least speed lies two steps' acceleration below the start speed. Error: the method cannot make the
-/// move, or is Ranade's, whose moves are pieces and not steps (core/motion/profile.hpp).
+/// A BeginSteps. It begins the nearest move that the method can make with its paper's settings, so that the move keeps
+/// the limits of an axis that the method suits (suits.hpp): spielauer, lai and lam ignore the start speed and start
+/// slowly, lai changes its speed by one pulse per period, carrica's least speed is two steps' acceleration below the
+/// start speed. Returns an error if the method cannot make the move, and for Ranade's method, which makes pieces and
+/// not steps (core/motion/profile.hpp).
 std::expected<std::unique_ptr<StepSource>, StepError> begin_steps(StepMethod method, const StepMove& move);
 
 }  // namespace lockstep::methods

@@ -52,7 +52,7 @@ double SpielauerSteps::followed(double wait, double acceleration) const {
     return wait / (1 + acceleration / (parameters_.step_length * f * f) * wait * wait);
 }
 
-/// The next wait before it is rounded.
+/// The next wait before rounding.
 double SpielauerSteps::next_wait() {
     const double f = parameters_.timer_hz;
     const double alpha = parameters_.step_length;
@@ -71,7 +71,7 @@ double SpielauerSteps::next_wait() {
 }
 
 double SpielauerSteps::corrected(double count) const {
-    const std::int64_t i = made_ - 1;  // of the wait in hand
+    const std::int64_t i = made_ - 1;  // of the present wait
     const std::int64_t left = move_.steps - i;
     if (i >= 1 && i <= kCorrected) { count *= 1 + kCorrection / static_cast<double>(i); }
     if (left <= kCorrected) { count *= 1 + kCorrection / static_cast<double>(left); }

@@ -15,7 +15,7 @@ namespace {
 using Suits = std::expected<void, Unsuited>;
 using Why = Unsuited::Why;
 
-constexpr double kMinTicksPerStep = 3;           // rounded to ticks, a wait is still longer than the engine's two
+constexpr double kMinTicksPerStep = 3;           // then a wait rounded to ticks is still longer than the engine's two
 constexpr std::int64_t kLongestTried = 200'000;  // steps
 
 Suits brakes_as_it_accelerates(const SpeedLimits& limits) {
@@ -23,7 +23,7 @@ Suits brakes_as_it_accelerates(const SpeedLimits& limits) {
     return std::unexpected(Unsuited{Why::OneAcceleration, limits.deceleration, limits.acceleration});
 }
 
-/// Lai's acceleration: one pulse per period and period.
+/// Lai's acceleration: one pulse per period^2.
 double one_pulse() {
     const double period_s = LaiParameters{}.period_s;
     return 1 / (period_s * period_s);
@@ -36,7 +36,7 @@ Suits changes_by_whole_pulses(const SpeedLimits& limits) {
     return std::unexpected(Unsuited{Why::WholePulses, most, least});
 }
 
-/// Every step of one move; the wait for each against all before it.
+/// Checks every step of one move: the wait for each against all before it.
 Suits keeps_limits(StepMethod method, const SpeedLimits& limits, std::int64_t steps) {
     auto source = begin_steps(method, {steps, limits.start, limits.max, limits.acceleration, limits.deceleration});
     if (!source) { return std::unexpected(Unsuited{.why = Why::NotMade, .error = source.error()}); }
@@ -75,7 +75,8 @@ std::string text_of(const Unsuited& unsuited) {
             return "its steps are rounded to ticks: the maximum velocity is " + value +
                    " steps/s and must not be above a third of a step per tick, " + limit;
         case Why::OneAcceleration:
-            return "it has no deceleration of its own: " + value + " steps/s^2 must equal the acceleration, " + limit;
+            return "its deceleration equals its acceleration: " + value + " steps/s^2 must equal the acceleration, " +
+                   limit;
         case Why::WholePulses:
             return "it changes its speed by whole pulses per 6.5 ms, " + limit +
                    " steps/s^2 at least: acceleration and deceleration must not be below that, and one is " + value;

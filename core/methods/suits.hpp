@@ -1,9 +1,8 @@
-// Whether an axis's own moves can be made by a method within the axis's limits.
+// Checks whether a method can make an axis's own moves within the axis's limits.
 //
-// A method that merely does not use a limit suits: spielauer starts at rest whatever the start velocity, lai keeps to
-// the smaller of acceleration and deceleration. One that would break a limit, or cannot make the speed at all, does
-// not. Whether its ramps keep the limits is tried out: moves of many lengths, from one step to a long one, are held
-// against LimitWatch (limit_watch.hpp).
+// A method that only does not use a limit suits: spielauer starts at rest at any start velocity, lai uses the smaller
+// of acceleration and deceleration. A method that would break a limit, or cannot make the speed at all, does not suit.
+// To check its ramps, LimitWatch (limit_watch.hpp) checks moves of many lengths, from one step to a long one.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +15,7 @@
 
 namespace lockstep::methods {
 
-/// Steps/s, steps/s^2, and the tick that step times are rounded to, s.
+/// Steps/s, steps/s^2, and the tick in s to which step times are rounded.
 struct SpeedLimits {
     double start = 0;
     double max = 0;
@@ -31,10 +30,10 @@ SpeedLimits speed_limits_of(const AxisConfig& axis, std::int64_t tick_ns);
 struct Unsuited {
     enum class Why : std::uint8_t {
         TooFast,          // `value` steps/s; steps rounded to ticks allow `limit`
-        OneAcceleration,  // it brakes as it accelerates: `value` steps/s^2 is not `limit`
-        WholePulses,      // `value` steps/s^2 is less than one pulse per period and period, `limit`
-        NotMade,          // a move that was tried out: `error`
-        BreaksLimits,     // a move of `steps` that was tried out changes its speed by `value` steps/s more than the
+        OneAcceleration,  // the deceleration of `value` steps/s^2 is not the acceleration `limit`
+        WholePulses,      // `value` steps/s^2 is less than one pulse per period^2, `limit`
+        NotMade,          // a move that was tried cannot be made: `error`
+        BreaksLimits,     // a move of `steps` that was tried changes its speed by `value` steps/s more than the
                           // acceleration allows; the start velocity allows `limit`
     };
     Why why;
@@ -44,7 +43,7 @@ struct Unsuited {
     std::optional<StepError> error;
 };
 
-/// What the method cannot do, with the value and the limit, and what would help.
+/// Text for a person: the reason, with the value and the limit, and what would help.
 std::string text_of(const Unsuited& unsuited);
 
 std::expected<void, Unsuited> suits(StepMethod method, const SpeedLimits& limits);

@@ -1,8 +1,8 @@
-// The continuous ideal: the trapezoid or triangle of a move's limits, and when its steps fall.
+// The continuous ideal of a move: the trapezoid or triangle of its limits, and the times of its steps.
 //
 // From `start` the speed rises by `acceleration` to the peak, stays, and falls by `deceleration` to `start`:
 //   peak = min(max, sqrt((2 a d N + (a + d) v0^2) / (a + d))).
-// Which place of the position is a step is each method's own convention (Crossing): step k at k or at k - 1/2.
+// The position of step k is k or k - 1/2, by the convention of each method (Crossing).
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@ public:
 
     double duration_s() const { return rise_s_ + cruise_s_ + fall_s_; }
     double peak() const { return peak_; }  // steps/s
-    /// When the position, 0 ... steps, is reached; s.
+    /// The time in s at which a position, 0 ... steps, is reached.
     double time_s(double position) const;
     std::vector<double> step_times_s(Crossing crossing) const;
 

@@ -9,7 +9,7 @@
 namespace lockstep {
 namespace {
 
-/// Nearest to numerator / divisor; the same magnitude for either sign.
+/// numerator / divisor, rounded to the nearest integer, halves away from 0.
 Int128 divide_evenly(Int128 numerator, Int128 divisor) {
     const Int128 magnitude = ((numerator < 0 ? -numerator : numerator) + divisor / 2) / divisor;
     return numerator < 0 ? -magnitude : magnitude;
@@ -32,8 +32,8 @@ Piece solve_piece(Position from, Position to, Ticks ticks, double acceleration) 
 PieceSource::PieceSource(const Path& path, Ticks begin, Ticks end, std::span<Position> at)
     : path_(path), now_(begin), end_(end), at_(at) {}
 
-/// Phases of one move meet on the nearest tick: the speed is the same on both sides. At a move's end it may jump: the
-/// tick in which that is becomes a stretch of its own, lest the jump's share of it bend the stretch before or behind.
+/// Phases of one move meet at the nearest tick, because the speed is the same on both sides. At a move's end the speed
+/// may jump. The tick of the jump is a separate stretch, otherwise the jump distorts the adjacent stretches.
 Ticks PieceSource::stretch_end(const PathMove*& move, double& acceleration) const {
     constexpr Subticks kHalfTick{kSubticksPerTick / 2};
     move = &path_.moves[path_.move_at(subticks(now_))];
@@ -55,7 +55,7 @@ bool PieceSource::next(std::span<Piece> pieces) {
     double acceleration = 0;
     const Ticks to = stretch_end(move, acceleration);
     const Ticks ticks = to - now_;
-    if (ticks == Ticks{1}) { acceleration = 0; }  // a tick has one speed; where a move ends in it, not its slope
+    if (ticks == Ticks{1}) { acceleration = 0; }  // one tick has one speed, even if a sloped phase ends in it
     if (subticks(to) > move->end() && move != &path_.moves.back()) { move = &path_.moves[path_.move_at(subticks(to))]; }
     const Displacement along = move->along_at(subticks(to));
     for (std::size_t i = 0; i < at_.size(); ++i) {

@@ -1,8 +1,8 @@
 // The DDA: turns a path's motion into each axis's add-only pieces, exact at every joint and to the last step.
 //
-// All axes follow one variable, the lead axis's place s(t). An axis's place is its exact share of s; a piece's
-// acceleration is the share of the path's, and its velocity is solved so that the piece ends where the path then is.
-// What that rounds off (less than one unit of 2^-64 step per tick) is carried into the next piece, so nothing adds up.
+// All axes follow one variable, the lead axis's place s(t). An axis's place is its exact share of s. A piece's
+// acceleration is the same share of the path's, and its velocity is solved so that the piece ends on the path. The
+// rounding error (less than one unit of 2^-64 step per tick) is carried into the next piece, so errors do not add up.
 #pragma once
 
 #include <span>
@@ -13,13 +13,13 @@
 
 namespace lockstep {
 
-/// A stretch of whole ticks in which the path has one acceleration, and the shares of all axes in it.
+/// Divides a path into stretches of whole ticks with one acceleration each, and makes the pieces of all axes for them.
 class PieceSource {
 public:
-    /// Follows `path` over the ticks [begin, end); `at` is where each axis is, and is moved along.
+    /// Follows `path` over the ticks [begin, end). `at` is the position of each axis and is updated.
     PieceSource(const Path& path, Ticks begin, Ticks end, std::span<Position> at);
 
-    /// The next stretch: one piece per axis into `pieces`, in the axes' order. False at the end.
+    /// Writes the next stretch into `pieces`, one piece per axis, in the axes' order. Returns false at the end.
     bool next(std::span<Piece> pieces);
 
 private:
@@ -31,13 +31,13 @@ private:
     std::span<Position> at_;
 };
 
-/// The place an axis starts a path from at rest: a backward start is one unit lower (see rest_position).
+/// The position from which an axis at rest starts a path. A backward start is one unit lower (see rest_position).
 Position start_of(const Path& path, std::size_t axis, std::int64_t count);
 
 /// Solves a piece: `ticks` long, ending at `to`, with the given acceleration in steps per tick^2.
 Piece solve_piece(Position from, Position to, Ticks ticks, double acceleration);
 
-/// A single axis's whole profile from `from`, its lead axis being the axis itself, in `direction` (+1 or -1).
+/// The pieces of a single axis's whole profile, starting at `from`, in `direction` (+1 or -1). The axis is the lead.
 std::vector<Piece> pieces_of(const Profile& profile, Position from, int direction);
 
 }  // namespace lockstep

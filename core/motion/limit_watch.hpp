@@ -1,4 +1,4 @@
-// Holds a train of steps against the limits of the axis that is to make it, step after step.
+// Checks a sequence of steps, step after step, against the limits of its axis.
 #pragma once
 
 #include <algorithm>
@@ -6,12 +6,12 @@
 
 namespace lockstep {
 
-/// The mean speed of a wait is one step over it, and the axis has it at some instant of that wait. So no lawful motion,
-/// one that speeds up by at most a, slows down by at most d, and jumps by at most the start velocity, has
-///   mean speeds of two waits that differ by more than start + a (or d) x the time from the one's begin to the other's
-///   end,
-/// rest before the first wait and after the last one included. A train of steps for which that holds everywhere passes:
-/// what whole pulses, counts and clock periods make of a smooth ramp may jump too, but never further than one start.
+/// The mean speed of a wait between two steps is one step divided by the wait, and the axis has that speed at some
+/// instant of the wait. So if a motion accelerates by at most a, decelerates by at most d, and jumps by at most the
+/// start velocity, the mean speeds of any two waits differ by at most
+///   start + a (or d) x the time from the begin of the earlier wait to the end of the later one.
+/// Rest before the first wait and after the last one counts as speed 0. A sequence of steps that meets this condition
+/// everywhere passes. So a ramp may jump by rounding to whole pulses, counts and clock periods, by at most start.
 class LimitWatch {
 public:
     /// Steps/s, steps/s^2.
@@ -27,7 +27,7 @@ public:
 
     explicit LimitWatch(const Limits& limits) : limits_(limits) {}
 
-    /// The next step, after a wait in s.
+    /// Checks the next step, after a wait in s.
     std::optional<Breach> step(double wait_s) {
         const double speed = 1 / wait_s;
         const double gain = limits_.acceleration * wait_s;
@@ -39,7 +39,7 @@ public:
         fastest_ = std::max(fastest_, speed - loss);
         return breach;
     }
-    /// After the last one.
+    /// Checks the rest after the last step.
     std::optional<Breach> rest() const { return compare(0); }
 
 private:
@@ -53,8 +53,8 @@ private:
     static constexpr double kRounding = 1e-6;
 
     Limits limits_;
-    double slowest_ = 0;  // the least that the speeds so far may all have grown to by now
-    double fastest_ = 0;  // the most that they may all have fallen to
+    double slowest_ = 0;  // the least of the speeds so far, each raised by the acceleration since
+    double fastest_ = 0;  // the greatest of them, each lowered by the deceleration since
 };
 
 }  // namespace lockstep

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-/// What is left of a move's profile at t, as it was planned, its time starting at 0.
+/// The rest of a move from t on, as planned, with its time starting at 0.
 PathMove remainder_of(const PathMove& move, Subticks t) {
     PathMove rest = move;
     rest.start = {};
@@ -35,7 +35,7 @@ bool is_too_short_to_brake(const PathMove& move, Subticks t) {
     return move.limits.max_deceleration * left * left < 2 * move.velocity_at(t) * subtick;
 }
 
-/// Whether the path comes to rest in the phase in progress at t, by braking or slowly enough to stop.
+/// Whether the phase in progress at t is the path's last deceleration, after which it rests.
 bool is_last_fall(const Path& path, std::size_t i, Subticks t) {
     const bool last_move = i + 1 == path.moves.size() || path.moves[i + 1].lead == 0;
     const PathMove& move = path.moves[i];
@@ -43,14 +43,14 @@ bool is_last_fall(const Path& path, std::size_t i, Subticks t) {
            move.profile.phases.back().acceleration() < 0;
 }
 
-/// Steps per mm by which axis i changes its course between two moves; null: it rests there.
+/// The change of axis i's slope between two moves, in steps per mm. A null move is rest.
 double turn(const PathMove* before, const PathMove* after, std::size_t i) {
     return std::abs((after != nullptr ? after->slope(i) : 0) - (before != nullptr ? before->slope(i) : 0));
 }
 
-/// The deceleration (lead steps per tick^2) that its corners leave move `m`, entered at no more than `speed` (mm per
-/// tick) and never faster from there: the slower, the less they cost. A move that lasts T between the jumps J1 and J2
-/// of an axis has a - (J1 + J2) / 2T of its acceleration a left.
+/// The deceleration (lead steps per tick^2) that the corners of move `m` leave for braking, if its speed is `speed` (mm
+/// per tick) or less from its entry on. Jumps in slower corners are smaller. An axis with the jumps J1 and J2 at the
+/// ends of a move of duration T has a - (J1 + J2) / 2T of its acceleration a left.
 double braking_left(std::span<const PathMove> moves, std::size_t m, double speed, std::span<const AxisLimits> limits) {
     double left = kNoLimit;
     for (std::size_t i = 0; i < limits.size(); ++i) {
@@ -67,7 +67,7 @@ double braking_left(std::span<const PathMove> moves, std::size_t m, double speed
 }  // namespace
 
 Ticks least_move(const MachineConfig& machine) {
-    // Each move is three phases and the tick of its corner; and what the edges of the frame cut.
+    // A move has four pieces: three phases and the tick of its corner. Four moves are reserved for the frame's edges.
     const std::int64_t moves_per_frame = body_pieces(machine.timing) / 4 - 4;
     return {machine.frame_ticks().value / moves_per_frame + 1};
 }

@@ -24,34 +24,34 @@ inline AxisPositions positions_of(const AxisCounts& counts) {
 struct PathMove {
     std::int32_t line = 0;    // of the program
     std::uint32_t block = 0;  // of the program
-    std::uint32_t part = 0;   // of the block, where it is planned in several
+    std::uint32_t part = 0;   // of the block, if it is planned in several
     AxisCounts from;          // steps
     AxisCounts to;
     std::int64_t lead = 0;  // steps of the axis that has the most; 0: a dwell
     double length_mm = 0;
-    double feed_mm_per_tick = 0;  // asked; 0: as fast as the axes allow
-    PathLimits own;               // of the lead axis, so that no axis breaks its own
-    PathLimits limits;            // what feed and frames leave of them: set by planning
-    Ticks dwell;                  // where lead is 0
+    double feed_mm_per_tick = 0;  // requested; 0: as fast as the axes allow
+    PathLimits own;               // of the lead axis; they keep every axis within its limits
+    PathLimits limits;            // the same, reduced by feed and frames; planning sets it
+    Ticks dwell;                  // if lead is 0
     Subticks start;               // after the path's start
     Profile profile;
 
     Subticks end() const { return start + profile.duration(); }
-    /// How far its lead axis is, and how fast, at a time of the path from where its profile begins.
+    /// The place and the speed of the lead axis at a time of the path, from `start` on.
     Displacement along_at(Subticks t) const { return profile.at(t - start); }
     double velocity_at(Subticks t) const { return profile.velocity_at(t - start); }
-    /// Steps of axis `i` over steps of the lead axis, with its sign.
+    /// Signed steps of axis `i` per step of the lead axis.
     double share(std::size_t i) const { return static_cast<double>(to[i] - from[i]) / static_cast<double>(lead); }
-    /// Steps of axis `i` per mm of path; none in a dwell.
+    /// Steps of axis `i` per mm of path; 0 in a dwell.
     double slope(std::size_t i) const { return lead == 0 ? 0 : static_cast<double>(to[i] - from[i]) / length_mm; }
-    /// mm of path per step of the lead axis: turns speeds of one move into those of the next.
+    /// mm of path per step of the lead axis. It converts speeds of one move to those of the next.
     double mm_per_lead() const { return length_mm / static_cast<double>(lead); }
-    /// What is asked of the lead axis, in steps per tick, as far as the axes allow it.
+    /// The requested speed of the lead axis in steps per tick, limited to what the axes allow.
     double asked_velocity() const;
-    /// mm per tick.
+    /// In mm per tick.
     double start_speed() const { return limits.start_velocity * mm_per_lead(); }
     double top_speed() const { return limits.max_velocity * mm_per_lead(); }
-    /// Where axis `i` is when the lead axis has gone `s`: exact, floor of the magnitude.
+    /// The position of axis `i` when the lead axis has moved by `s`: exact, the magnitude rounded down.
     Position axis_at(std::size_t i, Displacement s) const;
 };
 
@@ -61,7 +61,7 @@ struct Path {
 
     bool empty() const { return moves.empty(); }
     Subticks duration() const { return moves.empty() ? Subticks{} : moves.back().end(); }
-    /// The move in progress at t, the later one where two meet; the last one after the end.
+    /// The move in progress at t: the later one where two meet, the last one after the end.
     std::size_t move_at(Subticks t) const;
 };
 

@@ -6,10 +6,10 @@
 namespace lockstep {
 namespace {
 
-constexpr double kCheckRounding = 1e-6;     // relative: what integers make of doubles
-constexpr double kSpeedRounding = 0x1p-46;  // steps per tick: what they make of the speeds at a piece's ends
+constexpr double kCheckRounding = 1e-6;     // relative: rounding of doubles to integers
+constexpr double kSpeedRounding = 0x1p-46;  // steps per tick: rounding of the speeds at a piece's ends
 
-/// The longest piece and the largest numbers that exact arithmetic is guaranteed for.
+/// The longest piece for which exact arithmetic is guaranteed.
 constexpr std::int64_t kMaxPieceTicks = std::int64_t{1} << 42;
 
 /// The speed by which the acceleration of one tick can exceed a limit where two pieces meet, in steps per tick.
@@ -19,7 +19,7 @@ bool within_speed(double velocity, const AxisLimits& limits) {
     return std::abs(velocity) <= limits.max_velocity * (1 + kCheckRounding) + one_tick(limits);
 }
 
-/// A piece that turns does both, so that what is cut from it keeps the limits, too.
+/// A piece that turns decelerates and accelerates. It must keep both limits, so that its parts keep them too.
 bool within_acceleration(double before, double after, double ticks, const AxisLimits& limits) {
     const bool turns = before * after < 0 && std::min(std::abs(before), std::abs(after)) > one_tick(limits);
     const bool speeds_up = std::abs(after) > std::abs(before);

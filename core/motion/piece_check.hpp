@@ -10,16 +10,16 @@
 
 namespace lockstep {
 
-/// Where a trajectory is at an instant, as it is handed from piece to piece.
+/// The state of a trajectory at an instant, passed from piece to piece.
 struct MotionPoint {
     Position position;
-    double velocity = 0;  // steps per tick, as the continuous motion has it
-    Strain strain;        // what sudden changes have added up to
+    double velocity = 0;  // steps per tick, of the continuous motion
+    Strain strain;        // the sum of sudden changes of speed
 };
 
 /// Follows `pieces` from `point` and moves it to their end. Returns None, or the first breach:
-/// - speed, acceleration, deceleration or sudden changes beyond the limits (FrameBeyondLimits). What one tick's
-///   acceleration can do is tolerated where pieces meet, since pieces last whole ticks;
+/// - speed, acceleration, deceleration or sudden changes beyond the limits (FrameBeyondLimits). An excess of one tick's
+///   acceleration is tolerated where pieces meet, since pieces last whole ticks;
 /// - a piece that ends outside the travel (FrameOutsideTravel);
 /// - a piece without ticks, or with more than exact arithmetic can count (BadProgram).
 FaultCode check_pieces(std::span<const Piece> pieces, const AxisLimits& limits, MotionPoint& point);

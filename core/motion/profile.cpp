@@ -14,12 +14,12 @@ constexpr double kRawPerStepPerTick = 0x1p48;  // 2^64 per step, 2^16 subticks p
 
 std::int64_t to_raw(double steps_per_tick) { return std::llround(steps_per_tick * kRawPerStepPerTick); }
 
-/// What constant acceleration adds to constant speed over the whole phase.
+/// The distance that the acceleration adds to that of the entry speed over the whole phase.
 Int128 curvature(const Phase& phase) {
     return phase.to.raw - phase.from.raw - Int128{phase.entry} * phase.duration.value;
 }
 
-/// At most so long that sums of phases can be counted; 0 for what is no number.
+/// Rounds up to whole quanta, in subticks. Caps the result so that sums of phases do not overflow. 0 for NaN.
 std::int64_t round_up(double ticks, std::int64_t quantum) {
     constexpr double kLongest_ticks = 0x1p45;
     const double subticks = std::min(ticks, kLongest_ticks) * static_cast<double>(kSubticksPerTick);
@@ -39,9 +39,9 @@ struct Shape {
     }
 };
 
-constexpr double kLimitRounding = 1e-9;  // relative: what doubles make of a limit
+constexpr double kLimitRounding = 1e-9;  // relative: rounding of a limit in doubles
 
-/// No faster and no steeper than the limits allow.
+/// Whether the shape is no faster and no steeper than the limits allow.
 bool keeps(const Shape& shape, const PathLimits& limits) {
     const auto peak = static_cast<double>(shape.peak());
     const auto is_gentle = [&](std::int64_t end, std::int64_t ramp, double acceleration) {
@@ -55,9 +55,9 @@ bool keeps(const Shape& shape, const PathLimits& limits) {
            is_gentle(shape.exit, shape.fall, limits.max_deceleration);
 }
 
-/// Rounds a continuous optimum, in ticks, to whole quanta: less than one quantum is lost where the ramps can be rounded
-/// so that the limits hold, and one more otherwise. (With both ramps rounded up and one quantum more, neither the peak
-/// nor a ramp exceeds that of the optimum.)
+/// Rounds a continuous optimum, in ticks, to whole quanta. It adds less than one quantum if the ramps can be rounded so
+/// that the limits hold, and one more otherwise. (With both ramps rounded up and one more quantum, the peak and the
+/// slopes do not exceed those of the optimum.)
 std::optional<Shape> rounded_in_all(Shape shape, double rise, double cruise, double fall,
                                     const ProfileRequest& request) {
     const std::int64_t q = request.quantum;
@@ -79,7 +79,7 @@ std::optional<Shape> rounded_in_all(Shape shape, double rise, double cruise, dou
     return std::nullopt;
 }
 
-/// Where rounding up has left the peak below an end's speed, that end's ramp is part of the cruise.
+/// If rounding up has put the peak below an end's speed, makes that end's ramp a part of the cruise.
 void drop_inverted_ramps(Shape& shape) {
     if (shape.rise > 0 && shape.peak() < shape.entry) {
         shape.cruise += shape.rise;
@@ -100,7 +100,7 @@ Profile build(Displacement from, const Shape& shape) {
     const Displacement to{from.raw + shape.distance};
     const Int128 risen_by = (Int128{shape.entry} + peak) * shape.rise / 2;
     const Int128 falls_by = (Int128{peak} + shape.exit) * shape.fall / 2;
-    // What rounding the peak has left over is shared by time, so that no phase is bent by another's length.
+    // The distance left over by rounding the peak is shared in proportion to time, so that it distorts no phase.
     const Int128 time = Int128{shape.rise} + 2 * Int128{shape.cruise} + shape.fall;
     const Int128 left = shape.distance - risen_by - falls_by - Int128{peak} * shape.cruise;
     Displacement risen{from.raw + risen_by + left * shape.rise / time};
@@ -117,7 +117,7 @@ Profile build(Displacement from, const Shape& shape) {
     return profile;
 }
 
-/// The farthest that can be gone in `ticks` from rest to rest, and back to rest, within limits.
+/// The longest distance that is possible in `ticks` from rest to rest within limits.
 double longest_in(double ticks, double acceleration, const PathLimits& limits) {
     const double top = limits.start_velocity + acceleration * ticks / 2;
     if (top <= limits.max_velocity) { return (limits.start_velocity + top) / 2 * ticks; }
@@ -125,8 +125,8 @@ double longest_in(double ticks, double acceleration, const PathLimits& limits) {
     return (limits.start_velocity + limits.max_velocity) * ramp + limits.max_velocity * (ticks - 2 * ramp);
 }
 
-/// A move that is entered too fast: as hard as it may down to max_velocity, or to its exit's speed where that is
-/// above, and on from there as fast as can be.
+/// Plans a move that is entered above max_velocity. It decelerates at the limit to max_velocity, or to its exit speed
+/// if that is higher, and continues with the fastest profile.
 Profile plan_slowing(const ProfileRequest& request) {
     const double top = std::max(request.limits.max_velocity, request.exit);
     const double d = request.limits.max_deceleration;

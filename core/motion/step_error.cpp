@@ -14,7 +14,7 @@ std::string text_of(const StepError& error) {
         case StartAboveMax: return "the start speed must not be above the maximum";
         case Acceleration: return "acceleration and deceleration must be above 0";
         case TooFast:
-            return "by its clock a step takes at least " + short_number(1e6 / error.most) +
+            return "with the method's clock a step takes at least " + short_number(1e6 / error.most) +
                    " us: the maximum speed must be below " + most + " steps/s";
         case TooSlow:
             return "the move is too slow to be followed by a clock of " + short_number(error.clock_s * 1e6) +

@@ -8,25 +8,25 @@ namespace lockstep {
 
 struct StepError {
     enum class Why : std::uint8_t {
-        StepCount,        // none, or more than `most`
+        StepCount,        // not 1 to `most`
         MaxSpeed,         // not above 0
         StartSpeed,       // below 0
-        StartAboveMax,    // the start speed
-        Acceleration,     // or deceleration: not above 0
-        TooFast,          // the maximum is above what the method's clock can make, `most` steps/s
-        TooSlow,          // by a clock of `clock_s` it is followed for `most` s only
-        PulsesPerPeriod,  // of `clock_s`, whole ones: the maximum is not within `least` and `most` steps/s
-        Inexact,          // the method can make only the `nearest`
-        NoSingleSteps,    // its moves are pieces
+        StartAboveMax,    // start speed above the maximum
+        Acceleration,     // acceleration or deceleration not above 0
+        TooFast,          // maximum above `most` steps/s, the greatest speed of the method's clock
+        TooSlow,          // longer than `most` s, the longest move with a clock of `clock_s`
+        PulsesPerPeriod,  // whole pulses per `clock_s`: the maximum is not within `least` to `most` steps/s
+        Inexact,          // the method cannot make this move, but `nearest`
+        NoSingleSteps,    // the method makes pieces
     };
     Why why;
     double clock_s = 0;
     double least = 0;
     double most = 0;
-    std::string nearest;  // what would be changed of the move
+    std::string nearest;  // the changes to the move
 };
 
-/// What the method cannot do, and what would be possible.
+/// Text for a person: the reason, and the possible values.
 std::string text_of(const StepError& error);
 
 }  // namespace lockstep

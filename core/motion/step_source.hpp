@@ -1,5 +1,4 @@
-// The steps of a move, one after the other. Which method makes them is for the caller to choose: it hands in
-// BeginSteps.
+// The steps of a move, one after the other. The caller chooses the method that makes them by its BeginSteps.
 #pragma once
 
 #include <array>
@@ -13,7 +12,7 @@
 
 namespace lockstep {
 
-/// "ranade" and the like.
+/// The name of a method, such as "ranade".
 constexpr std::string_view name_of(StepMethod method) {
     constexpr std::array<std::string_view, 5> kNames{"ranade", "spielauer", "lai", "lam", "carrica"};
     return kNames[static_cast<std::size_t>(method)];
@@ -22,7 +21,7 @@ constexpr std::string_view name_of(StepMethod method) {
 class StepSource {
 public:
     virtual ~StepSource() = default;
-    /// When the next step falls, in s from the start of the move. Call it for each of the move's steps once.
+    /// The time of the next step, in s from the start of the move. Call it once for each step of the move.
     virtual double next_s() = 0;
 };
 

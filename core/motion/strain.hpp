@@ -1,4 +1,4 @@
-// Sudden changes of speed add up where they follow each other closely: over every stretch of time
+// Sudden changes of speed that follow each other closely add up. Over every interval of time the limit is
 //
 //     change of speed  <=  start_velocity + acceleration * time.
 #pragma once
@@ -7,13 +7,13 @@
 
 namespace lockstep {
 
-/// By how much an axis's speed has changed beyond what its acceleration accounts for, over the stretch up to now for
-/// which that is the most: at most the start velocity. Speeds in steps per tick, signed; one sum for either way.
+/// The change of an axis's speed beyond the change that its acceleration accounts for: the maximum over all intervals
+/// that end now. The limit is the start velocity. In steps per tick, one sum for each direction.
 struct Strain {
     double up = 0;
     double down = 0;
 
-    /// Within `ticks` the speed changed by `change`; `acceleration` (steps per tick^2) accounts for so much a tick.
+    /// Adds a signed `change` of speed within `ticks`; `acceleration` (steps per tick^2) accounts for a part of it.
     constexpr void add(double change, double ticks, double acceleration) {
         up = std::max(0.0, up + change - acceleration * ticks);
         down = std::max(0.0, down - change - acceleration * ticks);

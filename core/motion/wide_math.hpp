@@ -17,7 +17,7 @@ constexpr Int128 mul_div(Int128 value, std::int64_t factor, std::int64_t divisor
     return static_cast<Int128>(((upper / d) << 64) + lower / d);
 }
 
-/// floor(a / b) for b > 0, also where a is negative.
+/// floor(a / b) for b > 0 and any a.
 constexpr Int128 floor_div(Int128 a, Int128 b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 
 }  // namespace lockstep

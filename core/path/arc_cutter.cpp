@@ -8,13 +8,13 @@
 namespace lockstep {
 namespace {
 
-constexpr double kTolerance_steps = 0.1;  // of the pieces, besides the half step of the pulses
-constexpr double kPieceError = 0.008;     // of the radius and the cube of the angle
+constexpr double kTolerance_steps = 0.1;  // of the pieces, in addition to half a step of the pulses
+constexpr double kPieceError = 0.008;     // times the radius and the cube of the angle
 constexpr double kLeastRadius_steps = 0.25;
-constexpr double kSameDirection = 1e-9;  // sine: the ends of a whole circle
+constexpr double kSameDirection = 1e-9;  // sine: ends that are closer make a whole circle
 constexpr double kQuarter = 1.5707963267948966;
 
-/// A unit vector in the plane of the arc, turned as the arc turns.
+/// A unit vector in the plane of the arc. Clockwise arcs are mirrored, so that all arcs turn the same way.
 struct Direction {
     double x = 0;
     double y = 0;
@@ -30,7 +30,7 @@ Direction unit(double x, double y) {
 
 Direction between(Direction a, Direction b) { return unit(a.x + b.x, a.y + b.y); }
 
-/// The angle from a to b, below a quarter: halved until the series of the arc sine is exact to 1e-16.
+/// The angle from a to b, less than a quarter turn. It is halved until the series of the arc sine is exact to 1e-16.
 double angle_between(Direction a, Direction b) {
     double scale = 1;
     for (int halvings = 0; halvings < 8; ++halvings, scale *= 2) { b = between(a, b); }
@@ -85,7 +85,7 @@ private:
         return a;
     }
 
-    /// Whole quarters from one direction to the other: 1 to 4 where they are the same, else 0 to 3.
+    /// Whole quarter turns from one direction to the other: 4 if they are the same, otherwise 0 to 3.
     static int quarters_between(Direction a, Direction b) {
         if (a.dot(b) > 0 && std::abs(a.cross(b)) <= kSameDirection) { return 4; }
         int quarters = 0;
@@ -96,7 +96,7 @@ private:
         return quarters;
     }
 
-    /// The piece from direction a to b, `angle` apart, `done` behind the arc's begin; halved until it is short enough.
+    /// Adds the part from direction a to b, `angle` long and `done` behind the arc's begin. Halves it while too long.
     void halve(Direction a, Direction b, double done, double angle, bool is_last) {
         const double radius = std::max(radius_begin_, radius_end_);
         const Direction middle = between(a, b);
@@ -130,7 +130,7 @@ private:
         return at;
     }
 
-    /// The length is the chord's and what the arc is longer: 8/3 of the square of its height over the chord.
+    /// The length is the chord's plus the excess of the arc: 8/3 of the square of its height, divided by the chord.
     void piece(const AxisVector& middle, const AxisVector& end) {
         Quadratic piece = pattern_;
         const double chord = distance_mm(at_, end, setup_.steps_per_mm);
@@ -163,9 +163,9 @@ private:
     double radius_begin_ = 0;  // mm
     double radius_end_ = 0;    // mm
     double sweep_ = 0;         // rad, of the whole arc
-    AxisVector off_;           // the begin: where the axes are, less its place by the program
+    AxisVector off_;           // the place of the axes at the begin minus the programmed begin
     bool is_off_ = false;
-    double along_ = 0;  // mm of the arc before it
+    double along_ = 0;  // mm of the arc before the next piece
 };
 
 }  // namespace

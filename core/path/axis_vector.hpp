@@ -18,7 +18,7 @@ inline AxisVector zeros(std::size_t axes) {
     return v;
 }
 
-/// How far two places (in steps) are from each other, in mm: the root of the sum of the axes' squares.
+/// The distance of two places (in steps) in mm: the root of the sum of the axes' squares.
 inline double distance_mm(const AxisVector& a, const AxisVector& b, std::span<const double> steps_per_mm) {
     double square = 0;
     for (std::size_t i = 0; i < steps_per_mm.size(); ++i) {

@@ -6,7 +6,7 @@
 namespace lockstep {
 namespace {
 
-constexpr double kStraightShare = 0.5;  // of the tolerance: a line that keeps it is preferred to a curve
+constexpr double kStraightShare = 0.5;  // of the tolerance: a line within it is preferred to a curve
 
 }  // namespace
 

@@ -1,11 +1,11 @@
-// The quadratic that follows a polyline best between two places, and whether it follows it closely enough.
+// Finds the quadratic that follows a polyline best between two places, and checks whether it is close enough.
 //
-// With z(u) the polyline's place from the start, D the whole way and L its length, the square of the distance is least
-// for
+// With z(u) the polyline's place relative to the start, D the displacement to the end, L the length, and M1 and M2 the
+// integrals of z u and z u^2, the square of the distance is least for
 //
-//     bend = (M1', M2' as integrals of z u and z u^2)  [ (M2 - L M1) / 2 + D L^3 / 24 ] 120 / L^5
+//     bend = [ (M2 - L M1) / 2 + D L^3 / 24 ] 120 / L^5
 //
-// Running sums of both integrals make a bend cost the same for every length.
+// With running sums of both integrals the cost of a bend is the same for every length.
 #pragma once
 
 #include <span>
@@ -19,10 +19,10 @@ namespace lockstep {
 
 class ChordFit {
 public:
-    /// A piece begins at the place `from` (steps), in place of the point with index `first`.
+    /// Begins a piece at the place `from` (steps), which replaces the point with index `first`.
     void begin(std::size_t first, const AxisVector& from);
 
-    /// The piece over `count` chords that ends at `to`. False: it deviates from the polyline by more than
+    /// Fits a piece over `count` chords that ends at `to`. Returns false if it deviates from the polyline by more than
     /// `tolerance_steps` of an axis, at a vertex or the middle of a chord.
     bool fit(const SlidingVector<PathPoint>& points, std::size_t count, const AxisVector& to,
              std::span<const double> tolerance_steps, Quadratic& piece);

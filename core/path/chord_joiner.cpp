@@ -67,14 +67,14 @@ void ChordJoiner::join(bool is_end, PathTrail& out) {
     }
 }
 
-/// Where each chord of the next piece begins.
+/// Marks where each chord of the next piece begins.
 void ChordJoiner::mark(std::size_t chords, PathTrail& out) const {
     for (std::size_t k = start_; k < start_ + chords; ++k) {
         out.mark(points_[k].along - points_[start_].along, points_[k + 1].block, 0);
     }
 }
 
-/// A turn is known when the path is known for kLook_mm behind its vertex.
+/// Measures the turn of each vertex behind which the path is known for kLook_mm.
 void ChordJoiner::measure_turns(bool is_end) {
     for (; measured_ + 1 < points_.size(); ++measured_) {
         const double along = points_[measured_].along;
@@ -104,7 +104,7 @@ double ChordJoiner::turn_at(std::size_t k) const {
     return product > 0 ? 1 - dot / std::sqrt(product) : 2;
 }
 
-/// Whether a vertex is a corner is known when the turns within kLook_mm behind it are.
+/// Classifies each vertex for which the turns within kLook_mm behind it are known.
 void ChordJoiner::find_corners(bool is_end) {
     for (; found_ < measured_; ++found_) {
         if (!is_end && points_[measured_ - 1].along - points_[found_].along < kLook_mm) { return; }
@@ -124,7 +124,7 @@ bool ChordJoiner::is_corner(std::size_t k) const {
     return true;
 }
 
-/// To the next corner, change of settings, or the end; by single chords where the path is to be exact.
+/// A piece reaches to the next corner, change of settings, or the end. It is a single chord if the path must be exact.
 ChordJoiner::Reach ChordJoiner::reach(bool is_end) {
     const MoveSettings& settings = points_[start_ + 1].settings;
     const std::size_t last = points_.size() - 1;
@@ -147,7 +147,7 @@ bool ChordJoiner::try_chords(std::size_t chords, Quadratic& best) {
     return true;
 }
 
-/// A wide tolerance could lead out of it.
+/// A piece with a wide tolerance could lead out of the travel.
 bool ChordJoiner::is_within_travel(const Quadratic& piece) const {
     for (std::size_t i = 0; i < setup_.axes(); ++i) {
         const double turn = piece.bend[i] == 0 ? 0 : piece.length / 2 - piece.slope[i] / piece.bend[i];
@@ -160,7 +160,7 @@ bool ChordJoiner::is_within_travel(const Quadratic& piece) const {
     return true;
 }
 
-/// Doubles the last piece's length until the fit fails, then bisects. 0: more points must be known for that.
+/// Doubles the last piece's length until the fit fails, then bisects. Returns 0 if this needs more points.
 std::size_t ChordJoiner::longest(const Reach& limit, Quadratic& best) {
     if (!is_fit_begun_) {
         set_tolerance(points_[start_ + 1].settings);
@@ -214,7 +214,7 @@ void ChordJoiner::set_tolerance(const MoveSettings& settings) {
     }
 }
 
-/// Keeps what turns and corners yet to be found look back at.
+/// Drops old points, except those that the search for turns and corners looks back at.
 void ChordJoiner::drop_passed() {
     const std::size_t used = std::min({start_, behind_, found_ - 1});
     std::size_t first = 0;

@@ -1,16 +1,15 @@
-// Joins the chords of a polyline into quadratic pieces, as long as the tolerance allows: an arc or a line then costs
-// the same however finely it was cut.
+// Joins the chords of a polyline into quadratic pieces that are as long as the tolerance allows. So the cost of an arc
+// or a line does not depend on how finely it was cut.
 //
 // - A corner is a vertex where the directions over kLook_mm on either side differ by more than 0.35 rad, and by more
-//   than at the vertices beside it. Corners are kept exactly, and pieces end there.
-// - Elsewhere chords are taken for a curve's. A piece ends beside its vertex, inside the bend by min(l0, l1)/16 (t1 -
-// t0)
-//   with the lengths and slopes of the chords on either side: half the distance from the curve to the chord, so that
-//   the curve is within half of it from the polyline on both sides.
+//   than at the vertices within kLook_mm. Corners are kept exactly, and pieces end there.
+// - Elsewhere chords are treated as chords of a curve. A piece ends beside its vertex, inside the bend by
+//   min(l0, l1)/16 (t1 - t0), with the lengths l and slopes t of the chords on either side. That is half the distance
+//   from the curve to the chord, so that the curve is within half of that distance from the polyline on both sides.
 // - Each piece is the longest that ChordFit accepts, of at most kMaxChords and kMaxLength_mm.
 //
-// The pieces depend on the points only, not on when they arrived: a choice is made when all that it depends on is
-// known.
+// The pieces depend on the points only, not on when they arrived: the joiner decides only when everything that a
+// decision depends on is known.
 #pragma once
 
 #include <vector>
@@ -25,13 +24,13 @@ class ChordJoiner {
 public:
     explicit ChordJoiner(const PathSetup& setup) : setup_(setup) {}
 
-    /// A polyline begins at a place in steps. The one before has been finished.
+    /// Begins a polyline at a place in steps. The previous one must have been finished.
     void begin(const AxisVector& at);
-    /// A chord to a place. Chords of less than kLeast_mm are left out until they add up. Pieces are added to `out`,
+    /// Adds a chord to a place. Omits chords of less than kLeast_mm until they add up to that. Adds pieces to `out`,
     /// with a mark where each chord begins.
     void add(const AxisVector& to, const MoveSettings& settings, std::uint32_t block, PathTrail& out);
-    /// The polyline ends: the remaining pieces. `end`, in steps, takes the place of its last point; the last chord is a
-    /// piece of its own then, so that its tolerance and what the end was moved by do not add up.
+    /// Ends the polyline and adds the remaining pieces. `end`, in steps, replaces its last point. The last chord is
+    /// then a separate piece, so that the tolerance and the displacement of the end do not add up.
     void finish(const AxisVector& end, PathTrail& out);
     /// Where the last chord ends, in steps.
     const AxisVector& at() const { return end_; }
@@ -66,17 +65,17 @@ private:
     SlidingVector<PathPoint> points_;
     ChordFit fit_;
     AxisVector end_;
-    std::vector<double> tolerance_steps_;  // of the piece that is being looked for
+    std::vector<double> tolerance_steps_;  // of the next piece
     std::size_t start_ = 0;                // the vertex at which the next piece begins
     AxisVector start_at_;                  // and its place
     bool is_fit_begun_ = false;            // for start_
-    std::size_t measured_ = 1;             // the first vertex whose turn was not measured yet
-    std::size_t found_ = 1;                // the first vertex that was not classified yet: corner or not
+    std::size_t measured_ = 1;             // the first vertex with a turn that is not measured yet
+    std::size_t found_ = 1;                // the first vertex that is not classified yet: corner or not
     std::size_t behind_ = 0;               // turn_at: the last vertex that is kLook_mm or more behind
     std::size_t ahead_ = 0;
     std::size_t scanned_ = 0;  // reach: no end of a piece is between start_ and it
     std::size_t guess_ = 1;    // chords: the length of the last piece
-    std::size_t needed_ = 0;   // chords that must be known before it is worth trying again
+    std::size_t needed_ = 0;   // chords that must be known before the next attempt
 };
 
 }  // namespace lockstep

@@ -6,7 +6,7 @@
 namespace lockstep {
 namespace {
 
-/// The first part of a piece, of so many ticks; the rest remains.
+/// Removes the first `ticks` of a piece and returns them as a piece.
 Piece cut_front(Piece& piece, Ticks ticks) {
     const Piece front{ticks, piece.velocity, piece.acceleration};
     piece.velocity.raw += ticks.value * piece.acceleration.raw;
@@ -43,8 +43,8 @@ void FramePlanner::begin(std::span<const Position> at) {
     has_begun_ = has_made_ = is_done_ = is_traced_ = false;
 }
 
-/// The path in time from the cursor to behind the frame. False: it is not known so far; the next call goes on from
-/// there.
+/// Traces the path in time from the cursor to behind the frame. Returns false if the path is not known that far; the
+/// next call continues from there.
 bool FramePlanner::trace() {
     if (!is_traced_) { path_.begin(at_.begin); }
     is_traced_ = true;
@@ -69,7 +69,7 @@ Ticks FramePlanner::end_of_frame() const {
     return std::min(setup_.frame_ticks, std::max(rounded_up(path_.end()), Ticks{1}));
 }
 
-/// False: nothing of the path is known yet, or it has no length.
+/// Returns false if nothing of the path is known yet, or if it has no length.
 bool FramePlanner::start() {
     if (has_begun_) { return true; }
     if (window_.known() == window_.first()) {
@@ -92,7 +92,7 @@ void FramePlanner::note_places(PathFrame& frame, const TimedPath& path) const {
     frame.begin = frame.places[0];
 }
 
-/// Of a frame of so many ticks.
+/// Notes the moves that begin in a frame of `ticks`.
 void FramePlanner::note_begins(Ticks ticks) {
     constexpr double kHair_mm = 1e-9;
     begins_.clear();
@@ -136,7 +136,7 @@ std::expected<const PathFrame*, PathStuck> FramePlanner::next() {
     return &last_;
 }
 
-/// The tail of the last frame, piece by piece, is always a way to go on. At its end the machine rests.
+/// Makes a frame of the pieces of the last frame's tail. This is always possible. At the tail's end the machine rests.
 void FramePlanner::brake() {
     PathFrame& frame = last_;
     frame.ticks = setup_.frame_ticks;
@@ -185,9 +185,9 @@ std::optional<FitFailure> FramePlanner::fit_body(PathFrame& frame, Cursor& next)
     return std::nullopt;
 }
 
-/// A straight interval can be left anywhere; on a curved one the limits hold at its middle, so it is finished as
-/// planned. A rest is finished too, but the speed behind it is still free. While braking any interval is left; the
-/// numbers that the tail has may be those before a turn.
+/// A straight interval can be left anywhere. A curved one is finished as planned, because the limits are those of its
+/// middle. A rest is finished too, but the speed behind it is still free. When braking, any interval is left. The
+/// interval numbers of the tail may be those before a turn of the overrides.
 FramePlanner::Cursor FramePlanner::cursor_at(const TimedPath& path, Ticks t, bool is_braking) const {
     const double at = as_double(t);
     const auto& passages = path.passages();
@@ -212,7 +212,7 @@ FramePlanner::Cursor FramePlanner::cursor_at(const TimedPath& path, Ticks t, boo
     return cursor;
 }
 
-/// From the cursor the interval in progress is gone through as planned, the others as slowly as can be.
+/// Traces the tail from the cursor on: the interval in progress as planned, the others as slowly as possible.
 void FramePlanner::trace_tail(const Cursor& from) {
     tail_.begin(from.begin);
     double w0 = from.w0;
@@ -246,16 +246,16 @@ bool FramePlanner::fit_tail(PathFrame& frame, const Cursor& from) {
     return true;
 }
 
-/// The tail's end. Without a tail the machine rests where the frame ends: at the end of the path, or in a rest, which
-/// begins anew.
+/// The tail's end. Without a tail the machine rests at the end of the frame, which is the end of the path, or in a
+/// rest. That rest begins again.
 PathPlace FramePlanner::place_of_rest(const PathFrame& frame, const Cursor& behind) const {
     if (frame.last) { return trail_.place_of(path_.end_spot()); }
     if (!tail_.passages().empty()) { return trail_.place_of(tail_.end_spot()); }
     return trail_.place_of({window_.interval(behind.interval).piece, 0});
 }
 
-/// Lowers the speeds at the nodes before a place, but not below what the hardest braking from the frame's beginning
-/// gives. A frame that is full before its end is slowed down as a whole, by as much as it lacks.
+/// Lowers the speeds at the nodes before a place, but not below those of the hardest braking from the frame's begin. A
+/// frame that is full before its end is slowed down as a whole, in proportion to the part that is missing.
 void FramePlanner::slow_down(const FitFailure& failure, Ticks ticks, int attempt) {
     ++slowed_;
     is_traced_ = false;
@@ -286,7 +286,7 @@ void FramePlanner::slow_down(const FitFailure& failure, Ticks ticks, int attempt
     window_.update(at_.interval + 1, std::min(last + 1, window_.end() - 1));
 }
 
-/// From rest the speed of the first step is free, too: it may be one from which the limits leave no way to brake.
+/// Lowers the speed of the first step from rest: with the planned one, braking may not be possible within the limits.
 void FramePlanner::start_slower(double slower) {
     window_.lower(at_.interval, slower * at_.w0);
     window_.update(at_.interval, at_.interval);

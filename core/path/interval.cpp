@@ -9,14 +9,14 @@ namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr double kCurvedSpeedShare = 0.99;  // of the greatest speed, on curves: room for the fit in time
-/// Of the acceleration that a charge spends at the greatest speed. The rest brakes: on a long piece the machine comes
-/// to rest in at most 4.2 times (atanh of its root) the time that it needs without the charge.
+/// The share of the acceleration that a charge uses at the greatest speed. The rest is for braking: on a long piece the
+/// machine comes to rest in at most 4.2 times (atanh of its root) the time that it needs without the charge.
 constexpr double kChargedShare = 0.999;
 
 }  // namespace
 
-/// visit(p, q, 2 d a) for each bound |q w1 - p w0| <= 2 d a: at the interval's beginning and end, by the axis's own
-/// bend, and at its middle by the one that its joints charge.
+/// Calls visit(p, q, 2 d a) for each bound |q w1 - p w0| <= 2 d a: at the interval's beginning and end with the axis's
+/// own bend, and at its middle with the bend that its joints charge.
 template <typename Visit>
 void IntervalBounds::each_axis(Visit visit) const {
     const double d = interval_.length();
@@ -63,10 +63,10 @@ double IntervalBounds::least_after(double w0) const {
         if (std::abs(t1) < kNothing) { return; }
         w1 = std::max(w1, (w0 * (t1 > 0 ? t0 : -t0) - change) / std::abs(t1));
     });
-    return std::min(w1, w0);  // within the limits no axis needs more: rounding, which grows from interval to interval
+    return std::min(w1, w0);  // a greater w1 is only rounding, which would grow from interval to interval
 }
 
-/// Overrides turn the feed; of rapid moves they turn the speeds that the axes allow, which they never exceed.
+/// Overrides scale the feed. In rapid moves they scale the speeds that the axes allow, and never exceed these.
 double IntervalBounds::cap(const Overrides& overrides) const {
     const bool has_feed = piece_.shape.feed_mm_per_tick > 0;
     if (!has_feed) { return limit(std::min(1.0, overrides.rapid())); }

@@ -42,7 +42,7 @@ void PathPlanner::resume(const PathPlace& place, std::span<const Position> at) {
     seek(place);
 }
 
-/// The window is filled anew, from a place on.
+/// Refills the window from a place on.
 void PathPlanner::seek(const PathPlace& place) {
     start_ = place;
     is_sought_ = true;
@@ -87,7 +87,7 @@ void PathPlanner::finish() {
     window_.finish();
 }
 
-/// The last piece is moved to end on whole steps, less than half a step away.
+/// Moves the end of the last piece to whole steps, by half a step at most.
 void PathPlanner::come_to_rest() {
     AxisVector end = at_;
     for (double& steps : end) { steps = std::round(steps); }
@@ -97,7 +97,7 @@ void PathPlanner::come_to_rest() {
     if (!move_end(end)) { trail_.pop_back(); }
 }
 
-/// Moves the end of the last piece. False: the piece begins at this place.
+/// Moves the end of the last piece. Returns false if the piece begins at this place.
 bool PathPlanner::move_end(const AxisVector& end) {
     Quadratic& last = trail_.back();
     bool moves = false;
@@ -113,7 +113,7 @@ void PathPlanner::pass_on_but_last() {
     if (trail_.end() > ready_) { pass_on(trail_.end() - 1); }
 }
 
-/// Before the place where the path goes on nothing is kept.
+/// Passes final pieces to the window. Pieces before the place where the path continues are dropped.
 void PathPlanner::pass_on(std::size_t ready) {
     ready_ = ready;
     if (is_sought_) {

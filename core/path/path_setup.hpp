@@ -1,4 +1,4 @@
-// What the path planner must know of a machine.
+// The properties of a machine that the path planner needs.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ struct PathSetup {
     std::vector<AxisLimits> limits;            // of frames: frame_limits_of
     std::vector<double> steps_per_mm;          // or per degree
     Ticks frame_ticks;                         // a frame's length: pieces end at the edges of frames
-    std::size_t body_pieces = kMaxBodyPieces;  // that a frame has room for, for each axis
+    std::size_t body_pieces = kMaxBodyPieces;  // for which a frame has room, for each axis
 
     std::size_t axes() const { return limits.size(); }
     AxisVector to_steps(std::span<const double> mm) const {
@@ -24,7 +24,7 @@ struct PathSetup {
         for (std::size_t i = 0; i < axes(); ++i) { steps.append(mm[i] * steps_per_mm[i]); }
         return steps;
     }
-    /// A place that is rounded to the last step of the travel is moved to this step.
+    /// Moves a place beyond the travel, which rounds to its last step, to this step.
     AxisVector within_travel(AxisVector at) const {
         for (std::size_t i = 0; i < axes(); ++i) {
             at[i] =
@@ -43,15 +43,15 @@ inline PathSetup path_setup_of(const MachineConfig& machine) {
     return setup;
 }
 
-/// How a programmed step of deviation is shared out. Whole pulses take a half; the pieces of constant acceleration get
-/// kFitShare; the rest is for joining moves, less a little for rounding.
+/// The shares of one step of deviation. Whole pulses take kPulseShare, pieces of constant acceleration kFitShare, and
+/// rounding kRoundingShare. The rest is for joining moves.
 inline constexpr double kPulseShare = 0.5;      // steps
 inline constexpr double kFitShare = 0.03;       // steps
 inline constexpr double kRoundingShare = 0.01;  // steps
 
-inline constexpr double kNothing = 1e-12;  // steps per mm: an axis that does not move
+inline constexpr double kNothing = 1e-12;  // steps per mm: an axis with less does not move
 
-/// Of its two accelerations, steps per tick^2.
+/// The smaller of its acceleration and deceleration, steps per tick^2.
 inline double weaker(const AxisLimits& axis) { return std::min(axis.max_acceleration, axis.max_deceleration); }
 
 }  // namespace lockstep

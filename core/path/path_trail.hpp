@@ -1,7 +1,7 @@
-// The geometry of a stream, in order, and where on it the moves of the program are.
+// The geometry of a stream, in order, and the places of the program's moves on it.
 //
-// A PathPlace names a move by its block; `along` is the way along this move in 2^-64 mm. Pieces and places depend on
-// the program only, so a place leads to the same spot in every planner that gets the same moves.
+// A PathPlace names a move by its block; `along` is the distance along this move in 2^-64 mm. Pieces and places depend
+// on the program only, so a place leads to the same spot in every planner that gets the same moves.
 #pragma once
 
 #include <algorithm>
@@ -25,28 +25,28 @@ class PathTrail {
 public:
     void clear();
 
-    /// At u of the piece that is added next the path is `along` mm from the begin of a move. Each piece has a mark at
-    /// its begin and one for each move that begins on it. Blocks ascend; all marks of a move are added before a place
-    /// in it is looked for.
+    /// Marks the place u of the piece that is added next as `along` mm from the begin of a move. Each piece has a mark
+    /// at its begin and one for each move that begins on it. Blocks ascend. All marks of a move must be added before a
+    /// place in it is looked up.
     void mark(double u, std::uint32_t block, double along);
     void add(const Quadratic& piece) { pieces_.push_back(piece); }
-    /// A rest, as a move of its own or at the end of the last move.
+    /// Adds a rest, as a separate move or at the end of the last move.
     void add_rest(const Quadratic& rest, std::uint32_t block);
-    /// Takes the last piece away, with its marks.
+    /// Removes the last piece and its marks.
     void pop_back();
-    /// Forgets the pieces before this one.
+    /// Drops the pieces before this one.
     void drop_before(std::size_t piece);
 
-    /// The pieces kept have the numbers from first() up to end().
+    /// The stored pieces have the numbers from first() up to end().
     std::size_t first() const { return first_; }
     std::size_t end() const { return first_ + pieces_.size(); }
     const Quadratic& piece(std::size_t number) const { return pieces_[number - first_]; }
     Quadratic& back() { return pieces_.back(); }
 
-    /// Of a piece that is kept.
+    /// The place of a spot on a stored piece.
     PathPlace place_of(const PathSpot& spot) const;
-    /// Nothing: the move has not been added. A move without a length has no spot of its own, so the next one's begin
-    /// stands for it.
+    /// Returns nullopt if the move has not been added. A move without a length has no spot, so its spot is the begin of
+    /// the next move.
     std::optional<PathSpot> spot_of(const PathPlace& place) const;
 
     /// Calls visit(u, block) for each move that begins on a piece.

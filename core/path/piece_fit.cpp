@@ -30,8 +30,8 @@ PieceFit::PieceFit(const PathSetup& setup)
     for (std::vector<Piece>& pieces : fitted_) { pieces.reserve(std::max(setup.body_pieces, kMaxTailPieces)); }
 }
 
-/// The tick at which a piece from `now` has to end. A jump between two ticks is left to the longer of the pieces beside
-/// it, whose velocity it bends the least.
+/// The tick at which a piece from `now` must end. A jump between two ticks is put into the longer of the two adjacent
+/// pieces, because it distorts the velocity of that one less.
 Ticks PieceFit::next_break(Ticks now, Ticks end) const {
     const auto& phases = path_->phases();
     for (std::size_t k = phase_; k < phases.size() && phases[k].begin < to_double(end); ++k) {
@@ -46,8 +46,8 @@ Ticks PieceFit::next_break(Ticks now, Ticks end) const {
     return end;
 }
 
-/// The phases whose velocities a piece from `begin` to `end` has at its ends: a jump within a tick of an end belongs to
-/// the outside.
+/// The phases that determine the velocities at the ends of a piece from `begin` to `end`. A jump within a tick of an
+/// end counts as outside the piece.
 PieceFit::Stretch PieceFit::stretch(Ticks begin, Ticks end) const {
     constexpr double kHair = 0x1p-20;
     const auto& phases = path_->phases();
@@ -76,7 +76,7 @@ double PieceFit::acceleration(const Stretch& s, std::size_t i) const {
     return std::clamp((after - before) / to_double(s.end - s.begin), -most, most);
 }
 
-/// The path is a parabola in each phase, nearly: it is compared at the ends and the middles of the phases.
+/// In each phase the path is nearly a parabola, so the ends and the middles of the phases are compared.
 bool PieceFit::is_close(const Stretch& s, std::size_t i, double from, double v0, double a) const {
     const auto& phases = path_->phases();
     const double begin = to_double(s.begin);
@@ -105,8 +105,8 @@ const PathPhase& PieceFit::phase_at(const Stretch& s) const {
     return phases[k];
 }
 
-/// The axis turns within the piece, and with more acceleration than it may speed up with: a part of it would not be
-/// allowed, so a tail with it could not be cut.
+/// Whether the axis turns within the piece with more acceleration than the smaller of its limits. A part of such a
+/// piece would break a limit, so a tail that contains it could not be cut.
 bool PieceFit::is_hard_turn(std::size_t i, double v0, double a, double ticks) const {
     const double v1 = v0 + a * ticks;
     const double one_tick = std::abs(a);
@@ -141,8 +141,8 @@ bool PieceFit::try_piece(Ticks begin, Ticks end, std::span<const MotionPoint> po
     return true;
 }
 
-/// Begins with the last piece's length; doubles or halves it, then bisects to an eighth. Leaves no short rest before
-/// the limit. 0: no piece keeps the limits.
+/// Begins with the last piece's length, or the rest of a straight phase. Halves or doubles it, then bisects to within a
+/// quarter. Returns 0 if no piece keeps the limits.
 Ticks PieceFit::longest(Ticks now, Ticks limit, std::span<const MotionPoint> points) {
     const Ticks whole = limit - now;
     const auto fits = [&](std::int64_t ticks) { return try_piece(now, now + Ticks{ticks}, points); };
@@ -167,7 +167,8 @@ Ticks PieceFit::longest(Ticks now, Ticks limit, std::span<const MotionPoint> poi
     return {good};
 }
 
-/// Between two ends that are near to each other the ticks of the ends matter: what the axis allows decides.
+/// Widens the tolerance of speeds if no piece fits. If a piece is short, the rounding of its ends to ticks matters, and
+/// only the limits of the axes decide.
 Ticks PieceFit::longest_any(Ticks now, Ticks limit, std::span<const MotionPoint> points) {
     Ticks ticks;
     for (tolerance_ = 1; ticks == Ticks{} && tolerance_ <= kMostTolerance; tolerance_ *= 4) {

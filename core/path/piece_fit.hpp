@@ -1,8 +1,8 @@
 // Fits pieces of constant acceleration, common to all axes and in whole ticks, to a timed path.
 //
-// A piece lasts as long as it can: both of its ends are on the path, its acceleration is what the velocity changes by,
-// and it stays within kFitShare of the path, its speeds near the path's. The check that each axis makes of its frames
-// (core/motion/piece_check.hpp) decides about every piece. Pieces end where the path jumps, on the nearest tick, and at
+// A piece is as long as possible. Both of its ends are on the path, its acceleration is the mean change of velocity, it
+// stays within kFitShare of the path, and its speeds are near the path's. Every piece must pass the check that each
+// axis makes of its frames (core/motion/piece_check.hpp). Pieces end at the tick nearest to a jump of the path, and at
 // the end of the stretch.
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace lockstep {
 
-/// A place where no piece keeps the limits, or where the pieces no longer fit in their frame.
+/// A place where no piece keeps the limits, or, if is_full, where the frame has no room for more pieces.
 struct FitFailure {
     Ticks at;  // from the begin of the frame
     bool is_full = false;
@@ -25,7 +25,7 @@ class PieceFit {
 public:
     explicit PieceFit(const PathSetup& setup);
 
-    /// Pieces for the ticks [0, end) of `path`, at most `most` of them; `points` move along.
+    /// Fits at most `most` pieces to the ticks [0, end) of `path`, and moves `points` to their end.
     std::optional<FitFailure> fit(const TimedPath& path, Ticks end, std::size_t most, std::span<MotionPoint> points);
     /// The pieces of an axis that fit() has found.
     const std::vector<Piece>& pieces(std::size_t axis) const { return fitted_[axis]; }
@@ -34,7 +34,7 @@ private:
     struct Stretch {
         Ticks begin;
         Ticks end;
-        std::size_t first = 0;  // phases: the one that its first velocity is of
+        std::size_t first = 0;  // phases: the one of its first velocity, and the one of its last
         std::size_t last = 0;
     };
 
@@ -48,13 +48,13 @@ private:
     Ticks longest(Ticks now, Ticks limit, std::span<const MotionPoint> points);
     Ticks longest_any(Ticks now, Ticks limit, std::span<const MotionPoint> points);
 
-    static constexpr std::int64_t kShort_ticks = 32;  // no piece leaves so little for the next one
+    static constexpr std::int64_t kShort_ticks = 32;  // no piece leaves less than this for the next one
     static constexpr double kSpeedTolerance = 0.01;   // of the start velocity
 
     const PathSetup& setup_;
     const TimedPath* path_ = nullptr;
     std::vector<std::vector<Piece>> fitted_;  // of each axis
-    std::size_t phase_ = 0;                   // the last that begins at or before now
+    std::size_t phase_ = 0;                   // the last one that begins at or before now
     Ticks guess_;
     double tolerance_ = 1;       // times kSpeedTolerance
     std::vector<Piece> pieces_;  // of the last try that succeeded

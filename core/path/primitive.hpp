@@ -1,4 +1,4 @@
-// What a program asks of the path: lines, arcs and rests, in machine coordinates, with everything modal resolved.
+// The input of the path planner: lines, arcs and rests, in machine coordinates, with everything modal resolved.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,11 @@
 
 namespace lockstep {
 
-/// What holds for one move.
+/// The settings of one move.
 struct MoveSettings {
     double feed_mm_per_tick = 0;  // along the path; 0: as fast as the axes allow
     PathMode mode = PathMode::Blend;
-    double tolerance_mm = 0;     // Blend: the greatest deviation of an axis, steps included; never less than one step
+    double tolerance_mm = 0;     // Blend: the greatest deviation of an axis, steps included; at least one step
     bool is_feed_fixed = false;  // the feed override has no effect
     bool operator==(const MoveSettings&) const = default;
 };

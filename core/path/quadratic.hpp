@@ -1,9 +1,9 @@
-// A piece of geometry: each axis is a quadratic function of the way u along the piece.
+// A piece of geometry: each axis is a quadratic function of the distance u along the piece.
 //
 //     x(u) = from + slope u + bend u (u - length) / 2,   0 <= u <= length
 //
-// so x(length) = from + slope length exactly, whatever the bend is. u counts mm of path (the speed |dx/du| is 1 mm per
-// mm up to the square of a small angle).
+// so x(length) = from + slope length exactly, for any bend. u counts mm of path (|dx/du| is 1 mm per mm up to the
+// square of a small angle).
 #pragma once
 
 #include "core/path/axis_vector.hpp"
@@ -19,7 +19,7 @@ struct Quadratic {
     double feed_mm_per_tick = 0;  // 0: as fast as the axes allow
     bool is_feed_fixed = false;   // the feed override has no effect
     bool is_straight = true;      // bend is 0
-    Ticks rest;                   // where length is 0: how long
+    Ticks rest;                   // duration if length is 0
 
     double place(std::size_t i, double u) const {
         return from.begin()[i] + (slope.begin()[i] + bend.begin()[i] * (u - length) / 2) * u;

@@ -1,4 +1,4 @@
-// A vector that grows at its end and shrinks at its front: what a window over a stream keeps. Memory is reused.
+// A vector that grows at its end and shrinks at its front, for a window over a stream. It reuses memory.
 #pragma once
 
 #include <cstddef>
@@ -22,10 +22,10 @@ public:
     void pop_back() { items_.pop_back(); }
     void pop_front() { drop_front(1); }
     void insert(std::size_t at, const T& value) { items_.insert(items_.begin() + place(at), value); }
-    /// Drops what is behind the first `size` elements.
+    /// Drops all elements behind the first `size`.
     void truncate(std::size_t size) { items_.erase(items_.begin() + place(size), items_.end()); }
 
-    /// Moves the others down only when half of the memory is unused: amortized constant work for each element.
+    /// Moves the remaining elements only when half of the memory is unused: amortized constant work for each element.
     void drop_front(std::size_t count) {
         first_ += count;
         if (2 * first_ < items_.size()) { return; }

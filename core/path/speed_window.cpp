@@ -6,12 +6,12 @@
 namespace lockstep {
 namespace {
 
-constexpr double kRounding = 1e-11;  // of w: far more than a backward pass adds up
-constexpr double kStopShare = 0.8;   // of the start velocity, where the path begins or ends: joints follow
-constexpr double kRestShare = 0.4;   // where it rests for a short time: two jumps follow each other
-constexpr double kWorthSlowing = 2;  // the pieces beside it are passed more slowly, too
+constexpr double kRounding = 1e-11;  // of w: far more than the rounding of a backward pass
+constexpr double kStopShare = 0.8;   // of the start velocity, where the path begins or ends: a joint may follow
+constexpr double kRestShare = 0.4;   // likewise at a short rest: two jumps follow each other
+constexpr double kWorthSlowing = 2;  // least gain, because the adjacent pieces become slower too
 constexpr int kMostHalves = 40;
-constexpr std::size_t kLeastParts = 4;  // of a piece between joints that are passed more slowly than it may be
+constexpr std::size_t kLeastParts = 4;  // of a piece that may be faster than the joints at its ends
 
 /// The angle by which a piece turns over `length`, rad.
 double turn_of(const Quadratic& piece, double length, std::span<const double> steps_per_mm) {
@@ -60,7 +60,7 @@ void SpeedWindow::close_end() {
     is_finished_ = true;
 }
 
-/// Of the ends of two pieces; null: the machine rests there.
+/// The joint of two pieces. Null means that the machine rests there.
 SpeedWindow::Joint SpeedWindow::joint(const Quadratic* before, const Quadratic* after) const {
     Joint joint{kMost, 0};
     const bool is_stop = before == nullptr || after == nullptr;
@@ -80,7 +80,7 @@ SpeedWindow::Joint SpeedWindow::joint(const Quadratic* before, const Quadratic* 
     return joint;
 }
 
-/// A straight piece gone through as fast as its limits and joints allow: how it can recover jumps of speed.
+/// The passage of a straight piece at the greatest speed by limits and joints. It tells which jumps can be recovered.
 struct SpeedWindow::FastPassage {
     double v0 = 0;  // mm per tick
     double v1 = 0;
@@ -103,7 +103,7 @@ struct SpeedWindow::FastPassage {
 
     double ticks() const { return rise + cruise + fall; }
 
-    /// What an axis of this slope and acceleration limit recovers of jumps up (or down), in steps per tick.
+    /// The jumps up (or down), in steps per tick, from which an axis of this slope and acceleration limit recovers.
     double recovers(double slope, double limit, bool is_up) const {
         const double along = (is_up ? slope : -slope) * acceleration;
         return (limit - along) * rise + limit * cruise + (limit + along) * fall;
@@ -125,9 +125,9 @@ SpeedWindow::FastPassage SpeedWindow::fast_passage(const JoinedPiece& piece, con
     return {w0, w1, top, path_acceleration, whole.length()};
 }
 
-/// Jumps from and to rest stand alone. Of the others, each piece recovers half of those at its ends, so that they never
-/// add up to more than one. Where it is too short for an axis to do that, what its joints turn counts as bend of this
-/// axis, spread over the piece.
+/// Jumps from and to rest are not counted here. Each piece recovers half of the other jumps at its ends, so that jumps
+/// never add up to more than one. If the piece is too short for that on an axis, the turns of its joints are charged as
+/// bend of this axis, spread over the piece.
 void SpeedWindow::charge(JoinedPiece& piece, const Quadratic* before, const Quadratic* next) const {
     const Quadratic& shape = piece.shape;
     const FastPassage fast = fast_passage(piece, before, next);
@@ -148,8 +148,8 @@ void SpeedWindow::charge(JoinedPiece& piece, const Quadratic* before, const Quad
     }
 }
 
-/// A long piece with a joint that one axis recovers slowly: to pass the joint slowly costs less than to go through the
-/// whole piece as slowly as the charge allows.
+/// Slows the joints in place of the charge, if that takes less time. This is so for a long piece with a joint from
+/// which one axis recovers slowly: the charge would slow the whole piece.
 void SpeedWindow::slow_joints(JoinedPiece& piece, const Quadratic* before, const Quadratic* next) const {
     const double from = before == nullptr ? begin_u_ : 0;
     const Interval whole{.kind = IntervalKind::Curved, .from = from, .to = piece.shape.length};
@@ -183,14 +183,14 @@ void SpeedWindow::close_pending(const Quadratic* next) {
     before_ = pending_;
 }
 
-/// The path begins at the end of the piece. Where the machine is to rest there, the last bit of it counts.
+/// Whether the path begins at the end of the piece. If the machine must rest there, the shortest remainder counts.
 bool SpeedWindow::is_passed(const Quadratic& piece, const Quadratic* next) const {
     if (before_ || piece.length == 0) { return false; }
     const bool goes_on = next != nullptr && next->length > 0;
     return piece.length - begin_u_ <= (goes_on ? kLeastBegin_mm : 0);
 }
 
-/// Both of its ends are slower than it may be between them.
+/// Whether the piece may be faster than both of its ends.
 bool SpeedWindow::is_slow_at_ends(const JoinedPiece& piece, const Joint& begin, const Quadratic* next) const {
     const Interval whole{.from = before_ ? 0 : begin_u_, .to = piece.shape.length};
     const double top = IntervalBounds(setup_, piece, whole).cap(overrides_);
@@ -258,8 +258,8 @@ std::size_t SpeedWindow::known() const {
     return final_ > first_ ? final_ - 1 : first_;
 }
 
-/// A reach that is the cap but for rounding is the cap: whether a place is final must not depend on where the pass
-/// began.
+/// A reach that differs from the cap only by rounding is set to the cap, because whether a place is final must not
+/// depend on where the pass began.
 void SpeedWindow::update(std::size_t first, std::size_t last) {
     for (std::size_t k = last + 1; k-- > first;) {
         Interval& part = intervals_[k - first_];
@@ -268,7 +268,7 @@ void SpeedWindow::update(std::size_t first, std::size_t last) {
     }
 }
 
-/// A place whose reach is all that its own limits allow does not depend on what follows.
+/// If the reach of a place is the cap of its own limits, it does not depend on later pieces.
 void SpeedWindow::look_ahead() {
     if (final_ < end()) { update(final_, end() - 1); }
     std::size_t last = end();

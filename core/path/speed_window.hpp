@@ -1,14 +1,15 @@
-// Look-ahead: how fast the path may be at each place, in a window that moves with the motion.
+// Look-ahead: the greatest speed at each place of the path, in a window that moves with the motion.
 //
-// Pieces of geometry go in at the end, and are cut into intervals. A backward pass from rest at the end of what is
-// known finds each interval's `reach`. Where it meets the limit that the place itself has, nothing behind can change
-// what is before: up to there it is final. So the result does not depend on when pieces arrived, bit for bit, and the
-// window is as long as the way to rest needs. A pass runs when what is not final has doubled: amortized constant work
-// for each piece.
+// Pieces of geometry are added at the end and cut into intervals. A backward pass from rest at the end of the known
+// path finds each interval's `reach`. If that equals the limit of the place itself, later pieces cannot change anything
+// before the place: all intervals up to there are final. So the result does not depend on when pieces arrived, bit for
+// bit, and the window is as long as the stopping distance. A pass runs when the number of intervals that are not final
+// has doubled: amortized constant work for each piece.
 //
-// A joint of two pieces is a sudden change of each axis's speed by the difference of its slopes times the speed. It is
-// at most kJointShare of the start velocity. Joints that follow each other faster than the acceleration recovers their
-// jumps are paid for like curvature (core/motion/strain.hpp has the rule), or passed more slowly where that is faster.
+// At a joint of two pieces each axis's speed jumps by the difference of its slopes times the speed along the path. The
+// jump is at most kJointShare of the start velocity. If joints follow each other faster than the acceleration recovers
+// their jumps, the jumps are charged like curvature (core/motion/strain.hpp has the rule). If it takes less time, the
+// joints are slowed instead.
 #pragma once
 
 #include <optional>
@@ -20,11 +21,11 @@
 
 namespace lockstep {
 
-/// What becomes of new overrides.
+/// The result of applying new overrides.
 enum class TurnResult : std::uint8_t {
     Taken,
-    CannotFollow,  // the axes cannot, from this place
-    LacksPath,     // too little of the path is known to say
+    CannotFollow,  // the axes cannot follow from this place
+    LacksPath,     // too little of the path is known to decide
 };
 
 class SpeedWindow {
@@ -34,47 +35,48 @@ public:
         : setup_(setup) {
         restart(overrides, begin);
     }
-    /// As a new window. Its memory is kept.
+    /// Resets it to a new window. Its memory is kept.
     void restart(const Overrides& overrides, const PathSpot& begin);
 
-    /// A piece that begins where the last one ends; length 0: a rest.
+    /// Adds a piece that begins where the last one ends. A length of 0 is a rest.
     void add(const Quadratic& piece);
-    /// The path ends at rest where the last piece ends. Everything is final then.
+    /// Ends the path at rest at the end of the last piece. All intervals are then final.
     void finish();
     bool is_finished() const { return is_finished_; }
 
-    /// Numbers since the beginning: intervals from first() up to end() are kept, those up to known() have a final end.
+    /// Intervals are numbered from the beginning. Those from first() up to end() are stored, those up to known() have a
+    /// final end.
     std::size_t first() const { return first_; }
     std::size_t end() const { return first_ + intervals_.size(); }
     std::size_t known() const;
     const Interval& interval(std::size_t number) const { return intervals_[number - first_]; }
-    /// The interval in which a spot is.
+    /// The interval that contains a spot.
     std::size_t interval_at(const PathSpot& spot) const;
     const JoinedPiece& piece_of(const Interval& part) const { return pieces_[part.piece - first_piece_]; }
     const Quadratic& shape_of(const Interval& part) const { return piece_of(part).shape; }
     IntervalBounds bounds(const Interval& part) const { return {setup_, piece_of(part), part}; }
-    /// The greatest w at the end of an interval from which all that follows can be kept.
+    /// The greatest w at the end of an interval from which all later limits can be kept.
     double reach_behind(std::size_t number) const;
 
-    /// A straight interval begins at u from now on, at `w`.
+    /// Moves the beginning of a straight interval to u, and sets w there.
     void cut(std::size_t number, double u, double w);
     /// Lowers the cap of an interval's beginning, or of the end of the path.
     void lower(std::size_t number, double cap);
-    /// Finds reach anew for the intervals [first, last].
+    /// Computes `reach` again for the intervals [first, last].
     void update(std::size_t first, std::size_t last);
-    /// A straight interval takes longer, by a factor of the speed's square.
+    /// Slows a straight interval: multiplies the square of its greatest speed by `slower`.
     void slow(std::size_t number, double slower);
-    /// Forgets what is before an interval.
+    /// Drops everything before an interval.
     void drop_before(std::size_t number);
-    /// New overrides, from an interval's end where it `is_under_way`, else from its beginning; `w` is the speed there.
-    /// Speeds that the hardest braking from there passes are allowed. A piece that was begun gets faster only if it can
-    /// still recover the jumps at its ends. Unless they are taken, the window is of no use.
+    /// Applies new overrides from an interval's end if it `is_under_way`, otherwise from its beginning; `w` is the
+    /// squared speed there. Speeds during the hardest braking from there are allowed. A piece in progress gets faster
+    /// only if it can still recover the jumps at its ends. Unless it returns Taken, the window must not be used again.
     TurnResult turn(const Overrides& overrides, std::size_t number, bool is_under_way, double w);
 
     static constexpr double kJointShare = 0.975;  // of the start velocity
     static constexpr double kMaxInterval_mm = 0.25;
     static constexpr double kMaxTurn = 0.06;        // rad within an interval
-    static constexpr std::size_t kMaxOpen = 16384;  // intervals that are not final: half of more are made final
+    static constexpr std::size_t kMaxOpen = 16384;  // intervals that are not final; at more, half are made final
 
 private:
     struct Joint {
@@ -102,22 +104,22 @@ private:
 
     PathSetup setup_;
     Overrides overrides_;
-    double begin_u_ = 0;               // of the first piece: where the path begins
+    double begin_u_ = 0;               // where the path begins on the first piece
     ReusedQueue<JoinedPiece> pieces_;  // phases refer to them
     SlidingVector<Interval> intervals_;
     std::size_t first_ = 0;
     std::size_t first_piece_ = 0;
-    std::optional<Quadratic> pending_;  // the last piece: what follows it is not known
+    std::optional<Quadratic> pending_;  // the last piece; the next one is not known
     std::optional<Quadratic> before_;   // the piece before that
-    ReusedQueue<Quadratic> ahead_;      // recut_behind: the pieces to be cut, the last one first
-    std::size_t final_ = 0;             // intervals that are: all before
-    std::size_t due_ = kLeastPass;      // a pass runs when so many are not
+    ReusedQueue<Quadratic> ahead_;      // recut_behind: the pieces to cut again, the last one first
+    std::size_t final_ = 0;             // all intervals before this one are final
+    std::size_t due_ = kLeastPass;      // a pass runs when this many are not final
     double end_cap_ = 0;                // w at the end of the path, once it is finished
     bool is_finished_ = false;
 
     static constexpr std::size_t kLeastPass = 32;
-    static constexpr double kMost = 1e6;            // w, or mm per tick^2, where no axis moves
-    static constexpr double kLeastBegin_mm = 1e-9;  // less of the first piece than that is left out
+    static constexpr double kMost = 1e6;            // w, or mm per tick^2, if no axis moves
+    static constexpr double kLeastBegin_mm = 1e-9;  // a shorter rest of the first piece is omitted
 };
 
 }  // namespace lockstep

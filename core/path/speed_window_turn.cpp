@@ -1,5 +1,5 @@
-// New overrides in the middle of a path. All that follows the place from which they hold is limited and cut anew, as if
-// it had just arrived. The machine may be faster there than the new overrides ask for: it brakes as hard as it may.
+// New overrides in the middle of a path. Pieces behind the place from which they hold are limited and cut again, as if
+// they had just arrived. If the machine is faster there than the new overrides allow, it brakes as hard as it may.
 #include <algorithm>
 
 #include "core/path/speed_window.hpp"
@@ -27,7 +27,7 @@ TurnResult SpeedWindow::turn(const Overrides& overrides, std::size_t number, boo
     return result;
 }
 
-/// Whether a piece that was begun recovers the jumps at its ends as before, although it gets faster.
+/// Whether a piece in progress can get faster and still recover the jumps at its ends as before.
 bool SpeedWindow::may_rise(std::size_t piece) const {
     const std::size_t k = piece - first_piece_;
     const JoinedPiece& begun = pieces_[k];
@@ -44,7 +44,7 @@ bool SpeedWindow::may_rise(std::size_t piece) const {
     return true;
 }
 
-/// What is left of the piece in which the new overrides begin. Its joint is behind.
+/// Applies the overrides to the rest of the piece in which they begin. The joint at its beginning has been passed.
 void SpeedWindow::turn_piece(std::size_t number, bool is_under_way) {
     const std::size_t piece = interval(number).piece;
     if (interval(number).kind == IntervalKind::Rest) { return; }
@@ -71,9 +71,9 @@ void SpeedWindow::recut_behind(std::size_t piece) {
     for (; !ahead_.empty(); ahead_.pop_back()) { add(ahead_.back()); }
 }
 
-/// From the beginning of an interval at w. An interval that arrives later is limited by the top of the last known one.
-/// If that top were raised here, the limit would differ from that of a path known as a whole. So this asks for one
-/// interval more.
+/// Raises caps and tops for braking from w at the beginning of an interval. An interval that arrives later is limited
+/// by the top of the last known one. If that top were raised here, the limit would differ from that of a completely
+/// known path. So one more interval must be known.
 TurnResult SpeedWindow::allow_braking(std::size_t number, double w) {
     for (std::size_t k = number; w > 0; ++k) {
         if (k + 1 >= end() && !is_finished_) { return TurnResult::LacksPath; }
@@ -96,7 +96,7 @@ TurnResult SpeedWindow::allow_braking(std::size_t number, double w) {
     return TurnResult::Taken;
 }
 
-/// Where a straight interval is entered too fast, its beginning becomes an interval of its own, for braking.
+/// If a straight interval is entered too fast, makes its beginning a separate interval for braking.
 bool SpeedWindow::split_braking(std::size_t number, double w) {
     Interval& part = intervals_[number - first_];
     if (part.kind != IntervalKind::Straight || w <= part.top) { return false; }

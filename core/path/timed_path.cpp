@@ -40,7 +40,7 @@ void TimedPath::add_phase(const PathPhase& phase) {
     end_ += phase.ticks;
 }
 
-/// The speed's square changes steadily from w0 to w1 over `mm`.
+/// Adds a phase in which the square of the speed changes linearly from w0 to w1 over `mm`.
 void TimedPath::add(PathPhase phase, double mm, double u, double w0, double w1) {
     if (mm <= 0) { return; }
     phase.u = u;
@@ -51,8 +51,8 @@ void TimedPath::add(PathPhase phase, double mm, double u, double w0, double w1) 
     add_phase(phase);
 }
 
-/// One piece may pass over rests that follow each other: a frame has room for few pieces, and each of many short rests
-/// would take one.
+/// One piece may span rests that follow each other. Otherwise each of many short rests would take a piece, and a frame
+/// has room for few.
 void TimedPath::pass(const Quadratic& shape, const Interval& part, std::size_t number, double w0, double w1) {
     passages_.push_back({number, end_, w0, w1, phases_.size()});
     const PathPhase here{.shape = &shape, .interval = number, .piece = part.piece};

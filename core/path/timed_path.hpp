@@ -17,20 +17,20 @@ struct PathPhase {
     double u = 0;         // mm, at its beginning
     double v = 0;         // mm per tick
     double a = 0;         // mm per tick^2
-    bool breaks = false;  // a jump of speed that no piece of constant acceleration may pass over
+    bool breaks = false;  // begins with a jump of speed; no piece of constant acceleration may span it
 
     double end() const { return begin + ticks; }
-    /// At a time, which is taken to be within the phase: place (mm) and speed (mm per tick) along the piece.
+    /// Place (mm) and speed (mm per tick) along the piece at a time, which is clamped to the phase.
     double along(double t) const;
     double speed(double t) const;
-    /// When it is at a place along the piece; in a rest at its begin.
+    /// The time at a place along the piece; in a rest, its begin.
     double time_at(double along) const;
     /// Place (steps) and velocity (steps per tick) of an axis.
     double place(std::size_t i, double t) const { return shape->place(i, along(t)); }
     double velocity(std::size_t i, double t) const { return shape->slope_at(i, along(t)) * speed(t); }
 };
 
-/// An interval as it is gone through.
+/// The passage of an interval.
 struct Passage {
     std::size_t interval = 0;
     double begin = 0;  // ticks
@@ -41,22 +41,22 @@ struct Passage {
 
 class TimedPath {
 public:
-    /// Begins anew, at a time.
+    /// Clears the path and begins at a time.
     void begin(double ticks);
-    /// Goes through an interval, `number`, with the speeds' squares w0 and w1 at its ends.
+    /// Adds the passage of the interval `number` with the squared speeds w0 and w1 at its ends.
     void pass(const Quadratic& shape, const Interval& part, std::size_t number, double w0, double w1);
-    /// Brakes to rest within an interval: least_after(w0) is `w1`, below 0.
+    /// Adds braking to rest within an interval; `w1` is its least_after(w0), below 0.
     void brake(const Quadratic& shape, const Interval& part, std::size_t number, double w0, double w1);
-    /// Times count from `ticks` on.
+    /// Moves the origin of times to `ticks`.
     void shift(Ticks ticks);
-    /// The machine rests from the end of the last phase on.
+    /// Adds a rest of the machine from the end of the last phase on.
     void rest();
 
-    /// Behind the last interval, or when it came to rest.
+    /// The time at the end of the last interval, or at which the path came to rest.
     double end() const { return end_; }
-    /// Where that is on the geometry.
+    /// The spot of this end on the geometry.
     PathSpot end_spot() const { return {stop_.piece, stop_.u}; }
-    /// At a time within the phases.
+    /// The spot at a time within the phases.
     PathSpot spot_at(double t) const;
     const std::vector<PathPhase>& phases() const { return phases_; }
     const std::vector<Passage>& passages() const { return passages_; }
@@ -65,7 +65,7 @@ private:
     void add(PathPhase phase, double mm, double u, double w0, double w1);
     void add_phase(const PathPhase& phase);
 
-    static constexpr double kBreak = 0.05;  // of the start velocity: a greater jump is not passed over
+    static constexpr double kBreak = 0.05;  // of the start velocity: no piece spans a greater jump
 
     std::vector<PathPhase> phases_;
     std::vector<Passage> passages_;

@@ -1,4 +1,4 @@
-// How a path keeps to the travel: a place beyond it that is rounded to its last step is still this step's.
+// Keeps a path within the travel. A place beyond the last step belongs to this step if it rounds to it.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +21,8 @@ inline TravelEnds travel_ends_of(const AxisLimits& axis) {
             static_cast<double>(axis.max_steps) + kMostBeyond_steps};
 }
 
-/// Bends a piece whose ends are within the travel less, where it leads beyond it. A parabola through (0, x0) and (L,
-/// x1) touches a line that is p and q away from them if its bend is 2 (sqrt p + sqrt q)^2 / L^2.
+/// Reduces the bend of a piece that leads beyond the travel; its ends must be within. A parabola through (0, x0) and
+/// (L, x1) touches a line that is p and q away from them if its bend is 2 (sqrt p + sqrt q)^2 / L^2.
 inline void keep_within_travel(const PathSetup& setup, Quadratic& piece) {
     const auto most = [&piece](double p, double q) {
         const double root = (std::sqrt(std::max(p, 0.0)) + std::sqrt(std::max(q, 0.0))) / piece.length;

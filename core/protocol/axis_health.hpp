@@ -1,4 +1,5 @@
-// How well an axis is doing, said ten times a second: for people, plots and the record. Nobody decides by it.
+// Health figures of an axis, published ten times a second for people, plots and the record. No decision depends on
+// them.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 
 namespace lockstep {
 
-/// The least and the most of so many values; both are 0 where there were none.
+/// The least and the greatest of `count` values. Both are 0 if there are none.
 struct Extremes {
     std::uint64_t count = 0;
     Ticks least;
@@ -26,7 +27,7 @@ struct Extremes {
     }
 };
 
-/// From when a loop was to begin until it was done.
+/// From the time at which a loop was due until its end.
 struct LoopTime {
     Ticks p50;
     Ticks p99;
@@ -34,15 +35,15 @@ struct LoopTime {
     bool operator==(const LoopTime&) const = default;
 };
 
-/// Since the process started.
+/// Counts since the process started.
 struct RefusalCounts {
-    std::uint64_t frames = 0;         // by the axis's own checks
-    std::uint64_t commands = 0;       // of the coordinator
-    std::uint64_t messages = 0;       // that could not be believed, before they were looked at
-    std::uint64_t orders = 0;         // by the device, or looks at it that failed
-    std::uint64_t captures = 0;       // steps whose time found the capture ring full (since the device's power-up)
+    std::uint64_t frames = 0;         // refused by the axis's own checks
+    std::uint64_t commands = 0;       // the coordinator's, refused by the axis
+    std::uint64_t messages = 0;       // refused when they were decoded
+    std::uint64_t orders = 0;         // refused by the device, and failed reads of the device
+    std::uint64_t captures = 0;       // step times lost because the capture ring was full (since the device's power-up)
     std::uint64_t records = 0;        // messages of the record that could not be sent
-    std::uint64_t skipped_loops = 0;  // whose time had passed
+    std::uint64_t skipped_loops = 0;  // left out because their time had passed
     bool operator==(const RefusalCounts&) const = default;
 };
 
@@ -51,18 +52,18 @@ struct AxisHealth {
     std::uint32_t axis = 0;  // its place in the configuration
     Tick tick;               // machine time
 
-    // Of the second before, as all that follows to the next line.
-    Extremes step_lateness;                 // device against plan, in frames; as soon as the frame has been run
-    Extremes step_interval;                 // between steps of a motion
-    Extremes setpoint_slack;                // how long before its start a frame came
-    std::uint32_t least_free_segments = 0;  // room in the device's segment ring
-    std::uint32_t least_free_captures = 0;  // room in its capture ring
+    // The figures up to the blank line cover the last second.
+    Extremes step_lateness;                 // device minus plan, in frames only; counted once the frame has been run
+    Extremes step_interval;                 // between successive steps of a motion
+    Extremes setpoint_slack;                // how long before its start a frame arrived
+    std::uint32_t least_free_segments = 0;  // least room in the device's segment ring
+    std::uint32_t least_free_captures = 0;  // least room in its capture ring
 
     LoopTime loop;                      // of the last thousand loops
-    std::optional<Ticks> setpoint_age;  // since the newest frame came; nothing where none is awaited
-    Ticks clock_error;                  // its machine time is at most so far off
+    std::optional<Ticks> setpoint_age;  // since the newest frame arrived; empty while none is awaited
+    Ticks clock_error;                  // bound on the error of its machine time
     RefusalCounts refused;
-    RecordCounts published;  // of the record, by this process
+    RecordCounts published;  // record messages published by this process
     ProcessCounts process;
     bool operator==(const AxisHealth&) const = default;
 };

@@ -1,4 +1,4 @@
-// What is remembered of each client, for commands that come again.
+// Remembers one value for each client, to handle repeated commands.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace lockstep {
 
-/// One value for each of the newest kClients clients: the one noted the longest ago gives way to a new one.
+/// One value for each of at most kClients clients. A new client replaces the one that was noted longest ago.
 template <typename T>
 class ClientMemory {
 public:
@@ -18,7 +18,7 @@ public:
 
     ClientMemory() { notes_.reserve(kClients); }
 
-    /// The value noted last for this client; null: none, or forgotten.
+    /// Returns the value noted last for this client, or null if there is none any more.
     const T* find(Identity client) const {
         const auto known = std::ranges::find(notes_, client, &Note::client);
         return known == notes_.end() ? nullptr : &known->value;

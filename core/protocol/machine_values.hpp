@@ -1,4 +1,4 @@
-// The values that outlive programs, as the coordinator publishes them: coordinate systems, offsets and the tool table.
+// The values that outlive programs (coordinate systems, offsets, tool table), as the coordinator publishes them.
 #pragma once
 
 #include <cstdint>

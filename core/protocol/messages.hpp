@@ -1,4 +1,4 @@
-// What coordinator, axes and clients say to each other, as plain values. The services translate these to DDS.
+// The messages between coordinator, axes and clients, as plain values. The services translate them to DDS.
 #pragma once
 
 #include <array>
@@ -22,34 +22,35 @@
 
 namespace lockstep {
 
-/// A sequence of frames that starts from rest. Never reused: it is its owner's term and a counter.
+/// A sequence of frames that starts from rest. Its number combines its owner's term and a counter, and is never reused.
 using Epoch = std::uint64_t;
 /// Frames of an epoch are numbered from 1 without gaps.
 using FrameNumber = std::uint64_t;
 /// A period of the axes' state messages: machine time divided by the slot's length.
 using Slot = std::int64_t;
-/// Who speaks: new at every start of a process.
+/// Identifies a process. Each start of a process has a new identity.
 using Identity = std::uint64_t;
 
-/// Whose turn it is to move the machine. All that an owner says carries it. Terms only rise: who takes a machine over
-/// claims one above all that it has heard of; of two that claim the same number the later process counts as higher.
+/// Says which coordinator owns the machine. Every message of an owner carries its term. Terms only rise. A coordinator
+/// that takes a machine over claims a higher number than every term that it has received. If two claim the same number,
+/// the term of the later process counts as higher.
 struct Term {
-    std::uint64_t number = 0;  // machine time of the claim in ticks, or one more than the highest heard; 0: nobody's
+    std::uint64_t number = 0;  // machine time of the claim in ticks, or one more than the highest received; 0: no owner
     Identity coordinator = 0;
     auto operator<=>(const Term&) const = default;
 };
 
 /// The epochs of a term are numbered upwards from here.
 constexpr Epoch first_epoch(const Term& term) { return term.number << 8; }
-/// Whether an owner can have come to an epoch in its term: no other number is believed, lest it put an axis beyond all
+/// Whether an epoch can belong to this term. Other numbers are refused. An axis that accepted one might refuse all
 /// epochs to come.
 constexpr bool is_epoch_of(Epoch epoch, const Term& term) { return epoch - first_epoch(term) < Epoch{1} << 24; }
 
-inline constexpr std::size_t kMaxBodyPieces = 212;  // per axis and frame; the planner keeps moves long enough
-inline constexpr std::size_t kMaxTailPieces = 60;   // the planner keeps stops short enough
+inline constexpr std::size_t kMaxBodyPieces = 212;  // per axis and frame; the planner makes moves long enough for it
+inline constexpr std::size_t kMaxTailPieces = 60;   // the planner makes stops short enough for it
 
-/// One axis's share of a frame. The tail starts where the body ends. An axis may need a piece more for its device
-/// (core/axis/device/retime.hpp).
+/// One axis's share of a frame. The tail starts where the body ends. An axis may need one more piece in each for its
+/// device (core/axis/device/retime.hpp).
 struct AxisTrack {
     Position from;
     StaticVector<Piece, kMaxBodyPieces + 1> body;
@@ -72,20 +73,20 @@ struct Frame {
 /// The six states of an axis, and Fault.
 enum class AxisPhase : std::uint8_t { Initialize, Standby, Accelerate, Cruise, Decelerate, Stop, Fault };
 
-/// What an axis says of itself once a slot. It is all that others know of it.
+/// The state that an axis publishes once a slot. Others know nothing else of the axis.
 struct AxisState {
     Identity identity = 0;
     std::uint32_t axis = 0;  // its place in the configuration
     Slot stamp = 0;
     Epoch epoch = 0;                  // the newest epoch it has taken frames of
     FrameNumber held = 0;             // every frame up to this one is held; 0: none
-    std::optional<FrameNumber> veto;  // the lowest frame of the epoch that may not be run, merged from all heard
+    std::optional<FrameNumber> veto;  // the lowest frame of the epoch that may not be run, merged from all received
     FrameNumber ran = 0;              // the highest frame of the epoch the device has begun
     bool at_rest = true;
     bool homed = false;
     AxisPhase phase = AxisPhase::Initialize;
     std::uint16_t fault = 0;  // FaultCode; 0: none
-    Position position;        // machine coordinates, as the pulses have it
+    Position position;        // machine coordinates, by its pulses
     Velocity velocity;
     Tick tick;                               // when position and velocity were read
     std::int64_t following_error_steps = 0;  // encoder minus count, since it was homed
@@ -93,14 +94,14 @@ struct AxisState {
     std::uint16_t command_fault = 0;         // why it was refused; 0: it was carried out
     std::uint64_t config_hash = 0;           // of the configuration it runs with
     std::uint64_t refused_frames = 0;        // since start
-    Ticks clock_error;                       // its machine time is at most so far off
-    Term term;                               // of the owner it follows: the highest it ever has
-    bool hears_owner = false;                // within silence_slots
+    Ticks clock_error;                       // bound on the error of its machine time
+    Term term;                               // of the owner it follows; never lower than before
+    bool hears_owner = false;                // it received its owner within silence_slots
     std::uint16_t unproved = 0;  // FaultCode: why it did not know its position at its start; 0: it knows it now
     bool operator==(const AxisState&) const = default;
 };
 
-/// An axis asks what time it is. Answered at once, whatever the coordinator is doing; see core/clock.
+/// An axis asks for machine time. The coordinator's process answers at once, independently of its loop; see core/clock.
 struct ClockRequest {
     std::uint32_t axis = 0;
     Identity identity = 0;
@@ -109,7 +110,7 @@ struct ClockRequest {
     bool operator==(const ClockRequest&) const = default;
 };
 
-/// The request it answers, and when it came and went.
+/// The answered request, and the times at which the request arrived and the reply left.
 struct ClockReply {
     ClockRequest request;
     Tick received;  // machine time
@@ -117,11 +118,11 @@ struct ClockReply {
     bool operator==(const ClockReply&) const = default;
 };
 
-/// MoveOwn: to a place by itself, not coordinated with others. Halt: a move of its own is braked and given up. Jog: to
-/// a place by itself, while the order is renewed.
+/// MoveOwn: the axis moves to a place by itself, not coordinated with others. Halt: it brakes and abandons a move of
+/// its own. Jog: it moves to a place by itself while the order is renewed.
 enum class AxisCommandKind : std::uint8_t { Home, Reset, StopNow, MoveOwn, Halt, Jog };
 
-/// Coordinator to one axis. Repeated each slot until the axis's state says it is done.
+/// An order of the coordinator to one axis. It is repeated each slot until the axis's state reports it as done.
 struct AxisCommand {
     Term term;
     std::uint64_t sequence = 0;  // rises within a term; an axis carries out each once
@@ -129,12 +130,12 @@ struct AxisCommand {
     AxisCommandKind kind = AxisCommandKind::Home;
     std::int64_t target_steps = 0;  // MoveOwn, Jog: machine coordinates
     Ticks ticks;                    // MoveOwn: how long it lasts; 0: as fast as the axis's limits allow
-    double speed_mm_s = 0;          // Jog: at most, above 0
+    double speed_mm_s = 0;          // Jog: the greatest speed, above 0
     Tick until;                     // Jog: the axis begins to brake by then, unless a repetition names a later time
     bool operator==(const AxisCommand&) const = default;
 };
 
-/// Standby: who says so does not own the machine; the owner's word counts.
+/// Standby: the coordinator that publishes it does not own the machine. The owner's phase counts.
 enum class MachinePhase : std::uint8_t {
     Waiting,
     Idle,
@@ -150,11 +151,11 @@ enum class MachinePhase : std::uint8_t {
 
 enum class JobOutcome : std::uint8_t { Done, Stopped, Failed };
 
-/// MoveOwn: axes to their places each by itself, not coordinated. Jog: axes by themselves, while clients hold their
-/// keys.
+/// MoveOwn: axes move to their places, each by itself, not coordinated. Jog: axes move by themselves while clients hold
+/// their keys.
 enum class JobKind : std::uint8_t { Home, Move, Run, MoveOwn, Jog };
 
-/// Positions of all axes in 64 bits: of two places that differ in any bit it differs but once in 2^64.
+/// Hashes the positions of all axes into 64 bits. Two different places have the same digest only once in 2^64 cases.
 constexpr std::uint64_t digest_of(std::span<const Position> positions) {
     std::uint64_t digest = 0xcbf29ce484222325U;
     for (const Position position : positions) {
@@ -166,69 +167,70 @@ constexpr std::uint64_t digest_of(std::span<const Position> positions) {
     return digest;
 }
 
-/// Where the machine comes to rest if no frame behind this one is run; frame 0: where the epoch starts.
+/// Where the machine comes to rest if no frame after this one is run. Frame 0: where the epoch starts.
 struct FrameRest {
     FrameNumber frame = 0;
     PathPlace place;           // on the program
     bool last = false;         // the epoch ends with it
-    std::uint64_t digest = 0;  // digest_of where each axis then rests
+    std::uint64_t digest = 0;  // digest_of the positions at which the axes then rest
     bool operator==(const FrameRest&) const = default;
 };
 
-/// What the coordinator says of the machine once a slot; it also tells axes which vetoes the coordinator casts.
+/// The state of the machine that the coordinator publishes once a slot. It also carries the coordinator's veto.
 struct MachineState {
-    Term term;  // Standby: the highest number known, and who stands by
+    Term term;  // Standby: the highest number known, and the standby's identity
     Slot stamp = 0;
     Tick tick;
     MachinePhase phase = MachinePhase::Waiting;
     std::uint16_t fault = 0;
-    std::uint32_t fault_axis = 0;  // meaningful where fault is not 0 and names an axis
+    std::uint32_t fault_axis = 0;  // meaningful if `fault` is not 0 and names an axis
     Epoch epoch = 0;
     FrameNumber sent = 0;               // the highest frame sent
     std::optional<FrameNumber> veto;    // the coordinator's own, of this epoch
-    std::uint64_t job = 0;              // counts the jobs done or begun since start
-    std::optional<JobOutcome> outcome;  // of that job; nothing while it is in progress
-    Term job_begun;                     // in which term: another owner may have gone on with it
-    std::int32_t line = 0;              // of the G-code now in motion, or where a job ended before its end
-    std::uint16_t job_fault = 0;  // FaultCode: why the program of the last job ended before its end; 0: it did not
-    bool lacks_blocks = false;    // the machine waits for more of the program
-    double progress = 0;          // 0 ... 1 of the job's planned time
+    std::uint64_t job = 0;              // number of the newest job, done or in progress
+    std::optional<JobOutcome> outcome;  // of that job; empty while it is in progress
+    Term job_begun;                     // the term in which it began; another owner may have continued it
+    std::int32_t line = 0;              // the G-code line now in motion, or the line at which a job ended early
+    std::uint16_t job_fault = 0;        // FaultCode: why the program of the last job ended early; 0: it did not
+    bool lacks_blocks = false;          // the machine waits for more of the program
+    double progress = 0;                // 0 ... 1 of the job's planned time
     double remaining_s = 0;
-    Overrides overrides;       // of what is planned from now on
-    AxisSet axes_present = 0;  // those that are heard
+    Overrides overrides;       // for what is planned from now on
+    AxisSet axes_present = 0;  // the axes that the coordinator receives
     std::uint64_t config_hash = 0;
-    ProgramDevices devices;          // what the words of programs have switched
-    std::optional<HeldLease> lease;  // the writer's; nothing: every client may give commands
-    // What another needs to go on with the job, while one is in motion:
+    ProgramDevices devices;          // as the words of programs have switched them
+    std::optional<HeldLease> lease;  // the writer's; empty: every client may give commands
+    // What another coordinator needs to continue the job in motion:
     JobKind job_kind = JobKind::Run;
     std::uint64_t program = 0;      // Command::program of the job; 0: none is in motion
     std::uint32_t events_from = 0;  // the events of the program before this block have been published
-    std::vector<FrameRest> rests;   // of the frames of the epoch that may be the last ones run, rising
-    // Of the record; nobody decides by it:
-    RecordCounts published;          // by this process
-    std::uint64_t lost_records = 0;  // messages that it could not write
-    ProcessCounts process;           // nobody decides by it either
+    std::vector<FrameRest> rests;   // of the frames of the epoch that may be the last one run, in order
+    // For people and for checks of the record. No decision depends on it:
+    RecordCounts published;          // record messages published by this process
+    std::uint64_t lost_records = 0;  // record messages that it could not write
+    ProcessCounts process;           // of this process
     bool operator==(const MachineState&) const = default;
 };
 
-/// An event of a program that has happened. Published once; the state keeps what it switched.
+/// A program event that has happened. It is published once. MachineState::devices keeps its effect.
 struct PublishedEvent {
     Term term;
     std::uint64_t sequence = 0;  // rises within a term, without gaps
     std::uint64_t job = 0;
     Epoch epoch = 0;            // 0: no axis moved since the job began
-    Tick tick;                  // when the motion came to its place; at rest: when it was published
-    bool at_rest = false;       // its place is where the axes came to rest, or was passed on the way to there
-    bool is_of_program = true;  // false: the job ended before its end, and the coordinator switched the device off
+    Tick tick;                  // when the motion reached its place; at rest: when it was published
+    bool at_rest = false;       // its place is where the axes came to rest, or they passed it on the way there
+    bool is_of_program = true;  // false: the job ended early, and the coordinator switched the device off
     std::uint32_t block = 0;    // of the program
     std::int32_t line = 0;      // of the G-code file; 0: none
     ProgramEvent event;
     bool operator==(const PublishedEvent&) const = default;
 };
 
-/// Override: feed and rapid of coordinated moves, from the next frame that is not made yet. Jog: the axes move while
-/// the client repeats the command; each repetition renews it for MachineConfig::jog_hold_ticks. TakeLease: the client
-/// becomes the writer, or one of its clients, and repeats the command to stay so. GiveLease: it is no more.
+/// Override: sets feed and rapid of coordinated moves from the next frame to be made. Jog: the axes move while the
+/// client repeats the command; each repetition renews it for MachineConfig::jog_hold_ticks. TakeLease: the client
+/// becomes the writer, or one of the writer's clients, and repeats the command to stay so. GiveLease: the client gives
+/// the lease up.
 enum class CommandKind : std::uint8_t {
     Home,
     Move,
@@ -248,53 +250,54 @@ enum class CommandKind : std::uint8_t {
 /// One axis of a jog.
 struct JogAxis {
     std::uint32_t axis = 0;
-    double speed_mm_s = 0;   // at most; its sign is the direction
-    double distance_mm = 0;  // at most, above 0; 0: to the end of the travel
+    double speed_mm_s = 0;   // the greatest speed; its sign is the direction
+    double distance_mm = 0;  // the greatest distance, or 0: to the end of the travel
     bool operator==(const JogAxis&) const = default;
 };
 
-/// A client to the coordinator. Answered by a Reply with the same client and sequence; never replayed.
+/// A command of a client to the coordinator. It is answered by a Reply with the same client and sequence, and never
+/// replayed.
 struct Command {
     Identity client = 0;
     std::uint64_t sequence = 0;
     CommandKind kind = CommandKind::Stop;
-    AxisSet axes = 0;           // Home: which; none means all
-    std::uint64_t program = 0;  // Move, Run, MoveOwn: the program sent before in chunks
+    AxisSet axes = 0;           // Home: the axes to home; none means all
+    std::uint64_t program = 0;  // Move, Run, MoveOwn: the program that was sent before in chunks
     Ticks ticks;                // MoveOwn: how long each axis's move lasts; 0: as fast as its limits allow
-    int feed_percent = 0;       // Override; 0: as it is
-    int rapid_percent = 0;      // Override; 0: as it is
-    std::vector<JogAxis> jogs;  // Jog: all axes that the client jogs from now on; none: it releases them
-    LeaseHolder writer;         // who commands; its name and host only in TakeLease
-    bool takes_over = false;    // TakeLease: from another writer, too
+    int feed_percent = 0;       // Override; 0: unchanged
+    int rapid_percent = 0;      // Override; 0: unchanged
+    std::vector<JogAxis> jogs;  // Jog: all axes that the client jogs from now on; empty: it releases them
+    LeaseHolder writer;         // the sender; its name and host only in TakeLease
+    bool takes_over = false;    // TakeLease: even from another writer
     bool operator==(const Command&) const = default;
 };
 
-/// A part of a program: Protobuf bytes with whole blocks. The parts' bytes in order are the program's. Each part is
-/// answered by a Reply, also when it comes again.
+/// A part of a program: Protobuf bytes with whole blocks. The bytes of all parts in order are the program. Each part is
+/// answered by a Reply, also when it is repeated.
 struct ProgramChunk {
     Identity client = 0;
     std::uint64_t sequence = 0;
     std::uint64_t program = 0;
     std::uint32_t index = 0;
     std::uint32_t count = 0;          // how many parts there are; 0: more follow
-    double share = 0;                 // of the program that has been sent with this part; 0: not known
-    std::vector<std::uint8_t> bytes;  // none, and more follow: it is no part, but asks how many were taken
+    double share = 0;                 // fraction of the program sent so far, with this part; 0: not known
+    std::vector<std::uint8_t> bytes;  // empty while more follow: this is not a part, but asks how many were taken
     std::uint64_t writer = 0;         // LeaseHolder::id of its sender
     bool operator==(const ProgramChunk&) const = default;
 };
 
-/// A ProgramChunk that was read. Parts are numbered from 0 and are taken in order.
+/// A decoded ProgramChunk. Parts are numbered from 0 and are taken in order.
 struct ProgramPart {
     Identity client = 0;
     std::uint64_t sequence = 0;
     std::uint64_t program = 0;
     std::uint32_t index = 0;
-    bool is_question = false;  // no part: how many parts were taken, and how many blocks are free
+    bool is_question = false;  // this is not a part, but asks how many parts were taken and how many blocks are free
     bool is_last = false;
-    double share = 0;  // of the program that is known with this part, 0 to 1; 0: its sender cannot say
+    double share = 0;  // fraction of the program that is known with this part, 0 to 1; 0: unknown to its sender
     ProgramHead head;  // in part 0
     std::vector<Block> blocks;
-    std::string cut;  // in the last part: why the program ends before its end; empty: this is its end
+    std::string cut;  // in the last part: why the program ends early; empty: this is its end
 };
 
 enum class ReplyStatus : std::uint8_t { Accepted, Refused };
@@ -304,11 +307,11 @@ struct Reply {
     std::uint64_t sequence = 0;
     ReplyStatus status = ReplyStatus::Accepted;
     std::uint16_t fault = 0;  // FaultCode of a refusal
-    std::uint64_t job = 0;    // the job a command began; to a jog's renewal: 0 when it is over
+    std::uint64_t job = 0;    // the job that a command began; for a jog's renewal: 0 when the jog is over
     std::string text;         // what, where, the limit and the remedy, for a person
     // To a ProgramChunk:
-    std::uint32_t parts = 0;        // of its program, taken so far: they are not sent again
-    std::uint64_t free_blocks = 0;  // how many blocks more the coordinator takes now
+    std::uint32_t parts = 0;        // of its program, taken so far; the client does not send these again
+    std::uint64_t free_blocks = 0;  // how many more blocks the coordinator takes now
     bool operator==(const Reply&) const = default;
 };
 

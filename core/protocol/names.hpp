@@ -1,4 +1,4 @@
-// What the states and commands of the protocol are called. A number that is none, as from a damaged file, is "unknown".
+// Names of the protocol's phases and commands. A value outside the enumeration, as from a damaged file, is "unknown".
 #pragma once
 
 #include <array>

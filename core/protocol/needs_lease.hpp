@@ -1,11 +1,11 @@
-// Which commands are the writer's alone.
+// Which commands only the writer may give.
 #pragma once
 
 #include "core/protocol/messages.hpp"
 
 namespace lockstep {
 
-/// False: it only makes the machine safer, and is everybody's.
+/// False if the command only makes the machine safer. Every client may give such a command.
 inline bool needs_lease(const Command& command) {
     switch (command.kind) {
         case CommandKind::Hold:

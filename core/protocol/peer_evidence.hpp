@@ -10,11 +10,12 @@ namespace lockstep {
 
 /// The longest stall that a machine's file may allow for, in slots.
 inline constexpr int kMaxStallSlots = 200;
-/// Of each axis's states, on the network and in shared memory, for who stalls: more than are said meanwhile.
+/// How many states of each axis the network and the shared memory keep for a process that stalls. This is more than an
+/// axis publishes during the longest stall.
 inline constexpr std::size_t kStatesKept = 256;
 static_assert(kStatesKept > kMaxStallSlots);
 
-/// Its newest state decides: within an epoch no process gives up a frame that it holds.
+/// The newest state of the other process decides, because within an epoch no process gives up a frame that it holds.
 class PeerEvidence {
 public:
     /// States may be received late, twice or out of order; only their stamps count. `held`: every frame up to this one.
@@ -22,7 +23,7 @@ public:
         if (stamp >= stamp_) { *this = {stamp, epoch, held}; }
     }
 
-    /// Whether the process holds k, by a state that is evidence for a frame of `epoch` that starts at `start`.
+    /// Whether the process holds k according to a state that is evidence for a frame of `epoch` that starts at `start`.
     bool holds(Epoch epoch, FrameNumber k, Slot start, const ProtocolTiming& timing) const {
         return rules::is_evidence(stamp_, start, timing) && epoch_ == epoch && held_ >= k;
     }

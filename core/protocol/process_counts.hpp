@@ -1,4 +1,4 @@
-// What a process counts of itself since it started, for people: nobody decides by it.
+// Counts of a process since it started, for people. No decision depends on them.
 #pragma once
 
 #include <cstdint>
@@ -6,8 +6,8 @@
 namespace lockstep {
 
 struct ProcessCounts {
-    std::uint64_t reopened = 0;        // times it opened its DDS participant again
-    std::uint64_t lost_log_lines = 0;  // that its log lacks, because the disk hung or was full
+    std::uint64_t reopened = 0;        // how often it opened its DDS participant again
+    std::uint64_t lost_log_lines = 0;  // lines missing from its log because the disk hung or was full
     bool operator==(const ProcessCounts&) const = default;
 };
 

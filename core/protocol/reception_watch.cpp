@@ -9,11 +9,11 @@ constexpr std::int64_t kMillisecond_ns = 1'000'000;
 constexpr std::int64_t kBetweenLooks_ms = 500;
 constexpr std::int64_t kBeyondLease_ms = 2000;
 constexpr std::int64_t kPeerAbsence_ms = 6000;
-constexpr int kDiscardingLooks = 3;  // in a row: a sample that is sent again is discarded now and then
+constexpr int kDiscardingLooks = 3;  // in a row; DDS discards a sample that is sent again now and then
 constexpr int kLongestPause = 2;     // times peer_silence_
-constexpr int kMostDoublings = 5;    // of peer_absence_: a process may wait for others all night
+constexpr int kMostDoublings = 5;    // of peer_absence_; a process may wait for others all night
 
-/// Since when something holds; nothing: it does not.
+/// Keeps the time since which a condition holds; empty while it does not hold.
 void keep(std::optional<Tick>& since, bool holds, Tick now) {
     if (!holds) { since.reset(); }
     if (holds && !since) { since = now; }
@@ -27,9 +27,9 @@ std::string_view text_of(ReopenReason reason) {
     switch (reason) {
         case ReopenReason::InterfaceChanged: return "the interface has changed";
         case ReopenReason::MemoryReplaced: return "the shared memory of states was replaced";
-        case ReopenReason::PeerSilent: return "a peer is there, but nothing of it is received";
+        case ReopenReason::PeerSilent: return "a peer is present, but none of its messages are received";
         case ReopenReason::SamplesDiscarded: return "DDS discards all samples of a topic";
-        case ReopenReason::PeerMissing: return "nothing of a peer was received for long";
+        case ReopenReason::PeerMissing: return "no message of a peer was received for a long time";
         case ReopenReason::NotReceivedByPeers: return "the peers report that they do not receive this process";
     }
     return "";
@@ -74,8 +74,8 @@ std::optional<ReopenReason> ReceptionWatch::reason(Tick now, const Reception& re
     return std::nullopt;
 }
 
-/// After the last time, until the next: others need time to find the new participant, and what does not help is not
-/// done all the time.
+/// The time between two reopenings. Others need time to find the new participant, and a reopening that does not help
+/// must not be repeated all the time.
 Ticks ReceptionWatch::pause(ReopenReason reason) const {
     if (reason == ReopenReason::PeerMissing) {
         return peer_absence_ * (1 << std::clamp(reopened_ - 1, 0, kMostDoublings));
@@ -86,7 +86,7 @@ Ticks ReceptionWatch::pause(ReopenReason reason) const {
 std::optional<ReopenReason> ReceptionWatch::look(Tick now, const Reception& reception) {
     const bool has_run = now - looked_ < between_looks_ * 2;
     looked_ = now;
-    if (!has_run) { forget(); }  // what this process missed by its own stall says nothing of its peers
+    if (!has_run) { forget(); }  // messages missed in its own stall say nothing of its peers
     const auto found = reason(now, reception);
     if (!found || !reception.may_reopen) { return std::nullopt; }
     if (reopened_at_ && now - *reopened_at_ < pause(*found)) { return std::nullopt; }

@@ -1,16 +1,16 @@
-// Decides when a process opens its DDS participant again, because it receives nothing although there is something to
-// receive.
+// Decides when a process opens its DDS participant again because it receives nothing although others publish.
 //
-// DDS numbers the samples of each writer, and takes none twice. A packet with a number far ahead, forged or damaged,
-// makes it discard everything that follows from that writer, for as long as it knows that writer: the process is cut
-// off from a peer for good. A participant that is opened again forgets what it believed of others, and is a new one to
-// them. The same mends what an interface loses that goes away and comes back.
+// DDS numbers the samples of each writer and takes none twice. After a forged or damaged packet with a number far ahead
+// it discards everything that follows from that writer, for as long as it knows the writer. The process is then cut off
+// from that peer permanently. A participant that is opened again forgets the writers' numbers, and is a new participant
+// to the others. Reopening also restores what is lost when an interface goes away and comes back.
 //
-// Damaged packets can also leave a writer that sends nothing any more. The process itself does not notice: it receives
-// all others. But they report whom they receive, so a process that none of them receives opens its participant again.
+// Damaged packets can also make a writer stop sending. Its own process does not notice, because it still receives all
+// others. The others report which processes they receive, so a process that none of them receives opens its participant
+// again.
 //
-// Only a process at rest does so, and by itself: nothing is arranged between peers. Its identity, its position and its
-// homing are not DDS's matter and stay.
+// A process reopens only at rest, and decides alone, without an agreement between peers. It keeps its identity,
+// position and homing, because DDS does not hold them.
 #pragma once
 
 #include <cstdint>
@@ -24,39 +24,39 @@
 namespace lockstep {
 
 enum class ReopenReason : std::uint8_t {
-    InterfaceChanged,   // it has another address, or is another one of the same name
-    MemoryReplaced,     // the file of the states by memory is no longer the one that is open
-    PeerSilent,         // a peer is there, by DDS or by what others receive, and nothing of it is received
-    SamplesDiscarded,   // DDS discards every sample of a topic that comes
-    PeerMissing,        // nothing of a peer was received for long; perhaps it does not run
+    InterfaceChanged,   // it has another address, or another interface has its name
+    MemoryReplaced,     // the file of the shared states is no longer the one that is open
+    PeerSilent,         // DDS or other processes show that a peer is present, but none of its messages are received
+    SamplesDiscarded,   // DDS discards every sample of a topic
+    PeerMissing,        // no message of a peer was received for a long time; it may not be running
     NotReceivedByPeers  // peers are received, and report that none of them receives this process
 };
 std::string_view text_of(ReopenReason reason);
 
-/// Of one topic, since the participant was opened.
+/// Counts of one topic since the participant was opened.
 struct TopicReception {
     std::uint64_t received = 0;   // samples
     std::uint64_t discarded = 0;  // bytes that DDS did not deliver
 };
 
-/// What a process finds when it looks; nothing of it is remembered by the caller.
+/// What a process finds at one look. The caller remembers nothing of it.
 struct Reception {
     std::optional<ReopenReason> change;  // InterfaceChanged or MemoryReplaced
-    bool is_peer_silent = false;         // since the last look: one that is known to be there
-    bool is_peer_missing = false;        // since the last look: one without which nothing moves
-    bool is_unreceived = false;          // since the last look: peers reported, none that it receives this process
+    bool is_peer_silent = false;         // nothing came since the last look from a peer known to be there
+    bool is_peer_missing = false;        // nothing came since the last look from a peer without which nothing moves
+    bool is_unreceived = false;          // since the last look peers reported, and none reported receiving this process
     bool may_reopen = false;             // at rest
     std::span<const TopicReception> topics;
 };
 
 class ReceptionWatch {
 public:
-    /// lease: how long DDS takes a peer that has ended without a word for present. A tick is so many nanoseconds.
+    /// `lease`: how long DDS still counts a crashed peer as present. `tick_ns`: nanoseconds in one tick.
     ReceptionWatch(Ticks lease, std::int64_t tick_ns);
 
     /// Whether it is time to look again, by the process's own clock.
     bool is_due(Tick now) const { return now - looked_ >= between_looks_; }
-    /// When it is due. Why the participant is to be opened again, now.
+    /// Call it when a look is due. Returns why the participant must be opened again now, or nullopt if it need not.
     std::optional<ReopenReason> look(Tick now, const Reception& reception);
 
 private:
@@ -70,13 +70,13 @@ private:
     Ticks pause(ReopenReason reason) const;
 
     Ticks between_looks_;
-    Ticks peer_silence_;  // the least that counts
+    Ticks peer_silence_;  // the shortest silence that counts
     Ticks peer_absence_;
     std::optional<Tick> silent_since_;
     std::optional<Tick> missing_since_;
     std::optional<Tick> unreceived_since_;
     std::vector<Topic> topics_;
-    int reopened_ = 0;  // times in a row, without hearing all peers in between
+    int reopened_ = 0;  // times in a row, without receiving all peers in between
     std::optional<Tick> reopened_at_;
     Tick looked_;
 };

@@ -1,5 +1,5 @@
-// How many messages of the record a process has published, of each kind. Each kind is numbered from 0 without gaps, so
-// these are the numbers that come next: what a log of the process is compared with at its end.
+// How many record messages of each kind a process has published. Each kind is numbered from 0 without gaps, so each
+// count is also the next number. The end of the process's log is checked against these counts.
 #pragma once
 
 #include <cstdint>

@@ -8,7 +8,7 @@
 
 namespace lockstep {
 
-/// `kValues`: so many different values can alternate, slot by slot, and each is still recognised.
+/// Up to `kValues` different values can alternate from slot to slot, and each is still recognised.
 template <typename T, std::size_t kValues = 1>
 class RepeatedValue {
 public:
@@ -34,8 +34,8 @@ private:
     std::size_t next_ = 0;
 };
 
-/// For terms of owners: axes that follow different terms and coordinators that claim one publish at the same time, and
-/// a few messages may be damaged.
+/// For terms of owners. Axes that follow different terms and coordinators that claim one may publish at the same time,
+/// and a few messages may be damaged.
 using RepeatedTerm = RepeatedValue<Term, 8>;
 
 /// The highest term that two slots carried.

@@ -1,7 +1,7 @@
-// Proof that a second process speaks in this one's place.
+// Proves that a second process publishes in the same role as this one.
 //
-// A process that meets another of the same role must end. But old states may be sent again by somebody, or be damaged,
-// so a state alone proves nothing: a process lives that publishes kStatesThatProve current states in a row.
+// Of two processes with the same role one must end. A single state proves nothing, because old states may be sent
+// again, and states may be damaged. A process counts as running after kStatesThatProve current states in a row.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ public:
 
     explicit SecondProcess(const ProtocolTiming& timing) : silence_(rules::silence_slots(timing)) {}
 
-    /// A state that another process stamped, received now. True: that process lives.
+    /// Takes a state that another process stamped, received now. Returns true if that process is proved to run.
     bool proves(Identity process, Slot stamp, Slot now) {
         const bool is_current = stamp <= now + rules::kHopSlots && now - stamp <= silence_;
         if (!is_current) { return is_proved(); }

@@ -1,4 +1,4 @@
-// Lets one loop of each slot through: the one that publishes the slot's state.
+// Lets one loop of each slot pass: the loop that publishes the slot's state.
 #pragma once
 
 #include <algorithm>
@@ -16,9 +16,9 @@ public:
         last_ = slot;
         return true;
     }
-    /// The slot of the next entry, if it is this one that is still to be entered; otherwise the one after.
+    /// Returns the next slot to be entered: `slot` if it has not been entered yet, otherwise the one after.
     Slot next(Slot slot) const { return last_ ? std::max(slot, *last_ + 1) : slot; }
-    /// Slots since the last one entered in which no loop ran: the process stalled.
+    /// Returns how many slots passed since the last entry without a loop because the process stalled.
     Slot missed(Slot slot) const { return last_ ? std::max<Slot>(0, slot - *last_ - 1) : 0; }
 
 private:

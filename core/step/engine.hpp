@@ -1,7 +1,7 @@
-// The step engine the product runs: where every axis is, and the tick of every step it makes.
+// The step engine of the product: the position of an axis, and the tick of each of its steps.
 //
-// It makes the steps of the tick-by-tick form (tick_engine.hpp), at the same ticks, for a cost per step instead of per
-// tick. Work per call is bounded: a few stretches, and for each step a bounded search at worst.
+// It makes the same steps at the same ticks as the tick-by-tick form (tick_engine.hpp), but costs time per step instead
+// of per tick. Work per call is bounded: a few stretches, and for each step a bounded search at worst.
 #pragma once
 
 #include <cstdint>
@@ -20,31 +20,31 @@ public:
     StepEngine() = default;
     StepEngine(Tick now, Position at) : now_(now), end_(now), position_(at) {}
 
-    /// Begins a piece at now(), from position(), continuing exactly. Any piece before it is forgotten.
-    /// The piece must be executable() (executable.hpp): anything else is a defect of the caller and ends the process.
+    /// Begins a piece exactly at now() and position(). Drops the rest of an earlier piece.
+    /// The piece must be executable() (executable.hpp). Otherwise the caller is defective and the process ends.
     void begin(const Piece& piece);
 
-    /// Executes ticks until `until` or the end of the piece, whichever comes first; none where `until` is past.
+    /// Executes ticks until `until` or the end of the piece, whichever comes first; none if `until` is past.
     /// Calls on_step(StepEdge) for every step, in order. on_step returns nothing, or bool: false stops the engine right
     /// after that tick. It must not touch the engine. Returns the tick reached.
     template <typename OnStep>
     Tick run(Tick until, OnStep&& on_step);
 
-    /// run() in its parts, for those who find the steps of a stretch their own way: the stretch that comes next, in
-    /// motion and before `until`; and its first `ticks` ticks executed, over which it travels `travel`. See walk.hpp.
+    /// The parts of run(), for callers that find the steps of a stretch themselves (see walk.hpp). next() returns the
+    /// next stretch, in motion and before `until`. pass() executes its first `ticks` ticks, which travel `travel`.
     Stretch next(Tick until, std::uint64_t crossover) const;
     void pass(const Stretch& stretch, std::int64_t ticks, Int128 travel);
 
-    /// To a later instant, at rest, position unchanged.
+    /// Advances to a later instant at rest. The position does not change.
     void wait(Tick until);
-    /// Another name for where the axis stands, at rest.
+    /// Sets the position at rest, without a step.
     void rebase(Position at);
-    /// Forgets the rest of the piece: at rest here.
+    /// Drops the rest of the piece: the axis is at rest here.
     void halt();
 
     Tick now() const { return now_; }
     Position position() const { return position_; }
-    /// The register after the last tick; 0 at rest. Before a piece's first tick, its seed.
+    /// The velocity register after the last tick; 0 at rest. Before a piece's first tick it is the piece's seed.
     Velocity velocity() const { return idle() ? Velocity{} : velocity_; }
     bool idle() const { return now_ == end_; }
     Ticks remaining() const { return end_ - now_; }
@@ -96,7 +96,7 @@ void for_each_step(const Segment& segment, OnStep&& on_step) {
     engine.run(segment.end(), std::forward<OnStep>(on_step));
 }
 
-/// By how many steps a segment changes the count: forward steps minus backward ones.
+/// The change of the count by a segment: forward steps minus backward ones.
 constexpr std::int64_t count_change(const Segment& segment) { return segment.to().count() - segment.from.count(); }
 
 }  // namespace lockstep

@@ -1,4 +1,4 @@
-// What a piece must keep for the step engine to execute it exactly. Whoever takes pieces from outside asks this first.
+// The condition for the step engine to execute a piece exactly. Code that takes pieces from outside checks it first.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace lockstep {
 /// The longest piece: 2^42 ticks, 51 days of microseconds.
 inline constexpr Ticks kMaxPieceTicks{std::int64_t{1} << 42};
 
-/// True where 0 <= ticks <= kMaxPieceTicks and the velocity register never leaves 64 bits, which is half a step per
+/// True if 0 <= ticks <= kMaxPieceTicks and the velocity register never leaves 64 bits, which is half a step per
 /// tick either way. Velocity is linear in time, so its two ends decide.
 constexpr bool executable(const Piece& piece) {
     if (piece.ticks < Ticks{0} || piece.ticks > kMaxPieceTicks) { return false; }

@@ -1,11 +1,11 @@
-// What the add-only engine executes: constant acceleration for a whole number of ticks.
+// The unit of work of the add-only engine: constant acceleration for a whole number of ticks.
 #pragma once
 
 #include "core/units.hpp"
 
 namespace lockstep {
 
-/// The moving part of a segment, without its place: what repeats in frames and tails.
+/// The motion of a segment without its place in time and space. Frames and tails consist of pieces.
 ///
 /// Each tick the engine does `velocity += acceleration; position += velocity`. `velocity` is the seed: the speed
 /// half a tick before the piece, v0 - a/2, so that n ticks cover exactly v0*n + a*n^2/2 as the continuous motion does.
@@ -15,7 +15,7 @@ struct Piece {
     Acceleration acceleration;
     constexpr bool operator==(const Piece&) const = default;
 
-    /// What the piece covers in its first n ticks: n*v + a*n(n+1)/2.
+    /// The distance that the piece covers in its first n ticks: n*v + a*n(n+1)/2.
     constexpr Displacement covered(Ticks n) const {
         const Int128 k = n.value;
         return {k * velocity.raw + k * (k + 1) / 2 * acceleration.raw};
@@ -25,7 +25,7 @@ struct Piece {
     constexpr Int128 velocity_after(Ticks n) const { return Int128{velocity.raw} + Int128{n.value} * acceleration.raw; }
 };
 
-/// How long pieces last that follow each other.
+/// The duration of pieces that follow each other.
 template <typename Pieces>
 constexpr Ticks total_ticks(const Pieces& pieces) {
     Ticks total;

@@ -1,7 +1,7 @@
 // The skip-ahead form of the step engine: from step to step in closed form, at any speed.
 //
-// It is one half of what StepEngine (engine.hpp) chooses from; on its own it serves where steps are few and far apart
-// in ticks, and to check the other forms against.
+// StepEngine (engine.hpp) uses the same method for slow stretches. This form is for few steps that are many ticks
+// apart, and for checks of the other forms.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-// A stretch is a part of a piece whose ticks all go the same way, and are all slow or all fast. It is described as
-// forward motion: backward motion is mirrored (phase -> not phase, velocity -> -velocity), which turns a borrow of
-// `phase - speed` into the carry of `~phase + speed` on the same tick.
+// A stretch is a part of a piece in which all ticks have the same direction and are all slow or all fast. It is
+// described as forward motion. Backward motion is mirrored (phase -> not phase, velocity -> -velocity), which turns a
+// borrow of `phase - speed` into the carry of `~phase + speed` on the same tick.
 //
 // Ticks are numbered 1 ... ticks. Tick n has the speed u + (n-1)a and ends n*u + a*n(n-1)/2 beyond the start.
 #pragma once
@@ -15,7 +15,7 @@ namespace lockstep {
 struct Stretch {
     std::uint64_t phase = 0;        // before the first tick
     std::uint64_t speed = 0;        // u, of the first tick, at most 2^63; all speeds of the stretch are >= 0
-    std::int64_t acceleration = 0;  // a, of the speed: slowing down is negative
+    std::int64_t acceleration = 0;  // a, of the speed: negative if it slows down
     std::int64_t ticks = 0;
     bool backward = false;
     bool fast = false;  // speeds are all >= the crossover, else all below
@@ -24,7 +24,7 @@ struct Stretch {
     std::uint64_t speed_at(std::int64_t n) const {
         return speed + static_cast<std::uint64_t>(n - 1) * static_cast<std::uint64_t>(acceleration);
     }
-    /// The phase register after tick n, n >= 1. Wraps; n(n-1)/2 is one factor halved times the other.
+    /// The phase register after tick n, n >= 1. Wraps. n(n-1)/2 is computed by halving the even factor.
     std::uint64_t phase_after(std::int64_t n) const {
         const auto k = static_cast<std::uint64_t>(n);
         return phase + k * speed + (k >> 1) * ((k - 1) | 1) * static_cast<std::uint64_t>(acceleration);
@@ -41,14 +41,14 @@ struct Stretch {
     }
     /// How many steps fall in the first n ticks.
     std::int64_t steps_in(std::int64_t n) const { return steps_over(travel(n)); }
-    /// Whether tick n makes a step: the phase after a carry is less than what was added.
+    /// Whether tick n makes a step: after a carry the phase is less than the addend.
     bool carries_at(std::int64_t n) const { return phase_after(n) < speed_at(n); }
 };
 
-/// How many ticks from the first one keep their speed within [lower, upper], the first one being so.
+/// The number of ticks, from the first one on, with a speed within [lower, upper]. The first tick must be within.
 inline std::int64_t ticks_within(const Stretch& stretch, std::uint64_t lower, std::uint64_t upper) {
     const std::uint64_t last = stretch.speed_at(stretch.ticks);
-    const bool certain = last < kHalfStep;  // else it may have wrapped below 0
+    const bool certain = last < kHalfStep;  // otherwise it may have wrapped below 0
     if ((certain && last >= lower && last <= upper) || stretch.acceleration == 0) { return stretch.ticks; }
     const bool rising = stretch.acceleration > 0;
     const std::uint64_t room = rising ? upper - stretch.speed : stretch.speed - lower;
@@ -56,7 +56,7 @@ inline std::int64_t ticks_within(const Stretch& stretch, std::uint64_t lower, st
     return std::min(stretch.ticks, 1 + static_cast<std::int64_t>(room / (rising ? a : 0 - a)));
 }
 
-/// The longest stretch that the next `ticks` >= 1 ticks of an axis begin with. `velocity` is the register before its
+/// The longest stretch at the beginning of an axis's next `ticks` >= 1 ticks. `velocity` is the register before its
 /// first tick. A stretch ends where the velocity changes sign or the speed passes `crossover`.
 inline Stretch next_stretch(Position from, Velocity velocity, Acceleration acceleration, Ticks ticks,
                             std::uint64_t crossover) {
@@ -74,7 +74,7 @@ inline Stretch next_stretch(Position from, Velocity velocity, Acceleration accel
     return stretch;
 }
 
-/// The tick of step k, 1 <= k <= steps_in(ticks), by bisection: exact and bounded, the last resort of faster ways.
+/// The tick of step k, 1 <= k <= steps_in(ticks), by bisection: exact and bounded, the fallback of faster methods.
 std::int64_t search_step(const Stretch& stretch, std::int64_t k);
 
 }  // namespace lockstep

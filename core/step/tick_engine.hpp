@@ -1,4 +1,4 @@
-// The reference form of the step engine: tick by tick, additions only, as hardware does it.
+// The reference form of the step engine: tick by tick, additions only, as in hardware.
 //
 // The phase register is position + 1/2 step, modulo one step. A step forward is the carry of phase + velocity, a step
 // backward its borrow. Every other form, and the RTL, must make the same steps at the same ticks.
@@ -23,7 +23,7 @@ struct Accumulator {
           velocity(static_cast<std::uint64_t>(piece.velocity.raw)),
           acceleration(static_cast<std::uint64_t>(piece.acceleration.raw)) {}
 
-    /// Executes one tick. The step it makes: +1, -1 or 0.
+    /// Executes one tick and returns its step: +1, -1 or 0.
     constexpr std::int8_t tick() {
         velocity += acceleration;
         const std::uint64_t before = phase;

@@ -9,7 +9,7 @@
 
 namespace lockstep {
 
-/// Calls step(n) for the tick n of every step in order, until it returns false. The ticks done: n then, else all.
+/// Calls step(n) for the tick n of every step in order, until it returns false. Returns the ticks done: n or all.
 template <typename Step>
 std::int64_t walk_cruise(const Stretch& stretch, Step&& step) {
     std::int64_t steps = stretch.steps_in(stretch.ticks);
@@ -23,7 +23,7 @@ std::int64_t walk_cruise(const Stretch& stretch, Step&& step) {
         if (!step(static_cast<std::int64_t>(n))) { return static_cast<std::int64_t>(n); }
         if (--steps == 0) { return stretch.ticks; }
         n += q + (phase < r ? 1 : 0);
-        phase = std::min(phase - r, phase + (u - r));  // phase - r, unless that wraps: a choice without a branch
+        phase = std::min(phase - r, phase + (u - r));  // phase - r, or phase + u - r if that wraps; no branch
     }
 }
 

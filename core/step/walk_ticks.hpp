@@ -25,7 +25,7 @@ inline std::uint64_t tick_64_times(std::uint64_t& phase, std::uint64_t& speed, s
     return carries;
 }
 
-/// Calls step(n) for the tick n of every step in order, until it returns false. The ticks done: n then, else all.
+/// Calls step(n) for the tick n of every step in order, until it returns false. Returns the ticks done: n or all.
 template <typename Step>
 std::int64_t walk_ticks(const Stretch& stretch, Step&& step) {
     std::uint64_t phase = stretch.phase;

@@ -1,7 +1,7 @@
-# Completion of the lockstep command for bash. Verbs and options are read from the command's own --help, so that they
-# match the installed version.
+# Completion of the lockstep command for bash. It reads verbs and options from the command's --help, so that they match
+# the installed version.
 
-# The verbs, or the parts of a verb, that a help text lists.
+# Prints the verbs, or the parts of a verb, that a help text lists.
 _lockstep_verbs() { awk '/^Subcommands:/ { on = 1; next } /^[^ ]/ { on = 0 } on && /^  [a-z]/ { print $1 }' <<<"$1"; }
 
 _lockstep_options() { grep -oE '^  (-[A-Za-z],)?--[a-z][a-z-]*' <<<"$1" | grep -oE -- '--[a-z-]+'; }

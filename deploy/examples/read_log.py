@@ -29,7 +29,7 @@ SYNC = 0xEDA1DA01
 
 
 def messages(path):
-    """Every message in the log, decoded, in order; skips other types than Lockstep's."""
+    """Yields every message in the log, decoded, in order. Skips types that are not Lockstep's."""
     with open(path, "rb") as log:
         while header := log.read(EVENT.size):
             if len(header) < EVENT.size:
@@ -44,12 +44,12 @@ def messages(path):
 
 
 def step_ticks(batch):
-    """The tick of every step of a batch."""
+    """Returns the tick of every step of a batch."""
     return [batch.first_tick + sum_of_deltas for sum_of_deltas in accumulate(batch.delta_ticks)]
 
 
 def rows(path, every_s):
-    """(axis, seconds since the log's first position, mm, steps a second) of every axis, each `every_s` seconds."""
+    """Yields (axis, seconds since the log's first position, mm, steps per second) of every axis, each `every_s` s."""
     start, last, made = None, {}, defaultdict(int)
     for message in messages(path):
         if isinstance(message, step_batch_t):

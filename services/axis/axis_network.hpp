@@ -1,5 +1,5 @@
-// What an axis's process receives and publishes, and its link to the other processes. The link is opened again when it
-// no longer delivers.
+// Receives and publishes the messages of an axis's process. It reopens the link to the other processes when the link no
+// longer delivers.
 #pragma once
 
 #include <cstdint>
@@ -46,16 +46,17 @@ public:
     /// Error: as open_bus.
     static std::expected<AxisNetwork, std::string> open(const Setup& setup);
 
-    /// The messages received since the last call; none while the link is being opened again.
+    /// Returns the messages received since the last call. Empty while the link is being reopened.
     const AxisReceived& receive();
     void publish(const AxisState& state);
-    /// The host of another process that publishes as this axis, from DDS discovery; empty: not found.
+    /// Returns the host of another process that publishes as this axis, from DDS discovery. Empty if none is found.
     std::string host_of_rival() const;
     void publish(const AxisHealth& health);
 
-    /// Call it in every loop, with the process's own clock. Returns why the link is now opened again; only at rest.
+    /// Call it in every loop, with the time of the process's own clock. Reopens the link if it no longer delivers, but
+    /// only at rest, and returns the reason.
     std::optional<ReopenReason> tend(Tick now, bool at_rest);
-    /// How often since the process started.
+    /// How often the link was reopened since the process started.
     std::uint64_t reopened() const { return link_->reopened(); }
 
     /// Messages refused since the process started, and why the last ones were refused.
@@ -70,14 +71,14 @@ private:
     std::uint32_t axis_;
     std::unique_ptr<Link> link_;
     AxisReceived received_;
-    AxisSet others_ = 0;         // axes that the coordinator reports as present
+    AxisSet others_ = 0;         // other axes that the coordinator reports as present
     AxisSet axes_received_ = 0;  // since the last check
     bool machine_received_ = false;
     /// Since the last check.
     struct Acknowledged {
         bool has_published = false;      // a state
-        bool is_owner_received = false;  // the owner's state was received
-        bool is_received = false;        // and reported that the owner receives this axis
+        bool is_owner_received = false;  // a state of the owner was received
+        bool is_received = false;        // and it says that the owner receives this axis
     } acknowledged_;
     std::vector<TopicReception> topics_;
     std::uint64_t refused_now_ = 0;     // by the link that is open now

@@ -1,4 +1,4 @@
-// An axis controller and its device, joined: what an axis's process runs each loop, live or in virtual time.
+// An axis controller connected to its device. An axis's process runs it in each loop, live or in virtual time.
 #pragma once
 
 #include <chrono>
@@ -23,14 +23,15 @@ namespace lockstep {
 /// The device of an axis: a window onto its registers and, if it is simulated here, the device behind it.
 struct AxisDevice {
     RegisterWindow window;
-    std::unique_ptr<SimulatedDevice> simulated;  // null: the device is another process's, or hardware
-    bool shares_clock = false;                   // it counts the ticks of this process's clock
+    std::unique_ptr<SimulatedDevice> simulated;  // null if the device is hardware or in another process
+    bool shares_clock = false;                   // the device counts the ticks of this process's clock
 };
 
 /// A simulated device in this process, powered up at `now`.
 AxisDevice simulated_device(const AxisConfig& axis, std::int64_t tick_ns, Tick now);
 
-/// Opens an axis's device when this process's clock reads `own`. Error: why it is not there. Never waits.
+/// Opens an axis's device. `own` is the current reading of this process's clock. Error: why there is no device. Never
+/// waits.
 using OpenDevice = std::function<std::expected<AxisDevice, std::string>(Tick own)>;
 
 /// The messages of one loop.
@@ -54,36 +55,36 @@ public:
     };
     using OnStep = std::function<void(StepEdge)>;
 
-    /// A device that is missing or lost is searched for again every kSeekPeriod.
+    /// While the device is missing or lost, the node searches for it every kSeekPeriod.
     AxisNode(const Setup& setup, OpenDevice open);
     static constexpr std::chrono::milliseconds kSeekPeriod{200};
 
-    /// One loop when this process's clock reads `own`, which is machine time if the clock is shared: lets a simulated
-    /// device run up to it, decides, and gives the device its orders. Every step made since the last loop goes to
-    /// on_step, in order, in the device's time. An error of the device becomes a fault. A device that is given up is
-    /// closed; before that it is ordered to come to rest, in case it goes on running. The node decides and publishes
-    /// nothing before it knows the machine time. What is returned is valid until the next loop.
+    /// Runs one loop. `own` is the reading of this process's clock, which is machine time if the clock is shared. The
+    /// node advances a simulated device to `own`, decides, and gives the device its orders. It passes every step made
+    /// since the last loop to on_step, in order, in the device's time. A device error becomes a fault. Before the node
+    /// closes a failed device, it orders the device to rest, in case the device still runs. The node decides and
+    /// publishes nothing before it knows the machine time. The result is valid until the next loop.
     const AxisOutputs& step(Tick own, const AxisMail& mail, const OnStep& on_step);
 
-    /// The two halves of a loop: the decisions, and the orders to the device.
+    /// The two halves of step(): decide() makes the decisions, carry_out() gives the device its orders.
     const AxisOutputs& decide(Tick own, const AxisMail& mail, const OnStep& on_step);
     void carry_out(Tick own, const AxisOutputs& decided);
 
-    /// From the next step on, every loop is measured. `meter` outlives the node.
+    /// Measures every loop from the next step on. `meter` must outlive the node.
     void measure(HealthMeter& meter) { meter_ = &meter; }
-    /// From the next step on, decisions are noted. `flight` outlives the node.
+    /// Notes the decisions from the next step on. `flight` must outlive the node.
     void note_in(AxisFlight& flight) { flight_ = &flight; }
-    /// Errors reported about devices: refused orders, lost devices, and steps without a recorded time.
+    /// Number of device errors so far: refused orders and lost devices.
     std::uint64_t troubles() const { return troubles_; }
     std::uint64_t lost_captures() const { return lost_before_ + lost_captures_; }
-    /// Why it has no device; empty: it has one, or the search has just begun.
+    /// Why the node has no device. Empty if it has one, or if the search has just begun.
     std::string lacks() const { return has_device() || is_looking() ? std::string() : lacks_; }
     /// Upper bound of the error of `now`.
     Ticks clock_error() const { return time_.error(); }
-    /// The coordinator's clock restarted: this process must end, and be started again.
+    /// The coordinator's clock restarted, so this process must end and be started again.
     bool must_restart() const { return must_restart_; }
 
-    /// The last error of the device; empty: there was none.
+    /// The error of the last order that the device refused; empty if it refused none.
     const std::string& trouble() const { return trouble_; }
     /// Machine time at the last step, if it is known.
     Tick now() const { return time_.now(); }
@@ -101,7 +102,7 @@ private:
     void note(std::string trouble);
     void give(const std::vector<DeviceOrder>& orders);
 
-    /// A device that was found. A dead device's memory looks the same; only its clock stands still.
+    /// A device that was found. The memory of a dead device looks the same, but its clock stands still.
     struct Found {
         AxisDevice device;
         DeviceDriver driver;
@@ -110,13 +111,13 @@ private:
         bool lives = false;         // its clock advances
     };
     bool has_device() const { return found_ && found_->lives; }
-    /// At the start: the node reports nothing until it is clear whether there is a device.
+    /// At the start the node reports nothing until it is clear whether a device exists.
     bool is_looking() const { return found_ && !found_->lives && !has_begun_; }
 
     OpenDevice open_;
     MachineConfig machine_;
     std::optional<Found> found_;
-    std::optional<Tick> sought_;  // the last search, by this process's clock; nothing: search at once
+    std::optional<Tick> sought_;  // last search, on this process's clock; nullopt: search at once
     std::string lacks_;
     AxisController controller_;
     bool has_begun_ = false;
@@ -131,7 +132,7 @@ private:
     std::uint64_t troubles_ = 0;
     HealthMeter* meter_ = nullptr;  // null: nothing is measured
     AxisFlight* flight_ = nullptr;  // null: nothing is noted
-    bool failed_ = false;           // since the controller was last informed
+    bool failed_ = false;           // a device order failed since the last control step
     AxisOutputs out_;               // of the last loop
 };
 

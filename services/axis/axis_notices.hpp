@@ -1,4 +1,4 @@
-// Writes an axis's events to its log.
+// Writes an axis's notices to its log.
 #pragma once
 
 #include "core/axis/axis_controller.hpp"

@@ -61,10 +61,10 @@ KeptOrNot kept_position(const MachineConfig& machine, std::size_t axis) {
     return std::move(read.kept);
 }
 
-/// The loop's state: what it received, what it publishes, what it reports.
+/// The state of the process's loop.
 class AxisService {
 public:
-    /// `fpga`: as AxisConfig::device.
+    /// `fpga` has the format of AxisConfig::device.
     AxisService(const AxisNode::Setup& setup, const std::string& fpga, const MachineClock& clock, AxisNetwork network,
                 std::unique_ptr<RecordSink> sink)
         : setup_(setup),
@@ -82,10 +82,11 @@ public:
         node_.note_in(flight_);
     }
 
-    AxisService(const AxisService&) = delete;  // the node measures itself by this object
+    AxisService(const AxisService&) = delete;  // the node points to members of this object
     AxisService& operator=(const AxisService&) = delete;
 
-    /// `begun`: the loop's scheduled start, on CLOCK_MONOTONIC. False: this process must end, see end_reason().
+    /// `begun` is the loop's scheduled start on CLOCK_MONOTONIC. Returns false if this process must end; see
+    /// end_reason().
     bool loop(nanoseconds begun, std::uint64_t skipped_loops) {
         const AxisReceived& in = receive();
         const Tick now = clock_.now();
@@ -113,7 +114,7 @@ public:
 
     void finish() { recorder_.finish(); }
 
-    /// From another thread, while the loop stands still.
+    /// The watchdog's thread calls this when the loop is stuck.
     [[noreturn]] void end_as_stuck() { end_stuck_process(*flight_log_, looped_, setup_.machine.tick_ns); }
 
 private:
@@ -128,7 +129,7 @@ private:
         return in;
     }
 
-    /// Another process publishes as this axis: one of the two must end.
+    /// Called when another process publishes as this axis: one of the two must end.
     void meet_rival(const AxisState& state, Slot slot) {
         const bool proved = second_.proves(state.identity, state.stamp, slot);
         if (!rival_.must_leave(state.identity, proved, own_now())) { return; }
@@ -137,7 +138,7 @@ private:
                       (host.empty() ? "" : " on host " + host) + "; end one of them: lockstep down, on its host";
     }
 
-    /// Independent of clocks that are set or shared: how long this process has run.
+    /// CLOCK_MONOTONIC in ticks. It is independent of the machine's time source and of injected clock errors.
     Tick own_now() const { return {monotonic_now().count() / setup_.machine.tick_ns}; }
 
     void tend_network(Tick now) {
@@ -172,7 +173,8 @@ private:
 
     void report_missing_device() const { log_warning("waits for its device " + fpga_ + ": " + node_.lacks()); }
 
-    /// Every few seconds: reports the missing peer or clock, the refused messages, and the device's errors.
+    /// Logs every few seconds that the coordinator, its clock or the device is missing, and new refused messages, lost
+    /// records and device errors.
     void report_waiting(Tick now) {
         const Ticks period{5'000'000'000 / setup_.machine.tick_ns};
         if (now - reported_ < period) { return; }
@@ -201,8 +203,7 @@ private:
         if (!node_.must_restart()) { return; }
         end_reason_ = "the coordinator's clock went back by " +
                       std::to_string(node_.clock_error().value * setup_.machine.tick_ns / 1'000'000'000) +
-                      " s, was its host restarted? axis " + own_name() +
-                      " must be started again, to take over its time";
+                      " s; its host may have restarted. Restart axis " + own_name() + ", so that it uses the new time";
     }
 
     const std::string& own_name() const { return setup_.machine.axes[setup_.axis].name; }
@@ -216,7 +217,7 @@ private:
     std::unique_ptr<FlightLog> flight_log_;
     CheckReport checks_{*flight_log_};
     AxisFlight flight_;
-    UserSignal user_signal_;  // a person requests the notes of the last seconds
+    UserSignal user_signal_;  // SIGUSR1: a person requests the notes of the last seconds
     AxisRecorder recorder_;
     PositionKeeper keeper_;
     HealthMeter meter_;
@@ -226,7 +227,7 @@ private:
     std::uint64_t refused_ = 0;
     std::uint64_t lost_records_ = 0;
     std::string trouble_;
-    bool has_device_ = true;                       // as reported
+    bool has_device_ = true;                       // as last logged
     SecondProcess second_{setup_.machine.timing};  // another process that publishes as this axis
     Rival rival_{setup_.identity, setup_.machine.tick_ns, own_now()};
     std::string end_reason_;
@@ -295,7 +296,7 @@ int serve_axis(const AxisServiceOptions& options) {
         return kServiceBadInput;
     }
     if (!options.fpga.empty() && !is_device_name(options.fpga)) {
-        std::cerr << "--fpga " << options.fpga << ": none of sim, shm:NAME and uio:PATH\n";
+        std::cerr << "--fpga " << options.fpga << ": not one of sim, shm:NAME and uio:PATH\n";
         return kServiceBadInput;
     }
     if (auto log = open_log({"axis", config.name, options.log_file, true}); !log) {

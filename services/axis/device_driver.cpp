@@ -11,7 +11,8 @@ namespace {
 using namespace registers;
 
 constexpr std::uint64_t kNoVeto = std::numeric_limits<std::uint64_t>::max();
-/// An update takes well under a microsecond, a look some ten nanoseconds: after this many the device's process stalls.
+/// An update takes well under a microsecond and a read about ten nanoseconds. If the device is still in an update after
+/// this many reads, its process has stalled.
 constexpr int kMaxLooks = 1000;
 
 static_assert(static_cast<std::uint64_t>(Trigger::None) == kTriggerNone &&
@@ -48,7 +49,7 @@ std::expected<std::uint64_t, std::string> captures_in(const RegisterWindow& wind
     return entries_in("capture ring", window.load(kCaptureHead), window.load(kCaptureTail), kCaptureRingEntries);
 }
 
-/// Writes the entries of one frame in order, and publishes them together.
+/// Writes the segments of one frame into the ring in order, and publishes them together.
 class FrameWriter {
 public:
     FrameWriter(RegisterWindow window, const device::LoadFrame& frame)
@@ -86,7 +87,7 @@ private:
     Position position_;
 };
 
-/// Checked at every read: memory that was removed or overwritten no longer shows these values.
+/// Called at every read, because memory that was removed or overwritten no longer shows these values.
 std::expected<void, std::string> identify(const RegisterWindow& window, std::int64_t tick_ns) {
     const Identification words[] = {
         {"MAGIC", kMagic, kMagicValue, "is this a Lockstep axis device, and powered up?"},
@@ -168,7 +169,8 @@ std::expected<void, std::string> DeviceDriver::apply(const DeviceOrder& order) {
     return std::visit([this](const auto& one) { return apply_one(one); }, order);
 }
 
-/// In this order: the withdrawn frames before the permitted ones, the run's number last. The device reads in reverse.
+/// The order matters: it first withdraws ARMED, then lifts VETO, and writes the run's number last. The device reads
+/// them in reverse order.
 DeviceDriver::Result DeviceDriver::apply_one(const device::BeginRun& order) {
     if (order.run == 0 || order.run == window_.load(kRunRequest)) {
         return std::unexpected("device: run " + std::to_string(order.run) +
@@ -222,7 +224,7 @@ std::expected<std::uint64_t, std::string> DeviceDriver::drain_capture(const std:
     const auto captured = captures_in(window_);
     if (!captured) { return captured; }
     const std::uint64_t tail = window_.load(kCaptureTail);
-    const Tick now{signed_word(kTick)};  // read after the head: the steps in the ring have this tick or an earlier one
+    const Tick now{signed_word(kTick)};  // read after the head, so no step in the ring is later than this tick
     for (std::uint64_t index = tail; index != tail + *captured; ++index) {
         const std::size_t slot = index % kCaptureRingEntries;
         const std::uint64_t word = window_.load(kCaptureRing + slot * kCaptureRingEntryBytes);

@@ -1,5 +1,5 @@
-// The host's side of the register map: an axis controller's orders become register writes, registers become values.
-// Nothing read from the window is trusted: an impossible value is an error with the value and the remedy.
+// The host's side of the register map. It turns an axis controller's orders into register writes, and registers into
+// values. It trusts nothing that it reads: an impossible value is an error that states the value and the remedy.
 #pragma once
 
 #include <cstdint>
@@ -14,28 +14,28 @@
 
 namespace lockstep {
 
-/// One at a time per device. It continues where its predecessor left the rings.
+/// Only one driver may use a device at a time. It continues where its predecessor left the rings.
 class DeviceDriver {
 public:
-    /// tick_ns: the configuration's. Errors: no device, another version of the map, another tick, rings whose
-    /// ends contradict each other.
+    /// `tick_ns` is the configured tick. Errors: no device, another map version, another tick, or a ring with
+    /// contradictory head and tail.
     static std::expected<DeviceDriver, std::string> attach(RegisterWindow window, std::int64_t tick_ns);
 
-    /// One consistent reading, without waiting: while the device is in the middle of an update it returns the reading
-    /// before. Error if that goes on for kMaxStaleReads reads, if there is no reading before, or if the registers are
-    /// impossible or no longer a device's.
-    /// If a device stops between updates, `now` stands still.
+    /// Returns one consistent reading without waiting. While the device is in the middle of an update, it returns the
+    /// previous reading. Error if that lasts for more than kMaxStaleReads reads, if there is no previous reading, or if
+    /// the registers are impossible or no longer those of a device. If a device stops between updates, `now` stands
+    /// still.
     std::expected<DeviceStatus, std::string> read();
     static constexpr int kMaxStaleReads = 1000;
 
-    /// Error, and nothing has changed: a frame that does not fit the ring, has no body, or precedes any run; a run
-    /// whose number is not new.
+    /// Errors, which change nothing: a frame that does not fit into the ring, has no body, or precedes any run; a run
+    /// number that is 0 or not new.
     std::expected<void, std::string> apply(const DeviceOrder& order);
 
-    /// Calls back with every step made since the last call, in order. Returns how many. Error: impossible ring ends, or
-    /// ticks that do not rise.
+    /// Passes every step made since the last call to on_step, in order, and returns their number. Error: a
+    /// contradictory head and tail, or ticks that do not rise.
     std::expected<std::uint64_t, std::string> drain_capture(const std::function<void(StepEdge)>& on_step);
-    /// Steps since the device's power-up that were made while the capture ring was full.
+    /// Number of steps since the device's power-up that were made while the capture ring was full.
     std::uint64_t lost_captures() const { return window_.load(registers::kCaptureLost); }
 
 private:

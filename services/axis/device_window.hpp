@@ -1,4 +1,4 @@
-// The registers of a device that is not simulated in the axis's own process, opened by the name in the configuration.
+// Opens the registers of a device that is not simulated in the axis's own process, by its name in the configuration.
 #pragma once
 
 #include <expected>
@@ -8,7 +8,8 @@
 
 namespace lockstep {
 
-/// device: "shm:NAME" or "uio:PATH" (AxisConfig::device). Error: neither, or why it cannot be mapped.
+/// `device` is "shm:NAME" or "uio:PATH" (AxisConfig::device). Error: `device` is neither, or the registers cannot be
+/// mapped.
 std::expected<RegisterWindow, std::string> open_window(const std::string& device);
 
 }  // namespace lockstep

@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
     bool no_lcm = false;
     app.add_option("--machine", options.machine_file, "the machine's configuration file")->required();
     app.add_option("--axis", options.axis,
-                   "the axis's name in that file; else the one that the file places on this host");
+                   "the axis's name in that file; default: the axis that the file places on this host");
     app.add_option("--fpga", options.fpga,
                    "the device, instead of the file's: sim (in this process), shm:NAME (of lockstep-fpga) or uio:PATH "
                    "(memory-mapped, such as uio:/dev/uio0)");

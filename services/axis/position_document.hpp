@@ -11,7 +11,7 @@ namespace lockstep {
 
 std::string position_text(const KeptPosition& kept);
 
-/// Error: why this is not the output of position_text, for the log.
+/// Error, for the log: why `text` is not the output of position_text.
 std::expected<KeptPosition, std::string> position_from_text(std::string_view text);
 
 }  // namespace lockstep

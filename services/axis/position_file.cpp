@@ -16,7 +16,7 @@ ReadPosition unreadable(const std::filesystem::path& path, const std::string& wh
     return {std::unexpected(FaultCode::PositionUnreadable), path.string() + ": " + why};
 }
 
-/// Empty: the file may be read.
+/// Returns why the file must not be read; empty if it may be read.
 std::string refusal_of(const struct stat& file) {
     if (!S_ISREG(file.st_mode)) { return "this is not a regular file; remove it"; }
     if (file.st_uid != geteuid() && file.st_uid != 0) {

@@ -1,5 +1,5 @@
-// Keeps an axis's position for the next process: one small file, replaced whole after each run (core/
-// axis/device/position_claim.hpp states when the next process accepts it).
+// Keeps an axis's position for the next process in one small file, which is replaced after each run.
+// core/axis/device/position_claim.hpp states when the next process accepts it.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace lockstep {
 
-/// DIRECTORY/AXIS.textproto. DIRECTORY comes from the machine's file or from the host.
+/// Returns DIRECTORY/AXIS.textproto. DIRECTORY comes from the machine's file, otherwise from the host.
 std::filesystem::path position_file(const MachineConfig& machine, std::size_t axis);
 
 struct ReadPosition {
@@ -21,15 +21,15 @@ struct ReadPosition {
     std::string trouble;  // with PositionUnreadable: what is wrong with the file, for the log
 };
 
-/// Refuses a file that another user may have written: one of another user, or one that others may write.
+/// Refuses a file that belongs to another user (except root) or that others may write.
 ReadPosition read_position(const std::filesystem::path& path);
 
-/// A position that was not written is out of date, and the next process refuses the old one.
+/// If a write fails, the position in the file is out of date, and the next process refuses it.
 class PositionKeeper {
 public:
     PositionKeeper(std::filesystem::path path, NewestFile::OnFailure on_failure) : file_(std::move(path), on_failure) {}
 
-    /// Called in the loop: a function that held a copy of the position would be allocated.
+    /// The loop calls this. A std::function with a copy of the position would allocate memory, so the copy is a member.
     void keep(const KeptPosition& position) {
         {
             const std::scoped_lock lock(mutex_);
@@ -39,7 +39,7 @@ public:
     }
 
 private:
-    /// For the writing thread, which may find a newer position than the one that it was told of.
+    /// The writing thread calls this. It may get a newer position than the one that keep() announced.
     std::string text() {
         std::unique_lock lock(mutex_);
         const KeptPosition newest = newest_;
@@ -49,7 +49,7 @@ private:
 
     std::mutex mutex_;
     KeptPosition newest_;
-    NewestFile file_;  // its thread ends first
+    NewestFile file_;  // declared last, so that its thread ends first
 };
 
 }  // namespace lockstep

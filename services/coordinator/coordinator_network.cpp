@@ -59,9 +59,10 @@ const CoordinatorReceived& CoordinatorNetwork::receive() {
     return received_;
 }
 
-/// Events before the state that counts them as published: if this process ends in between, the next owner publishes
-/// them again. The state with the epoch and where its frames come to rest before the frames: an axis takes the first
-/// frame of an epoch only after that state, and a standby knows every frame that axes may have.
+/// Publishes events before the state that counts them as published: if this process ends in between, the next owner
+/// publishes them again. Publishes the state, with the epoch and the place where its frames come to rest, before the
+/// frames: an axis takes the first frame of an epoch only after that state, and a standby knows every frame that axes
+/// may have.
 void CoordinatorNetwork::publish(const CoordinatorOutputs& out) {
     CoordinatorLink* const link = link_->get();
     if (link == nullptr) { return; }

@@ -1,5 +1,5 @@
-// What a coordinator receives and publishes, and its link to the other processes. The link is opened again when it no
-// longer delivers.
+// Receives and publishes a coordinator's messages. It reopens the link to the other processes when the link no longer
+// delivers.
 #pragma once
 
 #include <cstdint>
@@ -45,7 +45,7 @@ public:
     /// Error: as open_bus.
     static std::expected<CoordinatorNetwork, std::string> open(const Setup& setup);
 
-    /// The messages received since the last call; none while the link is being opened again.
+    /// Returns the messages received since the last call. Empty while the link is being reopened.
     const CoordinatorReceived& receive();
     void publish(const CoordinatorOutputs& out);
     void publish(const Reply& reply);
@@ -55,9 +55,10 @@ public:
         bool at_rest = false;
         bool owns_machine = false;  // then every axis reports whether it receives this process's messages
     };
-    /// Call it in every loop, with the process's own clock. Returns why the link is now opened again; only at rest.
+    /// Call it in every loop, with the time of the process's own clock. Reopens the link if it no longer delivers, but
+    /// only at rest, and returns the reason.
     std::optional<ReopenReason> tend(Tick now, Duty duty);
-    /// How often since the process started.
+    /// How often the link was reopened since the process started.
     std::uint64_t reopened() const { return link_->reopened(); }
 
     /// Messages refused since the process started, and why the last ones were refused.
@@ -71,11 +72,11 @@ private:
     CoordinatorNetwork(AxisSet axes, std::unique_ptr<Link> link) : axes_(axes), link_(std::move(link)) {}
     Reception look(const CoordinatorLink& link, Duty duty);
 
-    AxisSet axes_;  // all of the machine
+    AxisSet axes_;  // all axes of the machine
     std::unique_ptr<Link> link_;
     CoordinatorReceived received_;
     AxisSet axes_received_ = 0;       // since the last check
-    bool is_owner_received_ = false;  // since the last check: by an axis
+    bool is_owner_received_ = false;  // since the last check, an axis received the owner
     std::vector<TopicReception> topics_;
     std::uint64_t refused_now_ = 0;     // by the link that is open now
     std::uint64_t refused_before_ = 0;  // by the links before it

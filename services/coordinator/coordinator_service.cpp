@@ -66,7 +66,7 @@ public:
           recorder_(machine, identity, *sink_),
           values_(values_file(machine.name), std::move(values), report_unwritten_values) {}
 
-    /// False: another coordinator owns this machine.
+    /// Returns false if another coordinator owns this machine.
     bool loop() {
         const CoordinatorReceived& received = receive();
         const Tick now = clock_.now();
@@ -96,7 +96,7 @@ public:
 
     void finish() { recorder_.finish(clock_.now()); }
 
-    /// From another thread, while the loop stands still.
+    /// The watchdog's thread calls this when the loop is stuck.
     [[noreturn]] void end_as_stuck() { end_stuck_process(*flight_log_, looped_, machine_.tick_ns); }
 
 private:
@@ -115,7 +115,7 @@ private:
         return received;
     }
 
-    /// A few in each loop: the others wait, and their sender with them.
+    /// Reads a few chunks in each loop. The others wait, and so their sender waits too.
     void read_chunks(const std::vector<ProgramChunk>& received) {
         waiting_.insert(waiting_.end(), received.begin(), received.end());
         if (waiting_.size() > kMostWaiting) { waiting_.resize(kMostWaiting); }
@@ -130,8 +130,8 @@ private:
         }
     }
 
-    /// Programs, and edits of the machine's values, are the writer's. A program's first part decides: its sender goes
-    /// on sending it after another writer has taken the machine over.
+    /// Only the writer may send programs and edits of the machine's values. Only a program's first part is checked,
+    /// because its sender may send the rest after another writer has taken over the machine.
     CommandResult accept(const ProgramChunk& chunk, const ProgramDocument& part) {
         if (chunk.index == 0) {
             if (auto may = coordinator_.check_writer(chunk.writer, looped_); !may) { return may; }
@@ -150,13 +150,14 @@ private:
         }
     }
 
-    /// The program of a job that was taken over is needed until its end.
+    /// A job that was taken over needs its program until it ends, so nothing is forgotten during a job.
     void forget_outdated_programs() {
         if (!coordinator_.owns_machine() || coordinator_.has_job()) { return; }
         for (const std::uint64_t program : values_.keeper().take_outdated()) { coordinator_.forget_program(program); }
     }
 
-    /// Before the state that reports the job's end: a receiver of that state has received the values that it left.
+    /// Called before the state that reports the job's end is published. A receiver of that state already has the values
+    /// that the job left.
     void publish_values(const std::vector<JobEvent>& events) {
         for (const JobEvent& event : events) { values_.keeper().take(event); }
         if (!coordinator_.owns_machine()) { return; }
@@ -164,7 +165,7 @@ private:
         if (values != nullptr) { network_.publish(*values); }
     }
 
-    /// A held job is not at rest: it would be lost with the axes' silence.
+    /// A held job does not count as rest. Reopening the link makes the axes silent, which would end the job.
     bool at_rest() const {
         const MachinePhase phase = coordinator_.phase();
         return phase == MachinePhase::Waiting || phase == MachinePhase::Idle || phase == MachinePhase::Fault ||
@@ -206,11 +207,11 @@ private:
                 return log_info("continues the previous coordinator's job near line " + std::to_string(notice.number));
             case Kind::ProgramLate:
                 return log_warning("the axes rest on the path after frame " + std::to_string(notice.number) +
-                                   ": no more of the program has arrived; goes on when it does");
+                                   ": no more of the program has arrived; the job continues when it does");
             case Kind::ProgramCut:
                 return log_event(spdlog::level::warn, notice.fault,
                                  "the job ended near line " + std::to_string(notice.number) +
-                                     ", with all that is known of its program; the axes rest; go on: lockstep run FILE "
+                                     ", at the end of the blocks received; the axes rest; continue: lockstep run FILE "
                                      "--from-line " +
                                      std::to_string(notice.number));
             case Kind::EpochBegun: return log_info("epoch {} begun", notice.number);
@@ -234,7 +235,7 @@ private:
         log_info(lease ? "the writer is " + lease->writer.name + " on " + lease->writer.host : "there is no writer");
     }
 
-    /// Every few seconds: reports missing axes, configurations that differ, and refused messages.
+    /// Logs every few seconds: missing axes, configurations that differ, lost records and refused messages.
     void report_waiting(Tick now) {
         const Ticks period{5'000'000'000 / machine_.tick_ns};
         if (now - reported_ < period) { return; }
@@ -263,7 +264,7 @@ private:
         }
     }
 
-    static constexpr std::size_t kPartsAtOnce = 4;   // some 3000 blocks, a millisecond
+    static constexpr std::size_t kPartsAtOnce = 4;   // about 3000 blocks, which take 1 ms
     static constexpr std::size_t kMostWaiting = 64;  // as many as the topic keeps
 
     MachineConfig machine_;
@@ -274,18 +275,18 @@ private:
     std::unique_ptr<FlightLog> flight_log_;
     CheckReport checks_{*flight_log_};
     CoordinatorFlight flight_;
-    UserSignal user_signal_;  // a person requests the notes of the last seconds
+    UserSignal user_signal_;  // SIGUSR1: a person requests the notes of the last seconds
     JobRecorder recorder_;
     ValuesStore values_;
     ProgramInbox inbox_{[this](const ProgramChunk& chunk, const ProgramDocument& part) { return accept(chunk, part); }};
     std::deque<ProgramChunk> waiting_;
     std::vector<ProgramPart> parts_;     // for the next step
-    std::vector<ProgramChunk> in_step_;  // that they were read from
+    std::vector<ProgramChunk> in_step_;  // the chunks of parts_
     std::atomic<Tick> looped_;           // when the loop last ran
     Tick reported_ = clock_.now();
     std::optional<HeldLease> logged_lease_;
     AxisSet received_axes_ = 0;
-    std::array<std::uint64_t, kMaxAxes> config_hashes_{};  // of the axes received
+    std::array<std::uint64_t, kMaxAxes> config_hashes_{};  // of the axes received so far
     std::uint64_t config_hash_ = config_hash(machine_);
     std::uint64_t refused_ = 0;
     std::uint64_t lost_records_ = 0;
@@ -296,7 +297,7 @@ int fail(const std::string& why) {
     return kServiceFailed;
 }
 
-/// Where programs are kept. By the LAI method they are planned as a whole, in memory.
+/// Chooses where programs are stored. The LAI method plans a program as a whole, so it keeps it in memory.
 MakeRows rows_of(const MachineConfig& machine, std::int64_t limit_mb) {
     constexpr std::uint64_t kBytesPerMB = 1'000'000;
     if (machine.coordination == StepMethod::Lai) {

@@ -1,4 +1,4 @@
-// lockstep-coordinator: the machine's planner as a process, between DDS and the record.
+// lockstep-coordinator runs the machine's planner as a process that connects DDS and the record.
 #pragma once
 
 #include "core/coordinator/state/coordinator_io.hpp"
@@ -7,14 +7,14 @@
 namespace lockstep {
 
 struct CoordinatorServiceOptions : ServiceOptions {
-    bool second = false;   // where security is on: joins by the keys of "standby", not of "coordinator"
-    bool standby = false;  // stands by while another coordinator owns the machine; false: ends then
+    bool second = false;   // with security: joins with the keys of "standby", not of "coordinator"
+    bool standby = false;  // stands by while another coordinator owns the machine; false: ends
     OnTakeover on_takeover = OnTakeover::Stop;
-    std::int64_t program_limit_mb = 1024;  // of each program's file
+    std::int64_t program_limit_mb = 1024;  // limit of each program's file
 };
 
-/// Serves until SIGINT or SIGTERM. Returns the exit code: done; failed, the cause in the log; or bad input, the cause
-/// on standard error.
+/// Serves until SIGINT or SIGTERM. Returns the exit code: kServiceDone; kServiceFailed, with the cause in the log; or
+/// kServiceBadInput, with the cause on standard error.
 int serve_coordinator(const CoordinatorServiceOptions& options);
 
 }  // namespace lockstep

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t kLeastPages = 2 * FileRows::kCleanPages;
 
-/// False: errno says why.
+/// Returns false with the reason in errno.
 bool write_all(int file, std::span<const std::byte> data, std::uint64_t offset) {
     while (!data.empty()) {
         const ssize_t written = pwrite(file, data.data(), data.size(), static_cast<off_t>(offset));
@@ -28,12 +28,12 @@ bool write_all(int file, std::span<const std::byte> data, std::uint64_t offset) 
     return true;
 }
 
-/// False: errno says why.
+/// Returns false with the reason in errno.
 bool read_all(int file, std::span<std::byte> data, std::uint64_t offset) {
     while (!data.empty()) {
         const ssize_t read = pread(file, data.data(), data.size(), static_cast<off_t>(offset));
         if (read < 0 && errno == EINTR) { continue; }
-        if (read == 0) { errno = EIO; }  // the file ends before
+        if (read == 0) { errno = EIO; }  // the file is too short
         if (read <= 0) { return false; }
         data = data.subspan(static_cast<std::size_t>(read));
         offset += static_cast<std::uint64_t>(read);
@@ -41,7 +41,7 @@ bool read_all(int file, std::span<std::byte> data, std::uint64_t offset) {
     return true;
 }
 
-/// The name goes at once: a coordinator that is killed leaves nothing.
+/// Removes the file's name at once, so that a killed coordinator leaves no file.
 int open_unnamed(const std::filesystem::path& directory) {
     std::error_code ignored;
     std::filesystem::create_directories(directory, ignored);
@@ -83,7 +83,7 @@ std::uint64_t FileRows::free_rows() {
     return std::min(unwritten, most - std::min(most, rows_));
 }
 
-/// The page of the first row that is still asked for is not released.
+/// Keeps the page of row `number` and the page before it.
 void FileRows::release_before(std::uint32_t number) {
     const std::uint64_t page = number / page_rows_;
     released_ = std::max(released_, page > 0 ? page - 1 : 0);
@@ -173,7 +173,7 @@ void FileRows::start_thread() {
     thread_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
 }
 
-/// Nothing is exchanged while the thread holds the lock.
+/// Exchanges nothing while the disk thread holds the lock.
 void FileRows::exchange_work() {
     if (!thread_.joinable() || (to_do_.empty() && handed_over_ == 0)) { return; }
     const bool is_news = !to_do_.empty();
@@ -190,7 +190,7 @@ void FileRows::exchange_work() {
     returned_.clear();
 }
 
-/// A page that cannot be written stays in memory, so that no row is lost. No rows are taken after that.
+/// A page that cannot be written stays in memory, so no row is lost. append() then refuses further rows.
 void FileRows::take_back(const Work& work) {
     --handed_over_;
     Resident& page = check_found(find(work.page), "a page that is written or fetched is in memory");
@@ -218,7 +218,7 @@ void FileRows::serve(const std::stop_token& stop) {
     }
 }
 
-/// A page that is asked for comes before those that are to be written.
+/// Requested reads come before writes.
 std::optional<FileRows::Work> FileRows::next_work() {
     const std::lock_guard lock(mutex_);
     if (queue_.empty()) { return std::nullopt; }
@@ -234,7 +234,7 @@ bool FileRows::open() {
     return file_ >= 0;
 }
 
-/// Nothing is written behind a write that failed.
+/// Writes nothing more after a failed write.
 void FileRows::carry_out(Work& work) {
     const auto bytes = std::as_writable_bytes(work.rows);
     if (work.is_write && write_error_ == 0) {

@@ -1,5 +1,5 @@
-// The blocks of a program on the coordinator's disk: a file without a name, written and read by a thread of its own, so
-// that no loop waits for the disk. Short programs stay in memory.
+// Stores the blocks of a program in an unnamed file on the coordinator's disk. A separate thread reads and writes the
+// file, so no loop waits for the disk. Short programs stay in memory.
 #pragma once
 
 #include <semaphore.h>
@@ -17,8 +17,8 @@
 
 namespace lockstep {
 
-/// When `limit_bytes` are full, released rows make room for new ones. Called by one thread, which never waits: pages go
-/// to the thread of the disk and come back when its lock is free, else in a later call.
+/// When `limit_bytes` are used, new rows overwrite released ones. One thread calls the public functions and never
+/// waits: they exchange pages with the disk thread if its lock is free, otherwise in a later call.
 class FileRows final : public RowStore {
 public:
     FileRows(std::size_t width, std::filesystem::path directory, std::uint64_t limit_bytes);
@@ -33,8 +33,8 @@ public:
     std::uint32_t first_row() const override;
 
     static constexpr std::size_t kPageBytes = 65'536;
-    static constexpr std::size_t kCleanPages = 32;      // that stay in memory beside the file
-    static constexpr std::size_t kUnwrittenPages = 32;  // then no more rows are taken until the disk has some of them
+    static constexpr std::size_t kCleanPages = 32;      // pages of the file that also stay in memory
+    static constexpr std::size_t kUnwrittenPages = 32;  // at this number, free_rows() is 0 until some are written
 
 private:
     using Page = std::vector<double>;
@@ -45,7 +45,7 @@ private:
         PageState state = PageState::Filling;
         std::uint64_t used = 0;
     };
-    /// For the thread. The rows stay where they are until it has come back.
+    /// An order to the disk thread. The rows do not move in memory until the order is returned.
     struct Work {
         std::uint64_t page = 0;
         bool is_write = false;
@@ -74,26 +74,26 @@ private:
     std::uint64_t capacity_;  // in pages
     std::filesystem::path directory_;
     std::vector<Resident> pages_;  // in memory
-    std::size_t recent_ = 0;       // of them, the one found last
-    std::vector<Page> spare_;      // their memory waits for other rows
+    std::size_t recent_ = 0;       // index of the page found last
+    std::vector<Page> spare_;      // memory for reuse
     std::vector<Work> to_do_;      // not handed over yet
     std::vector<Work> returned_;
-    std::size_t handed_over_ = 0;  // and not returned yet
+    std::size_t handed_over_ = 0;  // orders not returned yet
     std::uint64_t rows_ = 0;       // appended
     std::uint64_t released_ = 0;   // pages
     std::uint64_t unwritten_ = 0;
     std::uint64_t clock_ = 0;  // counts uses of pages
     std::optional<std::string> failure_;
 
-    std::mutex mutex_;  // of the next two; held for as long as copying an element takes
+    std::mutex mutex_;  // guards queue_ and done_; held only while elements are copied
     std::vector<Work> queue_;
     std::vector<Work> done_;
-    sem_t news_;  // that of GCC 12's library can lose a wake-up (its bug 104928)
+    sem_t news_;  // std::counting_semaphore of GCC 12's library can lose a wake-up (GCC bug 104928)
 
-    // The thread's:
+    // Of the disk thread:
     int file_ = -1;
     int write_error_ = 0;
-    std::jthread thread_;  // begins when half of the unwritten pages are there
+    std::jthread thread_;  // starts when more than kUnwrittenPages / 2 pages are unwritten
 };
 
 }  // namespace lockstep

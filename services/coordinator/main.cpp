@@ -33,7 +33,8 @@ int main(int argc, char** argv) {
     app.add_flag("--second", options.second,
                  "where security is on: join by the keys of `standby`, not of `coordinator`; give it to one of two");
     app.add_option("--program-limit-mb", options.program_limit_mb,
-                   "how large the file of one program on this host's disk may grow; then what was run makes room")
+                   "how large the file of one program on this host's disk may grow; beyond it, blocks that have run "
+                   "are dropped")
         ->check(CLI::Range(16, 1'000'000))
         ->capture_default_str();
     app.add_flag("--no-lcm", no_lcm, "do not publish the record; the process still keeps its own log");

@@ -13,15 +13,15 @@
 
 namespace lockstep {
 
-/// Knows of the newest programs how many axes they have, and whether they were accepted.
+/// Remembers the newest programs: how many axes each has, and whether it was accepted.
 class ProgramInbox {
 public:
-    /// Of a chunk that is read: whether its program is accepted, where it is the first one, and the values that the
-    /// program leaves. Error: why it is refused.
+    /// Called for each chunk that is read. It accepts or refuses the program at its first chunk, and takes the values
+    /// that the program leaves from a later one. Error: why the program is refused.
     using Check = std::function<CommandResult(const ProgramChunk& chunk, const ProgramDocument& part)>;
     explicit ProgramInbox(Check check = {}) : check_(std::move(check)) {}
 
-    /// Error: the reply to a chunk that is refused, or that is an edit of the machine's values and so nothing to run.
+    /// Error: the reply to a refused chunk, or to an edit of the machine's values, which contains nothing to run.
     std::expected<ProgramPart, Reply> read(const ProgramChunk& chunk);
 
 private:

@@ -1,4 +1,5 @@
-// The machine's values that outlive programs: read from the coordinator's file, published, and written after a change.
+// Holds the machine's values that outlive programs. It publishes them and writes them to the coordinator's file after a
+// change.
 #pragma once
 
 #include <chrono>
@@ -25,30 +26,31 @@ public:
         : keeper_(loaded.revision, std::move(loaded.values)), file_(file, on_failure) {}
 
     ValueKeeper& keeper() { return keeper_; }
-    /// A program's first part, as ValueKeeper::accept, or another one with the values that it leaves.
+    /// Passes a program's first part to ValueKeeper::accept. From a later part it takes the values that the program
+    /// leaves.
     std::expected<void, ValuesRefusal> accept(const ProgramChunk& chunk, const ProgramDocument& part,
                                               ValueKeeper::Circumstances now);
-    /// The owner's values, in a coordinator that does not own the machine.
+    /// For a coordinator that does not own the machine: takes over the values that the owner published.
     void follow(const MachineValues& values);
-    /// In each loop of the owner: writes a change. Returns the values to publish, valid until the next call: after each
-    /// change, and several times a second. Else null.
+    /// Call it in each loop of the owner. Writes a change to the file. Returns the values to publish after each change
+    /// and several times a second, otherwise null. The result is valid until the next call.
     const MachineValues* step(std::chrono::nanoseconds now, const Term& term);
 
 private:
     static constexpr std::chrono::milliseconds kPublishEvery{200};
-    static constexpr std::chrono::seconds kWriteAgainAfter{5};  // if it failed
+    static constexpr std::chrono::seconds kWriteAgainAfter{5};  // after a failed write
 
     bool is_on_disk() const { return file_.kept() == keeper_.changes(); }
     void write(std::chrono::nanoseconds now);
 
     ValueKeeper keeper_;
-    NewestFile file_;                     // its numbers are the keeper's count of changes
-    std::vector<std::uint8_t> followed_;  // the owner's bytes that were read last
-    std::uint64_t written_ = 0;           // the change that was given to the file last
+    NewestFile file_;                     // numbered by the keeper's count of changes
+    std::vector<std::uint8_t> followed_;  // the owner's bytes read last
+    std::uint64_t written_ = 0;           // the change given to the file last
     std::chrono::nanoseconds written_at_{};
     std::optional<std::chrono::nanoseconds> published_at_;
-    std::pair<std::uint64_t, bool> published_;  // the change, and whether it was on the disk
-    MachineValues message_;                     // as they were published last
+    std::pair<std::uint64_t, bool> published_;  // the change, and whether it is on the disk
+    MachineValues message_;                     // as last published
 };
 
 }  // namespace lockstep

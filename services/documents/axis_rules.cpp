@@ -50,7 +50,7 @@ private:
         for (std::size_t other = 0; other < index_; ++other) {
             problems_.require(!same_name(axis_.name, machine_.axes[other].name), "name",
                               "the name is taken by axis " + std::to_string(other + 1) + ", " +
-                                  machine_.axes[other].name + "; names must differ in more than capitals");
+                                  machine_.axes[other].name + "; names must differ in more than upper and lower case");
         }
     }
 
@@ -165,7 +165,7 @@ private:
                                       number_text(axis_.position_min_mm) + " to " + number_text(axis_.position_max_mm));
     }
 
-    /// On the side that is homed to, and reached before the limit switch.
+    /// The switch must lie on the side homed to, and the axis must reach it before the limit switch.
     void check_switch() {
         const double at = axis_.homing.switch_position_mm;
         const double middle = (axis_.position_min_mm + axis_.position_max_mm) / 2;
@@ -202,7 +202,7 @@ private:
                 number_text(limit_min()) + " and " + number_text(limit_max()));
     }
 
-    /// Plans a trial move, so only if its numbers are valid.
+    /// Plans a trial move, so it runs only if the limits are valid.
     void check_method() {
         const auto is_sound = [this](std::string_view key) { return problems_.is_sound(key); };
         constexpr std::array<std::string_view, 5> kLimits{"steps_per_mm", "start_velocity_mm_s", "max_velocity_mm_s",

@@ -25,7 +25,8 @@ struct Text {
     }
 };
 
-/// A default can only be wrong because of a written value. It is reported only if no written value is wrong.
+/// A default can be wrong only because of a written value. So the problem of a default is reported only if no written
+/// value has one.
 Problems axis_problems(const MachineConfig& machine, std::size_t axis, const Text& text) {
     Problems problems = axis_problems(machine, axis);
     const auto is_written = [&](const Problem& problem) { return text.place_of(problem).is_of_key; };
@@ -33,7 +34,7 @@ Problems axis_problems(const MachineConfig& machine, std::size_t axis, const Tex
     return problems;
 }
 
-/// Missing keys first; a block that lacks a key is not checked further.
+/// Returns the missing keys first. A block that lacks a key is not checked further.
 Problems problems_of(const MachineDraft& draft, const Text& text) {
     Problems problems = draft.missing;
     const auto is_whole = [&](std::optional<std::size_t> axis) {

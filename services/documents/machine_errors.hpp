@@ -1,4 +1,4 @@
-// Everything that is wrong with a machine's configuration as written, each with its place in the text.
+// Finds all errors of a machine's configuration, each with its place in the text.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace lockstep {
 
-/// In the order of the text. The machine is `document` itself, or a block of it: then `block` is its key followed by a
-/// point, "machine.".
+/// Returns the errors in the order of the text. The machine is `document` itself or a block of it. For a block, `block`
+/// is its key followed by a point, such as "machine.".
 Diagnostics machine_errors(const MachineDraft& draft, const TextSource& source,
                            const google::protobuf::Descriptor& document, const std::string& block = {});
 

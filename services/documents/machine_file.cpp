@@ -35,7 +35,7 @@ std::string machine_text(const MachineConfig& machine) {
 
 std::uint64_t config_hash(const MachineConfig& machine) {
     proto::Machine message = machine_to_proto(machine);
-    message.clear_web();  // no part of the machine: it may differ between hosts
+    message.clear_web();  // not a part of the machine; it may differ between hosts
     return std::max<std::uint64_t>(fnv1a(message.SerializeAsString()), 1);
 }
 

@@ -1,7 +1,7 @@
 // The machine's configuration file: idl/proto/machine.proto in protobuf's text format.
 //
-// A file is accepted whole, or refused with all its errors. Optional keys have the defaults that machine.proto
-// documents; a key that it does not document is an error.
+// The functions accept a whole file, or refuse it with all its errors. Optional keys have the defaults that
+// machine.proto documents. Any other key is an error.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +19,11 @@ std::expected<MachineConfig, Diagnostics> parse_machine(std::string_view text);
 
 std::expected<MachineConfig, Diagnostics> load_machine_file(const std::filesystem::path& path);
 
-/// Writes every key; parse_machine returns the same configuration, bit for bit.
+/// Returns the configuration as text. parse_machine returns the same configuration from it, bit for bit.
 std::string machine_text(const MachineConfig& machine);
 
-/// FNV-1a of the configuration with its defaults filled in: equal for files with the same meaning. Never 0.
+/// FNV-1a of the configuration with its defaults filled in, so it is equal for files with the same meaning. It is never
+/// 0.
 std::uint64_t config_hash(const MachineConfig& machine);
 
 }  // namespace lockstep

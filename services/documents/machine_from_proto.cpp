@@ -140,7 +140,7 @@ std::optional<WebConfig> read_web(const proto::Machine& message) {
     };
 }
 
-/// Without std::clamp, which requires ordered limits: a file may violate that.
+/// Does not use std::clamp, because it requires ordered limits and a file may have them in the wrong order.
 double nearest_in_travel(const AxisConfig& axis, double mm) {
     return std::min(std::max(mm, axis.position_min_mm), axis.position_max_mm);
 }

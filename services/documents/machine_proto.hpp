@@ -1,4 +1,4 @@
-// MachineConfig <-> its Protobuf message, one function per direction.
+// Translates between MachineConfig and its Protobuf message, with one function for each direction.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,8 @@
 
 namespace lockstep {
 
-/// A configuration with its defaults filled in, and the required keys that are missing. Not checked otherwise.
+/// A configuration with its defaults filled in, and the problems found so far: missing required keys and unknown
+/// choices.
 struct MachineDraft {
     MachineConfig machine;
     std::vector<Problem> missing;

@@ -14,7 +14,7 @@ namespace lockstep {
 namespace {
 
 constexpr int kMaxSlots = 10'000;
-constexpr std::uint32_t kMaxDomain = 232;  // the last domain whose ports are below 65536 (DDS interoperability, 9.6.1)
+constexpr std::uint32_t kMaxDomain = 232;  // the last domain with ports below 65536 (DDS interoperability, 9.6.1)
 constexpr std::size_t kMaxInterfaceName = 64;
 constexpr std::size_t kMaxPeers = 64;
 
@@ -32,7 +32,7 @@ void check_timing(const MachineConfig& machine, ProblemList& problems) {
     problems.require_range("timing.jog_hold_ms", static_cast<double>(t.jog_hold_us) / 1000, 20, 500);
 }
 
-/// The setpoint protocol's inequalities.
+/// Checks the setpoint protocol's inequalities.
 void check_protocol(const ProtocolTiming& t, ProblemList& problems) {
     const auto require = [&](std::string_view key, int value, int least, const std::string& rule) {
         problems.require_between({key, "timing.stall_slots", "timing.freshness_slots"}, value >= least,
@@ -55,7 +55,8 @@ void check_protocol(const ProtocolTiming& t, ProblemList& problems) {
                                  std::to_string(t.send_ahead_slots) + " slots ahead (send_ahead_slots)");
 }
 
-/// The setpoint protocol's allowance for clocks: a hop must cover twice their error, besides the network's delay.
+/// Checks the limit of the clock error. In the setpoint protocol a hop must cover twice this error and the network's
+/// delay.
 void check_clocks(const ProtocolTiming& t, ProblemList& problems) {
     if (t.time_source == TimeSource::Shared) { return; }
     const std::int64_t most = t.most_clock_error_us();
@@ -112,7 +113,7 @@ void check_record(const RecordConfig& record, ProblemList& problems) {
 }
 
 void check_real_time(const RealTimeConfig& real_time, ProblemList& problems) {
-    constexpr int kMaxCpu = 1023;  // of a cpu_set_t
+    constexpr int kMaxCpu = 1023;  // the last processor of a cpu_set_t
     problems.require_range("real_time.priority", real_time.priority, 0, 99);
     for (const int cpu : real_time.cpus) {
         problems.require(cpu >= 0 && cpu <= kMaxCpu, "real_time",

@@ -1,4 +1,4 @@
-// What a valid configuration must satisfy, however it was written.
+// The rules for a valid configuration.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,8 @@
 
 namespace lockstep {
 
-/// A key of the configuration: "tick_ns", "timing.slot_us", or "homing.pulloff_mm" of axis i. Empty: the block.
+/// A key of the configuration, such as "tick_ns", "timing.slot_us", or "homing.pulloff_mm" of axis i. An empty key
+/// means the whole block.
 struct FieldPath {
     std::optional<std::size_t> axis;
     std::string key;
@@ -22,10 +23,10 @@ struct Problem {
     std::string message;  // the value, the limit and the remedy
 };
 
-/// The machine's own keys, its timing and its network.
+/// Checks all keys outside the axes, such as timing and network.
 std::vector<Problem> machine_problems(const MachineConfig& machine);
 
-/// The keys of one axis, and its name among the axes before it.
+/// Checks the keys of one axis, and that no axis before it has the same name.
 std::vector<Problem> axis_problems(const MachineConfig& machine, std::size_t axis);
 
 }  // namespace lockstep

@@ -12,17 +12,17 @@ inline constexpr std::size_t kMaxMachineName = 24;
 
 /// A letter, then letters, digits and _, at most kMaxAxisName.
 bool is_axis_name(std::string_view name);
-/// The same, also with -, at most kMaxMachineName.
+/// As is_axis_name, but also with -, and at most kMaxMachineName.
 bool is_machine_name(std::string_view name);
 /// Letters, digits, - and ., at most 253 characters, as in RFC 1123.
 bool is_host_name(std::string_view name);
-/// Of IPv4 or IPv6.
+/// Whether the text is an IPv4 or IPv6 address.
 bool is_ip_address(const std::string& text);
-/// Whether only this host reaches it.
+/// Whether the text is an address that only this host can reach.
 bool is_loopback_address(const std::string& text);
-/// sim; or shm:NAME and uio:PATH, PATH an absolute one.
+/// "sim", "shm:NAME", or "uio:PATH" with an absolute path.
 bool is_device_name(std::string_view name);
-/// Whether they are equal but for capitals.
+/// Whether the names are equal except for upper and lower case.
 bool same_name(std::string_view one, std::string_view other);
 
 }  // namespace lockstep

@@ -11,13 +11,14 @@
 
 namespace lockstep {
 
-/// Two names of one host: equal but for capitals, or one is the other without its domain.
+/// Whether both names mean the same host. Upper and lower case do not matter. If one name has no domain, the other's
+/// domain does not matter.
 bool same_host(std::string_view one, std::string_view other);
 
-/// The hosts that a configuration names, each once.
+/// Returns the hosts that a configuration names, each once.
 std::vector<std::string> hosts_of(const MachineConfig& machine);
 
-/// The processes of a host: those placed there, and those placed nowhere.
+/// The processes of a host: those placed on it, and those without a host in the configuration.
 struct Placement {
     bool coordinator = false;
     std::vector<std::size_t> axes;
@@ -25,8 +26,8 @@ struct Placement {
 };
 Placement placed_on(const MachineConfig& machine, std::string_view host);
 
-/// The axis that a process on this host runs: the one `named`; if none is named, the only one that is placed there by
-/// name. The error lists the axes.
+/// Returns the axis that a process on this host runs: the axis `named`, or, if `named` is empty, the only axis placed
+/// on this host. The error lists the axes.
 std::expected<std::size_t, std::string> axis_to_run(const MachineConfig& machine, std::string_view named,
                                                     std::string_view host);
 

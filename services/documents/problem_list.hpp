@@ -1,4 +1,4 @@
-// Collects problems: at most one for a key, and no consequential ones.
+// Collects problems: at most one for each key, and none that only follows from another.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,8 @@ public:
                 key + " is " + number_text(value) + "; it goes from " + number_text(min) + " to " + number_text(max));
     }
 
-    /// The first key is reported. Checked only if each of the keys is valid by itself.
+    /// Checks a rule between several keys, but only if none of them has a problem yet. Reports the problem at the first
+    /// key.
     void require_between(std::initializer_list<std::string_view> keys, bool holds, const std::string& message) {
         const bool can_be_judged = std::ranges::all_of(keys, [this](std::string_view key) { return is_sound(key); });
         require(holds || !can_be_judged, *keys.begin(), message);

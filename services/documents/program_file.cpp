@@ -12,7 +12,7 @@
 namespace lockstep {
 namespace {
 
-/// Protobuf strings are UTF-8, but a file's name may be any bytes.
+/// Replaces other characters, because Protobuf strings are UTF-8 but a file's name may have any bytes.
 std::string printable(std::string name) {
     std::ranges::replace_if(
         name, [](char c) { return c < ' ' || c > '~'; }, '?');
@@ -24,13 +24,13 @@ bool is_start_of(const MachineConfig& machine, const std::vector<double>& start_
     return start_mm.size() == machine.axes.size() && std::ranges::all_of(start_mm, is_place);
 }
 
-/// Names with anything else could lead out of the directory.
+/// Allows only these characters, because names with '/' or '.' could lead out of the directory.
 bool is_file_name(std::string_view name) {
     return std::ranges::all_of(
         name, [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; });
 }
 
-/// From the program's directory, or else from the machine's.
+/// Searches the directories in order: the program's, then the machine's.
 std::optional<std::string> read_subroutine(const std::vector<std::filesystem::path>& directories,
                                            std::string_view name) {
     if (!is_file_name(name)) { return std::nullopt; }
@@ -40,7 +40,7 @@ std::optional<std::string> read_subroutine(const std::vector<std::filesystem::pa
     return std::nullopt;
 }
 
-/// Half a step of the finest linear axis: a chord then leaves its curve by less than the steps do.
+/// Returns half a step of the finest linear axis, so that a chord deviates from its curve by less than the steps do.
 double chord_tolerance(const MachineConfig& machine) {
     double finest = 1;
     for (const AxisConfig& axis : machine.axes) {
@@ -52,7 +52,7 @@ double chord_tolerance(const MachineConfig& machine) {
 }  // namespace
 
 bool is_long_program(const std::filesystem::path& path) {
-    constexpr std::uintmax_t kLong_bytes = 2'000'000;  // some 100,000 lines
+    constexpr std::uintmax_t kLong_bytes = 2'000'000;  // about 100,000 lines
     std::error_code ignored;
     const std::uintmax_t bytes = std::filesystem::file_size(path, ignored);
     return bytes != static_cast<std::uintmax_t>(-1) && bytes > kLong_bytes;

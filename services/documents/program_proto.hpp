@@ -1,4 +1,4 @@
-// Program <-> its Protobuf message, one function per direction.
+// Translates between Program and its Protobuf message, with one function for each direction.
 #pragma once
 
 #include <expected>
@@ -15,7 +15,7 @@ proto::Program program_to_proto(const Program& program);
 void block_to_proto(const Block& block, proto::Block& message);
 void set_values(proto::Program& message, const std::optional<gcode::ProgramValues>& values);
 
-/// `axes`: of a part of a program behind its first, which names no axes; how many the program has.
+/// A later part of a program names no axes. For such a part, `axes` is the program's number of axes.
 std::expected<Program, std::string> program_from_proto(const proto::Program& message,
                                                        std::optional<std::size_t> axes = {});
 

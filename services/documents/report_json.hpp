@@ -1,4 +1,4 @@
-// A report as JSON: protobuf's own mapping, with report.proto's key names; zeros are written too.
+// Writes a report as JSON, with protobuf's own mapping and the key names of report.proto. It writes zeros too.
 #pragma once
 
 #include <google/protobuf/message.h>
@@ -7,7 +7,7 @@
 
 namespace lockstep {
 
-/// Indented, with a newline at the end.
+/// The text is indented, with a newline at the end.
 std::string report_json(const google::protobuf::Message& report);
 
 }  // namespace lockstep

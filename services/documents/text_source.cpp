@@ -26,12 +26,12 @@ public:
     Diagnostics found;
 };
 
-/// Descends from a block to a key, as far as the text has it.
+/// Descends from a block to a key, as far as the text has the path.
 class Descent {
 public:
     Descent(const pb::TextFormat::ParseInfoTree& tree, const pb::Descriptor& type) : tree_(&tree), type_(&type) {}
 
-    /// `index`: which of a repeated key; below 0: the first.
+    /// `index` is that of a repeated key; below 0 it is the first.
     void enter(const std::string& key, int index) {
         const pb::FieldDescriptor* field = tree_ == nullptr ? nullptr : type_->FindFieldByName(key);
         if (field != nullptr) { index = field->is_repeated() ? std::max(index, 0) : -1; }

@@ -1,4 +1,4 @@
-// An error in a file that a person wrote, in the format of editors and compilers.
+// An error in a file that a person wrote, in the format that editors and compilers use.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ using Diagnostics = std::vector<Diagnostic>;
 /// "file:line:column: error: message", or "file: error: message".
 std::string to_text(const std::string& file, const Diagnostic& diagnostic);
 
-/// One line each.
+/// One line for each diagnostic.
 std::string to_text(const std::string& file, const Diagnostics& diagnostics);
 
 }  // namespace lockstep

@@ -20,7 +20,8 @@ std::optional<fs::path> named_by(const char* variable) {
     return fs::absolute(set);
 }
 
-/// Root's directory; else the user's own; if there is none, the shared one.
+/// Returns $LOCKSTEP_STATE if set; for root `of_root`; otherwise a folder in the directory that the variable `users`
+/// names; otherwise one in /tmp.
 fs::path root(const fs::path& of_root, const char* users, const fs::path& below) {
     if (const auto set = named_by("LOCKSTEP_STATE")) { return *set; }
     if (geteuid() == 0) { return of_root; }

@@ -54,7 +54,7 @@ double LineReader::share_read() const {
     return std::min(1.0, static_cast<double>(read_ - (buffer_.size() - at_)) / static_cast<double>(bytes_));
 }
 
-/// False: nothing is there now.
+/// Reads the next bytes. Returns false if none are available now.
 std::expected<bool, std::string> LineReader::fill() {
     pollfd wait{.fd = file_, .events = POLLIN, .revents = 0};
     if (!is_file_ && poll(&wait, 1, 0) == 0) { return false; }
@@ -73,7 +73,7 @@ std::expected<bool, std::string> LineReader::fill() {
     return true;
 }
 
-/// Nothing: the line's end is not known yet.
+/// Returns nullopt if the end of the line has not been read yet.
 std::optional<std::string_view> LineReader::cut_line() {
     const std::string_view rest = std::string_view(buffer_).substr(at_);
     const std::size_t end = rest.find('\n');

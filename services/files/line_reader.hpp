@@ -1,4 +1,5 @@
-// Reads the lines of a file or a pipe, a part at a time, whatever ends them: LF, CR LF, CR CR LF, CR, or the end.
+// Reads the lines of a file or a pipe, a part at a time. A line ends with LF, CR LF, CR CR LF, CR, or the end of the
+// file.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,7 @@ namespace lockstep {
 
 class LineReader {
 public:
-    /// "-": standard input. Error: it cannot be opened.
+    /// "-" is standard input. Error: why the file cannot be opened.
     static std::expected<LineReader, std::string> open(const std::string& path);
     LineReader(LineReader&& other) noexcept;
     LineReader& operator=(LineReader&&) = delete;
@@ -21,12 +22,13 @@ public:
     enum class State : std::uint8_t { Line, Waits, Ends };
     struct Next {
         State state = State::Ends;
-        std::string_view line;  // until the next call
+        std::string_view line;  // valid until the next call
     };
-    /// Waits: of a pipe nothing is there now. Error: it cannot be read any more, or has become shorter; why.
+    /// Returns Waits if a pipe has no data now. Error: why the file can no longer be read, or that it has become
+    /// shorter.
     std::expected<Next, std::string> next();
 
-    /// Of the file, 0 to 1; 0 of a pipe.
+    /// The share of the file that was read, 0 to 1; for a pipe 0.
     double share_read() const;
     std::uint64_t bytes() const { return bytes_; }
 
@@ -40,10 +42,10 @@ private:
     int file_ = -1;
     std::string name_;
     bool is_file_ = false;
-    std::uint64_t bytes_ = 0;  // of the file, when it was opened
+    std::uint64_t bytes_ = 0;  // size of the file when it was opened
     std::uint64_t read_ = 0;
     std::string buffer_;
-    std::size_t at_ = 0;  // the next line in it
+    std::size_t at_ = 0;  // where the next line begins
     bool is_at_end_ = false;
     bool is_begun_ = false;
 };

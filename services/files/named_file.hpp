@@ -11,12 +11,12 @@
 
 namespace lockstep {
 
-/// The error for an action that failed, with the reason from errno.
+/// Returns the error of a failed action, with the reason from errno.
 inline std::unexpected<std::string> cannot(const std::string& file, const char* action) {
     return std::unexpected(file + ": cannot " + action + ": " + std::strerror(errno));
 }
 
-/// The path still names the open file: it was not removed or replaced meanwhile.
+/// Whether the path still names the open file, which means that the file was not removed or replaced.
 inline bool is_still_named(const std::filesystem::path& path, int file) {
     struct stat open_one {};
     struct stat named {};

@@ -1,5 +1,5 @@
-// Keeps the newest of some texts in a file that outlives the process. Writes in the background: keep() never waits for
-// the disk. If texts come faster than the disk takes them, only the newest is written.
+// Keeps the newest of several texts in a file that outlives the process. A thread writes the file, so keep() never
+// waits for the disk. If texts come faster than the disk takes them, only the newest is written.
 #pragma once
 
 #include <atomic>
@@ -18,14 +18,14 @@ class NewestFile {
 public:
     using OnFailure = void (*)(const std::string& why);
     using Text = std::function<std::string()>;
-    /// The writing thread calls `on_failure` when a write fails after one that succeeded.
+    /// The writing thread calls `on_failure` when a write fails, but not again until a write has succeeded.
     NewestFile(std::filesystem::path path, OnFailure on_failure);
     /// Waits until everything is written.
     ~NewestFile();
 
     /// The writing thread calls `text`.
     void keep(std::uint64_t number, Text text);
-    /// The number of the text that is on the disk; 0: none was written.
+    /// The number of the text on the disk; 0 if none was written.
     std::uint64_t kept() const { return kept_; }
 
 private:
@@ -38,7 +38,7 @@ private:
 
     std::filesystem::path path_;
     OnFailure on_failure_;
-    bool failed_ = false;  // the last write
+    bool failed_ = false;  // the last write failed
     std::atomic<std::uint64_t> kept_{0};
     std::mutex mutex_;
     std::condition_variable_any news_;

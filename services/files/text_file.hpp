@@ -12,15 +12,15 @@ namespace lockstep {
 
 inline constexpr std::size_t kMaxTextFileBytes = 64U << 20;
 
-/// Refuses anything but a readable, regular, non-empty text file (no 0 bytes) within the limit, with the reason.
+/// Reads a regular, non-empty text file without 0 bytes and within the limit. Error: why it refuses the file.
 std::expected<std::string, Diagnostic> read_text_file(const std::filesystem::path& path);
 
 /// Replaces the content. Error: the path, and why it cannot be written.
 std::expected<void, std::string> write_text_file(const std::filesystem::path& path, std::string_view text);
 
-/// Atomic even if this process or its host fails: readers find the old text or the new one. The new text is on the
-/// disk on return. One thread of a process at a time; processes do not disturb each other. Error: the path, and why it
-/// cannot be written.
+/// Replaces the content atomically: readers find the old text or the new one, even if this process or its host fails.
+/// On return the new text is on the disk. Only one thread of a process may replace a file at a time; several processes
+/// may. Error: the path, and why it cannot be written.
 std::expected<void, std::string> replace_text_file(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace lockstep

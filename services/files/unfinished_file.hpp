@@ -1,5 +1,5 @@
-// A file under construction: it gets its name when it is complete. An interrupted writer leaves no partial file. The
-// previous file stays until then.
+// A file that gets its name only when it is complete. Until then a previous file of that name stays. An interrupted
+// writer leaves no partial file under that name.
 #pragma once
 
 #include <expected>
@@ -10,11 +10,11 @@ namespace lockstep {
 
 class UnfinishedFile {
 public:
-    /// Writes nothing yet: the owner writes to unfinished().
+    /// Writes nothing yet; the owner writes to the path unfinished().
     explicit UnfinishedFile(const std::filesystem::path& path);
     UnfinishedFile(UnfinishedFile&& other) noexcept;
     UnfinishedFile& operator=(UnfinishedFile&&) = delete;
-    /// Removes the file if it was not kept.
+    /// Removes the unfinished file unless keep() succeeded.
     ~UnfinishedFile();
 
     const std::filesystem::path& path() const { return path_; }
@@ -24,7 +24,7 @@ public:
 
 private:
     std::filesystem::path path_;
-    std::filesystem::path unfinished_;  // empty: nothing to remove
+    std::filesystem::path unfinished_;  // empty if nothing is to be removed
 };
 
 }  // namespace lockstep

@@ -13,7 +13,7 @@ namespace {
 
 std::atomic<FlightLog*> flight_of_process = nullptr;
 
-/// "core/motion/profile.cpp", whatever directory the program was built in.
+/// Returns the path within the source tree, such as "core/motion/profile.cpp", without the build directory.
 std::string_view in_tree(std::string_view file) {
     for (const std::string_view folder : {"/core/", "/services/", "/sim_fpga/"}) {
         if (const auto at = file.rfind(folder); at != file.npos) { return file.substr(at + 1); }

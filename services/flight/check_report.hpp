@@ -7,7 +7,7 @@
 
 namespace lockstep {
 
-/// While it exists, it reports failed checks of this process. One at a time in a process.
+/// Reports failed checks of this process while it exists. At most one object exists in a process.
 class CheckReport {
 public:
     explicit CheckReport(FlightLog& flight);

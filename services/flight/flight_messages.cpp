@@ -28,7 +28,7 @@ std::optional<FlightPeer> peer_in(const MachineConfig& machine, const std::strin
 }
 
 Ticks ticks_of(double us, std::int64_t tick_ns) {
-    constexpr double kMost = 1e15;  // longer than anything lasts
+    constexpr double kMost = 1e15;  // more than any real duration
     const double ticks = us * 1000 / static_cast<double>(tick_ns);
     return {std::llround(std::isfinite(ticks) ? std::clamp(ticks, -kMost, kMost) : 0)};
 }
@@ -124,7 +124,7 @@ std::expected<NumberedEvent, std::string> from_lcm(const flight_event_t& message
     return out;
 }
 
-/// A head, as in a file, followed by how many files are kept, and where.
+/// The encoding is a head as in a file, then the number of files kept and their directory.
 std::vector<std::uint8_t> encode_source(const FlightSource& source) {
     const flight_head_t head = to_lcm(source, {});
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(head.getEncodedSize()));

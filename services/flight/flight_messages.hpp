@@ -1,4 +1,4 @@
-// A process's notes as LCM messages and back: the only file that knows their types.
+// Translates a process's notes to LCM messages and back. No other file uses these message types.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ inline constexpr std::int32_t kFlightVersion = 1;
 struct IncidentMark {
     IncidentReason reason = IncidentReason::Asked;
     Tick tick;                 // machine time
-    std::int64_t wall_us = 0;  // since 1970, when it was written
+    std::int64_t wall_us = 0;  // when the file was written, since 1970
     bool operator==(const IncidentMark&) const = default;
 };
 
@@ -29,19 +29,19 @@ flight_head_t to_lcm(const FlightSource& source, const IncidentMark& mark);
 /// `machine` provides the names of the axes that events refer to.
 flight_event_t to_lcm(const FlightSource& source, const MachineConfig& machine, const NumberedEvent& event);
 
-/// `text`: why the process ended by itself.
+/// `text` says why the process ended itself.
 flight_note_t to_lcm(const FlightSource& source, const IncidentMark& mark, const std::string& text);
 
 struct FlightHead {
     FlightSource source;
     IncidentMark mark;
 };
-/// Error: an unknown version or reason.
+/// Error: an unknown version or reason, or an invalid process name.
 std::expected<FlightHead, std::string> from_lcm(const flight_head_t& message);
-/// Error: an unknown kind, or an event about an axis that the machine does not have.
+/// Error: an unknown kind or fault, or an event about an axis that the machine does not have.
 std::expected<NumberedEvent, std::string> from_lcm(const flight_event_t& message, const MachineConfig& machine);
 
-/// The source as stored in a ring.
+/// Encodes the source for storage in a ring.
 std::vector<std::uint8_t> encode_source(const FlightSource& source);
 std::expected<FlightSource, std::string> decode_source(std::span<const std::uint8_t> bytes);
 

@@ -16,10 +16,10 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kLookEvery = 100ms;
-constexpr auto kAftermath = 1s;    // after the last of several incidents close together...
-constexpr auto kLongestWait = 5s;  // ...but not longer after the first
+constexpr auto kAftermath = 1s;    // wait after the last of several close incidents ...
+constexpr auto kLongestWait = 5s;  // ... but at most this long after the first
 
-/// For a process that keeps no notes.
+/// The log of a process that keeps no notes.
 class NoFlight final : public FlightLog {
 public:
     void add(const FlightEvent& /*event*/) override {}
@@ -62,7 +62,7 @@ void FlightRecorder::add(const FlightEvent& event) {
     if (event.kind == FlightKind::Incident) { incidents_.fetch_add(1, std::memory_order_release); }
 }
 
-/// False: the process ends.
+/// Returns false if the process ends.
 bool FlightRecorder::sleep(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     wake_.wait_for(lock, stop, kLookEvery, [] { return false; });
@@ -132,8 +132,8 @@ LeftRings save_left_rings(const std::filesystem::path& rings, const std::filesys
             left->remove();
             found.saved.push_back(*file);
         } else {
-            found.problems.push_back("what " + snapshot->source.process +
-                                     "'s notes from before its end are not written: " + file.error());
+            found.problems.push_back("the notes of " + snapshot->source.process +
+                                     " before its end cannot be written: " + file.error());
         }
     }
     return found;

@@ -1,5 +1,5 @@
-// The flight recorder of a process: a ring of its notes, and a thread that writes them to a file at an incident, and
-// again soon after, so that the file includes the aftermath.
+// The flight recorder of a process: a ring of its notes, and a thread that writes them to a file a second after an
+// incident, so that the file includes the aftermath.
 #pragma once
 
 #include <atomic>
@@ -17,11 +17,11 @@ namespace lockstep {
 
 class FlightRecorder final : public FlightLog {
 public:
-    /// `directory`: for the rings. Error: why there is no memory for it.
+    /// `directory` holds the rings. Error: why the ring's memory cannot be created.
     static std::expected<std::unique_ptr<FlightRecorder>, std::string> open(const std::filesystem::path& directory,
                                                                             const FlightSource& source,
                                                                             std::size_t events);
-    /// Writes what is not yet written of an incident.
+    /// Writes an incident that is not yet written.
     ~FlightRecorder() override;
 
     void add(const FlightEvent& event) override;
@@ -36,24 +36,24 @@ private:
     FlightRing ring_;
     std::filesystem::path directory_;
     FlightSource source_;
-    std::atomic<std::uint64_t> incidents_ = 0;  // noted so far
-    std::uint64_t written_ = 0;                 // the thread's: the number of the last event that is in a file
+    std::atomic<std::uint64_t> incidents_ = 0;  // number noted so far
+    std::uint64_t written_ = 0;                 // used by the thread: number of the last event in a file
     std::mutex mutex_;
     std::condition_variable_any wake_;
     std::jthread thread_;
 };
 
-/// Opens the flight recorder of a process as the machine's file configures it; `axis` is empty for the coordinator. If
-/// that fails, the log states why, and nothing is kept.
+/// Opens the flight recorder of a process as the machine's file configures it. `axis` is empty for the coordinator. If
+/// that fails, it logs the reason and the process keeps no notes.
 std::unique_ptr<FlightLog> open_flight(const MachineConfig& machine, const std::string& axis, Identity identity);
 
-/// The notes of dead processes, now in files.
+/// The result of saving the rings of dead processes.
 struct LeftRings {
     std::vector<std::filesystem::path> saved;
-    std::vector<std::string> problems;  // the rings that could not be written, and why
+    std::vector<std::string> problems;  // which rings could not be written, and why
 };
 
-/// Saves those rings in `rings` whose incident files belong in `incidents`.
+/// Saves the rings of dead processes in `rings`, if `incidents` is the directory of their incident files.
 LeftRings save_left_rings(const std::filesystem::path& rings, const std::filesystem::path& incidents);
 
 }  // namespace lockstep

@@ -34,11 +34,11 @@ struct Header {
     std::uint64_t magic = kRingMagic;
     std::uint64_t version = kRingVersion;
     std::uint64_t events = 0;
-    std::uint64_t source_bytes = 0;  // behind the note
-    std::uint64_t slots_at = 0;      // byte
+    std::uint64_t source_bytes = 0;  // after the note
+    std::uint64_t slots_at = 0;      // byte offset
 };
 
-/// Never reads beyond the file, whatever its header contains.
+/// Never reads beyond the file, even if its header is damaged.
 std::optional<Header> header_of(const SharedMapping& mapping) {
     Header header;
     if (mapping.bytes() < kSourceAt) { return std::nullopt; }
@@ -62,7 +62,7 @@ std::string note_of(const SharedMapping& mapping) {
 std::expected<FlightRing, std::string> FlightRing::create(const fs::path& directory, const FlightSource& source,
                                                           std::size_t events) {
     if (const auto made = make_own_directory(directory); !made) { return std::unexpected(made.error()); }
-    static std::atomic<int> rings = 0;  // of this process: more than one only in tests
+    static std::atomic<int> rings = 0;  // rings of this process; only tests make more than one
     const std::string name =
         source.machine + "." + source.process + "." + std::to_string(getpid()) + "." + std::to_string(rings++);
     const fs::path unfinished = directory / (name + ".new");
@@ -73,7 +73,7 @@ std::expected<FlightRing, std::string> FlightRing::create(const fs::path& direct
     const std::size_t bytes = slots_at + events * kFlightSlotBytes;
     const int file = open(unfinished.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0600);
     if (file < 0) { return cannot(unfinished, "create it"); }
-    // Reserves the memory now: a page that is missing later would end the process.
+    // Reserves the memory now, because SIGBUS would end the process if a page were missing later.
     errno = posix_fallocate(file, 0, static_cast<off_t>(bytes));
     SharedMapping mapping(file, errno == 0 ? bytes : 0, PROT_READ | PROT_WRITE);
     if (mapping.words() == nullptr || flock(file, LOCK_EX | LOCK_NB) != 0) {
@@ -82,12 +82,12 @@ std::expected<FlightRing, std::string> FlightRing::create(const fs::path& direct
         close(file);
         return error;
     }
-    std::memset(mapping.words(), 0, bytes);  // and touched, so that no later store waits for a page
+    std::memset(mapping.words(), 0, bytes);  // touches each page, so that no later store waits for one
     const Header header{.events = events, .source_bytes = source_bytes.size(), .slots_at = slots_at};
     std::memcpy(mapping.words(), &header, sizeof header);
     std::memcpy(bytes_of(mapping) + kSourceAt, source_bytes.data(), source_bytes.size());
     std::error_code error;
-    fs::rename(unfinished, path, error);  // the name appears when the ring is complete and locked
+    fs::rename(unfinished, path, error);  // only a complete and locked ring gets its name
     return FlightRing(path, file, std::move(mapping), slots_at, events);
 }
 

@@ -1,9 +1,9 @@
-// The newest events of a process, in a memory file (/dev/shm) that it has mapped: a write stores 64 bytes and never
-// waits for a disk. When the process is killed or stopped, its notes can still be read.
+// Keeps the newest events of a process in a mapped memory file (/dev/shm). A write stores 64 bytes and never waits for
+// a disk. After the process was killed or while it is stopped, other processes can read its notes.
 //
-// The file: eight words (magic, version, events, bytes of the source, where events begin), a note of 256 bytes (empty
-// unless the process ends itself), the source, and the events. Each event's number precedes it, and is 0 during the
-// write. One process writes; any process may read at any time.
+// The file has eight words (magic, version, events, bytes of the source, where events begin), a note of 256 bytes
+// (empty unless the process ends itself), the source, and the events. Each event follows its number, which is 0 during
+// the write. One process writes, and any process may read at any time.
 #pragma once
 
 #include <atomic>
@@ -25,23 +25,23 @@ inline constexpr std::size_t kFlightNoteBytes = 256;
 
 class FlightRing {
 public:
-    /// Creates `directory`, readable by this user alone, and a ring in it. Error: why not.
+    /// Creates `directory`, accessible to this user only, and a ring in it. Error: why it cannot.
     static std::expected<FlightRing, std::string> create(const std::filesystem::path& directory,
                                                          const FlightSource& source, std::size_t events);
     FlightRing(FlightRing&& other) noexcept;
     FlightRing& operator=(FlightRing&&) = delete;
-    /// Removes the ring: the process ended as requested.
+    /// Removes the ring, because the process ends as requested.
     ~FlightRing();
 
-    /// From any thread. Never waits, allocates nothing.
+    /// Any thread may call it. It never waits and allocates nothing.
     void add(const FlightEvent& event);
-    /// Why the process is about to end itself. Safe in a process whose other state is damaged: it copies bytes into
-    /// memory that is mapped already, at most kFlightNoteBytes of them.
+    /// Notes why the process is about to end itself. Safe even if other state of the process is damaged: it only copies
+    /// at most kFlightNoteBytes into memory that is already mapped.
     void set_note(std::string_view text);
     const std::filesystem::path& path() const { return path_; }
 
 private:
-    /// slots_at: the byte where the events begin.
+    /// `slots_at` is the byte offset of the events.
     FlightRing(std::filesystem::path path, int file, SharedMapping mapping, std::size_t slots_at, std::size_t events)
         : path_(std::move(path)),
           file_(file),
@@ -50,28 +50,28 @@ private:
           events_(events) {}
 
     std::filesystem::path path_;
-    int file_;  // stays open: its lock shows that the process lives; below 0: moved from
+    int file_;  // stays open: its lock shows that the process is alive; below 0: moved from
     SharedMapping mapping_;
     std::uint64_t* slots_;
     std::size_t events_;
     std::atomic<std::uint64_t> number_ = 0;
 };
 
-/// Error: it cannot be read, or is not a ring of this version.
+/// Error: the file cannot be read or is not a ring of this version.
 std::expected<FlightSnapshot, std::string> read_ring(const std::filesystem::path& path);
 
-/// All rings in the directory, also those of dead processes.
+/// All rings in the directory, including those of dead processes.
 std::vector<std::filesystem::path> rings_in(const std::filesystem::path& directory);
 
 /// The ring of a process that ended without removing it. While this object exists, no other process claims it.
 class LeftRing {
 public:
-    /// Nothing: its process lives, or another process has claimed it.
+    /// Returns nullopt if the ring's process is alive or another process has claimed the ring.
     static std::optional<LeftRing> claim(const std::filesystem::path& path);
     LeftRing(LeftRing&& other) noexcept;
     LeftRing& operator=(LeftRing&&) = delete;
     ~LeftRing();
-    /// Removes the ring after it was saved.
+    /// Removes the ring. Call it after saving it.
     void remove();
 
 private:

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kEnd = ".flight.lcm";
 
-/// "20261121T094512.123Z": names sort by time.
+/// Returns a stamp such as "20261121T094512.123Z", so that names sort by time.
 std::string stamp(std::int64_t wall_us) {
     const std::time_t seconds = wall_us / 1'000'000;
     std::tm utc{};
@@ -31,7 +31,7 @@ std::string stamp(std::int64_t wall_us) {
     return std::string(text, length) + fraction;
 }
 
-/// STAMP-PROCESS-INCARNATION: a coordinator and its standby get different names.
+/// The name is STAMP-PROCESS-INCARNATION, so a coordinator and its standby get different names.
 fs::path file_for(const FlightSource& source, const IncidentMark& mark) {
     return source.directory / (stamp(mark.wall_us) + "-" + source.process + "-" +
                                std::to_string(source.incarnation % 100'000) + std::string(kEnd));

@@ -12,18 +12,18 @@
 
 namespace lockstep {
 
-/// How much of the time before the incident is written.
+/// How many seconds before the incident are written.
 inline constexpr std::int64_t kFlightSeconds = 10;
 
-/// The first incident noted after event `after`; nothing if there is none.
+/// Returns the first incident noted after event `after`; nullopt if there is none.
 std::optional<NumberedEvent> first_incident(std::span<const NumberedEvent> events, std::uint64_t after);
 
 /// Writes the snapshot into the source's directory, which it creates, and removes the oldest files of the same process
-/// beyond the number kept. Returns the file. Error: the disk's, and the remedy.
+/// beyond the number kept. Returns the file. Error: the disk's error, and the remedy.
 std::expected<std::filesystem::path, std::string> write_incident(const FlightSnapshot& snapshot,
                                                                  const IncidentMark& mark);
 
-/// Incident files, the oldest first.
+/// Returns the incident files in the directory, oldest first.
 std::vector<std::filesystem::path> incident_files(const std::filesystem::path& directory);
 
 /// Where this host's processes of the machine write their incident files.

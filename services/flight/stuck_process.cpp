@@ -8,7 +8,7 @@
 namespace lockstep {
 namespace {
 
-constexpr std::chrono::milliseconds kPatience{200};  // for the disk
+constexpr std::chrono::milliseconds kPatience{200};  // how long to wait for the log's disk
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// The end of a process whose loop stands still (services/runtime/loop_watchdog.hpp).
+// Ends a process with a stuck loop (services/runtime/loop_watchdog.hpp).
 #pragma once
 
 #include "core/flight/flight_event.hpp"
@@ -6,7 +6,8 @@
 
 namespace lockstep {
 
-/// Writes why to the flight record and the log, and ends the process by SIGABRT. now: when the loop last ran.
+/// Writes the reason to the flight record and the log, and ends the process by SIGABRT. `now` is when the loop last
+/// ran.
 [[noreturn]] void end_stuck_process(FlightLog& flight, Tick now, std::int64_t tick_ns);
 
 }  // namespace lockstep

@@ -25,8 +25,8 @@ std::uint64_t drawn_number() {
     return std::uniform_int_distribution<std::uint64_t>()(random);
 }
 
-/// The device and the plant behind it. Another process may remove or overwrite its registers: then the device powers up
-/// again, and the slide stays where it is.
+/// The device and the plant that it drives. If another process removes or overwrites the registers, the device powers
+/// up again, and the slide stays where it is.
 class Board {
 public:
     Board(const FpgaOptions& options, const AxisConfig& axis, const MachineConfig& machine)
@@ -35,10 +35,10 @@ public:
           clock_(machine.tick_ns, machine.timing.time_source),
           plant_(axis, machine.tick_ns) {}
 
-    /// Error: its registers cannot be created.
+    /// Error: why its registers cannot be created.
     std::expected<void, std::string> power_up() {
         if (device_) { plant_ = device_->plant(); }
-        device_.reset();  // with its window: the name is free again
+        device_.reset();  // closes its window, which frees the name
         auto window = options_.file.empty() ? RegisterWindow::create_shared(options_.name)
                                             : RegisterWindow::create_file(options_.file);
         if (!window) { return std::unexpected(window.error()); }

@@ -1,4 +1,4 @@
-// An LCM URL, parsed.
+// Parses an LCM URL.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct LcmUrl {
     bool is_multicast() const { return provider == "udpm" || provider == "mpudpm"; }
 };
 
-/// Error: a port or ttl that is not a number in range, an address that is not an IPv4 multicast address.
+/// Error: the port or ttl is not a number in range, or the address is not an IPv4 multicast address.
 std::expected<LcmUrl, std::string> parse_lcm_url(std::string_view url);
 
 }  // namespace lockstep

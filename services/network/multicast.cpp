@@ -21,13 +21,13 @@ std::string remedy(const std::string& interface) {
            (interface == "lo" ? " (and, if nothing is received: ip link set lo multicast on)" : "");
 }
 
-/// Runs `ip route VERB 224.0.0.0/4 dev lo` without a shell. True: it succeeded. It does not fork: copying the pages of
-/// a process in motion would delay its loop.
+/// Runs `ip route VERB 224.0.0.0/4 dev lo` without a shell. Returns whether it succeeded. It does not call fork(),
+/// because copying the page tables of a running service would delay its loop.
 bool change_loopback_route(const char* verb) {
     std::array<const char*, 7> words{"ip", "route", verb, kMulticastRange, "dev", "lo", nullptr};
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
-    // The caller reports what failed.
+    // The caller reports the failure, so the error text of `ip` is not shown.
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
     pid_t child = 0;
     const int error = posix_spawnp(&child, "ip", &actions, nullptr, const_cast<char**>(words.data()), environ);
@@ -55,7 +55,7 @@ std::expected<void, std::string> check_multicast(const NetworkConfig& network) {
 std::expected<bool, std::string> ensure_loopback_multicast() {
     if (route_interface(kDefaultGroup) == "lo") { return false; }
     if (change_loopback_route("add")) { return true; }
-    if (route_interface(kDefaultGroup) == "lo") {  // another process was quicker
+    if (route_interface(kDefaultGroup) == "lo") {  // another process has added it meanwhile
         return false;
     }
     return std::unexpected("cannot route multicast to lo; " + remedy("lo"));

@@ -1,9 +1,8 @@
-// Keeps LCM's multicast on the configured interface. LCM leaves the choice of the interface to the routing table,
-// and a host's default route may lead anywhere. (DDS does not need this: it is bound to its interface by name.)
+// Keeps LCM's multicast on the configured interface. LCM uses the interface that the routing table gives, and a host's
+// default route may lead to any network. (DDS does not need this: it is bound to its interface by name.)
 //
-// The rule: a datagram with ttl 0 never leaves the host, whatever the route. With a larger ttl it follows the route, so
-// the route must lead to the configured interface; otherwise nothing is published. Without any route the kernel
-// refuses to send.
+// A datagram with ttl 0 never leaves the host, for any route. With a larger ttl it follows the route. So the route must
+// then lead to the configured interface, otherwise nothing is published. Without a route the kernel refuses to send.
 #pragma once
 
 #include <expected>
@@ -13,11 +12,11 @@
 
 namespace lockstep {
 
-/// Whether LCM may publish under this configuration. Error: why not, and the remedy.
+/// Checks that LCM may publish with this configuration. Error: why not, and the remedy.
 std::expected<void, std::string> check_multicast(const NetworkConfig& network);
 
-/// Routes multicast to lo, for a machine on one host: adds the route if it is missing, which requires root. True: it
-/// was added; false: it existed. Error: what failed and the remedy.
+/// Routes multicast to lo, for a machine on one host. Adds the route if it is missing, which requires root. Returns
+/// true if it was added, false if it existed. Error: what failed, and the remedy.
 std::expected<bool, std::string> ensure_loopback_multicast();
 
 /// Removes the route that ensure_loopback_multicast added.

@@ -1,5 +1,6 @@
-// Asks the kernel by rtnetlink, since neither /proc/net/route (no policy routes) nor a socket's chosen source address
-// (not lo's address, even if the route leads to lo) shows the interface. See rtnetlink(7), RTM_GETROUTE.
+// Asks the kernel by rtnetlink (see rtnetlink(7), RTM_GETROUTE), because other sources do not show the interface:
+// /proc/net/route has no policy routes, and a socket's chosen source address is not lo's address even if the route
+// leads to lo.
 #include "services/network/route.hpp"
 
 #include <arpa/inet.h>
@@ -52,7 +53,7 @@ int ask_kernel(const RouteRequest& request, Answer& answer) {
     return length < 0 ? -error : static_cast<int>(length);
 }
 
-/// The index of the route's outgoing interface, or 0.
+/// Returns the index of the route's outgoing interface, or 0.
 unsigned outgoing_interface(const nlmsghdr* header) {
     auto* route = static_cast<rtmsg*>(NLMSG_DATA(header));
     auto length = static_cast<unsigned>(RTM_PAYLOAD(header));

@@ -1,4 +1,4 @@
-// The interface that the kernel uses for an address.
+// Finds the interface that the kernel uses for an address.
 #pragma once
 
 #include <expected>
@@ -6,7 +6,7 @@
 
 namespace lockstep {
 
-/// The interface by which the kernel would send to this IPv4 address. Error: there is none, with the reason.
+/// Returns the interface through which the kernel would send to this IPv4 address. Error: why there is none.
 std::expected<std::string, std::string> route_interface(const std::string& address);
 
 }  // namespace lockstep

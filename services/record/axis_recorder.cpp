@@ -19,7 +19,7 @@ AxisRecorder::AxisRecorder(const MachineConfig& machine, std::size_t axis, Ident
                0, [this](step_batch_t& batch) { publish(batch); }),
       marker_(machine, machine.axes[axis].name, sink) {}
 
-/// The count before the first recorded step: the axis's position minus its steps so far.
+/// Sets the count before the first recorded step to the axis's position minus its steps so far.
 void AxisRecorder::place(const AxisState& state) {
     const Tick read = clock_.own + (state.tick - clock_.other);
     std::int64_t before = state.position.count();
@@ -40,8 +40,8 @@ void AxisRecorder::finish() {
     marker_.note_end(machine_.axes[axis_].name, incarnation_, counts_, clock_.other);
 }
 
-/// Adds the steps' machine times, from the newest clock estimate. An improved estimate may put them before those of the
-/// previous batch: then they are recorded just after it, and their error bound grows accordingly.
+/// Adds the steps' machine times from the newest clock estimate. An improved estimate may put them before the end of
+/// the previous batch. Then they are recorded just after that end, and their error bound grows by the shift.
 void AxisRecorder::publish(step_batch_t& batch) {
     const Tick first{batch.first_tick};
     const Tick last = std::accumulate(batch.delta_ticks.begin(), batch.delta_ticks.end(), first,
@@ -63,7 +63,7 @@ void AxisRecorder::loop(const AxisOutputs& out, std::int64_t zero_count, std::ui
     if (out.device_changed) { placed_ = false; }
     if (!placed_ && out.state) {
         place(*out.state);
-        zero_count_ = zero_count;  // from the state: a process may begin homed
+        zero_count_ = zero_count;  // a process may begin homed, so its first zero is not a jump
     }
     batch_steps();
     for (const ExecutedTrack& track : out.tracks) {
@@ -89,7 +89,7 @@ void AxisRecorder::loop(const AxisOutputs& out, std::int64_t zero_count, std::ui
         batcher_.set_position(batcher_.position_steps() - (zero_count - zero_count_));
         zero_count_ = zero_count;
     }
-    if (lost_captures != lost_captures_) {  // the next state gives the position before the following steps
+    if (lost_captures != lost_captures_) {  // the next state gives the position again
         lost_captures_ = lost_captures;
         placed_ = false;
     }

@@ -1,4 +1,4 @@
-// One axis's part of the record: every step, the axis's position, and the runs it was ordered.
+// Records one axis: every step, its position, and the runs that it executed.
 #pragma once
 
 #include <memory>
@@ -16,27 +16,27 @@ namespace lockstep {
 
 class AxisRecorder {
 public:
-    /// `sink` outlives the recorder. `incarnation` is the axis's identity.
+    /// `sink` must outlive the recorder. `incarnation` is the identity of the axis's process.
     AxisRecorder(const MachineConfig& machine, std::size_t axis, Identity incarnation, RecordSink& sink);
 
     AxisRecorder(const AxisRecorder&) = delete;  // the batcher publishes through this object
     AxisRecorder& operator=(const AxisRecorder&) = delete;
 
-    /// Every step, in order, before the loop's outputs.
+    /// Call it for every step, in order, before loop().
     void step(StepEdge step) { steps_.push_back(step); }
-    /// Call it after each loop: with the loop's outputs, the axis's zero after it, and how many steps so far have no
-    /// recorded time: they are missing after those of this loop. Steps and runs are recorded in the device's time and
-    /// in machine time.
+    /// Call it after each loop, with the loop's outputs and the axis's zero after it. `lost_captures` is the number of
+    /// steps so far that have no recorded time; new ones are missing after the steps of this loop. Steps and runs are
+    /// recorded in the device's time and in machine time.
     void loop(const AxisOutputs& out, std::int64_t zero_count, std::uint64_t lost_captures);
     void health(const AxisHealth& health) {
         sink_.publish(channels_.health, to_lcm(machine_, health, {incarnation_, counts_.figures++}));
     }
-    /// The coordinator's published counts at that time.
+    /// Notes the counts that the coordinator had published at the time of this state.
     void note_coordinator(const MachineState& state) {
         marker_.note("", state.term.coordinator, state.published, state.tick);
     }
     RecordCounts published() const { return counts_; }
-    /// At the end: publishes what is not yet published.
+    /// Call it at the end. Publishes the remaining steps and the last mark.
     void finish();
 
 private:
@@ -53,13 +53,13 @@ private:
     std::int64_t zero_count_ = 0;
     RecordCounts counts_;  // published so far
     RecordMarker marker_;
-    run_t run_{};  // that was published last
+    run_t run_{};  // the run published last
     std::uint64_t lost_captures_ = 0;
-    /// The device's position is known: not at first, since the device may have outlived another process, nor after the
-    /// device was exchanged, nor after steps without their time.
+    /// Whether the device's position is known. It is unknown at first, since the device may have outlived another
+    /// process, and after a change of the device or steps without a recorded time.
     bool placed_ = false;
     std::vector<StepEdge> steps_;    // not yet given to the batcher
-    ClockView clock_;                // the device's, in machine time, at the last loop
+    ClockView clock_;                // the device's clock in machine time, at the last loop
     std::optional<Tick> published_;  // machine time of the last step published
 };
 

@@ -32,7 +32,7 @@ bool DiskRoom::reaches(std::uint64_t bytes) {
     return least <= taken_ || take(least + kAhead) || take(least);
 }
 
-/// The file's size does not change.
+/// Reserves space without changing the file's size.
 bool DiskRoom::take(std::uint64_t bytes) {
     const auto more = static_cast<off_t>(bytes - taken_);
     if (fallocate(file_, FALLOC_FL_KEEP_SIZE, static_cast<off_t>(taken_), more) == 0) {

@@ -1,5 +1,5 @@
-// Reserves disk space for a growing file before it is written. So a full disk is noticed while the file still has room
-// to record what is lost.
+// Reserves disk space for a growing file before the file needs it. So the writer notices a full disk while the file
+// still has room to record losses.
 #pragma once
 
 #include <cstdint>
@@ -9,17 +9,17 @@ namespace lockstep {
 
 class DiskRoom {
 public:
-    static constexpr std::uint64_t kAhead = 16 << 10;  // reserved at a time
-    static constexpr std::uint64_t kKept = 16 << 10;   // for the loss messages
+    static constexpr std::uint64_t kAhead = 16 << 10;  // reserved in one step
+    static constexpr std::uint64_t kKept = 16 << 10;   // reserved for loss messages
 
-    /// The file exists. If the file system cannot reserve space in advance, nothing is reserved.
+    /// `file` must exist. If the file system cannot reserve space, nothing is reserved.
     explicit DiskRoom(const std::filesystem::path& file);
     /// Releases the space that the file did not use.
     ~DiskRoom();
     DiskRoom(DiskRoom&& other) noexcept;
     DiskRoom& operator=(DiskRoom&& other) noexcept;
 
-    /// True: the file may grow to so many bytes, and kKept more.
+    /// Returns whether the file may grow to `bytes` and kKept more.
     bool reaches(std::uint64_t bytes);
 
 private:

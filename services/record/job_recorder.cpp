@@ -81,7 +81,7 @@ void JobRecorder::record(Tick now, const ProgramChunk& chunk) {
     publish(now, std::move(part));
 }
 
-/// Into the job's message if it is short; otherwise its parts were recorded already, or are recorded now.
+/// Puts a short program into the job's message. The parts of a longer one were recorded already, or are recorded now.
 void JobRecorder::record_program(Tick now, const JobEvent& event, JobRecord& record) {
     bool is_in_parts = std::ranges::find(in_parts_, event.program_id) != in_parts_.end();
     const auto program = is_in_parts ? std::nullopt : event.program->whole();
@@ -99,7 +99,7 @@ void JobRecorder::record_program(Tick now, const JobEvent& event, JobRecord& rec
     publish(now, std::move(part));
 }
 
-/// Each part has whole blocks. Only the last one says how many there are.
+/// Records the program in parts of whole blocks. Only the last part says how many there are.
 void JobRecorder::record_parts(Tick now, std::uint64_t id, const Program& program) {
     ProgramChunk chunk{.program = id, .index = 0, .count = 0, .bytes = {}};
     ProgramPartWriter writer(program.head());
@@ -115,7 +115,8 @@ void JobRecorder::record_parts(Tick now, std::uint64_t id, const Program& progra
     record(now, chunk);
 }
 
-/// A microsecond before the job: so it precedes the job in merged logs too, which are sorted by time.
+/// Stamps the part one microsecond before the job, so that it precedes the job in merged logs too, which are sorted by
+/// time.
 void JobRecorder::publish(Tick now, program_part_t&& part) {
     part.utime = utime_of(now, machine_.tick_ns) - 1;
     part.machine = machine_.name;

@@ -1,5 +1,4 @@
-// The coordinator's part of the record: each job with the complete machine and program, so that a log is
-// self-contained.
+// Records the coordinator's jobs, each with the complete machine and program, so that a log is self-contained.
 #pragma once
 
 #include <deque>
@@ -17,23 +16,23 @@ namespace lockstep {
 class JobRecorder {
 public:
     JobRecorder(const MachineConfig& machine, Identity coordinator, RecordSink& sink);
-    /// Each loop, before its events.
+    /// Call it in each loop, before its events.
     void note(Tick now) { marker_.note("", coordinator_, published_, now); }
-    /// The published counts of an axis.
+    /// Notes the counts that an axis has published.
     void note_axis(const AxisHealth& health);
     void record(Tick now, const JobEvent& event);
     void record(Tick now, const PublishedEvent& event);
-    /// What the coordinator gave back in a step: events of programs, then of jobs, as in merged logs.
+    /// Records the outputs of a coordinator's step: first events of programs, then of jobs, as in merged logs.
     void record(Tick now, const CoordinatorOutputs& out);
-    /// A part of a program, when it was taken. A program of more than one part is recorded in these parts: as one
-    /// message it would not fit into the queue to the disk, and would delay the loop that writes it.
+    /// Records a part of a program when it was taken. A program of more than one part is recorded in these parts,
+    /// because one message with all of it would not fit into the queue to the disk and would delay the loop.
     void record(Tick now, const ProgramChunk& chunk);
     RecordCounts published() const { return published_; }
-    /// At the end.
+    /// Call it at the end.
     void finish(Tick now) { marker_.note_end("", coordinator_, published_, now); }
 
 private:
-    static constexpr std::size_t kBlocksInJob = 2000;  // the maximum in a job's own message
+    static constexpr std::size_t kBlocksInJob = 2000;  // most blocks in a job's own message
     static constexpr std::size_t kProgramsKept = 16;   // more than the coordinator keeps
 
     void record_program(Tick now, const JobEvent& event, JobRecord& record);
@@ -51,7 +50,7 @@ private:
     RecordMarker marker_;
 };
 
-/// "home", "move", "run", "own-move"; "done", "stopped", "failed": as in the record and the reports.
+/// The names in the record and the reports: "home", "move", "run", "own-move", "jog"; "done", "stopped", "failed".
 std::string_view name_of(JobKind kind);
 std::string_view name_of(JobOutcome outcome);
 

@@ -1,5 +1,4 @@
-// Consecutive messages in one reused piece of memory: nothing is allocated once it has
-// grown.
+// Stores consecutive messages in one reused piece of memory. It allocates nothing once this memory has grown.
 #pragma once
 
 #include <cstdint>

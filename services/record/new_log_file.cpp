@@ -13,7 +13,7 @@ bool is_log(const std::filesystem::path& path) {
     return event && *event;
 }
 
-/// Empty: it may be written. Otherwise the reason why not.
+/// Returns why the file must not be written; empty if it may be written.
 std::string obstacle(const std::filesystem::path& path, bool force) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);

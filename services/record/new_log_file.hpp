@@ -1,4 +1,4 @@
-// A log under construction: it gets its name when it is complete, so that an interrupted run leaves no partial log.
+// A log that gets its name only when it is complete, so that an interrupted run leaves no partial log.
 #pragma once
 
 #include <expected>
@@ -13,8 +13,7 @@ namespace lockstep {
 
 class NewLogFile {
 public:
-    /// `force`: replaces any file; without it only a log is replaced. Error: why not, and the
-    /// remedy.
+    /// With `force` it replaces any file, otherwise only a log or an empty file. Error: why it cannot, and the remedy.
     static std::expected<NewLogFile, std::string> begin(const std::filesystem::path& path, bool force);
 
     RecordSink& sink() { return *sink_; }

@@ -1,4 +1,4 @@
-// The log that a process keeps on its own board, as the machine's file configures it (`record`).
+// Opens the log that a process keeps on its own board, as the machine's file configures it (`record`).
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@
 
 namespace lockstep {
 
-/// `axis` is empty for the coordinator. Error: the disk's, and the remedy.
+/// `axis` is empty for the coordinator. Error: the disk's error, and the remedy.
 std::expected<std::unique_ptr<RecordSink>, std::string> open_own_log(const MachineConfig& machine,
                                                                      const std::string& axis);
 
 /// Where this host's processes of the machine keep their logs.
 std::filesystem::path own_log_directory(const MachineConfig& machine);
 
-/// For a process's log, if it has lost so many messages since its start.
+/// The text that a process logs when it has lost `lost` messages of the record since its start.
 std::string lost_records_text(const MachineConfig& machine, std::uint64_t lost);
 
 }  // namespace lockstep

@@ -6,7 +6,7 @@ namespace lockstep {
 
 namespace {
 
-/// The space that a sink reserves for loss messages.
+/// Writes into the space that a sink reserves for loss messages.
 class KeptRoom final : public RecordSink {
 public:
     explicit KeptRoom(RecordSink& of) : of_(of) {}
@@ -60,7 +60,7 @@ void QueuedSink::add(Backlog& backlog, std::string_view channel, std::int64_t ut
     fits ? backlog.block.add(channel, utime, bytes) : lose(backlog.dropped, channel, utime, bytes);
 }
 
-/// Keeps the order: messages put aside go first.
+/// Keeps the order: it first queues the messages put aside.
 void QueuedSink::write(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) {
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (!lock) { return add(aside_, channel, utime, bytes); }
@@ -100,7 +100,7 @@ void QueuedSink::write_out(const Backlog& backlog) {
     if (!backlog.block.empty()) { behind_->flush(); }
 }
 
-/// Returns false if the loss could not be written. Then it is written later.
+/// Returns false if no loss was written. A loss that could not be written is written later.
 bool QueuedSink::report_losses(RecordSink& to) {
     if (unreported_.messages == 0) { return false; }
     const std::uint64_t failed = behind_->failures();

@@ -1,9 +1,9 @@
-// A sink behind a queue, served by its own thread: a writer never waits, however long the disk takes.
+// A queue in front of a sink. A separate thread writes to the sink, so the caller never waits for a slow disk.
 //
-// The queue is bounded. Messages that do not fit are counted, and a loss message is written to the sink behind, in the
-// place where they are missing. While nothing can be written, losses are recorded in the space that the sink behind
-// reserves for them: at once, whenever the loss has doubled, and at the end; with the newest lost mark
-// (record_marker.hpp), so that a log that ends in this way shows what it lacks.
+// The queue is bounded. It counts the messages that do not fit, and writes a loss message to the sink in their place.
+// While the sink can write nothing, losses are recorded in the space that it reserves for them: at once, whenever the
+// loss has doubled, and at the end. They include the newest lost mark (record_marker.hpp), so that a log that ends in
+// this way shows what it lacks.
 #pragma once
 
 #include <atomic>
@@ -26,7 +26,7 @@ struct RecordLoss {
     std::uint64_t messages = 0;
     std::int64_t first_utime = 0;
     std::int64_t last_utime = 0;
-    std::vector<std::uint8_t> mark;  // the newest lost mark of the process's own; empty: none was
+    std::vector<std::uint8_t> mark;  // the process's newest mark that was lost; empty if none was
 
     void add(std::int64_t utime, std::span<const std::uint8_t> lost_mark);
     void add(const RecordLoss& later);
@@ -38,7 +38,8 @@ public:
     static constexpr std::size_t kQueueBytes = 8 << 20;
     static constexpr std::chrono::milliseconds kPeriod{20};  // how often the thread checks the queue
 
-    /// Only the thread calls `behind` and `write_loss`, which writes a loss to the given sink.
+    /// Writes a loss to the given sink. The queue's thread calls this function and the sink `behind`; other threads
+    /// never do.
     using WriteLoss = std::function<void(RecordSink& behind, const RecordLoss& loss)>;
     QueuedSink(std::unique_ptr<RecordSink> behind, WriteLoss write_loss, std::string mark_channel = {},
                std::size_t queue_bytes = kQueueBytes);
@@ -51,8 +52,8 @@ public:
     std::uint64_t failures() const override { return lost_.load(std::memory_order_relaxed); }
 
 private:
-    /// Messages, and the loss after them. After the first that did not fit all are dropped, so that the log lacks them
-    /// in one place.
+    /// Messages, and the loss after them. After the first message that did not fit, all others are dropped, so that the
+    /// log has one gap.
     struct Backlog {
         MessageBlock block;
         RecordLoss dropped;
@@ -71,15 +72,15 @@ private:
     std::size_t queue_bytes_;
     std::atomic<std::uint64_t> lost_ = 0;
 
-    Backlog aside_;  // the writer's own, while the thread holds the queue
+    Backlog aside_;  // messages of the caller while the thread holds the queue
 
-    std::mutex mutex_;  // of queue_; held by the thread while it takes the queue
+    std::mutex mutex_;  // guards queue_; the thread holds it only while it takes the queue
     std::condition_variable_any wake_;
     Backlog queue_;
 
-    // The thread's:
+    // Used by the thread:
     RecordLoss unreported_;                // losses that are not yet recorded
-    std::uint64_t reported_in_a_row_ = 0;  // lost messages recorded since one was written
+    std::uint64_t reported_in_a_row_ = 0;  // lost messages recorded since the last written message
     std::jthread thread_;
 };
 

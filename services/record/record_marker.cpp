@@ -6,7 +6,7 @@
 namespace lockstep {
 namespace {
 
-/// Positions and figures are published at rest as well.
+/// Ignores positions and figures, which are published at rest too.
 bool same_motion(const RecordCounts& a, const RecordCounts& b) {
     return a.steps == b.steps && a.runs == b.runs && a.job_events == b.job_events && a.program_parts == b.program_parts;
 }

@@ -1,8 +1,8 @@
-// Writes into one process's record how much of the record each process has published, itself included: so the logs of
-// the other processes show what a log lacks at its end, or that it is missing altogether.
+// Writes into one process's record how many messages each process has published, including itself. So the logs of the
+// other processes show which messages a log lacks at its end, or that a log is missing.
 //
-// A mark is written at once for a new process, then every kPeriod, as soon as its counts of motion and jobs have not
-// grown for kSettled, and at its end.
+// It writes a mark of a process when the process is new, every kPeriod_ns, when its counts of motion and jobs have not
+// grown for kSettled_ns, and at its end.
 #pragma once
 
 #include <map>
@@ -19,15 +19,15 @@ class RecordMarker {
 public:
     static constexpr std::int64_t kPeriod_ns = 1'000'000'000;
     static constexpr std::int64_t kSettled_ns = 100'000'000;
-    static constexpr std::size_t kMostProcesses = 1024;  // beyond it all are marked again
+    static constexpr std::size_t kMostProcesses = 1024;  // at this number all are forgotten and marked again
 
-    /// `writer` is the axis that writes, empty for a coordinator. `sink` outlives this object.
+    /// `writer` is the axis that writes, empty for a coordinator. `sink` must outlive this object.
     RecordMarker(const MachineConfig& machine, std::string writer, RecordSink& sink)
         : machine_(machine.name), writer_(std::move(writer)), tick_ns_(machine.tick_ns), sink_(sink) {}
 
-    /// The published counts of a process at `then`, machine time. `process` is an axis, empty for a coordinator.
+    /// Notes the published counts of a process at machine time `then`. `process` is an axis, empty for a coordinator.
     void note(const std::string& process, Identity incarnation, const RecordCounts& counts, Tick then);
-    /// The same, and the process publishes nothing more.
+    /// Notes the final counts of a process that publishes nothing more.
     void note_end(const std::string& process, Identity incarnation, const RecordCounts& counts, Tick then);
 
 private:

@@ -11,18 +11,19 @@ namespace lockstep {
 class RecordSink {
 public:
     virtual ~RecordSink() = default;
-    /// utime: microseconds of machine time. A message that cannot be written is counted: motion never waits for it.
+    /// `utime` is machine time in microseconds. A message that cannot be written is only counted; motion never waits
+    /// for it.
     virtual void write(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) = 0;
     /// Writes into reserved space, even if nothing else can be written.
     virtual void write_kept(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) {
         write(channel, utime, bytes);
     }
-    /// Passes on everything that is buffered in memory.
+    /// Writes all data buffered in memory.
     virtual void flush() {}
     /// Messages that could not be written.
     virtual std::uint64_t failures() const { return 0; }
 
-    /// Message: a type that lcm-gen made.
+    /// `Message` is a type made by lcm-gen.
     template <typename Message>
     void publish(const std::string& channel, const Message& message) {
         buffer_.resize(static_cast<std::size_t>(message.getEncodedSize()));

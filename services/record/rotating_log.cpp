@@ -17,7 +17,7 @@ struct NumberedFile {
     std::uint64_t bytes = 0;
 };
 
-/// The number in NAME.NUMBER.lcm.
+/// Returns the number in NAME.NUMBER.lcm.
 std::optional<std::uint64_t> number_in(const std::string& file, const std::string& name) {
     constexpr std::string_view kEnd = ".lcm";
     if (!file.starts_with(name + ".") || !file.ends_with(kEnd)) { return std::nullopt; }
@@ -28,7 +28,7 @@ std::optional<std::uint64_t> number_in(const std::string& file, const std::strin
     return from < to && end == to && error == std::errc{} ? std::optional(number) : std::nullopt;
 }
 
-/// The oldest first.
+/// Returns the files of the log, oldest first.
 std::vector<NumberedFile> files_of(const RotatingLog::Place& place) {
     std::vector<NumberedFile> files;
     std::error_code error;
@@ -48,8 +48,8 @@ std::string file_name(const std::string& name, std::uint64_t number) {
     return name + "." + digits + ".lcm";
 }
 
-/// The first free name from `number` on: a coordinator and its standby keep their files side by side. If no file can be
-/// created, opening it reports why.
+/// Claims the first free name from `number` on, because a coordinator and its standby use the same names. If no file
+/// can be created, the later opening reports why.
 fs::path claim_file(const RotatingLog::Place& place, std::uint64_t number) {
     constexpr std::uint64_t kMostRivals = 100;
     fs::path path;
@@ -83,7 +83,7 @@ std::expected<RotatingLog::File, std::string> RotatingLog::new_file() const {
     auto writer = LogWriter::open(path);
     if (!writer) { return std::unexpected(writer.error()); }
     File file{DiskRoom(path), std::move(*writer)};
-    if (file_ && !file.room.reaches(0)) {  // the previous file has room for loss messages, the new one has none
+    if (file_ && !file.room.reaches(0)) {  // keeps the previous file, which has room for loss messages
         std::error_code ignored;
         fs::remove(path, ignored);
         return std::unexpected("the disk is full");
@@ -100,8 +100,8 @@ bool RotatingLog::begin_file() {
     return true;
 }
 
-/// Until a new file has room. Empty files, of processes that ended early, count as if they were not empty: otherwise
-/// their number would be unbounded.
+/// Removes the oldest files until a new one has room. Even an empty file, of a process that ended early, counts as
+/// kLeastBytes, otherwise the number of files would be unbounded.
 void RotatingLog::remove_oldest() const {
     constexpr std::uint64_t kLeastBytes = 4096;
     const std::uint64_t room = place_.limit_bytes - place_.limit_bytes / kFiles;
@@ -115,7 +115,7 @@ void RotatingLog::remove_oldest() const {
     }
 }
 
-/// A message larger than a whole file gets its own file.
+/// A message larger than a file's limit gets its own file.
 bool RotatingLog::has_room(std::uint64_t bytes) const {
     return file_->written == 0 || file_->written + bytes <= place_.limit_bytes / kFiles;
 }
@@ -154,7 +154,7 @@ void RotatingLog::write_kept(const std::string& channel, std::int64_t utime, std
     file_ ? put(channel, utime, bytes) : void(++failures_);
 }
 
-/// A failure here cannot be assigned to single messages: it counts once, and the file's end shows it.
+/// A failed flush may lose several messages but counts as one failure. The file's end shows the gap.
 void RotatingLog::flush() {
     if (!file_ || file_->writer.flush()) { return; }
     ++failures_;

@@ -1,6 +1,6 @@
-// A log on disk with a maximum size: files NAME.000001.lcm, NAME.000002.lcm, ..., each an eighth of the limit. When one
-// is full the next begins and the oldest is removed, whichever process wrote it. The file in progress reserves a little
-// space, so that losses can be recorded on a full disk.
+// A log on disk with a maximum size. It has files NAME.000001.lcm, NAME.000002.lcm, ..., each of at most an eighth of
+// the limit. When one is full, it begins the next and removes the oldest, even if another process wrote that. The file
+// in progress reserves some space, so that losses can be recorded on a full disk.
 #pragma once
 
 #include <cstdint>
@@ -22,11 +22,11 @@ public:
 
     struct Place {
         std::filesystem::path directory;
-        std::string name;  // of the writing process
+        std::string name;  // name of the writing process
         std::uint64_t limit_bytes = 0;
     };
 
-    /// Creates the directory, and a new file after those that exist. Error: why not, and the remedy.
+    /// Creates the directory, and a new file with the next number. Error: why it cannot.
     static std::expected<RotatingLog, std::string> open(Place place);
 
     void write(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) override;
@@ -37,9 +37,9 @@ public:
 private:
     explicit RotatingLog(Place place) : place_(std::move(place)) {}
     struct File {
-        DiskRoom room;  // released when the writer has written everything
+        DiskRoom room;  // destroyed after the writer, which has then written everything
         LogWriter writer;
-        std::uint64_t written = 0;  // bytes
+        std::uint64_t written = 0;  // bytes so far
     };
 
     std::expected<File, std::string> new_file() const;
@@ -51,8 +51,8 @@ private:
     void remove_oldest() const;
 
     Place place_;
-    std::optional<File> file_;      // none: the last one failed
-    std::int64_t retry_utime_ = 0;  // no new file is begun before
+    std::optional<File> file_;      // nullopt: the last one failed
+    std::int64_t retry_utime_ = 0;  // no new file before this time
     std::int64_t last_utime_ = 0;
     std::uint64_t failures_ = 0;
 };

@@ -32,7 +32,7 @@ std::string RouteWatch::restore() const {
     return lost + "; " + (added ? "its route was added again" : added.error());
 }
 
-/// Reports the same problem once, until the route exists again.
+/// Reports the same problem only once until the route exists again.
 void RouteWatch::watch(const std::stop_token& stop) const {
     leave_real_time();
     std::mutex mutex;

@@ -1,5 +1,5 @@
-// Keeps LCM's multicast route. The kernel drops the routes of an interface that goes down, and does not restore the one
-// of lo when it comes up again: the record would be lost from then on.
+// Keeps LCM's multicast route. The kernel drops the routes of an interface that goes down, and does not restore the
+// route of lo when lo comes up again. Without this watch, the record would be lost from then on.
 #pragma once
 
 #include <memory>
@@ -12,12 +12,13 @@ namespace lockstep {
 
 class RouteWatch {
 public:
-    /// address: of LCM's multicast. interface: its present and required route.
+    /// `address` is LCM's multicast address. `interface` is the interface of its route, now and always.
     RouteWatch(std::string address, std::string interface);
 
 private:
     void watch(const std::stop_token& stop) const;
-    /// Adds the route of lo if this process may. Returns the text to report; empty: nothing.
+    /// If the route is lost, adds the one of lo if this process may. Returns the text to report; empty if the route
+    /// exists.
     std::string restore() const;
 
     std::string address_;
@@ -25,7 +26,7 @@ private:
     std::jthread thread_;
 };
 
-/// Null: LCM does not use multicast, or is not routed.
+/// Returns null if LCM does not use multicast or has no route.
 std::unique_ptr<RouteWatch> watch_route(const NetworkConfig& network);
 
 }  // namespace lockstep

@@ -1,4 +1,4 @@
-// The sinks: LCM's network, for lcm-logger and lcm-spy; LCM's log file; several at once.
+// The sinks: LCM's network (for lcm-logger and lcm-spy), an LCM log file, none, and several at once.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ namespace lockstep {
 
 class LcmSink : public RecordSink {
 public:
-    /// watch: of the route by which it publishes; it may be null.
+    /// `watch` keeps the route of the publisher; it may be null.
     explicit LcmSink(LcmPublisher publisher, std::unique_ptr<RouteWatch> watch = nullptr)
         : publisher_(std::move(publisher)), watch_(std::move(watch)) {}
     void write(const std::string& channel, std::int64_t /*utime*/, std::span<const std::uint8_t> bytes) override {
@@ -34,7 +34,7 @@ public:
     void write(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) override {
         failures_ += writer_.write(channel, utime, bytes) ? 0 : 1;
     }
-    /// False: the file is incomplete.
+    /// Returns false if the file is incomplete.
     bool finish() { return writer_.flush() && failures_ == 0; }
     std::uint64_t failures() const override { return failures_; }
 
@@ -66,9 +66,8 @@ private:
     std::vector<std::unique_ptr<RecordSink>> sinks_;
 };
 
-/// A process's record: to the network if it is `published`, and into its own log if the machine's file asks for one.
-/// `axis` is the axis's name, empty for the coordinator. A sink that cannot be opened is omitted: the log states
-/// why.
+/// Opens a process's record: the network if `published`, and its own log if the machine's file asks for one. `axis` is
+/// the axis's name, empty for the coordinator. If a sink cannot be opened, the function omits it and logs the reason.
 std::unique_ptr<RecordSink> open_record(const MachineConfig& machine, const std::string& axis, bool published);
 
 }  // namespace lockstep

@@ -51,7 +51,7 @@ void StepBatcher::add(StepEdge step) {
 
 void StepBatcher::poll(Tick now) {
     if (now < due_) { return; }
-    const std::int64_t turns = (now - due_).value / period_.value + 1;  // missed turns are not repeated
+    const std::int64_t turns = (now - due_).value / period_.value + 1;  // missed turns are skipped
     due_ += period_ * turns;
     flush();
 }

@@ -1,5 +1,6 @@
-// Collects the steps of one axis into messages: one each kBatchPeriod, and one more whenever a message is full. The
-// axes' turns are spread over the period, so that a logger does not receive all of them at once.
+// Collects the steps of one axis into messages. It publishes one message each kBatchPeriod, and another one whenever a
+// message is full. The axes publish at different times of the period, so that a logger does not receive all messages at
+// once.
 #pragma once
 
 #include <chrono>
@@ -19,7 +20,7 @@ public:
     using Publish = std::function<void(step_batch_t& batch)>;
 
     static constexpr std::chrono::nanoseconds kBatchPeriod = std::chrono::milliseconds{10};
-    static constexpr std::int32_t kMaxSteps = 2000;  // 10 KB: larger messages need more fragments without benefit
+    static constexpr std::int32_t kMaxSteps = 2000;  // 10 KB: larger messages only need more fragments
 
     struct Source {
         std::string machine;
@@ -31,7 +32,7 @@ public:
 
     StepBatcher(Source source, std::int64_t position_steps, Publish publish);
 
-    /// Steps come in the order of their ticks.
+    /// Call it in the order of the steps' ticks.
     void add(StepEdge step);
 
     /// Publishes the collected steps if it is the axis's turn. Call it once a loop, with the device's time. An axis at
@@ -41,7 +42,7 @@ public:
     /// Publishes the collected steps.
     void flush();
 
-    /// The count jumps without steps: the axis was zeroed, or the times of some steps were lost. Publishes the
+    /// Sets the count without steps, because the axis was zeroed or the times of some steps were lost. Publishes the
     /// collected steps first, so that a reader sees the jump between two batches.
     void set_position(std::int64_t position_steps);
 
@@ -54,8 +55,8 @@ private:
     Publish publish_;
     Ticks period_;
     Tick due_;                // the axis's next turn
-    Tick last_step_;          // of the batch, if it is not empty
-    std::int64_t moved_ = 0;  // by the batch's steps
+    Tick last_step_;          // last step of the batch, if it is not empty
+    std::int64_t moved_ = 0;  // displacement by the batch's steps
 };
 
 }  // namespace lockstep

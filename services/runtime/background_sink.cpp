@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kLines = 256;
 
-/// Blocks the process's signals, so that only the threads that wait for them receive them.
+/// Blocks all signals in this thread, so that a thread started meanwhile receives none.
 class SignalsBlocked {
 public:
     SignalsBlocked() {
@@ -31,7 +31,7 @@ private:
     sigset_t before_{};
 };
 
-/// False: it did not hold in this time.
+/// Returns whether the condition became true within this time.
 template <typename Condition>
 bool wait_until(std::chrono::milliseconds most, Condition condition) {
     constexpr std::chrono::milliseconds kStep{1};
@@ -44,7 +44,7 @@ bool wait_until(std::chrono::milliseconds most, Condition condition) {
 struct BackgroundSink::Shared {
     explicit Shared(spdlog::sink_ptr sink) : to(std::move(sink)) {}
 
-    /// spdlog throws if the disk is full.
+    /// Catches the exception that spdlog throws if the disk is full.
     void write(std::chrono::system_clock::time_point time, int level, std::string_view text) {
         try {
             to->log({time, {}, {}, static_cast<spdlog::level::level_enum>(level), {text.data(), text.size()}});
@@ -62,9 +62,9 @@ struct BackgroundSink::Shared {
 
     spdlog::sink_ptr to;
     LineQueue<kLines> queue;
-    std::atomic<std::uint32_t> changes = 0;  // lines added, and the end
+    std::atomic<std::uint32_t> changes = 0;  // counts added lines and the request to end
     std::atomic<bool> ends = false;
-    std::atomic<bool> has_ended = false;  // the thread
+    std::atomic<bool> has_ended = false;  // the thread has ended
     std::atomic<std::uint64_t> unwritten = 0;
     std::uint64_t reported = 0;  // lost lines reported so far
 };

@@ -1,5 +1,5 @@
-// Writes the log in its own thread, so that no loop waits for a disk that hangs. A line that does not fit into the
-// queue is lost, counted, and reported in the log as soon as the disk works again.
+// Writes the log in a separate thread, so that no loop waits for a disk that hangs. A line that does not fit into the
+// queue is lost. The sink counts such lines and reports them in the log when the disk works again.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@ namespace lockstep {
 
 class BackgroundSink final : public spdlog::sinks::sink {
 public:
-    /// to: where the lines are written.
+    /// `to` is the sink that writes the lines.
     explicit BackgroundSink(spdlog::sink_ptr to);
     /// Writes the queued lines, but waits at most kPatience.
     ~BackgroundSink() override;
@@ -37,7 +37,7 @@ private:
     struct Shared;
     static void serve(const std::shared_ptr<Shared>& shared);
 
-    std::shared_ptr<Shared> shared_;  // the thread's too: if the disk hangs, the thread outlives this object
+    std::shared_ptr<Shared> shared_;  // shared with the thread, which outlives this object if the disk hangs
     std::thread thread_;
 };
 

@@ -1,6 +1,6 @@
-// The clock of a process, in ticks. If machine time is shared, or comes over the network, it is CLOCK_MONOTONIC:
-// it does not jump when the wall clock is set, and its origin is the host's start. With PTP it is CLOCK_TAI, which the
-// PTP service synchronizes on all hosts.
+// The clock of a process, in ticks. With the time sources SHARED and NETWORK it is CLOCK_MONOTONIC, which begins at the
+// host's start and does not jump when the wall clock is set. With PTP it is CLOCK_TAI, which the PTP service
+// synchronizes on all hosts.
 #pragma once
 
 #include <chrono>
@@ -17,7 +17,7 @@ std::chrono::nanoseconds monotonic_now();
 
 class MachineClock {
 public:
-    /// tick_ns: nanoseconds in a tick, at least 1. `error`: for tests, from now on.
+    /// `tick_ns`: nanoseconds in a tick, at least 1. `error`: for tests; it applies from now on.
     explicit MachineClock(std::int64_t tick_ns, TimeSource source = TimeSource::Shared, const ClockError& error = {});
 
     /// The last tick that has begun.

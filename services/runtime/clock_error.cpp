@@ -21,7 +21,7 @@ std::optional<double> number(std::string_view text) {
     return whole && std::abs(value) <= kMost ? std::optional(value) : std::nullopt;
 }
 
-/// One part, such as ppm=50. False: it cannot be read.
+/// Reads one part, such as ppm=50. Returns false if it cannot be read.
 bool read_part(std::string_view part, ClockError& error) {
     const std::size_t equals = part.find('=');
     if (equals == std::string_view::npos) { return false; }

@@ -16,7 +16,7 @@ namespace {
 constexpr int kLooksAtEnd = 40;
 constexpr std::string_view kWhy = "did not end in the time given: a disk may hang; ends at once\n";
 
-/// Without the log: a thread that hangs may hold it.
+/// Does not use the log, because a thread that hangs may hold the log's lock.
 [[noreturn]] void end_at_once() {
     pollfd log{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
     if (poll(&log, 1, 0) == 1) { (void)!write(log.fd, kWhy.data(), kWhy.size()); }

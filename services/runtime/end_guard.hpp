@@ -1,7 +1,7 @@
-// Bounds how long a process takes to end: a thread whose disk hangs, for example, may never end.
+// Bounds how long a process takes to end. For example, a thread that waits for a hung disk may never end.
 //
-// It is the first object of a service, so that it outlives everything that the end waits for. What is not written by
-// then is lost, as if the process had been killed; its flight recorder's memory stays.
+// It is the first object of a service, so that it outlives all objects that the end waits for. Data not written by then
+// is lost, as if the process had been killed, but its flight recorder's memory stays.
 #pragma once
 
 #include <chrono>
@@ -15,8 +15,8 @@ inline constexpr std::chrono::seconds kLongestEnd{4};
 
 class EndGuard {
 public:
-    /// Once a stop has been requested the process has `longest` to end; then it ends at once, with kServiceFailed. It
-    /// counts its own checks, not time: while the whole process stands still it does not check either.
+    /// After a stop was requested, the process has `longest` to end. Then the guard ends it at once with
+    /// kServiceFailed. The guard counts its own checks, not time, so a stall of the whole process does not count.
     explicit EndGuard(const StopSignal& stop, std::chrono::milliseconds longest = kLongestEnd);
 
 private:

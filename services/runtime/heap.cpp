@@ -5,7 +5,7 @@
 namespace lockstep {
 
 void give_back_large_blocks() {
-    constexpr int kLargeBlock_bytes = 128 << 10;  // glibc's own value at a process's start
+    constexpr int kLargeBlock_bytes = 128 << 10;  // glibc's initial value
     mallopt(M_MMAP_THRESHOLD, kLargeBlock_bytes);
 }
 

@@ -1,8 +1,9 @@
-// A bounded queue of log lines: any thread adds, one thread takes, and no thread waits. If it is full, a line is
-// dropped and counted.
+// A bounded queue of log lines. Any thread may add lines, one thread takes them, and no thread waits. If the queue is
+// full, it drops the line and counts it.
 //
-// Each place has a turn: `at` when it is free for the line numbered `at`, `at + 1` when it holds that line. A thread
-// that adds claims a number first, fills the place, then publishes it. Source: Dmitry Vyukov's bounded MPMC queue.
+// Each place has a number `turn`. It is `at` while the place is free for line number `at`, and `at + 1` while the place
+// holds that line. A thread that adds a line claims a number, fills the place, and then publishes it. Source: Dmitry
+// Vyukov's bounded MPMC queue.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +16,7 @@
 
 namespace lockstep {
 
-/// Without its time and level, which the writer adds.
+/// The text excludes the time and level, which the writer adds.
 struct LogLine {
     static constexpr std::size_t kMaxBytes = 1000;  // the rest is cut off
     std::chrono::system_clock::time_point time;
@@ -33,7 +34,7 @@ public:
         for (std::size_t i = 0; i < kPlaces; ++i) { places_[i].turn.store(i, std::memory_order_relaxed); }
     }
 
-    /// From any thread. False: it is full.
+    /// Any thread may call it. Returns false if the queue is full.
     bool add(std::chrono::system_clock::time_point time, int level, std::string_view text) {
         std::size_t at = in_.load(std::memory_order_relaxed);
         for (;;) {
@@ -53,7 +54,7 @@ public:
         }
     }
 
-    /// From one thread: calls use(const LogLine&) for the oldest line. False: there is none.
+    /// Only one thread may call it. Calls use(const LogLine&) for the oldest line. Returns false if there is none.
     template <typename Use>
     bool take(Use use) {
         const std::size_t at = out_.load(std::memory_order_relaxed);

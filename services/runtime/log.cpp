@@ -14,7 +14,7 @@
 namespace lockstep {
 namespace {
 
-/// A field of the pattern: spdlog reads '%' as the start of a flag.
+/// Makes a field of spdlog's pattern. It doubles '%', which spdlog would read as the start of a flag.
 std::string word(std::string_view text) {
     std::string out;
     for (char c : text) { out += c == '%' ? "%%" : std::string(1, c); }
@@ -29,7 +29,7 @@ std::expected<spdlog::sink_ptr, std::string> sink_for(const LogTarget& target) {
     return std::make_shared<spdlog::sinks::rotating_file_sink_mt>(target.file->string(), kLogFileBytes, kOlderLogFiles);
 }
 
-/// Null: the log is written at once.
+/// Null if the caller's thread writes the log itself.
 std::shared_ptr<BackgroundSink>& background_sink() {
     static std::shared_ptr<BackgroundSink> sink;
     return sink;

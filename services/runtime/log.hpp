@@ -25,23 +25,23 @@ struct LogTarget {
     std::string service;                        // "coordinator", "axis", ...
     std::string axis;                           // empty: none
     std::optional<std::filesystem::path> file;  // none: standard error
-    bool in_background = false;                 // for a process with a loop, which then never waits for the disk
+    bool in_background = false;                 // for a process with a loop: the loop never waits for the disk
 };
 
-/// Makes it spdlog's default logger. Error: the file cannot be opened, with its name and the reason.
+/// Makes a logger for `target` spdlog's default. Error: the file's name, and why it cannot be opened.
 std::expected<void, std::string> open_log(const LogTarget& target);
 
-/// Waits until the lines so far are written, but at most for this time.
+/// Waits until all lines so far are written, but at most for `most`.
 void drain_log(std::chrono::milliseconds most);
 
 /// Lines of a background log that were not written since it was opened, because the disk hung or was full.
 std::uint64_t lost_log_lines();
 
-/// One line about a fault: its stable name as the code, or "-" for FaultCode::None.
+/// Logs one line. Its code is the fault's stable name, or "-" for FaultCode::None.
 void log_event(spdlog::level::level_enum level, FaultCode code, std::string_view message);
 
 inline void log_info(std::string_view message) { log_event(spdlog::level::info, FaultCode::None, message); }
-/// For a loop: a line of usual length is made without allocation.
+/// For use in a loop: it formats a line of usual length without allocation.
 template <typename... Args>
 requires(sizeof...(Args) > 0) void log_info(fmt::format_string<Args...> format, Args&&... args) {
     fmt::memory_buffer text;

@@ -9,7 +9,7 @@
 namespace lockstep {
 namespace {
 
-constexpr int kLooks = 50;  // in a row without a loop between them
+constexpr int kLooks = 50;  // consecutive checks without a loop between them
 
 }  // namespace
 

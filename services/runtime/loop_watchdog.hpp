@@ -1,8 +1,8 @@
-// Ends a process whose loop stands still, so that its supervisor starts it again.
+// Ends a process if its loop is stuck, so that its supervisor starts it again.
 //
-// A call into a library may never return, for example after damaged packets. The axes then rest by themselves, but the
-// process would be missing for good. The watchdog counts its own checks, not time: while the whole process stands still
-// it does not check either, and the process goes on.
+// A call into a library may never return, for example after damaged packets. The axes then come to rest without it, but
+// the process would stay missing. The watchdog counts its own checks, not time, so a stall of the whole process does
+// not end it.
 #pragma once
 
 #include <atomic>
@@ -17,11 +17,11 @@ inline constexpr std::chrono::seconds kLongestLoop{5};
 
 class LoopWatchdog {
 public:
-    /// on_stuck: called once, in the watchdog's thread, after the loop has not run for `longest`; it must not wait for
-    /// the loop.
+    /// Calls on_stuck once, in the watchdog's thread, when the loop has not run for `longest`. on_stuck must not wait
+    /// for the loop.
     explicit LoopWatchdog(std::function<void()> on_stuck, std::chrono::milliseconds longest = kLongestLoop);
 
-    /// The loop calls it each time.
+    /// Call it in each loop.
     void note_loop() { loops_.fetch_add(1, std::memory_order_relaxed); }
 
 private:
@@ -30,7 +30,7 @@ private:
     std::function<void()> on_stuck_;
     std::chrono::milliseconds between_looks_;
     std::atomic<std::uint64_t> loops_ = 0;
-    std::jthread thread_;  // ends first
+    std::jthread thread_;  // declared last, so that it ends first
 };
 
 }  // namespace lockstep

@@ -1,6 +1,6 @@
-// A place in shared memory for one record at a time: one process writes it, any process may read it at any time,
-// and none waits. The record's number precedes it, and is 0 during a write: a reader never accepts a half-written
-// record, whether its writer is at work or was killed.
+// A place in shared memory for one record. One process writes it, any process may read it at any time, and no process
+// waits. The record's number precedes the record and is 0 during a write. So a reader never accepts a half-written
+// record, even if its writer was killed.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ struct NumberedSlot {
         Record record;
     };
 
-    /// slot: kWords words. number: not 0.
+    /// `slot` has kWords words. `number` is not 0.
     static void write(std::uint64_t* slot, std::uint64_t number, const Record& record) {
         std::array<std::uint64_t, kRecordWords> words{};
         std::memcpy(words.data(), &record, sizeof record);
@@ -40,7 +40,7 @@ struct NumberedSlot {
         shared_word(slot).store(number, std::memory_order_release);
     }
 
-    /// Nothing: never written, or being written.
+    /// Returns nullopt if the slot was never written or is being written.
     static std::optional<Numbered> read(std::uint64_t* slot) {
         const std::uint64_t number = shared_word(slot).load(std::memory_order_acquire);
         std::array<std::uint64_t, kRecordWords> words;

@@ -1,5 +1,5 @@
-// A loop at whole multiples of its period on CLOCK_MONOTONIC: loops of the same period in different processes wake
-// together, and a loop that wakes late skips the missed periods instead of running them in a burst.
+// A loop that wakes at whole multiples of its period on CLOCK_MONOTONIC. Loops of the same period in different
+// processes wake together. A loop that wakes late skips the missed periods instead of running them in a burst.
 #pragma once
 
 #include <chrono>
@@ -11,11 +11,12 @@ namespace lockstep {
 
 class PeriodicLoop {
 public:
-    /// period: more than 0. offset: how long after each multiple of the period it wakes.
+    /// `period` is more than 0. The loop wakes `offset` after each multiple of the period.
     explicit PeriodicLoop(std::chrono::nanoseconds period, std::chrono::nanoseconds offset = {})
         : period_(period), offset_(offset) {}
 
-    /// Calls step(the scheduled wake-up time, on CLOCK_MONOTONIC) once a period until a stop is requested.
+    /// Calls step(time) once a period until a stop is requested. `time` is the scheduled wake-up time on
+    /// CLOCK_MONOTONIC.
     template <typename Step>
     void run(const StopSignal& stop, Step step) {
         start();

@@ -41,7 +41,7 @@ std::string ask_for_cpus(const std::vector<int>& cpus) {
            std::to_string(sysconf(_SC_NPROCESSORS_CONF) - 1) + " (real_time.cpus)";
 }
 
-/// Freed memory stays with the process, and is touched once.
+/// Makes the process keep freed memory, and touches the heap once, so that the loop causes no page faults.
 void touch_heap() {
     mallopt(M_TRIM_THRESHOLD, -1);
     mallopt(M_MMAP_MAX, 0);
@@ -50,7 +50,7 @@ void touch_heap() {
     for (std::size_t i = 0; i < kHeap_bytes; i += 4096) { bytes[i] = 0; }
 }
 
-/// With a limit, a later mapping would fail if it exceeds it: then nothing is locked.
+/// With a limit on locked memory, a later mapping beyond the limit would fail, so then nothing is locked.
 bool may_lock_all() {
     rlimit limit{};
     return geteuid() == 0 || (getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY);

@@ -8,11 +8,12 @@
 
 namespace lockstep {
 
-/// Requests what is configured, for this thread and those that it starts later: call it before creating a DDS
-/// participant. Each line states what was granted, or what was refused, its effect, and the remedy.
+/// Requests the configured scheduling and memory locking for this thread and those that it starts later. Call it before
+/// creating a DDS participant. Each line of the result says what was granted, or what was refused, its effect, and the
+/// remedy.
 std::vector<std::string> ask_for_real_time(const RealTimeConfig& wanted);
 
-/// This thread has no deadlines: it returns to the normal scheduler.
+/// Returns this thread, which has no deadlines, to the normal scheduler.
 void leave_real_time();
 
 }  // namespace lockstep

@@ -6,7 +6,7 @@ namespace lockstep {
 
 ServiceManager::ServiceManager() {
     std::uint64_t watchdog_us = 0;
-    constexpr int kOftener = 4;  // than it must be
+    constexpr int kOftener = 4;  // times as often as required
     if (sd_watchdog_enabled(0, &watchdog_us) > 0) { period_ = std::chrono::microseconds(watchdog_us) / kOftener; }
 }
 

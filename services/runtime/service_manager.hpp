@@ -1,4 +1,4 @@
-// Notifies the systemd that started this service, if any: that it is ready, alive, or ending.
+// Tells systemd that this service is ready, alive, or ending. Has no effect if systemd did not start it.
 #pragma once
 
 #include <chrono>
@@ -11,13 +11,13 @@ public:
     ServiceManager();
 
     void ready(const std::string& status) const;
-    /// Call it in each loop: notifies the watchdog as often as it requires. systemd ends and restarts a service that
-    /// does not.
+    /// Call it in each loop. It notifies systemd's watchdog as often as required. systemd kills and restarts a service
+    /// that does not.
     void alive(std::chrono::nanoseconds now);
     void stopping() const;
 
 private:
-    std::chrono::nanoseconds period_{};  // 0: there is no watchdog
+    std::chrono::nanoseconds period_{};  // 0 without a watchdog
     std::chrono::nanoseconds notified_{};
 };
 

@@ -1,4 +1,4 @@
-// The command line options of every service, and its start: reads the machine, opens the log.
+// The command line options, exit codes and loop period that all services share.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +21,8 @@ struct ServiceOptions {
     bool record = true;                             // publish the record over LCM
 };
 
-/// How often a service checks for messages: several times a slot, so that sampling takes only a small part of a hop
-/// (core/protocol/rules.hpp). Shared memory delivers at once, so sampling may take a larger part.
+/// The period at which a service checks for messages. It is a fraction of a slot, so that sampling takes only a small
+/// part of a hop (core/protocol/rules.hpp). Shared memory delivers at once, so sampling may then take a larger part.
 inline std::chrono::nanoseconds loop_period(const MachineConfig& machine) {
     const int loops_per_slot = machine.network.one_host ? 2 : 4;
     const std::chrono::nanoseconds period{machine.timing.slot_us * 1000 / loops_per_slot};

@@ -1,4 +1,4 @@
-// A part of a memory file, shared with all processes that map it; the destructor unmaps it.
+// A mapped part of a memory file, shared with all processes that map it. The destructor unmaps it.
 #pragma once
 
 #include <sys/mman.h>
@@ -11,7 +11,8 @@ namespace lockstep {
 
 class SharedMapping {
 public:
-    /// file: a descriptor, which may be closed afterwards. protection, flags: of mmap. offset: whole pages.
+    /// `file` is a descriptor, which may be closed afterwards. `protection` and `flags` are those of mmap. `offset` is
+    /// a multiple of the page size.
     SharedMapping(int file, std::size_t bytes, int protection, int flags = 0, std::size_t offset = 0) : bytes_(bytes) {
         void* const at = mmap(nullptr, bytes, protection, MAP_SHARED | flags, file, static_cast<off_t>(offset));
         words_ = at == MAP_FAILED ? nullptr : static_cast<std::uint64_t*>(at);
@@ -23,7 +24,7 @@ public:
         if (words_ != nullptr) { munmap(words_, bytes_); }
     }
 
-    /// Null: mapping failed; errno gave the reason.
+    /// Null if mapping failed; the constructor left the reason in errno.
     std::uint64_t* words() const { return words_; }
     std::size_t bytes() const { return bytes_; }
 

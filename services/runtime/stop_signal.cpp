@@ -15,7 +15,7 @@ extern "C" void on_stop_signal(int) { stop_requested.store(true, std::memory_ord
 StopSignal::StopSignal() {
     stop_requested = false;
     struct sigaction action {};
-    action.sa_handler = on_stop_signal;  // without SA_RESTART: a sleeping loop wakes at once
+    action.sa_handler = on_stop_signal;  // without SA_RESTART, so that a sleeping loop wakes at once
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, &interrupt_before_);
     sigaction(SIGTERM, &action, &terminate_before_);

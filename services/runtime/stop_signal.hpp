@@ -1,11 +1,11 @@
-// SIGINT and SIGTERM as a flag that loops check, while the object exists.
+// While the object exists, SIGINT and SIGTERM set a flag that loops check.
 #pragma once
 
 #include <csignal>
 
 namespace lockstep {
 
-/// One at a time in a process: the flag is the process's. The destructor restores the previous handlers.
+/// At most one object exists in a process, because all share one flag. The destructor restores the previous handlers.
 class StopSignal {
 public:
     StopSignal();
@@ -14,7 +14,7 @@ public:
     StopSignal& operator=(const StopSignal&) = delete;
 
     bool requested() const;
-    /// Acts as if the signal had arrived: for a service that ends itself.
+    /// Acts as if the signal had arrived. For a service that ends itself.
     void request();
 
 private:

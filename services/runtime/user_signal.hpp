@@ -1,11 +1,11 @@
-// SIGUSR1 as a request that loops check, while the object exists.
+// While the object exists, SIGUSR1 sets a flag that loops check.
 #pragma once
 
 #include <csignal>
 
 namespace lockstep {
 
-/// One at a time in a process. The destructor restores the previous handler.
+/// At most one object exists in a process. The destructor restores the previous handler.
 class UserSignal {
 public:
     UserSignal();
@@ -13,7 +13,7 @@ public:
     UserSignal(const UserSignal&) = delete;
     UserSignal& operator=(const UserSignal&) = delete;
 
-    /// Whether it arrived since the last call.
+    /// Returns whether SIGUSR1 arrived since the last call.
     bool take();
 
 private:

@@ -17,7 +17,7 @@ std::string domain_of(const MachineConfig& machine) {
     return element("domains", element("id", std::to_string(machine.network.domain)));
 }
 
-/// Empty if nothing is granted: a rule without topics would not be valid.
+/// Returns an empty text if nothing is granted, because a rule without topics is not valid.
 std::string rule(const char* what, const Member& member, const std::vector<Role> TopicRights::*granted,
                  const std::vector<std::string>& partitions) {
     std::string topics;

@@ -16,14 +16,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::days kNearEnd{30};
-constexpr mode_t kForbidden = S_IRWXO | S_IWGRP | S_IXGRP;  // a group may read: the services' own
+constexpr mode_t kForbidden = S_IRWXO | S_IWGRP | S_IXGRP;  // the services' group may read
 
-/// Checks one file after the other and notes what is wrong.
+/// Checks one file after the other and notes the errors.
 class Inspection {
 public:
     Inspection(const MachineConfig& machine, const Member& member) : machine_(machine), member_(member) {}
 
-    /// Empty if it cannot be read.
+    /// Returns the text; empty if the file cannot be read.
     std::string read(const fs::path& path) {
         auto text = read_text_file(path);
         if (text) { return *std::move(text); }
@@ -36,7 +36,7 @@ public:
         if (::stat(path.c_str(), &facts) != 0 || (facts.st_mode & kForbidden) == 0) { return; }
         wrong(path, "others may read or change this private key", "chmod 600 " + path.string());
     }
-    /// Anybody who may write the directory may replace its files.
+    /// Checks the directory's mode, because users who may write the directory may replace its files.
     void look_at_directory_mode(const fs::path& path) {
         struct stat facts {};
         if (::stat(path.c_str(), &facts) != 0 || (facts.st_mode & (S_IWOTH | S_IWGRP)) == 0) { return; }
@@ -60,7 +60,7 @@ public:
     void require(const fs::path& path, const Outcome& outcome) {
         if (!outcome) { wrong(path, outcome.error(), kSame); }
     }
-    /// The signed content is what this machine's file asks for.
+    /// Requires that the signed content matches this machine's file.
     void require_content(const fs::path& path, const std::expected<std::string, std::string>& content,
                          const std::string& wanted) {
         require(path, content);

@@ -1,4 +1,5 @@
-// Checks whether a process may join a machine: its files exist, are private, valid, and made for this machine.
+// Checks whether a process may join a machine: its files must exist, be private, be valid, and be made for this
+// machine.
 #pragma once
 
 #include <chrono>
@@ -17,7 +18,7 @@ namespace lockstep {
 
 struct MemberCheck {
     std::vector<std::string> errors;    // each names the file and the remedy
-    std::vector<std::string> warnings;  // an expiry that is near
+    std::vector<std::string> warnings;  // a near expiry
     std::optional<CertificateFacts> certificate;
 };
 
@@ -29,8 +30,8 @@ struct Admission {
     std::vector<std::string> warnings;
 };
 
-/// As a member of this machine, with the files that its configuration names; without security, without files.
-/// Error: the first problem.
+/// Admits a member with the files that the machine's configuration names. Without security no files are needed. Error:
+/// the first problem.
 std::expected<Admission, std::string> admit(const MachineConfig& machine, const Member& member);
 
 }  // namespace lockstep

@@ -29,7 +29,7 @@ using Extension = std::unique_ptr<X509_EXTENSION, Freed<X509_EXTENSION_free>>;
 using Pkcs7 = std::unique_ptr<PKCS7, Freed<PKCS7_free>>;
 using Store = std::unique_ptr<X509_STORE, Freed<X509_STORE_free>>;
 
-constexpr int kVersion3 = 2;  // as X.509 counts
+constexpr int kVersion3 = 2;  // X.509 counts versions from 0
 constexpr int kSigning = PKCS7_DETACHED | PKCS7_TEXT | PKCS7_STREAM;
 
 std::unexpected<std::string> failed(const char* what) {
@@ -65,7 +65,7 @@ bool add_extension(X509* certificate, X509* issuer, int kind, const char* value)
     return extension && X509_add_ext(certificate, extension.get(), -1) == 1;
 }
 
-/// 127 random bits: no two certificates of an authority are alike.
+/// Sets a serial number of 127 random bits, so that no two certificates of an authority have the same one.
 bool set_serial(X509* certificate) {
     std::array<unsigned char, 16> bytes{};
     if (RAND_bytes(bytes.data(), bytes.size()) != 1) { return false; }
@@ -74,7 +74,7 @@ bool set_serial(X509* certificate) {
     return number && BN_to_ASN1_INTEGER(number.get(), X509_get_serialNumber(certificate)) != nullptr;
 }
 
-/// Valid from a day ago on, since hosts' clocks differ.
+/// The certificate is valid from one day ago, since hosts' clocks differ.
 bool fill(X509* certificate, const Subject& subject, EVP_PKEY* key, X509* issuer, std::chrono::days valid) {
     constexpr long kDay_s = 86400;
     X509_NAME* name = X509_get_subject_name(certificate);
@@ -125,7 +125,7 @@ struct Signer::Parts {
 
 namespace {
 
-/// authority: none if the certificate is self-signed.
+/// `authority` is null for a self-signed certificate.
 std::expected<Signer, std::string> make(const Subject& subject, const Signer* authority, std::chrono::days valid) {
     auto parts = std::make_shared<Signer::Parts>();
     parts->key.reset(EVP_EC_gen("P-256"));
@@ -186,7 +186,7 @@ std::expected<std::string, std::string> signed_content(const std::string& signed
     }
     const Bio out = writer();
     if (PKCS7_verify(signature.get(), nullptr, store.get(), content, out.get(), PKCS7_TEXT) != 1) {
-        return failed("the signature does not hold");
+        return failed("the signature is not valid");
     }
     std::string text = text_of(out);
     std::erase(text, '\r');  // S/MIME uses its own line endings

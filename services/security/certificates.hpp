@@ -1,5 +1,5 @@
-// Certificates, keys and signed documents, by OpenSSL: EC keys on P-256, X.509 certificates, S/MIME signatures, all in
-// PEM.
+// Makes and checks certificates, keys and signed documents with OpenSSL: EC keys on P-256 and X.509 certificates in
+// PEM, and S/MIME signatures.
 #pragma once
 
 #include <chrono>
@@ -28,28 +28,29 @@ struct Subject {
     std::string name;
 };
 
-/// Self-signed; may sign others.
+/// Makes a self-signed certificate that may sign others.
 std::expected<Signer, std::string> make_authority(const Subject& subject, std::chrono::days valid);
 
-/// Signed by `authority`.
+/// Makes a certificate signed by `authority`.
 std::expected<Signer, std::string> issue(const Subject& subject, const Signer& authority, std::chrono::days valid);
 
-/// The document with its signature, as S/MIME text.
+/// Returns the document with its signature, as S/MIME text.
 std::expected<std::string, std::string> sign(const std::string& document, const Signer& signer);
 
-/// The document that was signed. Error: `authority_pem` did not sign it in this form.
+/// Returns the document that was signed. Error: `authority_pem` did not sign exactly this content.
 std::expected<std::string, std::string> signed_content(const std::string& signed_document,
                                                        const std::string& authority_pem);
 
 struct CertificateFacts {
-    std::string subject;      // as RFC 2253 writes it
+    std::string subject;      // in the format of RFC 2253
     std::string fingerprint;  // SHA-256, in hex with colons
     std::chrono::sys_seconds from;
     std::chrono::sys_seconds until;
 };
 std::expected<CertificateFacts, std::string> read_certificate(const std::string& pem);
 
-/// Whether `authority_pem` signed the certificate, and the key is the certificate's. Error: which check failed.
+/// Check that `authority_pem` signed the certificate, and that the key belongs to the certificate. Error: which check
+/// failed.
 std::expected<void, std::string> check_certificate(const std::string& pem, const std::string& authority_pem);
 std::expected<void, std::string> check_key(const std::string& certificate_pem, const std::string& key_pem);
 

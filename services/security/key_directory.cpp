@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 constexpr mode_t kPublic = 0644;
 constexpr mode_t kPrivate = 0600;
 
-/// Never readable by others, not even between creation and closing.
+/// Creates the file with its final mode, so that others can never read a private one.
 std::expected<void, std::string> write_file(const fs::path& path, const std::string& text, mode_t mode) {
     const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
     const bool written =
@@ -89,13 +89,13 @@ std::expected<void, std::string> make_directory(const fs::path& path, fs::perms 
     return {};
 }
 
-/// Where the previous directory is moved. Two replacements within a second: the rename refuses the second.
+/// Returns the new name of the previous directory. If two replacements fall into one second, the second rename fails.
 fs::path aside(const fs::path& directory) {
     const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
     return directory.string() + ".replaced-" + time_text(now);
 }
 
-/// Puts the new directory in place in one step, or in two if there is one already.
+/// Puts the new directory in place in one step, or in two steps if a directory exists already.
 std::expected<MadeKeys, std::string> put_in_place(const fs::path& fresh, const fs::path& directory, bool is_occupied) {
     MadeKeys made;
     std::error_code error;

@@ -1,4 +1,4 @@
-// The directory of a machine's keys: its content, and how it is made.
+// The directory of a machine's keys. Its content:
 //
 //   identity-ca.pem permissions-ca.pem governance.p7s   for all
 //   NAME.pem NAME.key NAME.p7s                          for one member: certificate, private key, permissions
@@ -19,14 +19,14 @@ namespace lockstep {
 /// The files that one member needs.
 Credentials credentials_in(const std::filesystem::path& directory, const Member& member);
 
-/// UTC, as 2030-01-31T00:00:00Z.
+/// Returns the time in UTC, such as 2030-01-31T00:00:00Z.
 std::string time_text(std::chrono::sys_seconds time);
 
 struct MadeKeys {
-    std::string replaced;  // where the previous content is now; empty: there was none
+    std::string replaced;  // where the previous content is now; empty if there was none
 };
 
-/// Makes the keys of all members_of(machine): completely, or not at all. Error: the directory is not empty, and
+/// Makes the keys of all members_of(machine), either completely or not at all. Error: the directory is not empty and
 /// `replace` is not set; or the file and the reason.
 std::expected<MadeKeys, std::string> make_keys(const MachineConfig& machine, const std::filesystem::path& directory,
                                                std::chrono::days valid, bool replace);

@@ -1,4 +1,4 @@
-// The readers and writers of each topic: the one source of every member's permissions.
+// The readers and writers of each topic. All permissions of members derive from this table.
 //
 // DDS Security grants by topic and partition, not by key. So each axis writes in its own partition, and readers accept
 // a message about an axis only from that axis's partition (services/wire/bus/endpoints.hpp).

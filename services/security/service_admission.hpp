@@ -1,4 +1,5 @@
-// How a service joins: errors in its keys are reported at its start, and peers that DDS refuses later go to its log.
+// Lets a service join its machine. It reports errors in the service's keys at the start, and logs peers that DDS
+// refuses later.
 #pragma once
 
 #include <chrono>
@@ -14,7 +15,7 @@ namespace lockstep {
 /// Call it after open_log. Error: as admit.
 std::expected<Membership, std::string> admit_service(const MachineConfig& machine, const Member& member);
 
-/// Call it in each loop: writes unauthenticated peers to the log.
+/// Call it in each loop. Writes unauthenticated peers to the log.
 void log_unauthenticated_peers(std::chrono::nanoseconds now);
 
 }  // namespace lockstep

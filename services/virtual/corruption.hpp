@@ -1,7 +1,7 @@
-// Messages altered on their way: what no sender would say, and every receiver must see through.
+// Alters messages in transit into ones that no correct process sends and that every receiver must refuse.
 //
-// Each alteration can be told from the message alone, or from what its receiver knows. A frame altered into another
-// that is legal in itself cannot: against that the carrier has its checksums.
+// A receiver can detect each alteration from the message alone or from its own knowledge. It cannot detect a frame that
+// was altered into another legal frame. The carrier's checksums protect against that.
 #pragma once
 
 #include <array>
@@ -18,31 +18,31 @@ using VirtualMessage =
     std::variant<Frame, AxisState, MachineState, AxisCommand, Command, ProgramPart, Reply, ClockRequest, ClockReply>;
 
 enum class Alteration : std::uint8_t {
-    None,           // the message has nothing that could be altered so
-    FrameEpoch,     // of an epoch near by, or an absurd one
+    None,           // this kind of message is never altered
+    FrameEpoch,     // a near epoch number, or an absurd one
     FrameSequence,  // out of order
     FrameStart,     // between slots
-    FrameTicks,     // another length than its pieces have
-    FrameFrom,      // one axis starts elsewhere than it is
+    FrameTicks,     // a length that differs from that of its pieces
+    FrameFrom,      // one axis starts at a place where it is not
     FrameSpeed,     // one piece is beyond every limit
-    FrameAbsurd,    // one piece is of numbers that mean nothing
-    FrameTravel,    // one axis far outside its travel
-    FrameAxes,      // a track too many or too few
-    FrameTerm,      // of an owner that no process knows
-    StateAxis,      // said in another axis's name
-    StateStamp,     // long past, or far ahead
-    StateIdentity,  // of a process that no process knows
-    StatePosition,  // of an axis that is elsewhere
-    StateTerm,      // of an axis that follows an unknown owner
-    MachineTerm,    // of an owner that no process knows
-    CommandTerm,    // to an axis, of a coordinator that no process knows
+    FrameAbsurd,    // one piece has random numbers
+    FrameTravel,    // one axis is far outside its travel
+    FrameAxes,      // one track too many or too few
+    FrameTerm,      // the term of an unknown owner
+    StateAxis,      // the number of another axis
+    StateStamp,     // a stamp long past, or far in the future
+    StateIdentity,  // the identity of an unknown process
+    StatePosition,  // a position that is not the axis's
+    StateTerm,      // the term of an unknown owner
+    MachineTerm,    // the term of an unknown owner
+    CommandTerm,    // an order to an axis, with the term of an unknown coordinator
 };
 inline constexpr std::size_t kAlterations = 18;
 using AlterationCounts = std::array<std::uint64_t, kAlterations>;
 
 std::string_view name_of(Alteration alteration);
 
-/// Alters the message in a way drawn from those its kind has. Returns which.
+/// Alters the message in a random way of those possible for its type. Returns the way.
 Alteration alter(VirtualMessage& message, std::mt19937_64& random);
 
 }  // namespace lockstep

@@ -1,4 +1,4 @@
-// Faults to come: when each begins and ends.
+// A schedule of the beginnings and ends of faults.
 #pragma once
 
 #include <algorithm>
@@ -11,20 +11,20 @@ namespace lockstep {
 
 class FaultSchedule {
 public:
-    /// A fault begins or ends.
+    /// The beginning or end of a fault.
     struct Turn {
         VirtualFault fault;
         bool begins = true;
     };
 
-    /// What should have begun already begins at once.
+    /// A fault with a beginning in the past begins at once.
     void add(const VirtualFault& fault, Tick now) {
         turns_.emplace(std::max(fault.at, now), Turn{fault, true});
         add_end(std::max(fault.end(), now), fault);
     }
-    /// The end of a fault that has begun.
+    /// Adds the end of a fault that has begun.
     void add_end(Tick at, const VirtualFault& fault) { turns_.emplace(at, Turn{fault, false}); }
-    /// Faults that have not begun do not come after all.
+    /// Removes the faults that have not begun.
     void withdraw(Tick now) {
         std::erase_if(turns_, [now](const auto& turn) { return turn.second.fault.at > now; });
     }

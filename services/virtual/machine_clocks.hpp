@@ -1,4 +1,4 @@
-// What each process and device of a virtual machine reads of the time.
+// The clock of each process and device of a virtual machine.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,8 @@ namespace lockstep {
 
 class MachineClocks {
 public:
-    /// `start`: the true time at which all of them were switched on. Axes without clocks here read the machine's time.
+    /// `start` is the true time at which all clocks were switched on. Axes without an entry in `clocks` read the true
+    /// time.
     MachineClocks(std::vector<AxisClocks> clocks, Tick start) : clocks_(std::move(clocks)), start_(start) {}
 
     /// The coordinator's clock.
@@ -21,7 +22,7 @@ public:
         if (clocks_.size() <= axis) { clocks_.resize(axis + 1); }
         clocks_[axis].process.offset += forward;
     }
-    /// The coordinator's clock begins again.
+    /// Restarts the coordinator's clock.
     void reboot(Tick now) { booted_ = now - start_; }
 
 private:
@@ -29,7 +30,7 @@ private:
 
     std::vector<AxisClocks> clocks_;
     Tick start_;
-    Ticks booted_;  // by so much the coordinator's clock began later than the true one
+    Ticks booted_;  // the true time minus the coordinator's clock
 };
 
 }  // namespace lockstep

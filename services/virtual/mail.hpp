@@ -1,4 +1,4 @@
-// What a loop finds in its mailbox, sorted by kind.
+// The messages that a loop received, sorted by type.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace lockstep {
 
-/// Emptied and filled again for each loop: what its lists have taken of memory stays.
+/// Reused for each loop: its lists keep their memory.
 class Mail {
 public:
-    /// All that has arrived at `address` by `now`, and nothing else.
+    /// Replaces the content by the messages that have arrived at `address` by `now`.
     void collect(VirtualNetwork& network, Tick now, std::size_t address) {
         clear();
         network.receive(now, static_cast<VirtualNetwork::Address>(address), *this);

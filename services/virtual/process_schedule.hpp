@@ -1,4 +1,4 @@
-// When the loop of each process of a virtual machine runs next.
+// Keeps for each process of a virtual machine when its loop runs next.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ class ProcessSchedule {
 public:
     ProcessSchedule(std::size_t processes, Ticks period) : processes_(processes), period_(period) {}
 
-    /// It runs at once; after a start of the whole machine, each process at a phase of its own.
+    /// start() makes the process run at once. start_all() gives each process a random phase within the period.
     void start(std::size_t process, Tick now) { processes_[process] = {true, now}; }
     void start_all(Tick now, std::uint64_t seed) {
         std::mt19937_64 random(seed ^ 0x9e3779b97f4a7c15U);
@@ -25,12 +25,12 @@ public:
     }
     void end(std::size_t process) { processes_[process] = {}; }
     void run(std::size_t process) { processes_[process].next += period_; }
-    /// Its loop does not run before.
+    /// Its loop does not run before `until`.
     void delay(std::size_t process, Tick until) {
         processes_[process].next = std::max(processes_[process].next, until);
     }
 
-    /// The living process whose loop runs next.
+    /// Returns the running process with the earliest next loop; nullopt if no process runs.
     std::optional<std::size_t> next() const {
         std::optional<std::size_t> next;
         for (std::size_t i = 0; i < processes_.size(); ++i) {
@@ -39,7 +39,7 @@ public:
         return next;
     }
     Tick at(std::size_t process) const { return processes_[process].next; }
-    /// It lives, and its loop is not frozen.
+    /// Whether the process is alive and its loop is not frozen.
     bool is_up(std::size_t process, Tick now) const {
         return processes_[process].is_alive && at(process) <= now + period_;
     }

@@ -29,7 +29,7 @@ void VirtualClient::receive(Mail& mail, Tick now) {
     for (Reply& reply : mail.replies) { replies_.push_back(std::move(reply)); }
 }
 
-/// Another process of the axis may stamp by another clock.
+/// A later process of the same axis may stamp by another clock, so its state is always newer.
 void VirtualClient::receive(const AxisState& state) {
     if (state.axis >= axes_.size()) { return; }
     auto& newest = axes_[state.axis];
@@ -37,7 +37,7 @@ void VirtualClient::receive(const AxisState& state) {
     if (!newest || is_later || state.stamp >= newest->stamp) { newest = state; }
 }
 
-/// Of two owners the higher term counts, unless it has fallen silent.
+/// Accepts the state of the owner with the higher term, unless that owner has fallen silent.
 void VirtualClient::receive(const MachineState& state, Tick now) {
     if (state.phase == MachinePhase::Standby) { return; }
     const bool is_silent = !machine_ || now - received_ > silence_;

@@ -1,4 +1,4 @@
-// A client of a virtual machine: its commands, and the newest states and all replies that it has received.
+// A client of a virtual machine. It numbers its commands, and keeps the newest states and all replies.
 #pragma once
 
 #include <optional>
@@ -13,21 +13,21 @@ class VirtualClient {
 public:
     explicit VirtualClient(const MachineConfig& machine);
 
-    /// The next command, with a sequence number of its own.
+    /// Returns the command with the client's identity and the next sequence number.
     const Command& ask(Command command);
-    /// From this client, with a sequence number of its own.
+    /// Returns the part with the client's identity and the next sequence number.
     ProgramPart address(ProgramPart part);
     const Command& last_command() const { return command_; }
 
     void receive(Mail& mail, Tick now);
 
-    /// Of the machine, from its owner; nothing before the first.
+    /// The machine's newest state, from its owner; nullopt before the first.
     const std::optional<MachineState>& state() const { return machine_; }
     const std::vector<std::optional<AxisState>>& axis_states() const { return axes_; }
     const std::vector<Reply>& replies() const { return replies_; }
-    /// Null: none has come yet.
+    /// Null if no reply has come yet.
     const Reply* reply_to(std::uint64_t sequence) const;
-    /// Frees its memory.
+    /// Removes the reply, to free its memory.
     void forget_reply(std::uint64_t sequence);
 
 private:
@@ -36,12 +36,12 @@ private:
 
     static constexpr Identity kIdentity = 1;
 
-    Ticks silence_;  // after which an owner of a lower term counts
+    Ticks silence_;  // after it, a state of an owner with a lower term is accepted
     std::uint64_t sequence_ = 0;
     Command command_{.client = kIdentity};
     std::vector<Reply> replies_;
     std::optional<MachineState> machine_;
-    Tick received_;  // the newest state of the machine: the true time
+    Tick received_;  // true time at which machine_ was received
     std::vector<std::optional<AxisState>> axes_;
 };
 

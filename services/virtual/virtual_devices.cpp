@@ -6,7 +6,7 @@
 namespace lockstep {
 namespace {
 
-/// Its first piece starts a tick later than it should: the frame does not join the one before.
+/// Starts the frame's first piece a tick late, so the frame does not join the one before.
 void damage_newest_frame(RegisterWindow& window) {
     using namespace registers;
     const std::uint64_t head = window.load(kSegmentHead);
@@ -20,7 +20,7 @@ void damage_newest_frame(RegisterWindow& window) {
     }
 }
 
-/// Its last piece covers two steps more: the frame joins the one before and ends elsewhere.
+/// Makes the frame's last piece two steps longer, so the frame joins the one before but ends elsewhere.
 void mislead_newest_frame(RegisterWindow& window) {
     using namespace registers;
     const std::uint64_t newest = window.load(kSegmentHead) - 1;

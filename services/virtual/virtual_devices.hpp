@@ -1,4 +1,4 @@
-// The devices of a virtual machine's axes, which outlive the axes' processes, and the faults that are theirs.
+// The devices of a virtual machine's axes, and their faults. The devices outlive the axes' processes.
 #pragma once
 
 #include <expected>
@@ -13,18 +13,18 @@ namespace lockstep {
 
 class VirtualDevices {
 public:
-    /// All are powered up at `now`. `clocks` outlives them.
+    /// Powers up all devices at `now`. `clocks` must outlive this object.
     VirtualDevices(const MachineConfig& machine, const MachineClocks& clocks, std::uint64_t seed, Tick now);
 
     SimulatedDevice& operator[](std::size_t axis) { return *devices_[axis].device.simulated; }
     const SimulatedDevice& operator[](std::size_t axis) const { return *devices_[axis].device.simulated; }
 
-    /// The axis's end of it. Error: no process holds its registers.
+    /// Opens the device for its axis. Error: no process holds its registers.
     std::expected<AxisDevice, std::string> open(std::size_t axis) const;
     void advance(std::size_t axis, Tick now);
 
-    /// Faults of an axis's slide, switches or device: at this very tick of the device, which looks at its inputs at
-    /// once.
+    /// Begins or ends a fault of an axis's slide, switches or device. The device runs up to `now` before and reads its
+    /// inputs after it.
     void begin(const VirtualFault& fault, Tick now) { turn(fault, true, now); }
     void end(const VirtualFault& fault, Tick now) { turn(fault, false, now); }
 

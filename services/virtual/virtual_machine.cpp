@@ -22,7 +22,7 @@ VirtualMachine::VirtualMachine(const VirtualOptions& options)
     schedule_.start_all(now_, options_.seed);
 }
 
-/// A new process, with an identity of its own; an axis's finds its device as it is.
+/// Starts a new process with a new identity. An axis's process finds its device in its present state.
 void VirtualMachine::start(std::size_t process, bool other_config) {
     const std::uint64_t config_hash = options_.config_hash + (other_config ? 1 : 0);
     post_.is_coordinator(process) ? start_coordinator(process, config_hash) : start_axis(process, config_hash);
@@ -57,13 +57,13 @@ void VirtualMachine::crash(std::size_t process) {
 
 void VirtualMachine::restart(const VirtualFault& crash) {
     const std::size_t process = crash.process;
-    (void)post_.collect(now_, process);  // lost: no process was there to receive it
+    (void)post_.collect(now_, process);  // lost: no process existed to receive it
     if (!post_.is_coordinator(process)) { devices_.advance(process, now_); }
     if (crash.reboots) { clocks_.reboot(now_); }
     start(process, crash.other_config);
 }
 
-/// As its supervisor would.
+/// Ends and restarts the process, as its supervisor would.
 void VirtualMachine::start_again(std::size_t axis) {
     constexpr Ticks kPause{1'000'000};
     crash(axis);
@@ -101,7 +101,7 @@ void VirtualMachine::end(const VirtualFault& fault) {
     }
 }
 
-/// The process whose clock messages come before anything else happens.
+/// Returns the process with the earliest clock message, if that arrives before the next loop or fault.
 std::optional<std::size_t> VirtualMachine::next_clock_mail() const {
     if (!asks_time()) { return std::nullopt; }
     Tick soonest = VirtualNetwork::kNever;
@@ -162,7 +162,7 @@ bool VirtualMachine::advance_until(const std::function<bool()>& done, Ticks limi
     return false;
 }
 
-/// A process that stalls in a loop has decided and has not acted; when it goes on, it does.
+/// A process that stalls in a loop has decided but not acted. It acts when it continues.
 void VirtualMachine::run_loop(std::size_t process) {
     schedule_.run(process);
     Stall& stall = stalls_[process];
@@ -202,7 +202,7 @@ const AxisOutputs& VirtualMachine::decide_axis(std::size_t i) {
 void VirtualMachine::carry_out(std::size_t i, const AxisOutputs& out) {
     devices_.advance(i, now_);
     axes_[i].node->carry_out(clocks_.process(i, now_), out);
-    devices_.advance(i, now_);  // it acts on its orders
+    devices_.advance(i, now_);  // the device carries out its orders
     ask_time(i);
     if (out.rests && options_.keeps_positions) { axes_[i].kept = *out.rests; }
     if (out.state) { post_.multicast(now_, i, *out.state); }

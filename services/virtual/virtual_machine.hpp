@@ -1,6 +1,5 @@
 // A whole machine in one process in virtual time: the same coordinator, axis controllers, drivers and devices as live,
-// joined by a simulated network. Everything follows from the options and the faults: the same give the same run, bit
-// for bit.
+// connected by a simulated network. The same options and faults give the same run, bit for bit.
 #pragma once
 
 #include <cstdint>
@@ -22,18 +21,18 @@
 
 namespace lockstep {
 
-/// Sees everything that happens, in order of time: records and checkers hang on here.
+/// Receives all events in order of time. Records and checkers derive from it.
 class VirtualObserver {
 public:
     virtual ~VirtualObserver() = default;
     virtual void on_step(std::size_t /*axis*/, StepEdge /*step*/) {}
-    /// After an axis's loop; `node` is as it is then.
+    /// Called after the decisions of an axis's loop, with the node in its new state.
     virtual void on_axis(std::size_t /*axis*/, Tick /*now*/, const AxisOutputs& /*out*/, AxisNode& /*node*/) {}
-    /// A coordinator has taken a part of a program.
+    /// Called when a coordinator has taken a part of a program.
     virtual void on_part(std::size_t /*process*/, Tick /*now*/, const ProgramPart& /*part*/) {}
-    /// After a coordinator's loop.
+    /// Called after the decisions of a coordinator's loop.
     virtual void on_coordinator(std::size_t /*process*/, Tick /*now*/, const CoordinatorOutputs& /*out*/) {}
-    /// When a fault begins, and when it has ended.
+    /// Called when a fault begins and when it has ended.
     virtual void on_fault(Tick /*now*/, const VirtualFault& /*fault*/, bool /*begins*/) {}
 };
 
@@ -43,16 +42,16 @@ struct VirtualOptions {
     std::uint64_t seed = 1;
     NetworkBehaviour network;
     Tick start{1'000'000};
-    int loops_per_slot = 2;        // each process's loop, at a phase of its own
-    bool keeps_positions = false;  // axes' positions outlive their processes
+    int loops_per_slot = 2;        // each process runs its loop at a random phase
+    bool keeps_positions = false;  // an axis's position outlives its process
     OnTakeover on_takeover = OnTakeover::Stop;
-    std::size_t coordinators = 1;  // the first to claim owns the machine, the others stand by
-    /// By axis; those not here read the machine's time. The coordinator's is the machine's, and the true one. More than
-    /// one time asks for a machine whose time_source is Network.
+    std::size_t coordinators = 1;  // the first to claim the machine owns it, the others stand by
+    /// The clocks of each axis. Axes without an entry read the true time, like the coordinator. Clocks that differ need
+    /// a machine with time_source Network.
     std::vector<AxisClocks> clocks;
-    /// Where each process notes its flight; asked for at each of its starts. Empty: nowhere.
+    /// Returns the flight log of a process; called at each of its starts. Empty: no process has one.
     std::function<FlightLog&(std::size_t process)> flight;
-    /// Where coordinators keep programs.
+    /// Makes the stores in which coordinators keep programs.
     MakeRows make_rows = memory_rows;
 };
 
@@ -64,44 +63,44 @@ public:
 
     void observe(VirtualObserver& observer) { observers_.push_back(&observer); }
 
-    /// A fault to come; what should have begun already begins at once. Crashes of one process do not overlap.
+    /// Adds a fault. One with a beginning in the past begins at once. Crashes of one process must not overlap.
     void schedule(const VirtualFault& fault) { faults_.add(fault, now_); }
-    /// Faults that have not begun do not come after all.
+    /// Removes the faults that have not begun.
     void withdraw_faults() { faults_.withdraw(now_); }
-    /// Whether a fault is still to come or to end.
+    /// Whether a fault has yet to begin or end.
     bool faults_pending() const { return !faults_.empty(); }
 
-    /// Goes on to the next loop of any process, or the next turn of a fault.
+    /// Advances to the next clock message, loop of a process, or beginning or end of a fault.
     void advance();
-    /// Goes on until `done` holds or `limit` has passed. True: it holds.
+    /// Advances until done() returns true or `limit` has passed. Returns whether done() returned true.
     bool advance_until(const std::function<bool()>& done, Ticks limit);
 
-    /// As a client would: over the network. Returns its sequence number.
+    /// Sends a command over the network as a client. Returns its sequence number.
     std::uint64_t command(CommandKind kind, AxisSet axes = 0, std::uint64_t program = 0, Ticks ticks = {});
     std::uint64_t turn(const Overrides& overrides);
-    /// As it is: another client's, or one that is renewed.
+    /// Sends the command unchanged, such as one of another client or a renewed one.
     void send(const Command& command) { post_.multicast(now_, post_.client(), command); }
-    /// The last command once more, with its sequence number: for a client whose reply does not come.
+    /// Sends the last command again with the same sequence number, like a client that receives no reply.
     void repeat_command();
-    /// A part of a program, over the network. Returns its sequence number.
+    /// Sends a part of a program over the network. Returns its sequence number.
     std::uint64_t send(ProgramPart part);
-    /// A program that has arrived whole at every coordinator.
+    /// Gives every running coordinator a complete program, without the network.
     void give_program(std::uint64_t id, const Program& program);
     const std::vector<Reply>& replies() const { return client_.replies(); }
-    /// The reply to a command, once it has come.
+    /// The reply to a command; null if none has come yet.
     const Reply* reply_to(std::uint64_t sequence) const { return client_.reply_to(sequence); }
-    /// So that replies() does not grow for as long as the machine runs.
+    /// Removes a reply, so that replies() does not grow without bound.
     void forget_reply(std::uint64_t sequence) { client_.forget_reply(sequence); }
 
-    /// The coordinator that owns the machine, as a process; of several that think so the one of the highest term.
+    /// The process number of the coordinator that owns the machine. If several claim it, the one with the highest term.
     std::optional<std::size_t> owner() const;
 
     Tick now() const { return now_; }
     const MachineConfig& machine() const { return options_.machine; }
-    /// The newest that the client has received.
+    /// The newest state that the client has received.
     const std::optional<MachineState>& state() const { return client_.state(); }
     const std::vector<std::optional<AxisState>>& axis_states() const { return client_.axis_states(); }
-    /// What an axis's device's clock reads now.
+    /// The present reading of the clock of an axis's device.
     Tick device_time(std::size_t i) const { return clocks_.device(i, now_); }
     /// An axis's device, which outlives its processes.
     SimulatedDevice& device(std::size_t i) { return devices_[i]; }
@@ -109,7 +108,7 @@ public:
     const AlterationCounts& alterations() const { return post_.alterations(); }
 
 private:
-    /// The process of an axis, while there is one.
+    /// The process of an axis. `node` is empty while no process runs.
     struct Axis {
         std::optional<AxisNode> node;
         std::optional<AxisFlight> flight;
@@ -121,13 +120,13 @@ private:
         std::optional<Coordinator> coordinator;
         std::optional<CoordinatorFlight> flight;
     };
-    /// A stall of a process between what its loop decides and what it does about it.
+    /// A stall of a process between the decisions and the actions of a loop.
     struct Stall {
-        Tick until{};                                                           // in its next loop, if that is to come
-        std::variant<std::monostate, AxisOutputs, CoordinatorOutputs> decided;  // and not done
+        Tick until{};                                                           // the next loop stalls up to this time
+        std::variant<std::monostate, AxisOutputs, CoordinatorOutputs> decided;  // but not carried out
     };
 
-    // Processes begin and end.
+    // Start and end of processes.
     void start(std::size_t process, bool other_config = false);
     void start_axis(std::size_t axis, std::uint64_t config_hash);
     void start_coordinator(std::size_t process, std::uint64_t config_hash);
@@ -171,7 +170,7 @@ private:
     std::vector<Axis> axes_;
     std::vector<CoordinatorProcess> coordinators_;
     std::vector<Stall> stalls_;       // the axes, then the coordinators
-    Identity axis_identities_ = 100;  // given so far
+    Identity axis_identities_ = 100;  // the next one
     std::vector<VirtualObserver*> observers_;
 };
 

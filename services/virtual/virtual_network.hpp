@@ -1,4 +1,5 @@
-// Messages in virtual time: delayed, reordered, duplicated, lost and altered as a seed says, one copy per receiver.
+// Carries messages in virtual time, one copy per receiver. Delays, reorders, duplicates, loses and alters them at
+// random, by a seed.
 #pragma once
 
 #include <cstdint>
@@ -16,17 +17,18 @@
 
 namespace lockstep {
 
-/// How messages travel. A delay is drawn evenly for each copy, so that later ones may overtake earlier ones.
+/// How the network treats messages. Each copy has a delay of uniform distribution, so a later message may overtake an
+/// earlier one.
 struct NetworkBehaviour {
     Ticks delay_min{50};
     Ticks delay_max{50};
     double duplicated = 0;  // probability
     double lost = 0;        // probability
     double corrupted = 0;   // probability
-    Ticks reply_longer{};   // than its request an answer to what time it is takes
+    Ticks reply_longer{};   // how much longer a clock reply takes than its request
 };
 
-/// One message, however many copies of it are on their way.
+/// One message, shared by all its copies.
 using SharedMessage = std::shared_ptr<const VirtualMessage>;
 
 class VirtualNetwork {
@@ -37,7 +39,7 @@ public:
 
     void send(Tick now, Address from, Address to, SharedMessage message);
 
-    /// Hands what has arrived at `to` by `now` to `take`, oldest arrival first.
+    /// Calls take(message) for the messages that have arrived at `to` by `now`, oldest arrival first.
     template <typename Take>
     void receive(Tick now, Address to, Take&& take) {
         while (next_arrival(to) <= now) {
@@ -46,17 +48,17 @@ public:
         }
     }
 
-    /// When the next message arrives there; kNever: none is on its way.
+    /// When the next message arrives there; kNever if none is in transit.
     Tick next_arrival(Address to) const {
         return to < mailboxes_.size() && !mailboxes_[to].empty() ? mailboxes_[to].front().arrives : kNever;
     }
     static constexpr Tick kNever{std::numeric_limits<std::int64_t>::max()};
 
-    /// A link may be cut several times over; it carries messages again when it was restored as often.
+    /// A link may be cut several times. It carries messages again after the same number of restores.
     void cut(Address from, Address to) { ++cuts_[{from, to}]; }
     void restore(Address from, Address to) { --cuts_[{from, to}]; }
 
-    /// Messages to this one are never altered.
+    /// Messages to this address are never altered.
     void trust(Address to) { trusted_ = to; }
     /// How many messages have been altered in each way.
     const AlterationCounts& alterations() const { return alterations_; }
@@ -66,7 +68,7 @@ private:
         Tick arrives;
         SharedMessage message;
     };
-    using Mailbox = std::deque<Parcel>;  // in order of arrival; few ever overtake others
+    using Mailbox = std::deque<Parcel>;  // in order of arrival; overtaking is rare
 
     bool happens(double probability);
     bool is_cut(Address from, Address to) const;

@@ -1,5 +1,6 @@
-// The addresses of a virtual machine, and the messages between them: the axes' processes, the coordinators, a client,
-// and for each process one address more for clock messages, which are answered when they arrive, not in the loop.
+// The addresses of a virtual machine, and the messages between them. Each axis's process, each coordinator and the
+// client has an address. Each process has a second address for clock messages, which it answers on arrival, not in its
+// loop.
 #pragma once
 
 #include <memory>
@@ -28,7 +29,7 @@ public:
     void send(Tick now, std::size_t from, std::size_t to, const Message& message) {
         post(now, from, to, std::make_shared<const VirtualMessage>(message));
     }
-    /// To every process and the client, apart from the sender.
+    /// Sends to every process and the client, except the sender.
     template <typename Message>
     void multicast(Tick now, std::size_t from, const Message& message) {
         const auto shared = std::make_shared<const VirtualMessage>(message);
@@ -36,20 +37,20 @@ public:
             if (to != from) { post(now, from, to, shared); }
         }
     }
-    /// To every axis.
+    /// Sends to every axis.
     void send_to_axes(Tick now, std::size_t from, const Frame& frame) {
         const auto shared = std::make_shared<const VirtualMessage>(frame);
         for (std::size_t to = 0; to < axes_; ++to) { post(now, from, to, shared); }
     }
 
-    /// What has arrived there since the last call. Valid until the next call for any address.
+    /// Returns the messages that have arrived at `to` since its last call. Valid until the next call for any address.
     Mail& collect(Tick now, std::size_t to) {
         mail_.collect(network_, now, to);
         return mail_;
     }
     Tick next_arrival(std::size_t to) const { return network_.next_arrival(address(to)); }
 
-    /// The links of a process that a fault cuts, with their clock messages.
+    /// Cuts the links that the fault names, for clock messages too. restore() undoes it.
     void cut(const VirtualFault& fault) { turn(fault, true); }
     void restore(const VirtualFault& fault) { turn(fault, false); }
 

@@ -1,4 +1,4 @@
-// Any bytes as G-code: a program within travel, or errors with their places; the same each time.
+// Parses any bytes as G-code: the result is a program within travel, or errors with line and column.
 #include <cmath>
 #include <cstdint>
 #include <string>

@@ -1,5 +1,5 @@
-// A sender that writes anything to grbl's protocol, while the machine does anything: lines have their ends, what waits
-// is bounded, requests are as a machine can carry them out, and after a reset a line is answered.
+// A sender writes any bytes to grbl's protocol while the machine changes its state. Every line has its end, the output
+// is bounded, requests are within the machine's bounds, and after a reset a line is answered.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -22,7 +22,7 @@ public:
         grbl_.see(view_);
     }
 
-    /// The first byte says what happens; returns how many bytes it took.
+    /// The first byte selects the action. Returns the number of bytes used.
     std::size_t take(std::string_view bytes) {
         const auto what = static_cast<unsigned char>(bytes[0]);
         const std::size_t length = std::min<std::size_t>(bytes.size() - 1, what / 8);

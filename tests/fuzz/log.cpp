@@ -1,4 +1,5 @@
-// Any bytes as a log: every byte is of an event or counted as damaged, and each event's data is decoded or refused.
+// Reads any bytes as a log: every byte belongs to an event or counts as damaged, and each event's data is decoded or
+// refused.
 #include <sys/mman.h>
 #include <unistd.h>
 

@@ -1,4 +1,4 @@
-// fuzz_log_seeds FILE: a small log as this program writes it, for the fuzzer to begin with.
+// fuzz_log_seeds FILE: writes a small valid log, a seed for the fuzzer.
 #include <cstdio>
 
 #include "services/wire/lcm/lcm_decode.hpp"

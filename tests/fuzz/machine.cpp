@@ -1,4 +1,5 @@
-// Any bytes as a machine's file: a machine that keeps all rules and reads the same when written, or errors with places.
+// Parses any bytes as a machine's file. The result is errors with line and column, or a machine that keeps all rules
+// and is the same after it is written and read.
 #include <cstdint>
 #include <string>
 

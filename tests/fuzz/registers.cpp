@@ -1,5 +1,5 @@
-// A device and a driver on the same registers, into which anything is written between their turns: neither reads nor
-// writes beyond them, and what the driver cannot make sense of it refuses with a text.
+// A device and a driver share registers that the fuzzer overwrites between their turns. Neither reads or writes outside
+// the registers, and the driver refuses values that it cannot interpret with a text.
 #include <cstdint>
 #include <cstring>
 #include <span>

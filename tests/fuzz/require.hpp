@@ -1,4 +1,4 @@
-// A fuzz target ends here if an input breaks a promise; the fuzzer then keeps the input.
+// Aborts a fuzz target if an input breaks a promise; the fuzzer then keeps the input.
 #pragma once
 
 #include <cstdio>

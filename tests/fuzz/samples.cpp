@@ -1,5 +1,5 @@
-// Samples whose fields are any bytes: each is refused with a text, or what core makes of it goes to the wire and back
-// unchanged. The sequences' lengths are those of their memory, as the middleware guarantees; all else is arbitrary.
+// Samples with any bytes in their fields: each is refused with a text, or its value in core goes to the wire and back
+// unchanged. The lengths of sequences match their memory, as the middleware guarantees; all else is arbitrary.
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -17,7 +17,7 @@ class Bytes {
 public:
     explicit Bytes(std::span<const std::uint8_t> data) : left_(data) {}
 
-    /// Zeros where nothing is left.
+    /// Missing bytes are zeros.
     template <typename T>
     T take() {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -38,7 +38,7 @@ private:
     std::span<const std::uint8_t> left_;
 };
 
-/// The middleware reads a boolean as 0 or 1.
+/// The middleware delivers a boolean only as 0 or 1.
 void settle(bool& flag) {
     std::uint8_t byte = 0;
     std::memcpy(&byte, &flag, 1);

@@ -1,5 +1,5 @@
-// Any bytes as settings of a sender and a machine's file, with a byte 0 between them: a file that describes a machine
-// with these values, or errors.
+// The input is a sender's settings, a byte 0, and a machine's file. The result is a machine's file with these values,
+// or errors.
 #include <algorithm>
 #include <cstdint>
 #include <string_view>

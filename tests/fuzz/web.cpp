@@ -1,5 +1,5 @@
-// Any bytes as a command of the web's interface: an order within the machine's bounds, or a refusal with status, place
-// and text. A line with the command's name, then the body.
+// The input is a line with the name of a command of the web interface, then the command's body. The result is an order
+// within the machine's bounds, or a refusal with a status and texts.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

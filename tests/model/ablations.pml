@@ -1,4 +1,4 @@
-/* What each rule is for: the model without it, in which a promise must break. */
+/* The model without one rule. Then a promise must break, which shows the purpose of the rule. */
 
 #ifdef WITHOUT_VETO
 #define VETO_WHEN_FAILED skip
@@ -28,7 +28,7 @@
 #define EVALUATES_SILENCE_AGAIN
 #endif
 
-#ifdef LATER_STOPS /* the coordinator vetoes what an axis may have armed by then */
+#ifdef LATER_STOPS /* the coordinator also vetoes a frame that an axis may have armed */
 #undef RULE_COORDINATOR_MAY_VETO
 #define RULE_COORDINATOR_MAY_VETO(now, start, v, m) ((now) <= RULE_FIRST_EVIDENCE(start, v, m) + 1)
 #endif

@@ -1,13 +1,13 @@
 /* The faults: one class per run, in any slot or never. All axes are alike, so the victim is axis 0, and the broken link
- * is between 0 and 1. A class defines whose messages are affected, which process stalls, and what is still promised:
+ * is between 0 and 1. A class defines which messages are affected, which process stalls, and which promise still holds:
  * Q, every frame runs, or P, all axes run the same frames. */
 
 #define NEVER 255
 #define LONG_AGO 3
 byte since = NEVER; /* slots since the fault began, LONG_AGO at most */
-byte stalled = 0;   /* the number of slots until now */
+byte stalled = 0;   /* for how many slots the stall has lasted */
 bit mid_step = 0;   /* the stall began in this slot, after the decisions and before their effects */
-bit kept = 0;       /* effects wait for the stall's end */
+bit kept = 0;       /* the effects wait for the end of the stall */
 Message late;       /* what the stalled process was about to send */
 
 /* ---- clocks: one axis may count one slot more or less than all others ---- */
@@ -27,8 +27,8 @@ inline set_clocks() { skip }
 
 /* ---- promises ---- */
 
-/* The device of an axis that crashes or stalls has been told of the frames that the others arm meanwhile, or it has not.
- * The others may be three slots ahead of it, and it may be late by E. */
+/* The device of an axis that crashes or stalls may or may not have got the order to run the frames that the others arm
+ * meanwhile. The others may be three slots ahead of it, and its checks may be late by E slots. */
 #ifndef APART
 #define APART ((3 + E + FRAME - 1) / FRAME)
 #endif
@@ -113,7 +113,7 @@ inline set_clocks() { skip }
 #elif defined(AXIS_LINK_ONE_WAY)
 #define HIT(j, i) ((j) == 0 && (i) == 1)
 
-#elif defined(AXIS_LOSS) /* one message, for any of its receivers */
+#elif defined(AXIS_LOSS) /* any of its receivers may lose one message */
 #define SENDER_FAILS
 #define HIT(j, i) ((j) == 0)
 #define HIT_TO_COORDINATOR(j) ((j) == 0)
@@ -153,7 +153,7 @@ inline set_clocks() { skip }
 #elif defined(COORDINATOR_LONG_STALL)
 #define COORDINATOR_STALLS
 
-#elif defined(ALL_STALL) /* a host that stands still: all its processes, for the same slots */
+#elif defined(ALL_STALL) /* a host stalls: all its processes stall for the same slots */
 #define ALL_STALL_TOGETHER
 #define LONGEST_STALL S
 #define MAY_WAIT(i) 0 /* a late check is a stall, too */
@@ -322,7 +322,7 @@ inline stand_still() {
     fi
 }
 #elif defined(AXIS_CRASH)
-inline act() { /* or ends before */
+inline act() { /* or the process ends before */
     if :: update_device() :: i == 0 && since == 0 fi
 }
 inline stand_still() { send_nothing() }

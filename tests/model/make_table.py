@@ -3,8 +3,8 @@
 
 usage: ctest --test-dir build -L model && tests/model/make_table.py build
 
-With cmake -DLOCKSTEP_LONG_MODEL=ON the tests include the longer searches of three axes. Numbers of searches that the log does
-not have stay as they are.
+With cmake -DLOCKSTEP_LONG_MODEL=ON the tests include the longer searches of three axes. The numbers of searches that
+are not in the log stay as they are.
 """
 import pathlib
 import re
@@ -52,7 +52,7 @@ BEGIN, END = "<!-- states: begin -->\n", "<!-- states: end -->"
 
 
 def states_by_test(log):
-    """Of the tests that passed."""
+    """The number of states by test, for tests that passed."""
     found, name, states = {}, None, None
     for line in log.splitlines():
         if begun := re.search(r" Testing: (\S+)$", line):
@@ -65,7 +65,7 @@ def states_by_test(log):
 
 
 def states_in(table):
-    """Of a table that is there already."""
+    """The number of states by test, from an existing table."""
     keys = {words: key for key, words in CLASSES.items()}
     columns = {title: column for column, title in COLUMNS.items()}
     head, _, *rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in table.strip().splitlines()]

@@ -3,7 +3,7 @@
  * may assume at any time that the other has ended. All decisions are made by core/protocol/rules.inc.
  *
  * The promise: the two axes never move for different owners at the same time, and no axis moves for a lower
- * term than before. Terms are numbers here: of two claims the second coordinator's is the higher one. */
+ * term than before. Terms are numbers here. Of two claims after the same term, the second coordinator's is higher. */
 
 #include "core/protocol/rules.inc"
 
@@ -30,15 +30,15 @@
 
 byte own[2];          /* the term of a coordinator that assumes it owns the machine */
 byte highest[2];      /* the highest term that it used or received; a restart uses the time, which is higher than all */
-byte acknowledged[2]; /* by which axes */
+byte acknowledged[2]; /* the axes that acknowledged the term */
 bit announced[CLAIMS + 1];
 byte ordered[CLAIMS + 1]; /* by term: the axes that were ever ordered to move */
 
-byte followed[2];  /* by each axis */
-byte moves_for[2]; /* the term whose motion it makes */
-byte moved_for[2]; /* the highest term of its motions */
+byte followed[2];  /* the term that each axis follows */
+byte moves_for[2]; /* the term for which each axis moves now */
+byte moved_for[2]; /* the highest term for which each axis has moved */
 
-#define CLAIM(c) (2 * (highest[c] / 2) + 2 + (c) - 1) /* odd: the first's, even: the second's */
+#define CLAIM(c) (2 * (highest[c] / 2) + 2 + (c) - 1) /* the first claims odd terms, the second even ones */
 
 #define KEPT                                                                                       \
     (!(moves_for[0] != NO_OWNER && moves_for[1] != NO_OWNER && moves_for[0] != moves_for[1]) &&       \

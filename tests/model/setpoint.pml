@@ -51,7 +51,7 @@
 /* The message of one slot. A state is reduced to the frames that it is evidence for, and its veto. */
 typedef Message {
     byte evidence; /* a set */
-    byte frames;   /* a set, of the coordinator: what it sends */
+    byte frames;   /* a set: the frames that the coordinator sends */
     byte veto
 };
 
@@ -202,7 +202,7 @@ inline lowest_open(may_veto) {
     do :: k <= FRAMES && !(may_veto) -> k++ :: else -> break od
 }
 
-/* Arms the next frame as soon as it may, vetoes it at its check, or finds that it is too late for it. */
+/* Arms the next frame as soon as allowed, vetoes it at its check, or acts on a check that is too late. */
 inline decide_next() {
     k = axis[i].checked + 1;
     if

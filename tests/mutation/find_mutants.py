@@ -1,4 +1,4 @@
-"""Where a C++ source can be changed, found in its syntax tree: each place with the changes that are tried there.
+"""Finds the places in the syntax tree of a C++ source that can be changed, and the changes to try at each place.
 
 A `Site` replaces a range of the text. `Kind.EXPRESSION` sites choose between the text and its changes at run time;
 `Kind.STATEMENT` sites run the statement or not."""
@@ -12,10 +12,10 @@ from clang.cindex import CursorKind, TypeKind
 ARGUMENTS = ["-x", "c++", "-std=c++23", "-fsyntax-only"]
 
 COMPARISONS = {"<": "<=", "<=": "<", ">": ">=", ">=": ">", "==": "!=", "!=": "=="}
-OTHER_BOUND = {"<": "-", "<=": "+", ">": "+", ">=": "-"}  # what is done to the right side besides
+OTHER_BOUND = {"<": "-", "<=": "+", ">": "+", ">=": "-"}  # the right side also changes by 1 this way
 SWAPS = {"+": "-", "-": "+", "+=": "-=", "-=": "+=", "&&": "||", "||": "&&"}
 
-# The compiler evaluates these, or they only declare.
+# The compiler evaluates these, or they are only declarations.
 SKIPPED = {CursorKind.STATIC_ASSERT, CursorKind.ENUM_CONSTANT_DECL, CursorKind.TYPE_ALIAS_DECL,
            CursorKind.ANNOTATE_ATTR}
 CONDITIONAL = {CursorKind.IF_STMT, CursorKind.CONDITIONAL_OPERATOR, CursorKind.WHILE_STMT}
@@ -88,7 +88,7 @@ class Finder:
         return cursor.kind == CursorKind.VAR_DECL and "constexpr" in self.span(cursor).split("=")[0]
 
     def is_check(self, cursor):
-        """What the code promises itself is no promise of its own: without the check nothing else changes."""
+        """A check(...) only verifies an assumption of the code; without it nothing else changes."""
         return cursor.kind == CursorKind.CALL_EXPR and cursor.spelling == "check"
 
     def visit(self, cursor, parent):
@@ -118,7 +118,7 @@ class Finder:
         children = list(cursor.get_children())
         if self.span(cursor).startswith("if constexpr"):
             return
-        # if (init; condition): the last expression before the first statement that is run
+        # if (init; condition): the condition is the last expression before the first statement
         if cursor.kind == CursorKind.IF_STMT:
             first = next((i for i, c in enumerate(children) if c.kind.is_statement() and
                           c.kind != CursorKind.DECL_STMT), len(children) - 1)
@@ -133,7 +133,7 @@ class Finder:
         self.add(condition, Kind.EXPRESSION, "negated", f"!({text})")
 
     def operator(self, cursor):
-        """The text's operator between two operands, and these."""
+        """The operator in the text between two operands, and the operands."""
         children = list(cursor.get_children())
         if len(children) == 3:  # an overloaded one: left, operator, right
             children = [children[0], children[2]]
@@ -158,14 +158,14 @@ class Finder:
         if not self.compiles(op, cursor, left, right):
             return
         negated = self.sites.get((start, end, Kind.EXPRESSION))
-        if op not in ("==", "!=") or not negated:  # else it is the same change
+        if op not in ("==", "!=") or not negated:  # otherwise the negation is the same change
             self.add(cursor, Kind.EXPRESSION, f"{op} is {other}", f"{a} {other} {b}")
         same_as_constant = OTHER_BOUND.get(op) == "+" and right.kind == CursorKind.INTEGER_LITERAL
         if op in OTHER_BOUND and is_integer(left) and not same_as_constant:
             self.add(cursor, Kind.EXPRESSION, f"bound {OTHER_BOUND[op]}1", f"{a} {op} ({b}) {OTHER_BOUND[op]} 1")
 
     def compiles(self, op, cursor, left, right):
-        """Instants have a difference and no sum, texts a sum and no difference."""
+        """Whether the changed code compiles: instants have a difference and no sum, strings a sum and no difference."""
         of, other, result = (c.type.get_canonical() for c in (left, right, cursor))
         names = [t.spelling.replace("const ", "") for t in (of, other, result)]
         if op in SWAPS and any("basic_string" in name for name in names):
@@ -192,8 +192,8 @@ class Finder:
 
 
 def macro_sites(text):
-    """The rules of the protocol are macros: changes within the value of each."""
-    text = text.replace("\\\n", "  ")  # the same length
+    """The rules of the protocol are macros: returns sites within the value of each."""
+    text = text.replace("\\\n", "  ")  # keeps the length
     sites = []
     for line in re.finditer(r"^#define RULE_\w+(\([^)]*\))? +(\(.*\)|\d+)$", text, re.M):
         start, end = line.span(2)

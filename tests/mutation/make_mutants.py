@@ -4,7 +4,7 @@ import json
 
 from find_mutants import Finder, Kind, macro_sites
 
-BYTES = "latin-1"  # a character for each byte, as the compiler counts
+BYTES = "latin-1"  # a character for each byte, because the compiler counts bytes
 
 
 def sources(root, folders):
@@ -15,7 +15,7 @@ def sources(root, folders):
 
 
 def nest(sites):
-    """A tree of sites by what lies within what; what overlaps otherwise is left out."""
+    """Nests the sites into a tree; leaves out a site that overlaps another without lying inside it."""
     roots, stack = [], []
     for site in sites:
         site.inner = []
@@ -64,7 +64,7 @@ class Rewriter:
 
 
 def put(path, text):
-    """Leaves a file alone that is as it should be, for the build's sake."""
+    """Leaves a file with the right text untouched, so that the build does not compile it again."""
     if not path.exists() or path.read_text(encoding=BYTES) != text:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding=BYTES)
@@ -82,7 +82,7 @@ def find(root, folders):
 
 
 def rewrite(found, copy, dropped):
-    """Writes what `find` gave into the copy; the mutants, by number from 0."""
+    """Writes the changed sources into the copy; returns the mutants, by number from 0."""
     mutants = []
     for name, text, sites in found:
         rewriter = Rewriter(str(name), text, dropped, len(mutants))

@@ -1,6 +1,6 @@
-// Included before everything else in the mutated copy (-include): which of its mutants this process runs.
-//   LOCKSTEP_MUTANT=N        the code with change N; without it the code as it is
-//   LOCKSTEP_REACHED=FILE    at the end, adds the numbers of the mutants that were reached to a file
+// The mutated copy includes this file before everything else (-include). It selects the mutant that a process runs.
+//   LOCKSTEP_MUTANT=N        runs the code with change N; without it the code is unchanged
+//   LOCKSTEP_REACHED=FILE    appends the numbers of all reached mutants to a file when the process ends
 #pragma once
 #ifdef __cplusplus
 
@@ -33,9 +33,9 @@ struct Reached {
 };
 inline Reached reached;
 
-/// Whether this process runs mutant n. The code as it is in what the compiler evaluates.
+/// Whether this process runs mutant n. False in constant expressions, which keep the original code.
 constexpr bool mutant(int n) {
-    if (__builtin_is_constant_evaluated()) { return false; }  // C++17: foreign code is built with it
+    if (__builtin_is_constant_evaluated()) { return false; }  // not std::: some libraries are built as C++17
     if (reached.file != nullptr) { reached.seen[n] = true; }
     return chosen_mutant == n;
 }

@@ -1,4 +1,4 @@
-"""What is run against each mutant, the quickest first."""
+"""The programs that run against each mutant, the quickest first."""
 from dataclasses import dataclass, field
 
 PROGRAMS = """

@@ -58,7 +58,7 @@ def build(copy):
 
 
 def make(copy):
-    """Writes, builds, and leaves out the changes that do not compile, until the rest does."""
+    """Writes and builds the copy, and leaves out changes that do not compile until the rest compiles."""
     copy_sources(copy)
     found = list(find(ROOT, FOLDERS))
     dropped = set()
@@ -72,7 +72,7 @@ def make(copy):
 
 
 def run(copy, step, environment, limit):
-    """The result of one step: None if it passed, else how it failed."""
+    """Runs one step. Returns None if it passed, otherwise how it failed."""
     try:
         done = subprocess.run(step.command(copy / "build/bin"), cwd=copy, env=os.environ | environment, timeout=limit,
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -82,7 +82,7 @@ def run(copy, step, environment, limit):
 
 
 def measure(copy, wanted):
-    """Each step run as it is: how long it takes and which mutants it reaches."""
+    """Runs each step without a change, to measure its time and the mutants that it reaches."""
     kept = copy / "reached"
     kept.mkdir(exist_ok=True)
     for step in wanted:
@@ -97,7 +97,7 @@ def measure(copy, wanted):
 
 
 def kill(copy, n, wanted):
-    """The step that notices mutant n, and how."""
+    """The step that detects mutant n, and how it failed."""
     for step in wanted:
         if n in step.reaches:
             how = run(copy, step, {"LOCKSTEP_MUTANT": str(n)}, 5 * step.seconds + 2)
@@ -111,7 +111,7 @@ def key(mutant):
 
 
 def equivalents():
-    """Changes that change nothing, with the reason: lines `file | was | is | reason`."""
+    """The changes without an effect, from lines `file | was | is | reason`."""
     lines = (HERE / "equivalents.txt").read_text().splitlines() if (HERE / "equivalents.txt").exists() else []
     return {" | ".join(line.split(" | ")[:-1]) for line in lines if line and not line.startswith("#")}
 
@@ -142,8 +142,8 @@ def main():
     options.add_argument("--sample", type=int, default=400)
     options.add_argument("--runs", type=int, default=1000, help="of lockstep-simtest")
     options.add_argument("--only", help="numbers of mutants, with commas")
-    options.add_argument("--survivors", action="store_true", help="only what survived the last time")
-    options.add_argument("--built", action="store_true", help="go on with the copy and its results")
+    options.add_argument("--survivors", action="store_true", help="only the mutants that survived the last time")
+    options.add_argument("--built", action="store_true", help="continue with the existing copy and its results")
     given = options.parse_args()
     copy = given.folder.resolve()
     copy.mkdir(exist_ok=True)
@@ -162,7 +162,7 @@ def main():
         chosen = [int(n) for n in given.only.split(",")]
     wanted = steps(given.runs)
     measure(copy, wanted)
-    for n in random.Random(given.seed).sample(chosen, len(chosen)):  # what is done so far is a sample, too
+    for n in random.Random(given.seed).sample(chosen, len(chosen)):  # random order: the results so far are a sample too
         if n in results and not (results[n] is None and (given.survivors or given.only)):
             continue
         results[n] = kill(copy, n, wanted)

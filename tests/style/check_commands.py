@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Checks that the commands accept every command line in a document: its verb and its options are in --help.
 
-Usage: check_commands.py ROOT BIN    BIN has the programs; those that are not there are not checked, lockstep must be.
+Usage: check_commands.py ROOT BIN    BIN has the programs. Programs that are missing there are not checked.
 
-A command line begins an indented line or a word in backticks, perhaps behind `docker compose run --rm client`. A script of
-the tree must be there and executable, and a program below build/bin must be built by a CMakeLists.txt.
+A command line begins an indented line or a word in backticks, perhaps behind `docker compose run --rm client`. A script
+of the tree must exist and be executable, and a CMakeLists.txt must build each program named below build/bin.
 """
 import functools
 import pathlib
@@ -12,7 +12,7 @@ import re
 import subprocess
 import sys
 
-GIT_FILES = ["git", "-c", "safe.directory=*", "ls-files", "-co", "--exclude-standard"]  # of a clone of any owner
+GIT_FILES = ["git", "-c", "safe.directory=*", "ls-files", "-co", "--exclude-standard"]  # accepts a clone of any owner
 PROGRAMS = "lockstep|lockstep-axis|lockstep-coordinator|lockstep-fpga|lockstep-grbl|lockstep-simtest|lockstep-web"
 COMMAND = re.compile(rf"(?:^|[;&|] *|client |CYCLONEDDS_URI=\S+ )({PROGRAMS}) +(?=[a-z-])(.*)")
 SCRIPT = re.compile(r"(?m)(?:^    |`)((?:tests|deploy|core|docs|idl|sim_fpga)/[\w./-]+)(?= [\w<-])")
@@ -26,7 +26,7 @@ def documents(root):
 
 
 def command_lines(text):
-    """Each with the number of its line."""
+    """The command lines, each with its line number."""
     for number, line in enumerate(text.splitlines(), 1):
         pieces = [line.strip()] if line.startswith("    ") else re.findall(r"`([^`]+)`", line)
         for piece in pieces:

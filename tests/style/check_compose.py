@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""deploy/make-compose serves any machine; deploy/compose.yaml and compose.peers.yaml are its output for the example.
+"""Checks that deploy/make-compose serves any machine, and that deploy/compose.yaml and compose.peers.yaml are its
+output for the example.
 
 Usage: check_compose.py ROOT
 """
@@ -18,7 +19,7 @@ def make(machine, *options):
 
 
 def machine_of(axes, coordinator="planner", peers=()):
-    """axis { host: "no" } in a comment is none."""
+    """A machine's file; the axis in its comment does not count."""
     text = f'name: "mill"\ncoordinator_host: "{coordinator}"  # axis {{ host: "no" }}\n'
     text += "network { " + " ".join(f'peers: "{peer}"' for peer in peers) + " }\n"
     return text + "".join(f'axis {{ name: "{name}" plant {{ start_position_mm: 1 }} host: "{host}" }}\n'
@@ -37,13 +38,13 @@ def expect(holds, what):
         sys.exit("check_compose: " + what)
 
 
-expect(make(EXAMPLE).stdout == (ROOT / "deploy/compose.yaml").read_text(), "compose.yaml is not make-compose's any more")
+expect(make(EXAMPLE).stdout == (ROOT / "deploy/compose.yaml").read_text(), "compose.yaml differs from the output of make-compose")
 expect(make(EXAMPLE, "--peers").stdout == (ROOT / "deploy/compose.peers.yaml").read_text(),
-       "compose.peers.yaml is not make-compose --peers's any more")
+       "compose.peers.yaml differs from the output of make-compose --peers")
 
 
 def peers_of(axes, **more):
-    """Each service's address, the subnet, and where the rest get theirs."""
+    """Each service's address, the subnet, and the range of addresses for all other containers."""
     made = made_of(axes, "--peers", **more)
     services = re.findall(r"(?m)^  (\w+):\n    command: .*\n    networks: .*ipv4_address: ([\d.]+)", made.stdout)
     return services, re.findall(r"subnet: (\S+), ip_range: ([\d./]+)", made.stdout)
@@ -70,6 +71,6 @@ for wrong, message in ((made_of([("X", "a"), ("Y", "a")]), "host of its own"), (
                     (made_of([("X", "a")], coordinator=""), "coordinator_host"), (make("/nothing"), "no such file"),
                     (made_of([("X", "a")], "--peers", peers=["10.0.0.1"]), "each of the 2 containers"),
                     (made_of([("X", "a")], "--peers", peers=["here", "there"]), "IPv4 address"),
-                    (made_of([("X", "a")], "--peers", peers=["10.0.0.1", "10.0.1.2"]), "all in 10.0.0.0/24"),
+                    (made_of([("X", "a")], "--peers", peers=["10.0.0.1", "10.0.1.2"]), "must all be in 10.0.0.0/24"),
                     (made_of([("X", "a")], "--peers", peers=["10.0.0.1", "10.0.0.200"]), "one half")):
     expect(wrong.returncode != 0 and message in wrong.stderr and not wrong.stdout, f"refusal: {message}: {wrong.stderr}")

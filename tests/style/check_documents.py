@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What documents name in the tree exists: links, files, folders, functions; README and ARCHITECTURE stay short.
+"""Checks that links, files, folders and functions in documents exist, and that README and ARCHITECTURE are short.
 
 Usage: check_documents.py ROOT [--fix]
 
@@ -15,7 +15,7 @@ import re
 import subprocess
 import sys
 
-GIT_FILES = ["git", "-c", "safe.directory=*", "ls-files", "-co", "--exclude-standard"]  # of a clone of any owner
+GIT_FILES = ["git", "-c", "safe.directory=*", "ls-files", "-co", "--exclude-standard"]  # accepts a clone of any owner
 MOST_LINES = {"README.md": 150, "ARCHITECTURE.md": 250}
 MOST_PICTURE_BYTES = 150_000
 UNITS = {None: 1, " KiB": 1 << 10, " MiB": 1 << 20}
@@ -29,7 +29,7 @@ LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
 
 
 class Tree:
-    """The files of the repository, and what they are called."""
+    """The files of the repository, and all words in its code."""
 
     def __init__(self, root):
         self.root = root
@@ -45,7 +45,7 @@ class Tree:
         return [f for f in self.files if f.endswith(".md")]
 
     def values(self, constant):
-        """What the constants of this name are, where that is a number or a power of two."""
+        """The values of the constants with this name that are a number or a shifted number."""
         found = re.findall(rf"\b{constant} = ([\d']+)(?: << (\d+))?[;,]", self.code)
         return {int(number.replace("'", "")) << int(shift or 0) for number, shift in found}
 
@@ -65,7 +65,7 @@ class Tree:
 
 
 def prose(text):
-    """Without examples: indented lines and fenced blocks are left empty."""
+    """The text without examples: indented lines and fenced blocks are left empty."""
     inside, lines = False, []
     for line in text.splitlines():
         inside ^= line.startswith("```")

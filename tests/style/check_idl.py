@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""What goes over the wire or into files does not change unnoticed: idl/fingerprints.txt has a fingerprint of each file.
+"""Checks that no type of the wire or of files changes unnoticed: idl/fingerprints.txt has a fingerprint of each file.
 
 Usage: check_idl.py ROOT [--record]
 
-A fingerprint is of the file without comments and white space. Exits with 1 if one differs, and prints which one and what to decide
-(idl/README.md has the rules), or where the protocol's number is not the recorded one. --record writes the file again.
+A fingerprint ignores comments and white space. The check exits with 1 if a fingerprint or the protocol's number differs
+from the record, and prints what to decide (idl/README.md has the rules). --record writes the file again.
 """
 import argparse
 import hashlib
@@ -14,8 +14,8 @@ import sys
 
 RULES = {
     ".idl": "processes of both versions no longer receive each other: raise kProtocol in services/wire/dds/protocol_version.hpp",
-    ".lcm": "logs of before are no longer read: give the type a new name, unless no log of it was ever kept",
-    ".proto": "check that no number got another meaning and that none was taken away: files of before are still read",
+    ".lcm": "existing logs can no longer be read: give the type a new name, unless no log with it exists",
+    ".proto": "check that no field number changed its meaning or was removed: existing files must stay readable",
 }
 
 

@@ -56,7 +56,7 @@ def include_breaches(root, layers):
 
 
 def circles(layers):
-    """Folders do not depend on each other in a circle. An entry for one file is no dependency of folders."""
+    """Finds folders that depend on each other in a circle. An entry for one file is no dependency of folders."""
     table = layers["may_include"]
     folders = [key for key in table if not key.endswith("/**")]
     graph = {

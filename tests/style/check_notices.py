@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every library that the programs are built with is named in NOTICE, and what the package installs is in the image's context.
+"""Checks that NOTICE names every library of the programs, and that the image's context has all files of the package.
 
 Usage: check_notices.py ROOT
 """

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Each test that docs/promises.md and the table of papers in core/methods/README.md name exists.
+"""Checks that the tests named in docs/promises.md and in the table of papers in core/methods/README.md exist.
 
 Usage: check_promises.py ROOT
 
@@ -31,7 +31,7 @@ def tests_below(path):
 
 
 def registered_in_loops(text):
-    """What `foreach(kind a b) add_test(NAME stem.${kind} ...)` registers, and functions that take the name as argument."""
+    """The names that loops such as `foreach(kind a b) add_test(NAME stem.${kind} ...)` and functions register."""
     names = set()
     for stem in re.findall(r"\b([a-z_]+)\.\$\{\w+\}", text):
         names |= {f"{stem}.{word}" for word in re.findall(r"[a-z_0-9]+", text)}

@@ -16,7 +16,7 @@ SOURCES = ("core", "sim_fpga", "services", "clients", "tests")
 FORBIDDEN_IN_CORE = re.compile(
     r"#include <(chrono|thread|mutex|iostream|fstream|ctime|condition_variable|filesystem|unistd\.h|sys/.*)>"
     r"|clock_gettime|std::chrono|std::rand\b|random_device|spdlog")
-# Code decides by the errors of core (docs/decisions/code/typed-errors-in-core.md).
+# Callers decide by the errors of core, so an error is a type (docs/decisions/code/typed-errors-in-core.md).
 SENTENCE = re.compile(r"std::(un)?expected<.*std::string>[ (;]")
 MAY_RETURN_SENTENCES = {"core/coordinator/program/row_store.hpp"}
 MAX_LINES = 500

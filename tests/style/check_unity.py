@@ -36,7 +36,7 @@ def names_in(body):
 
 
 def clash(lines):
-    """lines: each file with its line of one name. C++ allows the same alias twice."""
+    """Whether a name clashes. lines: the line of each file that defines it. C++ allows the same alias twice."""
     return len(lines) > 1 and not (len(set(lines.values())) == 1 and min(lines.values()).startswith("using "))
 
 

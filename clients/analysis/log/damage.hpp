@@ -1,4 +1,4 @@
-// The parts of a log that cannot be read or decoded: collected by reason, however many they are.
+// Collects the parts of a log that cannot be read or decoded, by reason, in bounded memory.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,16 @@ struct LogPlace {
     std::uint64_t bytes = 0;
 };
 
-/// Places in the file that cannot be read or decoded, for one reason. Bytes from the file's beginning.
+/// Places in the file that cannot be read or decoded for one reason. Bytes count from the file's beginning.
 struct Damage {
     std::uint64_t first_byte = 0;  // of the first place
     std::uint64_t last_byte = 0;   // of the last place
     std::uint64_t places = 0;
-    std::uint64_t bytes = 0;  // of all of them
+    std::uint64_t bytes = 0;  // of all places
     std::string what;
 };
 
-inline constexpr std::size_t kDamagesKept = 100;  // reasons; the last is of all further ones
+inline constexpr std::size_t kDamagesKept = 100;  // reasons; the last collects all further ones
 
 void note_damage(std::vector<Damage>& all, LogPlace place, std::string what);
 

@@ -31,7 +31,7 @@ void deliver_part(const LogEvent& event, LogListener& listener, ProgramParts& pr
     listener.on_program_part(*part, place);
 }
 
-/// The parts of a job's program that were received while it ran.
+/// Finds the parts of a job's program that were received while it ran, and therefore follow the job in the log.
 void look_ahead(const std::filesystem::path& path, const job_t& job, ProgramParts& programs) {
     auto reader = LogReader::open(path);
     while (reader) {
@@ -65,12 +65,12 @@ void deliver(const LogEvent& event, LogListener& listener, ProgramParts& program
         case RecordKind::Event: return deliver<program_event_t>(event, listener, &LogListener::on_event);
         case RecordKind::ProgramPart: return deliver_part(event, listener, programs);
         case RecordKind::Mark: return deliver<record_mark_t>(event, listener, &LogListener::on_mark);
-        case RecordKind::Loss: return;  // of one log; sequence numbers show what the record lacks
+        case RecordKind::Loss: return;  // concerns one log only; sequence numbers show which messages the record lacks
         case RecordKind::Foreign: return listener.on_foreign(event.channel);
     }
 }
 
-/// Events read. Progress is the share of the file that was read.
+/// Returns the number of events read. Progress is the share of the file that has been read.
 std::expected<std::uint64_t, std::string> read_events(LogReader& reader, const std::filesystem::path& path,
                                                       LogListener& listener, double file_bytes,
                                                       const std::function<void(double)>& progress) {

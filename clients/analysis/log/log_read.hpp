@@ -1,6 +1,6 @@
-// Passes a log's events, decoded, to a listener one by one: nothing is kept.
+// Decodes a log's events and passes them to a listener one by one. Nothing is kept.
 //
-// Unreadable places are passed on too, with their place in the file, and reading continues after them.
+// Unreadable parts are reported too, with their place in the file, and reading continues after them.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@
 
 namespace lockstep::analysis {
 
-/// `place` is that of the event in the file.
+/// `place` is the event's place in the file.
 class LogListener {
 public:
     virtual ~LogListener() = default;
@@ -32,18 +32,18 @@ public:
     virtual void on_run(const run_t& message, LogPlace place) = 0;
     virtual void on_job(const RecordedJob& message, LogPlace place) = 0;
     virtual void on_health(const axis_health_t& /*message*/, LogPlace /*place*/) {}
-    /// Numbered with the jobs.
+    /// Events share one sequence of numbers with the jobs.
     virtual void on_event(const program_event_t& /*message*/, LogPlace /*place*/) {}
-    /// Jobs already have their programs (program_parts.hpp); this is for listeners that count messages.
+    /// For listeners that count messages. Jobs already have their programs (program_parts.hpp).
     virtual void on_program_part(const program_part_t& /*message*/, LogPlace /*place*/) {}
     virtual void on_mark(const record_mark_t& /*message*/, LogPlace /*place*/) {}
-    /// An event of a channel that is not Lockstep's.
+    /// An event on a channel that is not Lockstep's.
     virtual void on_foreign(std::string_view channel) = 0;
     /// The content cannot be read or decoded.
     virtual void on_damage(LogPlace place, std::string what) = 0;
 };
 
-/// Returns the number of events read. `progress` is called with 0 ... 1 now and then. The error is a sentence for the
+/// Returns the number of events read. Calls `progress` with 0 ... 1 from time to time. The error is a sentence for the
 /// user: the file is missing, a directory, empty, or not a log.
 std::expected<std::uint64_t, std::string> read_log(const std::filesystem::path& path, LogListener& listener,
                                                    const std::function<void(double)>& progress = {});

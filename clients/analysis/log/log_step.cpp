@@ -11,7 +11,7 @@ bool is_countable_batch(const step_batch_t& m) {
            m.clock_error >= 0;
 }
 
-/// Keeps steps apart, which are at least two ticks from each other; larger than the error of any quartz.
+/// Allows a difference of 1 %, more than the error of any quartz. Steps, at least two ticks apart, remain distinct.
 bool clocks_agree(const ClockStretch& time) {
     constexpr std::int64_t kLeastPart = 100;
     return std::abs((time.other_ticks - time.ticks).value) <= 2 + time.ticks.value / kLeastPart;

@@ -10,10 +10,11 @@ namespace lockstep::analysis {
 
 class MessageNumbers {
 public:
-    /// False: it is a repeat. `incarnation` is the process: each process counts from 0.
+    /// Returns false for a repeated number. `incarnation` identifies the process; each process counts from 0.
     bool add(std::int64_t incarnation, std::int64_t sequence) { return numbers_[incarnation].add(sequence); }
 
-    /// Between the first and the last number of each process: a log may begin later than the process.
+    /// How many numbers are missing between the first and the last of each process. A log may begin later than the
+    /// process.
     std::int64_t missing_within() const {
         std::int64_t missing = 0;
         for (const auto& [incarnation, numbers] : numbers_) { missing += numbers.missing_within(); }

@@ -1,4 +1,4 @@
-// A set of the numbers 0, 1, 2, ..., stored as ranges, since nearly all are received, and nearly in order.
+// A set of the numbers 0, 1, 2, ... It is stored as ranges, because nearly all numbers are received, nearly in order.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace lockstep::analysis {
 
-/// From `from` up to `end`, exclusive.
+/// The numbers from `from` up to but not including `end`.
 struct Numbers {
     std::int64_t from = 0;
     std::int64_t end = 0;
@@ -18,7 +18,7 @@ struct Numbers {
 
 class NumberSet {
 public:
-    /// False: it is a repeat.
+    /// Returns false if the set already contains the number.
     bool add(std::int64_t number) {
         auto after = ends_.upper_bound(number);
         const bool follows = after != ends_.begin() && std::prev(after)->second >= number;
@@ -32,10 +32,10 @@ public:
         return true;
     }
 
-    /// One more than the highest number; 0: the set is empty.
+    /// One more than the highest number; 0 if the set is empty.
     std::int64_t end() const { return ends_.empty() ? 0 : ends_.rbegin()->second; }
 
-    /// How many are missing between the lowest and the highest number.
+    /// How many numbers are missing between the lowest and the highest.
     std::int64_t missing_within() const {
         if (ends_.empty()) { return 0; }
         std::int64_t missing = ends_.rbegin()->second - ends_.begin()->first;

@@ -22,8 +22,8 @@ void ProgramEventLog::end(const job_t& job) {
     places_.clear();
 }
 
-/// The place of an event is the end of the move before it. Events happen in the order of the program, so places of more
-/// than will be kept are not needed.
+/// The place of an event is the end of the move before it. Events happen in the order of the program, so the first
+/// `at_most` places are sufficient.
 void ProgramEventLog::note_places(const RecordedProgram& program, std::size_t at_most) {
     places_.clear();
     const std::vector<std::string>& axes = program.axes();

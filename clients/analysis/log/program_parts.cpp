@@ -31,7 +31,7 @@ ProgramParts::Place ProgramParts::place_of(const program_part_t& part, std::uint
     return {.offset = offset, .bytes = content.size(), .hash = std::hash<std::string_view>{}(content)};
 }
 
-/// A part that is another one in the same place is of another program.
+/// Whether the part can belong to this program. It cannot if another part with other content has the same place.
 bool ProgramParts::Parts::fits(const program_part_t& part) const {
     const auto place = static_cast<std::size_t>(part.part);
     const auto parts = static_cast<std::size_t>(part.parts);
@@ -69,7 +69,7 @@ bool ProgramParts::is_open(const job_t& job) const {
     return parts == nullptr || parts->count == 0;
 }
 
-/// One that does not fit is of a later program of the same number.
+/// A part that does not fit belongs to a later program of the same number.
 void ProgramParts::take_later(const program_part_t& part, std::uint64_t offset, const job_t& job) {
     if (part.job != 0 || part.program != of_jobs_.at({job.coordinator, job.job})) { return; }
     const Parts* parts = find(job.coordinator, part.program);
@@ -78,7 +78,7 @@ void ProgramParts::take_later(const program_part_t& part, std::uint64_t offset, 
     if (parts == nullptr || parts->fits(its)) { (void)take(its, offset); }
 }
 
-/// Without a last part the program ends with the parts that are known: no more of it was run.
+/// If the last part is missing, the program ends with the known parts, because no more of it was run.
 void ProgramParts::complete(RecordedJob& job) const {
     const auto known = of_jobs_.find({job.coordinator, job.job});
     if (job.event != "begun" || !job.program.empty() || known == of_jobs_.end()) { return; }

@@ -1,7 +1,7 @@
-// Finds the parts of programs that were recorded in parts, since they are too long for the message of the job that runs
-// them. It notes their places; the parts stay in the log (recorded_program.hpp).
+// Finds the parts of programs that were recorded in parts because they are too long for the job's message. Notes only
+// the places of the parts; the parts stay in the log (recorded_program.hpp).
 //
-// A program may be received while it runs: its later parts then follow the job.
+// A program may be received while it runs. Then its later parts follow the job in the log.
 #pragma once
 
 #include <cstdint>
@@ -20,17 +20,17 @@
 
 namespace lockstep::analysis {
 
-/// A job's message, with its program if that was recorded in parts.
+/// A job's message, with the places of its program's parts if the program was recorded in parts.
 struct RecordedJob : job_t {
     RecordedJob() = default;
     explicit RecordedJob(job_t message) : job_t(std::move(message)) {}
 
     std::optional<ProgramPlaces> parts;
-    std::string lacks;  // what of the parts is not in the log; empty: nothing
+    std::string lacks;  // says which parts are not in the log; empty if all are
 
     bool has_program() const { return parts || !lacks.empty() || !program.empty(); }
     bool has_program_of(const RecordedJob& other) const { return program == other.program && parts == other.parts; }
-    /// Error: it cannot be read, or is incomplete.
+    /// Fails if the program cannot be read or is incomplete.
     std::expected<std::shared_ptr<const RecordedProgram>, std::string> read_program() const;
 };
 
@@ -41,13 +41,13 @@ public:
 
     explicit ProgramParts(std::filesystem::path log) : log_(std::move(log)) {}
 
-    /// `offset`: where its message begins in the log. Error: the part is impossible.
+    /// `offset`: where the part's message begins in the log. Fails if the part is impossible.
     std::expected<void, std::string> take(const program_part_t& part, std::uint64_t offset);
-    /// Of a begun job: parts of its program may follow.
+    /// Whether parts of the program of a begun job may follow in the log.
     bool is_open(const job_t& job) const;
-    /// A later part of this job's program, by whichever coordinator. Others are left out.
+    /// Takes a later part of this job's program, from any coordinator. Ignores parts of other programs.
     void take_later(const program_part_t& part, std::uint64_t offset, const job_t& job);
-    /// Gives a begun job its program, if that was recorded in parts.
+    /// Gives a begun job the places of its program, if the program was recorded in parts.
     void complete(RecordedJob& job) const;
 
 private:
@@ -61,7 +61,7 @@ private:
         std::int64_t coordinator = 0;
         std::int64_t program = 0;
         std::vector<std::optional<Place>> places;
-        std::size_t count = 0;  // of its parts; 0: the last one has not come
+        std::size_t count = 0;  // of its parts; 0 before the last one has come
 
         bool fits(const program_part_t& part) const;
         std::size_t missing() const;

@@ -99,7 +99,7 @@ void RecordEndCheck::take(const record_mark_t& mark) {
     }
 }
 
-/// Whether the messages after that mark are published while this log is written.
+/// Whether the messages after this mark were published while this log was written.
 bool RecordEndCheck::is_of_this_log(const record_mark_t& mark) const {
     return mark.witness == mark.process || mark.utime >= *first_us_ + kNoted_us;
 }

@@ -1,6 +1,6 @@
-// Checks whether a record has its end: compares the last counts that its processes published, in their marks, with the
-// messages received. Sequence numbers show messages missing between others; this finds those missing after the last
-// one, and processes without any message.
+// Checks whether a record has its end. It compares the last counts that the processes published in their marks with the
+// messages received. Sequence numbers show messages missing between others. This check finds messages missing after the
+// last one, and processes without any message.
 #pragma once
 
 #include <compare>
@@ -27,7 +27,7 @@ struct RecordingProcess {
     auto operator<=>(const RecordingProcess&) const = default;
 };
 
-/// Messages that a process had published by then, in microseconds of machine time, and that are missing at the end.
+/// Messages missing at the end that a process had published by `published_us` of machine time.
 struct MissingEnd {
     RecordingProcess process;
     RecordKind kind = RecordKind::Steps;
@@ -35,10 +35,10 @@ struct MissingEnd {
     std::int64_t published_us = 0;
 };
 
-/// A process whose end was not recorded: messages that it published after its last mark may be missing.
+/// A process without a recorded end. Messages that it published after its last mark may be missing.
 struct OpenEnd {
     RecordingProcess process;
-    std::optional<std::int64_t> known_us;  // of that mark; none: there is none, as in logs of earlier versions
+    std::optional<std::int64_t> known_us;  // time of that mark; nullopt without a mark, as in logs of earlier versions
 };
 
 struct RecordEnd {
@@ -47,24 +47,24 @@ struct RecordEnd {
 
     std::int64_t missing_messages() const;
     bool lacks_steps() const;
-    /// All published messages are known to be in the log.
+    /// Whether all published messages are known to be in the log.
     bool is_closed() const { return missing.empty() && open.empty(); }
 };
 
 class RecordEndCheck {
 public:
     RecordEndCheck() = default;
-    RecordEndCheck(const RecordEndCheck&) = delete;  // it points into itself
+    RecordEndCheck(const RecordEndCheck&) = delete;  // last_ points into processes_
     RecordEndCheck& operator=(const RecordEndCheck&) = delete;
 
     static constexpr std::size_t kMostProcesses = 4096;  // more than any real log contains
-    /// One process's message may be on another's disk sooner than on its own. So in logs that are read while they are
-    /// written, the newest marks of other processes prove nothing yet.
+    /// Another process may have a message on its disk sooner than the process that published it. In logs that are read
+    /// while they are written, a mark by another process therefore counts only when it is this old.
     static constexpr std::int64_t kOnItsWay_us = 1'000'000;
-    /// The maximum age of a mark about another process when it is written.
+    /// The maximum age of the counts in a mark about another process when the mark is written.
     static constexpr std::int64_t kNoted_us = 300'000;
 
-    /// A message with its number was read.
+    /// Notes that a message with this number was read.
     void saw(RecordKind kind, const std::string& machine, const std::string& axis, std::int64_t incarnation,
              std::int64_t sequence);
     void take(const record_mark_t& mark);
@@ -74,14 +74,14 @@ public:
 private:
     static constexpr std::size_t kKinds = 6;
     struct Counted {
-        /// One more than the highest number read, of each kind. None read: after those that may have been published
-        /// before the log began; nothing without a mark.
+        /// For each kind, one more than the highest number read. If none was read, the count in the first mark of this
+        /// log, because earlier messages may have been published before the log began. nullopt without such a mark.
         std::optional<std::int64_t> there[kKinds];
         bool is_seen[kKinds]{};
-        std::int64_t published[kKinds]{};  // by the highest mark
+        std::int64_t published[kKinds]{};  // highest count in a mark
         std::int64_t published_us[kKinds]{};
         std::optional<std::int64_t> marked_us;
-        std::deque<record_mark_t> others;  // marks of it by other processes that may be too new
+        std::deque<record_mark_t> others;  // marks about it by other processes, possibly too new to count
         bool ended = false;
     };
     void hold_to(const record_mark_t& mark, Counted& counted);
@@ -91,14 +91,14 @@ private:
     std::map<RecordingProcess, Counted> processes_;
     std::optional<std::int64_t> first_us_;                               // of the first mark
     std::int64_t newest_us_ = std::numeric_limits<std::int64_t>::min();  // of all marks
-    Counted* last_ = nullptr;                                            // messages of one process come together
+    Counted* last_ = nullptr;                                            // process of the previous message
     const RecordingProcess* last_process_ = nullptr;
 };
 
-/// "X: 3 messages of steps (numbers 5 to 7), published by machine time 12.345 s": a line for each process and kind, and
-/// the remedy.
+/// A line for each process and kind, "axis X: 3 messages of steps missing at the end (numbers 5 to 7), published by
+/// machine time 12.345 s".
 std::vector<std::string> missing_sentences(const RecordEnd& end);
-/// Up to when the record is known to be complete, if no process is known to lack a message; empty: to its end.
+/// Says until when the record is known to be complete, for processes without a recorded end; empty if there are none.
 std::vector<std::string> open_sentences(const RecordEnd& end);
 
 }  // namespace lockstep::analysis

@@ -22,7 +22,7 @@ std::expected<std::vector<std::uint8_t>, std::string> part_at(LogReader& log, st
     return std::move(part->data);
 }
 
-/// Before parts had whole blocks, a program was cut anywhere: it can only be read in one piece.
+/// Earlier versions cut a program anywhere, not between blocks. Such a program can only be read in one piece.
 std::expected<Program, std::string> program_in_one_piece(LogReader& log, const std::vector<std::uint64_t>& offsets) {
     std::vector<std::uint8_t> bytes;
     for (const std::uint64_t offset : offsets) {
@@ -77,7 +77,7 @@ void RecordedProgram::note_blocks(const std::vector<Block>& blocks) {
     }
 }
 
-/// Its blocks; of the first part the head, too.
+/// Reads the part's blocks, and the head from the first part.
 std::expected<Program, std::string> RecordedProgram::read_part(std::uint64_t offset, bool is_first) const {
     const auto bytes = part_at(*log_, offset);
     if (!bytes) { return std::unexpected(bytes.error()); }
@@ -90,7 +90,7 @@ std::size_t RecordedProgram::part_of(std::uint32_t number) const {
     return static_cast<std::size_t>(std::ranges::upper_bound(parts_, number, {}, &Part::first) - parts_.begin()) - 1;
 }
 
-/// Null: it cannot be read any more.
+/// Returns null if the part cannot be read any more.
 const std::vector<Block>* RecordedProgram::load(std::size_t part) const {
     const auto is_it = [&](const Loaded& loaded) { return loaded.used > 0 && loaded.part == part; };
     auto there = std::ranges::find_if(loaded_, is_it);

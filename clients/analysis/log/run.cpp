@@ -82,7 +82,7 @@ void StepMaker::begin_piece() {
     const std::size_t i = begun_++;
     const std::size_t commanded = run_.commanded_ticks.size();
     engine_.begin(run_.pieces[i]);
-    if (commanded > 0 && i == commanded) { return; }  // the rest of the one before
+    if (commanded > 0 && i == commanded) { return; }  // the second part of the split piece
     const bool split = i + 1 == commanded && commanded < run_.pieces.size();
     const Ticks ticks = run_.pieces[i].ticks + (split ? run_.pieces[i + 1].ticks : Ticks{});
     const Tick other_from = commanded_.other_from + commanded_.other_ticks;

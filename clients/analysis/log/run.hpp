@@ -1,4 +1,4 @@
-// A frame or a tail that an axis's device has run, from the log; and the steps that it must have made.
+// A frame or a tail that an axis's device has run, from the log, and the steps that it must have made.
 #pragma once
 
 #include <cstdint>
@@ -17,41 +17,42 @@ namespace lockstep::analysis {
 struct Run {
     std::int64_t incarnation = 0;  // of the axis's process; each process counts its runs from 0
     std::int64_t sequence = 0;     // without gaps
-    Epoch epoch = 0;               // 0: the axis's own move
+    Epoch epoch = 0;               // 0 for the axis's own moves
     FrameNumber frame = 0;
     bool tail = false;
     Tick start;
     Position from;  // machine coordinates
     std::vector<Piece> pieces;
-    bool cut = false;             // pulses ceased early, at stop_count
+    bool cut = false;             // the pulses stopped early, at stop_count
     std::int64_t stop_count = 0;  // at its end
     std::int64_t zero_count = 0;  // machine coordinates = device count - zero_count
-    // What was commanded is in machine time; all else is in the device's.
-    Ticks ahead{};                         // machine time less the device's, at the start
-    std::vector<Ticks> commanded_ticks{};  // of each piece; one split at the end is one. Empty: as the pieces last
-    Ticks clock_error{};                   // its steps are within this, plus two ticks, of the commanded time
+    // Commanded times are machine time; all other times are device time.
+    Ticks ahead{};                         // machine time minus device time, at the start
+    std::vector<Ticks> commanded_ticks{};  // of each piece; a split last piece counts as one; empty: as the pieces
+    Ticks clock_error{};                   // steps are within this, plus two ticks, of the commanded time
 
-    Position to() const;  // where its pieces end
+    Position to() const;  // at the end of the pieces
     Ticks ticks() const;
     Tick commanded_start() const { return start + ahead; }  // machine time
-    /// The device's own counts, which zeroing does not change.
+    /// The device's counts, which zeroing does not change.
     std::int64_t device_start() const { return from.count() + zero_count; }
     std::int64_t device_stop() const { return stop_count + zero_count; }
 };
 
-/// The error names the impossible value: pieces that no engine executes, numbers that are too large.
+/// The error names the impossible value: a piece that no engine executes, or a number that is too large.
 std::expected<Run, std::string> to_run(const run_t& message);
 
 /// "frame 12", "tail of frame 12", or "run 3, frame 1 of the axis's own move" outside any epoch.
 std::string name_of(const Run& run);
 
-/// Whether it begins at rest on a whole step.
+/// Whether the run begins at rest on a whole step.
 bool starts_from_rest(const Run& run);
 
-/// From their numbers: the next frame of the same motion, or the tail after the frame before.
+/// Whether `run` follows `before` by its numbers, as the next frame of the same motion or as the tail of the same
+/// frame.
 bool is_next(const Run& before, const Run& run);
 
-/// The steps of a run, one by one, as the tick-exact engine makes them.
+/// Makes the steps of a run one by one with the tick-exact engine.
 class StepMaker {
 public:
     explicit StepMaker(Run run);
@@ -63,9 +64,9 @@ public:
         return passed_ < made_.size() ? &made_[passed_] : nullptr;
     }
     void pass() { count_ += made_[passed_++].direction; }
-    /// The machine time that was commanded for the next step. There must be a next step.
+    /// The machine time commanded for the next step. There must be a next step.
     Tick commanded() { return commanded_.at(next()->tick); }
-    /// Where the axis is after the steps passed, machine coordinates.
+    /// The axis's position after the passed steps, in machine coordinates.
     std::int64_t count() const { return count_; }
 
 private:
@@ -75,10 +76,10 @@ private:
 
     Run run_;
     StepEngine engine_;
-    std::size_t begun_ = 0;   // pieces
-    ClockStretch commanded_;  // of the piece begun last, from the device's time
+    std::size_t begun_ = 0;   // number of pieces begun
+    ClockStretch commanded_;  // of the piece begun last, from device time to commanded time
     std::vector<StepEdge> made_;
-    std::size_t passed_ = 0;  // of made_
+    std::size_t passed_ = 0;  // number of steps of made_ passed
     std::int64_t count_;
 };
 

@@ -29,7 +29,7 @@ void StepStream::finish() {
     close_break(std::nullopt);
 }
 
-/// Counts a batch that comes after its time.
+/// Whether the batch comes after its turn; if it does, counts it as late or as a duplicate.
 bool StepStream::has_passed(const StepBatch& batch) {
     if (past_incarnations_.contains(batch.incarnation)) {
         ++counts_.duplicates;
@@ -95,7 +95,7 @@ void StepStream::note_position(std::int64_t position_before) {
     position_ = position_before;
 }
 
-/// An open break keeps its kind.
+/// Returns the open break, or opens one of this kind.
 Break& StepStream::open_break(Break::Kind kind) {
     if (!break_) { break_ = Break{.kind = kind, .from = last_tick_}; }
     return *break_;

@@ -1,7 +1,7 @@
-// One axis's steps in order, from batches that may be missing, repeated, late or of a restarted process.
+// Delivers one axis's steps in order, from batches that may be missing, repeated, late or of a restarted process.
 //
-// Missing steps are reported, never interpolated: which batches, between which ticks, and by how many steps the
-// position differs on either side.
+// Missing steps are reported, never interpolated. The report names the number of missing batches, the ticks around
+// them, and the change of position across them.
 #pragma once
 
 #include <cstdint>
@@ -17,38 +17,38 @@
 
 namespace lockstep::analysis {
 
-/// Every step of an axis since the batch before. Ticks rise strictly; directions are +1 or -1. Ticks are the device's
-/// as recorded, or machine time (log_step.hpp): a stream has only one of them.
+/// Every step of an axis since the previous batch. Ticks rise strictly; directions are +1 or -1. All ticks of a stream
+/// are either device time, as recorded, or machine time (log_step.hpp).
 struct StepBatch {
     std::int64_t incarnation = 0;  // of the axis's process; each process counts its batches from 0
     std::int64_t sequence = 0;     // without gaps
     std::int64_t position_before_steps = 0;
     std::vector<StepEdge> steps;
-    Ticks ahead_first{};  // machine time less the device's, at the first step
+    Ticks ahead_first{};  // machine time minus device time, at the first step
     Ticks ahead_last{};
-    Ticks clock_error{};               // of machine time, either way
-    std::vector<Tick> device_ticks{};  // of steps in machine time; empty: the same ticks
+    Ticks clock_error{};               // of machine time, in both directions
+    std::vector<Tick> device_ticks{};  // device time of the steps; empty if `steps` has it
 
-    /// When the device made a step. Intervals are exact only by its clock: between batches, machine time also contains
-    /// the change of its estimate.
+    /// Device time of a step. Intervals are exact only by the device's clock; across batches, machine time also
+    /// contains the change of its estimate.
     Tick device_tick(std::size_t step) const { return device_ticks.empty() ? steps[step].tick : device_ticks[step]; }
 
-    /// From the device's time to machine time. The batch must have steps.
+    /// Converts device time to machine time. The batch must have steps.
     ClockStretch machine_time() const;
 };
 
-/// A place where the steps on either side do not join.
+/// A gap between steps that do not follow each other.
 struct Break {
     enum class Kind : std::uint8_t {
         Missing,  // batches are missing from the log
         Restart,  // the axis's process restarted
-        Jump,     // nothing is missing, but positions continue from another value: zeroed, or times of steps lost
+        Jump,     // no batch is missing, but the position changes, after zeroing or after lost step times
     };
     Kind kind = Kind::Missing;
-    std::optional<Tick> from;          // the last step before; none at the log's beginning
-    std::optional<Tick> to;            // the first step after; none at the log's end
-    std::int64_t missing_batches = 0;  // by their numbers
-    std::int64_t position_change = 0;  // steps, after minus before: of steps missing, the balance of their directions
+    std::optional<Tick> from;          // the last step before; nullopt at the log's beginning
+    std::optional<Tick> to;            // the first step after; nullopt at the log's end
+    std::int64_t missing_batches = 0;  // from their numbers
+    std::int64_t position_change = 0;  // steps, after minus before; missing steps in both directions cancel
 };
 
 /// Receives a stream's steps in order.
@@ -56,23 +56,23 @@ class StepListener {
 public:
     virtual ~StepListener() = default;
     virtual void on_batch(const StepBatch& batch) = 0;
-    /// Between the batch before and the batch to come.
+    /// A break between the previous batch and the next one.
     virtual void on_break(const Break& /*what*/) {}
 };
 
 struct StreamCounts {
     std::int64_t batches = 0;     // delivered
-    std::int64_t steps = 0;       // in them
-    std::int64_t duplicates = 0;  // batches that came again: left out
-    std::int64_t late = 0;        // batches that came after they were given up as missing: left out
-    std::int64_t disordered = 0;  // batches with steps before those of the previous batch: left out
+    std::int64_t steps = 0;       // in these batches
+    std::int64_t duplicates = 0;  // repeated batches, left out
+    std::int64_t late = 0;        // batches that came after they were given up as missing, left out
+    std::int64_t disordered = 0;  // batches with steps before those of the previous batch, left out
     std::int64_t restarts = 0;
 };
 
 class StepStream {
 public:
     static constexpr std::int64_t kFirstSequence = 0;
-    /// How many batches wait for a missing one before it is given up: datagrams may overtake each other.
+    /// How many batches wait for a missing one before it is given up, since datagrams may overtake each other.
     static constexpr std::size_t kPatience = 16;
 
     explicit StepStream(std::vector<StepListener*> listeners) : listeners_(std::move(listeners)) {}
@@ -83,7 +83,7 @@ public:
     void finish();
 
     const StreamCounts& counts() const { return counts_; }
-    /// After the last step delivered; none before the first batch.
+    /// The position after the last delivered step; nullopt before the first batch.
     std::optional<std::int64_t> position_steps() const { return position_; }
     std::optional<Tick> last_tick() const { return last_tick_; }
 

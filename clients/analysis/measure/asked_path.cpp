@@ -8,7 +8,7 @@
 namespace lockstep::analysis {
 namespace {
 
-/// When an axis has come `steps` from where the first move begins, towards `direction`: by bisection.
+/// Finds by bisection when an axis is `steps` from the beginning of the first move, in `direction`.
 Ticks when(const LegPlan& leg, std::size_t axis, int direction, double steps) {
     const AxisMotion& motion = leg.axes[axis];
     const auto from = static_cast<double>(leg.from(0, axis));
@@ -25,8 +25,8 @@ Ticks when(const LegPlan& leg, std::size_t axis, int direction, double steps) {
     return low;
 }
 
-/// Of the first move. Steps fall at half-steps: the first half a step after the beginning, the last half a step before
-/// the end.
+/// The time from the first step of the first move to its last. A step occurs halfway between two positions: the first
+/// half a step after the beginning, the last half a step before the end.
 Ticks stepping_time(const LegPlan& leg, std::size_t axis) {
     const std::int64_t steps = leg.to(0, axis) - leg.from(0, axis);
     if (steps == 0) { return {}; }
@@ -54,7 +54,7 @@ std::expected<AskedPath, std::string> AskedPath::of(const MachineConfig& machine
     return asked;
 }
 
-/// The first move of what is left of a leg.
+/// Adds the first move of the rest of a leg.
 void AskedPath::add_first(const LegPlan& leg) {
     const PlannedMove& move = leg.moves.front();
     const auto number = static_cast<std::uint32_t>(lines_.size());

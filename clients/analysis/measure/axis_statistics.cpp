@@ -50,7 +50,7 @@ void AxisStatistics::begin(StepEdge edge, std::int64_t position_before) {
     stand_at(edge.tick);
 }
 
-/// Speed and acceleration by the device's clock, which the motor follows, at machine times.
+/// Speed and acceleration are by the device's clock, which the motor follows; their times are machine time.
 void AxisStatistics::measure(StepEdge edge, Tick by_device, std::int64_t position, MeasuredStep& step) {
     const auto speed = meter_.step({by_device, edge.direction});
     const auto& acceleration = meter_.acceleration();
@@ -69,7 +69,7 @@ void AxisStatistics::stand_at(Tick tick) {
     acceleration_.add({tick, 0});
 }
 
-/// During a rest both are 0 from its first instant to its last; where steps are missing they are unknown.
+/// Speed and acceleration are 0 during a rest. Where steps are missing they are unknown.
 void AxisStatistics::show_rest(Tick until) {
     if (!std::exchange(joined_, true) || !last_ || until - last_->tick <= SpeedMeter::kRest) { return; }
     stand_at(last_->tick);

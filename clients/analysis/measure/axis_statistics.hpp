@@ -1,4 +1,4 @@
-// The motion of one axis, from its steps alone.
+// Measures the motion of one axis from its steps alone.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ class AxisStatistics final : public StepListener {
 public:
     static constexpr std::size_t kBreaksKept = 1000;
 
-    /// Each step also goes to `listener`, with its measured values.
+    /// Passes each step to `listener` too, with its measured values.
     void set_listener(MeasuredListener& listener, std::size_t lane) {
         listener_ = &listener;
         lane_ = lane;
@@ -45,10 +45,10 @@ public:
 
     const std::vector<Break>& breaks() const { return breaks_; }  // the first kBreaksKept
     std::int64_t break_count() const { return break_count_; }
-    /// The steps' times are machine time within this.
+    /// The maximum error of the steps' times as machine time.
     Ticks clock_error() const { return clock_error_; }
     std::int64_t missing_batches() const { return missing_batches_; }
-    /// The minimum number of missing steps: the difference of positions over all missing batches.
+    /// The minimum number of missing steps: the sum of the changes of position across missing batches.
     std::int64_t missing_steps() const { return missing_steps_; }
 
 private:

@@ -10,7 +10,7 @@ void Course::Bin::add(const Bin& later) {
     for (const Sample& sample : {later.first, later.lowest, later.highest, later.last}) { add(sample); }
 }
 
-/// False: there is no bin before the first sample.
+/// Returns false if `at` is before the first sample, where there is no bin.
 bool Course::find_bin(Tick at) {
     if (bins_.empty()) { origin_ = at; }
     if (at < origin_) { return false; }

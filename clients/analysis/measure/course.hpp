@@ -1,7 +1,7 @@
-// A quantity over time in a bounded number of points, peaks included.
+// A quantity over time in a bounded number of points, including its peaks.
 //
-// Time is divided into equal bins; each keeps its first, lowest, highest and last sample. If there are too many bins,
-// neighbours are merged and the bins double in width.
+// Time is divided into equal bins, and each bin keeps its first, lowest, highest and last sample. If there are too many
+// bins, neighbours are merged and the bins double in width.
 #pragma once
 
 #include <algorithm>
@@ -24,12 +24,12 @@ public:
     static constexpr std::size_t kMaxBins = 4096;
     static constexpr Ticks kFinest{1000};
 
-    /// Samples come in the order of time; one from before the first is left out.
+    /// Samples come in the order of time. Leaves out a sample that is earlier than the first.
     void add(Sample sample) {
         if (is_in_latest(sample.at) || find_bin(sample.at)) { bins_[latest_].add(sample); }
     }
-    /// Samples of one value at at(0) ... at(count - 1), in the order of time: of those within a bin, the first and the
-    /// last are sufficient.
+    /// Adds samples of one value at the times at(0) ... at(count - 1), in order. Only the first and the last in a bin
+    /// are needed.
     template <typename At>
     void add_equal(double value, std::size_t count, At&& at) {
         for (std::size_t i = 0; i < count;) {
@@ -65,7 +65,7 @@ private:
     Tick origin_;
     Ticks width_ = kFinest;
     std::vector<Bin> bins_;
-    std::size_t latest_ = 0;  // the bin of the latest sample, and its stretch of time
+    std::size_t latest_ = 0;  // the bin of the latest sample, and its range of time
     Tick latest_from_;
     Tick latest_end_;
 };

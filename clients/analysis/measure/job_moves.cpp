@@ -7,7 +7,7 @@
 namespace lockstep::analysis {
 namespace {
 
-/// Starts with the first step, which is in the move.
+/// The number of steps, counted from the first, that are in the cursor's move. The first step is in it.
 std::size_t steps_in_move(const MoveCursor& cursor, std::span<const LateStep> steps) {
     const LateStep& first = steps.front();
     const std::int64_t way = (steps.back().count - first.count) * first.direction;
@@ -85,7 +85,7 @@ void JobMoves::stand(Part& part, double at_mm) {
     part.along_mm = part.off_mm * part.direction;
 }
 
-/// Of the distance from where the axes are to the nearest point of the line.
+/// The square of the distance from the axes' position to the nearest point of the line.
 double JobMoves::square_of_distance_mm2() const {
     double along = 0;
     for (const Part& part : line_) { along += part.along_mm; }
@@ -117,7 +117,7 @@ void JobMoves::take(std::size_t axis, const MeasuredStep& step) {
     largest = std::max(largest, static_cast<float>(square_of_distance_mm2()));
 }
 
-/// The other axes' later steps were compared with an outdated position of this axis.
+/// Called if later steps of other axes were compared with an outdated position of this axis.
 void JobMoves::forget_distances(std::size_t from_move) {
     for (std::size_t move = from_move; move <= current_; ++move) { made_[move].is_distance_known = false; }
 }

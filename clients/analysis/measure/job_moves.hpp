@@ -1,8 +1,7 @@
-// The moves of a job as they were made, step by step, compared with the commanded ones.
+// Compares the moves of a job as they were made, step by step, with the commanded ones.
 //
-// An axis makes the steps of its moves in their order and no others, whatever holds and resumptions lie between. So
-// the move of a step follows from the axis's position, not from any clock: it is the next move that leads through
-// there.
+// An axis makes exactly the steps of its moves, in order, also across holds and resumptions. The move of a step
+// therefore follows from the axis's position, not from a clock: it is the next move through this position.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +22,7 @@ namespace lockstep::analysis {
 struct AxisMove {
     std::int64_t asked_steps = 0;
     std::int64_t made_steps = 0;
-    double peak_steps_per_tick = 0;  // from SpeedMeter: a window may reach into the move before
+    double peak_steps_per_tick = 0;  // from SpeedMeter; its window may reach into the previous move
     double peak_steps_per_tick2 = 0;
 };
 
@@ -31,40 +30,43 @@ struct MoveLog {
     std::int32_t line = 0;  // of the program
     double length_mm = 0;
     Ticks planned;
-    /// Total duration: between its first step and its last, plus the planned times before and after. None: no steps.
+    /// Total duration: from the lead axis's first step to its last, plus the planned times before and after. nullopt
+    /// without steps.
     std::optional<Ticks> made;
-    /// Of any step from the commanded line. None if axes moved on their own, or steps came too late in the log.
+    /// Of any step from the commanded line. nullopt if axes moved on their own, or if steps are missing or came too
+    /// late in the log.
     std::optional<double> largest_distance_mm;
-    std::optional<Tick> first;   // of the steps of the axis that has the most
+    std::optional<Tick> first;   // step of the axis with the most steps
     TickHistogram late;          // of its steps, against the commanded ticks
-    Ticks skew;                  // from its earliest step to its latest, relative to these
+    Ticks skew;                  // largest lateness of its steps minus the smallest
     std::vector<AxisMove> axes;  // in the machine's order
     bool is_dwell = false;
     bool is_whole() const;
 };
 
-/// Finds the next move through a place, of one axis.
+/// Finds the next move of one axis through a place.
 class MoveCursor {
 public:
-    /// Goes to the move in which an axis steps from `count` in `direction`. False: no such move is near.
+    /// Goes to the move in which an axis steps from `count` in `direction`. Returns false if none of the next kReach
+    /// moves does.
     bool find(const AskedPath& asked, std::size_t axis, std::int64_t count, int direction) {
         return is_in_move(count, direction) || find_next(asked, axis, count, direction);
     }
     bool is_in_move(std::int64_t count, int direction) const {
         return direction == direction_ && low_ <= count && count < high_;
     }
-    /// The steps from `count` on to the end of the move that leads through there.
+    /// The number of steps from `count` to the end of the move.
     std::int64_t steps_from(std::int64_t count) const { return direction_ > 0 ? high_ - count : count - low_ + 1; }
-    /// Its number.
+    /// The number of the move.
     std::size_t move() const { return move_; }
 
 private:
-    static constexpr std::size_t kReach = 64;  // moves that may be missing from the log
+    static constexpr std::size_t kReach = 64;  // moves searched, because some may be missing from the log
 
     bool find_next(const AskedPath& asked, std::size_t axis, std::int64_t count, int direction);
 
-    std::size_t next_ = 0;  // of the axis's moves
-    std::size_t move_ = 0;  // the one found last: it leads through counts from low_ up to high_, exclusive
+    std::size_t next_ = 0;  // index in the axis's moves
+    std::size_t move_ = 0;  // found last; it passes counts from low_ up to high_, exclusive
     int direction_ = 0;
     std::int64_t low_ = 0;
     std::int64_t high_ = 0;
@@ -72,28 +74,28 @@ private:
 
 class JobMoves {
 public:
-    /// `on_a_line`: axes move together, not each on its own.
+    /// `on_a_line`: the axes move together, not each on its own.
     JobMoves(AskedPath asked, bool on_a_line);
 
     const AskedPath& asked() const { return asked_; }
     bool is_on_a_line() const { return on_a_line_ && asked_.size() > 0; }
-    /// In the order of time. A step that comes late makes the distances since its move unknown.
+    /// Call in the order of time. A step that comes late makes the distances since its move unknown.
     void take(std::size_t axis, const MeasuredStep& step);
     void take(std::size_t axis, LateSteps late);
 
     /// Steps that belong to no move.
     std::int64_t unasked_steps() const { return unasked_steps_; }
-    /// The axis made fewer steps than commanded: the log lacks some, or the job ended before they were made.
+    /// Whether the axis made fewer steps than commanded, because the log lacks some or the job ended earlier.
     bool lacks_steps_of(std::size_t axis) const;
-    /// The log has the axis's steps until then and no further: if it lacks steps, distances since then are unknown.
+    /// The log has the axis's steps only until `until`. If it lacks steps, distances after `until` are unknown.
     void know_until(std::size_t axis, Tick until);
-    /// Moves whose distance from the line is unknown.
+    /// The number of moves with an unknown distance from the line.
     std::int64_t moves_without_distance() const;
-    /// The program's line in motion; none before the first.
+    /// The program's line in motion at `tick`; nullopt before the first.
     std::optional<std::int32_t> line_at(Tick tick) const;
     /// How late the steps of all moves were, against the commanded ticks.
     const TickHistogram& late() const { return late_; }
-    /// Of moves without details it has the line, the steps of each axis and the distance only.
+    /// For moves without details, returns only the line, the steps of each axis and the distance.
     MoveLog move(std::size_t number) const;
 
 private:
@@ -102,8 +104,8 @@ private:
     struct Made {
         Tick first = kNever;            // of the lead axis's steps
         Tick newest;                    // of all axes' steps
-        float largest_square_mm2 = 0;   // of the distance from its line...
-        bool is_distance_known = true;  // ...but for steps that came late
+        float largest_square_mm2 = 0;   // of the distance from the line
+        bool is_distance_known = true;  // false if steps came late or are missing
     };
     struct Peak {
         float steps_per_tick = 0;
@@ -112,19 +114,19 @@ private:
     struct Details {
         Tick last;  // of the lead axis's steps
         TickHistogram late;
-        Ticks earliest;  // of how late its steps were
+        Ticks earliest;  // smallest lateness of its steps
         Ticks latest;
         std::vector<Peak> peaks;  // by axis
         void add(std::span<const LateStep> equally_late);
     };
-    /// One axis's part in the current move's line, and where the axis is.
+    /// One axis's part in the current move's line, and its position.
     struct Part {
         std::int64_t count = 0;
         double from_mm = 0;
-        double direction = 0;  // of all axes together of length 1
+        double direction = 0;  // component of the line's unit vector
         double at_mm = 0;
-        double off_mm = 0;    // from from_mm
-        double along_mm = 0;  // its share of the way along the line
+        double off_mm = 0;    // at_mm - from_mm
+        double along_mm = 0;  // its contribution to the distance along the line
     };
 
     void take_in(std::size_t move, std::size_t axis, const MeasuredStep& step);
@@ -141,10 +143,10 @@ private:
     std::vector<MoveCursor> late_cursor_;
     std::vector<Made> made_;                // by move
     std::vector<std::int64_t> made_steps_;  // by move and axis
-    std::vector<Details> details_;          // of the first moves
+    std::vector<Details> details_;          // of the first moves only
     TickHistogram late_;
     std::size_t current_ = 0;
-    Tick newest_;             // of the steps taken
+    Tick newest_;             // of the steps so far
     std::vector<Part> line_;  // of the current move, by axis
     double line_length_mm_ = 0;
     std::int64_t unasked_steps_ = 0;

@@ -1,5 +1,5 @@
-// Finds how late each axis's steps were, and the skew between axes: the stage between the axes' own figures
-// and the jobs'.
+// Measures how late each axis's steps were, and the skew between axes. It is the stage between the figures of the axes
+// and those of the jobs.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace lockstep::analysis {
 
 class LateMeter final : public SortedListener {
 public:
-    /// `next` receives all that this object receives, and the lateness of steps.
+    /// `next` receives everything that this object receives, and the lateness of steps.
     explicit LateMeter(SortedListener& next) : next_(next) {}
     LateMeter(const LateMeter&) = delete;
     LateMeter& operator=(const LateMeter&) = delete;
@@ -27,7 +27,7 @@ public:
     }
     void on_damage(LogPlace place, const std::string& what) override { next_.on_damage(place, what); }
 
-    /// Call once, at the end of the log. The pairs of axes that had frames together.
+    /// Call once, at the end of the log. Returns the pairs of axes that ran frames together.
     std::vector<PairSkew> finish() { return skew_.finish(); }
 
 private:

@@ -37,7 +37,7 @@ void Lateness::settle() {
     }
 }
 
-/// The first run lasts at most until the next begins: it may have been cut.
+/// The first run lasts at most until the next one begins, because it may have been cut.
 Tick Lateness::first_end() const {
     const Tick end = runs_.front().commanded_start() + runs_.front().ticks();
     return runs_.size() > 1 ? std::min(end, runs_[1].commanded_start()) : end;
@@ -50,7 +50,7 @@ void Lateness::compare_first() {
     if (run.epoch != 0) { on_run_(run, std::move(late)); }
 }
 
-/// Up to the first step that is not in the log.
+/// Compares the run's steps up to the first one that is not in the log.
 LateRun Lateness::compare(StepMaker maker) {
     LateRun run;
     std::vector<LateStep>& steps = run.steps;
@@ -60,7 +60,7 @@ LateRun Lateness::compare(StepMaker maker) {
                std::abs((seen.tick - maker.commanded()).value) < kPatience.value;
     };
     while (!seen_.empty() && seen_.front().tick < maker.run().commanded_start() && !is_next(seen_.front())) {
-        seen_.pop();  // of runs that are not in the log
+        seen_.pop();  // steps of runs that are not in the log
     }
     steps.reserve(std::min(seen_.size(), likely_steps(maker.run())));
     for (; !seen_.empty() && is_next(seen_.front()); seen_.pop(), maker.pass()) {

@@ -1,7 +1,7 @@
-// How late one axis's steps were: each compared with its tick in its frame, in machine time.
+// Measures how late one axis's steps were. Compares each step with its tick in its frame, in machine time.
 //
-// Only frames and their tails are compared: the runs that axes execute together. Steps are found by their counts; if
-// steps or runs are missing from the log, ambiguous steps are left out.
+// Only the runs that axes execute together are compared: frames and their tails. Steps are identified by their counts.
+// If steps or runs are missing from the log, ambiguous steps are left out.
 #pragma once
 
 #include <algorithm>
@@ -20,22 +20,22 @@ namespace lockstep::analysis {
 
 struct LateStep {
     Tick commanded;
-    Ticks late;              // below 0: early
+    Ticks late;              // negative: early
     Ticks error;             // uncertainty of `late`
-    std::int64_t count = 0;  // after it, machine coordinates
+    std::int64_t count = 0;  // after the step, machine coordinates
     std::int8_t direction = 0;
 };
 
-/// Some steps of one run, in the order of the ticks commanded.
+/// Some steps of one run, in the order of the commanded ticks.
 struct LateSteps {
     std::span<const LateStep> steps;
-    bool are_equally_late = false;  // known to be equally late, usually 0
+    bool are_equally_late = false;  // known to be equally late, usually by 0 ticks
 
     LateSteps first(std::size_t count) const { return {steps.first(count), are_equally_late}; }
     LateSteps behind(std::size_t count) const { return {steps.subspan(count), are_equally_late}; }
 };
 
-/// Calls on_equal(steps) for each stretch of steps that are equally late.
+/// Calls on_equal(steps) for each group of consecutive steps that are equally late.
 template <typename OnEqual>
 void for_equally_late(LateSteps late, OnEqual&& on_equal) {
     while (!late.steps.empty()) {
@@ -47,7 +47,7 @@ void for_equally_late(LateSteps late, OnEqual&& on_equal) {
     }
 }
 
-/// All of one run; read on any thread.
+/// All steps of one run. Any thread may read it.
 struct LateRun {
     std::vector<LateStep> steps;
     bool are_equally_late = true;
@@ -58,20 +58,20 @@ using SharedLate = std::shared_ptr<const LateRun>;
 
 class Lateness {
 public:
-    /// How long after a run's end its last steps are awaited: messages are sent every 10 ms. Later steps are not
-    /// considered.
+    /// How long after a run's end its last steps are awaited. Messages are sent every 10 ms. Later steps are ignored.
     static constexpr Ticks kPatience{100'000};
-    /// The maximum of waiting runs: an axis at rest while others move publishes no steps to wait for.
+    /// The maximum number of waiting runs. An axis at rest publishes no steps, so its runs wait while others move.
     static constexpr std::size_t kMaxWaiting = 256;
-    /// The maximum of steps that wait for the record of their run; older ones belong to no run in the log. 64 MB.
+    /// The maximum number of steps that wait for the record of their run (64 MB). Older steps belong to no run in the
+    /// log.
     static constexpr std::size_t kMaxSeen = std::size_t{1} << 21;
 
     using OnRun = std::function<void(const Run&, SharedLate)>;
 
-    /// `on_run` is called with each run of an epoch, in the order of their starts.
+    /// Calls `on_run` with each run of an epoch, in the order of their starts.
     explicit Lateness(OnRun on_run) : on_run_(std::move(on_run)) {}
 
-    /// The next steps.
+    /// Takes the next steps.
     void take(SharedSteps steps);
     void take(Run run);
     /// Call once, at the end of the log.
@@ -84,8 +84,8 @@ private:
     LateRun compare(StepMaker maker);
 
     OnRun on_run_;
-    StepQueue seen_;        // and of no run yet
-    std::deque<Run> runs_;  // by their starts
+    StepQueue seen_;        // steps of no run yet
+    std::deque<Run> runs_;  // ordered by their starts
     std::optional<Tick> last_tick_;
 };
 

@@ -1,4 +1,4 @@
-// A step with its measured values: passed from an axis's own stream of steps to the stages for all axes.
+// A step with its measured values, passed from the stream of one axis to the stages for all axes.
 #pragma once
 
 #include <cstddef>
@@ -12,25 +12,25 @@ namespace lockstep::analysis {
 
 struct MeasuredStep {
     Tick tick;
-    std::int64_t count = 0;    // after it, machine coordinates
-    float steps_per_tick = 0;  // amounts; 0 where too few steps are known
+    std::int64_t count = 0;    // after the step, machine coordinates
+    float steps_per_tick = 0;  // without sign; 0 if too few steps are known
     float steps_per_tick2 = 0;
     std::int8_t direction = 0;
 };
 
-/// Steps in their order. Their ticks are machine time within clock_error.
+/// Steps in order. Their ticks are machine time within clock_error.
 struct MeasuredSteps {
-    std::vector<MeasuredStep> steps;  // one at least
+    std::vector<MeasuredStep> steps;  // at least one
     Ticks clock_error;
 };
 
-/// Measured once, and read by any stage, on any thread.
+/// Steps are measured once. Any stage on any thread may read them.
 using SharedSteps = std::shared_ptr<const MeasuredSteps>;
 
 class MeasuredListener {
 public:
     virtual ~MeasuredListener() = default;
-    /// A lane is an axis, by number.
+    /// A lane is the number of an axis.
     virtual void on_measured(std::size_t lane, const SharedSteps& steps) = 0;
 };
 

@@ -18,23 +18,24 @@ namespace lockstep::analysis {
 
 class MoveMeter {
 public:
-    /// How many jobs may be open: messages of the next job come before the last steps of the previous one.
+    /// How many jobs may be open. Messages of the next job may come before the last steps of the previous one.
     static constexpr std::size_t kJobsOpen = 4;
 
-    /// Called with each job's moves when it is over, by the number given to begin(), and its machine's axes.
+    /// Called when a job is over, with the number given to begin(), the axes of its machine, and its moves.
     using OnJob = std::function<void(std::size_t number, const std::vector<std::string>& axes, JobMoves&)>;
     explicit MoveMeter(OnJob on_job) : on_job_(std::move(on_job)) {}
 
-    /// The name of the axis whose steps the lane of that number has.
+    /// Sets the name of a lane's axis.
     void name_lane(std::size_t lane, const std::string& axis);
-    /// All steps from `from` on are the job's, until the next begins.
+    /// Begins a job. All steps from `from` on belong to it, until the next job begins.
     void begin(std::size_t number, Tick from, const MachineConfig& machine, JobMoves moves);
-    /// Steps of all axes, in the order of their ticks.
+    /// Takes the steps of all axes in the order of their ticks.
     void take(std::size_t lane, const MeasuredStep& step);
-    /// The path of axes X and Y, in steps: of jobs whose axes move together; of all steps if there is no such job.
+    /// The path of axes X and Y, in steps. It contains the jobs in which axes move together, or all steps if there is
+    /// no such job.
     const PlaneTrace& plane() const { return plane_; }
     void on_late(const std::string& axis, LateSteps late);
-    /// Made before the first job began.
+    /// Steps made before the first job began.
     std::int64_t steps_of_no_job() const { return steps_of_no_job_; }
     /// Call once, at the end.
     void finish();
@@ -42,7 +43,7 @@ public:
 private:
     struct Lane {
         std::string axis;
-        std::optional<std::size_t> in_plane;  // of PlaneTrace's two axes
+        std::optional<std::size_t> in_plane;  // axis of PlaneTrace, 0 or 1
     };
     struct Job {
         std::size_t number = 0;
@@ -54,7 +55,7 @@ private:
         std::optional<std::size_t> axis(const std::string& name) const;
     };
 
-    /// The latest one that has begun by then; null: none has.
+    /// The latest job that has begun by `tick`, or null.
     Job* job_at(Tick tick) {
         auto job = jobs_.rbegin();
         while (job != jobs_.rend() && job->from > tick) { ++job; }
@@ -65,7 +66,7 @@ private:
 
     OnJob on_job_;
     std::vector<Lane> lanes_;
-    std::vector<Job> jobs_;  // as they began
+    std::vector<Job> jobs_;  // in the order they began
     PlaneTrace plane_;
     bool plane_is_of_jobs_ = false;
     std::int64_t steps_of_no_job_ = 0;

@@ -1,7 +1,7 @@
-// The stepped path in the plane of two axes in a bounded number of points.
+// The stepped path in the plane of two axes, in a bounded number of points.
 //
-// Each step is half a step off the ideal path, so points are left out while a straight line passes each
-// within a step. If there are too many points, the tolerance doubles.
+// Each step is half a step off the ideal path. Points are therefore left out while a straight line passes each of them
+// within kTolerance. If there are too many points, the tolerance doubles.
 #pragma once
 
 #include <array>
@@ -18,14 +18,14 @@ class PlaneTrace {
 public:
     static constexpr double kTolerance = 0.75;  // steps
     static constexpr std::size_t kMaxPoints = 100'000;
-    static constexpr std::size_t kMaxWays = 10'000;  // beyond that, ways are joined
+    static constexpr std::size_t kMaxWays = 10'000;  // further ways are joined
 
-    /// Axis 0 or 1 of the plane stands on `count` after a step in `direction`.
+    /// Axis 0 or 1 of the plane has made a step in `direction` to `count`.
     void step(std::size_t axis, std::int64_t count, int direction);
-    /// The following steps do not join the previous ones.
+    /// Begins a new way, because the following steps do not join the previous ones.
     void part();
 
-    /// In steps. Each inner vector is one unbroken path.
+    /// The path in steps. Each inner vector is one unbroken part.
     std::vector<std::vector<drawing::Point>> ways() const;
 
 private:

@@ -56,13 +56,13 @@ void SkewMeter::take_first_frame() {
     }
 }
 
-/// Both axes' steps in the order of the ticks commanded.
+/// Goes through both axes' steps in the order of the commanded ticks.
 void SkewMeter::take_pair(const Steps::value_type& first, const Steps::value_type& second) {
     const auto& a = first.second->steps;
     const auto& b = second.second->steps;
     if (a.empty() || b.empty()) { return; }
     Amounts& amounts = skews_[{first.first, second.first}];
-    auto same = amounts.times.end();  // the amount found last: most are the same
+    auto same = amounts.times.end();  // the amount found last, since most are the same
     const LateStep* newest_a = nullptr;
     const LateStep* newest_b = nullptr;
     for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();) {

@@ -1,8 +1,8 @@
-// Step skew between axes: how far apart the steps of two axes are, compared with a common clock.
+// Measures the step skew between axes: how far apart the steps of two axes are, compared with a common clock.
 //
-// An axis's steps are late by (tick made) - (tick commanded). The skew of a pair, at each step of either, is the
-// difference of the lateness of both axes' newest steps, among those of the same frame. In machine time, so its
-// uncertainty is that of both axes' clocks; 0 if one clock drives all devices.
+// The lateness of a step is (tick made) - (tick commanded). At each step of either axis, the skew of a pair is the
+// difference between the lateness of both axes' newest steps of the same frame. It is measured in machine time, so its
+// uncertainty is that of both axes' clocks, or 0 if one clock drives all devices.
 #pragma once
 
 #include <cstdint>
@@ -17,24 +17,24 @@
 
 namespace lockstep::analysis {
 
-/// Of one pair of axes. Amounts, without their signs.
+/// The skew of one pair of axes, without signs.
 struct PairSkew {
     std::string first;
     std::string second;
-    std::int64_t steps = 0;  // at which it was taken
+    std::int64_t steps = 0;  // number of steps at which it was measured
     Ticks median;
     Ticks p99;
     Ticks largest;
-    Ticks error;  // uncertainty of each
+    Ticks error;  // uncertainty of each value
 };
 
 class SkewMeter {
 public:
-    /// A frame waits until every axis has delivered a later one; this limits the frames that wait for it.
+    /// The maximum number of waiting frames. A frame waits until every axis has delivered a later one.
     static constexpr std::size_t kFramesWaiting = 64;
 
     using OnLate = std::function<void(const std::string& axis, const SharedLate& steps)>;
-    /// `on_late` is called with the steps of each frame, axis by axis.
+    /// Calls `on_late` with the steps of each frame, axis by axis.
     explicit SkewMeter(OnLate on_late) : on_late_(std::move(on_late)) {}
 
     /// Call at the first message of an axis.
@@ -42,7 +42,7 @@ public:
     /// The next steps of an axis.
     void take(const std::string& axis, SharedSteps steps) { lateness(axis).take(std::move(steps)); }
     void take(const std::string& axis, Run run) { lateness(axis).take(std::move(run)); }
-    /// Call once, at the end of the log. Returns the pairs that had frames together.
+    /// Call once, at the end of the log. Returns the pairs that ran frames together.
     std::vector<PairSkew> finish();
 
 private:
@@ -68,7 +68,7 @@ private:
 
     OnLate on_late_;
     std::map<std::string, std::unique_ptr<Lateness>> axes_;
-    std::map<std::string, FrameKey> latest_;  // that each axis has delivered
+    std::map<std::string, FrameKey> latest_;  // the latest frame that each axis has delivered
     std::map<FrameKey, Steps> frames_;
     std::map<std::pair<std::string, std::string>, Amounts> skews_;
 };

@@ -1,5 +1,5 @@
-// The content of a log after its messages are sorted: those of the analysed machine, complete, each axis's steps in
-// order and measured. Every evaluation of several axes, or of jobs, begins here.
+// The sorted content of a log: all messages of the analyzed machine, with each axis's steps in order and measured.
+// Every evaluation of several axes or of jobs uses it.
 #pragma once
 
 #include <cstddef>
@@ -16,19 +16,19 @@
 
 namespace lockstep::analysis {
 
-/// Called in the order of the log. A lane is an axis, by number, from 0.
+/// Called in the order of the log. A lane is the number of an axis, from 0.
 class SortedListener : public MeasuredListener {
 public:
-    /// The next lane, before anything else of it.
+    /// Announces the next lane, before its first message.
     virtual void on_axis(const std::string& name) = 0;
     virtual void on_position(const axis_position_t& message) = 0;
     virtual void on_run(std::size_t lane, const Run& run) = 0;
     virtual void on_job(const RecordedJob& message, LogPlace place) = 0;
-    /// `event`: what the message switches.
+    /// `event`: the decoded content of the message.
     virtual void on_event(const program_event_t& message, const ProgramEvent& event) = 0;
-    /// The content cannot be read or decoded.
+    /// A part of the log that cannot be read or decoded.
     virtual void on_damage(LogPlace place, const std::string& what) = 0;
-    /// The lateness of the steps of a run: from LateMeter, which passes on everything else.
+    /// The lateness of the steps of a run. LateMeter sends it and passes on everything else.
     virtual void on_late(const std::string& /*axis*/, const SharedLate& /*steps*/) {}
 };
 

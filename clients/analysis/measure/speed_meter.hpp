@@ -1,14 +1,14 @@
-// The rate of steps, and how fast it changes, from their ticks alone.
+// Measures the rate of steps and its change, from the steps' ticks alone.
 //
-// A step's tick is a whole number, so the interval between two steps is off by up to a tick; between neighbours that
-// may be a large part of it. Both figures are therefore taken over windows of several steps:
-//   speed         n steps of one direction / the ticks they took, over the latest window of at least 8 steps and
-// 1 000 ticks. A tick's rounding is then at most 0.1 %. The true speed occurs at some instant within
-//                 the window; a peak shorter than the window is flattened.
-//   acceleration  (speed in one window - speed in the window before) / the time between their middles, windows of at
-//                 least 8 steps and 10 000 ticks. Rounding then is at most 2e-8 of the speed, per tick. A permitted
-//                 jump of speed inside a window counts as acceleration spread over it.
-// A motion from rest to rest, or from reversal to reversal, that is shorter than a window counts as one.
+// A step's tick is a whole number, so the interval between two steps has an error of up to a tick. For consecutive
+// steps this may be a large part of the interval. Both figures are therefore measured over windows of several steps:
+//   speed         (steps in one direction) / (the ticks they took), over the latest window of at least 8 steps and
+//                 1 000 ticks. A tick's rounding is then at most 0.1 %. The true speed occurs at some instant within
+//                 the window. A peak shorter than the window is flattened.
+//   acceleration  (speed in one window - speed in the previous window) / (time between their middles), with windows of
+//                 at least 8 steps and 10 000 ticks. Rounding is then at most 2e-8 of the speed, per tick. A permitted
+//                 jump of speed inside a window counts as acceleration spread over the window.
+// A motion from rest to rest or between reversals that is shorter than a window counts as one window.
 #pragma once
 
 #include <algorithm>
@@ -24,17 +24,18 @@ namespace lockstep::analysis {
 
 class SpeedMeter {
 public:
-    /// After so long without a step an axis is at rest; the window starts again.
+    /// After this time without a step an axis is at rest, and the window starts again.
     static constexpr Ticks kRest{100'000};
 
-    /// Takes the next step, in order. Returns the speed in the window it completes, at the window's middle, signed.
+    /// Takes the next step, in order. Returns the signed speed in the window that it completes, at the window's middle;
+    /// nullopt if it completes none.
     std::optional<Sample> step(StepEdge edge);
-    /// The acceleration between the two windows that the latest step completed, signed; none: it completed none.
+    /// The signed acceleration between the two windows that the latest step completed; nullopt if it completed none.
     const std::optional<Sample>& acceleration() const { return acceleration_; }
-    /// Later steps do not join those before. Also ends the last motion.
+    /// Ends the motion: later steps do not join the previous ones.
     void interrupt();
 
-    double peak_steps_per_tick() const { return peak_speed_; }          // either way
+    double peak_steps_per_tick() const { return peak_speed_; }          // in either direction
     double peak_steps_per_tick2() const { return peak_acceleration_; }  // speeding up or slowing down
 
 private:
@@ -63,12 +64,12 @@ private:
         return static_cast<double>(from.value) / 2 + static_cast<double>(to.value) / 2;
     }
 
-    std::vector<Past> past_;       // the newest steps of this motion: those that a window may still begin with
-    std::size_t room_ = kKept;     // how many of them there may be before the oldest are dropped
-    std::size_t speed_first_ = 0;  // where the windows begin that end with the newest step
+    std::vector<Past> past_;       // the newest steps of this motion, with which a window may still begin
+    std::size_t room_ = kKept;     // maximum size of past_ before the oldest are dropped
+    std::size_t speed_first_ = 0;  // begin of the windows that end with the newest step
     std::size_t late_first_ = 0;
     int direction_ = 0;
-    bool measured_ = false;  // a whole window of this stretch
+    bool measured_ = false;  // a whole window of this motion
     std::optional<Sample> acceleration_;
     double peak_speed_ = 0;
     double peak_acceleration_ = 0;
@@ -92,7 +93,7 @@ inline std::optional<Sample> SpeedMeter::measure_speed() {
     return Sample{first + Ticks{(past_.back().tick - first).value / 2}, direction_ * speed};
 }
 
-/// The later window ends with the newest step, the earlier one with the later one's first.
+/// The later window ends with the newest step. The earlier window ends with the first step of the later one.
 inline void SpeedMeter::measure_acceleration() {
     acceleration_.reset();
     if (!narrow(late_first_, kAccelerationWindow)) { return; }
@@ -108,12 +109,12 @@ inline void SpeedMeter::measure_acceleration() {
     peak_acceleration_ = std::max(peak_acceleration_, std::abs(acceleration));
 }
 
-/// Whether the steps from `first` to the newest make a window.
+/// Whether the steps from `first` to the newest are enough for a window.
 inline bool SpeedMeter::is_wide(std::size_t first, Ticks least) const {
     return past_.size() > first + kLeastSteps && past_.back().tick - past_[first].tick >= least;
 }
 
-/// Moves the window's first step as late as it may be. False: there is no window yet.
+/// Moves the window's first step as late as possible. Returns false if there is no window yet.
 inline bool SpeedMeter::narrow(std::size_t& first, Ticks least) const {
     if (!is_wide(first, least)) { return false; }
     while (is_wide(first + 1, least)) { ++first; }

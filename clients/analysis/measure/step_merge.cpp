@@ -45,7 +45,7 @@ Tick StepMerge::settled_until() const {
     return until;
 }
 
-/// False: no lane is awaited.
+/// Returns false if the merge waits for no lane.
 bool StepMerge::give_up_slowest() {
     Lane* slowest = nullptr;
     for (Lane& lane : lanes_) {

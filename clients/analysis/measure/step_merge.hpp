@@ -1,9 +1,9 @@
-// The steps of several axes in the order of their ticks, from streams that are each in order.
+// Merges the ordered steps of several axes into one stream in the order of their ticks.
 //
-// A step waits until no axis can still deliver an earlier one. The log shows how far each axis has delivered: up to
-// its newest step, and up to an instant at which its state showed it still there. So an axis that is late, since its
-// process stalled or its messages did, is awaited, and one at rest is not. Memory is bounded: if too many steps wait,
-// the slowest axis is no longer awaited, until it delivers steps again.
+// A step waits until no axis can deliver an earlier one any more. An axis has delivered all steps up to its newest
+// step, and up to an instant at which its reported position still was the position after that step. The merge therefore
+// waits for an axis that is late because its process or its messages stalled, but not for an axis at rest. Memory is
+// bounded: if too many steps wait, the merge no longer waits for the slowest axis until this axis delivers steps again.
 #pragma once
 
 #include <algorithm>
@@ -17,31 +17,31 @@ namespace lockstep::analysis {
 
 class StepMerge {
 public:
-    /// An improving clock estimate may put a step so far before the instant at which an axis stood still.
+    /// An improving clock estimate may date a step this much before the instant at which the axis stood still.
     static constexpr Ticks kPatience{500'000};
-    /// 128 MB.
+    /// The maximum number of waiting steps (128 MB).
     static constexpr std::size_t kMaxWaiting = std::size_t{1} << 22;
 
     explicit StepMerge(std::size_t max_waiting = kMaxWaiting) : max_waiting_(max_waiting) {}
 
-    /// A lane for each axis. Its number.
+    /// Adds a lane for an axis and returns its number.
     std::size_t add_lane();
     /// A lane's steps come in the order of their ticks.
     void take(std::size_t lane, SharedSteps steps);
     /// The axis reports its position at a tick.
     void stands(std::size_t lane, Tick tick, std::int64_t count);
-    /// Messages of the axis are missing after the last one: it may have moved away and back.
+    /// Messages of the axis are missing after the last one, so it may have moved away and back.
     void lost(std::size_t lane) { lanes_[lane].lacks_steps = true; }
-    /// From when on, and until when, the log has all of the axis's motion, except for gaps.
+    /// Between these times the log has all of the axis's motion, except for gaps.
     Tick known_from(std::size_t lane) const { return lanes_[lane].known_from; }
     Tick known_until(std::size_t lane) const { return lanes_[lane].known_until; }
-    /// Calls on_step(lane, step) for the steps that need not wait any longer. Call now and then.
+    /// Calls on_step(lane, step) for the steps that need not wait any longer. Call from time to time.
     template <typename OnStep>
     void settle(OnStep&& on_step) {
         deliver_before(settled_until(), on_step);
         while (waiting_ > max_waiting_ && give_up_slowest()) { deliver_before(settled_until(), on_step); }
     }
-    /// The same for all steps.
+    /// Calls on_step(lane, step) for all remaining steps.
     template <typename OnStep>
     void finish(OnStep&& on_step) {
         deliver_before(kNever, on_step);
@@ -52,18 +52,18 @@ private:
 
     struct Lane {
         StepQueue steps;
-        Tick delivered_until;  // the axis has delivered all its steps before
+        Tick delivered_until;  // the axis has delivered all its steps before this
         Tick known_from = kNever;
-        Tick known_until;        // its newest step, or a later instant at which it was still there
-        std::int64_t count = 0;  // after its newest step; before its first, its first known position
+        Tick known_until;        // its newest step, or a later instant with the same position
+        std::int64_t count = 0;  // after its newest step; without steps, its first known position
         bool has_count = false;
         bool has_steps = false;
-        bool lacks_steps = false;  // it was elsewhere since its newest step, or may have moved
+        bool lacks_steps = false;  // it had another position since its newest step, or may have
         bool is_awaited = true;
     };
     struct Turn {
         std::size_t lane = 0;
-        Tick until;  // the next step of any other
+        Tick until;  // tick of the next step of any other lane
     };
 
     Tick settled_until() const;
@@ -76,10 +76,10 @@ private:
     std::size_t max_waiting_;
     std::size_t waiting_ = 0;
     std::vector<Lane> lanes_;
-    std::vector<Tick> next_;  // the next step of each lane; kNever: none before the end
+    std::vector<Tick> next_;  // tick of each lane's next step; kNever: none before the end
 };
 
-/// Delivers the lane whose next step is first, up to the next step of any other.
+/// Repeatedly selects the lane with the earliest next step, and delivers its steps up to the next step of any other.
 template <typename OnStep>
 void StepMerge::deliver_before(Tick end, OnStep& on_step) {
     for (std::size_t i = 0; i < lanes_.size(); ++i) { look_at(i, end); }

@@ -1,4 +1,4 @@
-// An axis's measured steps, taken one by one and never copied.
+// A queue of an axis's measured steps. It does not copy them.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ public:
     bool empty() const { return next_ == end_; }
     std::size_t size() const { return size_; }
 
-    /// The first step, and the uncertainty of its time. There must be one.
+    /// The first step, and the uncertainty of its time. The queue must not be empty.
     const MeasuredStep& front() const { return *next_; }
     Ticks clock_error() const { return batches_.front()->clock_error; }
     void pop() {
@@ -39,7 +39,7 @@ private:
     }
 
     std::deque<SharedSteps> batches_;
-    const MeasuredStep* next_ = nullptr;  // of the first batch
+    const MeasuredStep* next_ = nullptr;  // in the first batch
     const MeasuredStep* end_ = nullptr;
     std::size_t size_ = 0;
 };

@@ -1,4 +1,4 @@
-// How often each amount of ticks occurs, in a bounded number of classes that double in width.
+// Counts how often each amount of ticks occurs, in a bounded number of classes that double in width.
 #pragma once
 
 #include <algorithm>
@@ -14,10 +14,11 @@ namespace lockstep::analysis {
 
 class TickHistogram {
 public:
-    /// Class 0 holds 0, class k the amounts from 2^(k-1) to 2^k - 1; the last also all larger ones.
+    /// Class 0 holds 0, and class k holds the amounts from 2^(k-1) to 2^k - 1. The last class also holds all larger
+    /// ones.
     static constexpr std::size_t kClasses = 20;
 
-    /// Adds the same amount `times` times. Its sign does not count.
+    /// Adds the same amount `times` times, without its sign.
     void add(Ticks ticks, std::int64_t times = 1) {
         const auto amount = static_cast<std::uint64_t>(std::abs(ticks.value));
         counts_[std::min<std::size_t>(static_cast<std::size_t>(std::bit_width(amount)), kClasses - 1)] += times;
@@ -33,10 +34,11 @@ public:
     bool empty() const { return total_ == 0; }
     std::int64_t total() const { return total_; }
     Ticks largest() const { return largest_; }
-    /// Of each class, and the largest amount in it.
+    /// The count of each class, and the largest amount in a class.
     const std::array<std::int64_t, kClasses>& counts() const { return counts_; }
     static Ticks most_in(std::size_t number) { return {(std::int64_t{1} << number) - 1}; }
-    /// The amount that a share (percent) of all does not exceed: exact if it is 0, else the end of its class.
+    /// The amount that `percent` of all do not exceed. Exact if it is 0, else the end of its class or the largest
+    /// amount.
     Ticks quantile(std::int64_t percent) const {
         std::int64_t seen = 0;
         for (std::size_t i = 0; i < kClasses; ++i) {

@@ -7,7 +7,7 @@
 namespace lockstep::analysis {
 namespace {
 
-// An interval that is so many times longer than the one before contains a rest.
+// An interval this many times longer than the previous one contains a rest.
 constexpr std::int64_t kRestRatio = 4;
 
 double ticks_between(Tick from, Tick to) { return static_cast<double>(to.value - from.value); }
@@ -45,7 +45,7 @@ void Trace::step(StepEdge edge, std::int64_t position_before) {
     last_step_ = edge.tick;
 }
 
-/// The axis rested on a whole step before it stepped at `until`: two points mark the rest.
+/// The axis rested on a whole step before its step at `until`. Two points mark the rest.
 void Trace::rest(Tick until, std::int64_t position) {
     const Ticks half{last_interval_.value / 2};
     point(*last_step_ + half, static_cast<double>(position));
@@ -80,7 +80,7 @@ void Trace::keep(Knot knot) {
     if (knots_.size() >= max_knots_) { thin_out(); }
 }
 
-/// The same again over the knots, with twice the tolerance; the errors add up.
+/// Repeats the thinning over the knots with twice the tolerance. The errors add up.
 void Trace::thin_out() {
     Trace coarser(std::numeric_limits<std::size_t>::max());
     coarser.tolerance_ = tolerance_ * 2;

@@ -1,8 +1,8 @@
-// An axis's position over time in few knots, whatever the number of steps.
+// An axis's position over time, as a limited number of knots for any number of steps.
 //
-// A step falls where the position crosses a half, so each step gives one point of the true course: (its tick, the
-// count before + direction / 2). A straight line replaces points while it passes each within the tolerance (Bristol's
-// swinging door, 1990: one pass, constant memory). If there are too many knots, the tolerance doubles.
+// A step occurs when the position crosses a half, so each step gives one point of the true course: (its tick, the
+// previous count + direction / 2). A straight line replaces points while it passes each within the tolerance (Bristol's
+// swinging door, 1990, one pass in constant memory). If there are too many knots, the tolerance doubles.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ namespace lockstep::analysis {
 struct Knot {
     Tick tick;
     double position_steps = 0;
-    bool joined = true;  // false: no line leads here from the knot before
+    bool joined = true;  // false: no line joins it to the previous knot
     bool operator==(const Knot&) const = default;
 };
 
@@ -29,7 +29,7 @@ public:
 
     void on_batch(const StepBatch& batch) override;
     void on_break(const Break& what) override;
-    /// Ends the last line, at the whole step where the axis came to rest.
+    /// Ends the last line at the whole step on which the axis came to rest.
     void finish();
 
     const std::vector<Knot>& knots() const { return knots_; }
@@ -49,16 +49,16 @@ private:
     double error_ = kTolerance;
     std::vector<Knot> knots_;
     bool joined_ = false;         // the next point continues the line
-    std::optional<Knot> newest_;  // the end of the line so far; none right after a knot
-    double low_slope_ = 0;        // of the lines that still pass every point
+    std::optional<Knot> newest_;  // the current end of the line; nullopt right after a knot
+    double low_slope_ = 0;        // range of the slopes of lines that still pass every point
     double high_slope_ = 0;
     std::optional<Tick> last_step_;
-    Ticks last_interval_;  // between the two steps before; 0: unknown
+    Ticks last_interval_;  // between the two previous steps; 0: unknown
     std::int64_t position_ = 0;
 };
 
-/// The position at an instant, in steps, by the lines between knots; outside them that of the nearest knot. `place` is
-/// where the search begins, for instants that rise; start at 0. Knots must not be empty.
+/// The position at an instant, in steps, interpolated between knots; outside them, the position of the nearest knot.
+/// The search begins at `place`, for rising instants; start at 0. `knots` must not be empty.
 double position_at(const std::vector<Knot>& knots, Tick tick, std::size_t& place);
 
 }  // namespace lockstep::analysis

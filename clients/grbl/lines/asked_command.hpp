@@ -1,4 +1,4 @@
-// A command that was sent, and is repeated until its reply comes.
+// A command that is sent again until its reply comes.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,7 @@ public:
         repeated_ = now;
     }
 
-    /// Null: it has not come yet.
+    /// Returns null while no reply has come.
     const Reply* reply(MachinePort& port, std::chrono::nanoseconds now) {
         const Reply* reply = port.reply_to(command_);
         if (reply == nullptr && now - repeated_ >= kRepeatAfter) {
@@ -26,7 +26,7 @@ public:
     bool is_overdue(std::chrono::nanoseconds now) const { return now - sent_ > kPatience; }
 
     static constexpr std::chrono::milliseconds kRepeatAfter{250};
-    static constexpr std::chrono::seconds kPatience{10};  // a coordinator may be replaced meanwhile
+    static constexpr std::chrono::seconds kPatience{10};  // enough for a standby to take over
 
 private:
     Command command_;

@@ -1,4 +1,5 @@
-// One program of a sender's lines: begun when its first line comes, run while it grows, ended when no more lines come.
+// One program of a sender's lines. It begins with its first line, runs while it grows, and ends when no more lines
+// come.
 #pragma once
 
 #include <chrono>
@@ -15,28 +16,29 @@ namespace lockstep::grbl {
 
 class LineProgram {
 public:
-    /// `from_mm`: of each axis, where its first line begins.
+    /// `from_mm`: the position of each axis at the beginning of the first line.
     LineProgram(const MachineConfig& machine, std::vector<double> from_mm, MachinePort& port);
 
     void append(const Block& block) { blocks_.push_back(block); }
-    /// More may be appended.
+    /// Whether more blocks may be appended.
     bool is_open() const { return !is_ended_; }
     void end() { is_ended_ = true; }
-    /// The coordinator has all of it, or wants no more.
+    /// Whether the coordinator has all of it or has refused it.
     bool is_sent() const { return sender_.is_done() || sender_.refusal(); }
-    /// The machine has been asked to run it.
+    /// Whether the machine was commanded to run it.
     bool is_begun() const { return run_.has_value(); }
 
     enum class Outcome : std::uint8_t { Goes, Done, Lost };
-    /// Sends what is due, and asks the machine to run it, unless it is held. `state`: the machine's newest.
+    /// Sends the blocks that are due, and commands the machine to run the program unless it is held. `state`: the
+    /// machine's newest.
     Outcome pass(const MachineState& state, bool is_held, std::chrono::nanoseconds now);
-    /// Why it was lost.
+    /// Why the program was lost.
     const std::string& why() const { return why_; }
-    /// It is the machine's job, which has not ended.
+    /// Whether it is the machine's current job and has not ended.
     bool is_job_of(const MachineState& state) const { return job_ != 0 && state.job == job_ && !state.outcome; }
-    /// As is_job_of(), or it may become so.
+    /// Whether it is the machine's job or may become it.
     bool may_run(const MachineState& state) const;
-    /// The coordinator has all that was appended, since at least so long.
+    /// Whether the coordinator has had all appended blocks for at least `age`.
     bool is_sent_since(std::chrono::nanoseconds age, std::chrono::nanoseconds now) const;
 
 private:
@@ -49,14 +51,14 @@ private:
 
     MachinePort& port_;
     ProgramSender& sender_;
-    bool is_run_whole_;  // as LAI needs it
+    bool is_run_whole_;  // LAI runs only whole programs
     std::deque<Block> blocks_;
     bool is_ended_ = false;
     std::optional<AskedCommand> run_;
     bool is_refused_ = false;
     std::uint64_t job_ = 0;
     std::chrono::nanoseconds flushed_{};
-    std::optional<std::chrono::nanoseconds> sent_;  // all of it
+    std::optional<std::chrono::nanoseconds> sent_;  // when all appended blocks had been sent
     std::string why_;
 };
 

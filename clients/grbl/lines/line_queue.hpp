@@ -1,7 +1,7 @@
-// A sender's lines that were accepted and are not run yet: how many, and about how long they take.
+// Counts a sender's lines that were accepted and are not run yet, and about how long they take.
 //
-// It takes kPlannerLines, and more while they are short: the machine goes only as fast as it can stop within what it
-// knows.
+// It takes kPlannerLines, and more while all together last less than kSeconds. The machine moves only as fast as it can
+// stop within the lines that it knows.
 #pragma once
 
 #include <cstdint>
@@ -20,17 +20,18 @@ public:
     static constexpr double kSeconds = 3;
 
     bool has_room() const;
-    /// Returns the line's number, rising from 1: that of its blocks. `request`: answered when it was run; 0: none is.
+    /// Returns the line's number, which its blocks get. Numbers rise from 1. `request`: to be answered when the line
+    /// was run, or 0.
     std::int32_t add(const LineToRun& line, std::uint64_t request);
-    /// The machine runs this line: those before it are done. Returns the requests to answer.
+    /// Call when the machine runs this line. Removes the lines before it, and returns the requests to answer.
     std::vector<std::uint64_t> pass_to(std::int32_t number);
-    /// All up to this one are done.
+    /// Call when this line and all before it are done.
     std::vector<std::uint64_t> pass(std::int32_t number) { return pass_to(number + 1); }
-    /// They are not run. Returns the requests that wait for them.
+    /// Drops all lines. Returns the requests that wait for them.
     std::vector<std::uint64_t> drop();
 
     std::size_t size() const { return lines_.size(); }
-    /// The line's number for the sender: its N word, or else its place among the lines.
+    /// The line's number for the sender: its N word, or the number from add() if it has none.
     std::int32_t sender_line(std::int32_t number) const;
 
 private:

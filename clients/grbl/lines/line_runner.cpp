@@ -14,7 +14,7 @@ bool is_busy(MachinePhase phase) {
            phase == MachinePhase::Homing || phase == MachinePhase::Jogging;
 }
 
-/// After which the newest state shows what was asked for and answered.
+/// After this time the newest state shows the effect of an answered command.
 nanoseconds state_age(const MachineConfig& machine) { return std::chrono::microseconds{3 * machine.timing.slot_us}; }
 
 }  // namespace
@@ -62,8 +62,8 @@ void LineRunner::pass_program(const MachineState& state, nanoseconds now) {
     if (program_->is_open() && must_end(state, now)) { program_->end(); }
 }
 
-/// The machine keeps the way that it needs to stop, until it knows that this is the end. A line that waits for room
-/// waits for motion.
+/// Until it knows the program's end, the machine does not run the last distance, which it needs to stop. A line that
+/// waits for room gets it as the machine moves, so it does not end the program.
 bool LineRunner::must_end(const MachineState& state, nanoseconds now) const {
     if (now - appended_ < kIdle) { return false; }
     if (machine_.coordination == StepMethod::Lai) { return true; }
@@ -112,7 +112,7 @@ void LineRunner::answer_done(const std::vector<std::uint64_t>& requests) {
     for (const std::uint64_t request : requests) { answers_.push_back({request, {.is_done = true}}); }
 }
 
-/// A fault is an alarm of its own.
+/// Gives no reason if the machine has a fault, because the fault is an alarm by itself.
 void LineRunner::lose(const MachineState& state, nanoseconds now) {
     if (state.fault == 0) { loss_ = program_->why(); }
     program_->may_run(state) && state.fault == 0 ? stop(now) : drop();

@@ -1,8 +1,8 @@
-// Gives a sender's lines to the machine as they come, and holds, resumes and drops them.
+// Passes a sender's lines to the machine as they come, and holds, resumes and drops them.
 //
-// The lines that follow each other without a pause are one program: they are planned together and joined at speed. When
-// no line comes for a moment and the machine needs its end, the program is ended: the machine runs all of it and rests.
-// The next line begins another program.
+// Lines that follow each other without a pause are one program. They are planned together and joined at speed. When no
+// line comes for a while and the machine cannot continue without more blocks or the end, the program is ended. The
+// machine then runs all of it and comes to rest. The next line begins another program.
 #pragma once
 
 #include <chrono>
@@ -26,23 +26,23 @@ class LineRunner {
 public:
     LineRunner(const MachineConfig& machine, MachinePort& port) : machine_(machine), port_(port) {}
 
-    /// A request to run a line. One at a time: the next one comes behind the answer.
+    /// Takes a request to run a line. The next request must come after the answer to this one.
     void take(std::uint64_t request, LineToRun&& line);
-    /// In each loop. `state`: the machine's newest. `rests`: every axis has reported that it does.
+    /// Call in each loop. `state`: the machine's newest. `rests`: every axis has reported that it is at rest.
     void pass(const MachineState& state, bool rests, std::chrono::nanoseconds now);
 
-    /// The machine comes to rest on its path, or does not begin.
+    /// Lets the machine come to rest on its path, or not begin.
     void hold(std::chrono::nanoseconds now);
     void resume(std::chrono::nanoseconds now);
-    /// Lines are dropped, and the machine comes to rest on its path.
+    /// Drops all lines, and lets the machine come to rest on its path.
     void stop(std::chrono::nanoseconds now);
 
-    /// The sender has gone: what the machine runs is run to its end, all else is dropped.
+    /// Call when the sender has gone. The machine runs its program to the end; all other lines are dropped.
     void leave();
-    /// And the machine has all of it.
+    /// After leave(): whether the machine has all of the program.
     bool has_left() const { return !program_ || program_->is_sent(); }
 
-    /// No line is to be run, or is running.
+    /// Whether no line waits or runs.
     bool is_idle() const { return !program_ && !has_lines() && later_.empty(); }
 
     struct Answered {
@@ -50,14 +50,14 @@ public:
         Answer answer;
     };
     std::vector<Answered> take_answers() { return std::exchange(answers_, {}); }
-    /// Lines that were accepted are lost: why.
+    /// Returns once why accepted lines were lost; nullopt if none were.
     std::optional<std::string> take_loss() { return std::exchange(loss_, std::nullopt); }
-    /// Messages for the sender about its lines.
+    /// Sets the fields of the view about the sender's lines.
     void report(const MachineState& state, MachineView& view) const;
 
-    static constexpr std::chrono::milliseconds kIdle{40};       // no line has come for so long: no more may come
-    static constexpr std::chrono::milliseconds kLongIdle{250};  // no more are likely to come,
-    static constexpr double kNearEnd_s = 1;                     // and so much motion is left: time to plan the end
+    static constexpr std::chrono::milliseconds kIdle{40};       // minimum time without a line before a program ends
+    static constexpr std::chrono::milliseconds kLongIdle{250};  // after this time without a line, no more are likely;
+    static constexpr double kNearEnd_s = 1;                     // then a program ends when less motion is left
     static constexpr std::chrono::seconds kStopPatience{20};
 
 private:
@@ -80,8 +80,8 @@ private:
         LineToRun line;
     };
     LineQueue queue_;
-    std::optional<Next> next_;  // waits for room
-    /// A line that was accepted and is of no program yet.
+    std::optional<Next> next_;  // waits for room in the queue
+    /// A line that was accepted and is not in a program yet.
     struct Later {
         std::vector<double> from_mm;
         std::vector<Block> blocks;
@@ -90,8 +90,8 @@ private:
     std::deque<Later> later_;
     std::unique_ptr<LineProgram> program_;
     std::int32_t last_ = 0;                // the last line of the program
-    std::chrono::nanoseconds appended_{};  // when a line was, last
-    bool is_hold_wanted_ = false;          // and the machine does not show it yet
+    std::chrono::nanoseconds appended_{};  // when the last line was appended
+    bool is_hold_wanted_ = false;          // and the machine does not report it yet
     std::optional<AskedCommand> hold_;
     std::optional<AskedCommand> resume_;
     std::optional<AskedCommand> stop_;

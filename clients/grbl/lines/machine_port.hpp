@@ -1,4 +1,4 @@
-// The messages of a client that runs programs: over DDS, and in tests to a machine in virtual time.
+// The messages of a client that runs programs, over DDS or, in tests, to a machine in virtual time.
 #pragma once
 
 #include "clients/session/program_sender.hpp"
@@ -10,14 +10,14 @@ namespace lockstep::grbl {
 class MachinePort {
 public:
     virtual ~MachinePort() = default;
-    /// Begins to send a program, and forgets the one before. Valid until the next one.
+    /// Begins to send a program, and forgets the previous one. The sender is valid until the next open() or close().
     virtual ProgramSender& open(const ProgramHead& head) = 0;
-    /// No more is sent of the program, and its sender is valid no more.
+    /// Sends no more of the program. Its sender is no longer valid.
     virtual void close() = 0;
-    /// Gives the command a number of its own and sends it.
+    /// Gives the command a new number and sends it.
     virtual void begin(Command& command) = 0;
     virtual void repeat(const Command& command) = 0;
-    /// Null: none has come yet.
+    /// Returns null while no reply has come.
     virtual const Reply* reply_to(const Command& command) = 0;
 };
 

@@ -7,7 +7,7 @@ namespace lockstep::grbl {
 namespace {
 
 constexpr std::string_view kNoProbe = "there is no probe";
-constexpr std::string_view kOneNumber = "such a line is 20";
+constexpr std::string_view kOneNumber = "reported as error 20";
 
 constexpr std::array kErrors{
     Code{1, "Expected command letter", "A word of the line does not begin with a letter."},
@@ -23,7 +23,7 @@ constexpr std::array kErrors{
     Code{10, "Homing not enabled", "Soft limits need homing.", "the travel is always watched"},
     Code{11, "Line overflow", "The line is too long, or finds no room in the receive buffer. It was not run."},
     Code{12, "Step rate > 30kHz", "The setting asks for more steps per second than the controller makes.",
-         "such a setting is 101"},
+         "reported as error 101"},
     Code{13, "Check Door", "The safety door is open.", "there is no door"},
     Code{14, "Line length exceeded", "The build info or start-up line is too long to store.", "none is stored"},
     Code{15, "Travel exceeded", "The target is outside the travel. The line was not run."},
@@ -43,14 +43,14 @@ constexpr std::array kErrors{
     Code{31, "Invalid gcode ID:31", "The line has axis words that nothing uses.", kOneNumber},
     Code{32, "Invalid gcode ID:32", "An arc has no axis word in its plane.", kOneNumber},
     Code{33, "Invalid gcode ID:33", "The target of the motion is not valid."},
-    Code{34, "Invalid gcode ID:34", "The radius of an arc is not valid.", "such an arc is 33"},
+    Code{34, "Invalid gcode ID:34", "The radius of an arc is not valid.", "reported as error 33"},
     Code{35, "Invalid gcode ID:35", "An arc has no offset word in its plane.", kOneNumber},
     Code{36, "Invalid gcode ID:36", "The line has words that nothing uses.", kOneNumber},
     Code{37, "Invalid gcode ID:37", "G43.1 is for the axis of the tool's length only.", kOneNumber},
     Code{38, "Invalid gcode ID:38", "The number of the tool is too large.", kOneNumber},
     Code{100, "Setting fixed", "This setting has one value on this machine."},
     Code{101, "Setting out of range", "The machine cannot have this value: a message says why."},
-    Code{102, "Setting not kept", "The setting could not be stored: a message says why. It is as it was."},
+    Code{102, "Setting not kept", "The setting could not be stored and is unchanged: a message says why."},
 };
 
 constexpr std::array kAlarms{

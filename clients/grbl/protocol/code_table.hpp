@@ -1,4 +1,4 @@
-// grbl's numbers with their names and meanings: for messages, and as the CSV files that senders load.
+// grbl's numbers with their names and meanings, for messages and as the CSV files that senders load.
 #pragma once
 
 #include <span>
@@ -11,17 +11,17 @@ struct Code {
     int number = 0;
     std::string_view name;
     std::string_view text;            // a sentence
-    std::string_view why_never = {};  // lockstep-grbl does not send it; empty: it does
+    std::string_view why_never = {};  // why lockstep-grbl never sends it; empty if it does
 };
 
-/// In the order of their numbers: grbl 1.1's, then ours.
+/// In the order of their numbers: those of grbl 1.1, then Lockstep's own.
 std::span<const Code> error_codes();
 std::span<const Code> alarm_codes();
 
-/// Null: there is no such number.
+/// Returns null if no such number exists.
 const Code* find_code(std::span<const Code> codes, int number);
 
-/// With the head line that senders expect.
+/// The table as CSV, with the header line that senders expect.
 std::string error_csv();
 std::string alarm_csv();
 

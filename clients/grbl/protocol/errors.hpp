@@ -1,5 +1,5 @@
-// grbl's numbers for what is wrong with a line, and for alarms. The numbers are part of its protocol; code_table.hpp
-// has their names and meanings.
+// grbl's numbers for errors in lines and for alarms. The numbers are part of its protocol; code_table.hpp has their
+// names and meanings.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ enum class Error : int {
     RepeatedWord = 25,
     NoAxisWords = 26,
     BadTarget = 33,
-    // Not grbl's own:
+    // Lockstep's own:
     SettingFixed = 100,
     SettingOutOfRange = 101,
     NotKept = 102,
@@ -39,17 +39,17 @@ inline constexpr std::array kAllErrors{
     Error::BadTarget,      Error::SettingFixed, Error::SettingOutOfRange, Error::NotKept,
 };
 
-/// A line that was refused: the number, and a sentence for a person.
+/// The refusal of a line: the error's number, and a sentence for a person.
 struct Refused {
     Error error = Error::Unsupported;
     std::string text;
 };
 
-/// The number of a message of the G-code parser. Most of grbl's numbers are about words that it does not know.
+/// grbl's number for a message of the G-code parser; Unsupported if no other number fits.
 Error error_of(std::string_view message);
 
-/// grbl's alarms: 1 a limit switch, 2 a target outside travel, 3 a reset in motion, and everything else that ends a
-/// motion, 8 and 9 homing that failed.
+/// grbl's alarms: 1 a limit switch, 2 a target outside travel, 3 a reset in motion and everything else that ends a
+/// motion, 8 and 9 failed homing.
 inline constexpr int kTravelAlarm = 2;
 inline constexpr int kAbortAlarm = 3;
 

@@ -15,7 +15,7 @@
 namespace lockstep::grbl {
 namespace {
 
-/// The place among kAxisLetters of an axis that G-code can name.
+/// The index in kAxisLetters of an axis; nullopt if G-code cannot name it.
 std::optional<std::size_t> letter_of(const AxisConfig& axis) {
     const std::size_t place = axis.name.size() == 1 ? gcode::kAxisLetters.find(axis.name[0]) : gcode::kAxisLetters.npos;
     return place == gcode::kAxisLetters.npos ? std::nullopt : std::optional(place);
@@ -35,7 +35,7 @@ bool comes_to_rest(const Block& block) {
     return !std::holds_alternative<ProgramEvent>(block.action);
 }
 
-/// Nothing to run, and no event.
+/// Whether the action adds nothing to run and no event.
 bool is_without_effect(const gcode::Action& action) {
     const auto* event = std::get_if<gcode::Event>(&action);
     if (event == nullptr) { return false; }
@@ -46,7 +46,7 @@ bool is_without_effect(const gcode::Action& action) {
     }
 }
 
-/// Behind blanks and a slash. Numbers beyond nine digits are of no use to anybody.
+/// The N word, after blanks and a slash; 0 without one or if it does not fit 32 bits.
 std::int32_t sender_line_of(std::string_view line) {
     const std::size_t begin = line.find_first_not_of(" \t/");
     if (begin == line.npos || (line[begin] != 'N' && line[begin] != 'n')) { return 0; }
@@ -94,7 +94,7 @@ void GcodeLines::reset() {
     selected_tool_ = tool_ = 0;
 }
 
-/// The end of a program leaves the tools.
+/// The end of a program resets all modes except the tools.
 void GcodeLines::commit(const LineEffect& effect) {
     reset();
     selected_tool_ = effect.selected_tool;
@@ -177,7 +177,7 @@ std::expected<LineEffect, Refused> GcodeLines::read(std::string_view line, const
     return effect;
 }
 
-/// At the feed, as far as the axes go so fast; without their ramps.
+/// The duration at the feed, or at the axes' maximum velocity if that is slower, without ramps.
 double GcodeLines::seconds_of(const std::vector<Block>& blocks, const std::vector<double>& from_mm) const {
     double seconds = 0;
     std::vector<double> at = from_mm;

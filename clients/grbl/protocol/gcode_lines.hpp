@@ -1,7 +1,7 @@
-// Lines of G-code, read by the same parser as files: each becomes blocks for the machine, and changes modes and
+// Reads lines of G-code with the same parser as files. Each line becomes blocks for the machine, and changes modes and
 // offsets.
 //
-// A line is read by itself. Loops, subroutines and cutter compensation need the lines around it: a file has them.
+// A line is read by itself. Loops, subroutines and cutter compensation need several lines, so they work only in files.
 #pragma once
 
 #include <expected>
@@ -18,18 +18,18 @@
 
 namespace lockstep::grbl {
 
-/// What a line does.
+/// The effect of a line.
 struct LineEffect {
     std::vector<Block> blocks;                // moves, dwells, pauses
-    std::vector<double> place_mm;             // of each axis behind them
-    double seconds = 0;                       // that the blocks take, about
-    std::int32_t sender_line = 0;             // its N word; 0: none
-    std::vector<std::string> notes;           // words that were passed over, and messages
-    std::optional<gcode::KeptValues> values;  // offsets that it changes
+    std::vector<double> place_mm;             // of each axis after the blocks
+    double seconds = 0;                       // approximate duration of the blocks
+    std::int32_t sender_line = 0;             // its N word, or 0
+    std::vector<std::string> notes;           // ignored words, and messages
+    std::optional<gcode::KeptValues> values;  // the offsets if it changes them
     bool ends_program = false;                // M2, M30
-    bool rests_before = false;                // all lines before it are run first, as in grbl
-    bool rests_behind = false;                // it is answered when it was run: a dwell, a pause
-    // For GcodeLines alone:
+    bool rests_before = false;                // all earlier lines must be run first, as in grbl
+    bool rests_behind = false;                // answered only after it was run: a dwell, a pause
+    // For GcodeLines only:
     gcode::Modal modal;
     gcode::Point tool_offset{};
     int selected_tool = 0;
@@ -40,24 +40,24 @@ class GcodeLines {
 public:
     explicit GcodeLines(const MachineConfig& machine);
 
-    /// The modes that every connection and every reset begins with; offsets stay.
+    /// Restores the modes with which every connection begins. Keeps the offsets.
     void reset();
-    /// `place_mm`: of each axis where the line begins. Changes nothing.
+    /// `place_mm`: the position of each axis where the line begins. Changes no mode.
     std::expected<LineEffect, Refused> read(std::string_view line, const std::vector<double>& place_mm,
                                             const gcode::KeptValues& values) const;
-    /// The line is done: the modes are as it leaves them.
+    /// Applies the modes that the line leaves.
     void commit(const LineEffect& effect);
 
-    /// Spindle and coolant are off from now on. Returns whether lines had switched one of them on.
+    /// Sets the modes of spindle and coolant to off. Returns whether lines had switched one of them on.
     bool switch_off();
 
     /// "G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0".
     std::string modes_text() const;
     bool inches() const { return modal_.inches; }
     bool relative() const { return modal_.relative; }
-    /// Of the work's zero, by axis.
+    /// The offset of the work's zero, by axis.
     std::vector<double> offset_mm(const gcode::KeptValues& values) const;
-    /// Of the tool, along Z.
+    /// The length offset of the tool, along Z.
     double tool_length_mm() const { return tool_offset_[2]; }
 
 private:

@@ -47,7 +47,7 @@ void Grbl::receive(std::string_view bytes) {
     for (const unsigned char byte : bytes_.take(bytes)) {
         if (byte != '?') {
             do_real_time(byte);
-        } else if (!std::exchange(is_asked, true)) {  // several at once are one question
+        } else if (!std::exchange(is_asked, true)) {  // several at once get one answer
             do_real_time(byte);
         }
     }
@@ -64,7 +64,7 @@ void Grbl::see(const MachineView& view) {
         const FaultText* text = find_fault(view.fault);
         if (text != nullptr) { say_message(std::string(text->name) + ": " + std::string(text->cause)); }
         modes_.is_unlocked = false;
-        (void)lines_.switch_off();  // the machine has done so
+        (void)lines_.switch_off();  // the machine has switched them off
     }
     advance();
 }
@@ -111,19 +111,19 @@ void Grbl::do_real_time(unsigned char byte) {
         case kRapidUsual: overrides.rapid_percent = 100; break;
         case kRapidHalf: overrides.rapid_percent = 50; break;
         case kRapidQuarter: overrides.rapid_percent = 25; break;
-        default: return;  // of devices that the machine does not have, or without a meaning
+        default: return;  // for devices that the machine does not have, or meaningless
     }
     turn(overrides);
 }
 
-/// Repeated before the machine has taken it, a step counts from what was asked for.
+/// Stores the request in the view, so that a repeated step counts from it before the machine reports it.
 void Grbl::turn(const Overrides& overrides) {
     view_.overrides.feed_percent = std::clamp(overrides.feed_percent, Overrides::kLeast, Overrides::kMost);
     view_.overrides.rapid_percent = std::clamp(overrides.rapid_percent, Overrides::kLeast, Overrides::kMost);
     ask(Request::Kind::Override).overrides = view_.overrides;
 }
 
-/// A jog that is held is over, and so are those that wait.
+/// A hold ends a jog, and drops the jog that waits.
 void Grbl::hold() {
     if (has_jog_) {
         (void)ask(Request::Kind::CancelJog);
@@ -133,7 +133,7 @@ void Grbl::hold() {
     }
 }
 
-/// grbl stops the pulses at once and forgets the place. Here the machine brakes on its path, and the place stays known.
+/// grbl stops the pulses at once and loses the position. Here the machine brakes on its path and keeps the position.
 void Grbl::soft_reset() {
     const State before = state();
     if (has_jog_) { (void)ask(Request::Kind::CancelJog); }
@@ -161,7 +161,7 @@ void Grbl::forget_lines() {
     planned_mm_.clear();
 }
 
-/// Until the machine rests nothing is known of its place.
+/// Until the machine rests, its position is not known.
 void Grbl::stop() {
     (void)ask(Request::Kind::Stop);
     view_.is_stopping = true;
@@ -196,7 +196,7 @@ void Grbl::do_line(const ReceivedLine& line) {
     text.front() == '$' ? do_system(std::string_view(text).substr(1)) : do_gcode(line);
 }
 
-/// A jog that has begun is one, before the machine's state shows it.
+/// A requested jog counts as Jog before the machine's state shows it.
 State Grbl::state() const {
     const State state = state_of(view_, modes_);
     return has_jog_ && state != State::Alarm ? State::Jog : state;
@@ -207,7 +207,7 @@ bool Grbl::is_quiet() const {
     return (now == State::Idle || now == State::Alarm) && !has_jog_;
 }
 
-/// It is one line, whatever is in it.
+/// Replaces line ends, because a message is one line.
 void Grbl::say_message(const std::string& text) {
     std::string line = "[MSG:" + text + "]";
     std::ranges::replace_if(

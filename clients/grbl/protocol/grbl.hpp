@@ -1,5 +1,5 @@
-// One connection of a sender that speaks grbl 1.1's protocol, as a state machine: bytes and the machine's state in,
-// bytes and requests out. It does no I/O and reads no clock.
+// One connection of a sender that speaks the protocol of grbl 1.1, as a state machine. It gets bytes and the machine's
+// state, and returns bytes and requests. It does no I/O and reads no clock.
 #pragma once
 
 #include <cstdint>
@@ -19,27 +19,27 @@ namespace lockstep::grbl {
 
 class Grbl {
 public:
-    /// `version`: of Lockstep, for $I.
+    /// `version`: Lockstep's version, for $I.
     Grbl(const MachineConfig& machine, std::string version);
 
-    /// The sender has connected: it is greeted.
+    /// Greets a sender that has connected.
     void greet();
     void receive(std::string_view bytes);
-    /// The machine as it is now.
+    /// Sets the current state of the machine.
     void see(const MachineView& view);
-    /// The machine as it is when it is next brought up, with the settings that are kept until then.
+    /// Sets the configuration that the machine will have when it is next brought up, with the kept settings.
     void see_next(const MachineConfig& next) { next_machine_ = next; }
-    /// A request has ended; one that was given up meanwhile is ignored.
+    /// Takes the answer to a request. Ignores the answer to a request that was given up.
     void answer(std::uint64_t number, const Answer& answer);
-    /// The jog that was answered before is over.
+    /// The jog that was begun is over.
     void end_jog();
-    /// The sender has gone: its lines that were not accepted are dropped. When the machine rests behind the others,
-    /// spindle and coolant are switched off.
+    /// Call when the sender has gone. Drops lines that were not accepted. Spindle and coolant are switched off when the
+    /// machine rests after the accepted ones.
     void leave();
     bool is_to_switch_off() const { return is_to_switch_off_; }
-    /// The sender before has left spindle or coolant on: they are switched off when the machine rests.
+    /// Call if the previous sender left spindle or coolant on. They are switched off when the machine rests.
     void switch_off_at_rest() { is_to_switch_off_ = true; }
-    /// Lines that were accepted will not be run: an alarm.
+    /// Raises an alarm, because accepted lines will not be run.
     void abort(const std::string& why);
 
     std::string take_output() { return std::exchange(output_, {}); }
@@ -94,15 +94,15 @@ private:
     GcodeLines lines_;
     std::string output_;
     std::vector<Request> requests_;
-    std::uint64_t number_ = 0;                // of the last request
-    std::optional<std::uint64_t> waits_for_;  // the answer to a line depends on it
-    bool waits_for_line_ = false;             // that is to be run
-    std::string before_ok_;                   // what comes before the ok then
+    std::uint64_t number_ = 0;                // number of the last request
+    std::optional<std::uint64_t> waits_for_;  // request that must be answered before its line is
+    bool waits_for_line_ = false;             // that request is to run a line
+    std::string before_ok_;                   // sent before the ok of that line
     bool has_jog_ = false;
-    bool is_to_switch_off_ = false;          // spindle and coolant, when the machine rests
-    std::optional<ReceivedLine> next_jog_;   // waits for the end of the one before
-    std::optional<ReceivedLine> next_line_;  // waits until the machine has run those before it
-    std::vector<double> planned_mm_;         // where the accepted lines lead, while there are any, and in check mode
+    bool is_to_switch_off_ = false;          // spindle and coolant, once the machine rests
+    std::optional<ReceivedLine> next_jog_;   // waits for the end of the previous jog
+    std::optional<ReceivedLine> next_line_;  // waits until the machine has run the earlier lines
+    std::vector<double> planned_mm_;         // end of the accepted lines, while there are any or in check mode
 };
 
 }  // namespace lockstep::grbl

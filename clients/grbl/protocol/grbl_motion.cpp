@@ -7,7 +7,7 @@
 
 namespace lockstep::grbl {
 
-/// Where the next line begins.
+/// The position where the next line begins.
 std::vector<double> Grbl::place_mm() const {
     if (!planned_mm_.empty() && (view_.lines > 0 || modes_.is_checking)) { return planned_mm_; }
     std::vector<double> place;
@@ -15,7 +15,7 @@ std::vector<double> Grbl::place_mm() const {
     return place;
 }
 
-/// The place of the next line is known: by the lines before it, or because the machine rests.
+/// Whether the position where the next line begins is known, from earlier lines or because the machine rests.
 bool Grbl::is_settled() const {
     if (view_.is_stopping || view_.phase == MachinePhase::Stopping) { return false; }
     return view_.lines > 0 || view_.phase != MachinePhase::Idle || view_.is_at_rest();
@@ -73,8 +73,8 @@ void Grbl::do_effect(LineEffect&& effect, bool is_check) {
     before_ok_ = end;
 }
 
-/// A target outside the travel stops the machine and is an alarm, as with grbl's soft limits: the lines behind it mean
-/// another place.
+/// A target outside the travel stops the machine and raises an alarm, as grbl's soft limits do, because the following
+/// lines assume that it was reached.
 void Grbl::refuse_gcode(const Refused& refused) {
     if (refused.error == Error::TravelExceeded && !modes_.is_checking) {
         if (view_.lines > 0) { stop(); }
@@ -86,7 +86,7 @@ void Grbl::refuse_gcode(const Refused& refused) {
 }
 
 /// The coordinator switches spindle and coolant off when it stops a job. At rest there is no job, so this switches off
-/// the devices that earlier lines have left on, as grbl does at a reset.
+/// the devices that earlier lines left on, as grbl does at a reset.
 void Grbl::switch_off() {
     const bool is_free = !waits_for_ && view_.lines == 0 && view_.phase == MachinePhase::Idle && is_settled();
     if (!is_to_switch_off_ || !view_.is_received || !is_free) { return; }

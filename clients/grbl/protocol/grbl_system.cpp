@@ -41,7 +41,7 @@ void Grbl::do_system(std::string_view text) {
     write_setting(text);
 }
 
-/// In Fault it is a reset. An axis that is not homed cannot be moved by programs all the same.
+/// In Fault this resets the machine. Programs still cannot move an axis that is not homed.
 void Grbl::unlock() {
     if (state() != State::Alarm && !modes_.is_aborted) { return ok(); }
     modes_.is_unlocked = true;
@@ -115,7 +115,7 @@ void Grbl::keep_setting(int number, double value) {
     before_ok_ = "[MSG:$" + std::to_string(number) + " is kept; " + kInForce + "]";
 }
 
-/// As they were written, and which of them are not in force yet.
+/// Prints the settings as written, and names those that are not in force yet.
 void Grbl::print_settings() {
     const auto in_force = settings_of(machine_, options_);
     std::string later;

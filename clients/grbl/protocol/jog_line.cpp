@@ -22,7 +22,7 @@ struct JogWords {
     bool in_machine = false;  // G53
 };
 
-/// Without blanks and comments, in capitals.
+/// The text without blanks and comments, in capitals.
 std::string plain(std::string_view text) {
     std::string result;
     bool is_comment = false;
@@ -86,7 +86,7 @@ struct Way {
     double mm = 0;
 };
 
-/// How far each axis goes.
+/// The distance of each axis that moves.
 std::expected<std::vector<Way>, Refused> ways_of(const JogWords& words, const MachineConfig& machine,
                                                  const std::vector<AxisPlace>& places, const JogModes& modes) {
     const double unit = words.inches.value_or(modes.inches) ? kInch_mm : 1;

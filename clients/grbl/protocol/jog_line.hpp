@@ -1,4 +1,4 @@
-// $J=...: a jog as grbl writes it, in axes, speeds and distances.
+// Converts a jog line of grbl, $J=..., to axes, speeds and distances.
 #pragma once
 
 #include <expected>
@@ -15,11 +15,11 @@ namespace lockstep::grbl {
 struct JogModes {
     bool inches = false;
     bool relative = false;
-    std::vector<double> offset_mm;  // of the work's zero, by axis
+    std::vector<double> offset_mm;  // offset of the work's zero, by axis
 };
 
-/// `text`: behind "$J=". The axes go as fast as the feed asks along the line, as long as each may, and arrive together
-/// but for their ramps. Empty: they stand there already.
+/// `text`: the part after "$J=". The axes move at the feed along the line, or slower if an axis's maximum velocity
+/// requires it. They arrive together, except for differences of their ramps. Empty if they are already there.
 std::expected<std::vector<JogAxis>, Refused> read_jog(std::string_view text, const MachineConfig& machine,
                                                       const std::vector<AxisPlace>& places, const JogModes& modes);
 

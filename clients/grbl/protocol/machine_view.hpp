@@ -22,19 +22,19 @@ struct AxisPlace {
 };
 
 struct MachineView {
-    bool is_received = false;  // the coordinator is, and every axis; nothing else is meaningful before
+    bool is_received = false;  // the coordinator and every axis are received; else the other fields are meaningless
     MachinePhase phase = MachinePhase::Waiting;
     FaultCode fault = FaultCode::None;
-    std::vector<AxisPlace> axes;  // by the configuration
-    double feed_mm_min = 0;       // of the axes together, now
-    std::int32_t line = 0;        // of the program in motion, or the N word of the sender's line; 0: none
+    std::vector<AxisPlace> axes;  // in the configuration's order
+    double feed_mm_min = 0;       // of all axes together, now
+    std::int32_t line = 0;        // of the program in motion, or the N word of the sender's line; else 0
     Overrides overrides;
     ProgramDevices devices;
     gcode::KeptValues values;
-    // Of the sender's lines that were accepted:
-    std::size_t lines = 0;     // not run yet
-    bool is_held = false;      // they wait for a resume, before the machine has begun with them
-    bool is_stopping = false;  // they were dropped, and the machine is not known to rest yet
+    // About the sender's accepted lines:
+    std::size_t lines = 0;     // number of lines not run yet
+    bool is_held = false;      // they wait for a resume, and the machine has not begun them
+    bool is_stopping = false;  // they were dropped, and the machine may not be at rest yet
 
     bool is_at_rest() const {
         for (const AxisPlace& axis : axes) {
@@ -50,7 +50,7 @@ struct MachineView {
     }
 };
 
-/// `axes`: the newest state of each; null: none was received. The rest of the view is the caller's.
+/// `axes`: the newest state of each axis; null if none was received. The caller sets the other fields of the view.
 MachineView view_of(const MachineConfig& machine, const MachineState& state, const std::vector<const AxisState*>& axes);
 
 }  // namespace lockstep::grbl

@@ -1,4 +1,4 @@
-// A number as grbl writes it: with a fixed number of digits after the point.
+// Writes a number as grbl does, with a fixed number of digits after the point.
 #pragma once
 
 #include <cstdio>

@@ -9,7 +9,7 @@ constexpr unsigned char kResetByte = 0x18;
 
 }  // namespace
 
-/// All bytes above ASCII are: text has none of them.
+/// All bytes above ASCII are real-time bytes; text has none of them.
 bool is_real_time(unsigned char byte) {
     return byte == '?' || byte == '!' || byte == '~' || byte == kResetByte || byte >= 0x80;
 }
@@ -38,7 +38,8 @@ std::vector<unsigned char> ReceivedBytes::take(std::string_view bytes) {
     return real_time;
 }
 
-/// A line that finds no room is refused when its turn comes. Beyond that nothing is kept.
+/// Keeps a line that is too long or found no room without its text, to be refused in its turn. Drops it if there is no
+/// room even for that.
 void ReceivedBytes::end_line() {
     if (is_too_long_) {
         waiting_ -= line_.size();

@@ -1,4 +1,4 @@
-// What a sender has written, as grbl reads it: real-time bytes at once, wherever they stand, and lines in their order.
+// Splits a sender's bytes as grbl does: real-time bytes are taken at once, anywhere in a line; lines are kept in order.
 #pragma once
 
 #include <cstddef>
@@ -9,22 +9,22 @@
 
 namespace lockstep::grbl {
 
-/// The most bytes of a line, and of all lines that wait.
+/// The maximum number of bytes of a line, and of all waiting lines.
 inline constexpr std::size_t kMaxLine = 256;
 inline constexpr std::size_t kMaxWaiting = 4096;
 
 struct ReceivedLine {
     std::string text;          // without its end
-    bool is_too_long = false;  // and `text` is empty
+    bool is_too_long = false;  // then `text` is empty
 };
 
 class ReceivedBytes {
 public:
-    /// Returns the real-time bytes among them. A soft reset (0x18) drops all lines received so far.
+    /// Returns the real-time bytes in `bytes`. A soft reset (0x18) drops all lines received so far.
     std::vector<unsigned char> take(std::string_view bytes);
     bool has_line() const { return !lines_.empty(); }
     ReceivedLine next_line();
-    /// Bytes that still fit.
+    /// The number of bytes that still fit.
     std::size_t room() const { return kMaxWaiting - waiting_; }
     void clear();
 
@@ -33,7 +33,7 @@ private:
 
     std::deque<ReceivedLine> lines_;
     std::string line_;
-    std::size_t waiting_ = 0;  // bytes of all lines, and one more for each
+    std::size_t waiting_ = 0;  // bytes of all waiting lines, plus one for each
     bool is_too_long_ = false;
     bool was_return_ = false;
 };

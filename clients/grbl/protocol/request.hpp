@@ -1,4 +1,4 @@
-// What a sender's bytes ask of the machine.
+// The requests of a sender to the machine.
 #pragma once
 
 #include <optional>
@@ -15,17 +15,17 @@
 
 namespace lockstep::grbl {
 
-/// So many lines at least are accepted before they are run: the machine's look-ahead takes that many, however long they
-/// are. Senders read it as the size of grbl's planner.
+/// At least this many lines are accepted before they are run, of any length, for the machine's look-ahead. Senders read
+/// it as the size of grbl's planner.
 inline constexpr std::size_t kPlannerLines = 128;
 
 /// A line of G-code that takes time.
 struct LineToRun {
     std::vector<Block> blocks;
-    std::vector<double> from_mm;      // of each axis, where it begins
-    double seconds = 0;               // that it takes, about
-    std::int32_t sender_line = 0;     // its N word; 0: none
-    bool is_answered_behind = false;  // when it was run; else when it is accepted
+    std::vector<double> from_mm;      // of each axis, where the line begins
+    double seconds = 0;               // approximate duration
+    std::int32_t sender_line = 0;     // its N word, or 0
+    bool is_answered_behind = false;  // answered after it was run, else when it is accepted
 };
 
 struct Request {
@@ -34,14 +34,14 @@ struct Request {
         Resume,
         Stop,
         Override,   // to `overrides`
-        CancelJog,  // those above are real-time and not answered; those below are, by their number
+        CancelJog,  // up to here real-time and not answered; the following are answered by number
         Reset,
         Home,          // `axes`; answered at its end
         Jog,           // `jogs`; answered when it has begun
-        SetValues,     // to `values`; and where `drops_settings`, that too
+        SetValues,     // to `values`; also drops the settings if `drops_settings`
         KeepSettings,  // `settings`
-        DropSettings,  // all that were kept
-        RunLine        // `line`; answered when it is accepted, or was run where it says so
+        DropSettings,  // all kept settings
+        RunLine        // `line`; answered when accepted, or after it was run if is_answered_behind
     };
     Kind kind = Kind::Stop;
     std::uint64_t number = 0;
@@ -56,9 +56,9 @@ struct Request {
 
 struct Answer {
     bool is_done = false;
-    FaultCode why = FaultCode::None;  // of a refusal or a failure
+    FaultCode why = FaultCode::None;  // reason of a refusal or a failure
     std::string text;                 // for a person
-    std::optional<Error> error = {};  // where it is not that of the fault
+    std::optional<Error> error = {};  // if it is not the error for the fault `why`
 };
 
 }  // namespace lockstep::grbl

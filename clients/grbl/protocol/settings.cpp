@@ -12,16 +12,16 @@ namespace lockstep::grbl {
 namespace {
 
 constexpr std::size_t kMostAxes = 6;
-constexpr double kSame = 0.0005;  // of a value that is written with three digits
+constexpr double kSame = 0.0005;  // tolerance of a value written with three digits
 constexpr int kHomingMask = 23;
 constexpr int kTravel = 130;
 
-/// A setting of each axis from number `first` on, or of all axes in one.
+/// Settings with a number for each axis, from `first` on, or with one number for all axes.
 struct AxisKey {
     int first = 0;
     bool is_of_all = false;
     const char* key;
-    double factor = 1;  // of grbl's unit in that of the machine's file
+    double factor = 1;  // grbl's value / value in the machine's file
     double (*value)(const AxisConfig&);
 };
 constexpr std::array<AxisKey, 6> kAxisKeys{{
@@ -37,7 +37,7 @@ constexpr std::array<AxisKey, 6> kAxisKeys{{
 
 std::size_t axes_of(const MachineConfig& machine) { return std::min(machine.axes.size(), kMostAxes); }
 
-/// The axes that home towards their lower end.
+/// A bit for each axis that homes towards its lower end.
 int homing_mask(const MachineConfig& machine) {
     int mask = 0;
     for (std::size_t i = 0; i < axes_of(machine); ++i) {
@@ -66,13 +66,13 @@ std::expected<KeptSettings, Refused> write_homing_mask(const MachineConfig& mach
     return settings;
 }
 
-/// The end with the switch stays where it is.
+/// Changes the travel's length. The end with the switch keeps its position.
 KeptSetting travel_setting(const AxisConfig& axis, double length_mm) {
     if (axis.homing.toward_min) { return {axis.name, "position_max_mm", value_text(axis.position_min_mm + length_mm)}; }
     return {axis.name, "position_min_mm", value_text(axis.position_max_mm - length_mm)};
 }
 
-/// `number`: one of a machine's own that may be written.
+/// `number`: a setting of the machine that may be written.
 std::expected<KeptSettings, Refused> keys_for(const MachineConfig& machine, int number, double value) {
     if (number == kHomingMask) { return write_homing_mask(machine, value); }
     if (number >= kTravel) {

@@ -1,4 +1,4 @@
-// grbl's numbered settings: those of the machine are keys of its configuration, those of the reports belong to the
+// grbl's numbered settings. Those of the machine are keys of its configuration. Those of the reports belong to the
 // connection.
 #pragma once
 
@@ -16,14 +16,14 @@ namespace lockstep::grbl {
 struct Setting {
     int number = 0;
     std::string value;
-    std::string why_fixed;  // empty: it may be written
+    std::string why_fixed;  // empty if it may be written
 };
 
-/// In the order of their numbers. Axes beyond the sixth have none.
+/// In the order of their numbers. Only the first six axes have settings.
 std::vector<Setting> settings_of(const MachineConfig& machine, const ReportOptions& options);
 
-/// $10 and $13 change `options`. Returns the keys of the machine's file that a written value changes; none, where it is
-/// as it was. Whether the machine can have them is for the rules of its file.
+/// $10 and $13 change `options`. Returns the keys of the machine's file that the value changes; empty if it is the
+/// same. Does not check the rules of the machine's file.
 std::expected<KeptSettings, Refused> write_setting(const MachineConfig& machine, int number, double value,
                                                    ReportOptions& options);
 

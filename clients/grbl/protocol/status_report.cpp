@@ -10,7 +10,7 @@
 namespace lockstep::grbl {
 namespace {
 
-constexpr int kEvery = 30;  // WCO comes in one of so many reports at rest
+constexpr int kEvery = 30;  // at rest, one in this many reports has WCO
 constexpr int kEveryMoving = 10;
 
 const char* name_of(State state) {
@@ -43,7 +43,7 @@ State state_of(MachinePhase phase) {
 
 bool is_at_rest(State state) { return state == State::Idle || state == State::Alarm || state == State::Hold; }
 
-/// The letters of the field A; empty while all is off.
+/// The letters of the field A; empty if all devices are off.
 std::string accessories_of(const ProgramDevices& devices) {
     std::string letters;
     if (devices.spindle == ProgramDevices::Spindle::Forward) { letters += 'S'; }
@@ -61,7 +61,7 @@ State state_of(const MachineView& view, const Modes& modes) {
     if (state == State::Run && view.is_held) { return State::HoldEnding; }
     if (state != State::Idle) { return state; }
     if (view.lines > 0) { return view.is_held ? State::Hold : State::Run; }
-    if (!view.is_at_rest()) { return State::Run; }  // what the axes report is older than the machine's state
+    if (!view.is_at_rest()) { return State::Run; }  // the axes' reports may be older than the machine's state
     if (modes.is_asleep) { return State::Sleep; }
     if (modes.is_aborted || (!view.is_homed() && !modes.is_unlocked)) { return State::Alarm; }
     return modes.is_checking ? State::Check : State::Idle;
@@ -100,7 +100,7 @@ std::string StatusReport::text(const MachineView& view, State state, const std::
     const int every = is_at_rest(state) ? kEvery : kEveryMoving;
     if (offsets_due_-- <= 0) {
         offsets_due_ = every - 1;
-        if (overrides_due_ == 0) { overrides_due_ = 1; }  // one of the two at a time, as grbl has it
+        if (overrides_due_ == 0) { overrides_due_ = 1; }  // a report has only one of the two, as in grbl
         offset_mm_ = offset_mm;
         text += "|WCO:" + places_text(offset_mm, options.inches);
     } else if (overrides_due_-- <= 0) {
@@ -109,7 +109,7 @@ std::string StatusReport::text(const MachineView& view, State state, const std::
         accessories_ = accessories;
         text += "|Ov:" + std::to_string(view.overrides.feed_percent) + "," +
                 std::to_string(view.overrides.rapid_percent) + ",100";
-        if (!accessories.empty()) { text += "|A:" + accessories; }  // without it, after Ov, all is off
+        if (!accessories.empty()) { text += "|A:" + accessories; }  // Ov without A means that all are off
     }
     return text + ">";
 }

@@ -36,7 +36,7 @@ std::vector<Lift> lifts_to_safe_heights(const MachineConfig& machine) {
     return lifts;
 }
 
-/// On a whole step. An axis homes away from the work.
+/// The axis's position clear of the work, on a whole step. An axis homes away from the work.
 double clear_place(const AxisConfig& axis, const Lift& lift, double at_mm, double to_mm) {
     const double place = lockstep::to_mm(axis, static_cast<double>(to_steps(axis, lift.mm)));
     if (lift.is_asked) { return place; }

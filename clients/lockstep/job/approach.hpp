@@ -1,4 +1,4 @@
-// The approach to the place where a program continues: lift, cross, and only then go down to the work.
+// The approach to the place where a program continues: lift, cross, then go down to the work.
 #pragma once
 
 #include <expected>
@@ -10,22 +10,22 @@
 
 namespace lockstep {
 
-/// An axis that leaves the work first, and its position clear of the work.
+/// An axis that leaves the work first, and a position clear of the work.
 struct Lift {
     std::size_t axis = 0;
     double mm = 0;
-    bool is_asked = false;  // it goes exactly there; else it stays if it is farther from the work
+    bool is_asked = false;  // the user named it: it goes exactly there; else it stays if it is farther from the work
 };
 
-/// "Z=40,W=0"; empty: the axes with a safe height, to it; if there are none, the axes that home first, to their park
-/// positions, since they wait there while the others search for their switches. Error: it names no place of this
-/// machine, or the lifting axis is unknown.
+/// Parses "Z=40,W=0". If `option` is empty, returns the axes with a safe height. If there are none, returns the axes
+/// that home first, with their park positions, where they wait while the others search for their switches. Fails if
+/// `option` names no place of this machine, or if the lifting axis is unknown.
 std::expected<std::vector<Lift>, std::string> lifts_of(const MachineConfig& machine, const std::string& option);
 
-/// The program's position before its first block of `line` or after it.
+/// The program's position before its first block of `line` or of a later line.
 std::vector<double> place_before(const Program& program, std::int32_t line);
 
-/// The feed of the last move before that block, or else of the first one after it; 0: all are rapid.
+/// The feed of the last feed move before that block, else of the first one after it; 0 if all moves are rapid.
 double feed_before(const Program& program, std::int32_t line);
 
 struct ApproachMove {
@@ -34,12 +34,12 @@ struct ApproachMove {
     double length_mm = 0;
 };
 
-/// In one line, as fast as the axes can.
+/// One straight move, as fast as the axes can.
 std::vector<ApproachMove> straight_approach(const std::vector<double>& at_mm, const std::vector<double>& to_mm);
 
-/// From `at_mm` to `to_mm`, a place for each axis: the lifting axes go clear; the others cross as fast as they can;
-/// then the lifting ones go down with `feed_mm_s`, or if that is 0 at their start velocity. Axes that do not move are
-/// left out.
+/// The moves from `at_mm` to `to_mm`, positions of each axis. The lifting axes go clear, the others cross as fast as
+/// they can, and then the lifting axes go down with `feed_mm_s`, or with their start velocity if that is 0. Moves
+/// without motion are left out.
 std::vector<ApproachMove> approach(const MachineConfig& machine, const std::vector<Lift>& lifts,
                                    const std::vector<double>& at_mm, const std::vector<double>& to_mm,
                                    double feed_mm_s);

@@ -1,4 +1,4 @@
-// An approach, and the modal state at its end, as text and as a report.
+// Writes an approach, and the modal state at its end, as text and as a report.
 #pragma once
 
 #include <string>

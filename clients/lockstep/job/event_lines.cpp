@@ -11,7 +11,7 @@ std::string line_of(const PublishedEvent& event) {
     return place + event_text(event.event) + (event.is_of_program ? "" : ", at the job's end");
 }
 
-/// Of the same coordinator, between the two.
+/// The number of events missing between the two; 0 if they are of different coordinators.
 std::uint64_t missing_between(const PublishedEvent& before, const PublishedEvent& event) {
     const bool follows = before.term == event.term && event.sequence > before.sequence;
     return follows ? event.sequence - before.sequence - 1 : 0;

@@ -1,4 +1,4 @@
-// The lines that report the events of a job while it runs.
+// Writes the lines that report the events of a job while it runs.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +15,13 @@ class EventLines {
 public:
     explicit EventLines(std::uint64_t job) : job_(job) {}
 
-    /// A line for each event of the job, and one where events were not received. `events`: the next ones received.
+    /// Returns a line for each event of the job, and a line where events were not received. `events`: the next
+    /// received.
     std::vector<std::string> of(std::span<const PublishedEvent> events);
 
 private:
     std::uint64_t job_;
-    std::optional<PublishedEvent> last_;  // received, of any job
+    std::optional<PublishedEvent> last_;  // the last received, of any job
 };
 
 }  // namespace lockstep

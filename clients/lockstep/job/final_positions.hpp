@@ -1,4 +1,4 @@
-// Where the axes of a job have come to rest.
+// The positions at which the axes come to rest after a job.
 #pragma once
 
 #include "clients/session/session.hpp"
@@ -6,7 +6,7 @@
 
 namespace lockstep {
 
-/// Waits for axis states published after the end of the job: they come independently of the coordinator's.
+/// Waits for axis states received after the end of the job, because they come independently of the coordinator's state.
 void add_final_positions(Session& session, proto::RunReport& report);
 
 }  // namespace lockstep

@@ -1,11 +1,11 @@
-// SIGHUP and SIGPIPE as a flag for loops: the terminal was closed, or the output has no reader.
+// A flag that SIGHUP and SIGPIPE set: the terminal was closed, or nobody reads the output any more.
 #pragma once
 
 #include <csignal>
 
 namespace lockstep {
 
-/// One at a time in a process. A SIGHUP that is ignored already, as under nohup, stays ignored. The destructor
+/// Only one object may exist at a time. A SIGHUP that is already ignored, as under nohup, stays ignored. The destructor
 /// restores the previous handlers.
 class HangUp {
 public:

@@ -18,7 +18,7 @@ namespace {
 using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
 
-constexpr nanoseconds kEventPatience = 1s;  // for the coordinators' events to be received
+constexpr nanoseconds kEventPatience = 1s;  // until events of the coordinator are received
 
 std::string outcome_name(JobResult result) {
     switch (result) {
@@ -80,8 +80,8 @@ proto::RunReport new_report(const Job& job) {
     return report;
 }
 
-/// Until the coordinator has all of the program: then it needs this process no more. `before_it_runs`: there must be
-/// room for all of it.
+/// Sends until the coordinator has all of the program and no longer needs this process. `before_it_runs`: fails if
+/// there is no room for all of it.
 std::expected<void, Failure> send_rest(Session& session, const StopSignal& stop, bool before_it_runs) {
     while (!session.sender()->is_done() && !session.sender()->refusal()) {
         if (stop.requested()) { return std::unexpected(failed("interrupted; the machine runs what was sent of it")); }
@@ -121,14 +121,14 @@ std::expected<Reply, Failure> begin(Session& session, const Job& job, const Stop
                "known, and a stop was sent; see: lockstep status"));
 }
 
-/// The program's offsets and tools are on the coordinator's disk when its command returns.
+/// Waits until the program's offsets and tools are on the coordinator's disk.
 void await_values(Session& session, const Job& job, Output& output) {
     if (!job.values || !job.values->after) { return; }
     const auto kept = session.await_kept(job.values->revision + 1);
     if (!kept) { output.warn(kept.error().errors.front().message); }
 }
 
-/// Why the machine did not run all of a program that was read while it ran.
+/// Warns if the machine did not run all of a program that was read while it ran, and says why.
 void report_stream(const Session& session, const Job& job, Output& output) {
     for (const GcodeNote& note : job.stream->take_notes()) {
         output.warn("line " + std::to_string(note.line) + ": " + note.text);
@@ -149,7 +149,7 @@ ExitCode end_begun(const Job& job, proto::RunReport& report, Output& output) {
     return kExitDone;
 }
 
-/// Before the job begins, so that its first events are received too.
+/// Call before the job begins, to receive its first events too.
 void follow_events(Session& session, const Job& job, Output& output) {
     if (job.command != CommandKind::Run || job.detach) { return; }
     if (const auto follows = session.follow_events(kEventPatience); !follows) {

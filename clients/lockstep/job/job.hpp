@@ -1,4 +1,4 @@
-// Runs a job from its command to its end: common to home, move and run.
+// Runs a job from its command to its end, for home, move and run.
 #pragma once
 
 #include <optional>
@@ -15,18 +15,18 @@ struct Job {
     CommandKind command = CommandKind::Run;
     std::string kind;                                 // as in the reports: "home", "move", "run", "own-move"
     std::string name;                                 // of the program
-    AxisSet axes = 0;                                 // home: which; none: all
+    AxisSet axes = 0;                                 // home: the axes; empty for all
     std::optional<Program> program = {};              // move, run, own move
-    std::optional<gcode::ProgramValues> values = {};  // run: the machine's, that it depends on and leaves
-    ProgramStream* stream = nullptr;                  // run: a program that is read while it runs, instead of `program`
-    Ticks ticks = {};                                 // own move: how long it lasts; 0: as fast as allowed
+    std::optional<gcode::ProgramValues> values = {};  // run: the machine's values that it reads and changes
+    ProgramStream* stream = nullptr;                  // run: a program read while it runs, instead of `program`
+    Ticks ticks = {};                                 // own move: its duration; 0: as fast as allowed
     std::optional<double> planned_s = {};
-    bool detach = false;  // ends when the job has begun
-    bool take = false;    // the lease from another writer, too
+    bool detach = false;  // return when the job has begun
+    bool take = false;    // take the lease even from another writer
 };
 
-/// Begins the job, shows its progress, waits for its end, reports. SIGINT and SIGTERM first stop the machine on its
-/// path; SIGHUP, a closed terminal, holds it. Both end this call within some 15 s, whatever the machine does.
+/// Begins the job, shows its progress, waits for its end and reports. SIGINT and SIGTERM stop the machine on its path;
+/// SIGHUP (a closed terminal) holds it. The call then returns within about 15 s, even if the machine does not react.
 ExitCode run_job(Session& session, const Job& job, Output& output);
 
 }  // namespace lockstep

@@ -9,9 +9,9 @@
 namespace lockstep {
 namespace {
 
-constexpr std::chrono::milliseconds kGlance{100};  // how soon a signal is noticed
-/// For the machine to come to rest after a stop: a healthy one takes the frames that are under way, about a second, and
-/// its tail.
+constexpr std::chrono::milliseconds kGlance{100};  // maximum delay until a signal is noticed
+/// The maximum time to come to rest after a stop. A healthy machine needs about a second, for the frames under way and
+/// the tail.
 constexpr std::chrono::seconds kRestPatience{10};
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Waits for the end of a job and prints its events: progress, pauses, a requested stop.
+// Waits for the end of a job and prints its progress, events, pauses and stops.
 #pragma once
 
 #include <chrono>
@@ -17,12 +17,13 @@ namespace lockstep {
 
 class JobWatch {
 public:
-    /// `number`: of the job, from the reply to `command`.
+    /// `number`: the job's number, from the reply to `command`.
     JobWatch(Session& session, std::uint64_t number, CommandKind command, Output& output, const StopSignal& stop,
              const HangUp& hang_up);
 
-    /// A stop signal stops the machine on its path. A closed terminal holds it, or stops what cannot be held. Then this
-    /// waits for rest, with a limit. Error: the coordinator fell silent, refused the stop, or the job continues.
+    /// A stop signal stops the machine on its path. A closed terminal holds the machine, or stops it if the job cannot
+    /// be held. Then wait() waits for rest, with a limit. Fails if the coordinator fell silent or refused the stop, or
+    /// if the job did not end in time.
     std::expected<JobResult, Failure> wait();
     /// Prints the events of the program that were received since the last call.
     void print_events();
@@ -46,12 +47,12 @@ private:
     const HangUp& hang_up_;
     EventLines event_lines_;
     Term asked_;
-    Term runs_it_;  // of the owner last received as running it
+    Term runs_it_;  // of the owner last known to run the job
     bool has_lease_ = true;
     bool hold_sent_ = false;
     bool stop_sent_ = false;
-    std::optional<std::chrono::nanoseconds> rest_asked_;  // when the last of both was sent
-    std::int32_t line_ = 0;                               // the last in motion
+    std::optional<std::chrono::nanoseconds> rest_asked_;  // when the latest of both was sent
+    std::int32_t line_ = 0;                               // the last line in motion
     std::optional<MachinePhase> printed_;
 };
 

@@ -29,23 +29,22 @@ struct Interrupt {
 constexpr std::array kInterrupts{
     Interrupt{"hold", CommandKind::Hold, "bring the machine to rest on its path, to be resumed",
               "go on with: lockstep resume; end the job with: lockstep stop"},
-    Interrupt{"resume", CommandKind::Resume, "go on with a job that is held or paused",
-              "watch it with: lockstep watch"},
+    Interrupt{"resume", CommandKind::Resume, "continue a job that is held or paused", "watch it with: lockstep watch"},
     Interrupt{"stop", CommandKind::Stop, "bring the machine to rest on its path and drop the job", ""},
     Interrupt{"estop", CommandKind::EmergencyStop,
-              "cease all pulses at once, also without a coordinator; what it stops in motion is to be homed again",
+              "stop all pulses at once, also without a coordinator; axes that were in motion must be homed again",
               "when it is safe: lockstep reset; lockstep status shows which axes to home"},
     Interrupt{"reset", CommandKind::Reset, "leave Fault, once its cause is gone", ""},
 };
 
-/// They only make the machine safer.
+/// Whether it needs no lease, because it only makes the machine safer.
 bool is_everybodys(const Interrupt& interrupt) {
     return interrupt.command != CommandKind::Resume && interrupt.command != CommandKind::Reset;
 }
 
 constexpr std::chrono::seconds kStopPatience{3};
 
-/// A hold ends homing, which cannot be resumed.
+/// The next command for the user. After a hold that ended homing there is none, since homing cannot be resumed.
 std::string next_text(const Session& session, const Interrupt& interrupt, MachinePhase phase) {
     if (interrupt.command != CommandKind::Hold || phase == MachinePhase::Holding || phase == MachinePhase::Paused) {
         return interrupt.then;
@@ -81,13 +80,13 @@ ExitCode interrupt_machine(const LiveOptions& options, const Interrupt& interrup
     return report_outcome(*session, interrupt, *reply, output);
 }
 
-/// At rest, and nothing moves it before a reset.
+/// Whether the axis is at rest with a fault, so that nothing moves it before a reset.
 bool is_stopped(const Session& session, std::size_t axis) {
     const bool is_known = session.axis_present(axis);
     return is_known && session.axis(axis)->state.at_rest && session.axis(axis)->state.fault != 0;
 }
 
-/// Which axes have stopped themselves, if no coordinator replies.
+/// Reports which axes have stopped by themselves, if no coordinator replies.
 ExitCode report_axes(const Session& session, Output& output) {
     std::string stopped;
     std::string other;
@@ -105,7 +104,7 @@ ExitCode report_axes(const Session& session, Output& output) {
     return other.empty() ? kExitDone : kExitFailed;
 }
 
-/// The axes receive it directly: it needs no coordinator.
+/// Axes receive an emergency stop directly, so it needs no coordinator.
 ExitCode stop_at_once(const LiveOptions& options, const Interrupt& interrupt) {
     Output output(options.json);
     const auto machine = choose_machine(options.machine_file);

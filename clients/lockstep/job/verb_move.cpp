@@ -46,7 +46,8 @@ ExitCode move(const MoveVerbOptions& options) {
     Output output(options.json);
     const auto machine = choose_machine(options.machine_file);
     if (!machine) { return output.fail(machine.error()); }
-    // Names and numbers are checked before any message is sent; a relative place once the axes' positions are known.
+    // Checks names and numbers before any message is sent. Relative targets can be checked only with the axes'
+    // positions.
     const std::vector<double> anywhere(machine->config.axes.size());
     if (auto program = move_program(machine->config, anywhere, options.move); !program && !options.move.relative) {
         return output.fail(bad_input(program.error()));
@@ -72,7 +73,7 @@ void add_move(CLI::App& app, Action& action) {
                      "speed along the line, mm/min; as fast as allowed where not given");
     verb->add_flag("--relative", options->move.relative, "targets are from where each axis stands");
     verb->add_flag("--own", options->move.own,
-                   "each axis on its own, by the method its configuration names; they arrive when they arrive");
+                   "move each axis on its own, by the method in its configuration; the axes arrive at different times");
     verb->add_option("--in", options->move.in_s, "with --own: how long each axis's move lasts, s; method RANADE only");
     add_detach(*verb, options->detach);
     add_take(*verb, *options);

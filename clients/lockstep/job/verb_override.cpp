@@ -61,8 +61,10 @@ void add_override(CLI::App& app, Action& action) {
         "touched");
     const auto options = std::make_shared<OverrideOptions>();
     const CLI::Range range(Overrides::kLeast, Overrides::kMost);
-    verb->add_option("--feed", options->feed_percent, "of programmed feeds")->check(range);
-    verb->add_option("--rapid", options->rapid_percent, "of what the axes allow; above 100 is as 100")->check(range);
+    verb->add_option("--feed", options->feed_percent, "percent of the programmed feeds")->check(range);
+    verb->add_option("--rapid", options->rapid_percent,
+                     "percent of the rapid that the axes allow; above 100 has the effect of 100")
+        ->check(range);
     add_take(*verb, *options);
     add_live_options(*verb, *options);
     verb->footer(footer("  lockstep override --feed 60\n  lockstep override --feed 100 --rapid 25\n"));

@@ -27,7 +27,7 @@ struct RunOptions : LiveOptions {
     GcodeSwitches switches;
     bool dry_run = false;
     RestartOptions restart;
-    std::string started_at;  // the machine's position when it ran from its beginning
+    std::string started_at;  // the machine's position when the program's first run began
     bool yes = false;        // do not ask
     bool detach = false;
 
@@ -47,7 +47,7 @@ ExitCode report_dry_run(const Job& job, const std::vector<ApproachMove>& approac
     return kExitDone;
 }
 
-/// The whole program, for the machine's position; with --from-line, for the position at its first run.
+/// Reads the whole program for the machine's position, or with --from-line for the position at its first run.
 std::expected<ProgramFile, Failure> read(const RunOptions& options, const MachineConfig& machine,
                                          const std::vector<double>& stands_mm, const gcode::KeptValues& values,
                                          Output& output) {
@@ -65,7 +65,7 @@ struct Chosen : Rest {
     gcode::ProgramValues values;
 };
 
-/// The program to run: all of it, or an approach and the rest, which is printed.
+/// The program to run: all of it, or an approach and the rest. Prints an approach.
 std::expected<Chosen, Failure> choose(const RunOptions& options, std::string_view text, const MachineConfig& machine,
                                       const std::vector<double>& stands_mm, const RevisedValues& before,
                                       Output& output) {
@@ -81,7 +81,7 @@ std::expected<Chosen, Failure> choose(const RunOptions& options, std::string_vie
     return Chosen{*std::move(rest), std::move(values)};
 }
 
-/// A restart moves the machine before the program does: a person has seen the approach, or a script passes --yes.
+/// A restart moves the machine before the program does. A person must confirm the approach, or a script pass --yes.
 std::expected<void, Failure> confirm(const RunOptions& options, const Output& output) {
     if (options.yes || !options.is_restart()) { return {}; }
     if (options.json || !output.is_terminal() || isatty(STDIN_FILENO) != 1) {
@@ -96,12 +96,12 @@ std::expected<void, Failure> confirm(const RunOptions& options, const Output& ou
     return std::unexpected(failed("nothing was begun; to begin, answer y, or add --yes"));
 }
 
-/// A short file is read and checked as a whole before anything moves.
+/// Whether the program is read while it runs. A short file is read and checked as a whole before anything moves.
 bool is_streamed(const RunOptions& options) {
     return options.file == "-" || (is_long_program(options.file) && !options.dry_run);
 }
 
-/// Reads what must be known before anything moves: the first lines, or those up to the one to begin with.
+/// Reads the lines that must be known before anything moves: the first lines, or all up to the one to begin with.
 std::expected<void, Failure> read_first(const RunOptions& options, const MachineConfig& machine,
                                         const std::vector<double>& stands_mm, ProgramStream& stream, Output& output) {
     if (!options.is_restart()) {
@@ -159,7 +159,7 @@ ExitCode run_stream(const RunOptions& options) {
     return run_job(*session, job, output);
 }
 
-/// A long file is planned as it is read.
+/// Plans a long file while reading it.
 ExitCode plan_stream(const RunOptions& options) {
     Output output(options.json);
     auto lines = LineReader::open(options.file);

@@ -23,7 +23,7 @@ constexpr std::array kAxisKeys{AxisKeys{"\x1b[D", "\x1b[C", "left, right"},
 constexpr int kSlowest_percent = 1;
 constexpr int kFastest_percent = 3200;
 
-/// The length of the first key: an escape sequence ends with a letter or ~. 0: more bytes have to come.
+/// The length of the first key; 0 if more bytes must come. An escape sequence ends with a letter or ~.
 std::size_t length_of_key(std::string_view bytes) {
     if (bytes.front() != '\x1b') { return 1; }
     if (bytes.size() == 1) { return 0; }
@@ -48,7 +48,7 @@ void JogKeys::take(std::string_view bytes, std::chrono::nanoseconds now) {
         const std::size_t length = length_of_key(std::string_view(unread_).substr(read));
         if (length == 0) { break; }
         std::string key = unread_.substr(read, length);
-        if (key.size() == 3 && key[1] == 'O') { key[1] = '['; }  // as some terminals have it
+        if (key.size() == 3 && key[1] == 'O') { key[1] = '['; }  // some terminals send O
         press(key, now);
         read += length;
     }

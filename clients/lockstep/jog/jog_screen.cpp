@@ -46,7 +46,7 @@ std::string screen_text(const Session& session, const JogKeys& keys, const std::
     return text + (note.empty() ? "" : "\n" + note + "\n");
 }
 
-/// What the coordinator last said against a jog.
+/// Why the latest jog was refused, or that the coordinator is silent; else empty.
 std::string note_of(const Session& session, const JogLink& link) {
     if (session.is_silent()) { return "the coordinator is silent"; }
     const Reply* reply = link.reply();
@@ -55,7 +55,7 @@ std::string note_of(const Session& session, const JogLink& link) {
 
 }  // namespace
 
-/// A loop that comes late finds keys that were typed long ago: they count as released.
+/// If a loop comes late, the keys that it reads were typed long ago, so they count as released.
 ExitCode jog_by_keys(Session& session, Output&) {
     const StopSignal stop;
     const HangUp hang_up;

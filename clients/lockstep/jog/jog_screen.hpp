@@ -1,4 +1,4 @@
-// lockstep jog on a terminal: keys jog the axes, and the screen shows where they are.
+// lockstep jog on a terminal: keys jog the axes, and the screen shows their positions.
 #pragma once
 
 #include "clients/session/session.hpp"
@@ -6,7 +6,7 @@
 
 namespace lockstep {
 
-/// Until q or a signal.
+/// Returns after q or a signal.
 ExitCode jog_by_keys(Session& session, Output& output);
 
 }  // namespace lockstep

@@ -22,8 +22,8 @@ std::expected<JogAxis, std::string> jog_axis(const MachineConfig& machine, const
     const AxisConfig& config = machine.axes[*axis];
     const double speed = options.speed_mm_s.value_or(usual_jog_speed(config));
     if (!(speed > 0 && speed <= config.max_velocity_mm_s)) {
-        return std::unexpected("axis " + config.name + ": a jog at " + short_number(speed) +
-                               " mm/s is not above 0, to max_velocity_mm_s " + short_number(config.max_velocity_mm_s));
+        return std::unexpected("axis " + config.name + ": a jog speed must be above 0 and at most max_velocity_mm_s " +
+                               short_number(config.max_velocity_mm_s) + "; it is " + short_number(speed) + " mm/s");
     }
     return JogAxis{.axis = static_cast<std::uint32_t>(*axis),
                    .speed_mm_s = direction == '+' ? speed : -speed,
@@ -36,7 +36,8 @@ double usual_jog_speed(const AxisConfig& axis) { return std::min(kUsualSpeed_mm_
 
 std::expected<std::vector<JogAxis>, std::string> jog_axes(const MachineConfig& machine, const JogOptions& options) {
     if (options.distance_mm && !(*options.distance_mm > 0 && std::isfinite(*options.distance_mm))) {
-        return std::unexpected("--distance " + short_number(*options.distance_mm) + ": it is above 0 mm");
+        return std::unexpected("--distance " + short_number(*options.distance_mm) +
+                               ": the distance must be above 0 mm");
     }
     std::vector<JogAxis> jogs;
     for (const std::string& word : options.words) {

@@ -1,4 +1,4 @@
-// "X+ Y-" as the axes of a jog. Pure.
+// Parses "X+ Y-" to the axes of a jog. Pure.
 #pragma once
 
 #include <expected>
@@ -13,17 +13,17 @@ namespace lockstep {
 
 struct JogOptions {
     std::vector<std::string> words;     // an axis's name, then + or -
-    std::optional<double> speed_mm_s;   // none: usual_jog_speed
-    std::optional<double> distance_mm;  // none: to the end of the travel
+    std::optional<double> speed_mm_s;   // default: usual_jog_speed
+    std::optional<double> distance_mm;  // default: to the end of the travel
 };
 
-/// 10 mm/s, or what the axis can do.
+/// 10 mm/s, or the axis's maximum velocity if that is lower.
 double usual_jog_speed(const AxisConfig& axis);
 
-/// Error: a word, a speed or a distance that the machine does not have.
+/// Fails if a word, a speed or a distance is not valid for the machine.
 std::expected<std::vector<JogAxis>, std::string> jog_axes(const MachineConfig& machine, const JogOptions& options);
 
-/// Where the jog ends by itself if the axis is homed, from where it stands.
+/// The position, in steps, where the jog of a homed axis at `here` ends by itself.
 std::int64_t jog_target(const AxisConfig& axis, const JogAxis& jog, std::int64_t here);
 
 }  // namespace lockstep

@@ -42,7 +42,7 @@ void warn_of_unhomed(const Session& session, const std::vector<JogAxis>& jogs, O
     }
 }
 
-/// Where each homed axis ends by itself.
+/// Whether each axis has reached the position where its jog ends by itself.
 class Arrival {
 public:
     Arrival(const Session& session, const std::vector<JogAxis>& jogs) : jogs_(jogs) {
@@ -64,7 +64,7 @@ private:
     std::vector<std::int64_t> targets_;
 };
 
-/// Renews the jog until it is over, or this process is asked to end. True: it released the jog.
+/// Renews the jog until it is over, or until a signal ends this process. Returns true if it released the jog early.
 std::expected<bool, Failure> hold(Session& session, JogLink& link) {
     const StopSignal stop;
     const HangUp hang_up;

@@ -1,4 +1,4 @@
-// The keys of a machine's members on this host: the data of `lockstep keys` and the doctor.
+// The keys of a machine's members on this host, for `lockstep keys` and the doctor.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace lockstep {
 
-/// A member without any file of its own here does not run on this host, and has no errors.
+/// A member without any key file here does not run on this host, and has no errors.
 proto::KeysReport keys_report(const MachineConfig& machine, const std::filesystem::path& directory);
 
 }  // namespace lockstep

@@ -29,7 +29,7 @@ std::optional<fs::path> find_program(const std::string& name) {
     return std::nullopt;
 }
 
-/// A headless Java lacks the library that opens windows.
+/// Whether this Java can open windows. A headless Java lacks the library.
 bool has_windows(const fs::path& java) {
     return fs::exists(java.parent_path().parent_path() / "lib" / "libawt_xawt.so");
 }

@@ -1,4 +1,5 @@
-// The timing that suits a host, measured or given: what `lockstep doctor --timing` and `lockstep timing apply` report.
+// The timing for the measured or given stalls of a host, as `lockstep doctor --timing` and `lockstep timing apply`
+// report it.
 #pragma once
 
 #include "clients/doctor/ratings.hpp"
@@ -7,10 +8,11 @@
 
 namespace lockstep {
 
-/// Watches this host for so long, and shows the progress. `slot_us`: the services wake four times in it.
+/// Measures the stalls of this host for `seconds`, and shows the progress. Wakes four times per slot, as the services
+/// do.
 doctor::StallFacts watch_for_stalls(std::int64_t slot_us, double seconds, Output& output);
 
-/// When a hold begins after its command: at the earliest and at the latest, in milliseconds.
+/// The earliest and the latest beginning of a hold after its command, in milliseconds.
 struct HoldTimes {
     double from_ms = 0;
     double to_ms = 0;
@@ -18,7 +20,7 @@ struct HoldTimes {
 HoldTimes hold_times(const ProtocolTiming& timing);
 
 proto::TimingReport timing_report(const doctor::StallFacts& facts, const ProtocolTiming& timing);
-/// What was measured, the proposal, and what it means for a hold beside today's timing.
+/// Prints the measurement, the proposed timing, and when a hold begins with it and with today's timing.
 void print_timing(const doctor::StallFacts& facts, const ProtocolTiming& proposed, const ProtocolTiming& today,
                   Output& output);
 

@@ -39,7 +39,7 @@ struct DoctorOptions : LiveOptions {
     bool timing = false;
 };
 
-/// The file of the axes' states, or why it cannot exist.
+/// The file of the axes' states, or the reason why it cannot be created; empty without network.one_host.
 std::expected<std::string, std::string> shared_states(const MachineConfig& machine) {
     if (!machine.network.one_host) { return ""; }
     const auto board = StateBoardReader::open(shared_states_file(machine.name, machine.network.domain), std::nullopt);

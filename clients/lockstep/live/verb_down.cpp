@@ -26,9 +26,9 @@ struct DownOptions : LiveOptions {
 };
 
 constexpr auto kDownPatience = 10s;
-constexpr auto kLastStates = 300ms;  // for clients that wait for the final states of the job's axes
+constexpr auto kLastStates = 300ms;  // so that clients receive the final states of the job's axes
 
-/// Brings a machine in motion or homing to rest first, on its path. One that does not answer is taken down directly.
+/// Brings a machine that moves to rest on its path. A machine that does not answer is taken down directly.
 void bring_to_rest(const ChosenMachine& machine, Output& output) {
     auto session = Session::join(machine, Purpose::Command);
     if (!session || !session->reach(1s)) { return; }

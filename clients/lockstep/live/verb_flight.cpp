@@ -34,7 +34,7 @@ ExitCode flight(const LiveOptions& options) {
 
 void add_flight(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand(
-        "flight", "write to files what each process of the machine on this host received, decided and published last");
+        "flight", "write to files what each process on this host last received, decided and published");
     const auto options = std::make_shared<LiveOptions>();
     add_live_options(*verb, *options);
     verb->footer(

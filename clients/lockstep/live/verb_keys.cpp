@@ -84,7 +84,7 @@ ExitCode make(const KeysOptions& options) {
     output.print("made keys for " + std::to_string(report.members_size()) + " members of machine '" + machine.name +
                  "' in " + keys->directory.string());
     if (!made->replaced.empty()) {
-        output.print("the ones before are in " + made->replaced + "; delete them when all is well");
+        output.print("the previous keys are in " + made->replaced + "; delete them when the new keys work");
     }
     output.print(
         "each host needs identity-ca.pem, permissions-ca.pem, governance.p7s, and .pem, .key and .p7s of what runs\n"

@@ -15,7 +15,7 @@
 namespace lockstep {
 namespace {
 
-/// This process becomes lcm-spy; returns only if that fails.
+/// Replaces this process by lcm-spy. Returns only if that fails.
 Failure become(std::vector<std::string> words) {
     std::vector<char*> arguments;
     for (std::string& word : words) { arguments.push_back(word.data()); }

@@ -32,8 +32,8 @@ struct UpOptions : LiveOptions {
 };
 
 constexpr std::chrono::seconds kPagePatience{20};
-constexpr double kGlance_s = 2;       // for the parts of other hosts: the last host to start reports that all is ready
-constexpr double kWaitForAll_s = 60;  // if all of them are started
+constexpr double kGlance_s = 2;       // wait for other hosts' parts, so that the last host to start reports them
+constexpr double kWaitForAll_s = 60;  // with --all, which starts all parts
 
 std::string names_here(const MachineConfig& machine, const Placement& placed) {
     std::string names = placed.coordinator ? "the coordinator" : "";
@@ -59,7 +59,7 @@ ExitCode report_up(const Session& session, const StateDirectory& state, Output& 
     return report.has_fault() ? kExitFailed : kExitDone;
 }
 
-/// Reports that this host's parts run; parts of other hosts may start later.
+/// Reports that this host's parts run. Parts of other hosts may start later.
 ExitCode report_part_up(const Session& session, const Placement& placed, const StateDirectory& state, Output& output) {
     proto::StatusReport report = status_report(session);
     add_awaited(session, report);
@@ -72,7 +72,7 @@ ExitCode report_part_up(const Session& session, const Placement& placed, const S
     return kExitDone;
 }
 
-/// For a machine on several hosts.
+/// Waits for the other parts of a machine on several hosts, and reports.
 ExitCode await_and_report(Session& session, const UpOptions& options, const Placement& placed,
                           const StateDirectory& state, Output& output) {
     const double asked_s = options.wait_s.value_or(options.all.asked ? kWaitForAll_s : 0);
@@ -115,14 +115,14 @@ ExitCode up_here(const UpOptions& options, const ChosenMachine& machine, Output&
     return code;
 }
 
-/// If every part belongs on another host.
+/// Used if every part belongs on another host.
 ExitCode up_elsewhere(const UpOptions& options, const ChosenMachine& machine, Output& output) {
     auto session = Session::join(machine, Purpose::Look);
     if (!session) { return output.fail(session.error()); }
     return await_and_report(*session, options, {}, StateDirectory(machine.config.name), output);
 }
 
-/// The options for the other hosts.
+/// The words of the command for the other hosts.
 std::vector<std::string> words_of(const UpOptions& options) {
     std::vector<std::string> words{"up"};
     if (!options.fpga.empty()) { words.insert(words.end(), {"--fpga", options.fpga}); }
@@ -138,7 +138,7 @@ ExitCode up(const UpOptions& options) {
     OtherHosts others(options.all, machine->config, options.machine_file, words_of(options));
     const bool is_here = !options.all.asked || !placed_on(machine->config, host_name()).empty();
     const ExitCode here = is_here ? up_here(options, *machine, output) : up_elsewhere(options, *machine, output);
-    constexpr std::size_t kBrief = 1;  // the report that it is up; the parts that it waits for are up by now
+    constexpr std::size_t kBrief = 1;  // only the line that a host is up; the parts that it waits for are up by now
     return others.finish(output, kBrief) ? here : std::max(here, kExitFailed);
 }
 

@@ -24,7 +24,7 @@ std::string coloured_incident(const std::string& text) {
     return text.substr(0, from) + painted(text.substr(from, to - from), kBold) + text.substr(to);
 }
 
-/// Beside its incident files, named like the first of them.
+/// The page's path: as the user gave it, else beside the incident files, named like the first of them.
 fs::path page_path(const IncidentOptions& options, const proto::IncidentReport& report) {
     if (options.html) { return *options.html; }
     std::string first;
@@ -36,7 +36,8 @@ fs::path page_path(const IncidentOptions& options, const proto::IncidentReport& 
     return file.parent_path() / (name.substr(0, name.find('-')) + ".html");
 }
 
-/// Where it was written; empty: nowhere. An error is fatal only if the page was requested.
+/// Returns the path of the written page, or an empty path if none was written. Fails only if the log cannot be read, or
+/// if the page was requested and cannot be written.
 std::expected<fs::path, std::string> write_page(const IncidentOptions& options, const proto::IncidentReport& report,
                                                 Output& output) {
     std::optional<analysis::Analysis> log;

@@ -1,4 +1,4 @@
-// Figures as SVG files in a directory.
+// Writes figures as SVG files into a directory.
 #pragma once
 
 #include <expected>
@@ -11,7 +11,7 @@
 
 namespace lockstep {
 
-/// By file name. Creates the directory if it is missing. Error: which file cannot be written, and why.
+/// Each figure has its file name. Creates the directory if it is missing. The error names the file and the reason.
 std::expected<void, std::string> write_figures(const std::filesystem::path& directory,
                                                const std::vector<std::pair<std::string, drawing::Figure>>& figures);
 

@@ -1,4 +1,4 @@
-// An incident for a terminal: its cause, the first symptom, its end; then the events in order.
+// Writes an incident for a terminal: its cause, the first symptom, its end, and then the events in order.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace lockstep::incident {
 
 struct TextOptions {
-    Weight least = Weight::Notable;  // of what is listed
+    Weight least = Weight::Notable;  // of the listed events
     std::size_t width = 100;
 };
 

@@ -43,7 +43,7 @@ public:
     }
 
 private:
-    /// Whole turns first, each with its part of the way; the last ends at the target.
+    /// Adds whole turns first, each with its share of the axial motion. The last row ends at the target.
     void take_arc(const gcode::Arc& arc) {
         const int turns = std::abs(arc.turns);
         const char* kind = arc.turns > 0 ? "arc_ccw" : "arc_cw";
@@ -58,7 +58,7 @@ private:
         add(kind, arc.target, arc.feed, &arc.centre);
     }
 
-    /// Of the way that an axis goes evenly: along the arc's own axis, and all axes but X, Y and Z.
+    /// The uniform part of an axis's motion: along the arc's own axis, or all of it for axes other than X, Y and Z.
     static double part(const gcode::Arc& arc, const Point& from, std::size_t axis) {
         if (axis >= 3) { return arc.target[axis] - from[axis]; }
         double rise = 0;
@@ -84,7 +84,7 @@ private:
     int line_ = 0;
 };
 
-/// In such a file a subroutine stands before its call.
+/// Reads a long file line by line. In such a file a subroutine must precede its call.
 std::expected<void, std::string> read_long(const std::string& file, const GcodeSetup& setup, MovesTable& table) {
     auto lines = LineReader::open(file);
     if (!lines) { return std::unexpected(lines.error()); }

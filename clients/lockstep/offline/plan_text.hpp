@@ -1,4 +1,4 @@
-// A plan as text for a terminal.
+// Writes a plan as text for a terminal.
 #pragma once
 
 #include <string>

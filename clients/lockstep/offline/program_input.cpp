@@ -29,7 +29,7 @@ std::expected<gcode::KeptValues, Failure> values_of(const ProgramOptions& option
     return std::move(values->values);
 }
 
-/// The machine, its start position and its values: reading a program needs all three.
+/// The machine, its start position and its values, which are needed to read a program.
 struct ReadingSetup {
     MachineConfig machine;
     std::vector<double> start_mm;
@@ -50,7 +50,7 @@ Failure not_planned(const std::string& file, const PlanError& error) {
     return bad_file(file, {{.line = error.line, .message = error.text}});
 }
 
-/// On a terminal a line for each hundredth.
+/// Shows progress for each percent of the file.
 class Progress {
 public:
     Progress(std::string name, const ProgramText& text, double ticks_per_s, Output& output)

@@ -1,4 +1,4 @@
-// The input of check, plan and simulate: a machine's configuration and a G-code file read for the machine's position.
+// Reads the input of check, plan and simulate: a machine's configuration and a G-code file, for the machine's position.
 #pragma once
 
 #include <expected>
@@ -23,8 +23,8 @@ namespace lockstep {
 struct ProgramOptions {
     std::string file;
     std::string machine_file;
-    std::string start;   // "X=10,Y=5"; axes that it does not name are at their park positions, as after homing
-    std::string values;  // a file of offsets and tools; empty: the coordinator's on this host, if there is one
+    std::string start;   // "X=10,Y=5"; other axes are at their park positions, as after homing
+    std::string values;  // a file of offsets and tools; empty: the file of the coordinator on this host, if any
     GcodeSwitches switches;
     bool json = false;
 };
@@ -32,30 +32,30 @@ struct ProgramOptions {
 void add_program_options(CLI::App& verb, ProgramOptions& options);
 void add_start(CLI::App& verb, ProgramOptions& options);
 
-/// A plan, and what it was made of.
+/// A plan and its input.
 struct PlannedFile {
     MachineConfig machine;
     ProgramPlan plan;
-    int lines = 0;                 // of the G-code
-    std::vector<GcodeNote> notes;  // words that were passed over, and messages
-    GcodeSetup setup;              // that it was read with
+    int lines = 0;                 // number of lines of the G-code
+    std::vector<GcodeNote> notes;  // ignored words, and messages
+    GcodeSetup setup;              // with which the G-code was read
 };
 
-/// A file that is held as a whole, too.
+/// A plan, with its whole program and text in memory.
 struct ProgramInput : PlannedFile {
     Program program;
     std::string text;
 };
 
-/// Once the machine is known: what takes the frames of the plan.
+/// Called once the machine is known. Returns the function that takes the plan's frames.
 using OnSetup = std::function<OnPlannedFrame(const MachineConfig& machine)>;
 
-/// Errors: everything that is wrong with the configuration, the start, the values or the program, by line and column.
+/// Reports all errors of the configuration, the start, the values or the program, by line and column.
 std::expected<ProgramInput, Failure> read_program(const ProgramOptions& options, const OnSetup& on_setup = {});
-/// Of a file of any length: a long one is read as a stream, with progress. Errors: as read_program().
+/// Plans a file of any length. Reads a long file as a stream, with progress. Errors are as with read_program().
 std::expected<PlannedFile, Failure> plan_file(const ProgramOptions& options, Output& output,
                                               const OnSetup& on_setup = {});
-/// A line for each note.
+/// Prints a line for each note.
 void warn(const PlannedFile& input, Output& output);
 
 }  // namespace lockstep

@@ -1,4 +1,4 @@
-// A result for a terminal: "exact: ..." or "not exact: ...", its first words in colour if colours are enabled.
+// A result for a terminal, "exact: ..." or "not exact: ...", with its first words in colour if colours are enabled.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace lockstep {
 
-/// `text` begins with the result and a colon, and ends with a newline, which is removed.
+/// `text` must begin with the result and a colon, and end with a newline. The newline is removed.
 inline std::string result_text(std::string text, bool good) {
     text.pop_back();
     const std::size_t colon = text.find(':');

@@ -22,7 +22,7 @@ namespace {
 
 struct AnalyzeOptions {
     std::vector<std::string> paths;
-    std::string log;  // of paths, if it is the only one
+    std::string log;  // the only path, without --incident
     bool incident = false;
     int back = 0;
     bool all = false;
@@ -36,7 +36,7 @@ struct AnalyzeOptions {
 
 bool tells_of_trouble(const std::string& line) {
     const bool missing = line.find(" missing") != line.npos && line.find("nothing missing") == line.npos;
-    return line.starts_with("damaged") || (missing && !line.starts_with("axis "));  // not the table's head
+    return line.starts_with("damaged") || (missing && !line.starts_with("axis "));  // excludes the table's header
 }
 
 /// Highlights missing and damaged data.
@@ -49,14 +49,14 @@ std::string coloured(const std::string& text) {
     return out;
 }
 
-/// Beside the log, unless another place was given.
+/// The page's path: as the user gave it, else beside the log.
 std::filesystem::path page_path(const AnalyzeOptions& options) {
     if (!options.html.empty()) { return options.html; }
     auto path = std::filesystem::path(options.log);
     return path.replace_extension(".html");
 }
 
-/// Where it was written; empty: nowhere. An error is fatal only if the page was requested.
+/// Returns the path of the written page, or an empty path if none was written. Fails only if the page was requested.
 std::expected<std::filesystem::path, std::string> write_page(const AnalyzeOptions& options,
                                                              const analysis::Analysis& found, Output& output) {
     const bool asked = !options.html.empty();
@@ -78,7 +78,7 @@ std::expected<std::filesystem::path, std::string> write_page(const AnalyzeOption
 ExitCode analyze_log(const AnalyzeOptions& options) {
     Output output(options.json);
     if (!options.html.empty() && !analysis::may_replace(options.html)) {
-        return output.fail(bad_input(analysis::in_the_way(options.html)));  // before a long log is read
+        return output.fail(bad_input(analysis::in_the_way(options.html)));  // fail before a long log is read
     }
     analysis::AnalysisOptions what;
     if (!options.svg_dir.empty()) { what.svg_dir = options.svg_dir; }

@@ -21,7 +21,7 @@ struct ConfigOptions {
     bool json = false;
 };
 
-/// `machine`: by its file alone.
+/// `machine`: the configuration from its file alone, without kept settings.
 proto::SettingsReport report_of(const ChosenMachine& chosen, const MachineConfig& machine, const KeptSettings& kept) {
     proto::SettingsReport report;
     report.set_file(chosen.source.string());
@@ -47,7 +47,7 @@ void print(const proto::SettingsReport& report, Output& output) {
     output.print(report.folded() ? "written into the file" : "next: lockstep config --fold writes them into the file");
 }
 
-/// The file first: an interruption between the two changes nothing of the machine.
+/// Writes the machine's file first. If interrupted before the settings are removed, the machine's values are the same.
 std::expected<void, Failure> fold(const std::filesystem::path& file, const KeptSettings& kept) {
     auto written = edit_machine(file, [&](std::string_view text) { return with_settings(text, kept); });
     if (!written) { return written; }

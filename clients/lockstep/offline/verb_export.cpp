@@ -46,7 +46,7 @@ proto::ExportReport to_report(const Exported& exported, const ExportOptions& opt
 void warn_of_losses(const Exported& exported, Output& output) {
     if (exported.left_out > 0) {
         output.warn(std::to_string(exported.left_out) +
-                    " samples are left out: they came more than 2 s after others of their time, or of too many axes");
+                    " samples are left out: they came more than 2 s late, or exceed the number of topics");
     }
     if (exported.damages > 0) {
         output.warn(std::to_string(exported.damages) + " places in the log cannot be read; see: lockstep analyze");

@@ -33,7 +33,7 @@ struct LogMergeOptions {
     bool json = false;
 };
 
-/// Empty: OUT may be written. The likely mistake is to name the logs and forget OUT.
+/// Why OUT may not be written, or empty. A likely mistake is to name only the logs and to forget OUT.
 std::string obstacle(const LogMergeOptions& options, const std::vector<merge::GivenLog>& logs) {
     std::error_code error;
     const auto is_out = [&](const merge::GivenLog& log) { return fs::equivalent(log.path, options.out, error); };
@@ -46,7 +46,7 @@ std::string obstacle(const LogMergeOptions& options, const std::vector<merge::Gi
     return "";
 }
 
-/// Error: there is no such job.
+/// Fails if no log has the beginning of the job.
 std::expected<merge::TimeSpan, std::string> span_of(const LogMergeOptions& options, const merge::ChosenLogs& chosen) {
     merge::TimeSpan span;
     if (options.job) {

@@ -20,7 +20,7 @@ using scenario::Scenario;
 
 struct ScenarioOptions {
     std::vector<std::string> files;
-    std::string place;  // empty: each scenario's own
+    std::string place;  // empty: as each scenario's file says
     std::string image = scenario::RunnerOptions{}.image;
     int at_a_time = 1;
     std::string keep;
@@ -29,7 +29,7 @@ struct ScenarioOptions {
     bool json = false;
 };
 
-/// One failure of several files.
+/// Combines the failures of several files into one.
 Failure as_one(const std::vector<Failure>& failures) {
     if (failures.size() == 1) { return failures.front(); }
     Failure all{.exit = kExitBadInput};
@@ -47,7 +47,7 @@ std::optional<scenario::Asked::Place> place_of(const ScenarioOptions& options) {
     return place;
 }
 
-/// Nothing if a file has errors: all errors of all files have been printed.
+/// Returns nullopt if a file has errors. Prints all errors of all files.
 std::optional<std::vector<Scenario>> read_all(const ScenarioOptions& options, Output& output) {
     std::vector<Scenario> scenarios;
     std::vector<Failure> failures;
@@ -116,8 +116,9 @@ CLI::App* add_part(CLI::App& verb, const char* name, const char* what,
                    const std::shared_ptr<ScenarioOptions>& options) {
     CLI::App* part = verb.add_subcommand(name, what);
     part->add_option("files", options->files, "scenarios, in protobuf's text format")->required();
-    part->add_option("--place", options->place,
-                     "run all there, whatever the files contain: PROCESS, NAMESPACE or CONTAINER")
+    part->add_option(
+            "--place", options->place,
+            "run all scenarios in this kind of place, instead of the files' own: PROCESS, NAMESPACE or CONTAINER")
         ->check(CLI::IsMember({"PROCESS", "NAMESPACE", "CONTAINER"}));
     part->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     return part;
@@ -126,7 +127,7 @@ CLI::App* add_part(CLI::App& verb, const char* name, const char* what,
 void add_scenario_run(CLI::App& verb, Action& action) {
     const auto options = std::make_shared<ScenarioOptions>();
     CLI::App* part = add_part(verb, "run", "run scenarios on machines of real processes, and evaluate them", options);
-    part->add_option("--jobs", options->at_a_time, "so many at a time")
+    part->add_option("--jobs", options->at_a_time, "the number of scenarios that run at the same time")
         ->check(CLI::Range(1, 16))
         ->capture_default_str();
     part->add_option("--image", options->image, "podman's image for containers, of deploy/Dockerfile")

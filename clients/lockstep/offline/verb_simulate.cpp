@@ -107,8 +107,8 @@ ExitCode simulate_short_file(const SimulateOptions& options) {
     return record_simulation(options, *input, run, output);
 }
 
-/// It is read twice: checked first, then run. Opened before the first time: what replaces a file of this name
-/// meanwhile is not run.
+/// Reads the file twice: first to check it, then to run it. It is opened before the check, so that a file that replaces
+/// it in the meantime is not run.
 ExitCode simulate_long_file(const SimulateOptions& options) {
     Output output(options.json);
     auto lines = LineReader::open(options.file);
@@ -122,7 +122,7 @@ ExitCode simulate_long_file(const SimulateOptions& options) {
     return record_simulation(options, *input, run, output);
 }
 
-/// The LAI method plans a program as a whole.
+/// Whether the file is read while it runs. LAI plans only whole programs.
 bool is_streamed(const SimulateOptions& options) {
     if (!is_long_program(options.file)) { return false; }
     const auto machine = choose_machine(options.machine_file);

@@ -1,4 +1,4 @@
-// The lines of a file that are to be sent, each with its number in the file.
+// Reads the lines of a file to send, each with its number in the file.
 #pragma once
 
 #include <expected>
@@ -13,15 +13,15 @@ namespace lockstep {
 
 class FileLines {
 public:
-    /// "-": standard input.
+    /// "-" is standard input.
     static std::expected<FileLines, Diagnostic> open(const std::string& path);
 
-    /// The next line that is not empty; nothing: there is none now. Error: it cannot be sent, or read.
+    /// The next line that is not empty; nullopt if there is none now. Fails if the line cannot be read or sent.
     std::expected<std::optional<sender::Line>, Diagnostic> next();
     bool is_at_end() const { return is_at_end_; }
     double share_read() const { return reader_.share_read(); }
 
-    /// The first line of the file that cannot be sent. Nothing: all can be.
+    /// The error of the first line that cannot be sent; nullopt if all can be sent.
     static std::optional<Diagnostic> check(const std::string& path);
 
 private:

@@ -38,7 +38,7 @@ public:
         has_keys_ = options.file != "-" && isatty(STDIN_FILENO) != 0;
     }
 
-    /// Until all is run, or it is over before.
+    /// Returns when all lines were run, or when sending ended early.
     void run() {
         const StopSignal stop;
         while (sender_.outcome() == sender::Outcome::Goes) {

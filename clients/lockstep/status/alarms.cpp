@@ -9,7 +9,7 @@
 namespace lockstep {
 namespace {
 
-constexpr double kStepSlack_us = 2;  // the remaining error of mapping a frame onto another clock
+constexpr double kStepSlack_us = 2;  // the remaining error when a frame is mapped to another clock
 
 std::string sentence(const proto::FaultReport& fault) {
     const std::string axis = fault.has_axis() ? "axis " + fault.axis() + ": " : "";
@@ -40,7 +40,7 @@ void add_health_alarms(const proto::AxisStatus& axis, const SlackScale& scale, s
     const proto::Spread& late = health.step_lateness_us();
     const double furthest_us = std::max(std::abs(late.min()), std::abs(late.max()));
     if (furthest_us > health.clock_error_us() + kStepSlack_us) {
-        alarms.push_back(who + "a step was " + fixed(furthest_us, 0) + " us beside its time");
+        alarms.push_back(who + "a step was " + fixed(furthest_us, 0) + " us off its commanded time");
     }
     if (const std::string refused = refusals(health); !refused.empty()) {
         alarms.push_back(who + "since it started: " + refused + "; see its log");

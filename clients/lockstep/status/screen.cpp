@@ -11,7 +11,7 @@ namespace lockstep {
 namespace {
 
 constexpr std::size_t kUsualRows = 24;
-constexpr const char* kEnter = "\x1b[?1049h\x1b[?25l\x1b[?7l";  // the alternate screen, no cursor, long lines cut
+constexpr const char* kEnter = "\x1b[?1049h\x1b[?25l\x1b[?7l";  // alternate screen, no cursor, long lines cut off
 constexpr const char* kLeave = "\x1b[?7h\x1b[?25h\x1b[?1049l";
 
 }  // namespace
@@ -21,7 +21,7 @@ Screen::Screen() {
     if (tcgetattr(STDIN_FILENO, &keyboard) == 0) {
         keyboard_before_ = keyboard;
         keyboard.c_lflag &= ~static_cast<tcflag_t>(ECHO | ICANON);
-        keyboard.c_cc[VMIN] = 0;  // reading never waits
+        keyboard.c_cc[VMIN] = 0;  // reads never wait
         keyboard.c_cc[VTIME] = 0;
         (void)tcsetattr(STDIN_FILENO, TCSANOW, &keyboard);
     }

@@ -1,4 +1,4 @@
-// A terminal's alternate screen, while the object exists: the previous content returns, however it ends.
+// Shows a terminal's alternate screen while the object exists. The destructor restores the previous content.
 #pragma once
 
 #include <termios.h>
@@ -9,7 +9,7 @@
 
 namespace lockstep {
 
-/// Keys are not echoed meanwhile. Ctrl-C still sends its signal: see StopSignal.
+/// Keys are not echoed in this time. Ctrl-C still sends its signal (see StopSignal).
 class Screen {
 public:
     Screen();
@@ -21,14 +21,14 @@ public:
     void draw(const std::string& text);
     /// Whether this key was pressed since the last call.
     bool pressed(char key);
-    /// What was typed since the last call, as bytes.
+    /// The bytes typed since the last call.
     std::string typed();
 
 private:
-    std::optional<termios> keyboard_before_;  // nothing: standard input is no terminal
+    std::optional<termios> keyboard_before_;  // nullopt if standard input is no terminal
 };
 
-/// The output of draw() on a screen of so many rows: if they are too few, the last row reports it. Pure.
+/// The output of draw() on a screen of `rows` rows. If they are too few, the last row says so. Pure.
 std::string redrawn(const std::string& text, std::size_t rows);
 
 }  // namespace lockstep

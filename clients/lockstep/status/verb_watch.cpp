@@ -22,14 +22,14 @@ using std::chrono::nanoseconds;
 constexpr nanoseconds kRedrawPeriod = 100ms;  // on a terminal
 constexpr nanoseconds kLinePeriod = 1s;       // elsewhere
 
-/// With the incident files if there is a fault that they may explain.
+/// The status, with the incident files if there is a fault that they may explain.
 proto::StatusReport watched(const Session& session) {
     proto::StatusReport report = status_report(session);
     if (report.has_fault()) { add_incidents(session.config(), report); }
     return report;
 }
 
-/// Both continue without messages, which the age then shows.
+/// Also continues without messages. The age of the status shows that.
 void watch_on_screen(Session& session, const StopSignal& stop, Ink ink) {
     const SlackScale scale = slack_scale(session.config().timing);
     Screen screen;

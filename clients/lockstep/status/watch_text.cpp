@@ -31,7 +31,7 @@ std::string cut(const std::string& text, std::size_t width) {
     return text.size() <= width ? text : text.substr(0, width - 1) + "~";
 }
 
-/// Left and right in one line.
+/// Left-aligned and right-aligned text in one line.
 std::string spread(const std::string& left, const std::string& right) {
     const std::size_t gap = left.size() + right.size() < kColumns ? kColumns - left.size() - right.size() : 1;
     return left + std::string(gap, ' ') + right;
@@ -52,7 +52,7 @@ std::string slack_bar(const proto::HealthReport& health, const SlackScale& scale
     return "[" + painted(bar, colour, ink) + "]" + padded(known ? fixed(slack_ms, 0) : "-", 5);
 }
 
-/// The lateness furthest from 0; above 0: late.
+/// The lateness furthest from 0; positive if late.
 std::string lateness(const proto::HealthReport& health) {
     if (!health.has_step_lateness_us()) { return "-"; }
     const proto::Spread& late = health.step_lateness_us();
@@ -97,7 +97,7 @@ std::string conditions_row(const proto::StatusReport& status, Ink ink) {
     return painted(writer.empty() ? overrides : spread(overrides, "writer: " + writer), kWarning, ink);
 }
 
-/// Nothing while all is off.
+/// Empty if all devices are off.
 std::string devices_row(const proto::StatusReport& status, Ink ink) {
     const std::string devices = devices_text(status);
     return devices.empty() ? "" : painted(cut(devices, kColumns), kWarning, ink) + "\n";

@@ -1,4 +1,4 @@
-// Shows or changes the machine's values that outlive programs: common to offsets and tools.
+// Shows or changes the machine's values that outlive programs: offsets and tools.
 #pragma once
 
 #include <functional>
@@ -14,11 +14,11 @@ using ValuesText = std::string (*)(const MachineConfig& machine, const gcode::Ke
 using ChangeValues = std::function<Changed(const MachineConfig& machine, gcode::KeptValues& values)>;
 
 ExitCode show_values(const LiveOptions& options, ValuesText text);
-/// Waits until the change is on the coordinator's disk; then shows the values.
+/// Waits until the change is on the coordinator's disk, then shows the values.
 ExitCode change_values(const LiveOptions& options, ValuesText text, const ChangeValues& change);
 
 using ChangeHere = std::function<Changed(Session& session, gcode::KeptValues& values)>;
-/// The same, with what the session receives of the axes.
+/// As change_values(), for a change that needs the axes' states from the session.
 ExitCode change_values_here(const LiveOptions& options, ValuesText text, const ChangeHere& change);
 
 }  // namespace lockstep

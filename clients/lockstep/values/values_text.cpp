@@ -16,11 +16,11 @@ namespace {
 using gcode::KeptValues;
 using gcode::Point;
 
-constexpr double kMostPlace = 1e6;  // mm or degrees, either way
+constexpr double kMostPlace = 1e6;  // mm or degrees, in both directions
 constexpr std::size_t kNameWidth = 7;
 constexpr int kMaxToolNumber = 99'999;
 
-/// The place among kAxisLetters of an axis that G-code can name.
+/// The index in kAxisLetters of an axis; nullopt if G-code cannot name it.
 std::optional<std::size_t> letter_of(const std::string& axis) {
     const std::size_t place = axis.size() == 1 ? gcode::kAxisLetters.find(axis[0]) : gcode::kAxisLetters.npos;
     return place == gcode::kAxisLetters.npos ? std::nullopt : std::optional(place);
@@ -66,7 +66,7 @@ Changed set_axis(const MachineConfig& machine, const Word& word, Point& place) {
     return {};
 }
 
-/// Calls use(word) for each, to the first error.
+/// Calls use(word) for each word until the first error.
 template <typename Use>
 Changed for_each_word(const ChangeWords& words, Use use) {
     if (words.empty()) { return std::unexpected("there is nothing to set; write for example X=10"); }

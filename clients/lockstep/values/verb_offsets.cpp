@@ -64,7 +64,7 @@ void add_offsets(CLI::App& app, Action& action) {
     verb->footer(
         footer("  lockstep offsets\n  lockstep offsets set G54 X=10 Y=20\n  lockstep offsets clear G54\n"
                "  lockstep offsets --json\n"));
-    // CLI11 calls back from the inside out: a part has set its own action before.
+    // CLI11 calls the callbacks of subcommands first, so a subcommand has set its own action already.
     verb->callback([&action, options, verb] {
         if (verb->get_subcommands().empty()) {
             action = [options] { return show_values(*options, offsets_text); };

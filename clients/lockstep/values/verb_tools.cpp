@@ -66,7 +66,7 @@ void add_tools(CLI::App& app, Action& action) {
     verb->footer(
         footer("  lockstep tools\n  lockstep tools set 1 Z=25.4 D=6\n  lockstep tools remove 1\n"
                "  lockstep tools --json\n"));
-    // CLI11 calls back from the inside out: a part has set its own action before.
+    // CLI11 calls the callbacks of subcommands first, so a subcommand has set its own action already.
     verb->callback([&action, options, verb] {
         if (verb->get_subcommands().empty()) {
             action = [options] { return show_values(*options, tools_text); };

@@ -16,7 +16,7 @@ struct TouchOptions : LiveOptions {
     ChangeWords words;
 };
 
-/// Only an axis that is homed knows where it stands.
+/// Fails if an axis is not homed, because its position is not known.
 Changed check_homed(const Session& session, const ChangeWords& words) {
     for (const std::string& word : words) {
         const auto target = parse_target(word);
@@ -40,7 +40,8 @@ Changed touch(Session& session, const TouchOptions& options, gcode::KeptValues& 
 
 void add_touch(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand(
-        "touch", "set the work zero: what axes read in a coordinate system where they stand now, as G10 L20 does");
+        "touch",
+        "set the work zero: give the axes' present positions new coordinates in a coordinate system, as G10 L20 does");
     const auto options = std::make_shared<TouchOptions>();
     verb->add_option("words", options->words, "X=0 Z=-0.1; axes that are not named keep their zero")->required();
     verb->add_option("--system", options->system, "G54 to G59, G59.1 to G59.3; programs begin with G54")

@@ -16,7 +16,7 @@ function zoomTo(from, to) {
   for (const chart of timeCharts) { chart.setScale("x", { min: from, max: to }); }
 }
 
-// All charts over time show the stretch that one is zoomed to.
+// Zooms all other charts over time to the range of this one.
 function follow(u, key) {
   if (key !== "x" || u.following) { return; }
   const { min, max } = u.scales.x;
@@ -84,7 +84,7 @@ function timeChart(host, row, last, events, programEvents = []) {
   addEventListener("resize", () => chart.setSize({ width: width(), height: chart.height }));
 }
 
-// Lines from point to point, whatever the order of x.
+// Draws lines from point to point in any order of x.
 function wayPainter(u, index) {
   const [xs, ys] = u.data[index];
   const stroke = new Path2D();
@@ -153,7 +153,7 @@ function pathChart(host, path) {
   addEventListener("resize", () => chart.setSize(size()));
 }
 
-// The distribution of step time errors: a bar for each class, as long as the logarithm of its number.
+// The distribution of step time errors: a bar for each class, its length the logarithm of the number of steps.
 function barChart(host, axes) {
   const most = Math.log10(1 + Math.max(1, ...axes.flatMap((axis) => axis.counts)));
   const rows = [];

@@ -113,11 +113,11 @@ function lanesChart() {
     all = !all;
     routine.setAttribute("aria-pressed", all);
     chart.redraw();
-  } }, "also routine");
+  } }, "show routine events");
   host.before(make("p", {}, zoom(aroundIt()), zoom(whole), routine));
 }
 
-// From the states that axes noted ten times a second; from the log, if there is one.
+// Takes the rows from the log if there is one, else from the states that axes noted ten times a second.
 function rows() {
   if (log) {
     return log.rows.filter((row) => row.kind === "speed" || row.kind === "position")

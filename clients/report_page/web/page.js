@@ -16,7 +16,7 @@ function showTime(from, to) {
   document.getElementById("time")?.scrollIntoView({ behavior: "smooth" });
 }
 
-// Along the linear axes; if only rotary ones move, theirs.
+// mm, or deg if only rotary axes move.
 const unitOfAxes = (axes) => (axes.length > 0 && axes.every((axis) => unitOf(axis.name) === "deg") ? "deg" : "mm");
 const unitOfMove = (move) => unitOfAxes(move.axes);
 const unitOfJob = (job) => unitOfAxes(job.moves.flatMap((move) => move.axes));

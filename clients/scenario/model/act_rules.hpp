@@ -8,7 +8,7 @@
 
 namespace lockstep::scenario {
 
-/// `path`: of the act. `processes`: of the machine.
+/// `path`: the act's place in the scenario. `processes`: those of the machine.
 void check_act(const Asked::Act& act, const std::string& path, const Asked& asked,
                const std::vector<std::string>& processes, Problems& problems);
 

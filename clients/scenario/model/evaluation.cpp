@@ -51,7 +51,7 @@ private:
         add(asked, "after " + fixed(frames, 2) + " frames", place_at(*at), frames <= rest.within_frames);
     }
 
-    /// The directory of the incident files with --keep.
+    /// The directory of the incident files within the kept files.
     std::string notes() const { return "state/" + machine_.name + "/record/incidents"; }
 
     static std::string place_at(Tick tick) { return std::string(kWholeLog) + ", tick " + std::to_string(tick.value); }

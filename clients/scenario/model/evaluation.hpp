@@ -1,4 +1,4 @@
-// Evaluates the expectations of a scenario against its results. Pure.
+// Evaluates the expectations of a scenario against its results. Does no I/O.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace lockstep::scenario {
 
-/// The file with all logs merged, among those that --keep keeps.
+/// The file with all logs merged. --keep keeps it among the others.
 inline constexpr const char* kWholeLog = "whole.lcm";
 
-/// One check for each expectation and for each awaited rest: the expectation, the result, and its source.
+/// Returns one check for each expectation and for each awaited rest: the expectation, the result, and its source.
 std::vector<Check> evaluate(const Scenario& scenario, const Observations& observed, const Evidence& evidence);
 
 }  // namespace lockstep::scenario

@@ -1,4 +1,4 @@
-// When the scripted events of a job are due, decided from the states that the machine publishes. Pure.
+// Decides when the scripted events of a job are due, from the states that the machine publishes. Does no I/O.
 #pragma once
 
 #include <optional>
@@ -12,21 +12,21 @@ namespace lockstep::scenario {
 
 /// The state of the machine at one time.
 struct Moment {
-    double since_begun_s = 0;  // of the job
+    double since_begun_s = 0;  // since the job began
     MachinePhase phase = MachinePhase::Waiting;
     std::int32_t line = 0;                     // of the G-code in motion
-    std::vector<std::optional<double>> at_mm;  // of each axis; nothing: no state received
+    std::vector<std::optional<double>> at_mm;  // of each axis; nullopt if no state was received
 };
 
 class EventSchedule {
 public:
-    /// `axes`: the names of those in Moment::at_mm. `step` outlives this.
+    /// `axes`: names of the axes in Moment::at_mm, in the same order. `step` must outlive this object.
     EventSchedule(const Asked::Step& step, std::vector<std::string> axes) : step_(step), axes_(std::move(axes)) {}
 
-    /// The next event that is due now; null: none is due yet. Call it until it returns null.
+    /// Returns the next event that is due now, or null if none is. Call it until it returns null.
     const Asked::During* next(const Moment& now);
 
-    /// How many events have been due.
+    /// The number of events that have been due.
     int done() const { return done_; }
 
 private:
@@ -36,7 +36,7 @@ private:
     const Asked::Step& step_;
     std::vector<std::string> axes_;
     int done_ = 0;
-    std::optional<double> event_at_s_;  // of the next event; since the job's beginning
+    std::optional<double> event_at_s_;  // when the next event's condition became true, since the job's beginning
     std::optional<Moment> before_;
 };
 

@@ -31,7 +31,7 @@ struct AwaitedRest {
     std::string act;  // as text
     Tick at;          // machine time
     int within_frames = 0;
-    std::vector<std::string> axes;  // whose processes were still running
+    std::vector<std::string> axes;  // axes with running processes
 };
 
 /// What was observed while the scenario ran.
@@ -40,23 +40,23 @@ struct Observations {
     std::vector<proto::ScenarioHappening> events;
     std::vector<AwaitedRest> rests;
     proto::StatusReport status;  // at the end
-    std::string broken;          // why it did not run to its end; empty: it did
+    std::string broken;          // why the scenario did not run to its end; empty if it did
 };
 
 struct FoundCause {
     std::string kind;     // as in incident::CauseKind
-    std::string process;  // axis-X, coordinator; empty: none
+    std::string process;  // axis-X, coordinator; empty if none
     std::string text;
 };
 
-/// What the record and the flight recorders contain. Errors: why there is none.
+/// The contents of the record and of the flight recorders. An error says why a report is missing.
 struct Evidence {
     std::expected<proto::MergeReport, std::string> merged;
     std::expected<proto::VerifyReport, std::string> verified;
     std::expected<proto::AnalysisReport, std::string> analysis;
     RecordFacts record;
-    std::vector<FoundCause> causes;   // of each incident that was not just requested
-    std::set<std::string> vetoed_by;  // axes that lacked a frame, a state or time
+    std::vector<FoundCause> causes;   // of each incident
+    std::set<std::string> vetoed_by;  // axes that vetoed because they lacked a frame, a state or time
 };
 
 }  // namespace lockstep::scenario

@@ -45,7 +45,7 @@ public:
                 "there is no " + what + " '" + name + "'; there are: " + listed(names));
     }
 
-    /// In the order of the text.
+    /// Returns the errors in the order of the text.
     Diagnostics take() {
         std::ranges::stable_sort(errors_, {}, [](const Diagnostic& d) { return std::tuple(d.line, d.column); });
         return std::move(errors_);

@@ -21,7 +21,7 @@ public:
         was_at_rest_[message.axis] = rests;
     }
     void on_run(const run_t& message, LogPlace /*place*/) override {
-        if (message.epoch == 0) { return; }  // the axis's own
+        if (message.epoch == 0) { return; }  // a move of the axis on its own
         facts.epochs[static_cast<Epoch>(message.epoch)][message.axis] = {static_cast<FrameNumber>(message.frame),
                                                                          message.tail != 0};
     }

@@ -1,4 +1,5 @@
-// Facts of the record that only scenarios evaluate: when axes were at rest, and with which frame each ended an epoch.
+// Facts of the record that only scenarios evaluate: when axes were at rest, and with which frame each axis ended an
+// epoch.
 #pragma once
 
 #include <expected>
@@ -12,7 +13,7 @@
 
 namespace lockstep::scenario {
 
-/// From the first to the last message of an axis at rest.
+/// The time from the first to the last message of an axis at rest.
 struct RestSpan {
     Tick from;
     Tick to;
@@ -26,19 +27,20 @@ struct EpochEnd {
 
 struct RecordFacts {
     std::map<std::string, std::vector<RestSpan>> rests;       // of each axis, in the order of time
-    std::map<Epoch, std::map<std::string, EpochEnd>> epochs;  // of each axis that ran it
+    std::map<Epoch, std::map<std::string, EpochEnd>> epochs;  // the end of each axis that ran the epoch
 
-    /// The first time at or after `since` at which all of these axes were at rest. Nothing: not on record.
+    /// Returns the first time at or after `since` at which all of these axes were at rest, or nullopt if none is on
+    /// record.
     std::optional<Tick> all_at_rest(const std::vector<std::string>& axes, Tick since) const;
 
-    /// How many epochs two of these axes, or more, have run.
+    /// Returns the number of epochs that at least two of these axes ran.
     std::ptrdiff_t epochs_of(const std::vector<std::string>& axes) const;
 
-    /// The first epoch that axes of these ended differently, as text; nothing: there is none.
+    /// Returns a description of the first epoch that these axes ended differently, or nullopt if there is none.
     std::optional<std::string> parting(const std::vector<std::string>& axes) const;
 };
 
-/// Error: the log cannot be read.
+/// Fails if the log cannot be read.
 std::expected<RecordFacts, std::string> record_facts(const std::filesystem::path& log);
 
 }  // namespace lockstep::scenario

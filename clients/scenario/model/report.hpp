@@ -7,7 +7,8 @@
 
 namespace lockstep::scenario {
 
-/// A line for each check: expected, found, source. `events`: also the events with their times. No newline at the end.
+/// A line for each check: expected, found, source. With `events`, also the events with their times. No newline at the
+/// end.
 std::string to_text(const proto::ScenarioReport& report, bool events);
 
 /// In JUnit's format: a test suite, a case for each scenario, its failed checks as its failure.

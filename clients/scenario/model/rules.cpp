@@ -89,7 +89,8 @@ private:
         for (int i = 0; i < home.axis_size(); ++i) { require_axis(path + "." + nth("axis", i), home.axis(i)); }
     }
 
-    /// Checked from the position of a homed machine: the program is read again from the actual position.
+    /// Checks the program from the position of a homed machine. It is parsed again from the actual position when it
+    /// runs.
     void check_run(const Asked::Run& run, const std::string& path) {
         if (run.has_file() == run.has_gcode()) {
             return problems_.add(path, "a run has one program; set file: \"FILE\" or gcode: \"G1 X10 F600\"");

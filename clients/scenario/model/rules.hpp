@@ -7,7 +7,8 @@
 
 namespace lockstep::scenario {
 
-/// In the order of the text; each names the value, the limit and the remedy. Empty: it can run.
+/// Returns the errors in the order of the text; each names the value, the limit and the remedy. Empty if the scenario
+/// can run.
 Diagnostics rule_errors(const Scenario& scenario, const TextSource& source);
 
 }  // namespace lockstep::scenario

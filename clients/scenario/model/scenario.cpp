@@ -19,7 +19,7 @@ Diagnostics at_key(const TextSource& source, std::string_view key, const std::st
     return {{place.line, place.column, message}};
 }
 
-/// Error: an error in a machine's file, at the key that names it, with the place in that file.
+/// Reports each error in the machine's file at the key that names the file, with the place in that file.
 std::expected<MachineConfig, Diagnostics> machine_of_file(const Asked& asked, const TextSource& source,
                                                           const fs::path& folder) {
     const fs::path path = folder / asked.machine_file();

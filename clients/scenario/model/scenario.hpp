@@ -27,24 +27,25 @@ struct Scenario {
     std::filesystem::path folder() const { return file.parent_path(); }
 };
 
-/// `file`: names the scenario, and other files are searched for in its folder. `place`: replaces the scenario's own.
-/// Errors: everything that is wrong with it, in the order of the text.
+/// `file` names the scenario; its folder is searched for other files. `place` replaces the scenario's own. The error
+/// lists all errors of the file in the order of the text.
 std::expected<Scenario, Diagnostics> parse_scenario(std::string_view text, const std::filesystem::path& file,
                                                     std::optional<Asked::Place> place = {});
 std::expected<Scenario, Diagnostics> load_scenario(const std::filesystem::path& file,
                                                    std::optional<Asked::Place> place = {});
 
-/// Whether each process has its own link to the others.
+/// True if each process has its own link to the others.
 bool has_links(Asked::Place place);
 
 /// The processes of the machine, by the names that `lockstep up` gives them.
 std::vector<std::string> processes_of(const Asked& asked, const MachineConfig& machine);
 
-/// The program of a step, for a machine at that position. Errors: places in the program.
+/// Reads the program of a step for a machine at `start_mm`. Errors have their places in the program.
 std::expected<Program, Diagnostics> program_of(const Asked::Run& run, const std::filesystem::path& folder,
                                                const MachineConfig& machine, const std::vector<double>& start_mm);
 
-/// The machine with all its parts on this host, on a network of its own, with records in the scenario's directory.
+/// Returns the machine with all its parts on this host, on an isolated network, with records in the scenario's
+/// directory.
 MachineConfig isolated(MachineConfig machine, Asked::Place place);
 
 }  // namespace lockstep::scenario

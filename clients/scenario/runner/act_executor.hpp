@@ -19,10 +19,10 @@ public:
     ActExecutor(ProcessSet& processes, Network& network, Session& session)
         : processes_(processes), network_(network), session_(session) {}
 
-    /// Error: why it could not be done, or the machine's refusal.
+    /// The error says why the act failed, or quotes the machine's refusal.
     std::expected<void, std::string> execute(const Asked::Act& act);
 
-    /// The next act that undoes an earlier one and is due now; it is removed. Call it until it returns nothing.
+    /// Returns and removes the next act that undoes an earlier one and is due now. Call it until it returns nullopt.
     std::optional<Asked::Act> take_due();
     bool has_more_to_undo() const { return !undoing_.empty(); }
 

@@ -1,4 +1,4 @@
-// Starts programs by name: waits for their end, or lets them run beside this one.
+// Starts programs by name, and either waits for their end or lets them run in the background.
 #pragma once
 
 #include <sys/types.h>
@@ -15,13 +15,13 @@ using CommandLine = std::vector<std::string>;
 /// Splits at blanks.
 CommandLine split_words(const std::string& text);
 
-/// Appends its output to the log. Error: it cannot be started, and the remedy.
+/// Appends the program's output to the log. The error says why it cannot be started, with the remedy.
 std::expected<pid_t, std::string> start_program(const CommandLine& words, const std::filesystem::path& log);
 
-/// Error: it cannot be started, or ended with a code other than 0; with its last output.
+/// Fails if the program cannot be started or ends with a code other than 0. The error includes its last output.
 std::expected<void, std::string> run_program(const CommandLine& words, const std::filesystem::path& log);
 
-/// Its whole output. Error: as above.
+/// Returns the program's whole output. Fails like run_program().
 std::expected<std::string, std::string> output_of_program(const CommandLine& words);
 
 }  // namespace lockstep::scenario

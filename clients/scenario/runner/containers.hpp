@@ -1,5 +1,6 @@
-// A container for each process of a scenario: podman runs the image that deploy/Dockerfile builds, on the network of
-// the sandbox. The image is read from the host's store; podman writes only in the sandbox, which is removed after it.
+// Runs each process of a scenario in a container: podman runs the image that deploy/Dockerfile builds, on the network
+// of the sandbox. The image is read from the host's store. Podman writes only inside the sandbox, which is removed
+// afterwards.
 #pragma once
 
 #include <filesystem>
@@ -11,23 +12,25 @@ namespace lockstep::scenario {
 
 class Containers {
 public:
-    /// Call it outside of any sandbox. Error: podman or the image is missing, and the remedy.
+    /// Call it outside of any sandbox. Fails if podman or the image is missing; the error has the remedy.
     static std::expected<Containers, std::string> of(const std::string& image);
 
-    /// The prefix of a process's command line in a sandbox; `network`: the name of its own network, empty: none. The
-    /// process can write only to memory that all share: state, flight recorders, device windows.
+    /// The prefix of a process's command line in a sandbox. `network` names the process's own network namespace; empty
+    /// for no network. The process can write only to memory that all processes share: state, flight recorders, device
+    /// windows.
     CommandLine entry(const std::string& process, const std::string& network) const;
 
-    /// The directory of the process ids, NAME.pid: the started program is podman, which waits for the process.
+    /// The directory of the files NAME.pid. The started program is podman; the file has the id of the process that it
+    /// waits for.
     static std::filesystem::path pid_folder();
 
 private:
     Containers() = default;
 
     std::string image_;
-    std::string driver_;  // of the host's images
-    std::string store_;   // where they are
-    std::string group_;   // of control, for all
+    std::string driver_;  // storage driver of the host's images
+    std::string store_;   // directory of the host's images
+    std::string group_;   // control group of all the containers
 };
 
 }  // namespace lockstep::scenario

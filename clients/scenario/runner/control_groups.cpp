@@ -33,7 +33,7 @@ bool is_left(const std::string& group) {
     return group == own_control_group() || !fs::exists("/proc/" + group.substr(kName.size()), error);
 }
 
-/// In the single hierarchy of groups, or in each if there are several.
+/// Searches the single hierarchy of groups, or each one if there are several.
 std::vector<fs::path> groups_left() {
     std::vector<fs::path> hierarchies = folders_in("/sys/fs/cgroup");
     hierarchies.emplace_back("/sys/fs/cgroup");
@@ -45,7 +45,7 @@ std::vector<fs::path> groups_left() {
     return left;
 }
 
-/// The kernel refuses to remove a group that is not empty.
+/// Removes the inner groups first. The kernel refuses to remove a group that is not empty.
 void remove_group(const fs::path& group) {
     for (const fs::path& inner : folders_in(group)) { remove_group(inner); }
     rmdir(group.c_str());

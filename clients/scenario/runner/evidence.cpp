@@ -35,7 +35,7 @@ std::string name_of_peer(const incident::Incident& incident, const FlightPeer& p
     return peer.kind == FlightPeer::Kind::Axis ? "axis-" + incident.machine.axes[peer.axis].name : "coordinator";
 }
 
-/// An axis also vetoes because of its own fault or stop: those do not count.
+/// Ignores vetoes for an axis's own fault or stop.
 bool lacks_something(const FlightEvent& event) {
     return event.kind == FlightKind::Vetoed && event.detail != static_cast<std::uint8_t>(VetoReason::Own);
 }

@@ -9,7 +9,7 @@
 
 namespace lockstep::scenario {
 
-/// `folder`: of the logs, with run.lcm of lcm-logger; the merged log is written into it.
+/// `folder` has the logs, including lcm-logger's run.lcm. The merged log is written into it.
 Evidence read_evidence(const MachineConfig& machine, const std::filesystem::path& folder);
 
 }  // namespace lockstep::scenario

@@ -5,7 +5,7 @@
 namespace lockstep::scenario {
 namespace {
 
-constexpr const char* kBridge = "eth0";  // by the same name everywhere: the machine's file names one interface
+constexpr const char* kBridge = "eth0";  // the same in every namespace, because the machine's file names one interface
 constexpr const char* kMtu = "65535";    // no fragmented datagrams: a firewall sees the port only in the first fragment
 constexpr const char* kRecordPort = "7667";
 constexpr const char* kMulticast = "224.0.0.0/4";

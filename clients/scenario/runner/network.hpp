@@ -1,4 +1,5 @@
-// The network of a sandbox: one for all processes, or one for each, joined by a bridge, with links that can be cut.
+// The network of a sandbox: one namespace for all processes, or one for each, joined by a bridge, with links that can
+// be cut.
 #pragma once
 
 #include <expected>
@@ -14,16 +15,16 @@ namespace lockstep::scenario {
 
 class Network {
 public:
-    /// In the sandbox of the caller. `log`: for the output of the programs that it runs. Error: what failed.
+    /// Call it inside a sandbox. `log` receives the output of the programs that it runs. The error says what failed.
     static std::expected<Network, std::string> make(Asked::Place place, const std::vector<std::string>& processes,
                                                     const std::filesystem::path& log);
 
-    /// The name of a process's own network; empty: it has none.
+    /// The name of a process's own network namespace; empty if it has none.
     std::string namespace_of(const std::string& process) const;
     /// The prefix of a process's command line that runs it in its own network.
     CommandLine entry(const std::string& process) const;
 
-    /// Drops this share of the packets, except those of the record, until heal(). Error: what failed.
+    /// Drops `percent` of the process's packets, except those of the record, until heal(). The error says what failed.
     std::expected<void, std::string> lose(const std::string& process, double percent, Asked::Way way);
     std::expected<void, std::string> heal(const std::string& process);
     std::expected<void, std::string> heal_all();

@@ -25,7 +25,7 @@ std::string how(int status) {
                              : "was ended by signal " + std::to_string(WTERMSIG(status));
 }
 
-/// The process can still be reaped.
+/// Does not reap the process.
 bool has_ended(pid_t pid) {
     siginfo_t info{};
     return waitid(P_PID, static_cast<id_t>(pid), &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid != 0;
@@ -170,7 +170,7 @@ void ProcessSet::reap() {
 Check ProcessSet::exit_check() {
     reap();
     const bool none_did = unexpected_exits_.empty();
-    return check_of("no process ends by itself", none_did ? "none did" : unexpected_exits_, "the processes' logs",
+    return check_of("no process ends unexpectedly", none_did ? "none ended" : unexpected_exits_, "the processes' logs",
                     none_did);
 }
 

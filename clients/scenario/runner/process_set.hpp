@@ -1,4 +1,4 @@
-// The processes of a scenario's machine: started, killed, paused and continued by the scenario. None is restarted
+// The processes of a scenario's machine. The scenario starts, kills, pauses and continues them. No process is restarted
 // automatically.
 #pragma once
 
@@ -16,11 +16,11 @@ namespace lockstep::scenario {
 
 class ProcessSet {
 public:
-    /// `lines`: complete command lines, with prefixes. `pid_folder`: where a started program writes the id of the
-    /// process that it starts in turn, NAME.pid; empty: the started program is the process itself.
+    /// `lines`: complete command lines, with prefixes. If `pid_folder` is set, a started program is only a launcher and
+    /// writes the process's id to NAME.pid there. If it is empty, the started program is the process itself.
     ProcessSet(const std::vector<ServiceLine>& lines, StateDirectory state, std::filesystem::path pid_folder = {});
 
-    /// Errors: the process is not in the right state (running, not running), or it cannot be started.
+    /// Fails if the process is not in the right state (running, not running) or cannot be started.
     std::expected<void, std::string> start(const std::string& name);
     std::expected<void, std::string> kill(const std::string& name);
     std::expected<void, std::string> pause(const std::string& name);
@@ -28,39 +28,39 @@ public:
     /// Terminates the process, by force if it does not end in time, and starts it.
     std::expected<void, std::string> restart(const std::string& name);
 
-    /// Running and not paused.
+    /// True if the process is running and not paused.
     bool is_active(const std::string& name);
     /// Continues and terminates all.
     void end_all();
 
-    /// A check that no process ended unexpectedly, with how it ended.
+    /// The check that no process ended unexpectedly. It says which process did, and how.
     Check exit_check();
 
 private:
     struct Process {
         ServiceLine line;
-        pid_t pid = 0;  // of the started program; 0: none
+        pid_t pid = 0;  // of the started program; 0 if none
         bool is_paused = false;
-        bool is_killed = false;  // and about to end
+        bool is_killed = false;  // SIGKILL was sent, and the process was not reaped yet
         bool runs() const { return pid != 0 && !is_killed; }
     };
 
     Process* find(const std::string& name);
     std::expected<Process*, std::string> running(const std::string& name);
     void reap();
-    /// The id of the process itself, awaited where another program starts it. 0: it has ended.
+    /// Returns the id of the process itself, and waits for it if a launcher starts the process. 0 if it has ended.
     pid_t pid_of(const Process& process) const;
     std::filesystem::path pid_file(const Process& process) const;
     void send(const Process& process, int signal) const;
     void signal_end(const Process& process, int signal) const;
     void wait_for_end(Process& process);
-    /// False: it has not ended in time.
+    /// Returns false if the process has not ended in time.
     bool end(Process& process, int signal);
 
     StateDirectory state_;
     std::filesystem::path pid_folder_;
     std::vector<Process> processes_;
-    std::string unexpected_exits_;  // which, and how
+    std::string unexpected_exits_;  // the processes and how each ended
 };
 
 }  // namespace lockstep::scenario

@@ -57,7 +57,7 @@ std::vector<ServiceLine> lines_of(const Scenario& scenario, const Network& netwo
     return lines;
 }
 
-/// Runs lcm-logger while it exists.
+/// Runs lcm-logger as long as the object exists.
 class Logger {
 public:
     Logger(const std::string& lcm_url, const fs::path& folder)
@@ -92,7 +92,7 @@ std::expected<void, std::string> start_devices(const Scenario& scenario, Process
     return {};
 }
 
-/// Error: with the end of the process's log.
+/// If the machine does not become Idle, the error has the end of the coordinator's log.
 std::expected<void, std::string> bring_up(const Scenario& scenario, ProcessSet& processes, Session& session,
                                           ScenarioExecutor& executor, const StateDirectory& state) {
     if (scenario.asked.separate_devices()) {
@@ -116,14 +116,14 @@ std::expected<void, std::string> bring_up(const Scenario& scenario, ProcessSet& 
     return {};
 }
 
-/// No observations: why the run could not begin.
+/// The observations of a run that could not begin: only the reason.
 Observations broken(const std::string& why) {
     Observations observed;
     observed.broken = why;
     return observed;
 }
 
-/// A clock is set only if its process lives for so long.
+/// Adds a check for each clock step: it happens only if the processes run long enough.
 void add_clock_checks(const Scenario& scenario, std::chrono::nanoseconds lived, Observations& observed) {
     const double lived_s = static_cast<double>(lived.count()) * 1e-9;
     for (const auto& clock : scenario.asked.wrong_clock()) {
@@ -176,7 +176,7 @@ Observations run_machine(const Scenario& scenario, const Containers* containers,
     return observed;
 }
 
-/// With a page of the run.
+/// Copies the logs, and a page of the run, into the directory.
 void keep_logs(const fs::path& folder, int directory) {
     if (const auto found = analysis::analyze_log(folder / kWholeLog)) {
         (void)analysis::write_html(*found, folder / "whole.html");

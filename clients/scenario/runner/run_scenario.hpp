@@ -8,8 +8,8 @@
 
 namespace lockstep::scenario {
 
-/// In the sandbox of this process (sandbox.hpp). `containers`: for a scenario in containers. `keep`: an open directory
-/// into which the logs are copied; below 0: none.
+/// Call it inside a sandbox (sandbox.hpp). `containers` is required for a scenario in containers. `keep` is the
+/// descriptor of an open directory into which the logs are copied, or negative.
 proto::ScenarioReport run_scenario(const Scenario& scenario, const std::optional<Containers>& containers, int keep);
 
 }  // namespace lockstep::scenario

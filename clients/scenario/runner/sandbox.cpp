@@ -32,7 +32,7 @@ void write_all(int pipe, const std::string& text) {
     }
 }
 
-/// Mounts memory over the directories of the host. Empty: done; else why not.
+/// Mounts memory over the directories of the host. Returns an empty text, or why it failed.
 std::string make_own_folders() {
     if (mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) { return why("cannot keep mounts apart"); }
     if (mount("proc", "/proc", "proc", MS_NOSUID | MS_NODEV | MS_NOEXEC, nullptr) != 0) {
@@ -59,7 +59,7 @@ std::string make_own_folders() {
 /// The process outside, which waits for the first one inside.
 [[noreturn]] void run_keeper(const std::function<std::string()>& run, int pipe, pid_t parent) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) { _exit(0); }  // the parent died before that took effect
+    if (getppid() != parent) { _exit(0); }  // the parent died before prctl took effect
     if (unshare(CLONE_NEWNET | CLONE_NEWNS | CLONE_NEWPID) != 0) {
         write_all(pipe, kError + why("cannot make namespaces"));
         _exit(0);
@@ -100,7 +100,7 @@ Sandbox::Sandbox(Sandbox&& other) noexcept
       output_(std::move(other.output_)),
       ended_(other.ended_) {}
 
-/// The last process of the sandbox closes the pipe's other end.
+/// Waits until the last process of the sandbox has closed the pipe's other end.
 Sandbox::~Sandbox() {
     if (pipe_ < 0) { return; }
     kill(keeper_, SIGKILL);

@@ -1,5 +1,5 @@
-// Network, process and mount namespaces of its own for one scenario. However this process ends, it leaves nothing:
-// the kernel ends the sandbox's processes and removes its networks and files.
+// Runs one scenario in its own network, process and mount namespaces. When this process ends, for any reason, the
+// kernel ends the sandbox's processes and removes its networks and files.
 #pragma once
 
 #include <sys/types.h>
@@ -11,13 +11,13 @@
 
 namespace lockstep::scenario {
 
-/// Within a sandbox: a directory in memory, removed with it.
+/// A directory in memory inside the sandbox. The kernel removes it with the sandbox.
 std::filesystem::path sandbox_folder();
 
 class Sandbox {
 public:
-    /// Runs a function in a new sandbox; its return value is the result. Call it while this process has one thread.
-    /// Error: why no sandbox can be made, and the remedy.
+    /// Runs a function in a new sandbox; its return value is the result. Call it while this process has one thread. The
+    /// error says why no sandbox can be made, with the remedy.
     static std::expected<Sandbox, std::string> start(const std::function<std::string()>& run);
 
     Sandbox(Sandbox&& other) noexcept;
@@ -28,9 +28,9 @@ public:
 
     /// Becomes readable when there is output.
     int readable() const { return pipe_; }
-    /// Reads the available output. True: the sandbox has ended, and its result is complete.
+    /// Reads the available output. Returns true when the sandbox has ended and its result is complete.
     bool read_output();
-    /// Once it has ended. Error: how it ended without a result.
+    /// Call it when the sandbox has ended. The error says why there is no result.
     std::expected<std::string, std::string> result() const;
 
 private:

@@ -196,7 +196,7 @@ std::optional<ScenarioExecutor::Ended> ScenarioExecutor::ended(WatchedJob& watch
     return Ended{ending_of(result), fault ? fault->name() : ""};
 }
 
-/// Axes whose states are overdue do not count.
+/// Ignores axes with overdue states.
 bool ScenarioExecutor::all_present_rest() const {
     for (std::size_t i = 0; i < scenario_.machine.axes.size(); ++i) {
         if (session_.axis_present(i) && !session_.axis(i)->state.at_rest) { return false; }

@@ -16,10 +16,10 @@ class ScenarioExecutor {
 public:
     ScenarioExecutor(const Scenario& scenario, Session& session, ProcessSet& processes, ActExecutor& acts);
 
-    /// Waits until the machine is in this phase and receives states of all axes whose processes are active. False: not
-    /// in time.
+    /// Waits until the machine is in this phase and states of all axes with active processes are received. Returns
+    /// false if that takes too long.
     bool wait_for(Asked::Phase phase);
-    /// From the first step to the last, or to one that cannot be executed.
+    /// Executes the steps in order. Ends early at a step that cannot be executed.
     void execute();
     const Observations& observations() const { return observed_; }
 
@@ -27,11 +27,11 @@ private:
     struct WatchedJob {
         std::uint64_t job = 0;
         Term asked;    // of the coordinator that began it
-        Term runs_it;  // of the coordinator that was last received as running it
+        Term runs_it;  // of the last coordinator that was received as running it
     };
     struct Ended {
         Asked::Step::Ending ending;
-        std::string fault;  // by name; empty: none
+        std::string fault;  // its name; empty if none
     };
 
     void execute_step(const Asked::Step& step);

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr int kPollInterval_ms = 100;
 
-/// A new directory for a scenario's logs, open.
+/// Makes and opens a new directory for a scenario's logs.
 std::expected<int, std::string> open_folder(const fs::path& path) {
     std::error_code error;
     if (fs::exists(path, error)) {
@@ -56,7 +56,7 @@ public:
     }
 
 private:
-    /// Creates all of them before the first scenario runs.
+    /// Makes all log directories before the first scenario runs.
     std::expected<void, std::string> open_folders() {
         for (const Scenario& scenario : scenarios_) {
             if (!options_.keep) { break; }
@@ -138,7 +138,7 @@ private:
     std::vector<proto::ScenarioReport> reports_;
     std::vector<int> folders_;  // of the scenarios, open
     std::optional<Containers> containers_;
-    std::map<std::size_t, Sandbox> sandboxes_;  // by the scenario's place
+    std::map<std::size_t, Sandbox> sandboxes_;  // by the scenario's index
     std::vector<std::size_t> ended_;
     std::size_t next_ = 0;
 };

@@ -1,4 +1,4 @@
-// Runs scenarios in parallel, each in a sandbox of its own.
+// Runs scenarios in parallel, each in its own sandbox.
 #pragma once
 
 #include <expected>
@@ -15,14 +15,14 @@ namespace lockstep::scenario {
 struct RunnerOptions {
     int at_a_time = 1;
     std::string image = "lockstep";             // for scenarios in containers
-    std::optional<std::filesystem::path> keep;  // a directory; each scenario's logs go into a subdirectory of its name
-    std::function<void(const std::string&)> progress;            // now and then: which are running
-    std::function<void(const proto::ScenarioReport&)> finished;  // each, as it ends
-    std::function<bool()> interrupted;                           // true: end all now
+    std::optional<std::filesystem::path> keep;  // directory for kept logs, with a subdirectory for each scenario's logs
+    std::function<void(const std::string&)> progress;            // called now and then: which ones are running
+    std::function<void(const proto::ScenarioReport&)> finished;  // called with each report as its scenario ends
+    std::function<bool()> interrupted;                           // true ends all now
 };
 
-/// In the order of `scenarios`; those not started before an interruption are reported as broken. Error: no scenario can
-/// run, or the logs cannot be kept.
+/// Reports are in the order of `scenarios`. Scenarios that an interruption ends or prevents are reported as broken.
+/// Fails if no scenario can run or the logs cannot be kept.
 std::expected<proto::ScenarioRunReport, std::string> run_scenarios(const std::vector<Scenario>& scenarios,
                                                                    const RunnerOptions& options);
 

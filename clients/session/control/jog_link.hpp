@@ -1,4 +1,4 @@
-// A jog as its client keeps it alive: the command is repeated every 5 ms. When this process ends, the axes brake.
+// Keeps a jog alive: repeats its command every 5 ms. When this process ends, the axes brake.
 #pragma once
 
 #include <chrono>
@@ -13,16 +13,16 @@ class JogLink {
 public:
     explicit JogLink(Session& session) : session_(session) {}
 
-    /// All axes to jog from now on. Nothing is sent where they are jogged already.
+    /// Sets the axes to jog from now on. Sends nothing if they are the current ones.
     void press(const std::vector<JogAxis>& jogs);
     void release() { press({}); }
-    /// Receives messages until then, and renews the jog meanwhile.
+    /// Receives messages until `until`, and renews the jog meanwhile.
     void pass(std::chrono::nanoseconds until);
 
     bool is_pressed() const { return !command_.jogs.empty(); }
-    /// The coordinator has answered the newest press. Null: not yet.
+    /// The coordinator's reply to the newest press or release; null if none has come yet.
     const Reply* reply() const { return session_.reply_to(command_); }
-    /// Accepted, and ended by itself or by others.
+    /// True if the jog was accepted and has ended.
     bool is_over() const;
 
 private:

@@ -1,4 +1,4 @@
-// When a jog's command is sent again. Pure: the caller gives the time.
+// Decides when a jog's command is sent again. Pure: the caller passes the time.
 #pragma once
 
 #include <algorithm>
@@ -12,9 +12,9 @@ public:
     static constexpr std::chrono::milliseconds kPeriod{5};
 
     void note_sent(Time now) { sent_ = now; }
-    /// `is_needed`: of a press, and of a release until it is answered.
+    /// `is_needed`: true during a press, and after a release until it is answered.
     bool is_due(bool is_needed, Time now) const { return is_needed && now >= sent_ + kPeriod; }
-    /// Nothing happens before.
+    /// Returns the time until which nothing is due.
     Time wake(bool is_needed, Time until) const { return is_needed ? std::min(until, sent_ + kPeriod) : until; }
 
 private:

@@ -1,4 +1,4 @@
-// The lease for as long as one command of a person lasts: taken at its begin, given back at its end.
+// Holds the lease for one command of a person: takes it at the begin and gives it back at the end.
 #pragma once
 
 #include <expected>
@@ -9,14 +9,14 @@ namespace lockstep {
 
 class LeaseTurn {
 public:
-    /// As the login's writer. `takes_over`: from another writer, too.
+    /// Takes the lease as the login's writer. `takes_over` takes it from another writer, too.
     LeaseTurn(Session& session, bool takes_over, const StopSignal* stop = nullptr);
     LeaseTurn(const LeaseTurn&) = delete;
     LeaseTurn& operator=(const LeaseTurn&) = delete;
-    /// Waits a moment for the coordinator's answer: a process that has ended sends nothing more.
+    /// Waits briefly for the coordinator's answer, because a process that has ended sends nothing more.
     ~LeaseTurn();
 
-    /// Refused where another writer has it. Error: no answer.
+    /// The reply, which is a refusal if another writer has the lease. The error means that no reply came.
     const std::expected<Reply, Failure>& answer() const { return answer_; }
     bool is_refused() const { return answer_ && answer_->status == ReplyStatus::Refused; }
 

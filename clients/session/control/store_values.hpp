@@ -7,7 +7,7 @@
 
 namespace lockstep {
 
-/// `values` become `wanted`. Waits until the coordinator has them on its disk.
+/// Sends `wanted` and sets `values` to it. Waits until the coordinator has it on its disk.
 std::expected<void, Failure> store_values(Session& session, RevisedValues& values, const gcode::KeptValues& wanted);
 
 }  // namespace lockstep

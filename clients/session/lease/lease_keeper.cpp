@@ -28,7 +28,8 @@ std::optional<Command> LeaseKeeper::give(std::uint64_t sequence) {
     return command(sequence, CommandKind::GiveLease);
 }
 
-/// Only until it is answered does it take the lease from another writer: one that has lost it does not take it back.
+/// A request takes the lease from another writer only until the first answer, so that a client that loses it does not
+/// take it back.
 std::optional<Command> LeaseKeeper::due(std::chrono::nanoseconds now) {
     const auto period = answer_ ? std::chrono::milliseconds{kKeepLease_ms} : kAskAgainAfter;
     if (!is_asked_ || (sent_ && now - *sent_ < period)) { return std::nullopt; }

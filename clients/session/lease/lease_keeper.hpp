@@ -1,5 +1,5 @@
-// A client's side of the writer's lease: asks for it, repeats the request to keep it, and gives it back. Pure: the
-// caller sends, and gives the time.
+// A client's side of the writer's lease: requests it, repeats the request to keep it, and gives it back. Pure: the
+// caller sends the commands and passes the time.
 #pragma once
 
 #include <chrono>
@@ -14,22 +14,23 @@ class LeaseKeeper {
 public:
     LeaseKeeper(Identity client, LeaseHolder writer) : client_(client) { write_as(std::move(writer)); }
 
-    /// For what is asked from now on: give the lease first. With an identity of 0 no other client shares the lease.
+    /// Sets the writer of later requests. Give the lease back first. An id of 0 stands for this client's identity,
+    /// which no other client shares.
     void write_as(LeaseHolder writer);
     const LeaseHolder& writer() const { return writer_; }
 
-    /// Asks until it is answered. `takes_over`: from another writer, too.
+    /// Requests the lease until an answer comes. `takes_over` takes it from another writer, too.
     void ask(std::uint64_t sequence, bool takes_over);
-    /// Keeps it no longer. Returns the command to send; nothing: it was not asked for.
+    /// Stops keeping the lease. Returns the command to send, or nullopt if the lease was not requested.
     std::optional<Command> give(std::uint64_t sequence);
-    /// The command to send now.
+    /// Returns the command to send now, or nullopt if none is due.
     std::optional<Command> due(std::chrono::nanoseconds now);
-    /// False: it answers something else.
+    /// Returns false if the reply answers something else.
     bool take_answer(const Reply& reply);
 
-    /// To what was asked or given last. Nothing: none has come yet.
+    /// The answer to the last ask() or give(); nullopt if none has come yet.
     const std::optional<Reply>& answer() const { return answer_; }
-    /// It was granted, and not refused since.
+    /// True if the lease was granted and not refused since.
     bool is_held() const { return is_asked_ && answer_ && answer_->status == ReplyStatus::Accepted; }
 
     static constexpr std::chrono::milliseconds kAskAgainAfter{250};
@@ -41,7 +42,7 @@ private:
     LeaseHolder writer_;
     bool is_asked_ = false;
     bool takes_over_ = false;
-    std::uint64_t sequence_ = 0;  // of what was asked or given last
+    std::uint64_t sequence_ = 0;  // of the last ask() or give()
     std::optional<Reply> answer_;
     std::optional<std::chrono::nanoseconds> sent_;
 };

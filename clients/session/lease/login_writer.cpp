@@ -20,7 +20,7 @@ std::string login_name() {
     return is_read && found != nullptr ? entry.pw_name : "user " + std::to_string(getuid());
 }
 
-/// For other people's terminals.
+/// Replaces control characters, because other people's terminals show the text.
 std::string printable(std::string text) {
     for (char& character : text) {
         const auto byte = static_cast<unsigned char>(character);

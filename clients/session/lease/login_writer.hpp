@@ -1,4 +1,4 @@
-// The writer that a person's commands are: the login on this host.
+// The writer of a person's commands: the login on this host.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace lockstep {
 
-/// All commands of one login on one host are one writer: a second terminal of the same person may give commands, too.
-/// $LOCKSTEP_WRITER is the name instead of the login's: people who share a login then are writers of their own.
+/// All commands of one login on one host belong to one writer, so a second terminal of the same person may give
+/// commands, too. $LOCKSTEP_WRITER replaces the login's name: it makes people who share a login separate writers.
 LeaseHolder login_writer();
 
-/// The same identity for the same name and host. Pure.
+/// The same name and host always give the same id. Pure.
 LeaseHolder writer_of(const std::string& name, const std::string& host);
 
 }  // namespace lockstep

@@ -20,7 +20,7 @@ std::string hash_of(const std::string& text) {
     return hex;
 }
 
-/// In a time that does not depend on where they differ.
+/// Takes a time that does not depend on where they differ.
 bool equals(std::string_view a, std::string_view b) {
     return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
 }
@@ -31,7 +31,7 @@ std::optional<Role> role_among(const Tokens& tokens, std::string_view given) {
     return std::nullopt;
 }
 
-/// Without the port; an address of IPv6 without its brackets.
+/// Returns the host without the port, an IPv6 address without its brackets.
 std::string_view host_of(std::string_view text) {
     if (text.starts_with('[')) {
         const std::size_t end = text.find(']');

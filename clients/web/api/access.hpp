@@ -1,5 +1,5 @@
-// Who may do what: tokens, the cookie that stands for one, and which hosts and origins a request may name. Pure, apart
-// from the hash.
+// Decides who may do what: by tokens, by the cookie that stands for a token, and by the host and origin that a request
+// names. Pure, apart from the hash.
 #pragma once
 
 #include <chrono>
@@ -38,11 +38,11 @@ public:
 
     explicit Access(AccessRules rules);
 
-    /// Another site's page sent the request, or it came under another name (403).
+    /// Refuses (403) a request that another site's page sent, or that came under another host name.
     std::optional<Problem> refuse_foreign(const Request& request) const;
-    /// By its cookie or its Authorization header. Nothing: it has neither, or a wrong one.
+    /// The role by the request's cookie or Authorization header; nullopt if it has neither, or a wrong one.
     std::optional<Role> role_of(const Request& request) const;
-    /// Error: 401 for a wrong token; 429 where too many were wrong.
+    /// Fails with 401 for a wrong token, with 429 after too many wrong ones.
     std::expected<Role, Problem> try_token(std::string_view token, std::chrono::nanoseconds now);
 
     /// The value of a Set-Cookie header.
@@ -53,7 +53,7 @@ private:
     std::string attributes() const;
 
     AccessRules rules_;
-    std::string cookie_name_;  // cookies of all ports of a host are one set
+    std::string cookie_name_;  // has the port, because browsers share cookies among a host's ports
     Tokens cookies_;           // a hash of each token
     std::deque<std::chrono::nanoseconds> wrong_;
 };

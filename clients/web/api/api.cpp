@@ -104,7 +104,7 @@ std::size_t Api::body_limit(const Request& head) const {
     return is_program ? kMaxProgram_bytes : kMaxBody_bytes;
 }
 
-/// Headers of every response: they tell a browser what it may do with it.
+/// Adds the headers of every response, which tell a browser what it may do with it.
 void Api::handle(Request&& request, const Answer& answer) {
     const bool is_api = request.path.starts_with("/api/");
     serve(std::move(request), [answer, is_api](Response&& response) {

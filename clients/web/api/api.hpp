@@ -19,7 +19,7 @@
 
 namespace lockstep::web {
 
-/// The parts that an Api works with; all outlive it.
+/// The parts that an Api uses; all must outlive it.
 struct ApiParts {
     const MachineConfig& machine;
     MachinePort& port;
@@ -37,7 +37,7 @@ public:
     std::size_t body_limit(const Request& head) const override;
     void handle(Request&& request, const Answer& answer) override;
 
-    /// Adds the state to the event log, if anybody reads it. From any thread.
+    /// Adds the state to the event log, if there are viewers. May be called from any thread.
     void publish(const Snapshot& snapshot);
     std::size_t viewers() const { return viewers_; }
 
@@ -46,7 +46,7 @@ private:
     struct Row {
         std::string_view method;
         std::string_view path;  // with * for the last part
-        bool is_open = false;   // without a session
+        bool is_open = false;   // needs no session
         Route route;
     };
     static const std::vector<Row>& rows();
@@ -75,7 +75,7 @@ private:
     ApiParts parts_;
     Access access_;
     ReplayGuard replays_;
-    std::string stream_names_;  // begin with it
+    std::string stream_names_;  // each begins with this
     std::uint64_t last_stream_ = 0;
     std::atomic<std::size_t> viewers_ = 0;
     std::mutex lines_mutex_;

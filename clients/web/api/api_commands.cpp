@@ -1,4 +1,4 @@
-// The commands, and what runs programs.
+// The commands, including those that run programs.
 #include "clients/web/api/api.hpp"
 #include "clients/web/program/values_edit.hpp"
 #include "clients/web/request/body_reader.hpp"

@@ -1,4 +1,4 @@
-// The loaded program and its path, and the reports.
+// The requests for the loaded program, its path and the reports.
 #include <algorithm>
 #include <charconv>
 
@@ -63,7 +63,7 @@ void Api::load(Request&& request, const Answer& answer) {
     if (const std::string* type = request.header("content-type"); is_no_text(type)) {
         return answer(to_response({.status = 415,
                                    .code = "not-text",
-                                   .title = "the body is no text",
+                                   .title = "the body is not text",
                                    .detail = "Content-Type is '" + type->substr(0, 100) + "'",
                                    .place = "content-type",
                                    .value = type->substr(0, 100),

@@ -10,7 +10,7 @@ constexpr std::string_view kPlainPage =
     "<!doctype html>\n<html lang=\"en\"><meta charset=\"utf-8\"><title>Lockstep</title>\n"
     "<p>This build of lockstep-web has no page. Its interface is described in clients/web/openapi.yaml.</p>\n</html>\n";
 
-/// Nothing but the page's own files; no script and no style within the page; no frame around it.
+/// Allows only the page's own files, no script or style within the page, and no frame around it.
 constexpr const char* kPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; font-src 'self'; connect-src "
     "'self'; worker-src 'self'; manifest-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";

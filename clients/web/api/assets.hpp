@@ -17,10 +17,10 @@ struct Asset {
     bool is_immutable = false;  // its name changes with its content
 };
 
-/// From the directory that was built for the page; generated.
+/// The files of the directory that was built for the page. Defined in a generated source.
 std::span<const Asset> embedded_assets();
 
-/// "/" is the page. Nothing: there is no such file.
+/// "/" is the page. Returns nullopt if there is no such file.
 std::optional<Response> asset_response(std::span<const Asset> assets, const Request& request);
 
 }  // namespace lockstep::web

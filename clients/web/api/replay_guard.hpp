@@ -1,4 +1,4 @@
-// Which idempotency keys were used lately. Pure.
+// Remembers which idempotency keys were used recently. Pure.
 #pragma once
 
 #include <chrono>
@@ -11,9 +11,9 @@ namespace lockstep::web {
 class ReplayGuard {
 public:
     static constexpr std::chrono::minutes kKept{10};
-    static constexpr std::size_t kMostKeys = 10'000;  // the oldest is forgotten first
+    static constexpr std::size_t kMostKeys = 10'000;  // the oldest is dropped first
 
-    /// False: the key was used within kKept.
+    /// Returns false if the key was used within kKept.
     bool use(const std::string& key, std::chrono::nanoseconds now) {
         while (!order_.empty() && (now - order_.front().second > kKept || order_.size() >= kMostKeys)) {
             keys_.erase(order_.front().first);

@@ -11,7 +11,7 @@
 namespace lockstep::web {
 namespace {
 
-/// A report has its script and its styles within it: it gets an origin of its own, and no network.
+/// A report contains its script and its styles. It gets a separate origin and no network.
 constexpr const char* kReportPolicy =
     "sandbox allow-scripts allow-downloads; default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
     "img-src data:; font-src data:; frame-ancestors 'none'";

@@ -21,9 +21,9 @@ public:
     ReportFiles(std::filesystem::path reports, std::filesystem::path incidents)
         : reports_(std::move(reports)), incidents_(std::move(incidents)) {}
 
-    /// The schema Reports. Reads the directories.
+    /// Reads the directories. The result has the schema Reports.
     Json list() const;
-    /// One of the list, by its name alone. Error: 404 where it is none of them.
+    /// Returns the file with this name in the list. Fails with 404 if there is none.
     std::expected<Response, Problem> read(const std::string& name) const;
 
 private:

@@ -55,7 +55,7 @@ MHD_Result Exchange::begin(const char* path, const char* method) {
     const std::string* length = request_.header("content-length");
     const bool is_long = length != nullptr && std::strtoull(length->c_str(), nullptr, 10) > body_limit_;
     if (!is_long || request_.header("expect") == nullptr) { return MHD_YES; }
-    request_.is_too_long = true;  // the client waits for a word before it sends the body
+    request_.is_too_long = true;  // the client waits for a response before it sends the body
     return give_to_handler();
 }
 
@@ -68,7 +68,7 @@ MHD_Result Exchange::take_body(const char* bytes, std::size_t* size) {
         request_.body = {};
     }
     *size = 0;
-    // A client reads its answer only after it has sent everything; there is an end to that, too.
+    // A client reads its answer only after it has sent everything. So the rest is read and discarded, up to a limit.
     return received_ <= Server::kMostDiscarded ? MHD_YES : MHD_NO;
 }
 

@@ -19,9 +19,9 @@ public:
     // In the server's thread:
     /// The request line and the headers have come.
     MHD_Result begin(const char* path, const char* method);
-    /// A part of the body; takes all of it.
+    /// Takes a part of the body, always the whole part.
     MHD_Result take_body(const char* bytes, std::size_t* size);
-    /// The request is whole, or the connection was resumed.
+    /// The request is complete, or the connection was resumed.
     MHD_Result proceed();
     /// The connection has ended.
     void end();
@@ -30,7 +30,7 @@ public:
     // In any thread:
     void answer(Response&& response);
     void wake_stream();
-    /// The server ends: nothing waits any more.
+    /// The server ends: the connection waits no longer.
     void release();
 
 private:
@@ -46,7 +46,7 @@ private:
     std::size_t received_ = 0;
     bool is_handled_ = false;
 
-    std::mutex mutex_;  // of all that follows
+    std::mutex mutex_;  // protects all members below
     std::optional<Response> response_;
     std::shared_ptr<ByteStream> stream_;
     bool is_suspended_ = false;

@@ -1,4 +1,4 @@
-// JSON in one line. Text that is no UTF-8 is replaced.
+// JSON in one line. Invalid UTF-8 is replaced.
 #pragma once
 
 #include <nlohmann/json.hpp>

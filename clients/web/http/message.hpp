@@ -18,12 +18,12 @@ namespace lockstep::web {
 struct Request {
     std::string method;
     std::string path;                            // decoded, without the query
-    std::map<std::string, std::string> query;    // decoded; of a name that comes twice the last
-    std::map<std::string, std::string> headers;  // names in small letters; of a name that comes twice the first
+    std::map<std::string, std::string> query;    // decoded; the last value of a repeated name
+    std::map<std::string, std::string> headers;  // names in lower case; the first value of a repeated name
     std::string body;
     bool is_too_long = false;  // the body exceeded its limit and was not kept
 
-    /// Null: the request has none.
+    /// Returns null if the request has none.
     const std::string* header(std::string_view name) const;
     std::optional<std::string> cookie(std::string_view name) const;
 };
@@ -32,9 +32,9 @@ struct Request {
 class ByteStream {
 public:
     virtual ~ByteStream() = default;
-    /// Writes the next bytes and returns how many; 0: none now. Nothing: the stream is over.
+    /// Writes the next bytes and returns their number, 0 if there are none now. Returns nullopt if the stream is over.
     virtual std::optional<std::size_t> read(std::span<char> into) = 0;
-    /// The reader is so far behind that the connection is to be closed.
+    /// True if the reader is so far behind that the connection must be closed.
     virtual bool is_behind() const = 0;
     /// The connection has ended.
     virtual void end() = 0;
@@ -49,14 +49,15 @@ struct Response {
     std::vector<std::pair<std::string, std::string>> headers;
 };
 
-/// Gives a request's response: once, at any time, from any thread. Without effect after the connection has ended.
+/// Gives a request's response. Call it once, at any time, from any thread. It has no effect after the connection has
+/// ended.
 using Answer = std::function<void(Response&& response)>;
 
-/// What a server serves. Both calls come from the server's thread and return at once.
+/// Handles a server's requests. Both functions are called in the server's thread and must return at once.
 class Handler {
 public:
     virtual ~Handler() = default;
-    /// How many bytes of the request's body are kept.
+    /// Returns how many bytes of the request's body are kept.
     virtual std::size_t body_limit(const Request& head) const = 0;
     virtual void handle(Request&& request, const Answer& answer) = 0;
 };

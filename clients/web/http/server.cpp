@@ -13,12 +13,12 @@ namespace lockstep::web {
 struct Server::Parts {
     explicit Parts(Handler& to_serve) : handler(to_serve) {}
 
-    /// A copy: an exchange may end meanwhile.
+    /// Returns a copy, because an exchange may end meanwhile.
     std::vector<std::shared_ptr<Exchange>> all() {
         const std::lock_guard lock(mutex);
         return {exchanges.begin(), exchanges.end()};
     }
-    /// Null: the server ends.
+    /// Returns null if the server is ending.
     std::shared_ptr<Exchange> add(MHD_Connection* connection) {
         const std::lock_guard lock(mutex);
         return ends ? nullptr : *exchanges.insert(std::make_shared<Exchange>(connection, handler)).first;
@@ -31,7 +31,7 @@ struct Server::Parts {
 
     Handler& handler;
     MHD_Daemon* daemon = nullptr;
-    std::mutex mutex;  // of what follows
+    std::mutex mutex;  // protects the members below
     std::set<std::shared_ptr<Exchange>> exchanges;
     bool ends = false;
 };

@@ -1,4 +1,4 @@
-// The HTTP server: libmicrohttpd with one thread of its own, in which every connection and every open stream is served.
+// The HTTP server: libmicrohttpd with one thread, which serves every connection and every open stream.
 #pragma once
 
 #include <expected>
@@ -10,7 +10,7 @@
 
 namespace lockstep::web {
 
-/// PEM texts; both empty: without TLS.
+/// PEM texts; both are empty without TLS.
 struct TlsFiles {
     std::string certificate;
     std::string key;
@@ -20,17 +20,18 @@ struct TlsFiles {
 class Server {
 public:
     static constexpr unsigned kMaxConnections = 256;
-    static constexpr unsigned kIdleSeconds = 20;                       // then a connection is closed
+    static constexpr unsigned kIdleSeconds = 20;                       // after them a connection is closed
     static constexpr std::size_t kMostDiscarded = 256U * 1024 * 1024;  // of a body beyond its limit, before its answer
 
-    /// Serves until it is destroyed. `handler` outlives it. Error: why not.
+    /// Serves until the object is destroyed. `handler` must outlive it. The error says why it cannot serve.
     static std::expected<std::unique_ptr<Server>, std::string> start(const Listener& listener, const TlsFiles& tls,
                                                                      Handler& handler);
     ~Server();
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
 
-    /// Lets every stream read again, and closes the connections of those that are behind. From any thread.
+    /// Lets every stream read again, and closes the connections of those that are behind. May be called from any
+    /// thread.
     void wake_streams();
 
 private:

@@ -39,7 +39,7 @@ void JogGuard::note_over() {
 
 std::expected<JogGuard::Press, Problem> JogGuard::take(const JogOrder& order, Time now) {
     const bool is_other = until_ && client_ != order.stream;
-    if (order.jogs.empty()) {  // of another client it changes nothing
+    if (order.jogs.empty()) {  // another client's release changes nothing
         if (!is_other) {
             client_ = order.stream;
             press_ = order.press ? order.press : press_;

@@ -1,4 +1,4 @@
-// The dead man of jogs: who jogs, and until when. Pure: the caller gives the time.
+// The dead-man's switch of jogs: which client jogs, and until when. Pure: the caller passes the time.
 #pragma once
 
 #include <chrono>
@@ -17,29 +17,29 @@ class JogGuard {
 public:
     using Time = std::chrono::nanoseconds;
 
-    /// Of an order that is followed. New: the press of a key, which begins a jog also where one before has ended by
-    /// itself.
+    /// The meaning of an accepted order. New: the press of a key, which begins a jog even if an earlier jog has ended
+    /// by itself.
     enum class Press : std::uint8_t { New, Renewed, Released };
-    /// Error: another client jogs, or the order's press is over.
+    /// Fails if another client jogs, or the order's press is over.
     std::expected<Press, Problem> take(const JogOrder& order, Time now);
-    /// True once, when the jog's time is over.
+    /// Returns true once, when the jog's time is over.
     bool runs_out(Time now);
-    /// True: the jog ended with this stream.
+    /// Returns true if the jog ended with this stream.
     bool end_stream(const std::string& stream);
     /// The machine refused the jog, or ended it.
     void end();
     bool is_pressed() const { return until_.has_value(); }
 
 private:
-    static constexpr std::size_t kMostClients = 256;  // whose last press is kept
+    static constexpr std::size_t kMostClients = 256;  // clients with a remembered press
     bool is_over(const JogOrder& order) const;
     void note_over();
 
-    std::string client_;  // its stream; empty: one that names none
+    std::string client_;  // its stream; empty if it names none
     std::optional<std::uint64_t> press_;
-    std::optional<Time> until_;                  // nothing: nobody jogs
-    std::map<std::string, std::uint64_t> over_;  // of each client the last press that is over
-    std::deque<std::string> order_;              // of them, the oldest first
+    std::optional<Time> until_;                  // nullopt if nobody jogs
+    std::map<std::string, std::uint64_t> over_;  // the last press of each client that is over
+    std::deque<std::string> order_;              // the clients in over_, the oldest first
 };
 
 }  // namespace lockstep::web

@@ -11,7 +11,7 @@ void JogTurn::take(const JogOrder& order, const Done& done, nanoseconds now) {
         if (!guard_.is_pressed()) { link_.release(); }
         return done(Accepted{.jogging = false});
     }
-    // The same axes again are no new command as long as those before are not released.
+    // JogLink ignores a press of the same axes until they are released.
     if (*taken == JogGuard::Press::New && link_.is_over()) { link_.release(); }
     jogs_ = order.jogs;
     waiting_.push_back(done);
@@ -26,7 +26,7 @@ void JogTurn::follow(const SessionLease& lease, nanoseconds now) {
     if (guard_.is_pressed()) {
         if (const auto refusal = lease.refusal(false)) { return end(*refusal); }
         if (lease.is_held()) { link_.press(jogs_); }
-        if (!link_.is_pressed()) { return; }  // it waits for the lease
+        if (!link_.is_pressed()) { return; }  // the jog waits for the lease
     }
     const Reply* reply = link_.reply();
     if (link_.is_pressed() && reply == nullptr) { return; }

@@ -16,10 +16,10 @@ public:
     void take(const JogOrder& order, const Done& done, nanoseconds now);
     /// A jog that named this event stream ends with it.
     void end_stream(const std::string& name);
-    /// Receives messages until then, and renews the jog meanwhile.
+    /// Receives messages until `until`, and renews the jog meanwhile.
     void pass(nanoseconds until) { link_.pass(until); }
-    /// Begins what waited for the lease, answers the renewals that the coordinator has answered, and ends the jog that
-    /// nobody renews.
+    /// Begins a jog that waited for the lease, answers renewals that the coordinator has answered, and ends a jog that
+    /// is not renewed.
     void follow(const SessionLease& lease, nanoseconds now);
     void release() { link_.release(); }
 

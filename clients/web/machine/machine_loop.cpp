@@ -84,7 +84,7 @@ void MachineLoop::begin_stream(bool may_operate) { operators_ += may_operate ? 1
 
 void MachineLoop::end_stream(const std::string& name, bool may_operate) {
     operators_ -= may_operate ? 1 : 0;
-    add([this, name] { jog_.end_stream(name); }, [](Outcome&&) {});  // a jog then runs out
+    add([this, name] { jog_.end_stream(name); }, [](Outcome&&) {});  // if too many actions wait, the jog runs out
 }
 
 std::shared_ptr<const Snapshot> MachineLoop::snapshot() const {
@@ -142,7 +142,7 @@ bool MachineLoop::is_own_job() const {
            !session_.state()->state.outcome;
 }
 
-/// A job that is held waits for a person, who may be another.
+/// A held job does not count: another person may continue it.
 bool MachineLoop::has_work() const {
     if (jog_.is_pressed() || !tasks_.is_empty()) { return true; }
     if (!is_own_job()) { return false; }
@@ -150,7 +150,7 @@ bool MachineLoop::has_work() const {
     return phase != MachinePhase::Holding && phase != MachinePhase::Paused;
 }
 
-/// A program that is being sent, by a task or while it runs, is not replaced by another.
+/// True while a program is being sent, by a task or while it runs. Another program may not replace it.
 bool MachineLoop::is_sending() const {
     if (tasks_.sends()) { return true; }
     const ProgramSender* sender = session_.sender();

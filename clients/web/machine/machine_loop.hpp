@@ -1,4 +1,4 @@
-// The machine beside the server: a thread with a session, which carries out what the server's thread hands over, renews
+// The machine's thread, beside the server's. It has the session, carries out the orders of the server's thread, renews
 // jogs and the lease, and publishes the state.
 #pragma once
 
@@ -39,19 +39,20 @@ public:
 
 private:
     using Action = std::function<void()>;
-    /// Refuses with `done` where too many wait already.
+    /// Refuses with `done` if too many actions wait already.
     void add(Action action, const Done& done);
     void work(const std::stop_token& stop);
     void take_actions();
     void start(std::unique_ptr<Task> task, const Done& done);
     bool is_sending() const;
-    /// A command, a jog or a job of this server is under way.
+    /// True while a command, a jog or a job of this server is under way.
     bool has_work() const;
     bool is_own_job() const;
 
     void note_healths();
     void show();
-    /// A client that reads the state after its answer finds the effect there.
+    /// Updates the snapshot before `done`, so that a client that reads the state after its answer finds the effect
+    /// there.
     Done shown(const Done& done);
     Snapshot taken() const;
 

@@ -10,7 +10,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// By this host's clock: the machine's has no date.
+/// Converts to this host's clock, because machine time has no date.
 std::chrono::system_clock::time_point time_of(Tick tick, const MachineState& state, const MachineConfig& machine) {
     const auto ago_ns = static_cast<std::int64_t>(machine.microseconds(state.tick - tick) * 1e3);
     const auto time = std::chrono::system_clock::now() - nanoseconds(std::max<std::int64_t>(0, ago_ns));

@@ -13,19 +13,19 @@ namespace lockstep::web {
 
 class SessionLease {
 public:
-    /// `name`: the writer's, for people.
+    /// `name`: the writer's name, as people see it.
     SessionLease(Session& session, const std::string& name);
 
-    /// In each loop, behind what the session has received.
+    /// Call it in each loop, after the session has received messages.
     void pass(const WriterTurn::Use& use, nanoseconds now);
     void give() { turn_.give(); }
-    /// At the end: waits a moment for the coordinator's answer.
+    /// Gives the lease back and waits briefly for the coordinator's answer. Call it at the end.
     void end();
 
     bool is_held() const { return turn_.is_held(); }
-    /// Of a command that waits for the lease; nothing: it waits on.
+    /// The refusal of a command that waits for the lease; nullopt while the command must wait on.
     std::optional<Problem> refusal(bool takes_over) const;
-    /// The machine's writer. Nothing: it has none.
+    /// The machine's writer; nullopt if it has none.
     const std::optional<Writer>& writer() const { return writer_; }
 
 private:

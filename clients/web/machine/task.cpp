@@ -12,7 +12,7 @@ constexpr nanoseconds kPatience = 3s;
 constexpr nanoseconds kPlanPatience = 60s;  // a coordinator that plans a large program answers late
 constexpr nanoseconds kDiskPatience = 15s;
 constexpr nanoseconds kRepeatAfter = 250ms;
-constexpr nanoseconds kRepeatStopAfter = 20ms;  // an emergency stop
+constexpr nanoseconds kRepeatStopAfter = 20ms;  // for an emergency stop
 
 Outcome outcome_of(const Reply& reply) {
     if (reply.status == ReplyStatus::Refused) {

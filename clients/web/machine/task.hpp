@@ -1,4 +1,4 @@
-// What was asked of the machine and is not answered yet. Each is polled in the machine's thread and never waits.
+// Requests to the machine that are not answered yet. Each is polled in the machine's thread and never waits.
 #pragma once
 
 #include <chrono>
@@ -14,18 +14,18 @@ namespace lockstep::web {
 
 class Task {
 public:
-    /// Of a task before it begins. Taken: also from another writer.
+    /// The lease that a task needs before it begins. Taken: even from another writer.
     enum class Lease : std::uint8_t { NotNeeded, Needed, Taken };
 
     Task(Lease lease, Done done) : lease_(lease), done_(std::move(done)) {}
     virtual ~Task() = default;
-    /// True: it is over and was answered.
+    /// Returns true if the task is over and was answered.
     virtual bool poll(Session& session, std::chrono::nanoseconds now) = 0;
-    /// It uses the session's one sender of programs.
+    /// True if the task uses the session's one sender of programs.
     virtual bool sends() const { return false; }
 
     Lease lease() const { return lease_; }
-    /// Answers it. Returns true.
+    /// Answers the request. Always returns true.
     bool end(Outcome&& outcome);
 
 private:
@@ -33,7 +33,7 @@ private:
     Done done_;
 };
 
-/// Waits until the machine names this server as its writer, or as its writer no more.
+/// Waits until the machine names this server as its writer, or names it no longer.
 class LeaseTask : public Task {
 public:
     LeaseTask(bool takes, Done done) : Task(takes ? Lease::Taken : Lease::NotNeeded, std::move(done)), takes_(takes) {}

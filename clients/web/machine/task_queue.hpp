@@ -1,4 +1,4 @@
-// The tasks that are not over, in the machine's thread. One that needs the lease begins when the lease is held.
+// The unfinished tasks, in the machine's thread. A task that needs the lease begins when the lease is held.
 #pragma once
 
 #include <memory>
@@ -18,11 +18,11 @@ public:
     void add(std::unique_ptr<Task> task, nanoseconds now) { tasks_.push_back({std::move(task), now}); }
     void poll(Session& session, const SessionLease& lease, nanoseconds now);
 
-    /// One uses the session's one sender of programs.
+    /// True if a task uses the session's one sender of programs.
     bool sends() const;
-    /// One waits for the lease.
+    /// True if a task waits for the lease.
     bool wants_lease() const;
-    /// Also from another writer.
+    /// True if a waiting task takes the lease from another writer, too.
     bool takes_lease() const;
 
 private:
@@ -31,7 +31,7 @@ private:
         nanoseconds added;
         bool has_begun = false;
     };
-    /// True: it is over.
+    /// Returns true if the task is over.
     static bool poll(Entry& entry, Session& session, const SessionLease& lease, nanoseconds now);
     bool any_waits(Task::Lease least) const;
 

@@ -1,4 +1,4 @@
-// When a server asks for the writer's lease, and when it gives it back. Pure: the caller sends, and gives the time.
+// Decides when a server requests the writer's lease and gives it back. Pure: the caller sends and passes the time.
 #pragma once
 
 #include <chrono>
@@ -11,13 +11,13 @@ namespace lockstep::web {
 class WriterTurn {
 public:
     using Time = std::chrono::nanoseconds;
-    static constexpr std::chrono::seconds kGiveAfter{2};          // without work, and nobody could give any
+    static constexpr std::chrono::seconds kGiveAfter{2};          // without work, while no page that operates is open
     static constexpr std::chrono::seconds kGiveAfterWatched{60};  // without work, while a page that operates is open
     enum class Send : std::uint8_t { Nothing, Ask, TakeOver, Give };
 
     struct Lease {
         bool is_held = false;
-        const Reply* answer = nullptr;  // to what was sent last; null: none has come yet
+        const Reply* answer = nullptr;  // to the last request; null if none has come yet
     };
     struct Use {
         bool wants = false;       // a command waits for the lease
@@ -26,13 +26,13 @@ public:
         bool is_watched = false;  // a page that may operate is open
     };
 
-    /// In each loop: what to send now.
+    /// Call it in each loop. Returns what to send now.
     Send pass(const Lease& lease, const Use& use, Time now);
-    /// With the next pass.
+    /// Gives the lease back in the next pass.
     void give() { gives_ = true; }
 
     bool is_held() const { return state_ == State::Held; }
-    /// Whether what waits for the lease is refused in this loop.
+    /// True if the commands that wait for the lease are refused in this loop.
     bool is_refused(bool takes_over) const { return state_ == State::Refused && takes_over_ >= takes_over; }
 
 private:
@@ -42,7 +42,7 @@ private:
     bool is_over(const Use& use, Time now) const;
 
     State state_ = State::Free;
-    bool takes_over_ = false;  // what was asked
+    bool takes_over_ = false;  // the last request takes it from another writer
     bool gives_ = false;
     Time used_{};
 };

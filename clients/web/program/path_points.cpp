@@ -10,11 +10,11 @@
 namespace lockstep::web {
 namespace {
 
-constexpr double kChord_mm = 0.01;  // a chord is drawn so far from its arc at most
+constexpr double kChord_mm = 0.01;  // the greatest distance of a chord from its arc
 constexpr double kFirstTolerance_mm = 0.001;
 constexpr std::size_t kMostLeftOut = 64;  // between two kept points, in one pass
 constexpr int kMostPasses = 60;
-constexpr int kPassesByKind = 24;  // then rapid and other moves may be joined, too
+constexpr int kPassesByKind = 24;  // after these, rapid and other moves may be joined, too
 
 using Place = std::array<double, 3>;
 
@@ -23,7 +23,7 @@ Place place_of(const PathPoint& point) { return {point.x, point.y, point.z}; }
 double dot(const Place& a, const Place& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Place minus(const Place& a, const Place& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
-/// From the stretch between two places, squared.
+/// Returns the squared distance of a point from the segment between two places.
 double distance2(const Place& point, const Place& from, const Place& to) {
     const Place along = minus(to, from);
     const Place off = minus(point, from);
@@ -50,7 +50,7 @@ std::vector<PathPoint> pass(const std::vector<PathPoint>& points, double toleran
     std::size_t first = 0;
     while (first + 1 < points.size()) {
         std::size_t last = first + 1;
-        // Twice as far each time, so that a long straight line takes few checks.
+        // Doubles the step each time, so that a long straight line takes few checks.
         for (std::size_t step = 1; step <= kMostLeftOut && first + 1 + step < points.size(); step *= 2) {
             if (!may_join(points, first, first + 1 + step, tolerance, by_kind)) { break; }
             last = first + 1 + step;

@@ -20,18 +20,18 @@ struct PathPoint {
     bool operator==(const PathPoint&) const = default;
 };
 
-/// The start, with line 0, and the end of each move that goes elsewhere.
+/// Returns the start, with line 0, and the points of each move that goes elsewhere.
 std::vector<PathPoint> path_points(const Program& program);
 
 struct ReducedPath {
     std::vector<PathPoint> points;
-    double tolerance_mm = 0;  // a point that was left out is at most so far from the line between those kept
+    double tolerance_mm = 0;  // the greatest distance of a left-out point from the line between the kept ones
 };
 
-/// At most `most` points, at least 2; the first and the last stay.
+/// Leaves out points until at most `most` remain, at least 2. Keeps the first and the last.
 ReducedPath reduced_path(std::vector<PathPoint> points, std::size_t most);
 
-/// 16 bytes for each, little-endian: x, y, z, then the line with bit 31 for a rapid move.
+/// Encodes each point in 16 bytes, little-endian: x, y, z, then the line with bit 31 for a rapid move.
 std::string path_bytes(const std::vector<PathPoint>& points);
 
 }  // namespace lockstep::web

@@ -1,4 +1,4 @@
-// A thread for what takes long: reading programs and drawing their paths.
+// A thread for tasks that take long, such as reading programs and reducing their paths.
 #pragma once
 
 #include <condition_variable>
@@ -19,13 +19,13 @@ public:
     ProgramDesk();
     ~ProgramDesk();
 
-    /// False: too many wait already; nothing is done.
+    /// Returns false, and does nothing, if too many tasks wait already.
     bool add(std::function<void()> task);
 
-    /// Null: no program is loaded.
+    /// Returns null if no program is loaded.
     std::shared_ptr<const LoadedProgram> loaded() const;
     void load(LoadedProgram&& program);
-    std::uint64_t next_id() { return ++last_id_; }  // in the thread only
+    std::uint64_t next_id() { return ++last_id_; }  // call it only in the thread
 
 private:
     void work(const std::stop_token& stop);

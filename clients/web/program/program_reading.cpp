@@ -30,8 +30,8 @@ bool is_text(std::string_view text) {
 Problem no_text(std::string_view text) {
     return {.status = 415,
             .code = "not-text",
-            .title = "the body is no text",
-            .detail = is_picture(text) ? "the body is a picture" : "the body has bytes that no text has",
+            .title = "the body is not text",
+            .detail = is_picture(text) ? "the body is a picture" : "the body has bytes that text does not contain",
             .place = "body",
             .limit = "a program in G-code",
             .remedy = "choose the program's file"};
@@ -49,7 +49,7 @@ Problem wrong_program(const Diagnostics& errors) {
 }
 
 GcodeSetup setup_of(const std::string& name, const MachineConfig& machine, const ProgramStart& start) {
-    // Of the program's name only its last part counts: subroutines come from the machine's directory alone.
+    // Uses only the last part of the program's name: subroutines come only from the machine's directory.
     const std::filesystem::path directory =
         machine.subroutine_directory.empty() ? "/dev/null" : machine.subroutine_directory;
     return program_setup(directory / std::filesystem::path(name).filename(), machine, start.place_mm, {},
@@ -83,7 +83,7 @@ Session::Feed feed_of(Program&& program) {
     };
 }
 
-/// A file in memory that ends with its last reader.
+/// Reads the text from a file in memory, which ends with its last reader.
 std::expected<LineReader, std::string> lines_of_text(const std::string& text) {
     const int file = memfd_create("lockstep-program", MFD_CLOEXEC);
     std::size_t written = 0;

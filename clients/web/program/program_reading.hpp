@@ -27,16 +27,16 @@ struct ProgramStart {
     RevisedValues values;
 };
 
-/// For a check: an axis that is not received or not homed counts as parked.
+/// The start for a check. An axis that is not received or not homed counts as parked.
 ProgramStart checked_start(const Snapshot& snapshot, const MachineConfig& machine);
-/// To run it. Error: what the machine does instead, or an axis or the offsets are not received.
+/// The start for a run. Fails if the machine or an axis is not ready, or an axis or the offsets are not received.
 std::expected<ProgramStart, Problem> real_start(const Snapshot& snapshot, const MachineConfig& machine);
 
-/// `id`: the new program's. Error: 415 where it is no text; 422 with the errors by line and column.
+/// `id`: of the new program. Fails with 415 if it is not text, and with 422 and its errors by line and column.
 std::expected<LoadedProgram, Problem> load_program(std::string text, const std::string& name, std::uint64_t id,
                                                    const MachineConfig& machine, const ProgramStart& start);
 
-/// A program and what a session sends of it.
+/// A program, and the feed by which a session sends it.
 struct ReadyProgram {
     ProgramHead head;
     gcode::ProgramValues values;
@@ -44,7 +44,7 @@ struct ReadyProgram {
     std::shared_ptr<const ProgramFacts> facts;
 };
 
-/// A long program is read again while it runs; its first part is read here. Error: 422, as for load_program.
+/// Reads a long program's first part here; the rest is read while it runs. Fails with 422 like load_program().
 std::expected<ReadyProgram, Problem> ready_program(const LoadedProgram& program, const MachineConfig& machine,
                                                    const ProgramStart& start);
 

@@ -1,4 +1,4 @@
-// Changes of the values that outlive programs, as a client asks for them. Pure.
+// Applies a client's changes to the values that outlive programs. Pure.
 #pragma once
 
 #include <expected>
@@ -10,11 +10,12 @@
 
 namespace lockstep::web {
 
-/// What the axes read in the coordinate system where they stand, `place_mm`; G92 and a rotation keep their effect.
+/// Sets a coordinate system so that axes that stand at `place_mm` read the order's places. G92 and a rotation keep
+/// their effect.
 std::expected<gcode::KeptValues, Problem> edited(const TouchOrder& order, const gcode::KeptValues& values,
                                                  const MachineConfig& machine, const std::vector<double>& place_mm);
 std::expected<gcode::KeptValues, Problem> edited(const OffsetOrder& order, gcode::KeptValues values);
-/// Error: there is no such tool to remove, or no room for another.
+/// Fails if there is no such tool to remove, or no room for another.
 std::expected<gcode::KeptValues, Problem> edited(const ToolOrder& order, gcode::KeptValues values);
 
 }  // namespace lockstep::web

@@ -7,7 +7,7 @@
 namespace lockstep::web {
 namespace {
 
-constexpr std::size_t kMostRepeated = 300;  // bytes of what a client has sent
+constexpr std::size_t kMostRepeated = 300;  // bytes of a client's text in an answer
 
 Problem not_json(const std::string& why, const std::string& limit) {
     return {.status = 400,
@@ -18,7 +18,7 @@ Problem not_json(const std::string& why, const std::string& limit) {
             .remedy = "send a JSON object as openapi.yaml describes it"};
 }
 
-/// Stops at what a parser would spend memory on, or would silently pass over.
+/// Finds members that are given twice, which a parser silently accepts, and too deep nesting.
 class Strict {
 public:
     bool operator()(int depth, Json::parse_event_t event, Json& parsed) {
@@ -37,7 +37,7 @@ private:
     std::vector<std::set<std::string>> names_;
 };
 
-/// The parser works with recursion only in its destructor; a text of brackets is refused before.
+/// Refuses deep nesting before parsing: the parser itself does not recurse, but the destructor of its result does.
 bool nests_too_deep(std::string_view text) {
     int depth = 0;
     bool in_string = false;

@@ -135,7 +135,7 @@ std::size_t read_system(BodyReader& reader, const std::string& otherwise) {
     return system.value_or(0);
 }
 
-/// An axis that G-code names with a letter.
+/// Reads the values of axes that G-code names with a letter.
 Letters read_letters(const std::string& name, const MachineConfig& machine, BodyReader& reader,
                      std::optional<Problem>& problem) {
     Letters letters;

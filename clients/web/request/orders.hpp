@@ -1,4 +1,4 @@
-// What a client asks of the machine, read from the body of a command. Pure.
+// A client's orders to the machine, read from the bodies of commands. Pure.
 #pragma once
 
 #include <cstdint>
@@ -20,30 +20,30 @@ namespace lockstep::web {
 inline constexpr std::size_t kMaxLine_bytes = 1000;  // of mdi
 
 struct JogOrder {
-    std::vector<JogAxis> jogs;           // none: release
-    std::string stream;                  // the page's event stream; empty: not named
+    std::vector<JogAxis> jogs;           // empty to release
+    std::string stream;                  // the page's event stream; empty if not named
     std::optional<std::uint64_t> press;  // rises within a client
 };
 
 struct RunOrder {
-    std::optional<std::uint64_t> program;  // the id it must have
+    std::optional<std::uint64_t> program;  // the id that the loaded program must have
 };
 
 struct MdiOrder {
     std::string line;
 };
 
-/// By the letters of axes.
+/// Values by axis letter.
 using Letters = std::map<char, double>;
 
 struct TouchOrder {
     std::size_t system = 0;
-    Letters places;  // what the axes read there where they stand now
+    Letters places;  // what the axes read in that system at their present place
 };
 
 struct OffsetOrder {
     std::size_t system = 0;
-    Letters origin;  // the others stay
+    Letters origin;  // the other letters stay
     std::optional<double> rotation_deg;
 };
 
@@ -51,13 +51,13 @@ struct ToolOrder {
     int number = 0;
     bool removes = false;
     std::optional<int> pocket;
-    Letters offset;  // the others stay
+    Letters offset;  // the other letters stay
     std::optional<double> diameter;
 };
 
-/// Of the writer's lease.
+/// Takes the writer's lease, or gives it back.
 struct LeaseOrder {
-    bool takes = false;  // also from another writer; false: gives it back
+    bool takes = false;  // even from another writer; false gives it back
 };
 
 using Order = std::variant<Command, JogOrder, RunOrder, MdiOrder, TouchOrder, OffsetOrder, ToolOrder, LeaseOrder>;
@@ -65,10 +65,10 @@ using Order = std::variant<Command, JogOrder, RunOrder, MdiOrder, TouchOrder, Of
 /// In the order of openapi.yaml.
 const std::vector<std::string>& verbs();
 
-/// Error: 404 for an unknown verb, 400 and 422 for the body.
+/// Fails with 404 for an unknown verb, with 400 or 422 for a wrong body.
 std::expected<Order, Problem> read_order(std::string_view verb, std::string_view body, const MachineConfig& machine);
 
-/// A command was accepted.
+/// The answer to an accepted command.
 struct Accepted {
     std::optional<std::uint64_t> job;
     std::optional<bool> jogging;

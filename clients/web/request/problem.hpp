@@ -1,4 +1,4 @@
-// Why a request is refused, as RFC 9457 has it, with place, value, limit and remedy.
+// Why a request is refused, as a problem of RFC 9457, with place, value, limit and remedy.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ struct Problem {
     std::string code;   // stable
     std::string title;  // a short sentence
     std::string detail;
-    std::string place = {};  // a JSON pointer, a header or a parameter; empty: none
+    std::string place = {};  // a JSON pointer, a header or a parameter; empty if none
     std::optional<Json> value = {};
     std::string limit = {};
     std::string remedy = {};
@@ -28,7 +28,7 @@ struct Problem {
     Diagnostics errors = {};            // of a program
 };
 
-/// 409, with the table's cause and remedy; `text`: the coordinator's own, with the values.
+/// 409, with the fault table's cause and remedy. `text`: the coordinator's own text, with the values.
 Problem refused(FaultCode fault, const std::string& text);
 /// 503: no coordinator answers.
 Problem unanswered(const std::string& why);

@@ -74,7 +74,7 @@ void add_health(const AxisHealth& health, const std::string& axis, const Machine
                                         std::abs(machine.microseconds(health.step_lateness.most)));
     if (furthest_us > machine.microseconds(health.clock_error) + kStepLateness_us) {
         alarms.push_back(own_alarm("late-steps", axis,
-                                   "a step was " + short_number(std::round(furthest_us)) + " us beside its time",
+                                   "a step was " + short_number(std::round(furthest_us)) + " us off its commanded time",
                                    "see the axis's log"));
     }
     if (const std::string text = refusals(health.refused); !text.empty()) {

@@ -1,4 +1,4 @@
-// What needs attention, the most serious first. Pure.
+// The list of alarms, the most serious first. Pure.
 #pragma once
 
 #include <string>
@@ -11,17 +11,17 @@
 
 namespace lockstep::web {
 
-/// A step this far beside its time, and the axis's clock error, is an alarm.
+/// A step that is further from its time than this and the axis's clock error is an alarm.
 inline constexpr double kStepLateness_us = 2;
 
-/// So long before its start an axis must hold a setpoint, or it is not run.
+/// How long before its start an axis must hold a setpoint; a later one is not run.
 double slack_deadline_ms(const ProtocolTiming& timing);
 
-/// The schema Fault; `axis`: its name; empty: no single axis's.
+/// The schema Fault. `axis`: the axis's name; empty if the fault is not of one axis.
 nlohmann::json fault_json(FaultCode fault, const std::string& axis);
 
-/// Each as the schema Alarm: faults with cause and remedy, axes that are not received, setpoints after their deadline,
-/// steps beside their time, refusals and losses.
+/// Returns each alarm as the schema Alarm: faults with cause and remedy, axes that are not received, setpoints after
+/// their deadline, steps beside their time, refusals and losses.
 nlohmann::json alarm_list(const Snapshot& snapshot, const MachineConfig& machine);
 
 }  // namespace lockstep::web

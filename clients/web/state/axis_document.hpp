@@ -8,13 +8,13 @@
 
 namespace lockstep::web {
 
-/// By the axes' names.
+/// Returns the axes' states by their names.
 nlohmann::json axes_document(const Snapshot& snapshot, const MachineConfig& machine);
 
-/// How long ago, in whole tenths of a second: so the value seldom changes while messages come.
+/// The age, rounded down to 100 ms, so that it seldom changes while messages come.
 std::int64_t age_ms(nanoseconds time, nanoseconds now);
 
-/// With so many digits after the point: no stream carries digits that nobody can see.
+/// Rounds to so many digits after the point, so that streams carry no digits that nobody sees.
 double rounded(double value, int digits);
 
 }  // namespace lockstep::web

@@ -1,5 +1,5 @@
-// The state of the machine as numbered events: each is the difference to the one before, made once for all viewers. A
-// viewer is a place in this log and has no queue of its own.
+// The machine's state as numbered events. Each event is the difference to the state before, and is made once for all
+// viewers. A viewer is only a place in this log, without a queue.
 #pragma once
 
 #include <cstdint>
@@ -18,19 +18,19 @@ class EventLog {
 public:
     static constexpr std::size_t kKept = 100;  // ten seconds of ten events
 
-    /// `run`: tells the events of this process from those of others.
+    /// `run` distinguishes the events of this process from those of others.
     explicit EventLog(std::string run) : run_(std::move(run)) {}
 
     /// Adds an event if the state has changed.
     void publish(const nlohmann::json& state);
 
-    /// The next event that a viewer needs; nothing: the whole state.
+    /// The next event that a viewer needs; nullopt if it needs the whole state.
     using Place = std::optional<std::uint64_t>;
-    /// Where a viewer goes on that has received this event; the whole state where that is not known any more.
+    /// The place after the event with this id; nullopt if its successors are not kept any more.
     Place place_after(std::string_view id) const;
-    /// Appends what comes next to `text`. False: nothing, for now.
+    /// Appends the next event to `text`. Returns false if there is none yet.
     bool read(Place& place, std::string& text) const;
-    /// The events that come next are not kept any more.
+    /// True if the next events are not kept any more.
     bool is_behind(const Place& place) const;
 
 private:

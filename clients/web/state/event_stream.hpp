@@ -15,7 +15,7 @@ public:
     static constexpr std::chrono::seconds kKeepAlive{5};
     using Clock = std::chrono::nanoseconds (*)();
 
-    /// `name`: for the page, so that a jog can name the stream that it ends with. Calls `ended` once, at its end.
+    /// `name` identifies the stream: a jog that names it ends with it. Calls `ended` once, at the stream's end.
     EventStream(const EventLog& log, EventLog::Place place, const std::string& name, Clock clock,
                 std::function<void()> ended);
 
@@ -28,9 +28,9 @@ private:
     EventLog::Place place_;
     Clock clock_;
     std::function<void()> ended_;
-    std::string text_;  // of it, from sent_ on not read yet
+    std::string text_;  // the part from sent_ on was not read yet
     std::size_t sent_ = 0;
-    std::chrono::nanoseconds last_{};  // when it last had something
+    std::chrono::nanoseconds last_{};  // when it last had bytes to send
 };
 
 }  // namespace lockstep::web

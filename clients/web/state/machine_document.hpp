@@ -1,4 +1,4 @@
-// What does not change while the server runs, as the schema Machine of openapi.yaml. Pure.
+// The facts that do not change while the server runs, as the schema Machine of openapi.yaml. Pure.
 #pragma once
 
 #include <string>

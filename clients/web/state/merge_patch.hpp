@@ -5,8 +5,8 @@
 
 namespace lockstep::web {
 
-/// Applied to `from` it gives `to`, in which members that are null count as absent. Both are objects. An empty object:
-/// they are equal.
+/// Returns the patch that makes `to` from `from`; members that are null count as absent. Both are objects. The patch is
+/// empty if they are equal.
 nlohmann::json merge_patch(const nlohmann::json& from, const nlohmann::json& to);
 
 }  // namespace lockstep::web

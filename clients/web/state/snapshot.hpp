@@ -28,9 +28,9 @@ struct AxisSnapshot {
     std::optional<Seen<AxisHealth>> health;
 };
 
-/// What is known of a program by the server that loads it.
+/// What the server knows of a program that it loads.
 struct ProgramFacts {
-    std::uint64_t id = 0;  // 0: a line of mdi
+    std::uint64_t id = 0;  // 0 for a line of mdi
     std::string name;
     std::size_t bytes = 0;
     std::size_t lines = 0;
@@ -49,7 +49,7 @@ struct OwnJob {
     std::shared_ptr<const ProgramFacts> program;
 };
 
-/// Who gives the machine its commands.
+/// The client that gives the machine its commands.
 struct Writer {
     std::string name;
     std::string host;
@@ -63,7 +63,7 @@ struct Snapshot {
     bool is_silent = true;  // no coordinator is received
     bool has_standby = false;
     bool config_differs = false;
-    std::vector<AxisSnapshot> axes;  // as in the configuration
+    std::vector<AxisSnapshot> axes;  // in the order of the configuration
     std::optional<RevisedValues> values;
     std::optional<OwnJob> job;
     std::optional<Writer> writer;

@@ -35,7 +35,7 @@ json outcome_json(const std::optional<JobOutcome>& outcome) {
 
 json line_json(std::int32_t line) { return line > 0 ? json(line) : json(); }
 
-/// The blocks whose lines lie behind the one in motion, where lines tell blocks apart.
+/// The number of blocks on lines before the one in motion; null if lines do not distinguish blocks.
 json blocks_done(const ProgramFacts& program, const MachineState& state) {
     if (state.outcome == JobOutcome::Done) { return program.block_lines.size(); }
     if (!program.rises || state.line <= 0) { return {}; }

@@ -1,5 +1,5 @@
-// What an axis controller reads off its device and asks of it, once per loop, as values. A driver (services/axis)
-// turns these into register reads and writes; sim_fpga/registers.json says what the registers mean.
+// What an axis controller reads from its device and orders of it, once per loop, as values. A driver (services/axis)
+// converts these to register reads and writes. sim_fpga/registers.json defines the registers.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@ struct DeviceStatus {
     Position position;
     Velocity velocity;  // 0 at rest
     bool moving = false;
-    std::uint64_t power_up = 0;   // tells this power-up from every other, of any device
+    std::uint64_t power_up = 0;   // identifies this power-up among all power-ups of all devices
     std::uint64_t run = 0;        // the run (see BeginRun) the device is in or has ended
-    std::uint64_t run_asked = 0;  // the one asked for last; another than `run`: it has not been taken yet
+    std::uint64_t run_asked = 0;  // the run asked for last; if it differs from `run`, it has not been taken yet
     FrameNumber frame = 0;        // the highest frame of the run whose body has begun; 0: none
     bool finished = false;        // the run has ended and the axis is at rest
     bool in_tail = false;         // coming to rest by a tail, or ended in one
@@ -30,8 +30,8 @@ struct DeviceStatus {
     bool stopped_by_trigger = false;  // this run ended by the home input, as asked
     bool stopped_by_host = false;     // this run ended by StopNow
     std::int64_t trigger_count = 0;   // the device's count when the home input triggered
-    bool bad_segment = false;         // a segment was late or did not join the one before: refused, run ended
-    bool capture_overflow = false;    // steps were made whose time could not be kept
+    bool bad_segment = false;         // a late or discontinuous segment was refused, and the run ended
+    bool capture_overflow = false;    // steps were made, but their times could not be kept
     std::int64_t encoder_count = 0;
     std::uint32_t free_segments = 0;  // room in the segment ring
 };
@@ -45,9 +45,9 @@ namespace device {
 struct BeginRun {
     std::uint64_t run = 0;
     Trigger trigger = Trigger::None;
-    bool own = false;  // a move of the axis's own: its lengths are in ticks of the device, whatever machine time does
+    bool own = false;  // a move of the axis's own: its durations are ticks of the device, not of machine time
 };
-/// Loads one frame's body and tail behind those loaded before. Positions are the device's own.
+/// Loads one frame's body and tail after those loaded before. Positions are the device's own.
 struct LoadFrame {
     FrameNumber number = 0;
     Tick start;

@@ -45,13 +45,13 @@ std::optional<std::string> DeviceWatch::doubt_of(Tick own, const DeviceStatus& s
     return std::nullopt;
 }
 
-/// Of a run that it was ordered here: whatever switches and vetoes do, it only ends sooner.
+/// Applies to a run that this process ordered. Switches and vetoes can only end it sooner.
 bool DeviceWatch::is_overdue(const DeviceStatus& status) const {
     const bool ended = status.run == run_ && status.finished;
     return run_ != 0 && !ended && status.now > ends_;
 }
 
-/// A device counts ticks and pulses one by one, and runs what it was given.
+/// Returns what contradicts a device that counts ticks and pulses one by one and runs only what it was given.
 std::optional<std::string> DeviceWatch::contradiction(const DeviceStatus& status) const {
     if (!last_) { return std::nullopt; }
     if (status.power_up != last_->power_up) { return "it was powered up again"; }
@@ -67,13 +67,13 @@ std::optional<std::string> DeviceWatch::contradiction(const DeviceStatus& status
     }
     const std::uint64_t asked = run_ != 0 ? run_ : last_->run_asked;
     if (status.run_asked != asked) {
-        return "it was asked for run " + std::to_string(status.run_asked) + ", which this axis did not: its last is " +
-               std::to_string(asked);
+        return "it reports that it was ordered run " + std::to_string(status.run_asked) +
+               "; the last run that this axis ordered is " + std::to_string(asked);
     }
     const bool is_known = status.run == last_->run || status.run == asked;
     if (!is_known || (status.run == run_ && run_ != 0 && status.frame > loaded_)) {
-        return "it shows frame " + std::to_string(status.frame) + " of run " + std::to_string(status.run) +
-               ", and was given " + std::to_string(loaded_) + " of run " + std::to_string(asked);
+        return "it reports frame " + std::to_string(status.frame) + " of run " + std::to_string(status.run) +
+               "; the last frame loaded is " + std::to_string(loaded_) + " of run " + std::to_string(asked);
     }
     return std::nullopt;
 }

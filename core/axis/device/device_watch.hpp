@@ -1,5 +1,5 @@
-// Whether what is read of a device can be the device: by what it showed before, what it was ordered, and how long this
-// process has been looking. A device that cannot be is lost to its axis.
+// Checks whether a reading of a device is possible, given its earlier readings, its orders, and the time for which this
+// process has watched it. If a reading is impossible, the axis treats the device as lost.
 #pragma once
 
 #include <optional>
@@ -10,20 +10,21 @@
 
 namespace lockstep {
 
-/// Of one device, from when it was found.
+/// Watches one device from the time at which it was found.
 class DeviceWatch {
 public:
     explicit DeviceWatch(const MachineConfig& machine);
 
-    /// What it was ordered, in its own time.
+    /// Takes an order to the device, in the device's time.
     void take(const DeviceOrder& order);
 
-    /// Each loop, when this process's clock reads `own`: what cannot be, with what was read. Nothing: all is well.
+    /// Call it in each loop. `own`: the reading of this process's clock. Returns what is impossible about the status,
+    /// with the values read, or nullopt if nothing is.
     std::optional<std::string> doubt_of(Tick own, const DeviceStatus& status);
 
-    /// How long a device may show the same tick, or not end a run whose frames are over, before it is given up: as
-    /// long as any other part of the machine may be silent. It may be a process, which stalls as others do. Only time
-    /// in which this process ran counts, a slot at most for each loop.
+    /// How long a device may show the same tick, or not end a run after the end of its frames, before it is given up.
+    /// It is as long as for a silent process, because a device may be a process that stalls. Only time in which this
+    /// process ran counts, at most a slot for each loop.
     Ticks patience() const { return patience_; }
 
 private:
@@ -33,12 +34,12 @@ private:
     Ticks slot_;
     Ticks patience_;
     std::optional<DeviceStatus> last_;
-    Tick looked_;             // by this process's clock
-    Ticks stood_;             // its clock, while this process looked
-    Ticks overdue_;           // its run, likewise
-    std::uint64_t run_ = 0;   // ordered last; 0: none yet
-    FrameNumber loaded_ = 0;  // of it
-    Tick ends_;               // its frames, tails included, by the device's clock
+    Tick looked_;             // the last look, by this process's clock
+    Ticks stood_;             // how long its clock has stood still while this process looked
+    Ticks overdue_;           // how long its run has been overdue, likewise
+    std::uint64_t run_ = 0;   // the run ordered last; 0: none yet
+    FrameNumber loaded_ = 0;  // the last frame loaded of it
+    Tick ends_;               // end of its frames, tails included, by the device's clock
 };
 
 }  // namespace lockstep

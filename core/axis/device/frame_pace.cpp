@@ -28,8 +28,9 @@ void FramePace::begin(Tick start, double clocks) {
     rate_ = rate_of(clocks);
 }
 
-/// Over n ticks the rate goes evenly from the clocks' + x0 to the clocks' + x1, which makes up for n (x0 + x1) / 2.
-/// With x1 = k * (what is left then), x1 (1 + n k / 2) = k (error - n x0 / 2). A tail leaves nothing: k is infinite.
+/// Over n ticks the rate changes evenly from the clocks' rate + x0 to the clocks' rate + x1, which corrects n (x0 + x1)
+/// / 2. With x1 = k * (the error that then remains), x1 (1 + n k / 2) = k (error - n x0 / 2). A tail shall leave no
+/// error, so its k is infinite.
 double FramePace::rate_at_end(const Stretch& stretch, bool settles) const {
     const auto ticks = static_cast<double>(stretch.lasts.value);
     const double clocks = rate_of(stretch.clocks);

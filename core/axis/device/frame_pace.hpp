@@ -1,14 +1,14 @@
-// How many ticks of the device's clock frames last that follow each other.
+// Decides how many ticks of the device's clock each frame of a run lasts.
 //
-// Frames are commanded in machine time. By the device's clock each should end where its end is by what is known of the
-// clocks when it is loaded; that changes from frame to frame, and what it has changed is a correction to be made. A
-// rate that changed at once would be a sudden change of speed, so the rate (device ticks per machine tick) is
-// continuous: it changes evenly within a frame, by no more than the axis's acceleration has to spare, to
+// Frames are commanded in machine time. The end of each is mapped to the device's clock by the estimates of the clocks
+// at the time at which the frame is loaded. The estimates change from frame to frame, and each change leaves an error
+// to correct. A sudden change of the rate (device ticks per machine tick) would be a sudden change of speed, so the
+// rate is continuous. It changes evenly within a frame, by no more than the axis's spare acceleration allows, to
 //
 //     the clocks' rate + error / settling time,   at most kMaxSlew from the clocks' rate,
 //
-// where the error is what is left at that frame's end. So errors decay without overshoot. Ends are rounded to ticks;
-// the parts of a tick are kept, so that rounding changes no rate.
+// where the error is what remains at that frame's end. So errors decay without overshoot. Ends are rounded to ticks.
+// The fractions of a tick are kept, so that rounding changes no rate.
 #pragma once
 
 #include "core/axis/device/retime.hpp"
@@ -19,7 +19,7 @@ namespace lockstep {
 
 class FramePace {
 public:
-    /// The rate's greatest distance from 1: the clocks' own, and a correction's.
+    /// The greatest distance of the rate from 1: the clocks' own difference plus a correction.
     static constexpr double kMaxOff = ClockEstimator::kMaxRate + MachineTime::kMaxSlew;
 
     /// `frame`: how long frames last.
@@ -30,13 +30,13 @@ public:
 
     struct Stretch {
         Ticks lasts;             // machine time
-        std::size_t pieces = 1;  // at least a tick for each
-        Tick asked_end;          // by the device's clock
+        std::size_t pieces = 1;  // the stretch has at least a tick for each
+        Tick asked_end;          // the wanted end by the device's clock
         double clocks = 0;       // as in begin
     };
-    /// The next frame's body, which the following one goes on from.
+    /// Decides the next frame's body. The following frame continues from its end.
     Retiming body(const Stretch& stretch);
-    /// The way to rest from there. Nothing follows it, so all that can be made up for is.
+    /// Decides the tail from there. Nothing follows a tail, so it corrects as much of the error as it can.
     Retiming tail(const Stretch& stretch) const;
     /// The next stretch keeps the device's ticks.
     void keep(Ticks ticks) { end_ += ticks; }
@@ -48,10 +48,10 @@ private:
     Retiming retiming(const Stretch& stretch, double rate_at_end) const;
 
     double frame_;
-    double most_change_;  // of the rate, in a tick
-    Tick end_;            // of the last body
-    double beyond_ = 0;   // of a tick: where it would have ended
-    double rate_ = 1;     // there
+    double most_change_;  // greatest change of the rate in a tick
+    Tick end_;            // end of the last body
+    double beyond_ = 0;   // fraction of a tick from end_ to its exact end
+    double rate_ = 1;     // the rate at that end
 };
 
 }  // namespace lockstep

@@ -24,10 +24,10 @@ struct HeldFrame {
     }
 };
 
-/// In order of their numbers, in a ring: frames come and go without allocation.
+/// Frames in order of their numbers, in a ring. Adding and dropping frames allocates nothing.
 class HeldFrames {
 public:
-    /// `room`: for so many frames. For more of them the ring grows.
+    /// `room`: the number of frames for which the ring has room. It grows if there are more.
     explicit HeldFrames(std::size_t room) : frames_(room) {}
 
     void push_back(const HeldFrame& frame) {
@@ -42,7 +42,7 @@ public:
     }
     void clear() { size_ = 0; }
 
-    /// Null: it is not held.
+    /// Returns null if the frame is not held.
     const HeldFrame* find(FrameNumber number) const {
         for (std::size_t i = 0; i < size_; ++i) {
             if (at(i).number == number) { return &at(i); }

@@ -1,12 +1,12 @@
-// A position that outlives its process: what an axis keeps of it at rest, and when the next process may believe it.
+// A position that outlives its process: what an axis keeps at rest, and when the next process may use it.
 //
-// Machine coordinates are the device's count minus zero_count, and the device counts every pulse from its power-up on,
-// whoever asked for it. So what is kept is the zero, and what has to be proved is that nobody has had a reason to doubt
-// it since. A doubt (a limit or emergency stop, a new homing, steps whose time was lost) comes of a run; runs are
-// numbered, and the device says which was its last and whether another has been asked for. Hence: the same power-up,
-// the same last run, ended and with none asked for, prove that the axis stands where it stood, with no word written
-// before a motion. A kept position that is old names an older run, and is refused. What no pulse shows, the encoder
-// does.
+// Machine coordinates are the device's count minus zero_count. The device counts every pulse since its power-up, by the
+// order of any process. So the axis keeps the zero, and the next process has to prove that the zero is still valid.
+// Only a run can make it invalid (by a limit or emergency stop, a new homing, or lost times of steps). Runs are
+// numbered, and the device reports its last run and whether another has been asked for. If the power-up and the last
+// run are the same, and that run has ended with no other asked for, the axis stands where it stood. So nothing has to
+// be written before a motion. A kept position that is outdated names an older run and is refused. The encoder shows
+// motion that no pulse caused.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@
 
 namespace lockstep {
 
-/// What a count means: of which axis it is, and which configuration turns it into a place.
+/// What a count means: the axis to which it belongs, and the configuration that converts it to a place.
 struct PositionScale {
     std::string machine;
     std::string axis;
@@ -39,17 +39,17 @@ struct KeptPosition {
     std::uint64_t run = 0;  // the last one that the device has ended
     Position position;
     std::int64_t zero_count = 0;
-    std::int64_t encoder_zero = 0;  // of the encoder minus the count, at the homing
+    std::int64_t encoder_zero = 0;  // encoder minus count, at the homing
     bool operator==(const KeptPosition&) const = default;
 };
 
-/// What became of the position that the process before has kept. Error: PositionNotKept, PositionUnreadable.
+/// The position that the previous process kept. Errors: PositionNotKept, PositionUnreadable.
 using KeptOrNot = std::expected<KeptPosition, FaultCode>;
 
-/// An encoder may be off by so much from the count, in steps, before steps count as lost.
+/// Greatest difference between encoder and count, in steps. Beyond it steps count as lost.
 inline constexpr std::int64_t kMaxFollowingError = 3;
 
-/// None: the axis is homed, by the kept zero. Else why that is not proved.
+/// Returns None if the kept zero is proved, so that the axis is homed. Otherwise returns why it is not proved.
 FaultCode doubt_of(const KeptPosition& kept, const PositionScale& scale, const DeviceStatus& device);
 
 }  // namespace lockstep

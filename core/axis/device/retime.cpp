@@ -11,7 +11,8 @@ Int128 rounded_quotient(Int128 value, Int128 by) {
     return (value >= 0 ? value + half : value - half) / by;
 }
 
-/// Ticks of a stretch in machine time (gone since its start, whole or in part) by the device's clock.
+/// Converts times of a stretch from machine time to the device's clock. `gone`: machine ticks since its start, with a
+/// fraction.
 class Pace {
 public:
     Pace(Ticks machine, const Retiming& when)
@@ -20,22 +21,22 @@ public:
           bend_(when.bend) {}
 
     double device_at(double gone) const { return gone * mean_ * (1 - bend_ * (1 - gone / machine_)); }
-    /// Device ticks in a machine tick, and how fast that changes.
+    /// Device ticks per machine tick, and how fast that changes.
     double rate_at(double gone) const { return mean_ * (1 - bend_ + 2 * bend_ * gone / machine_); }
     double change() const { return mean_ * 2 * bend_ / machine_; }
-    /// By how much of a tick the device's clock goes so far later than that.
+    /// By how much of a machine tick `device` is later than `gone`.
     double late(Ticks device, double gone) const {
         return std::clamp((static_cast<double>(device.value) - device_at(gone)) / rate_at(gone), -0.5, 0.5);
     }
 
 private:
     double machine_;
-    double mean_;  // device ticks in a machine tick
+    double mean_;  // device ticks per machine tick
     double bend_;
 };
 
-/// The speed with which a motion goes through the place where two pieces join: the slower of both, none where it turns.
-/// A tick of it more or less is a tick or less of either.
+/// The speed of the motion where two pieces join: the lower one of both, or 0 if the motion turns there. So a tick of
+/// this speed more or less is at most a tick of either piece.
 double joint_speed(const Piece& before, const Piece& after) {
     const double ends =
         static_cast<double>(before.velocity_after(before.ticks)) + static_cast<double>(before.acceleration.raw) / 2;
@@ -44,8 +45,9 @@ double joint_speed(const Piece& before, const Piece& after) {
     return std::abs(ends) < std::abs(begins) ? ends : begins;
 }
 
-/// The piece for so many device ticks that covers so much, but for what rounding leaves: less than `ticks`. Its
-/// acceleration is that of v / rate by the device's clock, in the middle of the piece: a / rate^2 - v rate' / rate^3.
+/// Returns a piece of `ticks` device ticks that covers `covers`, except for a rounding error below `ticks`. Its
+/// acceleration is the derivative of v / rate by the device's clock, in the middle of the piece: a / rate^2 - v rate' /
+/// rate^3.
 Piece solved(const Piece& piece, double begun, const Pace& pace, Displacement covers, Ticks ticks) {
     const double rate = pace.rate_at(begun + static_cast<double>(piece.ticks.value) / 2);
     const double speed = static_cast<double>(piece.velocity_after({piece.ticks.value / 2}));
@@ -55,7 +57,7 @@ Piece solved(const Piece& piece, double begun, const Pace& pace, Displacement co
     return result;
 }
 
-/// One tick that covers just so much.
+/// A piece of one tick that covers exactly `covers`.
 Piece tick_of(Displacement covers) { return {{1}, {static_cast<std::int64_t>(covers.raw)}, {}}; }
 
 }  // namespace
@@ -68,8 +70,8 @@ template <std::size_t Capacity>
 bool retime(StaticVector<Piece, Capacity>& pieces, const Retiming& when) {
     StaticVector<Piece, Capacity> result;
     const Pace pace(total_ticks(pieces), when);
-    Ticks gone;           // of the pieces as they are
-    Displacement joined;  // where they end
+    Ticks gone;           // duration of the given pieces so far
+    Displacement joined;  // the place where these end
     Tick device = when.start;
     Displacement reached;
     bool fits = true;
@@ -79,7 +81,7 @@ bool retime(StaticVector<Piece, Capacity>& pieces, const Retiming& when) {
         gone += piece.ticks;
         joined = joined + piece.covered();
         const auto ends = static_cast<double>(gone.value);
-        const Ticks needed{static_cast<std::int64_t>(pieces.size() - i) - 1};  // a tick for each that follows
+        const Ticks needed{static_cast<std::int64_t>(pieces.size() - i) - 1};  // one for each piece that follows
         const bool last = needed == Ticks{};
         const Tick nearest = last ? when.end : when.start + Ticks{std::llround(pace.device_at(ends))};
         const Tick end = std::max(device + Ticks{1}, std::min(nearest, when.end - needed));

@@ -44,7 +44,7 @@ void EpochFollowing::begin(Epoch epoch, AxisLoop& loop) {
     loop.notice({AxisNotice::Kind::EpochBegun, FaultCode::None, epoch});
 }
 
-/// Frames are repeated: the same refusal is reported once.
+/// Frames are repeated, so the same refusal is reported only once.
 void EpochFollowing::refuse(const Frame& frame, FaultCode why, AxisLoop& loop) {
     ++refused_frames_;
     if (std::exchange(last_refusal_, why) != why) { loop.notice({AxisNotice::Kind::FrameRefused, why, frame.number}); }
@@ -71,8 +71,8 @@ void EpochFollowing::observe(AxisLoop& loop) {
     record(device, loop);
 }
 
-/// The device has fallen to a tail, perhaps while this process stalled with a frame decided on: others may be running
-/// it. What this axis holds from here on must be no evidence to them.
+/// The device has begun a tail, perhaps while this process stalled after it had decided on a frame. Others may be
+/// running that frame. From here on the state of this axis must be no evidence for them.
 bool EpochFollowing::is_left_behind(const DeviceStatus& device) const {
     return device.in_tail || (device.finished && !follower_.is_complete(device.frame));
 }

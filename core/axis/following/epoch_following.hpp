@@ -1,5 +1,5 @@
-// The frames of the coordinator: held, armed or vetoed by the rules of the protocol, loaded into the device, and
-// recorded when the device has run them.
+// Follows the coordinator's frames: holds, arms or vetoes them by the rules of the protocol, loads them into the
+// device, and records them when the device has run them.
 #pragma once
 
 #include <optional>
@@ -20,24 +20,24 @@ public:
     const SetpointFollower& follower() const { return follower_; }
     /// The highest frame of the epoch that the device has begun.
     FrameNumber ran() const { return ran_; }
-    /// Since the start of the process.
+    /// Counts since the start of the process.
     std::uint64_t refused_frames() const { return refused_frames_; }
 
-    // Messages. A peer's state stamped later than any clock error explains is ignored.
+    // Messages. A state stamped later than any clock error explains is ignored.
     void take(const AxisState& peer, Slot now);
     void take(const MachineState& owner, Slot now);
-    /// From the owner. `rest`: where the axis rests, if it may begin an epoch. A frame for which the device has no room
-    /// yet is left alone: it comes again.
+    /// Takes a frame of the owner. `rest`: where the axis rests, if it may begin an epoch. Ignores a frame for which
+    /// the device has no room yet. The owner sends it again.
     void take(const Frame& frame, std::optional<Position> rest, AxisLoop& loop);
 
     /// Makes the checks that are due.
     void check(AxisLoop& loop);
-    /// This axis cannot go on: the lowest frame that a veto can still stop is vetoed.
+    /// Call it if this axis cannot go on. Vetoes the lowest frame that a veto can still stop.
     void veto(AxisLoop& loop);
-    /// What the device has run since the last loop.
+    /// Takes what the device has run since the last loop.
     void observe(AxisLoop& loop);
     void record(const DeviceStatus& device, AxisLoop& loop);
-    /// The device has ended the run.
+    /// Call it when the device has ended the run.
     void end(AxisLoop& loop);
 
 private:

@@ -1,4 +1,4 @@
-// The axis does not trust the coordinator: every frame is held against the axis's own limits before it is held.
+// The axis does not trust the coordinator. It checks every frame against its own limits before it holds the frame.
 #pragma once
 
 #include "core/faults.hpp"
@@ -8,14 +8,14 @@
 
 namespace lockstep {
 
-/// Checks a frame's track for one axis that follows on from `from`:
+/// Checks a frame's track for one axis that continues from `from`:
 /// - its start is bit-exactly `from.position` (FrameDiscontinuous);
-/// - speed, acceleration, deceleration and sudden changes keep the limits, also those that follow each other closely,
-///   and the tail, or the body of a last frame, ends no faster than the start velocity (FrameBeyondLimits). What one
-///   tick's acceleration can do is tolerated where pieces meet, since pieces last whole ticks;
+/// - speed, acceleration, deceleration and sudden changes keep the limits, also several changes in close succession,
+///   and the tail, or the body of a last frame, ends no faster than the start velocity (FrameBeyondLimits). A change by
+///   one tick's acceleration is tolerated where pieces meet, because pieces last whole ticks;
 /// - body and tail stay within the travel (FrameOutsideTravel);
 /// - the body lasts exactly `ticks`, no piece is empty (BadProgram).
-/// Returns None and moves `from` to the body's end, or says the first thing wrong and leaves `from`.
+/// Returns None and moves `from` to the body's end, or returns the first violation and leaves `from` unchanged.
 FaultCode check_track(const AxisTrack& track, Ticks ticks, bool last, const AxisLimits& limits, MotionPoint& from);
 
 }  // namespace lockstep

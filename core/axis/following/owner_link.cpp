@@ -9,7 +9,7 @@ OwnerLink::Sender OwnerLink::take(const MachineState& state, Slot now, bool at_r
     return sender;
 }
 
-/// A claim counts from its second slot on: one message may be damaged.
+/// A claim counts only after two slots carried it, because one message may be damaged.
 OwnerLink::Sender OwnerLink::sender_of(const MachineState& state, Slot now, bool at_rest) {
     if (state.phase == MachinePhase::Standby) { return Sender::Other; }
     if (is_from_owner(state.term)) { return Sender::Owner; }

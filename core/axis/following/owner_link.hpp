@@ -1,7 +1,7 @@
 // Which coordinator the axis follows, and whether it receives that coordinator's messages.
 //
-// One owner at a time, and never a lower term than before: the axis changes to another owner only at rest, and only
-// when the last one has been silent for long.
+// The axis follows one owner at a time, and never a lower term than before. It changes to another owner only at rest,
+// and only when the last one has been silent for silence_slots.
 #pragma once
 
 #include "core/protocol/repeated_value.hpp"
@@ -13,7 +13,7 @@ class OwnerLink {
 public:
     explicit OwnerLink(const ProtocolTiming& timing) : timing_(timing) {}
 
-    /// How the sender of a state stands to this axis: NewOwner has just become its owner.
+    /// What the sender of a state is to this axis. NewOwner: it has just become the axis's owner.
     enum class Sender : std::uint8_t { Other, Owner, NewOwner };
     Sender take(const MachineState& state, Slot now, bool at_rest);
 
@@ -22,7 +22,7 @@ public:
 
     bool is_from_owner(const Term& term) const { return term_ != Term{} && rules::is_from_owner(term, term_); }
     bool receives_owner(Slot now) const { return term_ != Term{} && now - received_ <= rules::silence_slots(timing_); }
-    /// The highest ever followed.
+    /// The highest term ever followed.
     const Term& term() const { return term_; }
 
 private:

@@ -7,7 +7,7 @@
 namespace lockstep {
 namespace {
 
-/// At rest an axis may set out from its whole step as well as from the very fraction it came to rest on.
+/// From rest a frame may start at the axis's whole step or at the exact fraction at which the axis came to rest.
 Position start_from(Position asked, Position rest) {
     const bool whole = asked == rest_position(rest.count(), false) || asked == rest_position(rest.count(), true);
     return whole ? asked : rest;
@@ -74,7 +74,7 @@ std::optional<Slot> SetpointFollower::start_slot(FrameNumber k) const {
     return frame == nullptr ? std::nullopt : std::optional(rules::slot_of(frame->start, slot_));
 }
 
-/// The other axes of which there is no evidence that they hold the frame.
+/// Returns the other axes without evidence that they hold the frame.
 AxisSet SetpointFollower::lacking(FrameNumber k, Slot start) const {
     AxisSet lacking = 0;
     for (std::size_t i = 0; i < axes_; ++i) {
@@ -94,7 +94,7 @@ void SetpointFollower::refuse(FrameNumber veto, const FailedCheck& check) {
 
 const std::vector<DeviceOrder>& SetpointFollower::decide(Slot now, bool publishes) {
     orders_.clear();
-    std::optional<FrameNumber> unarmed;  // never to be armed, though others may run it
+    std::optional<FrameNumber> unarmed;  // this axis never arms it, though others may run it
     for (FrameNumber k = checked_ + 1; open_ && k <= held_ + 1; ++k) {
         const std::optional<Slot> start = start_slot(k);
         if (!start) { break; }
@@ -120,8 +120,8 @@ const std::vector<DeviceOrder>& SetpointFollower::decide(Slot now, bool publishe
     return orders_;
 }
 
-/// The first frame that every axis still learns of in time when it is vetoed by the state published in slot `next`.
-/// Frames that this axis lacks are as long as all but the last are.
+/// Returns the first frame for which a veto in the state published in slot `next` still reaches every axis in time.
+/// Frames that this axis lacks are taken to last frame_slots, as all but the last one do.
 FrameNumber SetpointFollower::first_open(Slot next) const {
     FrameNumber k = frames_.empty() ? held_ + 1 : frames_.front().number;
     for (; k <= held_; ++k) {

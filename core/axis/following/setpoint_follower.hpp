@@ -1,4 +1,4 @@
-// An axis's side of lease, arm, veto: which frames it holds, what it has received, what it decides.
+// An axis's side of lease, arm, veto: the frames that it holds, the evidence that it has received, and its decisions.
 #pragma once
 
 #include <optional>
@@ -24,34 +24,34 @@ public:
     void receive(const AxisState& peer);
     void receive(const MachineState& coordinator);
 
-    /// Takes a frame of the epoch in progress, or frame 1 of a newer one, which the owner's newest state must name too,
-    /// when `rest` says where the axis rests: a frame damaged on its way cannot begin an epoch that no coordinator has
-    /// begun. Frames held already, of other epochs, or out of order are left alone: None, and nothing changes. They
-    /// come again as long as a process lacks them. Otherwise the frame is held (held() says so), or the fault says why
-    /// not.
+    /// Takes the next frame of the epoch in progress. Takes frame 1 of a newer epoch if `rest` says where the axis
+    /// rests and the owner's newest state names that epoch. So a damaged frame cannot begin an epoch that no
+    /// coordinator has begun. Ignores frames that are already held, of other epochs, or out of order, and returns None.
+    /// The owner sends frames again as long as a process lacks them. Otherwise the frame is held (see held()), or the
+    /// returned fault says why not.
     FaultCode offer(const Frame& frame, std::optional<Position> rest);
 
-    /// Arms what it may, and vetoes what it has not armed in time, in the loop that `publishes` this slot's state: a
-    /// veto reaches the others in time only from then on. Returns the device's orders in order; valid until the next
-    /// call.
+    /// Arms the frames that may be armed, and vetoes a frame that was not armed in time. It vetoes only in the loop
+    /// that `publishes` this slot's state, because the veto reaches the others with that state. Returns the device's
+    /// orders in order, valid until the next call.
     const std::vector<DeviceOrder>& decide(Slot now, bool publishes);
 
-    /// Vetoes the first frame of which every axis still learns in time by the state published in slot `next`: this axis
-    /// cannot go on.
+    /// Vetoes, because this axis cannot go on, the first frame for which the state published in slot `next` still
+    /// reaches every axis in time.
     void veto_for_own_reasons(Slot next);
 
-    /// The device has ended the run of this epoch: nothing more of it is held or checked.
+    /// Call it when the device has ended the run of this epoch. Nothing more of the epoch is held or checked.
     void close() { open_ = false; }
     bool open() const { return open_; }
-    /// Whether an epoch is at its very end when its frames up to `ran` have been run.
+    /// Whether the epoch is complete when its frames up to `ran` have been run.
     bool is_complete(FrameNumber ran) const { return last_held_ && ran == held_; }
 
     Epoch epoch() const { return epoch_; }
     FrameNumber held() const { return held_; }
     std::optional<FrameNumber> veto() const { return veto_; }
-    /// The check that has lowered the veto last.
+    /// The check that last lowered the veto.
     const FailedCheck& failed_check() const { return failed_check_; }
-    /// Those held. Frames that the device has run are to be forgotten.
+    /// The held frames. The caller drops those that the device has run.
     HeldFrames& frames() { return frames_; }
     const HeldFrame* find(FrameNumber number) const { return frames_.find(number); }
 
@@ -74,13 +74,13 @@ private:
 
     bool open_ = false;
     Epoch epoch_ = 0;
-    Epoch named_ = 0;  // by the owner
+    Epoch named_ = 0;  // epoch that the owner's newest state names
     FrameNumber held_ = 0;
     FrameNumber checked_ = 0;  // every frame up to this one is decided
     std::optional<FrameNumber> veto_;
     FailedCheck failed_check_;
-    std::optional<FrameNumber> device_veto_;  // ordered of the device
-    MotionPoint end_;                         // of the last body held
+    std::optional<FrameNumber> device_veto_;  // the veto ordered of the device
+    MotionPoint end_;                         // end of the last body held
     Tick end_tick_;
     bool last_held_ = false;
     HeldFrames frames_{kMaxFramesKept};

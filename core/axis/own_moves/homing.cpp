@@ -20,7 +20,7 @@ HomingStep Homing::begin(bool home_closed) {
 HomingStep Homing::search(HomingStage stage) {
     stage_ = stage;
     const double travel_mm = axis_.position_max_mm - axis_.position_min_mm;
-    const std::int64_t reach = toward_switch(2 * (travel_mm + axis_.homing.pulloff_mm));  // also from behind its ends
+    const std::int64_t reach = toward_switch(2 * (travel_mm + axis_.homing.pulloff_mm));  // also from beyond the travel
     const double speed = axis_.homing.search_velocity_mm_s;
     if (stage == HomingStage::Release) { return {.move = LocalMove{-reach, speed, Trigger::HomeOpens}}; }
     return {.move = LocalMove{reach, speed, Trigger::HomeCloses}};
@@ -53,8 +53,8 @@ HomingStep Homing::pull_off() {
     return {.move = LocalMove{-toward_switch(axis_.homing.pulloff_mm), speed, Trigger::None}};
 }
 
-/// A switch that sticks or bounces, and a slide that is pushed, touch elsewhere than the time before. One that is
-/// pushed behind the touch, when no switch will tell any more, has its encoder elsewhere.
+/// If the switch sticks or bounces, or the slide is pushed, this touch is elsewhere than the one before. If the slide
+/// is pushed after the touch, the switch does not show it, but the encoder differs.
 HomingStep Homing::touch(const LocalEnd& end) {
     const std::int64_t tolerance = std::max<std::int64_t>(1, to_steps(axis_, axis_.homing.touch_tolerance_mm));
     const Touch here{end.trigger_count, end.encoder_ahead};
@@ -65,7 +65,7 @@ HomingStep Homing::touch(const LocalEnd& end) {
     return ++touches_ < kMaxTouches ? pull_off() : fail(FaultCode::HomeSwitchUnsteady);
 }
 
-/// Near the last touch there is no switch: that was none.
+/// The switch is not near the last touch, so that was not a real touch.
 HomingStep Homing::miss(const LocalEnd& end) {
     if (end.by_limit) { return fail(FaultCode::HomeSwitchNotFound); }
     last_.reset();

@@ -1,6 +1,6 @@
-// The homing sequence: search the switch, pull off, touch it again slowly, and so on until two touches in a row agree;
-// zero there, and park. An axis that stands behind its switch first moves away until it opens. No network between the
-// switch and the stop: the device itself ends a move at the switch, and keeps the count.
+// The homing sequence: search the switch, pull off, touch it again slowly, and repeat until two touches in a row agree.
+// Then set the zero there and park. An axis that stands behind its switch first moves away until the switch opens. The
+// device itself ends a move at the switch and keeps the count, so no network is between the switch and the stop.
 #pragma once
 
 #include <cstdint>
@@ -23,17 +23,17 @@ struct LocalMove {
     Ticks ticks = {};  // how long it lasts; 0: as fast as the axis's limits allow
 };
 
-/// How a local move came to its end.
+/// How a local move ended.
 struct LocalEnd {
     bool by_trigger = false;
     bool by_limit = false;
-    bool home_closed = false;  // the switch, now
-    std::int64_t count = 0;    // the device's
+    bool home_closed = false;  // the switch is closed now
+    std::int64_t count = 0;    // the device's count
     std::int64_t trigger_count = 0;
-    std::int64_t encoder_ahead = 0;  // of the count, now
+    std::int64_t encoder_ahead = 0;  // encoder minus count, now
 };
 
-/// What comes next: a move, or the end of homing well or badly.
+/// The next step of homing: a move, or its end, successful or not.
 struct HomingStep {
     std::optional<LocalMove> move;
     bool zeroed = false;  // from now on the machine's count is the device's minus zero_count
@@ -46,9 +46,9 @@ class Homing {
 public:
     explicit Homing(const AxisConfig& axis) : axis_(axis) {}
 
-    /// Begins with the search, or away from the switch where it is closed already.
+    /// Begins with the search, or moves away from the switch if it is already closed.
     HomingStep begin(bool home_closed);
-    /// After each move's end.
+    /// Call it after the end of each move.
     HomingStep next(const LocalEnd& end);
     void abandon() { stage_ = HomingStage::Idle; }
 
@@ -57,7 +57,7 @@ public:
 private:
     struct Touch {
         std::int64_t count = 0;          // the device's, at the switch
-        std::int64_t encoder_ahead = 0;  // of the count, at rest behind it
+        std::int64_t encoder_ahead = 0;  // encoder minus count, at rest behind the switch
     };
 
     HomingStep search(HomingStage stage);
@@ -74,7 +74,7 @@ private:
     AxisConfig axis_;
     HomingStage stage_ = HomingStage::Idle;
     int pull_offs_ = 0;
-    int touches_ = 0;  // of the switch: those that count and those that missed it
+    int touches_ = 0;  // attempts to touch the switch, with those that missed it
     std::optional<Touch> last_;
 };
 

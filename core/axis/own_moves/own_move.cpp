@@ -8,24 +8,24 @@
 namespace lockstep {
 namespace {
 
-/// Forward, from a place on the move with a speed, to rest on a whole step.
+/// A forward motion that brakes from a place and speed of the move to rest on a whole step.
 struct Brake {
     Displacement to;
     double entry = 0;  // steps per tick
     double exit = 0;
 };
 
-/// The first whole step that can be reached, but never one beyond the move's last. At rest the speed jumps by half of
-/// the start velocity, if there is way enough: a method's pulses may come as unevenly as the other half allows. Towards
-/// its last step a move is planned to slow down to the start velocity alone, so there the speed at rest is what the way
-/// left makes of it, v^2 - 2 d s, up to the start velocity. Where that is still too fast, by what a method rounds, the
-/// speed jumps down first, within the start velocity. `jumped`: of the start velocity, what the method's pulses have
-/// just used up.
+/// Plans to rest on the first whole step that can be reached, but never beyond the move's last step. If there is enough
+/// distance, the speed falls at the end from half of the start velocity to 0. The other half is left for uneven pulses
+/// of a method. Near its last step a move is planned to slow down to the start velocity only. There the final speed
+/// follows from the distance s that remains: its square is v^2 - 2 d s, and it is at most the start velocity. If the
+/// speed is still too high, because a method rounds, it first drops suddenly, within the start velocity. `jumped`: the
+/// part of the start velocity that the method's pulses have just used up.
 Brake plan_brake(Displacement from, double speed, double jumped, std::int64_t last_step, const AxisLimits& limits) {
     const double d = limits.max_deceleration;
     const double jump = std::max(0.0, limits.start_velocity - jumped);
     Brake brake{.entry = speed, .exit = std::min({speed, limits.start_velocity / 2, jump})};
-    const double way = (speed * speed - brake.exit * brake.exit) / (2 * d) + 2 * speed;  // no shorter than two ticks
+    const double way = (speed * speed - brake.exit * brake.exit) / (2 * d) + 2 * speed;  // not shorter than two ticks
     const Int128 end = from.raw + static_cast<Int128>(std::ceil(way * 0x1p64));
     const Int128 whole = (end + kOneStep - 1) / kOneStep * kOneStep;
     brake.to = std::min(Displacement{whole}, Displacement::steps(last_step));
@@ -67,7 +67,8 @@ void OwnMove::fill_body(HeldFrame& frame) {
     }
 }
 
-/// One piece of constant deceleration; the ticks are rounded up, and its velocity is solved to end where it must.
+/// The tail is one piece of constant deceleration. Its ticks are rounded up, and its velocity is solved for the exact
+/// end.
 void OwnMove::fill_tail(HeldFrame& frame) const {
     const Brake brake = plan_brake(gone_, speed_, fastest_ - speed_, place_.steps, limits_);
     const Displacement way = brake.to - gone_;

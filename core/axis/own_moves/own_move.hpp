@@ -1,6 +1,6 @@
-// A move of one axis by itself, as frames for its device: each with the way to rest from its end.
+// A move of one axis by itself, as frames for its device. Each frame has a tail from its end to rest.
 //
-// A device that is given no further frame in time runs the tail of the last one, and rests: within limits, on a whole
+// A device that gets no further frame in time runs the tail of the last one. It comes to rest within limits, on a whole
 // step, not beyond the move's end. So an axis's process may stall, and a move may be halted at any frame.
 #pragma once
 
@@ -17,15 +17,15 @@ public:
         std::int64_t steps = 0;  // > 0
         Tick start;
     };
-    /// Frames last little longer than `span`, and have as many pieces as a frame holds.
+    /// Frames last little longer than `span`, and have at most as many pieces as a frame holds.
     OwnMove(OwnPieces pieces, const Place& place, const AxisLimits& limits, Ticks span);
 
-    /// The next frame, numbered from 1. Not to be called when all are made.
+    /// The next frame, numbered from 1. Must not be called when all frames are made.
     HeldFrame next();
     bool none_made() const { return made_ == 0; }
     bool all_made() const { return pieces_.done() || pieces_.broken(); }
     bool broken() const { return pieces_.broken(); }
-    /// Of the frames made.
+    /// End of the frames made so far.
     Tick end() const { return end_; }
 
 private:
@@ -42,7 +42,7 @@ private:
     Position at_;
     Displacement gone_;   // forward
     double speed_ = 0;    // at the end of the last body, steps per tick
-    double fastest_ = 0;  // the most that the speeds so far may have fallen to by then
+    double fastest_ = 0;  // the earlier speeds after the greatest deceleration until then: their maximum
 };
 
 }  // namespace lockstep

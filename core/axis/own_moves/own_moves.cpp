@@ -11,7 +11,7 @@ namespace lockstep {
 namespace {
 
 constexpr std::int64_t kFrame_ns = 5'000'000;
-// Of a jog: its frames end in time with its renewals, and it begins soon.
+// A jog has short frames, so that it ends with its renewals, and a short lead, so that it begins soon.
 constexpr std::int64_t kJogFrame_ns = 2'000'000;
 constexpr std::int64_t kJogLead_ns = 8'000'000;
 
@@ -84,7 +84,8 @@ FaultCode OwnMoves::jog_refusal_of(const AxisCommand& order, bool is_resting, co
     return is_within ? FaultCode::None : FaultCode::OutsideTravel;
 }
 
-/// A jog that is not renewed for long enough to begin ends here: the owner orders it again while its client renews it.
+/// Ends a jog here if its order runs out before the motion could begin. The owner orders it again while its client
+/// renews it.
 void OwnMoves::start_jog(const LocalMove& move, Tick until, AxisLoop& loop) {
     const Tick start = loop.now + jog_lead_;
     if (std::min(until, loop.now + jog_hold_) < start + jog_frame_ * 2) {
@@ -100,13 +101,13 @@ void OwnMoves::start_jog(const LocalMove& move, Tick until, AxisLoop& loop) {
     feed(loop);
 }
 
-/// An order from before a stall has run out, and one from a clock that is ahead does not hold for longer.
+/// The order of a clock that is ahead does not hold longer than jog_hold_. An order from before a stall has run out.
 void OwnMoves::renew(const AxisCommand& order, const AxisLoop& loop) {
     if (!run_ || !run_->is_jog() || order.sequence != loop.condition.orders.taken()) { return; }
     run_->allow_until(std::min(order.until, loop.now + jog_hold_));
 }
 
-/// By the axis's method; or by Ranade's, where homing is slower or longer than the method allows.
+/// Plans by the axis's method, or by Ranade's if homing is slower or longer than the method allows.
 OwnMove OwnMoves::frames_of(const LocalMove& move, Position from, Tick start) const {
     const OwnMoveRequest request{std::abs(move.steps), move.speed_mm_s, move.ticks};
     auto pieces = OwnPieces::plan(axis_, tick_ns_, axis_.method, request, begin_steps_);
@@ -116,8 +117,8 @@ OwnMove OwnMoves::frames_of(const LocalMove& move, Position from, Tick start) co
     return OwnMove(std::move(*pieces), {from, move.steps < 0, request.steps, start}, limits_, frame_);
 }
 
-/// A run that a switch cut short ended on a pulse, and the next sets out from the whole step: half a step's time is
-/// owed.
+/// A run that a switch cut short ended on a pulse, but the next run starts from the whole step. So the start waits for
+/// the time of half a step.
 void OwnMoves::start(const LocalMove& move, int tries, AxisLoop& loop) {
     const Ticks half_step{static_cast<std::int64_t>(std::ceil(0.5 / limits_.start_velocity))};
     const Tick start = loop.now + slot_ * (2 + tries) + half_step;
@@ -138,8 +139,8 @@ void OwnMoves::halt(AxisLoop& loop) {
     run_->halt(loop);
 }
 
-/// Homing that is halted is over. The axis is homed only if its zero was set already, and it has left the switch for
-/// its travel: from outside no frame may set out.
+/// A halt ends homing. The axis stays homed only if its zero was already set and it stands within its travel, because
+/// no frame may start from outside.
 void OwnMoves::lose_zero_outside_travel(AxisLoop& loop) const {
     AxisPosition& position = loop.condition.position;
     const std::int64_t here = position.in_machine(loop.device.status().position).count();
@@ -205,7 +206,7 @@ void OwnMoves::take_homing_step(const HomingStep& step, AxisLoop& loop) {
     }
 }
 
-/// Behind a stop at the switch the zero is set, or the search goes on.
+/// After a stop at the switch, sets the zero or continues the search.
 void OwnMoves::take_zero(const HomingStep& step, AxisLoop& loop) {
     PhaseMachine& phases = loop.condition.phases;
     if (step.zeroed) {

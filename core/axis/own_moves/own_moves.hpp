@@ -1,5 +1,5 @@
-// The moves an axis makes by itself: homing, and from point to point. Each move is one run of the device, or several
-// where this process came too late with a frame.
+// The moves an axis makes by itself: homing, and from point to point. Each move is one run of the device, or several if
+// this process was late with a frame.
 #pragma once
 
 #include <cstdint>
@@ -21,9 +21,9 @@ public:
     // Orders of the owner. `is_resting`: the axis runs nothing, neither its own nor the owner's frames.
     void home(const AxisCommand& order, bool is_resting, AxisLoop& loop);
     void move(const AxisCommand& order, bool is_resting, AxisLoop& loop);
-    /// Moves while the order is renewed: towards its target, where the axis rests at the latest.
+    /// Moves towards the target while the order is renewed. The axis rests at the target at the latest.
     void jog(const AxisCommand& order, bool is_resting, AxisLoop& loop);
-    /// A jog's order that has come again.
+    /// Takes a repeated order of a jog.
     void renew(const AxisCommand& order, const AxisLoop& loop);
     void halt(AxisLoop& loop);
 
@@ -31,9 +31,9 @@ public:
     /// Gives the device what it needs next. A fault halts the move.
     void feed(AxisLoop& loop);
     void record(const DeviceStatus& device, AxisLoop& loop) { run_->record(device, loop); }
-    /// The device has ended the run: ends the order, or goes on with it.
+    /// Call it when the device has ended the run. Ends the order or continues it.
     void end(AxisLoop& loop);
-    /// At any time: nothing more comes of the order in progress.
+    /// Gives up the order in progress. May be called at any time.
     void abandon();
 
 private:
@@ -55,11 +55,11 @@ private:
     AxisLimits limits_;
     std::int64_t tick_ns_;
     Ticks slot_;
-    Ticks frame_;  // how long a frame lasts, about: a halt waits for its end
-    Ticks ahead_;  // of frames given to the device: longer than a process may stall
+    Ticks frame_;  // about how long a frame lasts; a halt waits for its end
+    Ticks ahead_;  // how far ahead the device gets frames: longer than a process may stall
     Ticks jog_hold_;
     Ticks jog_frame_;
-    Ticks jog_lead_;  // from the order to the first frame's start
+    Ticks jog_lead_;  // time from the order to the first frame's start
     BeginSteps begin_steps_;
     Homing homing_;
     std::optional<OwnRun> run_;

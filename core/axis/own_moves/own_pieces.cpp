@@ -96,7 +96,7 @@ std::optional<Piece> OwnPieces::Planned::next(Ticks most) {
         return piece;
     }
     const Piece begun{most, piece.velocity, piece.acceleration};
-    piece.velocity.raw = static_cast<std::int64_t>(piece.velocity_after(most));  // where the register then is
+    piece.velocity.raw = static_cast<std::int64_t>(piece.velocity_after(most));  // value of the register then
     piece.ticks = piece.ticks - most;
     return begun;
 }
@@ -114,7 +114,7 @@ std::optional<Piece> OwnPieces::Stepped::next(Ticks most) {
     return pieces.last_half();
 }
 
-/// None where it would break the limits.
+/// Returns nullopt if the step would break the limits.
 std::optional<double> OwnPieces::Stepped::next_step_s() {
     const double at_s = source->next_s();
     breach = watch.step(at_s - before_s).has_value();

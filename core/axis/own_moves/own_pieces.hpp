@@ -1,8 +1,8 @@
-// A move of one axis by itself as add-only pieces, by the method its configuration names.
+// A move of one axis by itself as add-only pieces, by the method that its configuration names.
 //
-// Ranade's are planned as a profile (core/motion/profile.hpp), three pieces at most. The other methods give the times
-// of their steps (core/motion/step_source.hpp): rounded to ticks, they become the pieces that make these steps
-// (step_pieces.hpp).
+// Ranade's method plans a profile (core/motion/profile.hpp) of three pieces at most. The other methods give the times
+// of their steps (core/motion/step_source.hpp). The times are rounded to ticks and converted to pieces that make these
+// steps (step_pieces.hpp).
 #pragma once
 
 #include <cstdint>
@@ -21,21 +21,21 @@
 
 namespace lockstep {
 
-/// How far, how fast, how soon; forward, whichever way the move goes.
+/// Distance, speed and duration of a move. The move is treated as forward in either direction.
 struct OwnMoveRequest {
     std::int64_t steps = 0;  // > 0
     double speed_mm_s = 0;   // at most
     Ticks ticks;             // how long it lasts, exactly; 0: as fast as the limits allow
 };
 
-/// A method other than Ranade's takes no time.
+/// A method other than Ranade's cannot plan for a given duration.
 struct NotInTime {
     StepMethod method;
 };
 /// Why a move cannot be made.
 using OwnMoveError = std::variant<NotInTime, Infeasible, StepError>;
 
-/// What the move lacks, and what could be made instead, in the units of its user.
+/// Says why the move is impossible and what would be possible, in the user's units.
 std::string text_of(const OwnMoveError& error, const AxisConfig& axis, std::int64_t tick_ns,
                     const OwnMoveRequest& move);
 
@@ -44,16 +44,16 @@ StepMove step_move_of(const AxisConfig& axis, const OwnMoveRequest& move);
 
 class OwnPieces {
 public:
-    /// By the axis's own method, or another. `begin_steps`: of methods other than Ranade's.
+    /// Plans the move by `method`, the axis's own or another. `begin_steps` begins the methods other than Ranade's.
     static std::expected<OwnPieces, OwnMoveError> plan(const AxisConfig& axis, std::int64_t tick_ns, StepMethod method,
                                                        const OwnMoveRequest& move, BeginSteps begin_steps);
 
-    /// The next piece; it lasts little longer than `most` where a step or a profile allows it to be cut. None after the
-    /// last one, or where the step to come would break the axis's limits.
+    /// Returns the next piece. It lasts little longer than `most` if a step or a profile allows a cut there. Returns
+    /// nullopt after the last piece, or if the next step would break the axis's limits.
     std::optional<Piece> next(Ticks most);
-    /// Whether all are made, and the move ends on its last whole step.
+    /// Whether all pieces are made, so that the move ends on its last whole step.
     bool done() const;
-    /// The method has made of the move what the limits forbid: it goes no further.
+    /// The method would break the axis's limits, so the move ends early.
     bool broken() const;
 
 private:
@@ -73,7 +73,7 @@ private:
         double ticks_per_s;
         std::int64_t left;  // steps
         StepPieces pieces;
-        double before_s = 0;  // when the last step fell
+        double before_s = 0;  // time of the last step
         bool at_rest = false;
         bool breach = false;
 

@@ -4,8 +4,8 @@
 
 namespace lockstep {
 
-/// The first frame is loaded at once, however late it starts: without one the device can neither begin its run nor end
-/// it.
+/// Loads the first frame at once, even if it starts late, because without a frame the device cannot begin or end its
+/// run.
 void OwnRun::feed(AxisLoop& loop) {
     const Tick ahead = loop.now + ahead_;
     const auto wants_more = [&] { return frames_.none_made() || (!frames_.all_made() && frames_.end() < ahead); };
@@ -19,7 +19,7 @@ void OwnRun::feed(AxisLoop& loop) {
     }
 }
 
-/// The device itself ends a jog that is not renewed: it is given nothing for the time after.
+/// The device itself ends a jog that is not renewed, because it gets no frames for the time after.
 bool OwnRun::may_load(const HeldFrame& frame) const { return !until_ || frame.number == 1 || frame.end() <= *until_; }
 
 void OwnRun::halt(AxisLoop& loop) {
@@ -32,7 +32,7 @@ void OwnRun::record(const DeviceStatus& device, AxisLoop& loop) {
     recorder_.take(device, {.zero_count = loop.condition.position.zero_count()}, held_, loop.out.tracks);
 }
 
-/// Where the start was missed nothing has moved; where the frames ran out the axis rests on a whole step.
+/// If the start was missed, nothing has moved. If the frames ran out, the axis rests on a whole step.
 std::optional<LocalMove> OwnRun::rest(const DeviceStatus& device) const {
     LocalMove rest = move_;
     rest.steps = target_ - device.position.count();

@@ -7,7 +7,7 @@
 
 namespace lockstep {
 
-/// False, and nothing changed, where no speed makes this step and those in hand at their ticks.
+/// Adds a step to the piece in hand. Returns false and changes nothing if no speed makes all its steps at their ticks.
 bool StepPieces::take(Ticks at) {
     const Int128 ticks = (at - begin_).value;
     const Int128 way = (steps_ + 1) * kOneStep - beyond_;
@@ -37,8 +37,9 @@ std::optional<Piece> StepPieces::cut() {
     return cut(static_cast<double>(slowest_) * 0x1p-64);
 }
 
-/// A step that was asked for at the middle of its tick shall be made there, and so on. Then the next piece, that goes
-/// on at `next_speed`, begins where the motion asked for then is, and fits as many steps as there are of that speed.
+/// Chooses the speed so that steps are made at the asked part of their ticks, for example in the middle. The next
+/// piece, which continues at `next_speed`, then begins where the asked motion is, and fits as many steps of that speed
+/// as there are.
 Piece StepPieces::cut(double next_speed) {
     const Int128 ticks = (last_ - begin_).value;
     const double since_step = static_cast<double>(last_.value) - (asked_ - 0.5);

@@ -1,4 +1,4 @@
-// What one loop of an axis takes, and what it gives back, as values.
+// The inputs and outputs of one loop of an axis, as values.
 #pragma once
 
 #include <optional>
@@ -17,19 +17,19 @@ namespace lockstep {
 struct AxisInputs {
     Tick now;  // machine time
     DeviceStatus device;
-    bool has_device = true;      // false: none answers, and `device` means nothing
-    bool device_failed = false;  // it refused an order: what it then does is not known
+    bool has_device = true;      // false: no device answers, and `device` is meaningless
+    bool device_failed = false;  // it refused an order; what it does since is unknown
     std::span<const Frame> frames;
     std::span<const AxisState> peers;
     std::span<const MachineState> coordinator;
     std::span<const AxisCommand> commands;
-    std::span<const Command> requests;  // clients', to the coordinator: an emergency stop is the axis's matter too
-    Ticks clock_error;                  // now is at most so far off
+    std::span<const Command> requests;  // of clients to the coordinator; the axis takes emergency stops from them
+    Ticks clock_error;                  // bound on the error of `now`
 };
 
-/// A body or tail that the device has run, in machine coordinates: what the pulses can be checked against. From the
-/// controller it is in machine time, as commanded; recorded in the device's, as given, with what was commanded beside
-/// it (core/axis/device_time.hpp).
+/// A body or tail that the device has run, in machine coordinates. The pulses can be checked against it. The controller
+/// returns it in machine time, as commanded. It is recorded in the device's time, as the device was given it, together
+/// with the commanded times (core/axis/device_time.hpp).
 struct ExecutedTrack {
     Epoch epoch = 0;  // 0: the axis's own move
     FrameNumber frame = 0;
@@ -38,22 +38,22 @@ struct ExecutedTrack {
     Position from;
     std::vector<Piece> pieces;
     bool cut = false;             // pulses ceased early
-    std::int64_t stop_count = 0;  // at its end
+    std::int64_t stop_count = 0;  // count at its end
     std::int64_t zero_count = 0;
     Tick commanded_start;                // machine time
-    std::vector<Ticks> commanded_ticks;  // of each piece, in machine time; one split at the end is one. Empty: as given
-    Ticks clock_error;                   // each step is made within this, and two ticks, of the machine time commanded
+    std::vector<Ticks> commanded_ticks;  // by piece, machine time; one split at its end counts once. Empty: as given
+    Ticks clock_error;                   // each step is made within this plus two ticks of its commanded machine time
 };
 
 /// Why a frame was not armed.
 struct FailedCheck {
-    bool too_late = false;        // the check was
-    bool held = false;            // by this axis
+    bool too_late = false;        // the check came too late
+    bool held = false;            // this axis holds the frame
     AxisSet lacking = 0;          // axes without a fresh state that reports the frame as held
-    bool no_coordinator = false;  // there is no evidence of the coordinator
+    bool no_coordinator = false;  // there is no evidence from the coordinator
 };
 
-/// What happened, for the log.
+/// An event for the log.
 struct AxisNotice {
     enum class Kind : std::uint8_t {
         OwnerAdopted,
@@ -67,12 +67,12 @@ struct AxisNotice {
         Reset,
         CommandRefused,
         PositionProved,   // the axis is homed by the position that was kept
-        PositionUnproved  // it is not: why
+        PositionUnproved  // it is not; `fault` says why
     };
     Kind kind = Kind::Fault;
     FaultCode fault = FaultCode::None;
-    std::uint64_t number = 0;          // a term, an epoch, a frame, a stage: as the kind says
-    std::optional<FailedCheck> check;  // Vetoed: why
+    std::uint64_t number = 0;          // a term, an epoch, a frame or a stage, by kind
+    std::optional<FailedCheck> check;  // Vetoed: the check that failed
 };
 
 struct AxisOutputs {
@@ -80,11 +80,11 @@ struct AxisOutputs {
     std::vector<DeviceOrder> orders;
     ReusedVector<ExecutedTrack> tracks;
     std::vector<AxisNotice> notices;
-    std::optional<KeptPosition> rests;  // homed, after a run: to be kept for the process that comes after this one
-    ClockView device_clock;             // in machine time: steps and tracks are recorded in the device's own
+    std::optional<KeptPosition> rests;  // homed, after a run: the position to keep for the next process
+    ClockView device_clock;             // for machine time; steps and tracks are recorded in the device's time
     bool device_changed = false;        // from this step on counts are those of another device, or power-up
 
-    /// For the next loop: what the lists have taken of memory stays.
+    /// Prepares the next loop. The lists keep their memory.
     void clear() {
         state.reset();
         orders.clear();

@@ -1,5 +1,4 @@
-// What the parts of an axis share in one loop: the time, the axis's condition, its device, and what the loop gives
-// back.
+// What the parts of an axis share in one loop: the time, the axis's condition, its device, and the loop's outputs.
 #pragma once
 
 #include "core/axis/device/device_view.hpp"
@@ -11,13 +10,13 @@
 
 namespace lockstep {
 
-/// What the axis reports of itself, apart from its frames.
+/// The state of the axis apart from its frames.
 struct AxisCondition {
     PhaseMachine phases;
     AxisPosition position;
     OrderLog orders;
 
-    /// It stands in a known place without a fault.
+    /// The axis stands in a known place without a fault.
     bool is_ready() const { return position.homed() && phases.phase() == AxisPhase::Standby && !phases.has_fault(); }
 };
 
@@ -32,7 +31,7 @@ struct AxisLoop {
     bool publishes() const { return next_state == slot; }
     void notice(const AxisNotice& notice) { out.notices.push_back(notice); }
 
-    /// The open order fails too.
+    /// Reports a fault. The open order fails, too.
     void fail(FaultCode fault) {
         condition.phases.fail(fault);
         condition.orders.end(fault);

@@ -1,5 +1,5 @@
-// Where the axis stands: the zero of its machine coordinates, whether that is known, and what is kept of it for the
-// process after this one.
+// The axis's position: the zero of its machine coordinates, whether the zero is known, and what is kept for the next
+// process.
 #pragma once
 
 #include <cstdint>
@@ -13,16 +13,17 @@ namespace lockstep {
 
 class AxisPosition {
 public:
-    /// `kept`: what the process before this one has left of the position.
+    /// `kept`: the position that the previous process kept.
     AxisPosition(PositionScale scale, KeptOrNot kept) : scale_(std::move(scale)), kept_(std::move(kept)) {}
 
     bool homed() const { return homed_; }
-    /// Why it is not homed by the position kept; None once it was homed.
+    /// Why the kept position did not home the axis; None once it was homed.
     FaultCode unproved() const { return unproved_; }
     /// Machine coordinates are the device's counts minus this.
     std::int64_t zero_count() const { return zero_count_; }
 
-    /// For each device found, before anything is ordered of it. None: homed by the position kept. Else why not.
+    /// Call it for each device found, before the first order to it. Returns None if the kept position has homed the
+    /// axis, otherwise why not.
     FaultCode claim(const DeviceStatus& device, bool device_failed);
     void begin_homing();
     void set_zero(std::int64_t zero_count, const DeviceStatus& device);
@@ -36,16 +37,16 @@ public:
         return device.encoder_count - device.position.count() - encoder_zero_;
     }
 
-    /// At rest without a fault: the position to keep, once after each run that leaves the axis homed.
+    /// Call it at rest without a fault. Returns the position to keep, once after each run that leaves the axis homed.
     std::optional<KeptPosition> keep(const DeviceView& device);
 
 private:
     PositionScale scale_;
-    KeptOrNot kept_;  // the newest, for when a device is found
+    KeptOrNot kept_;  // the newest kept position, used when a device is found
     bool homed_ = false;
     FaultCode unproved_ = FaultCode::DeviceMissing;
     std::int64_t zero_count_ = 0;
-    std::int64_t encoder_zero_ = 0;  // of the encoder minus the count, at the homing
+    std::int64_t encoder_zero_ = 0;  // encoder minus count, at the homing
     std::uint64_t kept_run_ = 0;     // the run after which the position was kept last
 };
 

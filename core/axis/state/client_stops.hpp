@@ -1,4 +1,4 @@
-// Emergency stops, which clients repeat until they are answered: each stops the axis once.
+// Emergency stops of clients. A client repeats a stop until it is answered, but each stop acts on the axis only once.
 #pragma once
 
 #include "core/protocol/client_memory.hpp"

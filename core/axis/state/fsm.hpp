@@ -1,4 +1,4 @@
-// The axis's six states and Fault: a table, and nothing but a table, decides what follows what.
+// The axis's six states and Fault. Only a table decides which state follows which.
 //
 // After Lam Chee Yuen and Phaklen Ehkan, "Design and Implementation of FPGA Based Bipolar Stepper Motor Controller for
 // Linear Slide Application": Initialize, Standby, Accelerate, Cruise, Decelerate, Stop.
@@ -18,15 +18,15 @@ inline constexpr std::array kAxisPhases{AxisPhase::Initialize, AxisPhase::Standb
                                         AxisPhase::Fault};
 
 enum class AxisEvent : std::uint8_t {
-    SpeedRises,  // the pulses come faster than before, also out of rest
+    SpeedRises,  // the pulses come faster than before, also from rest
     SpeedSteady,
     SpeedFalls,
     MotionEnds,    // at rest, as planned
     SwitchStops,   // the home switch ended the search or the latch
     LimitStops,    // a limit switch ended the motion
     HostStops,     // an emergency stop ended it
-    PositionKept,  // the position that was kept at rest is proved by the device
-    Zeroed,        // after a stop at the switch: the position is set; homing goes on or parks
+    PositionKept,  // the device has proved the position that was kept at rest
+    Zeroed,        // after a stop at the switch the zero is set; homing parks the axis
     Released,      // after a limit or emergency stop: back to Initialize, to be homed again
     HomingBegins,
     Fails,
@@ -41,7 +41,7 @@ struct AxisTransition {
     AxisPhase to;
 };
 
-/// Every transition there is; an event that is not here leaves the state as it is.
+/// All transitions. An event that is not listed for a state leaves the state unchanged.
 inline constexpr std::array kAxisTransitions{
     // Initialize: unhomed, or searching, pulling off and latching.
     AxisTransition{AxisPhase::Initialize, AxisEvent::SwitchStops, AxisPhase::Stop},
@@ -49,7 +49,7 @@ inline constexpr std::array kAxisTransitions{
     AxisTransition{AxisPhase::Initialize, AxisEvent::HostStops, AxisPhase::Stop},
     AxisTransition{AxisPhase::Initialize, AxisEvent::Fails, AxisPhase::Fault},
     AxisTransition{AxisPhase::Initialize, AxisEvent::PositionKept, AxisPhase::Standby},
-    // Standby: homed, at rest. Out of rest a speed can only rise.
+    // Standby: homed, at rest. From rest the speed can only rise.
     AxisTransition{AxisPhase::Standby, AxisEvent::HomingBegins, AxisPhase::Initialize},
     AxisTransition{AxisPhase::Standby, AxisEvent::SpeedRises, AxisPhase::Accelerate},
     AxisTransition{AxisPhase::Standby, AxisEvent::HostStops, AxisPhase::Stop},
@@ -84,7 +84,7 @@ inline constexpr std::array kAxisTransitions{
     AxisTransition{AxisPhase::Fault, AxisEvent::ResetUnhomed, AxisPhase::Initialize},
 };
 
-/// The row of kAxisTransitions; nothing where the event means nothing in this state.
+/// Returns the row of kAxisTransitions, or nullopt if the event means nothing in this state.
 constexpr std::optional<std::size_t> find_transition(AxisPhase from, AxisEvent event) {
     for (std::size_t row = 0; row < kAxisTransitions.size(); ++row) {
         if (kAxisTransitions[row].from == from && kAxisTransitions[row].event == event) { return row; }
@@ -92,7 +92,7 @@ constexpr std::optional<std::size_t> find_transition(AxisPhase from, AxisEvent e
     return std::nullopt;
 }
 
-/// The state that follows; nothing where the event means nothing in this state.
+/// Returns the state that follows, or nullopt if the event means nothing in this state.
 constexpr std::optional<AxisPhase> next_phase(AxisPhase from, AxisEvent event) {
     const auto row = find_transition(from, event);
     return row ? std::optional(kAxisTransitions[*row].to) : std::nullopt;

@@ -1,4 +1,4 @@
-// The owner's orders to this axis: which is the newest one taken, and how it ended.
+// The owner's orders to this axis: the newest one taken, and how it ended.
 #pragma once
 
 #include <cstdint>
@@ -16,21 +16,21 @@ public:
         fault_ = FaultCode::None;
         is_open_ = true;
     }
-    /// The open order is done, or was refused; nothing changes where none is open.
+    /// The open order is done or was refused. Changes nothing if no order is open.
     void end(FaultCode fault) {
         if (!is_open_) { return; }
         is_open_ = false;
         done_ = taken_;
         fault_ = fault;
     }
-    /// A new owner counts from the beginning: what the last one ordered is over.
+    /// A new owner numbers its orders from the beginning. The orders of the last owner are void.
     void restart() { *this = {}; }
 
     /// The newest order taken.
     std::uint64_t taken() const { return taken_; }
     /// The newest order that has ended.
     std::uint64_t done() const { return done_; }
-    /// Why the newest order was refused or failed; None: it was not.
+    /// Why the newest order was refused or failed; None if it was not.
     FaultCode fault() const { return fault_; }
 
 private:

@@ -11,7 +11,7 @@ using TransitionCounts = std::array<std::uint64_t, kAxisTransitions.size()>;
 class PhaseMachine {
 public:
     AxisPhase phase() const { return phase_; }
-    /// The first one since the last reset.
+    /// The first fault since the last reset.
     FaultCode fault() const { return fault_; }
     bool has_fault() const { return fault_ != FaultCode::None; }
     /// How often each row of kAxisTransitions has been taken.
@@ -24,8 +24,7 @@ public:
         phase_ = kAxisTransitions[*row].to;
     }
 
-    /// A limit switch and an emergency stop in motion have their own way through the states; every other fault leads
-    /// to Fault.
+    /// A limit switch and an emergency stop in motion have transitions of their own. Every other fault leads to Fault.
     void fail(FaultCode fault) {
         if (!has_fault()) { fault_ = fault; }
         if (fault != FaultCode::LimitHit && fault != FaultCode::EmergencyStopped) { happen(AxisEvent::Fails); }

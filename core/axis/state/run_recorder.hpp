@@ -8,21 +8,21 @@
 
 namespace lockstep {
 
-/// Of one run after the other.
+/// Records one run after the other.
 class RunRecorder {
 public:
     void begin() { recorded_ = 0; }
 
     struct Run {
-        Epoch epoch = 0;  // 0: the axis's own
+        Epoch epoch = 0;  // 0: the axis's own move
         std::int64_t zero_count = 0;
     };
-    /// Each loop of a run. Records each body when the next has begun, and the last with its tail when the run has
-    /// ended; frames that are recorded are no longer held.
+    /// Call it in each loop of a run. Records each body when the next has begun, and the last body with its tail when
+    /// the run has ended. Removes recorded frames from `frames`.
     void take(const DeviceStatus& device, const Run& run, HeldFrames& frames, ReusedVector<ExecutedTrack>& tracks);
 
 private:
-    FrameNumber recorded_ = 0;  // bodies of the run so far
+    FrameNumber recorded_ = 0;  // how many bodies of the run are recorded
 };
 
 }  // namespace lockstep

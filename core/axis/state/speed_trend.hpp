@@ -1,4 +1,4 @@
-// Whether the pulses come faster, slower or steadily: what the moving states of an axis follow.
+// Decides whether the pulses come faster, slower or steadily. The moving states of an axis follow it.
 #pragma once
 
 #include <cmath>
@@ -11,9 +11,10 @@ namespace lockstep {
 
 class SpeedTrend {
 public:
-    /// Each loop of a run. Out of rest the speed rises, however slow it is; at rest it is MotionEnds.
+    /// Call it in each loop of a run. Returns SpeedRises when motion begins, however slow it is, and MotionEnds at
+    /// rest.
     AxisEvent take(Velocity velocity) {
-        constexpr double kSteady = 0x1p-40;  // steps per tick: what rounding makes of a constant speed, 0 too
+        constexpr double kSteady = 0x1p-40;  // steps per tick: the effect of rounding on a constant speed, also on 0
         const double speed = std::abs(velocity.steps_per_tick());
         const double last = std::exchange(last_, speed);
         if (speed <= kSteady) { return AxisEvent::MotionEnds; }

@@ -12,28 +12,29 @@ class AxisOrders {
 public:
     explicit AxisOrders(std::size_t axes) : orders_(axes) {}
 
-    /// Replaces the order before, which may be open. Returns it, for its parameters.
+    /// Replaces the last order, even if it is open. Returns the new order, so that the caller can set its parameters.
     AxisCommand& give(std::size_t axis, AxisCommandKind kind, const Term& term);
-    /// The axis's process is gone, and the next one must not carry out its orders. Only an open reset remains: it moves
-    /// nothing, and the operator was told that it is accepted.
+    /// Call it when the axis's process is gone, because the next one must not carry out its orders. Only an open reset
+    /// remains, because it moves nothing and the operator was told that it is accepted.
     void withdraw(std::size_t axis, const AxisRoster& axes);
     void withdraw_all();
-    /// A new owner counts from the beginning.
+    /// A new owner numbers its orders from the beginning.
     void restart() { sequence_ = 0; }
 
-    /// True as well where none was given. An axis counts the orders of the owner that it follows: what it did for the
-    /// last one is no answer to this one.
+    /// Also true if no order was given. An axis numbers the orders of the owner that it follows, so a state of another
+    /// term is no answer to this owner.
     bool is_done(std::size_t axis, const AxisRoster& axes) const;
     bool all_done(const AxisRoster& axes) const;
     /// An order of this kind is open.
     bool is_open(std::size_t axis, AxisCommandKind kind, const AxisRoster& axes) const;
     /// The newest order to the axis, done or not.
     const std::optional<AxisCommand>& newest(std::size_t axis) const { return orders_[axis]; }
-    /// The newest order to the axis, which holds for longer now; it goes out at once.
+    /// Prolongs the newest order to the axis and sends it at once.
     void renew(std::size_t axis, Tick until, std::vector<AxisCommand>& out);
     void repeat(const AxisRoster& axes, std::vector<AxisCommand>& out) const;
 
-    /// The axis has carried out an order that was not given here, and takes none with a lower number any more.
+    /// Call it when the axis has carried out an order that was not given here. The axis takes no order with a lower
+    /// number any more, so numbers continue from there.
     void catch_up(const AxisState& state, bool has_open_order);
 
 private:

@@ -15,12 +15,12 @@ class AxisRoster {
 public:
     explicit AxisRoster(const MachineConfig& machine) : timing_(machine.timing), views_(machine.axes.size()) {}
 
-    /// How a state received stands to what is known of its axis.
+    /// How a received state relates to what is known of its axis.
     enum class Arrival : std::uint8_t {
         Ignored,    // old, out of order, not of this machine, or of another process that was not confirmed yet
-        SameAxis,   // from the process known
-        FirstSeen,  // of an axis that was not known
-        Replaced    // from another process than the one known
+        SameAxis,   // from the known process
+        FirstSeen,  // from an axis that was not known
+        Replaced    // from a process that replaces the known one
     };
     Arrival arrival_of(const AxisState& state, Slot now);
     /// Keeps a state that is not to be ignored.
@@ -29,12 +29,13 @@ public:
     /// Slots missed in the coordinator's own stall do not count as an axis's silence. After a long stall another
     /// coordinator may own the machine.
     void forgive(Slot missed, Slot now);
-    /// Since a long stall not every axis present was received in two slots: which owner do they follow?
+    /// True after a long stall until every present axis was received in two slots. Until then it is not known which
+    /// owner they follow.
     bool is_unsettled(Slot now);
 
     std::size_t size() const { return views_.size(); }
     std::span<const AxisView> views() const { return views_; }
-    /// Nothing: the axis was never received, or is gone.
+    /// Empty if the axis was never received or is gone.
     const std::optional<AxisState>& state(std::size_t axis) const { return views_[axis].state; }
     bool is_present(std::size_t axis, Slot now) const { return views_[axis].present(now, timing_); }
     void forget(std::size_t axis) { views_[axis].state.reset(); }
@@ -43,20 +44,20 @@ public:
     std::optional<std::size_t> missing(Slot now) const;
     std::optional<std::size_t> without_device() const;
     std::optional<std::size_t> not_homed() const;
-    /// The axis's clock may be further off than this.
+    /// The axis's clock error may exceed this limit.
     bool is_uncertain(std::size_t axis, Ticks limit) const;
     std::optional<std::size_t> uncertain(Ticks limit) const;
     /// Present, and not at rest.
     std::optional<std::size_t> moving(Slot now) const;
     bool all_rest() const;
     AxisSet present(Slot now) const;
-    /// In whole steps; 0 for an axis that is not known.
+    /// Positions in whole steps; 0 for an axis that is not known.
     AxisCounts counts() const;
 
 private:
     ProtocolTiming timing_;
     std::vector<AxisView> views_;
-    std::optional<Slot> woken_;  // from a stall in which another coordinator may have taken over
+    std::optional<Slot> woken_;  // when a stall ended in which another coordinator may have taken over
 };
 
 }  // namespace lockstep

@@ -11,7 +11,7 @@ namespace lockstep {
 struct AxisView {
     std::optional<AxisState> state;
     Slot received = 0;
-    Slot stamp_before = 0;                // of the state received before this one
+    Slot stamp_before = 0;                // stamp of the state received before this one
     RepeatedValue<Identity> unconfirmed;  // another process that published as this axis
 
     bool present(Slot now, const ProtocolTiming& timing) const {

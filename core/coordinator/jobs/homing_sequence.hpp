@@ -1,4 +1,4 @@
-// Homing axes in groups, by the sequence that the configuration gives them: the axes of a group home together.
+// Homes axes in groups, by the sequence that the configuration gives them. The axes of a group home together.
 #pragma once
 
 #include <limits>
@@ -15,7 +15,7 @@ public:
 
     AxisSet axes() const { return axes_; }
 
-    /// The axes to home next; none: all are homed.
+    /// Returns the axes to home next; empty if all are homed.
     AxisSet next_group(const MachineConfig& machine);
 
 private:

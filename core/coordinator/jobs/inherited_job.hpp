@@ -1,4 +1,4 @@
-// The job of the owner before, from the takeover until this coordinator goes on with it or ends it.
+// The job of the last owner, from the takeover until this coordinator continues or ends it.
 #pragma once
 
 #include <expected>
@@ -12,24 +12,24 @@ namespace lockstep {
 
 class InheritedJob {
 public:
-    /// `on_takeover`: nothing where this coordinator does not stand by.
+    /// `on_takeover`: empty if this coordinator does not stand by.
     InheritedJob(std::optional<OnTakeover> on_takeover, std::uint64_t config_hash)
         : on_takeover_(on_takeover), config_hash_(config_hash) {}
 
     /// A client has asked another owner to hold or stop.
     void note_interrupt(Slot now) { interrupted_ = now; }
     void begin(const MachineState& last) { last_ = last; }
-    /// It is gone on with, or was ended.
+    /// Call it when the job was continued or ended.
     void end() { last_.reset(); }
     void forget() { last_.reset(), interrupted_.reset(); }
 
     bool exists() const { return last_.has_value(); }
-    /// The newest state of the owner before.
+    /// The newest state of the last owner.
     const MachineState& last() const { return *last_; }
 
-    /// Before the axes have been asked: why it cannot be gone on with.
+    /// Returns why the job cannot be continued, as far as that is known before all axes follow.
     std::optional<TakeoverDoubt> doubt(const CoordinatorLoop& loop) const;
-    /// When every axis follows this coordinator and rests. The program is known.
+    /// Call it when every axis follows this coordinator and rests. The program must be known.
     std::expected<JobRest, TakeoverDoubt> rest(const KnownProgram& program, const CoordinatorLoop& loop) const;
 
 private:

@@ -1,4 +1,4 @@
-// A job, and what is said of the last one.
+// A job, and what is reported of the last one.
 #pragma once
 
 #include <cstdint>
@@ -13,31 +13,31 @@ namespace lockstep {
 struct MachineJob {
     std::uint64_t number = 0;
     JobKind kind = JobKind::Run;
-    std::uint64_t program_id = 0;  // Command::program; 0 as well where no other coordinator can go on with the job
+    std::uint64_t program_id = 0;  // Command::program; also 0 if no other coordinator can continue the job
     std::shared_ptr<const KnownProgram> program;  // null for homing
 
-    /// Its axes move each by itself, and the coordinator sends no frames.
+    /// Its axes move, each by itself, and the coordinator sends no frames.
     bool is_alone() const { return kind == JobKind::Home || kind == JobKind::MoveOwn || kind == JobKind::Jog; }
 };
 
-/// The jobs of the machine, whichever coordinator began them: their count, and how the last one ended.
+/// The count of the machine's jobs, begun by any coordinator, and how the last one ended.
 class JobCount {
 public:
-    /// The number of a new job.
+    /// Returns the number of a new job.
     std::uint64_t begin(const Term& term) {
         begun_in_ = term;
         fault_ = FaultCode::None;
         return ++number_;
     }
     void end(JobOutcome outcome) { outcome_ = outcome; }
-    /// The job ended before its end, at this line: by a takeover, or because its program did.
+    /// The job ended early at this line: by a takeover, or because its program ended early.
     void cut(std::int32_t line, FaultCode why = FaultCode::None) {
         cut_job_ = number_;
         cut_line_ = line;
         fault_ = why;
         outcome_ = JobOutcome::Stopped;
     }
-    /// From the owner before.
+    /// Takes count and outcome from the last owner.
     void inherit(const MachineState& last) {
         number_ = last.job;
         begun_in_ = last.job_begun;
@@ -57,7 +57,7 @@ private:
     std::optional<JobOutcome> outcome_;  // of the last job that ended
     std::uint64_t cut_job_ = 0;
     std::int32_t cut_line_ = 0;
-    FaultCode fault_ = FaultCode::None;  // why the program of the last job ended before its end
+    FaultCode fault_ = FaultCode::None;  // why the program of the last job ended early
 };
 
 }  // namespace lockstep

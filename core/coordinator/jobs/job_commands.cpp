@@ -1,4 +1,4 @@
-// What clients ask of the job: done, or refused with the reason and the remedy.
+// Commands of clients to the job: carried out, or refused with the reason and the remedy.
 #include <algorithm>
 
 #include "core/check.hpp"
@@ -7,7 +7,7 @@
 namespace lockstep {
 namespace {
 
-/// `whole`: more of it must not be to come.
+/// `whole`: the program must have arrived whole.
 std::expected<std::shared_ptr<const KnownProgram>, Refusal> program_of(const Command& command,
                                                                        const CoordinatorLoop& loop, bool whole) {
     auto program = loop.programs.find(command.program);
@@ -16,12 +16,13 @@ std::expected<std::shared_ptr<const KnownProgram>, Refusal> program_of(const Com
     }
     if (!program) { return refuse(FaultCode::UnknownProgram, "the program has not arrived"); }
     if (whole && program->is_open()) {
-        return refuse(FaultCode::UnknownProgram, "the program has not arrived whole, and this is planned as a whole");
+        return refuse(FaultCode::UnknownProgram,
+                      "the program has not arrived completely; this command needs the complete program");
     }
     return program;
 }
 
-/// It begins where the axes stand, and is not known to end before its end.
+/// Checks that the program begins where the axes stand and has not been cut.
 CommandResult check_program(const KnownProgram& program, const ProgramPlanner& planner, const CoordinatorLoop& loop) {
     if (const auto& cut = program.cut()) {
         return refuse(cut->why, (cut->line > 0 ? "line " + std::to_string(cut->line) + ": " : "") + cut->text);
@@ -30,7 +31,7 @@ CommandResult check_program(const KnownProgram& program, const ProgramPlanner& p
     return fits ? CommandResult{} : refuse(fits.error().fault, fits.error().text);
 }
 
-/// By the LAI method moves may be too slow.
+/// Moves may be too slow for the LAI method.
 CommandResult check_lai_moves(const KnownProgram& program, const ProgramPlanner& planner, const CoordinatorLoop& loop) {
     if (loop.machine.coordination != StepMethod::Lai) { return {}; }
     AxisCounts at = loop.axes.counts();
@@ -101,7 +102,7 @@ CommandResult JobRunner::move_own(const Command& command, CoordinatorLoop& loop)
     return {};
 }
 
-/// Several clients may jog different axes in one job. A release needs nothing of the machine.
+/// Several clients may jog different axes in one job. A release is accepted in any state of the machine.
 CommandResult JobRunner::jog(const Command& command, CoordinatorLoop& loop) {
     if (!is_jogging() && command.jogs.empty()) { return {}; }
     const CommandResult ready = is_jogging() ? check_present(loop) : check_ready(loop, in_motion());
@@ -126,7 +127,7 @@ CommandResult JobRunner::interrupt(Intent intent, CoordinatorLoop& loop) {
     }
     if (!path_.is_moving()) { return refuse(FaultCode::NothingToDo, "nothing is in motion that could be interrupted"); }
     if (intent == Intent::Hold && intent_ > Intent::Hold) {
-        return refuse(FaultCode::Busy, "the machine is stopping, and drops the job");
+        return refuse(FaultCode::Busy, "the machine is already stopping, and the job ends with the stop");
     }
     intent_ = std::max(intent_, intent);
     path_.stop(loop.next_state);
@@ -134,7 +135,7 @@ CommandResult JobRunner::interrupt(Intent intent, CoordinatorLoop& loop) {
     return {};
 }
 
-/// Homing and a jog cannot go on from where they were held: a hold ends them as a stop does.
+/// Homing and a jog cannot continue after a hold, so a hold ends them as a stop does.
 CommandResult JobRunner::interrupt_alone(Intent intent, CoordinatorLoop& loop) {
     if (intent == Intent::Hold && job_->kind == JobKind::MoveOwn) {
         return refuse(FaultCode::Busy,
@@ -158,9 +159,7 @@ CommandResult JobRunner::resume(CoordinatorLoop& loop) {
 
 CommandResult JobRunner::turn(const Command& command, const CoordinatorLoop& loop) {
     if (loop.machine.coordination == StepMethod::Lai) {
-        return refuse(FaultCode::NothingToDo,
-                      "coordination LAI gives whole pulses to each period and knows no overrides; set "
-                      "coordination: RANADE for them");
+        return refuse(FaultCode::NothingToDo, "coordination LAI does not support overrides; set coordination: RANADE");
     }
     for (const int percent : {command.feed_percent, command.rapid_percent}) {
         if (percent == 0 || Overrides::allows(percent)) { continue; }

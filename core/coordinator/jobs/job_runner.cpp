@@ -62,7 +62,7 @@ void JobRunner::advance_jogs(CoordinatorLoop& loop) {
     if (refused) { fail(static_cast<FaultCode>(loop.axes.state(*refused)->command_fault), *refused, loop); }
 }
 
-/// An emergency stop ordered before stays the newest order.
+/// An emergency stop that was ordered before remains the newest order.
 void JobRunner::halt_alone(CoordinatorLoop& loop) {
     jogs_.release_all();
     for (std::size_t i = 0; i < loop.axes.size(); ++i) {
@@ -73,7 +73,7 @@ void JobRunner::halt_alone(CoordinatorLoop& loop) {
     }
 }
 
-/// Every axis is at rest.
+/// Called when every axis is at rest after an epoch.
 void JobRunner::settle(const EpochEnd& end_of_epoch, CoordinatorLoop& loop) {
     loop.out.epoch_end = {end_of_epoch.kind, intent_};
     path_.end_epoch(end_of_epoch, loop);
@@ -117,7 +117,7 @@ void JobRunner::follow(PathJob::Next next, CoordinatorLoop& loop) {
     }
 }
 
-/// Its program may have ended before its end.
+/// The program may have been cut.
 void JobRunner::end_program(CoordinatorLoop& loop) {
     const auto& cut = job_->program->cut();
     if (!cut) { return end(JobOutcome::Done, loop); }

@@ -24,35 +24,35 @@ public:
     CommandResult run(const Command& command, CoordinatorLoop& loop);
     CommandResult move_own(const Command& command, CoordinatorLoop& loop);
     CommandResult jog(const Command& command, CoordinatorLoop& loop);
-    /// The same command again. False: its jog is over.
+    /// Takes a repeated command. Returns false if its jog is over.
     bool renew_jog(const Command& command, const CoordinatorLoop& loop) { return jogs_.renew(command, loop); }
     CommandResult interrupt(Intent intent, CoordinatorLoop& loop);
     CommandResult resume(CoordinatorLoop& loop);
-    /// At any time: overrides hold until they are turned again.
+    /// May be called at any time. Overrides hold until they are changed again.
     CommandResult turn(const Command& command, const CoordinatorLoop& loop);
 
-    /// Each loop.
+    /// Call it in each loop.
     void advance_jogs(CoordinatorLoop& loop);
-    /// Each slot.
+    /// Call it in each slot.
     void advance(CoordinatorLoop& loop);
-    /// Every axis follows this coordinator and rests: goes on with an inherited job.
+    /// Call it when every axis follows this coordinator and rests. Continues an inherited job.
     void go_on_with_inherited(CoordinatorLoop& loop);
 
-    /// A fault during motion stops it on the path first; Fault is entered at rest.
+    /// A fault during motion first stops the motion on the path. Fault is entered at rest.
     void fail(FaultCode fault, std::size_t axis, CoordinatorLoop& loop);
     /// A person gives up the job, held or inherited.
     void drop(CoordinatorLoop& loop);
     /// An axis of an inherited job cannot be trusted.
     void doubt_inherited(CoordinatorLoop& loop) { cut_inherited(TakeoverDoubt::AxisInDoubt, loop); }
 
-    /// This coordinator owns the machine now. `last`: the newest state of the owner before.
+    /// This coordinator owns the machine now. `last`: the newest state of the last owner.
     void take_over(const std::optional<MachineState>& last, CoordinatorLoop& loop);
-    /// Another one does: the axes have come to rest without this one.
+    /// Another coordinator owns the machine now. The axes have come to rest without this one.
     void stand_down();
     void note_interrupt(Slot now) { inherited_.note_interrupt(now); }
 
     bool exists() const { return job_.has_value(); }
-    /// Also one that this coordinator has taken over and not continued yet.
+    /// Also true for a job that this coordinator has taken over and not continued yet.
     bool has_any() const { return exists() || inherited_.exists(); }
     /// An epoch of frames is in progress.
     bool is_on_path() const { return path_.is_moving(); }

@@ -9,11 +9,11 @@
 namespace lockstep {
 namespace {
 
-// A client that has not renewed its jog for so long is gone. One that stalls for less finds its axes at rest, and moves
-// them on.
+// A client that has not renewed its jog for this long counts as gone. After a shorter stall its axes are at rest, and
+// its renewals move them on.
 constexpr std::int64_t kForgetAfter_ns = 500'000'000;
 
-/// From here in the direction asked for, as far as asked. An unhomed axis knows no end of its travel.
+/// The target in the direction and distance asked for. An unhomed axis does not know the ends of its travel.
 std::int64_t target_of(const JogAxis& asked, const AxisConfig& axis, const AxisState& state) {
     const std::int64_t here = state.position.count();
     const double travel_mm = axis.position_max_mm - axis.position_min_mm;
@@ -33,9 +33,9 @@ CommandResult check_homed(const AxisConfig& axis, const AxisState& state) {
 CommandResult check_speed(const AxisConfig& axis, double speed_mm_s) {
     const double speed = std::abs(speed_mm_s);
     if (speed > 0 && speed <= axis.max_velocity_mm_s) { return {}; }
-    return refuse(FaultCode::BadProgram, "axis " + axis.name + ": a jog at " + short_number(speed) +
-                                             " mm/s is not above 0, to max_velocity_mm_s " +
-                                             short_number(axis.max_velocity_mm_s));
+    return refuse(FaultCode::BadProgram,
+                  "axis " + axis.name + ": a jog speed must be above 0 and at most max_velocity_mm_s " +
+                      short_number(axis.max_velocity_mm_s) + "; it is " + short_number(speed) + " mm/s");
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ std::expected<Jogs::Jog, Refusal> Jogs::jog_of(const JogAxis& asked, const Comma
     return jog;
 }
 
-/// What arrives after a stall may be old: the client may be dead.
+/// Messages that arrive after a stall may be old, and their client may be dead.
 bool Jogs::renew(const Command& command, const CoordinatorLoop& loop) {
     bool is_known = false;
     for (auto& jog : jogs_) {
@@ -115,7 +115,7 @@ Jogs::Next Jogs::next(std::size_t axis, const CoordinatorLoop& loop) const {
     return jog->renewed + hold_ > order.until ? Next::Renew : Next::Nothing;
 }
 
-/// An axis that came to rest because renewals were late moves on with them.
+/// An axis that came to rest because renewals were late moves on when they arrive.
 Jogs::Next Jogs::next_at_rest(std::size_t axis, const CoordinatorLoop& loop) const {
     const Jog& jog = *jogs_[axis];
     const auto& state = loop.axes.state(axis);

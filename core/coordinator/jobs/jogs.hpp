@@ -1,5 +1,6 @@
-// The axes that clients jog. Each moves by itself, and only while its client renews its command: every renewal becomes
-// an order to the axis that holds for a short time (MachineConfig::jog_hold_ticks). The axis brakes when none follows.
+// The axes that clients jog. Each moves by itself, and only while its client renews its command. Every renewal becomes
+// an order to the axis that holds for a short time (MachineConfig::jog_hold_ticks). The axis brakes when no renewal
+// follows.
 #pragma once
 
 #include <optional>
@@ -13,14 +14,14 @@ class Jogs {
 public:
     explicit Jogs(const MachineConfig& machine) : hold_(machine.jog_hold_ticks()), jogs_(machine.axes.size()) {}
 
-    /// The axes that the client jogs from now on: those that it jogged before and are not among them are released.
-    /// Nothing changes where one of them is refused. It counts as the first renewal.
+    /// Sets the axes that the client jogs from now on. Releases all other axes that it jogged before. Changes nothing
+    /// if one of the axes is refused. The command counts as the first renewal.
     CommandResult press(const Command& command, CoordinatorLoop& loop);
-    /// The same command has come again. False: none of its axes is jogged any more.
+    /// Takes a repeated command. Returns false if none of its axes is jogged any more.
     bool renew(const Command& command, const CoordinatorLoop& loop);
     void release_all();
 
-    /// Each loop: gives orders to the axes. Returns an axis that refused its order.
+    /// Call it in each loop. Gives orders to the axes. Returns an axis that refused its order.
     std::optional<std::size_t> advance(CoordinatorLoop& loop);
 
     bool none() const;
@@ -31,9 +32,9 @@ private:
         std::uint64_t sequence = 0;  // of its command
         JogAxis asked;
         Tick renewed;
-        std::optional<std::int64_t> target;  // steps; nothing: it was not ordered yet
+        std::optional<std::int64_t> target;  // steps; empty: it was not ordered yet
     };
-    /// What becomes of an axis in this loop.
+    /// What to do with an axis in this loop.
     enum class Next { Nothing, Order, Renew, Halt, Forget, Report };
 
     std::expected<Jog, Refusal> jog_of(const JogAxis& asked, const Command& command, const CoordinatorLoop& loop) const;
@@ -43,7 +44,7 @@ private:
 
     Ticks hold_;
     std::vector<std::optional<Jog>> jogs_;   // by axis
-    std::vector<std::optional<Jog>> asked_;  // press: what they become
+    std::vector<std::optional<Jog>> asked_;  // used by press: the new jogs
 };
 
 }  // namespace lockstep

@@ -18,7 +18,7 @@ CommandResult check_move(std::size_t axis, const OwnMoveRequest& move, const Coo
     return refuse(FaultCode::BadProgram, text_of(pieces.error(), config, loop.machine.tick_ns, move));
 }
 
-/// As asked, or as the continuous ideal has it: methods differ from that by what they round.
+/// The duration that was asked for, or that of the continuous ideal. Methods differ from the ideal only by rounding.
 double planned_seconds(const AxisConfig& axis, const OwnMoveRequest& move, const MachineConfig& machine) {
     if (move.ticks > Ticks{}) { return static_cast<double>(move.ticks.value) / machine.ticks_per_second(); }
     return Ideal(step_move_of(axis, {move.steps, move.speed_mm_s})).duration_s();

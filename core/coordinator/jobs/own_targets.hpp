@@ -1,4 +1,4 @@
-// Axes that move to their places each by itself: from where, to where, and how far they have come.
+// Axes that move to their places, each by itself: where they start, where they go, and their progress.
 #pragma once
 
 #include <optional>
@@ -14,19 +14,19 @@ namespace lockstep {
 class OwnTargets {
 public:
     OwnTargets() = default;
-    /// Where a whole program ends, whatever line it takes there. `ticks`: how long each move lasts; 0: as fast as the
-    /// axis can. Error: a move that its axis cannot make. Each axis's move is planned here too, so that a person is
-    /// told.
+    /// The targets are where a whole program ends, independently of its path. `ticks`: how long each move lasts; 0: as
+    /// fast as the axis can. Error: a move that its axis cannot make. Each axis's move is planned here, too, so that
+    /// the client gets the reason.
     static std::expected<OwnTargets, Refusal> plan(const KnownProgram& program, Ticks ticks,
                                                    const CoordinatorLoop& loop, BeginSteps begin_steps);
 
-    /// Those that move.
+    /// The axes that move.
     AxisSet axes() const { return axes_; }
     const AxisCounts& from() const { return from_; }
     std::int64_t target(std::size_t axis) const { return to_[axis]; }
     void order(CoordinatorLoop& loop) const;
 
-    /// 0 to 1, by the axis that has the most before it.
+    /// 0 to 1, by the axis with the least progress.
     double progress(const AxisRoster& axes) const;
     double remaining_s(Tick now, const MachineConfig& machine) const;
 

@@ -33,14 +33,15 @@ void PathJob::load(const MachineJob& job, const JobRest& rest, double progress, 
     runner_.source()->begin_events_from(events_from);
 }
 
-/// The frames of the next leg are made in the memory of the leg before, where its source can do that.
+/// Makes the frames of the next leg in the memory of the last leg, if its source can do that.
 void PathJob::load_leg() {
     const OwnedSource& source = runner_.source();
     const bool has_begun = source && source->begin(job_.program, job_.program->places(), next_, from_);
     if (!has_begun) { runner_.load(planner_.frames(job_.program, next_, from_)); }
 }
 
-/// Nothing: something moves in the leg that begins with the next block, or a bounded look does not find its end.
+/// Returns the end of the leg that begins with the next block if nothing moves in it. Returns nullopt if something
+/// moves, or if a bounded search does not find its end.
 std::optional<LegEnd> PathJob::end_of_empty_leg() const {
     LegEnd end{.block = next_, .to = from_};
     for (; end.block < next_ + ProgramFrames::kBlocksAtOnce; ++end.block) {
@@ -54,14 +55,14 @@ std::optional<LegEnd> PathJob::end_of_empty_leg() const {
     return std::nullopt;
 }
 
-/// True: the machine pauses behind the leg.
+/// Returns true if the machine pauses after the leg.
 bool PathJob::pass_leg(const LegEnd& end) {
     next_ = end.kind == LegEnd::Kind::Program ? end.block : end.block + 1;
     from_ = end.to;
     return end.kind == LegEnd::Kind::Pause;
 }
 
-/// Of a leg in which nothing moves, or the end of a leg that another coordinator has run.
+/// Publishes the events of a leg in which nothing moves, or those at the end of a leg that another coordinator has run.
 void PathJob::pass_events(const LegEnd& end, CoordinatorLoop& loop) {
     for (std::uint32_t k = std::max(next_, events_.from()); k < end.block; ++k) {
         const Block* const block = job_.program->block(k);
@@ -98,7 +99,7 @@ PathJob::Next PathJob::go_on(CoordinatorLoop& loop) {
     return Next::Moves;
 }
 
-/// Greater than any epoch of this term that an axis has accepted, whoever sent it.
+/// Returns an epoch greater than any of this term that an axis has accepted from any sender.
 Epoch PathJob::next_epoch(const CoordinatorLoop& loop) {
     epoch_ = std::max(epoch_, first_epoch(loop.term));
     for (const AxisView& view : loop.axes.views()) {
@@ -107,7 +108,7 @@ Epoch PathJob::next_epoch(const CoordinatorLoop& loop) {
     return ++epoch_;
 }
 
-/// `at` empty: from rest on whole steps, where the axes stand.
+/// If `at` is empty, the epoch begins from rest on whole steps, where the axes stand.
 void PathJob::begin_epoch(AxisPositions at, CoordinatorLoop& loop) {
     leg_done_.reset();
     for (std::size_t i = at.size(); i < loop.axes.size(); ++i) {
@@ -121,7 +122,7 @@ void PathJob::begin_epoch(AxisPositions at, CoordinatorLoop& loop) {
     loop.enter(MachinePhase::Running);
 }
 
-/// Its first frame can be made.
+/// Reports the epoch's start as soon as its first frame can be made.
 void PathJob::note_start(CoordinatorLoop& loop) {
     if (has_started_ || !runner_.start()) { return; }
     has_started_ = true;
@@ -154,7 +155,7 @@ std::optional<EpochEnd> PathJob::advance(CoordinatorLoop& loop) {
     return runner_.evaluate(loop.slot, loop.axes.views());
 }
 
-/// The axes have passed the places before the block in which they rest.
+/// The axes have passed the places of all events before the block in which they rest.
 void PathJob::end_epoch(const EpochEnd& end, CoordinatorLoop& loop) {
     is_moving_ = false;
     const bool knows_place = end.kind == EpochEnd::Kind::Complete || end.kind == EpochEnd::Kind::Interrupted;
@@ -187,7 +188,7 @@ Subticks PathJob::into_path(Tick now) const {
     return subticks(std::clamp(now - *runner_.start(), Ticks{}, runner_.ticks_of(runner_.sent())));
 }
 
-/// As the feed override makes it. What the axes' limits make of a feed above them is not counted.
+/// Considers the feed override, but not that the axes' limits may allow less than the feed.
 double PathJob::seconds_left(Tick now) const {
     return runner_.source()->seconds_from(runner_.place_at(now)) / overrides_.feed();
 }
@@ -214,7 +215,7 @@ void PathJob::report_progress(MachineState& state) const {
     state.lacks_blocks = runner_.source()->lacks_blocks();
 }
 
-/// By the LAI method a block is planned in parts, which no place on the program tells apart.
+/// The LAI method plans a block in parts, and a place on the program does not say in which part it is.
 void PathJob::report_rests(MachineState& state, const AxisRoster& axes) const {
     if (!knows_places_) { return; }
     FrameNumber oldest = runner_.sent();

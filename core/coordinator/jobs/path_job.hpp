@@ -1,5 +1,5 @@
-// A job whose axes move together on a path: leg by leg, in epochs of frames. Each leg is read as a stream, and what is
-// left of one after an interruption is run as an epoch of its own.
+// A job with axes that move together on a path, leg by leg, in epochs of frames. Each leg is read as a stream. The rest
+// of a leg after an interruption is run as a separate epoch.
 #pragma once
 
 #include <optional>
@@ -30,46 +30,46 @@ public:
     /// What follows when a leg was begun or has ended.
     enum class Next : std::uint8_t { Moves, Pauses, IsDone };
 
-    /// Replaces the job before.
+    /// Replaces the last job.
     void load(const MachineJob& job, const AxisCounts& start);
     /// `events_from`: the events before this block have been published.
     void load(const MachineJob& job, const JobRest& rest, double progress, std::uint32_t events_from);
     Next begin_leg(CoordinatorLoop& loop);
-    /// What is left of the leg in progress; begins the next leg where nothing is left.
+    /// Runs the rest of the leg in progress. Begins the next leg if nothing is left.
     Next go_on(CoordinatorLoop& loop);
     Next end_leg(CoordinatorLoop& loop);
-    /// The leg has ended, and the next is not to begin yet.
+    /// The leg has ended, and the next one must not begin yet.
     void hold_behind_leg() { (void)pass_leg(runner_.source()->end()); }
 
-    /// Each slot of an epoch: sends frames. Returns how the epoch ended, when it has.
+    /// Call it in each slot of an epoch. Sends frames. Returns how the epoch ended, once it has.
     std::optional<EpochEnd> advance(CoordinatorLoop& loop);
-    /// No stop is waited for without end.
+    /// The epoch should have come to rest long ago.
     bool is_overdue() const { return runner_.is_overdue(); }
-    /// The epoch in progress comes to rest.
-    /// By the state published in slot `next`.
+    /// Brings the epoch in progress to rest by a veto in the state published in slot `next`.
     void stop(Slot next) { runner_.stop(next); }
     void end_epoch(const EpochEnd& end, CoordinatorLoop& loop);
     void give_up_epoch() { is_moving_ = false; }
     /// All axes rest together on the path, proved by their counts.
     void interrupt(const EpochEnd& end);
-    /// Behind an interruption that nobody asked for. False: too many of them in a row left no frame that was run.
+    /// Call it after an interruption that nobody asked for. Returns false if too many of them in a row left no frame
+    /// that was run.
     bool may_try_again(const EpochEnd& end);
     /// The epoch ended early because no frame keeps the limits.
     bool is_stuck() const { return runner_.is_stuck(); }
     /// The machine rests because no more of the program is known.
     bool waits_for_blocks() const { return runner_.lacked_blocks() || runner_.source()->lacks_blocks(); }
 
-    /// From the next frame that is not made yet, and in jobs to come.
+    /// Applies from the next frame to be made, and in later jobs.
     void turn(const Overrides& overrides);
     void inherit(const Overrides& overrides) { overrides_ = overrides; }
 
     void note_progress(const CoordinatorLoop& loop);
-    /// Of the epoch in progress, or the last one.
+    /// Reports the epoch in progress, or the last one.
     void report_epoch(MachineState& state) const;
     void report_progress(MachineState& state) const;
-    /// For another coordinator that may go on with the job.
+    /// For another coordinator that may continue the job.
     void report_rests(MachineState& state, const AxisRoster& axes) const;
-    /// Of the program, where the job is.
+    /// The line of the program at which the job is.
     std::int32_t line(Tick now) const { return runner_.source()->line_of(runner_.place_at(now).block); }
 
 private:
@@ -92,8 +92,8 @@ private:
     Overrides overrides_;
     Epoch epoch_ = 0;  // the newest
     bool is_moving_ = false;
-    bool has_started_ = false;  // the epoch, with its first frame
-    Overrides planned_;         // with which the epoch begins
+    bool has_started_ = false;  // the epoch has started with its first frame
+    Overrides planned_;         // the overrides with which the epoch begins
 
     ProgramEvents events_;
 
@@ -101,11 +101,11 @@ private:
     MachineJob job_;
     bool has_moved_ = false;  // an epoch was begun
     std::uint32_t next_ = 0;  // the first block of the next leg, or of the one in progress
-    AxisCounts from_;         // and where it begins
+    AxisCounts from_;         // where that leg begins
     PathProgress progress_;
-    PathPlace resume_;                // where the epoch begins; held or interrupted: where the next one will,
-    AxisPositions positions_;         // and where the axes rest, exactly; empty: on whole steps
-    std::optional<LegEnd> leg_done_;  // by the owner before
+    PathPlace resume_;                // where the epoch begins; held or interrupted: where the next one begins
+    AxisPositions positions_;         // where the axes rest there, exactly; empty: on whole steps
+    std::optional<LegEnd> leg_done_;  // the leg's end, if the last owner reached it
     int fruitless_ = 0;               // interruptions in a row without a frame that was run
 };
 

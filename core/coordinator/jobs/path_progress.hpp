@@ -1,4 +1,4 @@
-// How much of a job on a path is done. It never falls, although what is left is planned again after a hold, and when an
+// How much of a job on a path is done. It never falls, although the rest is planned again after a hold and when an
 // override changes.
 #pragma once
 
@@ -11,11 +11,11 @@ namespace lockstep {
 class PathProgress {
 public:
     PathProgress() = default;
-    /// `done`: of a job that another coordinator has begun.
+    /// `done`: the share of a job that another coordinator has run.
     explicit PathProgress(double done) : share_(done) {}
 
-    /// Once a slot: `into` the path in progress, with so much `left` of the job, as planned now. As long as the plan
-    /// stays, the shares done add up to the share of its time.
+    /// Call it once a slot. `into`: time run of the path in progress. `left`: time left of the job, as planned now.
+    /// While the plan stays the same, the added shares equal the share of its time.
     void note(Subticks into, Subticks left) {
         const Subticks done = before_ + into;
         if (done <= counted_) { return; }
@@ -23,7 +23,7 @@ public:
         share_ = std::min(1.0, share_ + (1 - share_) * since / (since + static_cast<double>(left.value)));
         counted_ = done;
     }
-    /// The path in progress is at its end, after `ran`.
+    /// The path in progress has ended after `ran`.
     void end_path(Subticks ran) { before_ = before_ + ran; }
 
     /// 0 to 1.
@@ -31,8 +31,8 @@ public:
 
 private:
     double share_ = 0;
-    Subticks before_;   // run of the paths that have ended
-    Subticks counted_;  // of the run, in `share_`
+    Subticks before_;   // time run of the paths that have ended
+    Subticks counted_;  // the time run that `share_` contains
 };
 
 }  // namespace lockstep

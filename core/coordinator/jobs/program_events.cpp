@@ -9,7 +9,7 @@ void ProgramEvents::publish(PublishedEvent event, CoordinatorLoop& loop) {
     loop.out.events.push_back(event);
 }
 
-/// Once: those that were published before are left out.
+/// Publishes each event once. Leaves out events that were published before.
 void ProgramEvents::publish(const PathEvent& event, PublishedEvent place, CoordinatorLoop& loop) {
     if (event.block < from_) { return; }
     from_ = event.block + 1;

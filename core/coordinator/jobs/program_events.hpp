@@ -1,4 +1,4 @@
-// The events of programs that have happened: published once each, in order, and what they have switched.
+// The program events that have happened. Each is published once, in order. Keeps the state of what they have switched.
 #pragma once
 
 #include <cstdint>
@@ -18,13 +18,13 @@ public:
 
     /// A program begins. The devices stay as they are.
     void begin(std::uint32_t first = 0) { from_ = first; }
-    /// The motion came to its place at `tick`.
+    /// The motion reached the event's place at `tick`.
     void happen(const PathEvent& event, Tick tick, const Of& of, CoordinatorLoop& loop);
-    /// The axes rest behind its place. An event that was published before is left out.
+    /// The axes rest beyond the event's place. An event that was published before is left out.
     void pass(const PathEvent& event, const Of& of, CoordinatorLoop& loop);
-    /// The job ended before its end: spindle and coolant, where they are on, are switched off. Outputs stay.
+    /// The job ended early. Switches off spindle and coolant if they are on. Outputs stay.
     void switch_off(std::uint64_t job, CoordinatorLoop& loop);
-    /// From the owner before.
+    /// Takes the devices' state from the last owner.
     void inherit(const ProgramDevices& devices) { devices_ = devices; }
 
     const ProgramDevices& devices() const { return devices_; }

@@ -12,15 +12,15 @@ namespace {
 
 using Doubt = std::unexpected<TakeoverDoubt>;
 
-/// From the program's place: joining moves, whole steps, and the way along a move that is joined with others.
+/// Allowed distance from the program's place: for joined moves, whole steps, and the distance along a joined move.
 constexpr double kNear_steps = 3;
-constexpr double kNear_share = 1e-4;  // of an arc: how far the lengths of its pieces may add up to another length
+constexpr double kNear_share = 1e-4;  // of an arc's length: the lengths of its pieces may add up to a different length
 
 bool is_in_doubt(const AxisView& axis) {
     return !axis.state || !axis.state->homed || axis.state->fault != 0 || !axis.state->at_rest;
 }
 
-/// The last frame that all axes ran; 0: none of the epoch.
+/// Returns the last frame that all axes ran; 0: none of the epoch.
 std::expected<FrameNumber, TakeoverDoubt> last_frame(const MachineState& last, std::span<const AxisView> axes) {
     std::optional<FrameNumber> ran;
     for (const AxisView& axis : axes) {
@@ -35,7 +35,7 @@ std::expected<FrameNumber, TakeoverDoubt> last_frame(const MachineState& last, s
 
 using Places = std::vector<double>;  // mm, of each axis of the machine
 
-/// Where the axes are before a block of the program: those that it does not name stand where they always did.
+/// The places of the axes before a block of the program. Axes that the program does not name keep their places.
 Places places_before(std::uint32_t block, const KnownProgram& program, const MachineConfig& machine,
                      std::span<const AxisView> axes) {
     const std::span<const double> named = program.place_before(block).value();
@@ -56,7 +56,7 @@ AxisCounts counts_of(const Places& places, const MachineConfig& machine) {
     return counts;
 }
 
-/// Behind the block of the leg's last frame: what is left of the leg moves nothing.
+/// Returns the end of the leg, `block` being the block of its last frame. The rest of the leg must move nothing.
 std::expected<LegEnd, TakeoverDoubt> end_behind(const KnownProgram& program, const MachineConfig& machine,
                                                 std::uint32_t block, AxisCounts at) {
     const ProgramPlanner planner(machine);
@@ -102,8 +102,8 @@ MoveWay way_of(std::uint32_t block, const KnownProgram& program, const MachineCo
     return way;
 }
 
-/// Whether the axes are near the place by the program alone: the frames join moves within a step of it, or the
-/// tolerance that it gives.
+/// Checks that the axes are near the place that the program alone gives. Frames join moves within a step of the
+/// program, or within the tolerance that it gives.
 std::expected<void, TakeoverDoubt> check_place(const FrameRest& rest, const MoveWay& way, const MachineConfig& machine,
                                                std::span<const Position> at) {
     const double length = way.length();
@@ -125,14 +125,14 @@ std::expected<void, TakeoverDoubt> check_place(const FrameRest& rest, const Move
 
 std::string_view text_of(TakeoverDoubt doubt) {
     constexpr std::array<std::string_view, 9> kTexts{
-        "takeovers stop jobs here; --on-takeover continue goes on with them",
+        "a takeover stops the job; with --on-takeover continue it continues the job",
         "it was not running freely: it was held, paused, being stopped, or is not a program",
-        "a hold or stop was asked for meanwhile",
+        "a hold or stop was commanded meanwhile",
         "its program has not arrived here",
-        "what its owner said of it does not fit its program",
+        "the last owner's reports of the job do not fit its program",
         "an axis is missing, was restarted, is not homed or has a fault",
         "the axes did not all run the same frames",
-        "the axes ran frames that were not received from its owner",
+        "the axes ran frames for which no message of the last owner was received",
         "an axis is not where its frames end"};
     return kTexts[static_cast<std::size_t>(doubt)];
 }

@@ -48,7 +48,7 @@ const ReusedVector<Frame>& EpochRunner::send(Slot now, std::span<const AxisView>
         held_by_all = std::min(held_by_all, follows ? axis.state->held : 0);
         if (follows) { received_veto_ = rules::merge(received_veto_, axis.state->veto); }
     }
-    if (received_veto_) { ended_ = true; }  // no axis may run a frame behind it
+    if (received_veto_) { ended_ = true; }  // no axis may run the vetoed frame or a later one
     while (!in_flight_.empty() && now >= rules::slot_of(in_flight_.front().start, slot_)) { in_flight_.pop_front(); }
     for (std::size_t k = 0; k < in_flight_.size(); ++k) {
         const Frame& frame = in_flight_[k];
@@ -73,7 +73,7 @@ const ReusedVector<Frame>& EpochRunner::send(Slot now, std::span<const AxisView>
     return to_send_;
 }
 
-/// Once behind each frame, just before the next one is made.
+/// Tries new overrides once after each frame, just before the next one is made.
 void EpochRunner::try_turn() {
     if (!turned_ || tried_behind_ == sent_) { return; }
     tried_behind_ = sent_;
@@ -82,8 +82,8 @@ void EpochRunner::try_turn() {
     turned_.reset();
 }
 
-/// Null while too little of the program has been read: if that lasts too long, the machine rests behind the frames
-/// made so far, and goes on from there.
+/// Returns null while too little of the program has been read. If that lasts too long, the machine rests after the
+/// frames made so far and continues from there.
 const Frame* EpochRunner::make_frame() {
     const auto next = source_->next();
     if (!next) { ended_ = is_stuck_ = true; }
@@ -106,7 +106,7 @@ const Frame* EpochRunner::make_frame() {
     return &frame;
 }
 
-/// Follows the tracks of a frame.
+/// Notes where the tracks of a frame lead and where they rest.
 void EpochRunner::finish(const Frame& frame, const PathFrame& path) {
     Made& made = made_.append();
     made = {.end = made_ticks_, .places = path.places, .rest = path.rest, .complete = path.last};
@@ -168,7 +168,7 @@ void EpochRunner::list_rests(FrameNumber frame, std::vector<FrameRest>& rests) c
 }
 
 std::optional<EpochEnd> EpochRunner::evaluate(Slot now, std::span<const AxisView> axes) const {
-    if (!start_) {  // no axis moves in it
+    if (!start_) {  // no axis moves in this epoch
         if (!ended_) { return std::nullopt; }
         return EpochEnd{is_empty_ ? EpochEnd::Kind::Complete : EpochEnd::Kind::Interrupted, 0, 0, made_.front().rest,
                         at_};

@@ -1,5 +1,5 @@
-// The coordinator's side of lease, arm, veto, for one epoch: makes frames in time, repeats what is not yet held, and
-// evaluates from the axes' states how the epoch ended.
+// The coordinator's side of lease, arm, veto, for one epoch: makes frames in time, repeats frames that are not held
+// yet, and evaluates from the axes' states how the epoch ended.
 #pragma once
 
 #include <array>
@@ -24,88 +24,89 @@ struct EpochEnd {
     enum class Kind : std::uint8_t {
         Complete,      // the path is done
         Interrupted,   // all axes ran the same frames and rest on the path, where they should
-        FramesDiffer,  // they did not all run the same frames
-        Misplaced,     // one is not where its frames end
+        FramesDiffer,  // the axes did not all run the same frames
+        Misplaced,     // an axis is not where its frames end
     };
     Kind kind = Kind::Complete;
-    std::size_t axis = 0;  // Misplaced, FramesDiffer: which
+    std::size_t axis = 0;  // Misplaced, FramesDiffer: the axis concerned
     FrameNumber ran = 0;
     PathPlace place;          // on the program
-    AxisPositions positions;  // exactly
+    AxisPositions positions;  // the exact ones
 };
 
 class EpochRunner {
 public:
     explicit EpochRunner(const MachineConfig& machine);
 
-    /// What the epochs to come run.
+    /// Sets what the epochs to come run.
     void load(OwnedSource source) { source_ = std::move(source); }
-    /// It starts when its first frame can be made, as soon as the send-ahead allows. `at` is where each axis rests,
-    /// exactly.
+    /// The epoch starts when its first frame can be made, as soon as the send-ahead allows. `at` is where each axis
+    /// rests, exactly.
     void begin(Epoch epoch, const PathPlace& place, const AxisPositions& at, const Overrides& overrides);
 
     /// Returns the frames to send in this slot: new frames that are due, until an axis vetoes one, and frames that an
-    /// axis lacks. They are valid until the next call; the caller fills in their term.
+    /// axis lacks. The frames are valid until the next call. The caller fills in their term.
     const ReusedVector<Frame>& send(Slot now, std::span<const AxisView> axes);
 
-    /// Reads as much of the program as the next frame takes: for a caller that no slot presses.
+    /// Reads as much of the program as the next frame takes, for callers that need not finish within a slot.
     void read_ahead() { source_->read_ahead(); }
 
-    /// From the next frame that is not made yet, or as soon after it as the path leaves a way. Of several asked
-    /// for between two frames the last one counts.
+    /// Changes the overrides from the next frame to be made, or as soon after it as the path allows. Of several changes
+    /// between two frames the last one counts.
     void turn(const Overrides& overrides) { turned_ = overrides; }
-    /// Set by `send` where it has planned again: the overrides that hold behind frame `behind`.
+    /// Set by `send` when it has planned again. The overrides hold after frame `behind`.
     struct Turn {
         FrameNumber behind = 0;
         Overrides overrides;
     };
     std::optional<Turn> take_turn() { return std::exchange(taken_, std::nullopt); }
 
-    /// No more frames; the lowest frame that no axis can have armed yet is vetoed, by the state published in slot
+    /// Makes no more frames. Vetoes the lowest frame that no axis can have armed yet, by the state published in slot
     /// `next`.
     void stop(Slot next);
 
-    /// Nothing while an axis may still move. Axes that are not present are left out.
+    /// Returns nullopt while an axis may still move. Axes that are not present are left out.
     std::optional<EpochEnd> evaluate(Slot now, std::span<const AxisView> axes) const;
 
-    /// All that was sent is long over, with its tails, and still the result is open: not even a device that was
-    /// silent for as long as it may be, nor word of it that came as late, explains that. Only slots in which frames
-    /// were asked for count: while this process stalls, it receives nothing.
+    /// All sent frames and their tails ended long ago, but the result is still open. Even a device that was silent as
+    /// long as it may be, and a report that was equally late, do not explain that. Only slots with a call of `send`
+    /// count, because this process receives nothing while it stalls.
     bool is_overdue() const { return slots_over_ > 2 * rules::silence_slots(machine_.timing) + rules::kHopSlots; }
 
-    /// The events whose places the motion has come to by `now`, each once: in frames that an axis has begun. Their
-    /// times are those of the motion. Valid until the next call.
+    /// Returns the events with places that the motion has reached by `now`, each once, in frames that an axis has
+    /// begun. Their times are those of the motion. Valid until the next call.
     struct Happened {
         Tick tick;
         PathEvent event;
     };
     std::span<const Happened> take_events(Tick now, std::span<const AxisView> axes);
 
-    /// `rests` becomes where the machine rests behind this frame and those made after it.
+    /// Sets `rests` to where the machine rests after this frame and after each frame made later.
     void list_rests(FrameNumber frame, std::vector<FrameRest>& rests) const;
 
     const OwnedSource& source() const { return source_; }
-    /// Of its first frame; nothing while that cannot be made yet.
+    /// The start of its first frame; empty while that frame cannot be made yet.
     const std::optional<Tick>& start() const { return start_; }
-    /// Where the program is, by the last frames made.
+    /// The place on the program at `tick`, by the last frames made.
     PathPlace place_at(Tick tick) const;
-    /// How long the first frames last.
+    /// How long the first `frames` frames last.
     Ticks ticks_of(FrameNumber frames) const;
-    /// The frames' limits contradict each other: it ends early.
+    /// The frames' limits contradict each other, so the epoch ends early.
     bool is_stuck() const { return is_stuck_; }
     Epoch epoch() const { return epoch_; }
     FrameNumber sent() const { return sent_; }
-    /// The lowest of the coordinator's own and those received: each receiver repeats a veto.
+    /// The lowest of the coordinator's own veto and those received, because each receiver repeats a veto.
     std::optional<FrameNumber> veto() const { return rules::merge(veto_, received_veto_); }
     bool was_late() const { return late_; }
-    /// It was late because too little of the program was known when the frame was due, whatever came afterwards.
+    /// The epoch was late because too little of the program was known when the frame was due. Blocks that came
+    /// afterwards do not count.
     bool lacked_blocks() const { return late_ && lacked_blocks_; }
 
 private:
-    struct Made {                          // a frame; 0: the epoch's begin
+    struct Made {                          // a frame; number 0: the epoch's begin
         Ticks end;                         // from the epoch's start
         std::array<PathPlace, 16> places;  // in equal parts of its time
-        PathPlace rest;                    // if it is the last one run
+        PathPlace rest;                    // where the machine rests if it is the last one run
         AxisPositions positions;
         bool complete = false;
     };
@@ -123,13 +124,13 @@ private:
     OwnedSource source_;
     Epoch epoch_ = 0;
     std::optional<Tick> start_;
-    Ticks made_ticks_;     // in frames so far
-    Tick rests_;           // by when the machine does, whichever of the frames made so far is the last one run
-    Slot slots_over_ = 0;  // in which frames were asked for since
+    Ticks made_ticks_;     // duration of the frames made so far
+    Tick rests_;           // by when the machine rests, for any of the frames made so far as the last one run
+    Slot slots_over_ = 0;  // slots since then with a call of `send`
     AxisPositions at_;
     FrameNumber sent_ = 0;
-    std::optional<Overrides> turned_;          // to be planned with yet
-    std::optional<FrameNumber> tried_behind_;  // the last frame behind which that was tried
+    std::optional<Overrides> turned_;          // not planned with yet
+    std::optional<FrameNumber> tried_behind_;  // the last frame after which that was tried
     std::optional<Turn> taken_;
     bool ended_ = false;  // no more frames will be made
     bool late_ = false;
@@ -138,7 +139,7 @@ private:
     bool is_empty_ = false;                     // the path has no frame
     std::optional<FrameNumber> veto_;           // the coordinator's own
     std::optional<FrameNumber> received_veto_;  // the lowest of the axes'
-    ReusedQueue<Frame> in_flight_;              // not begun yet
+    ReusedQueue<Frame> in_flight_;              // frames not begun yet
     ReusedVector<Frame> to_send_;
     struct Due {
         FrameNumber frame = 0;

@@ -1,6 +1,6 @@
-// The events of a leg, in order, until the motion comes to their places.
+// The events of a leg, in order, until the motion reaches their places.
 //
-// An event belongs between the moves of its program: its place is where the first move behind it begins, or the leg's
+// An event belongs between the moves of its program. Its place is where the first move after it begins, or the leg's
 // end. So an event is due when a move of a later block begins.
 #pragma once
 
@@ -38,31 +38,32 @@ public:
         next_ = 0;
         from_ = resumed_ = 0;
     }
-    /// In the order of the program.
+    /// Called in the order of the program.
     void add(const PathEvent& event) {
         if (event.block < from_) { return; }
         events_.push_back(event);
         if (event.block < resumed_) { next_ = events_.size(); }
     }
-    /// The events before this block have happened: they are not kept.
+    /// The events before this block have happened and are not kept.
     void begin_from(std::uint32_t block) {
         from_ = block;
         while (!events_.empty() && events_.front().block < block) { events_.pop_front(); }
         next_ = 0;
     }
-    /// The motion goes on in this block: the events before it are not due again.
+    /// The motion continues in this block. The events before it are not due again.
     void resume(std::uint32_t block) {
         resumed_ = block;
         next_ = 0;
         while (next_ < events_.size() && events_[next_].block < block) { ++next_; }
     }
-    /// A frame was made: `due` becomes the events whose places it comes to. `begins`: of the moves that begin in it.
+    /// Call it when a frame was made. Sets `due` to the events with places in this frame. `begins`: the moves that
+    /// begin in it.
     void take_due(const PathFrame& frame, std::span<const MoveBegin> begins, std::vector<FrameEvent>& due) {
         due.clear();
         for (const MoveBegin& begin : begins) { take_before(begin.block, Ticks{std::llround(begin.at)}, due); }
         if (frame.last) { take_before(kAll, frame.ticks, due); }
     }
-    /// Those that are kept, before a block.
+    /// The kept events before a block.
     std::span<const PathEvent> before(std::uint32_t block) const {
         std::size_t count = 0;
         while (count < events_.size() && events_[count].block < block) { ++count; }
@@ -80,7 +81,7 @@ private:
     }
 
     SlidingVector<PathEvent> events_;
-    std::size_t next_ = 0;  // of those that are due next
+    std::size_t next_ = 0;  // the first event that was not due yet
     std::uint32_t from_ = 0;
     std::uint32_t resumed_ = 0;
 };

@@ -1,4 +1,4 @@
-// What the frames of an epoch are made of: a path from a rest to the next rest that the program asks for.
+// The source of an epoch's frames: a path from one rest to the next rest that the program asks for.
 #pragma once
 
 #include <expected>
@@ -19,54 +19,55 @@ namespace lockstep {
 struct LegEnd {
     enum class Kind : std::uint8_t { Program, Settle, Pause };
     Kind kind = Kind::Program;
-    std::uint32_t block = 0;  // the first one that is not of the path; at the program's end there is no such block
+    std::uint32_t block = 0;  // the first block after the path; at the program's end there is no such block
     AxisCounts to;            // of all axes of the machine, whole steps
 };
 
 class FrameSource {
 public:
     virtual ~FrameSource() = default;
-    /// A copy that goes on in the same way.
+    /// A copy that continues in the same way.
     virtual std::unique_ptr<FrameSource> clone() const = 0;
 
-    /// Makes the frames of another path in the same memory, from a block of a program on: `axes` are those of the
-    /// machine that it names, `from` is where all axes stand. False: it cannot, and nothing has changed.
+    /// Begins another path in the same memory, from block `first` of a program on. `axes`: the machine's axes that the
+    /// program names. `from`: where all axes stand. Returns false and changes nothing if the source cannot do that.
     virtual bool begin(const std::shared_ptr<const ProgramBlocks>& /*program*/, std::span<const std::size_t> /*axes*/,
                        std::uint32_t /*first*/, const AxisCounts& /*from*/) {
         return false;
     }
-    /// The axes rest at `at`: where the path begins, or where one of the last frames rests. The next frame goes on from
-    /// there.
+    /// The axes rest at `at`: where the path begins, or where one of the last frames rests. The next frame continues
+    /// from there.
     virtual void resume(const PathPlace& place, std::span<const Position> at, const Overrides& overrides) = 0;
-    /// Reads on in the program, by a bounded amount. Once a slot. False: nothing could be read.
+    /// Reads a bounded amount of the program. Called once a slot. Returns false if nothing could be read.
     virtual bool read() { return false; }
-    /// Reads until the next frame can be made, none is left, or no more is known.
+    /// Reads until the next frame can be made, no frame is left, or no more blocks are known.
     void read_ahead() {
         while (!is_ready() && !is_done() && read()) {}
     }
-    /// It can make no frame before more of the program is known.
+    /// It cannot make a frame before more of the program is known.
     virtual bool lacks_blocks() { return false; }
     /// The next frame can be made.
     virtual bool is_ready() = 0;
     /// The path has no further frame.
     virtual bool is_done() const = 0;
-    /// Valid until the next call. Null: it is not ready.
+    /// Makes the next frame, valid until the next call. Returns null if it is not ready.
     virtual std::expected<const PathFrame*, PathStuck> next() = 0;
-    /// The moves that begin in the last frame; right behind next() only.
+    /// The moves that begin in the last frame. Only valid directly after next().
     virtual const std::vector<MoveBegin>& begins() const = 0;
-    /// New overrides, from the next frame on or soon after. False: not from there, and those before still hold.
+    /// Sets new overrides, from the next frame on or soon after. Returns false if they cannot begin there, and the old
+    /// ones still hold.
     virtual bool turn(const Overrides& overrides) = 0;
-    /// Of a path that is done.
+    /// The end of a path that is done.
     virtual LegEnd end() const = 0;
-    /// The events whose places the last frame comes to; right behind next() only.
+    /// The events with places in the last frame. Only valid directly after next().
     virtual std::span<const FrameEvent> events() const { return {}; }
-    /// Before this block they have happened: before any block is read.
+    /// Events before this block have happened. Call it before any block is read.
     virtual void begin_events_from(std::uint32_t /*block*/) {}
-    /// Those that were read and not forgotten, before a block.
+    /// The events before a block that were read and not forgotten.
     virtual std::span<const PathEvent> events_before(std::uint32_t /*block*/) const { return {}; }
-    /// Of the block of one of the last frames.
+    /// The line of a block in which one of the last frames is.
     virtual std::int32_t line_of(std::uint32_t block) const = 0;
-    /// About how long the program takes from a place of the path on, without overrides.
+    /// An estimate of how long the program takes from a place of the path on, without overrides.
     virtual double seconds_from(const PathPlace& place) const = 0;
 };
 

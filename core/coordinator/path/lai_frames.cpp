@@ -31,7 +31,7 @@ void LaiFrames::resume(const PathPlace& place, std::span<const Position> at, con
     events_.resume(place.block);
 }
 
-/// At the end of a part the next one begins.
+/// The end of a part counts as the beginning of the next one.
 LaiFrames::Spot LaiFrames::spot_of(const PathPlace& place) const {
     Displacement left = place.along - before(place.block);
     for (std::size_t k = 0; k < path_.moves.size(); ++k) {

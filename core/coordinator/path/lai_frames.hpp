@@ -1,4 +1,4 @@
-// The frames of a path by Lai's method (lai_path.hpp), which is planned as a whole.
+// The frames of a path by Lai's method (lai_path.hpp). The path is planned as a whole.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ namespace lockstep {
 
 class LaiFrames final : public FrameSource {
 public:
-    /// `moves`: of the program, whole, up to `end`.
+    /// `moves`: all moves of the program up to `end`.
     LaiFrames(const MachineConfig& machine, std::shared_ptr<const ProgramBlocks> program, std::vector<PathMove> moves,
               EventQueue events, const LegEnd& end);
 
@@ -39,7 +39,7 @@ private:
         Displacement along;
     };
 
-    /// The way along a block up to the first part of it that is left.
+    /// The distance along a block up to the first part of it that is left.
     Displacement before(std::uint32_t block) const { return block == passed_.block ? passed_.along : Displacement{}; }
     Spot spot_of(const PathPlace& place) const;
     PathPlace place_of(const PathMove& move, Displacement along) const;
@@ -55,12 +55,12 @@ private:
     std::vector<double> steps_per_mm_;
     Path path_;
     PathPlace passed_;
-    Ticks made_;  // of the path, in frames so far
-    Ticks last_;  // of these, the last frame
+    Ticks made_;  // duration of the frames made so far
+    Ticks last_;  // duration of the last frame
     AxisPositions at_;
-    PathFrame frame_;                // the last one
-    std::vector<MoveBegin> begins_;  // in it
-    std::vector<FrameEvent> due_;    // in it
+    PathFrame frame_;                // the last frame
+    std::vector<MoveBegin> begins_;  // moves that begin in it
+    std::vector<FrameEvent> due_;    // events due in it
 };
 
 }  // namespace lockstep

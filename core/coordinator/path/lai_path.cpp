@@ -13,10 +13,10 @@ namespace lockstep {
 namespace {
 
 constexpr double kLeastPulses = 2;         // of start velocity per period, of acceleration per period and period
-constexpr std::int64_t kStopPeriods = 80;  // from more than so many changes of speed no tail is short enough
+constexpr std::int64_t kStopPeriods = 80;  // speed limit, in changes per period: from higher speeds tails are too long
 
-/// Pulses per period by which the plan changes an axis's speed from one to the next: half of what it could, since
-/// rounding may add one, and tails brake with the other half.
+/// By how many pulses per period the plan changes an axis's speed from one period to the next. It is half of what the
+/// limits allow, because rounding may add one, and tails brake with the other half.
 std::int64_t change_of(const AxisLimits& axis, double period) {
     const double acceleration = std::min(axis.max_acceleration, axis.max_deceleration);
     return std::max<std::int64_t>(
@@ -33,7 +33,7 @@ public:
           least_(least),
           published_(following == LaiFollowing::AsPublished) {}
 
-    /// A dwell, or the rest of a period that was held in: by itself, from rest to rest.
+    /// A dwell, or the rest of a period in which a hold came, as a move from rest to rest.
     void alone(const PathMove& move, Displacement along = {}) { append(plan_alone(move, along, least_)); }
 
     /// A straight move from rest to rest, period by period. Its parts are numbered from `part`.
@@ -71,7 +71,7 @@ private:
         path_.moves.push_back(move);
     }
 
-    /// One for each axis but the long one.
+    /// A follower for each axis except the long one.
     Followers followers_of(const PathMove& move, const methods::LaiSpeeds& speeds) const {
         const auto rounding = published_ ? methods::LaiRounding::InEachPeriod : methods::LaiRounding::FromTheStart;
         const auto compensation = published_ ? methods::LaiCompensation{} : methods::kUncompensated;
@@ -91,7 +91,7 @@ private:
         return followers;
     }
 
-    /// Of the long axis, so that no axis breaks its limits, rounding to whole pulses included.
+    /// Speeds of the long axis with which no axis breaks its limits, including the rounding to whole pulses.
     methods::LaiSpeeds speeds_of(const PathMove& move) const {
         std::int64_t change = methods::kMaxPeriodPulses;
         double top = std::min(static_cast<double>(methods::kMaxPeriodPulses), move.asked_velocity() * period());
@@ -115,7 +115,7 @@ private:
         move.block = whole_move.block;
         move.part = part;
         move.limits = move.own;
-        for (std::size_t i = 0; i < limits_.size(); ++i) {  // what changes from period to period leave to stop with
+        for (std::size_t i = 0; i < limits_.size(); ++i) {  // what the changes between periods leave for stops
             const double share = std::abs(move.share(i));
             const double used = static_cast<double>(change_of(limits_[i], period())) / (period() * period());
             if (share == 0) { continue; }
@@ -144,12 +144,12 @@ std::string text_of(const LaiLack& lack) {
         case LaiLack::Why::Axes: return "coordination LAI is for two and more axes; the machine has one";
         case LaiLack::Why::Tick: return "coordination LAI needs a tick_ns that divides 6500000; it is " + value;
         case LaiLack::Why::FrameRoom:
-            return "coordination LAI makes a move each 6.5 ms, frames as long as these carry one each " + value +
-                   " ms; lower timing.frame_slots or timing.slot_us";
+            return "coordination LAI makes a move each 6.5 ms, but frames of this length have room for one each " +
+                   value + " ms; lower timing.frame_slots or timing.slot_us";
         case LaiLack::Why::Limit: break;
     }
-    return "axis " + lack.axis + ": coordination LAI changes speed by whole pulses per 6.5 ms, which takes " +
-           std::string(lack.key) + " of at least " + short_number(lack.least) + "; it is " + value +
+    return "axis " + lack.axis + ": coordination LAI changes speed by whole pulses per 6.5 ms, so " +
+           std::string(lack.key) + " must be at least " + short_number(lack.least) + "; it is " + value +
            " (more steps_per_mm help too, or coordination: RANADE)";
 }
 

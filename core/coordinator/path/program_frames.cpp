@@ -46,7 +46,7 @@ bool ProgramFrames::read() {
     return next_ != begin || is_finished_;
 }
 
-/// False: the next block is not at hand.
+/// Returns false if the next block is not at hand.
 bool ProgramFrames::read_block() {
     if (program_->ends_before(next_)) {
         finish(LegEnd::Kind::Program);
@@ -76,7 +76,8 @@ bool ProgramFrames::read_block() {
     return true;
 }
 
-/// The axes begin on whole steps, less than a step from the program's place. False: that is not at hand.
+/// Begins at the program's exact place. The axes begin on whole steps, less than a step from it. Returns false if the
+/// place is not at hand.
 bool ProgramFrames::begin_at_place() {
     const auto place = program_->place_before(next_);
     is_starved_ = !place;

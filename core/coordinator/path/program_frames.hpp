@@ -1,4 +1,4 @@
-// The frames of a program's moves by core/path: the program is read as a stream, a bounded amount in each slot.
+// The frames of a program's moves by core/path. The program is read as a stream, a bounded amount in each slot.
 #pragma once
 
 #include "core/coordinator/path/frame_source.hpp"
@@ -23,7 +23,7 @@ public:
     bool is_done() const override { return planner_.is_done(); }
     std::expected<const PathFrame*, PathStuck> next() override;
     const std::vector<MoveBegin>& begins() const override { return planner_.begins(); }
-    /// Reads as much more as deciding takes, so that the answer does not depend on what was read before.
+    /// Reads as many blocks as the decision needs, so that the answer does not depend on what was read before.
     bool turn(const Overrides& overrides) override;
     LegEnd end() const override { return {end_, next_, to_}; }
     std::span<const FrameEvent> events() const override { return due_; }
@@ -33,8 +33,8 @@ public:
     double seconds_from(const PathPlace& place) const override { return program_->seconds_from(place); }
 
     static constexpr std::size_t kBlocksAtOnce = 200;   // a fraction of a millisecond of work
-    static constexpr std::size_t kBlocksPassed = 2000;  // at once where they were run before: less work
-    static constexpr std::size_t kReserve = 4096;  // intervals: when so many wait for their frames, no more are read
+    static constexpr std::size_t kBlocksPassed = 2000;  // at once if they were run before, which is less work
+    static constexpr std::size_t kReserve = 4096;  // intervals: while this many wait for their frames, no more are read
 
 private:
     bool read_block();
@@ -45,19 +45,19 @@ private:
 
     std::shared_ptr<const ProgramBlocks> program_;
     std::vector<double> steps_per_mm_;
-    std::vector<std::size_t> axes_;  // of the machine: those that the program names
+    std::vector<std::size_t> axes_;  // the machine's axes that the program names
     double tick_s_ = 0;
-    std::uint32_t next_ = 0;  // the block to be read
+    std::uint32_t next_ = 0;  // the next block to read
     std::uint32_t resumed_ = 0;
     bool has_moved_ = false;  // a move of the leg was read
     bool is_finished_ = false;
     LegEnd::Kind end_ = LegEnd::Kind::Program;
     bool is_starved_ = false;              // the next block was not at hand
     AxisCounts to_;                        // where the last block read leads to, whole steps
-    SlidingVector<std::int32_t> lines_;    // of the blocks up to the next one
+    SlidingVector<std::int32_t> lines_;    // lines of the blocks before the next one
     SlidingVector<std::uint32_t> begins_;  // the blocks in which the last frames begin
     EventQueue events_;
-    std::vector<FrameEvent> due_;  // in the last frame
+    std::vector<FrameEvent> due_;  // events in the last frame
     AxisVector at_;                // where the last block read leads to
     PathPlanner planner_;
 };

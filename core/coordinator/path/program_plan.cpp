@@ -137,7 +137,7 @@ PathMove ProgramPlanner::path_move(const ProgramMove& linear, const AxisCounts& 
     return make_move(from, to, limits_, steps_per_mm_, linear.rapid ? 0 : linear.feed_mm_s * tick_s);
 }
 
-/// An arc has a length where its ends are the same, too.
+/// An arc has a length even if its ends are the same.
 void ProgramPlanner::note_arc(const ProgramMove& arc, const std::vector<std::size_t>& axes, PathMove& move) const {
     std::vector<double> from_mm;
     from_mm.reserve(axes.size());

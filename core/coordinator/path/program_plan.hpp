@@ -1,4 +1,4 @@
-// From a program to legs: checks every target and finds the pauses, before anything moves.
+// Divides a program into legs. Checks every target and finds the pauses before anything moves.
 #pragma once
 
 #include <expected>
@@ -16,10 +16,10 @@
 
 namespace lockstep {
 
-/// Blocks that follow each other without a rest between two of them.
+/// Successive blocks without a rest between them.
 struct Leg {
-    std::uint32_t first = 0;  // of the program's blocks, up to
-    std::uint32_t end = 0;    // this one, which is the pause or the rest if there is one
+    std::uint32_t first = 0;  // the first block of the leg
+    std::uint32_t end = 0;    // the first block after it: the pause or rest, if there is one
     bool moves = false;       // a block moves or dwells
     AxisCounts from;          // whole steps
     AxisCounts to;
@@ -33,7 +33,7 @@ struct PlanError {
 
 Ticks ticks_of(const Dwell& dwell, double tick_s);
 
-/// Program: the block ends no leg. Before the others the machine comes to rest, on whole steps.
+/// Program: the block does not end a leg. Before other blocks the machine comes to rest, on whole steps.
 inline LegEnd::Kind end_by(const Block& block) {
     if (std::holds_alternative<Pause>(block.action)) { return LegEnd::Kind::Pause; }
     return std::holds_alternative<Settle>(block.action) ? LegEnd::Kind::Settle : LegEnd::Kind::Program;
@@ -45,17 +45,17 @@ class ProgramPlanner {
 public:
     explicit ProgramPlanner(const MachineConfig& machine);
 
-    /// The whole program from where the axes stand. Errors: an axis the machine lacks, a start elsewhere than the
-    /// program's (StartMismatch), a start or a target outside the travel (OutsideTravel), a move that is too long to
-    /// count.
+    /// Plans the whole program from where the axes stand. Errors: an axis that the machine lacks, a start that differs
+    /// from the program's (StartMismatch), a start or a target outside the travel (OutsideTravel), a move that is too
+    /// long to count.
     std::expected<std::vector<Leg>, PlanError> plan(const ProgramHead& head, const ProgramBlocks& blocks,
                                                     const AxisCounts& start) const;
     std::expected<std::vector<Leg>, PlanError> plan(const Program& program, const AxisCounts& start) const {
         return plan(program.head(), WholeProgram(borrowed(program)), start);
     }
 
-    /// What the frames of a leg are made of: of the blocks from `first` on, where the axes stand at `from`. It is
-    /// resumed before it makes any. By the LAI method the whole program is known.
+    /// Returns the source of a leg's frames: of the blocks from `first` on, where the axes stand at `from`. The caller
+    /// resumes it before it makes a frame. For the LAI method the whole program must be known.
     std::unique_ptr<FrameSource> frames(std::shared_ptr<const ProgramBlocks> program, std::uint32_t first,
                                         const AxisCounts& from) const;
     std::unique_ptr<FrameSource> frames(std::shared_ptr<const Program> program, const Leg& leg) const {
@@ -65,24 +65,25 @@ public:
     /// The moves of a leg from whole step to whole step, and its dwells.
     std::vector<PathMove> moves_of(const Program& program, const Leg& leg) const;
 
-    /// The places of axes in the machine. Error: one that it lacks.
+    /// The places of axes in the machine. Error: an axis that it lacks.
     std::expected<std::vector<std::size_t>, PlanError> axes_of(const std::vector<std::string>& names) const;
-    /// Error: an axis of the machine stands outside its travel, so no frame may begin there; or the axes stand
-    /// elsewhere than where the program starts.
+    /// Error: an axis of the machine stands outside its travel, so no frame may begin there, or the axes do not stand
+    /// where the program starts.
     std::expected<void, PlanError> check_start(const ProgramHead& program, const AxisCounts& start) const;
-    /// Of a program with these `axes` (axes_of).
+    /// The same for a program with these `axes` (axes_of).
     std::expected<void, PlanError> check_start(const ProgramHead& program, std::span<const std::size_t> axes,
                                                const AxisCounts& start) const;
-    /// Where a move leads. Error: outside the travel, or too far to count.
+    /// The end of a move. Error: it is outside the travel, or too far to count.
     std::expected<AxisCounts, PlanError> target(const ProgramMove& move, std::span<const std::size_t> axes,
                                                 const AxisCounts& from, std::int32_t line) const;
-    /// Error: an arc that has no radius or does not close, leaves the travel, or LAI is to run.
+    /// Error: the arc has no radius, does not close, leaves the travel, or is for LAI, which has no arcs.
     std::expected<void, PlanError> check_arc(const ProgramMove& move, const std::vector<std::size_t>& axes,
                                              std::span<const double> from_mm, std::int32_t line) const;
-    /// Whether a block of a program with these `axes` (axes_of) moves an axis or dwells. `at` becomes where it leads.
+    /// Whether a block of a program with these `axes` (axes_of) moves an axis or dwells. Sets `at` to the block's end.
     bool moves(const Block& block, std::span<const std::size_t> axes, AxisCounts& at) const;
-    /// The block's move or dwell, of a program with these `axes` (axes_of), from `at`, which becomes where it leads.
-    /// Nothing: it neither moves nor dwells. Errors: as target(), and what cannot be made by the LAI method.
+    /// Returns the block's move or dwell from `at`, of a program with these `axes` (axes_of), and sets `at` to its end.
+    /// Returns nullopt if the block neither moves nor dwells. Errors: those of target(), and moves that the LAI method
+    /// cannot make.
     std::expected<std::optional<PathMove>, PlanError> move_of(const Block& block, std::uint32_t number,
                                                               const std::vector<std::size_t>& axes,
                                                               AxisCounts& at) const;

@@ -9,7 +9,7 @@ namespace {
 
 enum class Kind : std::uint8_t { Move, Rapid, Arc, Dwell, Pause, Settle, Event };
 
-// Several whole numbers in one, exact up to 2^53.
+// Several whole numbers are packed into one, which is exact up to 2^53.
 constexpr std::int64_t kRowKinds = 8;
 constexpr std::int64_t kModes = 4;
 constexpr std::int64_t kAxesMost = 64;
@@ -19,7 +19,7 @@ struct Packed {
     std::int64_t value = 0;
 
     void add(std::int64_t number, std::int64_t below) { value = value * below + number; }
-    /// In the reverse order of add().
+    /// Takes the numbers in the reverse order of add().
     std::int64_t take(std::int64_t below) {
         const std::int64_t number = value % below;
         value /= below;

@@ -1,7 +1,7 @@
 // A block of a program as a row of numbers, as a coordinator keeps it.
 //
 //     0  line and kind    1  feed, seconds or value    2  details (packed)    3  tolerance, mm, or index
-//     4, 5  centre of an arc, mm    then the place behind the block, mm
+//     4, 5  centre of an arc, mm    then the place after the block, mm
 #pragma once
 
 #include <cstddef>
@@ -15,19 +15,19 @@ namespace lockstep {
 inline constexpr std::size_t kRowHead = 6;
 
 constexpr std::size_t row_width(std::size_t axes) { return kRowHead + axes; }
-/// Appends the row of a block. `place_mm` is where the axes are behind it.
+/// Appends the row of a block. `place_mm`: where the axes are after the block.
 void append_row(const Block& block, std::span<const double> place_mm, std::vector<double>& rows);
 inline std::span<const double> place_of_row(std::span<const double> row) { return row.subspan(kRowHead); }
 
-/// Makes blocks of rows, in memory that it keeps.
+/// Converts rows to blocks, in memory that it keeps.
 class RowReader {
 public:
     /// Valid until the next call.
     const Block& read(std::span<const double> row);
 
 private:
-    Block move_;   // a move: its place keeps its memory
-    Block other_;  // the last block that was none
+    Block move_;   // the last move: its vector of places keeps its memory
+    Block other_;  // the last block that was no move
 };
 
 }  // namespace lockstep

@@ -8,7 +8,7 @@
 namespace lockstep {
 namespace {
 
-constexpr double kSharp = 0.94;  // cosine of an angle: core/path keeps greater ones as corners
+constexpr double kSharp = 0.94;  // cosine of an angle: core/path keeps corners with greater angles
 
 }  // namespace
 
@@ -37,7 +37,7 @@ void BlockTimes::add_move(std::span<const double> way_mm, double feed_mm_s) {
     add_way(way, direction, direction);
 }
 
-/// As fast as its curvature and the slower axis of its plane allow all the way.
+/// The arc is assumed as fast as its curvature and the slower axis of its plane allow everywhere.
 void BlockTimes::add_arc(const ArcPath& arc, std::pair<std::size_t, std::size_t> plane, std::span<const double> way_mm,
                          double feed_mm_s) {
     const auto [first, second] = plane;
@@ -66,7 +66,7 @@ void BlockTimes::add_arc(const ArcPath& arc, std::pair<std::size_t, std::size_t>
     add_way(way, begins, std::move(ends));
 }
 
-/// From one direction to another, each of length 1.
+/// `begins` and `ends`: directions, each of length 1.
 void BlockTimes::add_way(const Way& way, const std::vector<double>& begins, std::vector<double> ends) {
     double cosine = 0;
     for (std::size_t i = 0; i < begins.size(); ++i) { cosine += begins[i] * direction_[i]; }
@@ -107,7 +107,8 @@ void BlockTimes::halve() {
     stride_ *= 2;
 }
 
-/// From rest to rest with the mean of the speeds asked for, or as fast as the way to it allows.
+/// The motion is assumed from rest to rest with the mean of the speeds asked for, or slower if the distance is too
+/// short to reach it.
 void BlockTimes::close_run() {
     if (run_s_ > 0) {
         const double speed = run_mm_ / run_s_;

@@ -1,5 +1,6 @@
-// About how long the blocks of a program take, for progress and time left: at their feed as far as the axes allow it,
-// with a rise from rest and a fall to rest between two sharp corners. Constant work for each block, bounded memory.
+// Estimates how long the blocks of a program take, for progress and time left. It assumes their feed as far as the axes
+// allow it, and between two sharp corners acceleration from rest and deceleration to rest. Constant work for each
+// block, bounded memory.
 #pragma once
 
 #include <span>
@@ -16,27 +17,27 @@ class BlockTimes {
 public:
     explicit BlockTimes(const MachineConfig& machine);
 
-    // Block by block.
-    /// `way_mm`: of each axis. `feed_mm_s` 0: as fast as the axes allow.
+    // Called block by block, in order.
+    /// `way_mm`: the distance of each axis. `feed_mm_s` 0: as fast as the axes allow.
     void add_move(std::span<const double> way_mm, double feed_mm_s);
-    /// `plane`: the machine's axes of the arc's plane. `way_mm`: of each axis, from end to end.
+    /// `plane`: the machine's axes of the arc's plane. `way_mm`: the distance of each axis, from end to end.
     void add_arc(const ArcPath& arc, std::pair<std::size_t, std::size_t> plane, std::span<const double> way_mm,
                  double feed_mm_s);
     void add_dwell(double seconds);
-    /// The machine comes to rest: behind the last block too.
+    /// The machine comes to rest. Call it after the last block, too.
     void add_rest();
 
     double seconds() const { return marks_.empty() ? 0 : marks_.back().end_s; }
-    /// A place's way is along its block, in mm.
+    /// The time from a place to the end. `along` of the place is in mm.
     double seconds_from(const PathPlace& place) const;
 
-    /// Above so many blocks a mark stands for two, four, eight ... of them.
+    /// With more blocks than this a mark stands for two, four, eight ... of them.
     static constexpr std::size_t kMostMarks = 1 << 16;
 
 private:
     struct Mark {
         double end_s = 0;
-        double length_mm = 0;  // of its block, where it has only one
+        double length_mm = 0;  // length of its block, if it has only one
     };
 
     struct Way {
@@ -55,9 +56,9 @@ private:
     std::uint64_t blocks_ = 0;
     std::uint64_t stride_ = 1;  // blocks for each mark
     // Since the last sharp corner:
-    std::size_t run_ = 0;  // its first mark
+    std::size_t run_ = 0;  // the first mark since then
     double run_begin_s_ = 0;
-    double run_s_ = 0;  // at the speeds asked for
+    double run_s_ = 0;  // time at the speeds asked for
     double run_mm_ = 0;
     double run_acceleration_ = 0;
     std::vector<double> direction_;  // of length 1, at the end of the last move

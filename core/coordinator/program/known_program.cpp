@@ -135,7 +135,7 @@ std::optional<std::uint32_t> KnownProgram::leg_of(std::uint32_t number) const {
     return behind == legs_.begin() ? std::nullopt : std::optional(*(behind - 1));
 }
 
-/// What is not known yet takes as long for its share as what is.
+/// The unknown part of the program is assumed to take as long for its share as the known part.
 double KnownProgram::seconds_from(const PathPlace& place) const {
     const double left = times_.seconds_from(place);
     if (!is_open_ || known_share_ <= 0) { return left; }

@@ -1,4 +1,4 @@
-// A program as a coordinator knows it: whole, or still growing while it runs. Its blocks are kept outside of it.
+// A program as a coordinator knows it: whole, or still growing while it runs. A RowStore keeps its blocks.
 #pragma once
 
 #include <deque>
@@ -19,10 +19,10 @@
 
 namespace lockstep {
 
-/// Why a program ends before its end: no more of it comes.
+/// Why a program ends early. No more of it comes.
 struct ProgramCut {
     FaultCode why = FaultCode::BadProgram;
-    std::int32_t line = 0;  // of what is wrong; 0: none
+    std::int32_t line = 0;  // the line of the error; 0: none
     std::string text;       // the value, the limit and the remedy
 };
 
@@ -31,41 +31,41 @@ public:
     /// Error: an axis that the machine lacks.
     static std::expected<KnownProgram, ProgramCut> begin(const MachineConfig& machine, ProgramHead head,
                                                          std::unique_ptr<RowStore> rows);
-    /// How many numbers a block is kept as.
+    /// How many numbers keep one block.
     static std::size_t row_width(const ProgramHead& head) { return lockstep::row_width(head.axes.size()); }
 
-    /// More blocks of an open program. Error: one that the machine cannot run, or they cannot be kept. None of them is
-    /// taken then, and the program is cut before them.
+    /// Adds blocks to an open program. Error: the machine cannot run one of them, or they cannot be kept. None of them
+    /// is then taken, and the program is cut before them.
     std::expected<void, ProgramCut> append(std::span<const Block> blocks);
     /// All of its blocks are known.
     void end() { is_open_ = false; }
     /// No more blocks come.
     void cut(ProgramCut cut);
-    /// Its sender's estimate of how much of it is known; 0: it cannot say.
+    /// Takes its sender's estimate of how much of it is known; 0: the sender does not know.
     void note_share(double known) { known_share_ = known; }
     /// Blocks before this one were run. They are kept as long as there is room.
     void release_before(std::uint32_t block) const { rows_->release_before(block); }
 
     const ProgramHead& head() const { return head_; }
     const std::vector<std::string>& axes() const override { return head_.axes; }
-    /// Their places in the machine.
+    /// The places of these axes in the machine.
     const std::vector<std::size_t>& places() const { return axes_; }
     /// More blocks may come.
     bool is_open() const { return is_open_; }
     const std::optional<ProgramCut>& cut() const { return cut_; }
     std::uint32_t known() const { return known_; }
-    /// How many blocks more it can take now.
+    /// How many more blocks it can take now.
     std::uint64_t free() const { return rows_->free_rows(); }
-    /// Of the last block that is known; 0: there is none.
+    /// The line of the last known block; 0: there is none.
     std::int32_t last_line() const { return last_line_; }
 
     const Block* block(std::uint32_t number) const override;
     bool ends_before(std::uint32_t number) const override { return !is_open_ && number >= known_; }
     double seconds_from(const PathPlace& place) const override;
     std::optional<std::span<const double>> place_before(std::uint32_t number) const override;
-    /// All of it, so far. Nothing: not all of it is at hand.
+    /// Returns all blocks known so far, or nullopt if not all of them are at hand.
     std::optional<Program> whole() const;
-    /// The first block of the leg with this block. Nothing: it is forgotten.
+    /// Returns the first block of the leg with this block, or nullopt if it is forgotten.
     std::optional<std::uint32_t> leg_of(std::uint32_t number) const;
     /// The first block that is still kept.
     std::uint32_t first_kept() const { return rows_->first_row(); }
@@ -81,21 +81,21 @@ private:
     bool read(std::uint32_t number) const;
 
     ProgramPlanner planner_;
-    AxisCounts zero_;  // of all axes of the machine
+    AxisCounts zero_;  // a zero for each axis of the machine
     ProgramHead head_;
-    std::vector<std::size_t> axes_;  // of the machine: those that the program names
+    std::vector<std::size_t> axes_;  // places in the machine of the axes that the program names
     std::unique_ptr<RowStore> rows_;
     BlockTimes times_;
     bool is_open_ = true;
     std::optional<ProgramCut> cut_;
     std::uint32_t known_ = 0;
     std::int32_t last_line_ = 0;
-    std::uint32_t events_together_ = 0;  // since the last other block
+    std::uint32_t events_together_ = 0;  // events since the last block that was no event
     double known_share_ = 0;
-    std::vector<double> at_mm_;        // behind the last block that is known
-    std::deque<std::uint32_t> legs_;   // the newest: their first blocks
+    std::vector<double> at_mm_;        // places after the last known block
+    std::deque<std::uint32_t> legs_;   // the first blocks of the newest legs
     std::vector<double> taken_;        // rows of the blocks being taken
-    mutable std::vector<double> row_;  // that was read last
+    mutable std::vector<double> row_;  // the row that was read last
     mutable RowReader reader_;
 };
 

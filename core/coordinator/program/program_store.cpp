@@ -35,7 +35,7 @@ void ProgramStore::forget(std::uint64_t id) {
     std::erase_if(programs_, [id](const Entry& entry) { return entry.id == id; });
 }
 
-/// A program that runs is in use elsewhere, too.
+/// A program that runs is in use elsewhere, too, and is not removed.
 ProgramStore::Entry& ProgramStore::begin(std::uint64_t id, const ProgramHead& head) {
     forget(id);
     Entry entry{.id = id};
@@ -85,7 +85,7 @@ ProgramStore::Taken ProgramStore::take(const ProgramPart& part, Slot now) {
     return {reply, is_next && entry->parts > part.index};
 }
 
-/// One that finds no room is not taken: its sender repeats it.
+/// A part for which there is no room is not taken. Its sender repeats it.
 void ProgramStore::take_next(Entry& entry, const ProgramPart& part) {
     KnownProgram& program = *entry.program;
     if (part.blocks.size() > program.free()) { return; }

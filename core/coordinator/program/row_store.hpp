@@ -1,4 +1,4 @@
-// Where the blocks of a program are kept: as rows of numbers, all of one width, in order.
+// Keeps the blocks of a program as rows of numbers, all of one width, in order.
 #pragma once
 
 #include <algorithm>
@@ -13,15 +13,15 @@ namespace lockstep {
 class RowStore {
 public:
     virtual ~RowStore() = default;
-    /// Error: they cannot be kept; why, and the remedy. None of them is then kept.
+    /// Keeps all rows or none. Error: why they cannot be kept, and the remedy.
     virtual std::expected<void, std::string> append(std::span<const double> rows) = 0;
-    /// False: the row is not at hand yet, and is fetched; ask again in a later loop.
+    /// Returns false if the row is not at hand yet. It is then fetched. Ask again in a later loop.
     virtual bool read(std::uint32_t number, std::span<double> row) = 0;
-    /// How many rows more it can keep.
+    /// How many more rows it can keep.
     virtual std::uint64_t free_rows() = 0;
-    /// Rows before this one are not asked for any more: it may keep others in their place.
+    /// Rows before this one are not read any more. The store may keep others in their place.
     virtual void release_before(std::uint32_t /*number*/) {}
-    /// The first one that is still kept.
+    /// The first row that is still kept.
     virtual std::uint32_t first_row() const { return 0; }
 };
 

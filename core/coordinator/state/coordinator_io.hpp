@@ -1,4 +1,4 @@
-// What one loop of the coordinator takes, and what it gives back, as values.
+// The inputs and outputs of one loop of the coordinator, as values.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace lockstep {
 
-/// What the record says of a job: enough to do it again.
+/// What the record contains of a job: enough to repeat it.
 struct JobEvent {
     enum class Kind : std::uint8_t { Begun, EpochBegun, Ended, Overridden };
     Kind kind = Kind::Begun;
@@ -25,8 +25,8 @@ struct JobEvent {
     JobKind job_kind = JobKind::Run;
     JobOutcome outcome = JobOutcome::Done;        // Ended
     std::shared_ptr<const KnownProgram> program;  // Begun; null for homing
-    std::uint64_t program_id = 0;                 // its Command::program; of Ended too
-    Epoch epoch = 0;                              // EpochBegun: its frame 1 starts at `start`; Overridden: in it
+    std::uint64_t program_id = 0;                 // its Command::program; in Ended, too
+    Epoch epoch = 0;                              // EpochBegun (frame 1 starts at `start`), Overridden
     Tick start;
     PathPlace place;          // EpochBegun: where on the program it starts
     Overrides overrides;      // EpochBegun, Overridden
@@ -34,7 +34,7 @@ struct JobEvent {
     AxisCounts start_counts;  // Begun
 };
 
-/// What is to follow when the epoch in progress has come to rest. The later ones win.
+/// What follows when the epoch in progress has come to rest. Later enumerators have priority.
 enum class Intent : std::uint8_t { GoOn, Hold, Stop, Abort };
 
 struct EpochOutcome {
@@ -45,17 +45,17 @@ struct EpochOutcome {
 /// What a new owner does with the job in progress.
 enum class OnTakeover : std::uint8_t { Stop, Continue };
 
-/// Why a job is not gone on with.
+/// Why a job is not continued.
 enum class TakeoverDoubt : std::uint8_t {
     NotAsked,          // OnTakeover::Stop
     NotRunning,        // held, paused, being stopped, or not a program
-    Interrupted,       // a hold or stop was asked for meanwhile
-    UnknownProgram,    // it did not arrive here
-    OtherPlan,         // what the owner said of it does not fit the program
+    Interrupted,       // a hold or stop was commanded meanwhile
+    UnknownProgram,    // its program did not arrive here
+    OtherPlan,         // what the owner published of it does not fit the program
     AxisInDoubt,       // missing, started again, not homed or in fault
     FramesDiffer,      // the axes did not run the same frames
-    UnreceivedFrames,  // they ran frames of which the owner's word was not heard
-    Misplaced,         // one is not where its frames end
+    UnreceivedFrames,  // the axes ran frames for which no message of the owner was received
+    Misplaced,         // an axis is not where its frames end
 };
 std::string_view text_of(TakeoverDoubt doubt);
 
@@ -67,16 +67,16 @@ struct CoordinatorNotice {
         AxisGone,
         Interrupted,
         EpochBegun,
-        Claimed,       // it owns the machine now
-        StoodDown,     // another does
-        JobCutShort,   // by the takeover: where, and why it is not gone on with
-        JobContinued,  // after the takeover: where
-        ProgramLate,   // the axes rest on the path and wait for more of the program; behind which frame
-        ProgramCut     // the job ended with what is known of its program: at which line, and why
+        Claimed,       // this coordinator owns the machine now
+        StoodDown,     // another coordinator owns the machine
+        JobCutShort,   // by the takeover, at line `number`; `doubt` says why it is not continued
+        JobContinued,  // after the takeover, at line `number`
+        ProgramLate,   // the axes rest on the path after frame `number` and wait for more of the program
+        ProgramCut     // the job ended at line `number`, where its known program ends; `fault` says why
     };
     Kind kind = Kind::Phase;
     FaultCode fault = FaultCode::None;
-    std::uint64_t number = 0;                       // an axis, an epoch, a phase, a term, a line: as the kind says
+    std::uint64_t number = 0;                       // an axis, an epoch, a phase, a term, a line or a frame, by kind
     TakeoverDoubt doubt = TakeoverDoubt::NotAsked;  // JobCutShort
 };
 
@@ -88,7 +88,7 @@ struct CoordinatorInputs {
     std::span<const ProgramPart> parts;
 };
 
-/// A part of a program that was taken: the record keeps it.
+/// A part of a program that was taken. The record keeps it.
 struct TakenPart {
     std::uint64_t program = 0;
     std::uint32_t index = 0;
@@ -103,10 +103,10 @@ struct CoordinatorOutputs {
     std::vector<JobEvent> jobs;
     std::vector<PublishedEvent> events;
     std::vector<CoordinatorNotice> notices;
-    std::optional<EpochOutcome> epoch_end;  // in the step that judged it
-    bool must_quit = false;  // another coordinator proved to own this machine, and this one was not to stand by
+    std::optional<EpochOutcome> epoch_end;  // in the step that evaluated it
+    bool must_quit = false;  // another coordinator is proved to own this machine, and this one must not stand by
 
-    /// For the next loop: what the lists have taken of memory stays.
+    /// Prepares the next loop. The lists keep their memory.
     void clear() {
         state.reset();
         frames.clear();

@@ -1,5 +1,5 @@
-// What the parts of the coordinator share in one loop: the time, the machine, its axes and condition, and what the loop
-// gives back.
+// What the parts of the coordinator share in one loop: the time, the machine, its axes and condition, and the loop's
+// outputs.
 #pragma once
 
 #include <string>
@@ -23,8 +23,8 @@ struct CoordinatorLoop {
     Tick now;
     Slot slot = 0;
     Slot next_state = 0;   // the slot of the next state that it publishes
-    Term term;             // the coordinator's own, where it owns the machine
-    bool is_late = false;  // the process stalled: what it receives in this loop may be old
+    Term term;             // the coordinator's own, if it owns the machine
+    bool is_late = false;  // the process stalled, so messages received in this loop may be old
 
     void notice(const CoordinatorNotice& notice) { out.notices.push_back(notice); }
     void enter(MachinePhase phase) { condition.enter(phase, out.notices); }

@@ -12,7 +12,7 @@ namespace lockstep {
 class MachineCondition {
 public:
     MachinePhase phase() const { return phase_; }
-    /// The first one since the last reset, and the axis that it names.
+    /// The first fault since the last reset, and the axis that it names.
     FaultCode fault() const { return fault_; }
     std::size_t fault_axis() const { return fault_axis_; }
     bool is_held() const { return phase_ == MachinePhase::Holding || phase_ == MachinePhase::Paused; }
@@ -22,7 +22,7 @@ public:
         phase_ = phase;
         notices.push_back({CoordinatorNotice::Kind::Phase, FaultCode::None, static_cast<std::uint64_t>(phase)});
     }
-    /// False: an earlier fault is still reported, and nothing has changed.
+    /// Returns false and changes nothing if an earlier fault is still reported.
     bool latch(FaultCode fault, std::size_t axis, std::vector<CoordinatorNotice>& notices) {
         if (fault_ != FaultCode::None) { return false; }
         fault_ = fault;

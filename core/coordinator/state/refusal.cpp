@@ -9,13 +9,13 @@ CommandResult check_ready(const CoordinatorLoop& loop, bool in_motion) {
     if (auto present = check_present(loop); !present) { return present; }
     if (const auto lacking = loop.axes.without_device(); lacking && phase != MachinePhase::Fault) {
         return refuse(FaultCode::DeviceMissing,
-                      "axis " + loop.name_of_axis(*lacking) + " waits for its device; its log says for which");
+                      "axis " + loop.name_of_axis(*lacking) + " waits for its device; the axis's log names the device");
     }
     if (phase == MachinePhase::Fault) { return refuse_in_fault(loop.condition.fault()); }
     if (loop.condition.is_held()) { return refuse(FaultCode::Held, "a job is held or paused"); }
     if (in_motion) { return refuse(FaultCode::Busy, "the machine is " + std::string(name_of(phase))); }
     if (phase == MachinePhase::Idle) { return {}; }
-    return refuse(FaultCode::NotReady, "not every axis follows the coordinator and rests yet");
+    return refuse(FaultCode::NotReady, "not all axes follow the coordinator and are at rest yet");
 }
 
 CommandResult check_present(const CoordinatorLoop& loop) {
@@ -43,7 +43,7 @@ CommandResult check_clocks(const CoordinatorLoop& loop) {
                       " off, the limit to begin is " + us(limit) + " (timing.clock_error_limit_us is " +
                       std::to_string(machine.timing.clock_error_limit_us) +
                       "); wait until the axis has received the coordinator for some "
-                      "seconds, check the network to it, or give the slots more time");
+                      "seconds, check the network to it, or increase timing.slot_us");
 }
 
 std::unexpected<Refusal> refuse_in_fault(FaultCode fault) {

@@ -14,17 +14,18 @@ struct Refusal {
     std::string text;
 };
 
-/// What becomes of a command: accepted, or refused.
+/// The result of a command: accepted, or refused.
 using CommandResult = std::expected<void, Refusal>;
 inline std::unexpected<Refusal> refuse(FaultCode why, std::string text) {
     return std::unexpected(Refusal{why, std::move(text)});
 }
 
-/// A job can begin: every axis is present, follows this coordinator and rests, and nothing else is in progress.
+/// Checks that a job can begin: every axis is present, follows this coordinator and rests, and nothing else is in
+/// progress.
 CommandResult check_ready(const CoordinatorLoop& loop, bool in_motion);
 CommandResult check_present(const CoordinatorLoop& loop);
 CommandResult check_homed(const CoordinatorLoop& loop);
-/// Coordinated moves are for axes that agree on the time.
+/// Checks that the axes agree on the time well enough for coordinated moves.
 CommandResult check_clocks(const CoordinatorLoop& loop);
 std::unexpected<Refusal> refuse_in_fault(FaultCode fault);
 

@@ -67,7 +67,7 @@ void ValueKeeper::change(const gcode::KeptValues& values) {
     ++changes_;
 }
 
-/// The program of a job that was taken over had arrived before.
+/// The program of a job that was taken over arrived before the takeover.
 std::optional<gcode::KeptValues> ValueKeeper::after(std::uint64_t program) const {
     for (const Arrived& arrived : arrived_) {
         if (arrived.program == program) { return arrived.after; }

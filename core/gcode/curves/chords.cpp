@@ -20,7 +20,7 @@ Vector cross(Vector a, Vector b) {
 }
 Vector xyz(const Point& point) { return {point[0], point[1], point[2]}; }
 
-/// A place between two, by a share of the way, with X, Y and Z given.
+/// The place at a share of the way between two places, with X, Y and Z given.
 Point between(const Point& from, const Point& to, double share, Vector at) {
     Point result;
     for (std::size_t axis = 0; axis < kAxes; ++axis) {
@@ -33,7 +33,7 @@ struct Cylinder {
     Vector centre;  // at the start's height
     Vector axis;
     Vector along;   // from the axis to the start, of length 1
-    Vector aside;   // a quarter turn on
+    Vector aside;   // `along` turned by a quarter turn
     double begins;  // radius
     double ends;
     double rise;
@@ -68,7 +68,7 @@ Cylinder cylinder_of(const Arc& arc, const Point& from) {
     return result;
 }
 
-/// A chord over the angle a leaves its arc by r (1 - cos(a/2)).
+/// A chord over the angle a deviates from its arc by r (1 - cos(a/2)).
 double chords_of(const Cylinder& cylinder, double tolerance) {
     const double radius = std::max(cylinder.begins, cylinder.ends);
     const double share = std::clamp(1 - tolerance / radius, 0.0, 1 - 1e-15);

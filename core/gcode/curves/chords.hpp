@@ -1,4 +1,4 @@
-// Arcs and splines as chords: straight moves that leave the curve by a tolerance at most.
+// Cuts arcs and splines into chords: straight moves that deviate from the curve by at most a tolerance.
 #pragma once
 
 #include <functional>
@@ -7,10 +7,10 @@
 
 namespace lockstep::gcode {
 
-/// The end of each chord, in order; the last is the curve's own target.
+/// Receives the end of each chord, in order; the last is the curve's own target.
 using TakeChord = std::function<void(const Point& target)>;
 
-/// `tolerance` is in mm, above 0: how far a chord's middle may be from the curve.
+/// `tolerance` is in mm, above 0: the greatest distance of a chord's middle from the curve.
 void cut(const Arc& arc, const Point& from, double tolerance, const TakeChord& take);
 void cut(const Spline& spline, const Point& from, double tolerance, const TakeChord& take);
 

@@ -11,21 +11,21 @@ namespace lockstep::gcode {
 namespace {
 
 constexpr int kMostHalvings = 14;   // of half a span, at most
-constexpr std::size_t kChecks = 7;  // places between the ends of a part
+constexpr std::size_t kChecks = 7;  // checked places between the ends of a part
 
 Flat xy_of(const Vector& at) { return {at[0], at[1]}; }
 Flat unit(Flat a) { return dot(a, a) > 0 ? a * (1 / length_of(a)) : Flat{}; }
 
 struct Spot {
     Flat at;
-    Flat direction;  // of length 1, or 0 where there is none
+    Flat direction;  // of length 1, or 0 if there is none
 };
 
-/// From a spot in its direction to a place: an arc of less than half a turn, or a straight line.
+/// An arc of less than half a turn, or a straight line, that begins at a spot in its direction and ends at a place.
 class FlatArc {
 public:
     static FlatArc line(Flat from, Flat to) { return {from, to, {}, 0}; }
-    /// Nothing: it would be half a turn or more.
+    /// Returns nullopt if the arc would be half a turn or more.
     static std::optional<FlatArc> from_to(const Spot& from, Flat to) {
         const Flat chord = to - from.at;
         const double along = dot(from.direction, chord);
@@ -44,7 +44,7 @@ public:
         return length_of(place - from_ - chord * share);
     }
 
-    /// A motion to `target`, which has the arc's end as its X and Y.
+    /// Makes a motion to `target`. X and Y of `target` are the arc's end.
     Action motion(const Point& target, double feed) const {
         if (radius_ == 0) { return Straight{.target = target, .feed = feed}; }
         return Arc{.target = target,
@@ -64,7 +64,8 @@ private:
     double radius_;  // 0: straight; below 0: clockwise
 };
 
-/// Where the two arcs between two spots meet. Their tangents at the ends are equally long, up to that in the middle.
+/// The spot at which the two arcs between two spots meet. The tangents at the ends, up to the tangent at this spot, are
+/// equally long.
 Spot meeting(const Spot& begin, const Spot& end) {
     const Flat chord = end.at - begin.at;
     const double along = dot(chord, begin.direction + end.direction);
@@ -149,7 +150,7 @@ private:
     SplineCurve curve_;
     const std::function<void(const Action&)>& take_;
     Point at_;
-    Flat begin_;  // of what is left
+    Flat begin_;  // of the remaining part
     std::size_t span_ = 0;
 };
 

@@ -1,5 +1,5 @@
-// Splines as arcs, which meet with the same direction: motion along them needs no stop between them, and the planner
-// has one curve to know.
+// Converts splines to arcs that meet with the same direction. So motion along them does not stop between them, and the
+// planner has to know only one kind of curve.
 //
 // Each part of a curve becomes two arcs that meet it at both ends in place and direction (K. Bolton, "Biarc curves",
 // Computer-Aided Design 7, 1975). A part is halved until its arcs follow it. The error decreases with the cube of a
@@ -12,10 +12,10 @@
 
 namespace lockstep::gcode {
 
-/// Arcs and straight moves leave the curve by so little, in mm. No more than what counts as within the travel.
+/// The greatest deviation of arcs and straight moves from the curve, in mm. At most kTravelTolerance_mm (gcode.hpp).
 inline constexpr double kSplineArcs_mm = 1e-6;
 
-/// The arcs, and straight moves where the curve is straight, in order; the last ends at the spline's own target.
+/// Emits arcs, and straight moves where the curve is straight, in order. The last ends at the spline's own target.
 void cut_into_arcs(const Spline& spline, const Point& from, const std::function<void(const Action&)>& take);
 
 }  // namespace lockstep::gcode

@@ -7,10 +7,10 @@
 
 namespace lockstep::gcode {
 
-/// De Boor's algorithm with weights, on clamped knots one apart: span k has the parameters from k to k + 1.
+/// De Boor's algorithm with weights, on clamped knots at distance 1: span k has the parameters from k to k + 1.
 class SplineCurve {
 public:
-    /// `spline` must outlive it, and have as many control points as its order at least.
+    /// `spline` must outlive it, and must have at least as many control points as its order.
     explicit SplineCurve(const Spline& spline) : spline_(spline), degree_(static_cast<std::size_t>(spline.order) - 1) {}
 
     std::size_t spans() const { return spline_.controls.size() - degree_; }

@@ -5,7 +5,7 @@
 namespace lockstep::gcode {
 namespace {
 
-constexpr const char* kOfSubroutines = "<sub>";  // the scope of their labels; no subroutine has this name
+constexpr const char* kOfSubroutines = "<sub>";  // scope of the labels of subroutines; no subroutine has this name
 
 bool opens(Keyword keyword) {
     return keyword == Keyword::Sub || keyword == Keyword::If || keyword == Keyword::While || keyword == Keyword::Do ||
@@ -51,7 +51,7 @@ std::string Recorder::not_open(const OWord& word) const {
            shown_word(end_of(last.keyword), last.label);
 }
 
-/// A label opens one thing, but for do loops, which may be opened again; subroutines have labels of their own.
+/// A label opens one thing only, except do loops, which may be opened again. Subroutines have separate labels.
 std::optional<std::string> Recorder::open(const OWord& word) {
     const bool in_subroutine = !open_.empty() && open_.front().keyword == Keyword::Sub;
     if (word.keyword == Keyword::Sub && !open_.empty()) {
@@ -101,7 +101,7 @@ std::optional<std::string> Recorder::close(const OWord& word) {
     return std::nullopt;
 }
 
-/// Break and continue name a loop around them; return is of the subroutine.
+/// Break and continue name an enclosing loop. Return belongs to the subroutine.
 std::optional<std::string> Recorder::leave(const OWord& word) {
     const bool is_return = word.keyword == Keyword::Return;
     const auto found = std::ranges::find_if(open_, [&](const Open& open) {

@@ -1,4 +1,4 @@
-// The lines of a loop, a branch or a subroutine, kept until its end has been read.
+// The lines of a loop, a branch or a subroutine, stored until its end has been read.
 #pragma once
 
 #include <cstddef>
@@ -18,28 +18,28 @@ struct KeptLine {
     std::string text;
     Keyword keyword = Keyword::None;
     // Lines of the body, by index:
-    std::size_t begin = 0;   // of a loop, at its end and at break and continue
-    std::size_t branch = 0;  // the next elseif, else or endif, at if and elseif
+    std::size_t begin = 0;   // first line of the loop; set at its end, break and continue
+    std::size_t branch = 0;  // the next elseif, else or endif; set at if and elseif
     std::size_t end = 0;     // the last line of the loop, the branches or the subroutine
 };
 
 struct Body {
     std::string label;
-    std::string file;  // of the subroutine, where it has one of its own
+    std::string file;  // of the subroutine, if it is in a file
     std::vector<KeptLine> lines;
 };
 
-/// Keeps lines from an opening O-word to the one that closes it.
+/// Stores lines from an opening O-word to the one that closes it.
 class Recorder {
 public:
     bool active() const { return !open_.empty(); }
-    /// The first line of a body, or one within it. Error: the O-word does not fit what is open.
+    /// Takes the first line of a body, or one within it. Returns an error if the O-word does not fit the open ones.
     std::optional<GcodeError> take(const Line& line, const OWord& word, std::string_view text);
-    /// The finished body; the recorder is then empty.
+    /// Returns the finished body and empties the recorder.
     Body take_body() { return std::exchange(body_, {}); }
     bool is_subroutine() const { return !body_.lines.empty() && body_.lines.front().keyword == Keyword::Sub; }
     std::size_t lines() const { return body_.lines.size(); }
-    /// What is open at the text's end.
+    /// Returns an error if a body is open at the text's end.
     std::optional<GcodeError> unclosed() const;
     void clear();
 
@@ -62,7 +62,7 @@ private:
 
     Body body_;
     std::vector<Open> open_;
-    std::map<std::pair<std::string, std::string>, Keyword> labels_;  // what each has opened, by subroutine
+    std::map<std::pair<std::string, std::string>, Keyword> labels_;  // the keyword that each has opened, by subroutine
 };
 
 }  // namespace lockstep::gcode

@@ -9,7 +9,7 @@
 namespace lockstep::gcode {
 namespace {
 
-/// A keyword that another begins with comes behind it.
+/// If one keyword is the beginning of another, the longer one comes first.
 constexpr std::array kKeywords{
     Named{"SUB", Keyword::Sub},
     Named{"ENDSUB", Keyword::EndSub},

@@ -1,4 +1,4 @@
-// The line of an O-word: a keyword with a label, o100 if [..] or o<name> call [..].
+// The line of an O-word: a keyword with a label, such as o100 if [..] or o<name> call [..].
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@ struct OWord {
     std::size_t place = 0;  // of the O, in the line
 };
 
-/// Reads from the O to behind the keyword. What follows, arguments or a condition, stays to be read.
+/// Reads from the O to the end of the keyword. Arguments or a condition behind it are not read.
 OWord read_o_word(Reader& reader);
 
 }  // namespace lockstep::gcode

@@ -25,7 +25,7 @@ constexpr PlaneAxes axes_of(Plane plane) {
 
 constexpr Flat in_plane(PlaneAxes axes, const Point& point) { return {point[axes.first], point[axes.second]}; }
 
-/// The angle that an arc goes through, above 0, for so many turns: 1 is at most a whole one.
+/// The angle of an arc, above 0. With one turn it is at most a whole turn.
 inline double sweep_of(Flat from, Flat centre, Flat to, bool counterclockwise, int turns) {
     constexpr double kWhole = 2 * std::numbers::pi;
     const Flat a = from - centre;

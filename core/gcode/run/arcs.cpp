@@ -10,7 +10,7 @@
 namespace lockstep::gcode {
 namespace {
 
-// LinuxCNC's tolerance: the radius of an R arc may be too small for its chord by so much.
+// LinuxCNC's tolerance: the radius of an R arc may be too small for its chord by this much.
 constexpr double kChordError_mm = 0.00127;
 constexpr double kLeastRadius_mm = 1e-6;
 
@@ -25,13 +25,13 @@ std::expected<int, GcodeError> turns_of(const Context& context) {
     return *turns;
 }
 
-/// By R: the arc is less than half a turn where R is above 0, else more.
+/// The centre by R: the arc is less than half a turn if R is above 0, otherwise more.
 std::expected<Flat, GcodeError> centre_by_radius(const Context& context, Flat from, Flat to) {
     const double radius = context.length(context.block['R']);
     const Flat chord = to - from;
     const double half = length_of(chord) / 2;
     if (half < kLeastRadius_mm) {
-        return context.refuse('R', " with the end where the start is: the centre could be anywhere; write I, J or K");
+        return context.refuse('R', " with the end equal to the start: the centre is undefined; write I, J or K");
     }
     if (half - std::abs(radius) > kChordError_mm) {
         return context.refuse(

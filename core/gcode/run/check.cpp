@@ -1,4 +1,4 @@
-// Checks of a block before any of it is run: which words may stand together, and which motion it runs.
+// Checks of a block before it is run: which words may be together, and which motion it runs.
 #include <algorithm>
 
 #include "core/gcode/run/steps.hpp"
@@ -9,7 +9,7 @@ namespace {
 constexpr int kCancelCycles = 800;  // G80
 constexpr std::string_view kLettersOfCodes = "DEHIJKLPQR";
 
-/// G10 G28 G30 G52 G92 use the block's axis words, and so does no motion of the block.
+/// G10 G28 G30 G52 G92 use the block's axis words, so a motion of the block cannot use them.
 bool uses_axes(int non_modal) {
     constexpr std::array kCodes{100, 280, 300, 520, 920};
     return std::ranges::find(kCodes, non_modal) != kCodes.end();

@@ -8,8 +8,8 @@
 namespace lockstep::gcode {
 namespace {
 
-/// From the tool's centre to the place that a lathe tool's offset is measured to, by its orientation, in tool radii:
-/// along Z and along X.
+/// From the tool's centre to the reference place of a lathe tool's offset, by orientation, in tool radii: along Z and
+/// along X.
 constexpr std::array<Flat, 10> kTips{
     {{0, 0}, {1, -1}, {-1, -1}, {-1, 1}, {1, 1}, {1, 0}, {0, -1}, {-1, 0}, {0, 1}, {0, 0}}};
 

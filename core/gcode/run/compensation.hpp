@@ -1,4 +1,4 @@
-// Cutter compensation, G41 and G42: the path of the tool's centre, a radius beside the path in the program.
+// Cutter compensation, G41 and G42: the path of the tool's centre, a tool radius beside the programmed path.
 //
 // Inside corners are cut short where the two paths meet; outside corners are rounded. Motions that the tool cannot
 // reach without cutting into the path beside them are refused.
@@ -18,7 +18,7 @@ struct ArcMove {
     int turns = 1;  // positive: counterclockwise
 };
 
-/// Along the arc, without compensation.
+/// Moves along the arc without compensation.
 void move_arc(Context& context, const ArcMove& move);
 /// The direction of an axis in machine coordinates.
 Vector turned_axis(const State& state, std::size_t normal);
@@ -29,11 +29,11 @@ inline bool is_offset(const State& state) { return state.modal.side != Side::Non
 Result compensated_straight(Context& context, const Point& target, bool rapid);
 Result compensated_arc(Context& context, const ArcMove& move);
 
-/// What programs read as the axes' place, #5420: with compensation the tool's centre.
+/// The axes' place that programs read from #5420 on: with compensation the tool's centre.
 Point shown_place(const State& state);
-/// Emits what waits. The axes then stand where the tool's centre is, and the next motion leads back to the path.
+/// Emits the waiting motions. The axes then stand at the tool's centre, and the next motion leads back to the path.
 void leave_compensation(Context& context);
-/// At the end of a program: the state's place is where the axes stand.
+/// For the end of a program: also sets the state's place to where the axes stand.
 void end_compensation(Context& context);
 
 }  // namespace lockstep::gcode

@@ -1,4 +1,4 @@
-// What the steps of a block's execution work with.
+// The data of the steps of a block's execution.
 #pragma once
 
 #include <expected>
@@ -14,7 +14,7 @@ namespace lockstep::gcode {
 
 using Result = std::expected<void, GcodeError>;
 
-/// What M70 or M73 keeps, of each subroutine's call.
+/// The modes stored by M70 or M73, separate for each subroutine call.
 struct KeptModes {
     std::optional<Modal> modal;
     bool restores_at_return = false;  // M73
@@ -31,32 +31,32 @@ struct Context {
     int motion = kNoMotion;  // the motion that this block runs, times ten
     bool ended = false;      // M2, M30
 
-    /// The word's text and what is wrong with it.
+    /// An error at a word: the word's text and `what`.
     std::unexpected<GcodeError> refuse(char letter, const std::string& what) const;
     std::unexpected<GcodeError> refuse(Group group, const std::string& what) const;
-    /// At the motion's word, or at the block's first axis word.
+    /// An error at the motion's word, or at the block's first axis word.
     std::unexpected<GcodeError> refuse_motion(const std::string& what) const;
 
-    /// Error where cutter compensation is on, which the word does not go with.
+    /// Returns an error if cutter compensation is on, because the word cannot be used with it.
     Result refuse_compensated(Group group) const;
     bool is_compensated() const { return state.modal.side != Side::None; }
 
-    /// Behind the motion that cutter compensation keeps waiting, if there is one.
+    /// Emits an action behind the motion that cutter compensation keeps waiting, if there is one.
     void emit(const Action& action) const;
     void event(EventKind kind, int index = 0, double value = 0) const { emit(Event{kind, index, value, {}}); }
 
-    /// Millimetres of a length, or degrees of an angle, as the program gives it.
+    /// Converts a length or an angle from the program's units to mm or degrees.
     double length(double value) const { return state.modal.inches ? value * kMillimetresPerInch : value; }
     double place(std::size_t axis, double value) const { return is_turning(axis) ? value : length(value); }
     /// The block's word for an axis, in mm or degrees.
     std::optional<double> axis_word(std::size_t axis) const;
-    /// Where the block's axis words lead, in the program's coordinates.
+    /// The target of the block's axis words, in the program's coordinates.
     Point target() const;
 
     static constexpr double kMillimetresPerInch = 25.4;
 };
 
-/// A whole number that a word gives, or none.
+/// A word's value if it is a whole number.
 std::optional<int> whole(double value);
 
 }  // namespace lockstep::gcode

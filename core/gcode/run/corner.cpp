@@ -7,16 +7,16 @@
 namespace lockstep::gcode {
 namespace {
 
-constexpr double kTouch = 1e-9;  // mm: circles that miss each other by less touch
+constexpr double kTouch = 1e-9;  // mm: circles with a smaller gap count as touching
 
-/// Of the programmed path, 1/mm: above 0 to the left.
+/// The curvature of the programmed path, 1/mm: above 0 to the left.
 double curvature(const Track& track, Flat corner) {
     if (!track.centre) { return 0; }
     const double side = cross(track.direction, *track.centre - track.at) > 0 ? 1 : -1;
     return side / length_of(*track.centre - corner);
 }
 
-/// At right angles to `way`, either way from `foot`, where a circle of a radius is `distance` from its centre.
+/// The places where a circle meets the line through `foot` along `way`. `foot` is nearest to its centre, at `distance`.
 std::vector<Flat> both_sides(Flat foot, Flat way, double radius, double distance) {
     const double square = radius * radius - distance * distance;
     if (square < -kTouch * radius) { return {}; }

@@ -25,7 +25,8 @@ inline constexpr double kLeastCorner = 0.05;
 /// two curves bend toward each other on the tool's side.
 CornerKind corner_between(const Track& before, const Track& after, Flat corner, double radius);
 
-/// The place on both tracks that is nearest to the corner and not beyond the end of the first. None: they do not meet.
+/// The place on both tracks that is nearest to the corner, if possible not beyond the end of the first. Returns nullopt
+/// if they do not meet.
 std::optional<Flat> meeting(const Track& before, const Track& after, Flat corner);
 
 }  // namespace lockstep::gcode

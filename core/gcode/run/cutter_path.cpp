@@ -11,7 +11,7 @@ namespace lockstep::gcode {
 namespace {
 
 constexpr double kLeastLength_mm = 1e-9;
-constexpr double kSweepTolerance = 0.1;       // radians: what corners too small to be rounded add to an arc
+constexpr double kSweepTolerance = 0.1;       // radians: corners too small to be rounded may lengthen an arc by this
 constexpr std::size_t kMostWaiting = 10'000;  // motions and events in one place of the plane
 
 void set_in_plane(PlaneAxes axes, Point& point, Flat place) {
@@ -153,7 +153,7 @@ private:
         return {cutter_.at, {left.y, -left.x}, move.centre, move.radius};
     }
 
-    /// False: the motion that waits would have to go backward.
+    /// Returns false if the waiting motion would have to go backward.
     bool end_last_at(Flat place) {
         for (Waiting& waiting : cutter_.waiting) {
             if (auto* move = std::get_if<CutMove>(&waiting.what)) { set_in_plane(axes_, move->target, place); }
@@ -168,8 +168,8 @@ private:
         return sweep_of(move.from, *move.centre, end, move.turns > 0, 1) <= move.sweep + kSweepTolerance;
     }
 
-    /// Around an outside corner: an arc, or straight where the next motion is rapid. As in LinuxCNC, the next motion's
-    /// turning axes move here.
+    /// Goes around an outside corner: along an arc, or straight if the next motion is rapid. As in LinuxCNC, the next
+    /// motion's turning axes move here.
     void go_round(const CutMove& next, Flat corner, Flat to) {
         CutMove round{.target = state_.program, .from = cutter_.at, .feed = next.feed, .rapid = next.rapid};
         std::copy(next.target.begin() + 3, next.target.end(), round.target.begin() + 3);
@@ -190,7 +190,7 @@ private:
         return arrive(target);
     }
 
-    /// The plane's axes rest.
+    /// A motion in which the plane's axes rest.
     Result stay(CutMove& move) {
         if (cutter_.waiting.size() >= kMostWaiting) {
             return context_.refuse_motion(" is one of more than " + std::to_string(kMostWaiting) +
@@ -235,8 +235,8 @@ private:
     double radius_;  // above 0: the tool's centre is on the left
 };
 
-/// After a motion that was refused the program is read without compensation: nothing of it runs, and its other errors
-/// are found.
+/// After a refused motion the program is read without compensation. Nothing of it will run, but its other errors are
+/// found.
 Result end_if_refused(Context& context, Result result) {
     if (result) { return result; }
     context.state.cutter.waiting.clear();

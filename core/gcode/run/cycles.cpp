@@ -7,7 +7,7 @@
 namespace lockstep::gcode {
 namespace {
 
-constexpr double kPeckClearance_mm = 0.254;  // 0.010 inches, as LinuxCNC has it
+constexpr double kPeckClearance_mm = 0.254;  // 0.010 inches, as in LinuxCNC
 constexpr std::size_t kMostPecks = 100'000;
 
 /// A cycle's heights along the plane's normal, in the program's coordinates.
@@ -21,7 +21,7 @@ struct Cycle {
     int repeats = 1;
 };
 
-/// The block's word, or that of the same cycle before it.
+/// Stores the block's word. Without one, the word of the same cycle before it holds.
 Result keep_word(const Context& context, char letter, std::optional<double> word, std::optional<double>& kept) {
     if (context.state.modal.motion != context.motion) { kept.reset(); }
     if (word) { kept = word; }
@@ -75,7 +75,7 @@ Result read_words(Context& context, Cycle& cycle) {
     return {};
 }
 
-/// R and the bottom are relative in G91: R to where the first cycle began, the bottom to R.
+/// R and the bottom are relative in G91: R to the height where the first cycle began, the bottom to R.
 Result set_heights(Context& context, Cycle& cycle) {
     CycleWords& kept = context.state.cycle;
     const Modal& modal = context.state.modal;
@@ -157,7 +157,7 @@ private:
         }
     }
 
-    /// G86: the spindle rests on the way out.
+    /// G86: the spindle stands still during the retract.
     void stop_for_retract() {
         context_.emit(Dwell{cycle_.dwell});
         context_.event(EventKind::SpindleStop);

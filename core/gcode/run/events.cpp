@@ -1,4 +1,4 @@
-// What moves no axis: messages, spindle, tools, outputs, coolant, overrides, dwells and stops.
+// Words that move no axis: messages, spindle, tools, outputs, coolant, overrides, dwells and stops.
 #include <algorithm>
 
 #include "core/gcode/run/compensation.hpp"
@@ -16,7 +16,7 @@ std::string small(std::string_view text) {
     return result;
 }
 
-/// The value of the parameter that a text begins with, behind its #; removes it from the text.
+/// The value of the parameter at the beginning of a text, behind its #. Removes the parameter from the text.
 std::string take_parameter(const Context& context, std::string_view& text) {
     constexpr std::string_view kUnknown = "######";
     if (text.starts_with('<')) {
@@ -67,7 +67,7 @@ Result wait_for_input(const Context& context) {
     const auto index = output_index(context, block.has('P') ? 'P' : 'E');
     if (!index) { return std::unexpected(index.error()); }
     const int kind = whole(block.find('L').value_or(0)).value_or(-1);
-    if (kind < 0 || kind > 4) { return context.refuse('L', " is no way of waiting; it is 0 to 4"); }
+    if (kind < 0 || kind > 4) { return context.refuse('L', " is not a wait mode; L is 0 to 4"); }
     if (kind != 0 && block.has('E')) { return context.refuse('L', " with an analog input, which is read at once: L0"); }
     const double seconds = block.find('Q').value_or(0);
     if (kind != 0 && !(seconds > 0)) {
@@ -202,7 +202,7 @@ Result stop(Context& context) {
         case 10: context.event(EventKind::OptionalStop); break;
         case 20:
         case 300: {
-            Modal after;  // RS274, 3.6.1: what the end of a program resets
+            Modal after;  // RS274, 3.6.1: the end of a program resets all but these
             after.inches = state.modal.inches;
             after.spindle_speed = state.modal.spindle_speed;
             after.retract_to_start = state.modal.retract_to_start;

@@ -1,10 +1,10 @@
-// G28 and G30: through the point that the block names to a place kept in parameters; G28.1 and G30.1 keep it.
+// G28 and G30: move through the block's point to a place that is stored in parameters. G28.1 and G30.1 store it.
 #include "core/gcode/run/steps.hpp"
 
 namespace lockstep::gcode {
 namespace {
 
-/// Where X and Y are turned, X alone goes along the turned X: Y keeps its place in the program's coordinates.
+/// If X and Y are rotated, X alone moves along the rotated X, and Y keeps its place in the program's coordinates.
 Point turned_home(const Context& context, const Point& home) {
     const State& state = context.state;
     Point target = to_program(state.offsets, home);

@@ -1,4 +1,4 @@
-// M70 to M73: keeping the modes and taking them up again.
+// M70 to M73: storing the modes and restoring them.
 #include "core/gcode/run/steps.hpp"
 
 namespace lockstep::gcode {

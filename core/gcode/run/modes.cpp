@@ -9,7 +9,7 @@ Result set_units(Context& context) {
     return {};
 }
 
-/// G94 leaves no feed, as in LinuxCNC: the next motion needs an F.
+/// G94 clears the feed, as in LinuxCNC: the next motion needs an F.
 Result set_feed_mode(Context& context) {
     Modal& modal = context.state.modal;
     switch (context.block.code(Group::FeedMode)) {
@@ -23,7 +23,7 @@ Result set_feed_mode(Context& context) {
     return {};
 }
 
-/// With inverse time F is of its own block only: see feed_of.
+/// With inverse time, F applies to its own block only: see feed_of.
 Result set_feed(Context& context) {
     const auto feed = context.block.find('F');
     if (!feed) { return {}; }

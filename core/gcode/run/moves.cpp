@@ -1,4 +1,4 @@
-// Straight moves, and which motion a block runs.
+// Straight moves, and the call of a block's motion.
 #include <cmath>
 
 #include "core/gcode/run/compensation.hpp"
@@ -41,7 +41,8 @@ Result check_feed(const Context& context) {
     const Modal& modal = context.state.modal;
     if (modal.feed_mode == FeedMode::InverseTime) {
         if (context.block.find('F').value_or(0) > 0) { return {}; }
-        return context.refuse_motion(" with inverse time (G93) but without F; write F, one by the minutes it takes");
+        return context.refuse_motion(
+            " with inverse time (G93) but without F; write F as 1 divided by the minutes that the move takes");
     }
     if (modal.feed_linear > 0) { return {}; }
     if (context.block.has('F')) { return context.refuse('F', " is no feed; F is per minute and above 0"); }
@@ -73,7 +74,7 @@ Point machine_target(const State& state, const Point& program) {
     return machine_target(state.offsets, {state.program, state.machine}, program);
 }
 
-/// The first one after cutter compensation begins where the tool's centre is.
+/// The first move after cutter compensation begins at the tool's centre.
 void move(Context& context, const Point& target, double feed) {
     State& state = context.state;
     const Point machine = machine_target(state, target);
@@ -86,7 +87,8 @@ void move(Context& context, const Point& target, double feed) {
 
 namespace {
 
-/// The motion that leads back from cutter compensation moves the plane's axes too: F is then per minute of theirs.
+/// The motion that leads back from cutter compensation also moves the plane's axes. So its feed is computed from where
+/// the axes stand.
 const Point& start_of_feed(const State& state) {
     const bool leads_back = state.cutter.stands && state.modal.feed_mode == FeedMode::PerMinute;
     return leads_back ? state.cutter.stands->program : state.program;

@@ -12,7 +12,7 @@ void store_g92(State& state) {
     state.parameters.numbered[kG92UsedParameter] = 1;
 }
 
-/// G92: where the axes stand has these coordinates.
+/// G92: gives these coordinates to the place where the axes stand.
 Result name_place(Context& context) {
     if (!context.block.has_axes()) {
         return context.refuse(Group::NonModal,
@@ -29,7 +29,7 @@ Result name_place(Context& context) {
     return {};
 }
 
-/// G52: the offsets themselves.
+/// G52: sets the offsets themselves.
 Result shift(Context& context) {
     if (!context.block.has_axes()) {
         return context.refuse(Group::NonModal, " shifts no axis; write the axes and by how much");
@@ -42,7 +42,7 @@ Result shift(Context& context) {
     return {};
 }
 
-/// G92.1 forgets the offsets, G92.2 keeps them in the parameters, G92.3 takes them from there.
+/// G92.1 clears the offsets, G92.2 keeps them in the parameters only, G92.3 restores them from there.
 Result clear_or_restore(Context& context, int code) {
     State& state = context.state;
     state.offsets.g92 = code == 923 ? place_of(state.parameters, kG92Parameter) : Point{};
@@ -61,8 +61,8 @@ std::expected<std::size_t, GcodeError> system_of(const Context& context) {
     return *number == 0 ? context.state.modal.system : static_cast<std::size_t>(*number) - 1;
 }
 
-/// L20: the origin that makes the axis's place read as the word says. The other axes keep their places in that system;
-/// where X and Y are turned, both belong together.
+/// L20: the origin with which the axis's place reads as the word says. The other axes keep their places in that system.
+/// If X and Y are rotated, both change together.
 void origin_by_place(const Context& context, std::size_t system, Point& origin) {
     const State& state = context.state;
     Offsets offsets = state.offsets;

@@ -9,7 +9,7 @@ namespace {
 
 using Step = Result (*)(Context&);
 
-/// RS274's order, but for the units: they come before F, which counts in its own block's units.
+/// RS274's order, except for the units: they come before F, which is in the units of its own block.
 constexpr std::array kSteps{
     choose_motion, check_letters, set_units,    comment,     set_feed_mode, set_feed,      spindle_speed,
     select_tool,   outputs,       change_tool,  spindle,     keep_state,    coolant,       overrides,
@@ -17,7 +17,7 @@ constexpr std::array kSteps{
     non_modal,     run_motion,    stop,
 };
 
-/// A block of a motion's words and F alone needs few steps.
+/// A block with only a straight motion, axes and F needs few steps.
 constexpr std::array kPlainSteps{set_feed, run_motion};
 
 bool is_plain(const Context& context) {
@@ -41,7 +41,7 @@ Result run_all(Context& context, const Steps& steps) {
 }
 
 /// @ and ^: the distance from the program's zero and the angle from X become X and Y. In G91 they are added to those of
-/// where the axes stand.
+/// the place where the axes stand.
 Result resolve_polar(Context& context) {
     Block& block = context.block;
     if (!block.distance && !block.angle) { return {}; }

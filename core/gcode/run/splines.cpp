@@ -51,8 +51,8 @@ void emit_spline(Context& context, Spline spline, const Point& end) {
 
 }  // namespace
 
-/// I J: from the start to the first control point; P Q: from the end to the second. A G5 behind a G5 goes on smoothly
-/// without I and J.
+/// I J: from the start to the first control point; P Q: from the end to the second. A G5 behind a G5 continues
+/// smoothly without I and J.
 Result cubic_spline(Context& context) {
     const Block& block = context.block;
     if (auto checked = check_spline(context); !checked) { return checked; }
@@ -138,7 +138,7 @@ Result nurbs(Context& context) {
     const double weight = block.find('P').value_or(block.has(Group::Motion) ? 1 : 0);
     if (!(weight > 0)) { return context.refuse_motion(" needs the weight of each point; write P, above 0"); }
     SplineWords& words = context.state.spline;
-    const Point end = context.target();  // in G91 from where the curve began
+    const Point end = context.target();  // in G91 relative to the begin of the curve
     words.end = end;
     words.nurbs->controls.push_back(control_at(context, {end[0], end[1]}, weight));
     return {};

@@ -1,14 +1,14 @@
-// The steps that a block's execution consists of. Each does what the block's words say of its matter, or nothing.
+// The steps of a block's execution. Each step handles its own words of the block, if there are any.
 #pragma once
 
 #include "core/gcode/run/context.hpp"
 
 namespace lockstep::gcode {
 
-/// Runs a block that has been read: all its steps in RS274's order. After an error nothing of the rest is done.
+/// Runs a block that has been read: all its steps in RS274's order. After an error the remaining steps do not run.
 Result run_block(Context& context);
 
-// check.cpp: what is wrong with the block whatever the steps do, and which motion it runs.
+// check.cpp: errors of the block as a whole, and the motion that it runs.
 Result choose_motion(Context& context);
 Result check_letters(Context& context);
 
@@ -31,12 +31,12 @@ Result coolant(Context& context);
 Result overrides(Context& context);
 Result dwell(Context& context);
 Result stop(Context& context);
-/// The text of a comment, with the values of parameters for their names.
+/// The text of a comment, with the values of parameters in place of their names.
 std::string message_text(const Context& context, std::string_view text);
 
 // keeping.cpp: M70 to M73
 Result keep_state(Context& context);
-/// Makes the modes those of `modal`, and emits the events of what changes.
+/// Sets the modes to `modal`, and emits an event for each change.
 void restore(Context& context, const Modal& modal);
 
 // offsets.cpp, tools.cpp, home.cpp: G10 G43 G49 G52 to G59.3 G92, G28 G30
@@ -47,7 +47,7 @@ Result set_system(Context& context);
 Result set_tool(Context& context);
 Result go_home(Context& context);
 Result offset_axes(Context& context);
-/// After a change of offsets: the program's coordinates of where the axes stand.
+/// Updates the program's coordinates of the place where the axes stand, after a change of offsets.
 void offsets_changed(Context& context);
 
 // compensation.cpp: G40 G41 G42
@@ -62,13 +62,13 @@ Result quadratic_spline(Context& context);
 Result nurbs(Context& context);
 Result canned_cycle(Context& context);
 
-/// Error where a motion at feed cannot be: no feed, or no F with inverse time.
+/// Returns an error if a motion at feed is not possible: no feed, or no F with inverse time.
 Result check_feed(const Context& context);
-/// The feed of a motion between two places of the program, of so long a path of X, Y and Z: per minute.
+/// The feed of a motion between two places of the program, per minute. `path`: the length of its path in X, Y and Z.
 double feed_of(const Context& context, const Point& from, const Point& to, std::optional<double> path = {});
-/// Straight to a place of the program, which becomes the axes'. Feed 0: rapid.
+/// Moves the axes straight to a place of the program. A feed of 0 means rapid.
 void move(Context& context, const Point& target, double feed);
-/// The machine's coordinates of a place of the program; axes that do not leave theirs keep it exactly.
+/// The machine's coordinates of a place of the program. Axes that do not move keep theirs exactly.
 Point machine_target(const Offsets& offsets, const Standing& from, const Point& program);
 Point machine_target(const State& state, const Point& program);
 

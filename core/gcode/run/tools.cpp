@@ -9,7 +9,7 @@ std::string no_tool(int tool) {
     return ": tool " + std::to_string(tool) + " is not in the tool table; add it, or take the word out";
 }
 
-/// G43: the offset of the tool in the spindle, or of that which H names.
+/// G43: the offset of the tool in the spindle, or of the tool that H names.
 std::expected<Point, GcodeError> tool_offset(const Context& context) {
     const Block& block = context.block;
     int tool = context.state.tool;
@@ -25,14 +25,14 @@ std::expected<Point, GcodeError> tool_offset(const Context& context) {
     return context.refuse(Group::ToolLength, no_tool(tool));
 }
 
-/// Where there is no tool table, any tool may be put in; its offset is unknown.
+/// Without a tool table any tool may be used; its offset is unknown.
 bool is_known(const State& state, int tool) { return tool == 0 || state.tools.empty() || state.tools.contains(tool); }
 
 void set_words(const Context& context, Point& offset) {
     for (std::size_t axis = 0; axis < kAxes; ++axis) { offset[axis] = context.axis_word(axis).value_or(offset[axis]); }
 }
 
-/// G43.2: added to the offset in use.
+/// G43.2: adds to the offset in use.
 Result add_offset(Context& context) {
     const Block& block = context.block;
     if (block.has('H') && block.has_axes()) {
@@ -53,8 +53,8 @@ Result add_offset(Context& context) {
     return {};
 }
 
-/// The offset that makes the place where the tool stands read as the words say. L11: without the G92 offsets, from
-/// the origin of the ninth coordinate system.
+/// The offset with which the place where the tool stands reads as the words say. L11: without the G92 offsets, from the
+/// origin of the ninth coordinate system.
 void measure(const Context& context, bool by_fixture, Point& offset) {
     const State& state = context.state;
     Offsets offsets = state.offsets;

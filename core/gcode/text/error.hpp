@@ -1,4 +1,4 @@
-// What is wrong with a G-code text, and where.
+// An error in a G-code text.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ struct GcodeError {
     int line = 0;          // from 1
     int column = 0;        // from 1, in bytes
     std::string message;   // the value, the limit and the remedy
-    bool repeats = false;  // lines behind it are wrong for the same reason: once is enough
+    bool repeats = false;  // later lines have the same error; it is reported once
     bool operator==(const GcodeError&) const = default;
 };
 

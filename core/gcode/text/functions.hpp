@@ -12,7 +12,7 @@ namespace lockstep::gcode {
 enum class Function : std::uint8_t { Abs, Acos, Asin, Atan, Cos, Exists, Exp, Fix, Fup, Ln, Round, Sin, Sqrt, Tan };
 enum class Operator : std::uint8_t { Power, Times, Over, Mod, Plus, Minus, Eq, Ne, Gt, Ge, Lt, Le, And, Or, Xor };
 
-/// A function or an operator that a text begins with, and its length.
+/// A function or an operator and its name.
 template <typename Meaning>
 struct Named {
     std::string_view name;
@@ -25,7 +25,7 @@ std::optional<Named<Operator>> find_operator(std::string_view text);
 /// 1 binds least: AND OR XOR; then comparisons; + and -; * / MOD; ** binds most.
 int precedence(Operator op);
 
-/// What is wrong with the arguments of a function or an operator.
+/// An error in the arguments of a function or an operator.
 struct ArgumentError {
     enum class Why : std::uint8_t { BeyondOne, NotAboveZero, BelowZero, FractionalPower, DivisionByZero };
     Why why;
@@ -35,10 +35,10 @@ struct ArgumentError {
 /// `name`: of the function or operator.
 std::string text_of(const ArgumentError& error, std::string_view name);
 
-/// Not for Atan, which has two arguments, and Exists.
+/// Not for Atan, which has two arguments, and not for Exists.
 std::expected<double, ArgumentError> apply(Function function, double argument);
 std::expected<double, ArgumentError> apply(Operator op, double left, double right);
 
-inline constexpr double kDegrees = 57.295779513082320876798154814105;  // of a radian
+inline constexpr double kDegrees = 57.295779513082320876798154814105;  // per radian
 
 }  // namespace lockstep::gcode

@@ -6,24 +6,24 @@
 namespace lockstep::gcode {
 namespace {
 
-enum class Kind : std::uint8_t { Kept, Blank, Small, Comment, End, Control, Foreign };
+enum class CharacterKind : std::uint8_t { Kept, Blank, Small, Comment, End, Control, Foreign };
 
-constexpr Kind kind_of(unsigned char c) {
-    if (c == ' ' || c == '\t') { return Kind::Blank; }
-    if (c < ' ' || c == 0x7F) { return Kind::Control; }
-    if (c > '~') { return Kind::Foreign; }
-    if (c >= 'a' && c <= 'z') { return Kind::Small; }
-    if (c == '(') { return Kind::Comment; }
-    return c == ';' ? Kind::End : Kind::Kept;
+constexpr CharacterKind kind_of(unsigned char c) {
+    if (c == ' ' || c == '\t') { return CharacterKind::Blank; }
+    if (c < ' ' || c == 0x7F) { return CharacterKind::Control; }
+    if (c > '~') { return CharacterKind::Foreign; }
+    if (c >= 'a' && c <= 'z') { return CharacterKind::Small; }
+    if (c == '(') { return CharacterKind::Comment; }
+    return c == ';' ? CharacterKind::End : CharacterKind::Kept;
 }
 
-constexpr std::array<Kind, 256> kKinds = [] {
-    std::array<Kind, 256> kinds{};
+constexpr std::array<CharacterKind, 256> kKinds = [] {
+    std::array<CharacterKind, 256> kinds{};
     for (std::size_t c = 0; c < kinds.size(); ++c) { kinds[c] = kind_of(static_cast<unsigned char>(c)); }
     return kinds;
 }();
 
-constexpr Kind kind(char c) { return kKinds[static_cast<unsigned char>(c)]; }
+constexpr CharacterKind kind(char c) { return kKinds[static_cast<unsigned char>(c)]; }
 
 std::string control_message(char c) { return shown(c) + " is a control byte, not text; take it out"; }
 
@@ -51,31 +51,31 @@ std::optional<GcodeError> Line::read(std::string_view raw, int number) {
     for (std::size_t i = 0; i < raw.size(); ++i) {
         const char c = raw[i];
         switch (kind(c)) {
-            case Kind::Kept: kept_[size_++] = c; break;
-            case Kind::Small: kept_[size_++] = static_cast<char>(c - 'a' + 'A'); break;
-            case Kind::Blank: break;
-            case Kind::Comment:
+            case CharacterKind::Kept: kept_[size_++] = c; break;
+            case CharacterKind::Small: kept_[size_++] = static_cast<char>(c - 'a' + 'A'); break;
+            case CharacterKind::Blank: break;
+            case CharacterKind::Comment:
                 if (auto error = keep_comment(i)) { return error; }
                 break;
-            case Kind::End: {
-                const auto control = std::ranges::find(raw.substr(i), Kind::Control, kind);
+            case CharacterKind::End: {
+                const auto control = std::ranges::find(raw.substr(i), CharacterKind::Control, kind);
                 if (control == raw.end()) { return std::nullopt; }
                 return raw_error(static_cast<std::size_t>(control - raw.begin()), control_message(*control));
             }
-            case Kind::Control: return raw_error(i, control_message(c));
-            case Kind::Foreign:
+            case CharacterKind::Control: return raw_error(i, control_message(c));
+            case CharacterKind::Foreign:
                 return raw_error(i, shown(c) + " is not G-code; outside comments a program is printable ASCII");
         }
     }
     return std::nullopt;
 }
 
-/// `from` is the comment's '(', and becomes its ')'.
+/// `from` is the place of the comment's '(', and is set to that of its ')'.
 std::optional<GcodeError> Line::keep_comment(std::size_t& from) {
     const std::size_t begin = from;
     for (std::size_t i = begin; i < raw_.size(); ++i) {
         const char c = raw_[i];
-        if (kind(c) == Kind::Control) { return raw_error(i, control_message(c)); }
+        if (kind(c) == CharacterKind::Control) { return raw_error(i, control_message(c)); }
         if (c == '(' && i > begin) { return raw_error(i, "a comment inside a comment; take one ( away"); }
         kept_[size_++] = c;
         if (c == ')') {
@@ -99,7 +99,7 @@ GcodeError Line::error(std::size_t place, std::string message) const {
     bool in_comment = false;
     for (std::size_t i = 0; i < raw_.size(); ++i) {
         in_comment = in_comment || raw_[i] == '(';
-        if (!in_comment && kind(raw_[i]) == Kind::Blank) { continue; }
+        if (!in_comment && kind(raw_[i]) == CharacterKind::Blank) { continue; }
         in_comment = in_comment && raw_[i] != ')';
         if (kept++ == place) { return raw_error(i, std::move(message)); }
     }

@@ -1,4 +1,4 @@
-// One line of a G-code text, prepared for reading: without blanks, letters as capitals, comments as they were.
+// One line of a G-code text, prepared for reading: without blanks, letters as capitals, comments unchanged.
 #pragma once
 
 #include <array>
@@ -20,13 +20,13 @@ public:
 
     std::string_view text() const { return {kept_.data(), size_}; }
     std::string_view raw() const { return raw_; }
-    /// '\0' behind the end.
+    /// Returns '\0' behind the end.
     char at(std::size_t place) const { return place < size_ ? kept_[place] : '\0'; }
     int number() const { return number_; }
     /// The exclusive or of all bytes before the last '*'.
     int checksum() const;
     GcodeError error(std::size_t place, std::string message) const;
-    /// Where the comment that begins at `place` ends: the place behind its ')'.
+    /// The place behind the ')' of the comment that begins at `place`.
     std::size_t end_of_comment(std::size_t place) const;
 
 private:
@@ -41,7 +41,7 @@ private:
 
 /// The character as it can be shown: 'x', or the byte's number.
 std::string shown(char c);
-/// Digits and the decimal point: what a number is made of behind its sign.
+/// Digits and the decimal point: the characters of a number behind its sign.
 constexpr bool is_of_number(char c) { return (c >= '0' && c <= '9') || c == '.'; }
 constexpr bool is_letter(char c) { return c >= 'A' && c <= 'Z'; }
 

@@ -6,7 +6,7 @@
 namespace lockstep::gcode {
 namespace {
 
-constexpr int kFirstSystem = 5399;  // below are only values that programs and the machine's state hold
+constexpr int kFirstSystem = 5399;  // lower numbers are values of programs and of the machine's state
 
 bool is_global(std::string_view name) { return name.starts_with('_'); }
 

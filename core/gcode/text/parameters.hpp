@@ -26,7 +26,7 @@ public:
     virtual std::optional<double> named(std::string_view name) const = 0;
 };
 
-/// Those that last: they are part of a machine's state.
+/// The values that are part of a machine's state.
 struct ParameterValues {
     std::vector<double> numbered = std::vector<double>(kMaxParameter + 1, 0.0);
     NamedValues global;
@@ -44,9 +44,9 @@ public:
     void set(int number, double value) { values_.numbered[static_cast<std::size_t>(number)] = value; }
     void set(std::string_view name, double value);
 
-    /// A call: the subroutine's own #1 to #30, and no local names.
+    /// Begins a call: the subroutine has its own #1 to #30, and no local names.
     void enter(const std::array<double, kArguments>& arguments);
-    /// Its end: the caller's come back.
+    /// Ends a call: restores the caller's.
     void leave();
 
 private:

@@ -135,7 +135,7 @@ double Reader::expression() {
     return result;
 }
 
-/// By precedence climbing; operators of one precedence go from left to right.
+/// Precedence climbing. Operators of one precedence are applied from left to right.
 double Reader::operand_and_operators(int least_precedence) {
     double left = value();
     while (!error_) {

@@ -1,6 +1,6 @@
 // Reads the values of a line from left to right: numbers, parameters, expressions in [ ], functions.
 //
-// The first error stays, and the reader then stands at the line's end: callers need to ask only once.
+// The first error is kept and moves the reader to the line's end, so callers need to check only once.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace lockstep::gcode {
 
-/// Brackets and parameters of parameters may be nested so deep.
+/// The greatest depth of nested brackets and of parameters of parameters.
 inline constexpr int kMaxNesting = 64;
 
 class Reader {
@@ -29,14 +29,14 @@ public:
     void skip_comment() { at_ = line_.end_of_comment(at_); }
     void go_to(std::size_t place) { at_ = place; }
 
-    /// The value of the word whose letter is at `letter_at`.
+    /// The value of the word with its letter at `letter_at`.
     double word_value(std::size_t letter_at);
     double value();
     /// An expression within [ ].
     double expression();
     /// The name within < >, in small letters.
     std::string name();
-    /// Behind a #: the number of a parameter.
+    /// The number of a parameter, behind its #.
     int parameter_number();
 
     void fail(std::size_t place, std::string message);

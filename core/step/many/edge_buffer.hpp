@@ -1,4 +1,4 @@
-// Steps in 64 bits each, in memory that the caller gives: what a process that moves many axes collects them in.
+// A buffer of steps in 64 bits each, in memory of the caller, for processes that move many axes.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +9,11 @@
 
 namespace lockstep {
 
-/// The steps of one axis, in order. Never allocates; holds kSlack steps less than there is room, because vectors are
-/// written whole. Packed: twice the tick, plus 1 where the step is backward. Ticks are within +-2^62.
+/// The steps of one axis, in order. Never allocates. Its capacity is kSlack steps less than the room, because vectors
+/// are written whole. A packed step is twice the tick, plus 1 if it is backward. Ticks are within +-2^62.
 class EdgeBuffer {
 public:
-    static constexpr std::size_t kSlack = 32;  // lanes of the longest vectors there are
+    static constexpr std::size_t kSlack = 32;  // lanes of the longest vectors of any processor
 
     EdgeBuffer() = default;
     explicit EdgeBuffer(std::span<std::int64_t> room)
@@ -25,14 +25,14 @@ public:
         return {Tick{room_[i] >> 1}, static_cast<std::int8_t>((room_[i] & 1) != 0 ? -1 : 1)};
     }
 
-    /// What is not filled yet, without the slack; a writer fills it from its front and then says by how much.
+    /// The unfilled room without the slack. A writer fills it from the front and then calls filled().
     std::span<std::int64_t> free() const { return room_.subspan(size_, capacity_ - size_); }
     void filled(std::size_t steps) { size_ += steps; }
 
     static constexpr std::int64_t pack(Tick tick, bool backward) { return tick.value * 2 + (backward ? 1 : 0); }
 
-    /// Room enough for the steps of this many ticks, whatever the motion: at most one step every second tick, and one
-    /// more for each change of direction or piece.
+    /// The room for the steps of this many ticks in any motion: at most one step every second tick, and one more for
+    /// each change of direction or piece.
     static constexpr std::size_t room_for(Ticks ticks, std::size_t turns) {
         return static_cast<std::size_t>(ticks.value) / 2 + 1 + turns + kSlack;
     }

@@ -3,7 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/step/many/run_many.cpp"
 #include <hwy/foreach_target.h>
-// Above: this file again for each instruction set. Below: once in each pass.
+// The include above compiles this file again for each instruction set; each pass includes highway.h once.
 #include <hwy/highway.h>
 
 #include "core/step/many/vector_walk-inl.hpp"

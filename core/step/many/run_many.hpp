@@ -9,8 +9,8 @@
 namespace lockstep {
 
 /// Runs one axis to `until` or to the end of its piece, as StepEngine::run does, and appends its steps to `edges`.
-/// Where the buffer has no room for the steps of a whole stretch, the axis stops before it; now() then says how far it
-/// came.
+/// If the buffer has no room for the steps of a whole stretch, the axis stops before it; now() is then the tick it has
+/// reached.
 void run_into(StepEngine& axis, Tick until, EdgeBuffer& edges);
 
 /// run_into for every axis, axes[i] into edges[i]. Both have the same size.

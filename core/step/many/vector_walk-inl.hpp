@@ -20,8 +20,7 @@ HWY_BEFORE_NAMESPACE();
 namespace lockstep::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Longer vectors take no more roots per clock, and leave more lanes empty.
-/// The steps first ... first + count - 1, from seeds of which not all are right.
+/// Writes the steps first ... first + count - 1, from seeds of which not all are exact.
 template <class Words>
 HWY_NOINLINE HWY_ATTR void settle(Words words, Stretch stretch, Tick start, std::int64_t first, std::size_t count,
                                   hn::Vec<Words> n, std::int64_t* out) {
@@ -69,8 +68,9 @@ HWY_INLINE HWY_ATTR void walk_lanes(Doubles doubles, const Stretch& stretch, std
     }
 }
 
-/// Writes the ticks of the steps of a stretch, packed as EdgeBuffer has them. `steps` is how many there are. Vectors
-/// are written whole: up to EdgeBuffer::kSlack words from the last step on may be scribbled on.
+/// Writes the ticks of the steps of a stretch, packed for an EdgeBuffer. `steps` is their number. Vectors are written
+/// whole, so up to EdgeBuffer::kSlack words behind the last step may be overwritten. For few steps, longer vectors
+/// would compute no more roots per clock and leave more lanes empty.
 HWY_INLINE HWY_ATTR void vector_walk(const Stretch& stretch, std::size_t steps, Tick start, std::int64_t* out) {
     constexpr std::size_t kFew = 4;
     if (steps > kFew) { return walk_lanes(hn::ScalableTag<double>(), stretch, steps, start, out); }

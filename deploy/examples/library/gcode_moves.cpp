@@ -1,4 +1,4 @@
-// G-code becomes moves: everything modal resolved, every target absolute, in mm.
+// Reads G-code into moves. All modal words are resolved, and every target is absolute, in mm.
 #include <cstdio>
 
 #include "core/gcode/gcode.hpp"

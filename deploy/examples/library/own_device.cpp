@@ -1,9 +1,9 @@
-// A device of one's own behind the register map (sim_fpga/REGISTERS.md), tick by tick and with additions only, as
-// hardware does it. An axis drives it if its machine file says  device: "uio:PATH".
+// A custom device behind the register map (sim_fpga/REGISTERS.md). It works tick by tick with additions only, like
+// hardware. An axis drives it if the machine's file says device: "uio:PATH".
 //
 //     own_device PATH        # until SIGTERM or SIGINT
 //
-// It has a home switch and no limit switches. pulse() is where a pin would be set.
+// It has a home switch and no limit switches. Hardware would set its output pin in pulse().
 #include <signal.h>
 #include <time.h>
 
@@ -20,9 +20,9 @@ using namespace lockstep;
 using namespace lockstep::registers;
 
 constexpr std::int64_t kTick_ns = 1000;
-constexpr std::int64_t kHomeCloses = -700;  // steps from where it was switched on, and below
+constexpr std::int64_t kHomeCloses = -700;  // the home switch is closed up to this count; the device starts at 0
 
-/// One word of the segment ring's entry `index`.
+/// Returns one word of the segment ring's entry `index`.
 std::uint64_t entry_word(const RegisterWindow& window, std::uint64_t index, std::size_t word) {
     return window.load(kSegmentRing + index % kSegmentRingEntries * kSegmentRingEntryBytes + word);
 }
@@ -96,7 +96,7 @@ private:
         if (is_triggered()) { finish_by_trigger(); }
     }
 
-    /// The frame goes on, the next one begins, or this one's tail does.
+    /// Continues the frame, begins the next frame, or begins this frame's tail.
     void end_piece_of_body() {
         if (is_loaded() && word(kSegmentRingFrame) == frame_ && !(word(kSegmentRingFlags) & kSegmentRingFlagsTail)) {
             return begin_piece(State::InBody);
@@ -131,7 +131,7 @@ private:
         ++taken_;
     }
 
-    /// One tick of the add-only engine.
+    /// Runs one tick of the add-only engine.
     void move() {
         const int direction = engine_->tick();
         phase_ = engine_->phase;
@@ -194,10 +194,10 @@ private:
     std::uint64_t frame_ = 0;
     bool is_last_ = false;
     std::uint64_t trigger_ = kTriggerNone;
-    std::uint64_t ended_ = 0;  // bits of STATUS: how the run has ended
-    std::uint64_t taken_ = 0;  // entries of the segment ring
+    std::uint64_t ended_ = 0;  // bits of STATUS that say how the run ended
+    std::uint64_t taken_ = 0;  // entries taken from the segment ring
     std::optional<Accumulator> engine_;
-    Ticks left_;  // of the piece
+    Ticks left_;  // ticks left in the piece
     std::int64_t count_ = 0;
     std::uint64_t phase_ = kRestPhase;
     std::int64_t trigger_count_ = 0;
@@ -206,7 +206,7 @@ private:
     std::uint64_t sequence_ = 0;
 };
 
-/// Machine time, as the processes of one host share it.
+/// Returns machine time, which all processes of one host share.
 Tick machine_now() {
     timespec time{};
     clock_gettime(CLOCK_MONOTONIC, &time);

@@ -1,4 +1,4 @@
-// One move by each published method of step generation: how long it takes, and its first steps.
+// Plans one move by each published method of step generation, and prints its duration and its first steps.
 #include <cstdio>
 
 #include "core/methods/methods.hpp"

@@ -1,5 +1,5 @@
-// The step engine by itself: an axis speeds up from rest over 100 steps, and each of them falls on one tick.
-// Built on the package lockstep-dev: find_package(lockstep), then link lockstep::lockstep_core.
+// Uses the step engine alone: an axis accelerates from rest over 100 steps, and each step falls on a tick. Built on the
+// package lockstep-dev: find_package(lockstep), then link lockstep::lockstep_core.
 #include <cstdio>
 
 #include "core/step/engine.hpp"

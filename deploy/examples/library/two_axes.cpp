@@ -1,4 +1,4 @@
-// A path of two axes becomes frames, and the frames become steps: every axis ends on the step that was asked for.
+// Plans a path of two axes as frames, and runs the frames as steps. Every axis ends exactly on the commanded step.
 #include <array>
 #include <cstdio>
 
@@ -23,7 +23,7 @@ MachineConfig plotter() {
     return machine;
 }
 
-/// The body of one axis's part of a frame. Returns where it ends.
+/// Runs the body of one axis's track in a frame. Returns the end position.
 Position run(const AxisTrack& track, int& steps) {
     StepEngine engine(Tick{}, track.from);
     for (const Piece& piece : track.body) {

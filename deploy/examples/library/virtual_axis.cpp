@@ -1,8 +1,9 @@
-// An axis in virtual time: the controller and a simulated device, loop by loop. It homes, then moves by itself.
+// Runs an axis in virtual time: the controller and a simulated device, loop by loop. The axis homes, then makes a move
+// of its own.
 //
-// The controller reads no clock and sends nothing: each loop it is given the time, its device's state and the messages
-// that came, and returns orders for the device and the state that it would publish. Here the messages of its owner, the
-// coordinator, are written by hand.
+// The controller reads no clock and sends nothing. In each loop it gets the time, its device's state and the received
+// messages, and returns orders for the device and the state to publish. This example itself makes the messages of the
+// owner, the coordinator.
 #include <cstdio>
 
 #include "core/axis/axis_controller.hpp"
@@ -38,7 +39,7 @@ public:
           axis_(0, machine_, kIdentity, kConfigHash, methods::begin_steps,
                 std::unexpected(FaultCode::PositionNotKept)) {}
 
-    /// Loops, one in each slot, until the order is done.
+    /// Runs loops, one in each slot, until the order is done.
     const AxisState& carry_out(AxisCommandKind kind, std::int64_t target_steps = 0) {
         const AxisCommand order{.term = kTerm, .sequence = ++orders_, .kind = kind, .target_steps = target_steps};
         do { loop(order); } while (state_.command_done < orders_);

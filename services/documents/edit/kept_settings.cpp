@@ -65,13 +65,13 @@ std::unexpected<Diagnostics> refusal(const std::string& message) {
     return std::unexpected(Diagnostics{{.message = message}});
 }
 
-/// The text they are about is nowhere to be seen: no places in it.
+/// Removes the places from the errors, because they refer to an edited text that no file contains.
 std::unexpected<Diagnostics> without_places(Diagnostics errors) {
     for (Diagnostic& error : errors) { error.line = error.column = 0; }
     return std::unexpected(std::move(errors));
 }
 
-/// Their own file is not the machine's file, which the caller names.
+/// Names the settings' file in the errors, because the caller names only the machine's file.
 std::unexpected<Diagnostics> of_file(const fs::path& settings, const Diagnostics& errors) {
     Diagnostics named;
     for (const Diagnostic& error : errors) {

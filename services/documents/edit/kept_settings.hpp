@@ -1,5 +1,6 @@
-// Settings of a machine that a sender has written: keys of axes that apply instead of those in the machine's file. They
-// are in a file of their own beside it, one in each line, "X.homing.pulloff_mm: 2", until they are folded into it.
+// Settings of a machine that a G-code sender has written. They are keys of axes that apply instead of those in the
+// machine's file. A separate file beside that file has one setting in each line, such as "X.homing.pulloff_mm: 2",
+// until they are folded into the machine's file.
 #pragma once
 
 #include <expected>
@@ -15,46 +16,47 @@ namespace lockstep {
 
 struct KeptSetting {
     std::string axis;
-    std::string key;    // of the axis: "max_velocity_mm_s", "homing.pulloff_mm"
+    std::string key;    // key of the axis, such as "homing.pulloff_mm"
     std::string value;  // as in the machine's file
     bool operator==(const KeptSetting&) const = default;
 };
 
 using KeptSettings = std::vector<KeptSetting>;
 
-/// As it is written in a machine's file, without loss.
+/// Returns the number as in a machine's file, without loss.
 std::string value_text(double value);
-/// Of an axis. Empty: the key is none of those that may be kept.
+/// Returns an axis's value of a key; empty if this key may not be kept.
 std::string value_of(const AxisConfig& axis, std::string_view key);
 
-/// "mill.textproto.settings", beside "mill.textproto". Under the file's own name, where a link leads to it.
+/// Returns "mill.textproto.settings" beside "mill.textproto". If `machine_file` is a link, the name is that of the
+/// link's target.
 std::filesystem::path settings_file(const std::filesystem::path& machine_file);
 
-/// Replaces the value of the same key.
+/// Adds the setting, or replaces the one of the same axis and key.
 void set(KeptSettings& settings, const KeptSetting& setting);
 
 std::string settings_text(const KeptSettings& settings);
 std::expected<KeptSettings, Diagnostics> settings_from_text(std::string_view text);
-/// None, without the file.
+/// Returns no settings if the file does not exist.
 std::expected<KeptSettings, Diagnostics> read_settings(const std::filesystem::path& file);
-/// Without settings the file is removed. Error: the file, and why; it is as it was.
+/// Removes the file if there are no settings. Error: the file and the reason; the file is unchanged.
 std::expected<void, std::string> write_settings(const std::filesystem::path& file, const KeptSettings& settings);
 
-/// The text of a machine's file with these values. Everything else stays, comments too. Error: what is wrong with the
-/// text, or with the machine that it would describe, by the rules for every machine's file.
+/// Returns the text of a machine's file with these values. Everything else stays, including comments. Error: what is
+/// wrong with the text, or with the machine that it would describe, by the rules for every machine's file.
 std::expected<std::string, Diagnostics> with_settings(std::string_view text, const KeptSettings& settings);
 
-/// A machine as its file and the settings beside it describe it.
+/// A machine described by its file and the settings beside it.
 struct LoadedMachine {
     MachineConfig config;
     KeptSettings settings;
 };
 std::expected<LoadedMachine, Diagnostics> load_machine(const std::filesystem::path& file);
-/// The same with the settings of another file.
+/// Does the same with the settings of another file.
 std::expected<LoadedMachine, Diagnostics> load_machine(const std::filesystem::path& file,
                                                        const std::filesystem::path& settings);
 
-/// A sentence for a log.
+/// Returns a sentence for the log.
 std::string settings_notice(const KeptSettings& settings);
 
 }  // namespace lockstep

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kNone = std::string_view::npos;
 constexpr std::string_view kValue = "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_.+-";
 
-/// Where a place is in the text. Protobuf counts a tab as up to the next column that is a multiple of 8.
+/// Returns the byte offset of a place. In Protobuf's columns a tab extends to the next multiple of 8.
 std::size_t offset_of(std::string_view text, const TextSource::Place& place) {
     constexpr int kTab = 8;
     std::size_t at = 0;
@@ -29,7 +29,7 @@ std::size_t find_key(std::string_view text, const std::string& path) {
     return place.is_of_key ? offset_of(text, place) : kNone;
 }
 
-/// `content`: with a key of its own.
+/// `content` includes its key.
 void add_to_block(std::string& text, const std::string& block, const std::string& content) {
     const std::size_t open = text.find_first_of("{<", find_key(text, block));
     text.insert(open + 1, " " + content);

@@ -1,4 +1,4 @@
-// Changes single keys in the text of a machine's file, and leaves everything else in it as it is, comments too.
+// Changes single keys in the text of a machine's file, and leaves everything else unchanged, including comments.
 #pragma once
 
 #include <string>
@@ -6,11 +6,11 @@
 
 namespace lockstep {
 
-/// `path`: "timing", "timing.slot_us", "axis[1].homing.pulloff_mm".
+/// `path` is, for example, "timing", "timing.slot_us" or "axis[1].homing.pulloff_mm".
 bool has_key(std::string_view text, const std::string& path);
 
-/// Replaces the value, or adds the key. A block that the text does not have is added to the block around it, which must
-/// exist. False: a comment stands between the key and its value, and nothing was changed.
+/// Replaces the value, or adds the key. If the text lacks the key's block, it adds the block to the one around it,
+/// which must exist. Returns false and changes nothing if a comment stands between the key and its value.
 bool set_key(std::string& text, const std::string& path, const std::string& value);
 
 }  // namespace lockstep

@@ -1,4 +1,4 @@
-// Writes a timing into the text of a machine's file, and leaves everything else in it as it is, comments too.
+// Writes a timing into the text of a machine's file, and leaves everything else unchanged, including comments.
 #pragma once
 
 #include <expected>
@@ -10,11 +10,12 @@
 
 namespace lockstep {
 
-/// The keys that set the slots: all of ProtocolTiming but where machine time comes from. As protobuf text, in one line.
+/// Returns the keys that set the slots, as protobuf text in one line.
 std::string slots_text(const ProtocolTiming& timing);
 
-/// The machine's text with these slots. Where machine time comes from stays; the limit of the clock error is lowered if
-/// the new slot requires it. Error: what is wrong with the text, or with the machine that it would describe.
+/// Returns the machine's text with these slots. It does not change the time source, and lowers the limit of the clock
+/// error only if the new slot requires it. Error: what is wrong with the text, or with the machine that it would
+/// describe.
 std::expected<std::string, Diagnostics> with_slots(std::string_view text, const ProtocolTiming& timing);
 
 }  // namespace lockstep

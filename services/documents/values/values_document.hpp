@@ -1,5 +1,5 @@
-// The values that outlive programs <-> idl/proto/values.proto: as text in the coordinator's file, as bytes on the
-// network.
+// Translates between the values that outlive programs and idl/proto/values.proto, as text in the coordinator's file and
+// as bytes on the network.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace proto {
 class KeptValues;
 }  // namespace proto
 
-/// The values at one time; the revision increases with every change.
+/// The values at one time. The revision increases with every change.
 struct RevisedValues {
     std::uint64_t revision = 0;
     gcode::KeptValues values;
@@ -34,7 +34,7 @@ std::expected<RevisedValues, std::string> values_from_proto(const proto::KeptVal
 std::string values_text(const RevisedValues& values);
 std::expected<RevisedValues, Diagnostics> values_from_text(std::string_view text);
 
-/// Of the coordinator's file. Without it: no values, revision 0.
+/// Reads the coordinator's file. If it does not exist, returns no values and revision 0.
 std::expected<RevisedValues, Diagnostics> read_values(const std::filesystem::path& file);
 
 std::vector<std::uint8_t> values_bytes(const RevisedValues& values);

@@ -1,4 +1,4 @@
-// The values that outlive programs <-> their Protobuf message.
+// Translates between the values that outlive programs and their Protobuf message.
 #include <array>
 #include <cmath>
 #include <optional>
@@ -20,7 +20,7 @@ using gcode::Point;
 constexpr int kMaxToolNumber = 99'999;
 constexpr int kMaxOrientation = 9;
 
-/// A place's field: x is the first.
+/// Returns the field of an axis in a place. x is the first field.
 const google::protobuf::FieldDescriptor& field_of(std::size_t axis) {
     return *proto::Place::descriptor()->FindFieldByNumber(static_cast<int>(axis) + 1);
 }
@@ -43,7 +43,7 @@ proto::Tool write(int number, const gcode::Tool& tool) {
     return message;
 }
 
-/// Reads numbers; notes the first that is out of range.
+/// Reads numbers, and notes the first that is out of range.
 class ValuesReader {
 public:
     double number(double value, const std::string& what) { return within(value, -kMaxNumber, kMaxNumber, what); }

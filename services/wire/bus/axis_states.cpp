@@ -8,13 +8,15 @@ namespace {
 
 constexpr std::chrono::milliseconds kShownEvery{100};
 
-/// A process that acts on a job's end, or on a fault, must not use an older state of the axes.
+/// Whether the change must be shown at once. A process that acts on a job's end or a fault must not use an older state
+/// of the axes.
 bool is_news(const AxisState& state, const AxisState& shown) {
     return state.phase != shown.phase || state.at_rest != shown.at_rest || state.homed != shown.homed ||
            state.fault != shown.fault || state.command_done != shown.command_done;
 }
 
-/// Nothing: the network is used; or it could not be opened, and the participant has noted why.
+/// Returns nullopt if the network is used, or if the board could not be opened. In that case the participant has noted
+/// why.
 template <typename Board, typename Axis>
 std::optional<Board> board_for(Participant& participant, Axis axis) {
     const NetworkConfig& network = participant.network();

@@ -1,4 +1,5 @@
-// The topics that each role reads and writes, as one value. Members are constructed in order on the participant.
+// One struct for each role, with the topics that it reads and writes. The members are constructed in order, on the
+// participant.
 #pragma once
 
 #include <chrono>
@@ -17,7 +18,7 @@ namespace lockstep {
 class Arrivals {
 public:
     void notify();
-    /// True: something was received since the last call. False: the time passed.
+    /// Returns true if something was received since the last call, false if the time passed.
     bool wait_for(std::chrono::nanoseconds time);
 
 private:
@@ -29,7 +30,7 @@ private:
 struct AxisBus {
     Participant participant;
     Reader<Frame> frames{participant};
-    AxisStatesReader states{participant};  // the other axes'
+    AxisStatesReader states{participant};  // of the other axes
     Reader<MachineState> machine{participant};
     Reader<AxisCommand> commands{participant};
     Reader<Command> requests{participant};  // from clients to the coordinator
@@ -57,7 +58,7 @@ struct CoordinatorBus {
     bool is_memory_replaced() const { return states.is_memory_replaced(); }
 };
 
-/// What has changed since the bus was opened.
+/// Returns what has changed since the bus was opened, as a reason to reopen it.
 template <typename Bus>
 std::optional<ReopenReason> change_of(const Bus& bus) {
     if (bus.participant.has_interface_changed()) { return ReopenReason::InterfaceChanged; }
@@ -68,7 +69,7 @@ std::optional<ReopenReason> change_of(const Bus& bus) {
 /// Topics of a read-only observer.
 struct ViewerBus {
     Participant participant;
-    std::unique_ptr<Arrivals> arrivals = std::make_unique<Arrivals>();  // of machine states, and of a client's replies
+    std::unique_ptr<Arrivals> arrivals = std::make_unique<Arrivals>();  // machine states, and a client's replies
     Reader<MachineState> machine{participant, [to = arrivals.get()] { to->notify(); }};
     Reader<AxisState> states{participant};
     Reader<AxisHealth> healths{participant};
@@ -81,7 +82,7 @@ struct ClientBus : ViewerBus {
     Writer<ProgramChunk> chunks{participant};
 };
 
-/// Error: the participant's, or the first topic that could not be opened.
+/// Error: the participant's error, or the first topic that could not be opened.
 template <typename Bus>
 std::expected<Bus, std::string> open_bus(const NetworkConfig& network, const std::string& machine,
                                          const Membership& membership = {}) {

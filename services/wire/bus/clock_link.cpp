@@ -6,8 +6,8 @@
 namespace lockstep {
 namespace {
 
-constexpr std::chrono::milliseconds kServerNap{100};  // until it checks whether to stop
-constexpr std::chrono::milliseconds kClientNap{10};   // and whether to ask again
+constexpr std::chrono::milliseconds kServerNap{100};  // then it checks whether to stop
+constexpr std::chrono::milliseconds kClientNap{10};   // then it also checks whether to ask again
 
 }  // namespace
 

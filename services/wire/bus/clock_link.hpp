@@ -1,5 +1,5 @@
-// The two ends of a clock exchange over DDS. Each has a thread that sleeps until a message comes, so that the exchange
-// measures the network's delay and not the loop's period.
+// The two ends of a clock exchange over DDS. Each end has a thread that sleeps until a message comes, so that the
+// exchange measures the network's delay and not the loop's period.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@ namespace lockstep {
 
 using ReadClock = std::function<Tick()>;
 
-/// The coordinator's side: answers at once, independent of its loop. The participant outlives it.
+/// The coordinator's end. It answers at once, independent of the loop. The participant must outlive it.
 class ClockServer {
 public:
     ClockServer(Participant& participant, ReadClock machine_time);
@@ -30,12 +30,12 @@ private:
     std::jthread thread_;
 };
 
-/// An axis's side: asks repeatedly, and keeps the exchanges until they are taken. The participant outlives it.
+/// An axis's end. It asks repeatedly, and keeps the exchanges until take() is called. The participant must outlive it.
 class ClockClient {
 public:
     ClockClient(Participant& participant, ClockAsker asker, ReadClock own_clock);
 
-    /// The exchanges since the last call.
+    /// Returns the exchanges since the last call.
     std::vector<ClockExchange> take();
 
 private:

@@ -17,7 +17,7 @@ Qos qos_for(const TopicSpec& spec) {
                          0);  // a loop never waits for the network
     dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, spec.depth);
     dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
-    dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);  // an axis need not receive its own state
+    dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);  // an axis does not need its own state
     return qos;
 }
 

@@ -1,5 +1,5 @@
-// Typed readers and writers of core's messages: outgoing messages are translated, incoming ones are checked first, and
-// a message about an axis is accepted only from that axis's own writer.
+// Typed readers and writers of core's messages. A writer translates each message. A reader checks each message first,
+// and accepts a message about an axis only from that axis's own writer.
 #pragma once
 
 #include <algorithm>
@@ -23,26 +23,27 @@
 
 namespace lockstep {
 
-/// Called on a thread of DDS when samples have arrived: it must be short, and must not throw.
+/// Called on a thread of DDS when samples have arrived. It must be short and must not throw.
 using OnData = std::function<void()>;
 
 namespace detail {
-/// What DDS reports to a reader, on a thread of DDS.
+/// Notes for a reader that samples have arrived. DDS calls it on one of its threads.
 struct Arrival {
     explicit Arrival(OnData also) : on_data(std::move(also)) {}
     std::atomic<bool> has_come{false};
     OnData on_data;
 };
 
-/// On failure the participant notes it, and the entity is not valid.
+/// If creation fails, the participant notes it and the entity is not valid.
 Entity make_writer(Participant& participant, const TopicSpec& spec);
 Entity make_reader(Participant& participant, const TopicSpec& spec, Arrival& arrival);
 std::uint32_t matched_readers(const Entity& writer);
 std::uint32_t matched_writers(const Entity& reader);
-/// Bytes that DDS received for the reader and did not deliver, since it was created.
+/// Bytes that DDS received for the reader but did not deliver, since the reader's creation.
 std::uint64_t discarded_bytes(const Entity& reader);
 
-/// The axis that a message is about; nothing: none, and any permitted writer of the topic may send it.
+/// Returns the axis that a message is about. nullopt: it is about no axis, and any permitted writer of the topic may
+/// send it.
 template <typename T>
 std::optional<std::uint32_t> spoken_for(const T& message) {
     constexpr bool kIsAnAxiss =
@@ -57,19 +58,20 @@ class Writer {
 public:
     explicit Writer(Participant& participant) : entity_(detail::make_writer(participant, Topic<T>::kSpec)) {}
 
-    /// Never waits. False: the network's buffers are full, or DDS is shutting down.
+    /// Never waits. Returns false if the network's buffers are full or DDS is shutting down.
     bool write(const T& value) {
         to_wire(value, message_);
         const typename Topic<T>::Wire* sample = &message_;
         return dds_write(entity_.handle(), sample) == DDS_RETCODE_OK;
     }
 
-    /// How many readers are matched. Nothing receives a message without a reader: a first command waits for one.
+    /// The number of matched readers. A message without a matched reader is lost, so a client waits for one before its
+    /// first command.
     std::uint32_t matched() const { return detail::matched_readers(entity_); }
 
 private:
     Entity entity_;
-    decltype(to_wire(std::declval<const T&>())) message_{};  // that was written last
+    decltype(to_wire(std::declval<const T&>())) message_{};  // the message written last
 };
 
 template <typename T>
@@ -80,8 +82,8 @@ public:
           entity_(detail::make_reader(participant, Topic<T>::kSpec, *arrival_)),
           partitions_(participant.machine()) {}
 
-    /// Calls use(T&&) for each message received since the last call, oldest first per sender. Returns how many. A
-    /// message that is not moved from leaves its memory to the next.
+    /// Calls use(T&&) for each message received since the last call, oldest first per sender. Returns their number. If
+    /// `use` does not move from a message, the next one reuses its memory.
     template <typename Use>
     std::size_t take(Use use) {
         std::size_t used = 0;
@@ -99,9 +101,9 @@ public:
 
 private:
     static constexpr std::size_t kBatch = 64;
-    static constexpr std::size_t kMaxBatches = 64;  // in a flood, the rest is left for the next call
+    static constexpr std::size_t kMaxBatches = 64;  // in a flood, the next call takes the rest
 
-    /// Samples lent by DDS, returned at the end of the scope.
+    /// Samples lent by DDS. The destructor returns them.
     struct Loan {
         dds_entity_t reader;
         std::array<void*, kBatch> samples{};
@@ -143,7 +145,7 @@ private:
                                ", but its writer is not that axis");
     }
 
-    std::unique_ptr<detail::Arrival> arrival_;  // DDS holds its address: it does not move and outlives the entity
+    std::unique_ptr<detail::Arrival> arrival_;  // DDS holds its address, so it must not move and must outlive entity_
     Entity entity_;
     PartitionCheck partitions_;
     T value_{};  // the message being read

@@ -6,7 +6,8 @@
 
 namespace lockstep {
 
-/// At most `most` bytes: cut between two words, never within a number or a UTF-8 character, and marked by an ellipsis.
+/// Returns at most `most` bytes. It cuts between two words if it can, never within a UTF-8 character, and appends an
+/// ellipsis.
 inline std::string cut_text(std::string_view text, std::size_t most) {
     constexpr std::string_view kEllipsis = " ...";
     if (text.size() <= most) { return std::string(text); }

@@ -23,13 +23,13 @@ struct DdsLog {
     bool joined = false;
 };
 
-/// Never destroyed: threads of DDS may outlive main.
+/// The log is never destroyed, because threads of DDS may outlive main().
 DdsLog& dds_log() {
     static auto* const log = new DdsLog;
     return *log;
 }
 
-/// One line of a log: names in certificates, and packets, may contain any bytes.
+/// Makes one printable line. Names in certificates and packets may contain any bytes.
 std::string one_line(std::string text) {
     constexpr std::size_t kMaxLength = 400;
     text = cut_text(text, kMaxLength);
@@ -39,7 +39,7 @@ std::string one_line(std::string text) {
     return text;
 }
 
-/// The caller holds its lock.
+/// The caller holds the log's lock.
 void pass_on(DdsLog& log, const std::string& message) {
     log.last = message;
     const auto text = log.filter.pass(monotonic_now(), message);
@@ -62,7 +62,8 @@ void on_trace(void*, const dds_log_data_t* data) {
     if (const auto text = log.unauthenticated.note_line(monotonic_now(), data->message)) { pass_on(log, *text); }
 }
 
-/// The beginning of a message, without possible parts of an identity: DDS appends damaged packets to it.
+/// Returns the beginning of a message without hexadecimal digits and colons, which may be parts of an identity. DDS
+/// appends damaged packets to the message.
 std::string kind_of(std::string message) {
     constexpr std::size_t kLength = 60;
     std::erase_if(message, [](unsigned char c) { return std::isxdigit(c) || c == ':'; });

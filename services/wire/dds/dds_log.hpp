@@ -1,5 +1,5 @@
-// The messages of DDS itself: peers that it refuses, files that it cannot use. DDS reports them on its own threads, and
-// repeats those about one unauthenticated peer ten times a second.
+// Forwards the messages of DDS itself, such as peers that it refuses and files that it cannot use. DDS reports them on
+// its own threads, and repeats those about an unauthenticated peer ten times a second.
 #pragma once
 
 #include <chrono>
@@ -11,16 +11,16 @@
 
 namespace lockstep {
 
-/// Passes the first of each kind of message, and one of that kind in each period after; messages that differ only in
+/// Passes the first message of each kind, then one of that kind in each kPeriod. Messages that differ only in
 /// identities are of one kind. Pure.
 class RepeatFilter {
 public:
-    /// The message to report, with how many of its kind were held back; nothing: it is held back.
+    /// Returns the message to report, with the number held back of its kind; nullopt if it holds this one back.
     std::optional<std::string> pass(std::chrono::nanoseconds now, const std::string& message);
 
 private:
     static constexpr std::chrono::seconds kPeriod{10};
-    static constexpr std::size_t kMaxKinds = 64;  // beyond it all kinds are new again
+    static constexpr std::size_t kMaxKinds = 64;  // at this number all kinds are forgotten
 
     struct Kind {
         std::chrono::nanoseconds reported;
@@ -29,23 +29,22 @@ private:
     std::map<std::string, Kind> kinds_;
 };
 
-/// Sends DDS's warnings and errors to `to`, filtered, on threads of DDS, one at a time. One receiver per process.
+/// Passes DDS's warnings and errors to `to`, filtered, on threads of DDS, one at a time. A process has one receiver.
 void forward_dds_log(std::function<void(const std::string&)> to);
 
-/// Reports a text there, as if DDS had reported it.
+/// Reports a text to that receiver, as if DDS had reported it.
 void add_dds_message(const std::string& text);
 
-/// The last message; empty: none yet.
+/// The last message; empty if none has come yet.
 std::string last_dds_message();
 
-/// Also report unauthenticated peers; the domain's profile must trace discovery. It replaces any other trace of
-/// DDS.
+/// Makes unauthenticated_peers() work. The domain's profile must trace discovery. This replaces any other trace of DDS.
 void watch_unauthenticated_peers();
 
-/// The unauthenticated peers to report now (unauthenticated_peers.hpp).
+/// Returns texts about the unauthenticated peers to report now (unauthenticated_peers.hpp).
 std::vector<std::string> unauthenticated_peers(std::chrono::nanoseconds now);
 
-/// This process has joined. Before that DDS refuses all peers, which is no error of theirs.
+/// Notes that this process has joined. Until then DDS refuses all peers, so such messages are not reported.
 void note_joined();
 
 }  // namespace lockstep

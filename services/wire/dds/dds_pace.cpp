@@ -8,11 +8,12 @@ namespace lockstep {
 namespace {
 
 constexpr int kLongestLease_ms = 10'000;
-constexpr int kFew = 16;  // processes up to which every period is as short as useful
+constexpr int kFew = 16;  // up to this number of processes the shortest useful periods apply
 
 int at_least_few(std::size_t processes) { return std::max(kFew, static_cast<int>(processes)); }
 
-/// The factor of the periods: N^2 requests must be answered, and on one host each process waits for N others.
+/// The factor for the periods, proportional to N^3: N processes answer N^2 requests, and on one host each process waits
+/// for N others.
 int stretch(std::size_t processes) {
     const int n = at_least_few(processes);
     return n * n * n / (kFew * kFew * kFew);
@@ -24,7 +25,8 @@ std::chrono::milliseconds discovery_lease(std::size_t processes) {
     return std::chrono::milliseconds(std::min(1000 * stretch(processes), kLongestLease_ms));
 }
 
-// A new process announces itself at once and is answered at once; repeats serve lost messages and the lease.
+// A new process announces itself at once and gets answers at once. The repeats make up for lost messages and keep the
+// lease.
 std::string discovery_pace(std::size_t processes) {
     const int n = at_least_few(processes);
     const int announced_ms = std::min(200 * n * n / (kFew * kFew), kLongestLease_ms / 5);
@@ -32,8 +34,8 @@ std::string discovery_pace(std::size_t processes) {
                        discovery_lease(processes).count());
 }
 
-// A lost setpoint must be requested at once (NackDelay 0; the default 100 ms would cost ten slots), and the loss of the
-// last one must be noticed soon (heartbeats of 2 to 20 ms).
+// A reader must request a lost setpoint at once (NackDelay 0; the default of 100 ms would cost ten slots), and must
+// soon notice the loss of the last one (heartbeats of 2 to 20 ms).
 std::string repair_pace(std::size_t processes) {
     const int s = stretch(processes);
     return fmt::format(

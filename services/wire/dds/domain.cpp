@@ -17,11 +17,11 @@ namespace {
 
 constexpr const char* kAddedProfile = "CYCLONEDDS_URI";
 
-// Messages that wait for delivery stay in receive buffers, each of which is used until it is full. DDS's default of
-// 1 MiB takes thousands of clients to fill for the first time, and looks like a leak until then.
+// Messages that wait for delivery stay in receive buffers, and DDS fills each buffer before it reuses it. With the
+// default of 1 MiB it takes thousands of clients to fill a buffer once, and until then the growth looks like a leak.
 constexpr const char* kReceiveBuffers = "<Sizing><ReceiveBufferSize>256 KiB</ReceiveBufferSize></Sizing>";
 
-// To the sink of dds_log.hpp, and to no file.
+// Traces discovery to the sink of dds_log.hpp, not to a file.
 constexpr const char* kTrace = "<Tracing><Category>discovery</Category><OutputFile>/dev/null</OutputFile></Tracing>";
 
 bool is_interface_name(const std::string& name) {
@@ -51,7 +51,7 @@ std::expected<std::string, std::string> dds_profile(const NetworkConfig& network
     if (!is_interface_name(network.interface)) {
         return std::unexpected("'" + network.interface + "' is not a network interface's name; see: ip link");
     }
-    // lo does not announce multicast, but supports it; a real interface announces it.
+    // lo supports multicast but does not announce it. A real interface announces it.
     const std::string multicast = network.interface == "lo" ? "true" : "default";
     const std::string by_multicast = "<Discovery>" + discovery_pace(network.processes) + "</Discovery>";
     std::string profile = "<CycloneDDS><Domain id=\"any\"><General><Interfaces><NetworkInterface name=\"" +
@@ -65,7 +65,7 @@ std::expected<std::string, std::string> dds_profile(const NetworkConfig& network
 
 std::expected<std::shared_ptr<const Domain>, std::string> Domain::make(const NetworkConfig& network, bool is_secured) {
     const bool is_added_to = std::getenv(kAddedProfile) != nullptr;
-    const bool watches = is_secured && !is_added_to;  // a trace requested by the environment stays with its user
+    const bool watches = is_secured && !is_added_to;  // keeps a trace that the environment requests
     const auto profile = dds_profile(network, watches ? Discovery::Traced : Discovery::Quiet);
     if (!profile) { return std::unexpected(profile.error()); }
     if (watches) { watch_unauthenticated_peers(); }
@@ -76,7 +76,7 @@ std::expected<std::shared_ptr<const Domain>, std::string> Domain::make(const Net
     Descriptors sockets;
     std::ranges::set_difference(udp_sockets(), before, std::inserter(sockets, sockets.end()));
     std::shared_ptr<const Domain> made(new Domain(network.interface, std::move(entity), std::move(sockets)));
-    if (is_added_to) { return made; }  // it may name further interfaces
+    if (is_added_to) { return made; }  // CYCLONEDDS_URI may name further interfaces
     if (auto tied = tie_new_sockets(before, network.interface); !tied) { return std::unexpected(tied.error()); }
     return made;
 }

@@ -1,7 +1,7 @@
-// A process's DDS domain: its profile, and its sockets on one interface.
+// A process's DDS domain, with its profile and its sockets on one interface.
 //
-// The profile is built from the configuration, not read from the environment, so that every process of a machine has
-// the same. CYCLONEDDS_URI, if set, is read after it, and may add to it (tracing) or override it.
+// The configuration determines the profile, not the environment, so that all processes of a machine have the same one.
+// If CYCLONEDDS_URI is set, DDS reads it after the profile. It may add to the profile (tracing) or override it.
 #pragma once
 
 #include <chrono>
@@ -15,18 +15,18 @@
 
 namespace lockstep {
 
-/// Created by the process's first participant in it, and deleted with the last: by then all peers have been notified
-/// that this process leaves. Without that notice, peers keep contacting it until its lease expires.
+/// The process's first participant in the domain creates it, and it is deleted after the last. By then DDS has notified
+/// all peers that this process leaves. Without that notice, peers would keep contacting it until its lease expires.
 class Domain {
 public:
-    /// DDS ends its receiving threads by sending packets to itself, repeatedly until each has arrived. On an interface
-    /// that is gone none arrives, so the sockets are shut down first.
+    /// To end its receiving threads, DDS sends packets to itself until each thread has received one. On an interface
+    /// that is gone no packet arrives, so this shuts the sockets down first.
     ~Domain() { end_reception(sockets_); }
     Domain(const Domain&) = delete;
     Domain& operator=(const Domain&) = delete;
 
-    /// Error: the domain, the interface, DDS's error, and the remedy; also if this process has that domain on another
-    /// interface.
+    /// Error: the domain, the interface, DDS's error, and the remedy. It is also an error if this process has that
+    /// domain on another interface.
     static std::expected<std::shared_ptr<const Domain>, std::string> join(const NetworkConfig& network,
                                                                           bool is_secured);
 
@@ -45,16 +45,16 @@ private:
 /// Whether DDS traces joining and leaving participants (dds_log.hpp).
 enum class Discovery { Quiet, Traced };
 
-/// The Cyclone DDS configuration of a machine's processes, as XML. Error: the interface's name is not valid.
+/// Returns the Cyclone DDS configuration of a machine's processes, as XML. Error: the interface's name is not valid.
 std::expected<std::string, std::string> dds_profile(const NetworkConfig& network,
                                                     Discovery discovery = Discovery::Quiet);
 
-/// How long DDS regards a process as present that ended without notice.
+/// How long DDS regards a process that ended without notice as present.
 std::chrono::nanoseconds lease_of(const NetworkConfig& network);
 
-/// "DDS domain 3 on interface eth0"
+/// Returns a text such as "DDS domain 3 on interface eth0".
 std::string domain_place(const NetworkConfig& network);
-/// With the remedy.
+/// Returns the error's text, with the remedy.
 std::string cannot_open_domain(const NetworkConfig& network, const char* why);
 
 }  // namespace lockstep

@@ -1,4 +1,4 @@
-// Owns one entity of the DDS C API: it is deleted with its owner.
+// Owns one entity of the DDS C API. The destructor deletes the entity.
 #pragma once
 
 #include <dds/dds.h>
@@ -10,7 +10,7 @@ namespace lockstep {
 class Entity {
 public:
     Entity() = default;
-    /// A negative handle is a failed creation: see why_not().
+    /// A negative handle means that creation failed; see why_not().
     explicit Entity(dds_entity_t handle) : handle_(handle) {}
     Entity(Entity&& other) noexcept : handle_(std::exchange(other.handle_, 0)) {}
     Entity& operator=(Entity&& other) noexcept {

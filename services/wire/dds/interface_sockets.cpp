@@ -46,7 +46,7 @@ std::expected<void, std::string> tie_new_sockets(const Descriptors& before, cons
     return {};
 }
 
-/// The kernel reports that a socket without a peer is not connected, and ends its reception nevertheless.
+/// For a socket without a peer, shutdown() reports ENOTCONN, but the kernel ends its reception nevertheless.
 void end_reception(const Descriptors& sockets) {
     for (const int socket : sockets) { (void)::shutdown(socket, SHUT_RD); }
 }

@@ -1,4 +1,4 @@
-// A process's participant in DDS: one domain, one interface, one machine, and its identity there.
+// A process's participant in DDS, with one domain, one interface, one machine, and the process's identity.
 #pragma once
 
 #include <cstdint>
@@ -28,15 +28,15 @@ struct Credentials {
 
 /// The identity with which a process joins a machine.
 struct Membership {
-    std::optional<std::uint32_t> axis;       // the axis for which it writes; none: for none
-    std::optional<Credentials> credentials;  // none: without security
+    std::optional<std::uint32_t> axis;       // the axis for which the process writes, if any
+    std::optional<Credentials> credentials;  // nullopt: without security
 };
 
 class Participant {
 public:
-    /// The machine's name is the DDS partition (partitions.hpp): machines in one domain do not receive each other.
-    /// Error: the domain, the interface, DDS's error, and the remedy. All participants of a process in one domain
-    /// use one interface.
+    /// The machine's name determines the DDS partition (partitions.hpp), so machines in one domain do not receive each
+    /// other. Error: the domain, the interface, DDS's error, and the remedy. All participants of a process in one
+    /// domain use one interface.
     static std::expected<Participant, std::string> open(const NetworkConfig& network, const std::string& machine,
                                                         const Membership& membership = {});
 
@@ -48,18 +48,17 @@ public:
     dds_entity_t publisher() const { return publisher_.handle(); }
     dds_entity_t subscriber() const { return subscriber_.handle(); }
 
-    /// Whether the interface was replaced or got another address since this was opened.
+    /// Whether the interface was replaced or got another address since this participant was opened.
     bool has_interface_changed() const;
 
-    /// The first failure of a reader or writer created on this participant: so that many can be created in a row and
-    /// checked once.
+    /// The first failed creation of a reader or writer on this participant. A caller can create many and check once.
     const std::optional<std::string>& failure() const { return failure_; }
     void note_failure(std::string text);
 
 private:
     Participant() = default;
 
-    std::shared_ptr<const Domain> domain_;  // outlives all that follows
+    std::shared_ptr<const Domain> domain_;  // must outlive the members below
     std::string machine_;
     NetworkConfig network_;
     std::optional<std::uint32_t> axis_;

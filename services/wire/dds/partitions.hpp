@@ -1,6 +1,5 @@
-// Partitions of DDS: the machine's name separates machines in one domain, the protocol's number separates incompatible
-// versions, and each axis writes in its own, so that permissions can distinguish the
-// axes.
+// Partitions of DDS. The machine's name in a partition separates machines in one domain, and the protocol's number
+// separates incompatible versions. Each axis writes in its own partition, so that permissions can distinguish the axes.
 #pragma once
 
 #include <cstdint>
@@ -14,20 +13,20 @@
 
 namespace lockstep {
 
-/// Where all processes but the axes write, such as "mill@2".
+/// The partition in which all processes except the axes write, such as "mill@2".
 inline std::string partition_of(const std::string& machine) { return machine + "@" + std::to_string(kProtocol); }
 
-/// Where a process writes: "mill@2/0" for its axis 0.
+/// The partition in which a process writes, such as "mill@2/0" for axis 0.
 inline std::string partition_of(const std::string& machine, std::optional<std::uint32_t> axis) {
     return partition_of(machine) + (axis ? "/" + std::to_string(*axis) : "");
 }
 
-/// Where all processes read.
+/// The partitions that all processes read.
 inline std::vector<std::string> read_partitions(const std::string& machine) {
     return {partition_of(machine), partition_of(machine) + "/*"};
 }
 
-/// Where a writer or reader with these settings is. Empty: in none, or in several.
+/// Returns the partition of a writer or reader with these settings; empty if it is in none or in several.
 inline std::string only_partition(const dds_qos_t* qos) {
     std::uint32_t count = 0;
     char** names = nullptr;

@@ -6,10 +6,10 @@ namespace lockstep {
 namespace {
 
 constexpr int kProcessesOfHost =
-    16;                            // that discover each other: DDS tries so many ports of every peer, from index 0 on
-constexpr int kAskEvery_ms = 800;  // a new process answers and is answered at once
+    16;                            // that discover each other: DDS tries this many ports of each peer, from index 0 on
+constexpr int kAskEvery_ms = 800;  // a new process gets answers at once
 constexpr int kGivenUpAfter_ms = 4000;         // three ARP requests, a second each, and the delay of a busy host
-constexpr std::int64_t kQuestionBytes = 1280;  // as the kernel counts it
+constexpr std::int64_t kQuestionBytes = 1280;  // as the kernel counts them
 
 std::string milliseconds(int ms) { return std::to_string(ms) + " ms"; }
 

@@ -22,7 +22,7 @@ std::string user_data(const dds_qos_t* qos) {
     return text;
 }
 
-/// Partitions of axes are PREFIX/NUMBER.
+/// An axis's partition is PREFIX/NUMBER.
 std::optional<std::uint32_t> axis_in(std::string_view partition, std::string_view prefix) {
     if (!partition.starts_with(prefix) || !partition.substr(prefix.size()).starts_with('/')) { return std::nullopt; }
     partition.remove_prefix(prefix.size() + 1);
@@ -32,7 +32,7 @@ std::optional<std::uint32_t> axis_in(std::string_view partition, std::string_vie
     return error == std::errc{} && rest == end ? std::optional(axis) : std::nullopt;
 }
 
-/// The process of a writer; nothing: it writes neither the machine's state nor an axis's.
+/// Returns the process of a writer; nullopt if it writes neither the machine's state nor an axis's.
 std::optional<PresentProcess> process_of(const dds_builtintopic_endpoint_t& writer, const std::string& machine) {
     const std::string topic = writer.topic_name;
     const std::string partition = only_partition(writer.qos);

@@ -1,5 +1,5 @@
-// Which processes of a machine are on the network, by DDS's discovery alone: also one that publishes nothing yet, such
-// as an axis that waits for the coordinator's clock.
+// Finds the processes of a machine on the network, by DDS's discovery alone. So it also finds a process that publishes
+// nothing yet, such as an axis that waits for the coordinator's clock.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@
 namespace lockstep {
 
 struct PresentProcess {
-    std::optional<std::uint32_t> axis;  // nothing: a coordinator
-    std::string host;                   // its name in the kernel; empty: not announced
-    std::int64_t pid = 0;               // on that host
+    std::optional<std::uint32_t> axis;  // nullopt: a coordinator
+    std::string host;                   // its host name in the kernel; empty if not announced
+    std::int64_t pid = 0;               // process id on that host
 };
 
-/// Writers announce their process, only to those that may read them.
+/// Makes a writer announce its process. Only readers that may read the writer receive this.
 void announce_process(dds_qos_t& writer);
 
-/// The coordinators and axes that write for the participant's machine, its protocol, and its domain.
+/// Returns the coordinators and axes that write for the participant's machine and protocol in its domain.
 std::vector<PresentProcess> present_processes(const Participant& participant);
 
 }  // namespace lockstep

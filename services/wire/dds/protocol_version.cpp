@@ -22,7 +22,7 @@ std::string card_of(const dds_builtintopic_participant_t& participant) {
     return card;
 }
 
-/// On a thread of DDS.
+/// DDS calls it on one of its threads.
 void on_participants(dds_entity_t reader, void* machine) {
     std::array<void*, 1> samples{};
     dds_sample_info_t info{};
@@ -37,7 +37,8 @@ void on_participants(dds_entity_t reader, void* machine) {
     }
 }
 
-/// Never freed: a reader keeps it, and when that is deleted with its participant a callback may still run.
+/// Returns a copy of the name that is never freed. A reader's callback uses it, and may still run while the reader is
+/// deleted with its participant.
 std::string* kept_name(const std::string& machine) {
     static std::mutex mutex;
     static auto& names = *new std::map<std::string, std::string>;
@@ -75,7 +76,7 @@ void watch_versions(dds_entity_t participant, const std::string& machine) {
     dds_lset_data_available(listener.get(), on_participants);
     const dds_entity_t reader =
         dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, listener.get());
-    if (reader > 0) { on_participants(reader, name); }  // the processes present already
+    if (reader > 0) { on_participants(reader, name); }  // the processes that are already present
 }
 
 }  // namespace lockstep

@@ -8,7 +8,7 @@ namespace lockstep {
 
 struct Refusals {
     std::uint64_t count = 0;
-    std::string last;  // why
+    std::string last;  // the reason for the last refusal
 
     void add(std::string why) {
         ++count;

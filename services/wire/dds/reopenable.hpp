@@ -1,5 +1,5 @@
-// A network link of a process that can be opened again while its loop goes on: closing waits for DDS's threads, and
-// opening for the kernel and for name lookups, so both happen in their own thread.
+// A network link of a process that can be reopened while the loop runs. Closing waits for DDS's threads, and opening
+// waits for the kernel and for name lookups, so a separate thread does both.
 #pragma once
 
 #include <atomic>
@@ -22,12 +22,12 @@ public:
     using Open = std::function<std::expected<std::unique_ptr<Link>, std::string>()>;
     using OnFailure = std::function<void(const std::string& why)>;
 
-    /// open: called in the thread, again after a pause if it fails, until it succeeds or this object ends.
-    /// on_failure: called there each time.
+    /// The thread calls `open` until it succeeds or this object is destroyed, with a pause after each failure. It calls
+    /// `on_failure` at each failure.
     Reopenable(std::unique_ptr<Link> first, Open open, OnFailure on_failure)
         : link_(std::move(first)), open_(std::move(open)), on_failure_(std::move(on_failure)) {}
 
-    /// Null while it is being opened again.
+    /// Null while the link is being reopened.
     Link* get() {
         if (!link_ && is_open_.exchange(false)) {
             thread_.join();
@@ -36,11 +36,12 @@ public:
         return link_.get();
     }
 
-    /// Closes it and opens another. Returns at once; the pointer from get() is invalid. No effect while it is not open.
+    /// Closes the link and opens another. Returns at once and invalidates the pointer from get(). Has no effect while
+    /// the link is not open.
     void reopen() {
         if (!link_) { return; }
         thread_ = std::jthread([this, old = std::move(link_)](const std::stop_token& stop) mutable {
-            old.reset();  // first: a process can have a DDS domain only once
+            old.reset();  // before opening: a process can have a DDS domain only once
             run(stop);
         });
     }
@@ -65,11 +66,11 @@ private:
     std::unique_ptr<Link> link_;
     Open open_;
     OnFailure on_failure_;
-    std::unique_ptr<Link> next_;  // the thread's, until is_open_
+    std::unique_ptr<Link> next_;  // used only by the thread until is_open_
     std::atomic<bool> is_open_ = false;
     std::mutex mutex_;
     std::condition_variable_any wake_;
-    std::jthread thread_;  // ends first
+    std::jthread thread_;  // declared last, so that it ends first
 };
 
 }  // namespace lockstep

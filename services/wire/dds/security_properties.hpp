@@ -1,4 +1,4 @@
-// The properties by which a DDS participant gets its credentials (OMG DDS Security 1.1, 9.3 to 9.5).
+// Sets the properties that give a DDS participant its credentials (OMG DDS Security 1.1, 9.3 to 9.5).
 #pragma once
 
 #include <dds/dds.h>
@@ -9,11 +9,11 @@
 
 namespace lockstep {
 
-/// Where Cyclone DDS's security plugins are.
+/// The directory of Cyclone DDS's security plugins.
 std::filesystem::path security_plugins();
 
-/// DDS's threads run until the process has ended, and still use OpenSSL: disables OpenSSL's cleanup at exit. Call it
-/// before any other OpenSSL function.
+/// Disables OpenSSL's cleanup at exit, because DDS's threads use OpenSSL until the process has ended. Call it before
+/// any other OpenSSL function.
 void keep_openssl_alive();
 
 void set_security(dds_qos_t& qos, const Credentials& credentials);

@@ -11,8 +11,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::size_t kDepartures = 16;  // participants that left, until keys are exchanged again
-constexpr auto kPeriod = 1s;             // between two checks for participants that left
+constexpr std::size_t kDepartures = 16;  // after this many departures keys are exchanged again
+constexpr auto kPeriod = 1s;             // between two checks for departures
 constexpr auto kExchange = 2s;           // many times the duration of the exchange
 
 Entity topic(dds_entity_t participant, const TopicSpec& spec) {
@@ -39,7 +39,7 @@ void SentKeys::serve(const std::stop_token& stop) {
     }
 }
 
-/// Since the last call.
+/// Returns the number of participants that left since the last call.
 std::size_t SentKeys::departures() {
     std::size_t count = 0;
     std::array<void*, 1> sample{};

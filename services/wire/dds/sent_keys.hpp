@@ -1,9 +1,10 @@
 // Makes DDS Security drop the keys that it sent to participants that have left.
 //
-// Cyclone DDS sends keys to each participant that joins, by one writer, and keeps all of them until every participant
-// has acknowledged as many. But a participant acknowledges only what was sent to itself, and that is nothing after its
-// own keys. So some 6 KB for each client that came and went would stay in every process for ever. A new reader that
-// matches a writer of each peer makes both sides send keys again; what is older is then acknowledged, and dropped.
+// Cyclone DDS sends keys to each participant that joins, with one writer, and keeps each key until every participant
+// has acknowledged this or a later one. But a participant acknowledges only keys sent to itself, and it receives none
+// after its own. So about 6 KB for each client that came and left would stay in every process forever. A new reader
+// that matches a writer of each peer makes both sides send keys again. Their acknowledgement covers the older keys,
+// which DDS then drops.
 #pragma once
 
 #include <dds/dds.h>
@@ -19,23 +20,23 @@ namespace lockstep {
 
 class SentKeys {
 public:
-    /// Of a participant with security. The handles outlive it.
+    /// For a participant with security. The handles must outlive this object.
     SentKeys(dds_entity_t participant, dds_entity_t subscriber);
 
 private:
     void serve(const std::stop_token& stop);
     std::size_t departures();
     void exchange_again(const std::stop_token& stop);
-    /// False: it must stop.
+    /// Returns false if the thread must stop.
     bool sleep(const std::stop_token& stop, std::chrono::seconds time);
 
     dds_entity_t subscriber_;
-    Entity axes_;  // topics that every process of a machine may read, and every service writes one of
+    Entity axes_;  // topics that every process may read; every service writes one of the two
     Entity coordinators_;
-    Entity participants_;  // participants that join and leave
+    Entity participants_;  // reports participants that join and leave
     std::mutex mutex_;
     std::condition_variable_any woken_;
-    std::jthread thread_;  // ends first
+    std::jthread thread_;  // declared last, so that it ends first
 };
 
 }  // namespace lockstep

@@ -1,25 +1,27 @@
-// Every topic: its name, its type on the wire, and its delivery. No other file sets a quality of service.
+// The table of all topics, with name, type on the wire, and delivery. No other file sets the quality of service of a
+// topic.
 //
-// All are volatile: a message sent before a reader joined is never replayed to it. A command from an hour ago must
-// not move a machine, and states and setpoints come again each slot.
+// All topics are volatile: a reader never receives messages sent before it joined. A command from an hour ago must not
+// move a machine, and states and setpoints are repeated each slot.
 //
-// Setpoints are reliable: every frame is needed. Their history is 64 and never "all": a reader that stops taking must
-// not stop the writer (in Cyclone DDS a keep-last writer never waits), and 64 cover a stall, after which the
-// coordinator repeats the frames that are not held.
+// Setpoints are reliable, because every frame is needed. Their history is 64, never "all", because a reader that stops
+// taking must not stop the writer (in Cyclone DDS a keep-last writer never waits). 64 frames cover a stall. After it
+// the coordinator repeats the frames that are not held.
 //
-// States are best effort: each one contains the content of the one before and comes every slot, so a copy sent again
-// would only be late, and acknowledgements between all pairs of axes would cost more than they give. Their history is
-// kStatesKept per axis: after a stall the arming rule selects states by their stamps, not the newest.
+// States are best effort. Each state replaces the one before and comes every slot, so a repeated copy would be late,
+// and acknowledgements between all pairs of axes would cost more than they give. Their history is kStatesKept per axis,
+// because after a stall the arming rule selects states by their stamps, not the newest.
 //
-// Commands, program parts and replies are reliable with a history of 64: a client has fewer than 64 unanswered.
+// Commands, program parts and replies are reliable with a history of 64, because a client has fewer than 64 unanswered.
 //
-// Events of programs are reliable: each comes once. Their history is 1024, since a program may switch often and a
-// reader may be slow; what they have switched is in the machine's state, so a reader that lost some is not misled.
+// Events of programs are reliable, because each is sent only once. Their history is 1024, since a program may switch
+// often and a reader may be slow. The machine's state contains the present switch states, so a reader that lost events
+// still has the correct state.
 //
-// Values that outlive programs are best effort: they come again several times a second.
+// Values that outlive programs are best effort, because they are repeated several times a second.
 //
-// Health, clock requests and replies are best effort: a copy sent again would be out of date. Only the newest few
-// matter.
+// Health, clock requests and clock replies are best effort, because a repeated copy would be out of date. Only the
+// newest few matter.
 #pragma once
 
 #include "core/protocol/axis_health.hpp"

@@ -3,7 +3,7 @@
 namespace lockstep {
 namespace {
 
-/// The text between `before` and the next of `ends`; empty: `before` is not there.
+/// Returns the text between `before` and the next character of `ends`; empty if the line does not contain `before`.
 std::string_view after(std::string_view line, std::string_view before, std::string_view ends) {
     const std::size_t at = line.find(before);
     if (at == line.npos) { return {}; }

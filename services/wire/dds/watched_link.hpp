@@ -1,4 +1,4 @@
-// A process's link to its peers, opened again when it no longer delivers (core/protocol/reception_watch.hpp).
+// A process's link to its peers. It is reopened when it no longer delivers (core/protocol/reception_watch.hpp).
 #pragma once
 
 #include <cstdint>
@@ -21,11 +21,11 @@ public:
         : watch_(Ticks{lease_of(machine.network).count() / machine.tick_ns}, machine.tick_ns),
           link_(std::move(first), std::move(open), [](const std::string& why) { add_dds_message(why); }) {}
 
-    /// Null while it is being opened again.
+    /// Null while the link is being reopened.
     Link* get() { return link_.get(); }
 
-    /// Call it in every loop. look: returns the input of the watch for a link, each time that is due. Returns why the
-    /// link is now opened again.
+    /// Call it in every loop. It calls `look` when a check is due; look(link) returns the input of the watch. If the
+    /// link no longer delivers, it reopens the link and returns the reason.
     template <typename Look>
     std::optional<ReopenReason> tend(Tick now, Look look) {
         Link* const link = get();
@@ -38,7 +38,7 @@ public:
         return reason;
     }
 
-    /// How often since the process started.
+    /// How often the link was reopened since the process started.
     std::uint64_t reopened() const { return reopened_; }
 
 private:

@@ -1,4 +1,4 @@
-// A view of a file: any part of it, without holding all of it in memory.
+// Gives access to any part of a file without holding the whole file in memory.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,13 @@ class FileWindow {
 public:
     static constexpr std::size_t kWindowBytes = 1 << 20;
 
-    /// Error: the file cannot be read, with its name and the reason. Its size is that of this moment.
+    /// Error: the file's name, and why it cannot be read. size() stays the file's size at this time.
     static std::expected<FileWindow, std::string> open(const std::filesystem::path& path);
 
     std::uint64_t size() const { return size_; }
 
-    /// The bytes from offset on: `count` of them, or the rest of the file. Valid until the next call. None and
-    /// failed() if reading failed.
+    /// Returns `count` bytes from `offset` on, or the rest of the file. Valid until the next call. Empty, with failed()
+    /// true, if reading failed.
     std::span<const std::uint8_t> view(std::uint64_t offset, std::size_t count);
 
     bool failed() const { return failed_; }
@@ -32,7 +32,7 @@ private:
 
     std::ifstream file_;
     std::uint64_t size_;
-    std::uint64_t start_ = 0;  // of the window
+    std::uint64_t start_ = 0;  // the window's offset in the file
     std::vector<std::uint8_t> window_;
     bool failed_ = false;
 };

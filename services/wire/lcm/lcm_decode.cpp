@@ -5,7 +5,7 @@
 namespace lockstep::detail {
 namespace {
 
-/// The part left to walk; nothing once a field did not fit.
+/// Walks over the bytes of a message, field by field. It stops at the first field that does not fit.
 class Walk {
 public:
     explicit Walk(std::span<const std::uint8_t> bytes) : rest_(bytes) {}
@@ -15,14 +15,14 @@ public:
         if (fits_) { rest_ = rest_.subspan(count); }
         return fits_;
     }
-    /// A number of elements: not negative as a signed number.
+    /// Reads a number of elements, which must not be negative as a signed number.
     std::uint64_t count() {
         const auto field = rest_.first(std::min<std::size_t>(4, rest_.size()));
         const std::uint64_t value = big_endian(field);
         fits_ = skip(4) && value <= 0x7FFFFFFF;
         return fits_ ? value : 0;
     }
-    /// Its length counts the zero byte at its end.
+    /// Skips a string. Its length includes the zero byte at its end.
     void string() {
         const std::uint64_t length = count();
         fits_ = fits_ && length >= 1 && length <= rest_.size() && rest_[length - 1] == 0;

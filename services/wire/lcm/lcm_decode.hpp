@@ -1,5 +1,5 @@
-// Decodes the record's messages from bytes that may be damaged. The code of lcm-gen trusts the lengths inside: a wrong
-// one makes it allocate gigabytes or throw. So the bytes are walked first, by the message's layout.
+// Decodes the record's messages from bytes that may be damaged. The code of lcm-gen trusts the lengths in the bytes,
+// and a wrong length makes it allocate gigabytes or throw. So the bytes are first compared with the message's layout.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@
 
 namespace lockstep {
 
-/// The fields in order: '8', '4', '1' are numbers of so many bytes, 's' is a string, 'n' the number of elements of the
-/// arrays that follow it, given by the size of their elements.
+/// The fields in order. '8', '4' and '1' are numbers of that many bytes, and 's' is a string. 'n' is the number of
+/// elements of the arrays that follow; a digit after 'n' is an array with elements of that many bytes.
 template <typename Message>
 inline constexpr std::string_view kLcmLayout;
 template <>
@@ -53,12 +53,12 @@ template <>
 inline constexpr std::string_view kLcmLayout<step_batch_t> = "8ss8888888n41";
 
 namespace detail {
-/// True: the bytes have exactly this layout.
+/// Whether the bytes have exactly this layout.
 bool has_layout(std::span<const std::uint8_t> bytes, std::string_view layout);
 std::uint64_t big_endian(std::span<const std::uint8_t> bytes);
 }  // namespace detail
 
-/// Error: the fault in the bytes.
+/// Error: what is wrong with the bytes.
 template <typename Message>
 std::expected<Message, std::string> decode_lcm(std::span<const std::uint8_t> bytes) {
     const std::string name = Message::getTypeName();

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array<std::uint8_t, 4> kSync{0xED, 0xA1, 0xDA, 0x01};
 constexpr std::size_t kHeaderBytes = 28;
-constexpr int kMaxCandidates = 64;  // sync words examined within one event: bounds the work for a hostile file
+constexpr int kMaxCandidates = 64;  // sync words examined within one event; limits the work for a hostile file
 
 bool starts_with_sync(std::span<const std::uint8_t> bytes) {
     return bytes.size() >= kSync.size() && std::ranges::equal(bytes.first(kSync.size()), kSync);
@@ -39,7 +39,7 @@ std::expected<LogReader, std::string> LogReader::open(const std::filesystem::pat
     return LogReader(std::move(*file));
 }
 
-/// The header of an event that may begin here, by its sync word, its lengths and its channel's name.
+/// Returns the header if its sync word, its lengths and its channel's name show that an event may begin here.
 std::optional<LogReader::Header> LogReader::header_at(std::uint64_t offset) {
     const auto bytes = file_.view(offset, kHeaderBytes + kMaxChannelBytes);
     if (bytes.size() < kHeaderBytes || !starts_with_sync(bytes)) { return std::nullopt; }
@@ -54,7 +54,7 @@ std::optional<LogReader::Header> LogReader::header_at(std::uint64_t offset) {
     return header;
 }
 
-/// Whether a complete event begins here and another, or the end of the file, follows it.
+/// Whether a complete event begins here, followed by another event or the end of the file.
 bool LogReader::begins_event(std::uint64_t offset) {
     const auto header = header_at(offset);
     if (!header) { return false; }
@@ -62,7 +62,7 @@ bool LogReader::begins_event(std::uint64_t offset) {
     return end == file_.size() || (end < file_.size() && starts_with_sync(file_.view(end, kSync.size())));
 }
 
-/// The first place in [from, to) with the sync word.
+/// Returns the first offset in [from, to) with the sync word.
 std::optional<std::uint64_t> LogReader::find_sync(std::uint64_t from, std::uint64_t to) {
     while (from + kSync.size() <= to) {
         const auto bytes =
@@ -70,7 +70,7 @@ std::optional<std::uint64_t> LogReader::find_sync(std::uint64_t from, std::uint6
         if (bytes.size() < kSync.size()) { break; }
         const auto found = std::ranges::search(bytes, kSync);
         if (!found.empty()) { return from + static_cast<std::uint64_t>(found.begin() - bytes.begin()); }
-        from += bytes.size() - (kSync.size() - 1);  // a sync word may lie across two windows
+        from += bytes.size() - (kSync.size() - 1);  // a sync word may extend over two windows
     }
     return std::nullopt;
 }
@@ -86,7 +86,7 @@ bool LogReader::hides_another(std::uint64_t offset, std::uint64_t end) {
     return false;
 }
 
-/// Goes to the next place that looks like an event, or to the end, and notes what was skipped.
+/// Moves to the next offset that looks like an event, or to the end, and notes the bytes skipped.
 void LogReader::skip_damage(LogDamage::Kind kind) {
     std::uint64_t to = at_;
     do { to = find_sync(to + 1, file_.size()).value_or(file_.size()); } while (to < file_.size() && !header_at(to));

@@ -1,5 +1,5 @@
 // Reads and writes LCM's log files. liblcm's own reader stops silently at the first damaged byte, as if the log ended
-// there; this one continues after it and reports what it left out.
+// there. This reader continues after the damage and reports what it skipped.
 //
 // An event is a header of 28 bytes, big endian (sync word 0xEDA1DA01, event number 8, time in us 8, channel length 4,
 // data length 4), the channel's name and the data.
@@ -28,12 +28,12 @@ struct LogEvent {
     std::span<const std::uint8_t> data;
 };
 
-/// A part of the file that is no event, or an incomplete one.
+/// A part of the file that is not a complete event.
 struct LogDamage {
     enum class Kind : std::uint8_t {
         CutOff,       // the file ends within an event
         NoEvent,      // no event begins here
-        WrongLength,  // an event whose length includes others
+        WrongLength,  // an event with a wrong length that includes other events
     };
     std::uint64_t offset = 0;
     std::uint64_t bytes = 0;
@@ -43,15 +43,15 @@ struct LogDamage {
 class LogReader {
 public:
     static constexpr std::uint32_t kMaxChannelBytes = 255;
-    static constexpr std::uint32_t kMaxDataBytes = 64 << 20;  // more is treated as damage: this bounds the memory
-    static constexpr std::size_t kMaxDamages = 1000;          // listed; all are counted
+    static constexpr std::uint32_t kMaxDataBytes = 64 << 20;  // more counts as damage; this limits the memory
+    static constexpr std::size_t kMaxDamages = 1000;          // listed; the counts include all
 
-    /// Error: the file cannot be read, with its name and the reason.
+    /// Error: the file's name, and why it cannot be read.
     static std::expected<LogReader, std::string> open(const std::filesystem::path& path);
 
-    /// The next event, or none at the end. Its pointers are valid until the next call. Error: reading failed.
+    /// Returns the next event; nullopt at the end. Its pointers are valid until the next call. Error: reading failed.
     std::expected<std::optional<LogEvent>, std::string> next();
-    /// The event that begins at this byte, or the next behind it; next() goes on from there.
+    /// Returns the event that begins at this byte, or the next one after it. next() continues from there.
     std::expected<std::optional<LogEvent>, std::string> event_at(std::uint64_t offset) {
         at_ = offset;
         return next();
@@ -88,16 +88,16 @@ private:
 
 class LogWriter {
 public:
-    /// Begins a new file. Error: it cannot be written, with its name and the reason.
+    /// Begins a new file. Error: the file's name, and why it cannot be written.
     static std::expected<LogWriter, std::string> open(const std::filesystem::path& path);
 
     /// The size of an event in the file.
     static std::uint64_t event_bytes(std::string_view channel, std::span<const std::uint8_t> data);
 
-    /// False: the disk is full or failed. utime: microseconds.
+    /// Returns false if the disk is full or failed. `utime` is in microseconds.
     bool write(std::string_view channel, std::int64_t utime, std::span<const std::uint8_t> data);
 
-    /// Message: a type that lcm-gen made.
+    /// `Message` is a type made by lcm-gen.
     template <typename Message>
     bool write_message(std::string_view channel, std::int64_t utime, const Message& message) {
         buffer_.resize(static_cast<std::size_t>(message.getEncodedSize()));
@@ -105,7 +105,7 @@ public:
         return write(channel, utime, buffer_);
     }
 
-    /// False: the file may be incomplete.
+    /// Returns false if the file may be incomplete.
     bool flush() { return static_cast<bool>(file_.flush()); }
 
 private:

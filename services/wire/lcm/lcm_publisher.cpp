@@ -5,7 +5,7 @@
 namespace lockstep {
 
 std::expected<LcmPublisher, std::string> LcmPublisher::open(const NetworkConfig& network) {
-    if (network.lcm_url.empty()) {  // LCM would use one from its environment, which was not checked
+    if (network.lcm_url.empty()) {  // LCM would then use an unchecked URL from the environment
         return std::unexpected("the LCM URL is empty; set it to udpm://239.255.76.67:7667?ttl=0");
     }
     if (auto route = check_multicast(network); !route) { return std::unexpected(route.error()); }

@@ -1,4 +1,4 @@
-// Publishes the record. Nothing in control depends on it: a message that cannot be sent is counted, not waited for.
+// Publishes the record. Control does not depend on it, so a message that cannot be sent is only counted.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,10 @@ namespace lockstep {
 
 class LcmPublisher {
 public:
-    /// Error: the URL, or a multicast route by which the record would leave the configured interface; and the remedy.
+    /// Error: a bad URL, or a multicast route through another interface than the configured one; and the remedy.
     static std::expected<LcmPublisher, std::string> open(const NetworkConfig& network);
 
-    /// Message: a type that lcm-gen made. False: it was not sent.
+    /// `Message` is a type made by lcm-gen. Returns whether the message was sent.
     template <typename Message>
     bool publish(const std::string& channel, const Message& message) {
         const bool sent = lcm_->publish(channel, &message) == 0;

@@ -9,7 +9,7 @@
 namespace lockstep {
 namespace {
 
-/// LCM has no unsigned numbers: the same 64 bits.
+/// Returns the same 64 bits as a signed number, because LCM has no unsigned numbers.
 std::int64_t bits(std::uint64_t value) { return static_cast<std::int64_t>(value); }
 
 constexpr std::array<std::string_view, ProgramEvent::kKinds> kEventKinds{

@@ -1,4 +1,4 @@
-// Core's values as messages of the record (idl/lcm).
+// Translates core's values to messages of the record (idl/lcm).
 #pragma once
 
 #include <cstdint>
@@ -47,19 +47,19 @@ struct RunRecord {
     bool tail = false;
     Tick start;
     Position from;                             // machine coordinates
-    std::optional<std::int64_t> cut_at_steps;  // where pulses ceased before the pieces' end; none: they ran completely
+    std::optional<std::int64_t> cut_at_steps;  // where pulses ceased early; nullopt: the pieces ran completely
     std::int64_t zero_count = 0;               // machine coordinates = device count - zero_count
     std::span<const Piece> pieces;
-    Ticks ahead;                             // of `start`: the start commanded, in machine time
-    std::span<const Ticks> commanded_ticks;  // of each piece; empty: their duration
+    Ticks ahead;                             // the commanded start in machine time, minus `start`
+    std::span<const Ticks> commanded_ticks;  // of each piece; empty: as in `pieces`
     Ticks clock_error;
 };
 
 run_t to_lcm(const RunRecord& record, std::int64_t tick_ns);
-/// The same into a reused message.
+/// Does the same into a reused message.
 void to_lcm(const RunRecord& record, std::int64_t tick_ns, run_t& out);
 
-/// The published counts of a process at a time. An empty name is a coordinator's.
+/// The published counts of a process at one time. An empty process name means a coordinator.
 struct RecordMark {
     std::string machine;
     std::string witness;
@@ -71,11 +71,11 @@ struct RecordMark {
 
 record_mark_t to_lcm(const RecordMark& mark, Tick then, std::int64_t tick_ns);
 
-/// A job's event from the coordinator: it began, continues in a new epoch, or ended. Fields as in job_t.
+/// An event of a job: it began, continues in a new epoch, got new overrides, or ended. The fields are those of job_t.
 struct JobRecord {
     std::string machine;
     Identity coordinator = 0;
-    std::uint64_t sequence = 0;  // numbered without gaps, with the events of programs
+    std::uint64_t sequence = 0;  // without gaps, shared with the events of programs
     std::uint64_t job = 0;
     std::string kind;
     std::string event;
@@ -93,7 +93,7 @@ struct JobRecord {
 
 job_t to_lcm(const JobRecord& record, Tick now, std::int64_t tick_ns);
 
-/// An event of a program. The number is one of the coordinator's jobs.
+/// An event of a program. Its number is from the same sequence as those of job events.
 struct EventRecord {
     std::string machine;
     RecordNumber number;
@@ -102,10 +102,10 @@ struct EventRecord {
 
 program_event_t to_lcm(const EventRecord& record, Tick now, std::int64_t tick_ns);
 
-/// "spindle-stop": as in program_event_t.
+/// Returns the name as in program_event_t, such as "spindle-stop".
 std::string_view name_of(ProgramEvent::Kind kind);
 
-/// The event that the message reports. nullopt: its kind is unknown, or its value is not finite.
+/// Returns the event that the message reports; nullopt if its kind is unknown or its value is not finite.
 std::optional<ProgramEvent> event_of(const program_event_t& message);
 
 }  // namespace lockstep

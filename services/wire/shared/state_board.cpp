@@ -20,13 +20,13 @@ namespace fs = std::filesystem;
 
 using StateSlot = NumberedSlot<lockstep_wire_AxisState>;
 
-constexpr std::size_t kPartBytes = std::size_t{1} << 16;  // whole pages of any processor
+constexpr std::size_t kPartBytes = std::size_t{1} << 16;  // a multiple of every processor's page size
 constexpr std::size_t kPartWords = kPartBytes / sizeof(std::uint64_t);
 constexpr std::size_t kLineWords = 8;
 constexpr std::size_t kBytes = kMaxAxes * kPartBytes;
 
-// Words of a part, after a margin by which the parts' first lines fall into different cache sets: every loop reads
-// all of them.
+// Word offsets in a part, after a margin that differs for each axis. The margin puts the first lines of the parts into
+// different cache sets, because every loop reads all of them.
 constexpr std::size_t kRules = 0;
 constexpr std::size_t kWritten = 1;
 constexpr std::size_t kSlots = kLineWords;
@@ -43,7 +43,7 @@ std::uint64_t* slot_of(std::uint64_t* part, std::uint64_t number) {
     return part + kSlots + number % kStatesKept * StateSlot::kWords;
 }
 
-/// Whatever was written, these bytes may be read as booleans.
+/// Whether these bytes may be read as booleans. Another process may have written anything.
 bool has_booleans(const lockstep_wire_AxisState& state) {
     const auto is_one = [](const bool& field) {
         unsigned char byte = 0;
@@ -53,7 +53,7 @@ bool has_booleans(const lockstep_wire_AxisState& state) {
     return is_one(state.has_veto) && is_one(state.at_rest) && is_one(state.homed) && is_one(state.hears_owner);
 }
 
-/// Held while the file is open, and at most while its process lives.
+/// Locks the axis's part until the file is closed or the process ends. Returns false if another process holds the lock.
 bool lock_part(int file, std::uint32_t axis) {
     struct flock lock {};
     lock.l_type = F_WRLCK;
@@ -73,7 +73,7 @@ std::expected<StateBoardFile, std::string> StateBoardFile::open(const fs::path& 
         StateBoardFile opened(path, file);
         if (flock(file, LOCK_SH) != 0) { return cannot_share(path, "lock it"); }
         if (!is_still_named(path, file)) { continue; }
-        // Reserves the memory now: a page that is missing later would end the process.
+        // Reserves the memory now, because SIGBUS would end the process if a page were missing later.
         errno = posix_fallocate(file, 0, kBytes);
         if (errno != 0) { return cannot_share(path, "reserve its 4 MB of memory"); }
         return opened;
@@ -100,7 +100,7 @@ std::expected<StateBoardWriter, std::string> StateBoardWriter::open(const fs::pa
     SharedMapping part(file->descriptor(), kPartBytes, PROT_READ | PROT_WRITE, MAP_POPULATE, axis * kPartBytes);
     if (part.words() == nullptr) { return cannot_share(path, "map it"); }
     std::uint64_t* const words = part.words() + axis * kLineWords;
-    if (shared_word(words + kRules).load() != kRulesHere) {  // new, or left by another version
+    if (shared_word(words + kRules).load() != kRulesHere) {  // new, or written by another version
         shared_word(words + kRules).store(0);
         std::fill(words + kWritten, part.words() + kPartWords, 0);
         shared_word(words + kRules).store(kRulesHere);
@@ -148,7 +148,7 @@ std::uint64_t StateBoardReader::written_by(std::uint32_t axis) {
         read = written;
     }
     const std::uint64_t kept_from = written - std::min<std::uint64_t>(written, kStatesKept);
-    read = std::clamp(read, kept_from, written);  // fewer than before: its part was initialized again
+    read = std::clamp(read, kept_from, written);  // `written` may be less than `read`: the part was initialized again
     return written;
 }
 

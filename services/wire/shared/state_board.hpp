@@ -1,10 +1,10 @@
-// The states of a machine's axes in shared memory, for a machine on one host: each axis writes in its own part, which
-// it alone has mapped for writing, and all processes read all parts. No process waits for another, and readers ignore
-// the state of a process that is killed during a write.
+// The states of a machine's axes in shared memory, for a machine on one host. Each axis writes in its own part, which
+// only its process has mapped for writing, and all processes read all parts. No process waits for another, and readers
+// ignore the state of a process that is killed during a write.
 //
-// The file has a part for each axis: a word for the format version, a word that counts all states that the axis has
-// written, and the newest kStatesKept of them, in the type of axis.idl. The last process that uses the file deletes
-// it.
+// The file has a part for each axis. A part has a word for the format version, a word that counts all states that the
+// axis has written, and the newest kStatesKept states, in the type of axis.idl. The last process that uses the file
+// deletes it.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@
 
 namespace lockstep {
 
-/// The file, there while any process uses it.
+/// The file, which exists while any process uses it.
 class StateBoardFile {
 public:
     static std::expected<StateBoardFile, std::string> open(const std::filesystem::path& path);
@@ -34,7 +34,7 @@ public:
     StateBoardFile& operator=(StateBoardFile&&) = delete;
     ~StateBoardFile();
 
-    /// False: it was removed or replaced.
+    /// Returns false if the file was removed or replaced.
     bool is_current() const { return is_still_named(path_, file_); }
 
     int descriptor() const { return file_; }
@@ -48,12 +48,13 @@ private:
 
 class StateBoardWriter {
 public:
-    /// Error: the file, why not, and the remedy; another process of this host writes for the axis.
+    /// Error: the file cannot be used, or another process of this host writes for the axis; with the remedy.
     static std::expected<StateBoardWriter, std::string> open(const std::filesystem::path& path, std::uint32_t axis);
 
-    /// Never waits, allocates nothing.
+    /// Never waits and allocates nothing.
     void write(const AxisState& state);
-    /// False: the file was removed or replaced; or its part was overwritten, and readers refuse it.
+    /// Returns false if the file was removed or replaced, or if the axis's part was overwritten, so that readers refuse
+    /// it.
     bool is_current() const;
 
 private:
@@ -66,12 +67,12 @@ private:
 
 class StateBoardReader {
 public:
-    /// own: this axis's own states are not read. States written before are not read either.
+    /// The reader skips the states of axis `own`, and all states written before this call.
     static std::expected<StateBoardReader, std::string> open(const std::filesystem::path& path,
                                                              std::optional<std::uint32_t> own);
 
-    /// Calls use(AxisState&&) for each state written since the last call, oldest first per axis. Returns how many. If
-    /// an axis has written more than kStatesKept, the oldest are lost.
+    /// Calls use(AxisState&&) for each state written since the last call, oldest first per axis. Returns their number.
+    /// If an axis has written more than kStatesKept, the oldest are lost.
     template <typename Use>
     std::size_t take(Use use) {
         std::size_t used = 0;
@@ -94,9 +95,9 @@ public:
 private:
     StateBoardReader(StateBoardFile file, SharedMapping parts, std::optional<std::uint32_t> own);
     std::uint64_t* part_of(std::uint32_t axis) const;
-    /// How many states the axis has written in all; states that are lost count as read from then on.
+    /// Returns the number of states that the axis has written in total. Marks lost states as read.
     std::uint64_t written_by(std::uint32_t axis);
-    /// Nothing: it is lost, or refused.
+    /// Returns nullopt if the state is lost or refused.
     std::optional<AxisState> state_of(std::uint32_t axis, std::uint64_t number);
 
     StateBoardFile file_;

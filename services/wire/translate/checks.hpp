@@ -1,8 +1,8 @@
-// Checks a sample from the wire before core uses it. The first failed check is the refusal.
+// Checks a sample from the wire before core uses it. The first failed check gives the refusal's text.
 //
-// They keep core's arithmetic from overflowing, whatever a sender writes: magnitudes of 2^62 leave room for sums, and
-// pieces of less than 2^31 ticks keep a piece's displacement within 128 bits. Whether a motion is allowed is not
-// checked here: an axis checks that itself.
+// The checks prevent overflow in core's arithmetic for any content of a sample. Magnitudes of up to 2^62 leave room for
+// sums, and pieces of less than 2^31 ticks keep a piece's displacement within 128 bits. The checks do not decide
+// whether a motion is allowed; the axis checks that itself.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace lockstep {
 
 class Checks {
 public:
-    /// message: what is checked, for the refusal's text.
+    /// `message` names the type of message in the refusal's text.
     explicit Checks(const char* message) : message_(message) {}
 
     bool passed() const { return !refusal_; }
@@ -30,14 +30,14 @@ public:
     }
     /// An instant, a slot or a count of steps.
     void far(const char* field, std::int64_t value) { within(field, value, -kFarthest, kFarthest); }
-    /// A velocity or acceleration: any value but the one that cannot be negated.
+    /// A velocity or acceleration: any value except the one that cannot be negated.
     void rate(const char* field, std::int64_t value) { within(field, value, -kFastest, kFastest); }
     void same(const char* field, std::size_t count, std::size_t expected) { within(field, count, expected, expected); }
     void finite(const char* field, double value) {
         if (!std::isfinite(value)) { refuse(field, "not finite"); }
     }
 
-    /// UTF-8 without control characters: neither ASCII's nor those from U+0080 to U+009F.
+    /// UTF-8 without the control characters of ASCII and those from U+0080 to U+009F.
     void printable(const char* field, std::string_view text) {
         bool is_behind_c2 = false;
         for (const char character : text) {
@@ -47,7 +47,7 @@ public:
         }
     }
 
-    /// Core's enumerator for a value on the wire; both have the same order: 0 ... last.
+    /// Returns core's enumerator for a value on the wire. Both enumerations have the same order, from 0 to `last`.
     template <typename Enum, typename WireEnum>
     Enum choice(const char* field, const WireEnum& value, Enum last) {
         static_assert(sizeof value == sizeof(std::uint32_t));

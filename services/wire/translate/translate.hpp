@@ -1,7 +1,8 @@
-// Core's messages to their types on the wire and back: one function for each direction and type.
+// Translates core's messages to their types on the wire and back, with one function for each direction and type.
 //
-// To the wire nothing can fail: core keeps its bounds. A sample from the wire is checked: counts must match, numbers be
-// in range, and choices exist, or the sample is refused with the field, its value and why.
+// Translation to the wire cannot fail, because core keeps its bounds. from_wire() checks each sample: counts must
+// match, numbers must be in range, and choices must exist. Otherwise it refuses the sample with the field, its value
+// and the reason.
 #pragma once
 
 #include <concepts>
@@ -25,12 +26,12 @@ namespace lockstep {
 
 /// The most bytes a ProgramChunk may have.
 inline constexpr std::size_t kMaxChunkBytes = lockstep_wire_MAX_CHUNK_BYTES;
-inline constexpr std::uint32_t kMaxChunks = 1U << 24;  // of a program
+inline constexpr std::uint32_t kMaxChunks = 1U << 24;  // the most chunks a program may have
 /// The most bytes MachineValues may have.
 inline constexpr std::size_t kMaxValuesBytes = lockstep_wire_MAX_VALUES_BYTES;
-/// The most chunks a program may have: 128 MB.
 
-/// A setpoint and the arrays it points to. Movable, since vectors keep their elements' place; not copyable.
+/// A setpoint and the arrays it points to. It is movable, because moved vectors keep their elements in place, but not
+/// copyable.
 struct SetpointMessage : lockstep_wire_Setpoint {
     SetpointMessage() : lockstep_wire_Setpoint{} {}
     SetpointMessage(SetpointMessage&&) = default;
@@ -43,7 +44,7 @@ struct SetpointMessage : lockstep_wire_Setpoint {
     } storage;
 };
 
-/// A machine state and the arrays it points to; not copyable either.
+/// A machine state and the array it points to; not copyable either.
 struct MachineStateMessage : lockstep_wire_MachineState {
     MachineStateMessage() : lockstep_wire_MachineState{} {}
     MachineStateMessage(MachineStateMessage&&) = default;
@@ -66,20 +67,20 @@ MachineStateMessage to_wire(const MachineState& state);
 lockstep_wire_ClockRequest to_wire(const ClockRequest& request);
 lockstep_wire_ClockReply to_wire(const ClockReply& reply);
 CommandMessage to_wire(const Command& command);
-/// Points to the chunk's bytes: valid as long as they are. At most kMaxChunkBytes.
+/// The result points to the chunk's bytes and is valid only as long as they are. `chunk` has at most kMaxChunkBytes.
 lockstep_wire_ProgramChunk to_wire(const ProgramChunk& chunk);
-/// A text that is too long is cut between two characters.
+/// Cuts a text that is too long between two words or characters.
 lockstep_wire_Reply to_wire(const Reply& reply);
 lockstep_wire_ProgramEvent to_wire(const PublishedEvent& event);
-/// Points to the values' bytes: valid as long as they are. At most kMaxValuesBytes.
+/// The result points to the values' bytes and is valid only as long as they are. `values` has at most kMaxValuesBytes.
 lockstep_wire_MachineValues to_wire(const MachineValues& values);
 
-/// The same into a reused message.
+/// Does the same into a reused message.
 template <typename T, typename Wire>
 requires(!std::same_as<T, Frame> && !std::same_as<T, MachineState>) void to_wire(const T& value, Wire& into) {
     into = to_wire(value);
 }
-/// Nothing is allocated if `into` has held as many pieces, or rests, before.
+/// These allocate nothing if `into` has held at least this many pieces or rests before.
 void to_wire(const Frame& frame, SetpointMessage& into);
 void to_wire(const MachineState& state, MachineStateMessage& into);
 
@@ -99,7 +100,7 @@ FromWire<Reply> from_wire(const lockstep_wire_Reply& wire);
 FromWire<PublishedEvent> from_wire(const lockstep_wire_ProgramEvent& wire);
 FromWire<MachineValues> from_wire(const lockstep_wire_MachineValues& wire);
 
-/// The same into a reused value; it keeps its content if the sample is refused.
+/// Does the same into a reused value, which keeps its content if the sample is refused.
 template <typename Wire, typename T>
 requires(!std::same_as<T, Frame> &&
          !std::same_as<T, MachineState>) std::expected<void, std::string> from_wire(const Wire& wire, T& into) {
@@ -108,9 +109,9 @@ requires(!std::same_as<T, Frame> &&
     into = std::move(*value);
     return {};
 }
-/// A frame is large: if `into` has as many axes nothing is allocated and only the parts in use are written.
+/// A frame is large, so if `into` has the same number of axes, this allocates nothing and writes only the parts in use.
 std::expected<void, std::string> from_wire(const lockstep_wire_Setpoint& wire, Frame& into);
-/// The memory of the rests and of the writer's names is used again.
+/// Reuses the memory of the rests and of the writer's names.
 std::expected<void, std::string> from_wire(const lockstep_wire_MachineState& wire, MachineState& into);
 
 }  // namespace lockstep

@@ -6,7 +6,7 @@ namespace lockstep {
 constexpr std::int64_t kLongestClockError = std::int64_t{1} << 62;
 constexpr std::uint64_t kMostOrders = std::uint64_t{1} << 62;  // leaves room for later numbers
 
-// The enumerations on the wire have core's order.
+// The enumerations on the wire have the same order as those in core.
 static_assert(lockstep_wire_AXIS_FAULT == static_cast<int>(AxisPhase::Fault));
 static_assert(lockstep_wire_AXIS_JOG == static_cast<int>(AxisCommandKind::Jog));
 

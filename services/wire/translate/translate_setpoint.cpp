@@ -10,7 +10,7 @@ namespace {
 static_assert(kMaxAxes == lockstep_wire_MAX_AXES);
 static_assert(kMaxAxes * (kMaxBodyPieces + kMaxTailPieces) <= lockstep_wire_MAX_FRAME_PIECES);
 
-/// Points a sequence of the IDL at a vector's elements.
+/// Makes a sequence of the IDL point to a vector's elements.
 template <typename Sequence, typename T>
 void show(Sequence& sequence, std::vector<T>& items) {
     sequence._buffer = items.data();
@@ -54,7 +54,7 @@ void append(SetpointMessage::Storage& storage, const AxisTrack& axis) {
     for (const Piece& piece : axis.tail) { append_piece(piece); }
 }
 
-/// The counts must match: after this every index below is within its sequence.
+/// Checks that the counts match. After this every index below is within its sequence.
 void check_shape(const lockstep_wire_Setpoint& wire, Checks& check) {
     const std::size_t axes = wire.from_count._length;
     check.within<std::size_t>("the number of axes", axes, 1, kMaxAxes);
@@ -83,8 +83,8 @@ void check_values(const lockstep_wire_Setpoint& wire, Checks& check) {
     for (const auto acceleration : elements(wire.acceleration)) { check.rate("acceleration", acceleration); }
 }
 
-/// Copies `count` pieces from index `at` of the sequences on, and advances `at`. The target has room: the shape was
-/// checked.
+/// Copies `count` pieces from index `at` of the sequences on, and advances `at`. The target has room, because the shape
+/// was checked.
 template <typename Pieces>
 void read_pieces(const lockstep_wire_Setpoint& wire, std::size_t& at, std::size_t count, Pieces& pieces) {
     pieces.clear();

@@ -1,4 +1,4 @@
-// A writer's name and host on the wire: bounded texts that other people's terminals print.
+// A writer's name and host on the wire: texts of limited length that other people's terminals print.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace lockstep {
 
-/// A text that is too long is cut between two characters.
+/// Cuts a text that is too long between two words or characters.
 template <std::size_t N>
 void write_text(std::string_view text, char (&wire)[N]) {
     static_assert(N == kMaxWriterBytes + 1);
@@ -25,8 +25,8 @@ void write_text(std::string_view text, char (&wire)[N]) {
     cut_text(text, kMaxWriterBytes).copy(wire, kMaxWriterBytes);
 }
 
-/// Points to the text on the wire. Refuses a text without an end, and one with control characters: they could command a
-/// terminal.
+/// Returns a view of the text on the wire. Refuses a text without an end, and a text with control characters, which
+/// could control a terminal.
 template <std::size_t N>
 std::string_view read_text(const char* field, const char (&wire)[N], Checks& check) {
     const std::string_view text(wire, strnlen(wire, N));

@@ -1,4 +1,4 @@
-// Corner speeds by a deviation, as Klipper and grbl limit them.
+// Corner speeds limited by a deviation, as Klipper and grbl limit them.
 //
 // An arc that touches both moves and leaves their corner by d has the radius d s / (1 - s), where s is the sine of half
 // the angle between the moves. At the speed v^2 = a d s / (1 - s) the centripetal acceleration on it would be a. The
@@ -17,7 +17,7 @@ struct Corner {
     double cosine = 0;
 
     bool is_straight() const { return cosine == 0 || sine >= 1; }
-    /// Radius by deviation, and the half angle's tangent: not of straight ones.
+    /// Ratio of the radius to the deviation. This and tangent() are undefined for a straight corner.
     double radius_ratio() const { return sine / (1 - sine); }
     double tangent() const { return sine / cosine; }
 };

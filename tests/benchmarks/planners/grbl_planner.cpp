@@ -8,15 +8,15 @@ namespace {
 constexpr double kStraight =
     5e-7;  // the cosine of the angle between two moves is within 1e-6 of that of a straight line
 
-/// Of one move. Squares of speeds.
+/// The bounds of one move. A name that ends in 2 is the square of a speed.
 struct GrblBounds {
     double acceleration = 0;
     double cruise2 = 0;
     double change2 = 0;  // the most by which the square can change along the move
-    double begin2 = 0;   // by its corner with the one before
+    double begin2 = 0;   // by its corner with the move before
 };
 
-/// Of the change of direction, with length 1.
+/// The unit vector along the change of direction.
 Vector inward(const Vector& before, const Vector& after) {
     Vector change{};
     double square = 0;
@@ -54,8 +54,8 @@ std::vector<GrblBounds> all_bounds(const std::vector<StraightMove>& moves, const
     return all;
 }
 
-/// The greatest squares at the begins of the moves in [first, end) from which the machine can rest at their end.
-/// Only the first one's is returned; `each` sees all.
+/// The greatest squares of the speeds at the begins of the moves in [first, end) from which the machine can rest at the
+/// end of the last one. Returns that of the first move; `each` gets all.
 template <typename Each>
 double backward(const std::vector<GrblBounds>& bounds, std::size_t first, std::size_t end, const Each& each) {
     double next2 = 0;
@@ -79,7 +79,7 @@ Speeds plan_by_grbl(const std::vector<StraightMove>& moves, const Limits& limits
                     std::size_t blocks) {
     const std::vector<GrblBounds> bounds = all_bounds(moves, limits, junction_deviation_mm);
     const std::size_t n = moves.size();
-    std::vector<double> from_end2(n + 1);  // as if all were known
+    std::vector<double> from_end2(n + 1);  // used if all blocks are known
     if (blocks >= n) {
         backward(bounds, 0, n, [&](std::size_t k, double square) { from_end2[k] = square; });
     }

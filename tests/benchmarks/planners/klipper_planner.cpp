@@ -10,17 +10,17 @@ namespace {
 
 constexpr std::size_t kZ = 2;
 
-/// Of one move. Squares of speeds, and the most by which a square can change along the move.
+/// The bounds of one move: squares of speeds, and the most by which a square can change along the move.
 struct Bounds {
     double acceleration = 0;
     double cruise2 = 0;
     double change2 = 0;
     double soft_change2 = 0;  // with the reduced acceleration
-    double begin2 = 0;        // from what is before it
+    double begin2 = 0;        // as the moves before it allow
     double soft_begin2 = 0;
 };
 
-/// Of one move, from what is behind it.
+/// The squares of speeds of one move that the moves after it allow.
 struct Reach {
     double begin2 = 0;
     double end2 = 0;
@@ -71,7 +71,7 @@ std::vector<Bounds> all_bounds(const std::vector<StraightMove>& moves, const Kli
     return all;
 }
 
-/// From rest at the end, backward.
+/// Computed backward from rest at the end.
 std::vector<Reach> all_reaches(const std::vector<Bounds>& bounds) {
     std::vector<Reach> all(bounds.size());
     double next2 = 0;
@@ -85,12 +85,12 @@ std::vector<Reach> all_reaches(const std::vector<Bounds>& bounds) {
     return all;
 }
 
-/// With the reduced acceleration the move brakes along its whole way.
+/// Whether the move brakes along its whole length with the reduced acceleration.
 bool only_brakes(const Bounds& bounds, const Reach& reach) {
     return reach.soft_begin2 >= reach.soft_end2 + bounds.soft_change2;
 }
 
-/// The moves that only brake go no faster than the peak before them, which gets lower from each to the next.
+/// Limits moves that only brake to the peak before them. The limit falls from each move to the next.
 void brake_from(double peak2, std::size_t first, std::size_t end, const std::vector<Reach>& reaches, Speeds& speeds) {
     for (std::size_t k = first; k < end; ++k) {
         peak2 = std::min(peak2, reaches[k].begin2);

@@ -12,7 +12,7 @@ class AxisReader {
 public:
     AxisReader(const AxisMotion& motion, double mm_per_step) : pieces_(motion.pieces()), mm_per_step_(mm_per_step) {}
 
-    /// Times ascend, and are within the leg.
+    /// The place at time t. Times must ascend and be within the leg.
     double mm_at(Ticks t) {
         while (piece_ + 1 < pieces_.size() && pieces_[piece_ + 1].begin <= t) { ++piece_; }
         const AxisMotion::TimedPiece& piece = pieces_[piece_];

@@ -1,4 +1,4 @@
-// The restated planners on moves whose times follow by hand, and the measurement of speed changes.
+// Tests the planners on moves with times that are computed by hand, and the measurement of speed changes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -66,7 +66,8 @@ TEST(OtherPlanners, AShortMoveHasNoCruiseButWithKlippersRatio) {
     const double expected = 2 * std::sqrt(4.0 / 1500);
     EXPECT_NEAR(grbl_seconds(moves), expected, 1e-9);
     EXPECT_NEAR(klipper_seconds(moves, 0), expected, 1e-9);
-    // The speed that 4 mm allow at half of the acceleration, reached at the whole one: half of the way is cruise.
+    // The peak is the speed that 4 mm allow at half the acceleration. The ramps use the whole one, so half of the way
+    // is cruise.
     const double cruise = std::sqrt(4.0 * 750);
     EXPECT_NEAR(klipper_seconds(moves, 0.5), 2 * cruise / 1500 + 2 / cruise, 1e-9);
 }
@@ -102,7 +103,7 @@ TEST(OtherPlanners, TakeTheSameTimeForALineInParts) {
 
 TEST(OtherPlanners, GrblGoesNoFasterThanItCanStopInItsBuffer) {
     const Moves parts(4000, along_x(0.05, 100));
-    const double most2 = 2 * 1500 * 0.05 * (kGrblBlocks - 1);  // behind the block under way
+    const double most2 = 2 * 1500 * 0.05 * (kGrblBlocks - 1);  // the blocks after the one under way
     EXPECT_NEAR(by_grbl(parts, kGrblBlocks)[2000].end2, most2, 1e-6);
     EXPECT_NEAR(grbl_seconds(parts, kGrblBlocks), 200 / std::sqrt(most2), 0.05);
 }

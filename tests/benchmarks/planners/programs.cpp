@@ -45,7 +45,7 @@ NamedProgram line(const std::string& name, double mm, double part) {
     return std::move(path).named(name);
 }
 
-/// Two turns, in chords that are `error_mm` inside at their middles.
+/// Two turns, in chords with middles `error_mm` inside the circle.
 NamedProgram circle(const std::string& name, double radius, double error_mm) {
     PathMaker path({100 + radius, 100, 30});
     const double all = 4 * std::numbers::pi;

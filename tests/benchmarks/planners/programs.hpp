@@ -1,4 +1,4 @@
-// Programs of one kind of path each, and jobs from their files.
+// Programs that each have one kind of path, and jobs from files.
 #pragma once
 
 #include <expected>
@@ -14,14 +14,14 @@ namespace lockstep::planners {
 struct NamedProgram {
     std::string name;
     Program program;
-    double klipper_chord_mm = 1;  // of arcs
+    double klipper_chord_mm = 1;  // for arcs
 };
 
-/// Lines, circles and corners, made here.
+/// Lines, circles and corners, generated here.
 std::vector<NamedProgram> simple_paths();
 
-/// The job set, from the folder that make-jobs wrote. Jobs with arcs stand there twice: with chords of Klipper's
-/// default and with finer ones. Error: what is wrong with a file.
+/// The job set, from the folder that make-jobs wrote. A job with arcs is listed twice: with chords of Klipper's default
+/// length and with finer ones. Error: the first problem of a file.
 std::expected<std::vector<NamedProgram>, std::string> jobs_of(const std::filesystem::path& folder,
                                                               const MachineConfig& machine);
 

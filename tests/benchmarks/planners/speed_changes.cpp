@@ -16,7 +16,7 @@ Vector ahead(const Vector& from, const Vector& direction, double mm) {
 ChangeShares changes_of(const std::vector<StraightMove>& moves, const Speeds& speeds, const Limits& limits) {
     Vector from{};
     SpeedChanges changes(limits, from);
-    double next = kSample_s;  // when a sample is due, from the begin of the phase
+    double next = kSample_s;  // time of the next sample, from the begin of the phase
     for (std::size_t k = 0; k < moves.size(); ++k) {
         double way = 0;
         for (const Phase& phase : phases_of(speeds[k], moves[k].length_mm)) {

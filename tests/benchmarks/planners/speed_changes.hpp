@@ -1,7 +1,7 @@
 // How much the axes' speeds change within short times, from samples of their places.
 //
-// Lockstep's promise for an axis is that over any time its speed changes by at most start velocity + acceleration *
-// time. What is measured is the greatest change as a share of this. All planners are sampled in the same way.
+// Lockstep promises that within a time t the speed of an axis changes by at most start velocity + acceleration * t. The
+// result is the greatest change as a share of this. All planners are sampled in the same way.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ struct Trapezoid;
 
 inline constexpr double kSample_s = 1e-4;
 
-/// Times over which changes are measured, in samples. A jump within a sample shows in two of them.
+/// The times over which changes are measured, in samples. A jump within a sample affects two samples.
 inline constexpr std::array<std::size_t, 3> kWindows{2, 50, 200};
 
 /// The greatest change in each window, as a share of what the axis allows in it; the most of all axes.
@@ -25,10 +25,10 @@ using ChangeShares = std::array<double, kWindows.size()>;
 
 class SpeedChanges {
 public:
-    /// At rest at `start`, in mm.
+    /// The axes rest at `start`, in mm.
     SpeedChanges(const Limits& limits, const Vector& start) : limits_(limits), at_(start), speeds_(kKept) {}
 
-    /// Where the axes are kSample_s later.
+    /// Takes the axes' places kSample_s after those before.
     void take(const Vector& place) {
         Vector& now = speeds_[taken_ % kKept];
         for (std::size_t i = 0; i < kAxes; ++i) { now[i] = (place[i] - at_[i]) / kSample_s; }
@@ -36,7 +36,7 @@ public:
         for (std::size_t w = 0; w < kWindows.size(); ++w) { note(now, w); }
         ++taken_;
     }
-    /// The axes rest where they are.
+    /// Takes the end of the motion: the axes rest where they are.
     void finish() {
         const Vector rest = at_;
         for (std::size_t n = 0; n < kKept; ++n) { take(rest); }
@@ -57,12 +57,12 @@ private:
 
     Limits limits_;
     Vector at_;
-    std::vector<Vector> speeds_;  // of the last samples, means; at first at rest
+    std::vector<Vector> speeds_;  // mean speeds of the last samples; at first 0
     std::size_t taken_ = 0;
     ChangeShares shares_{};
 };
 
-/// Of straight moves with their speeds.
+/// The changes of straight moves with these speeds.
 ChangeShares changes_of(const std::vector<StraightMove>& moves, const std::vector<Trapezoid>& speeds,
                         const Limits& limits);
 

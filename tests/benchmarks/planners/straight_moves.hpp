@@ -1,5 +1,4 @@
-// A program as planners for straight moves get it: each move with its direction, its length and its feed, arcs in
-// chords.
+// A program as a list of straight moves, each with its direction, length and feed. Arcs are cut into chords.
 #pragma once
 
 #include <array>
@@ -16,7 +15,7 @@ namespace lockstep::planners {
 inline constexpr std::size_t kAxes = 3;  // of the example machine: two of the same kind, and a slower one
 using Vector = std::array<double, kAxes>;
 
-/// In mm and s.
+/// The limits of an axis, in mm and s.
 struct AxisLimit {
     double start_velocity = 0;
     double max_velocity = 0;
@@ -24,7 +23,7 @@ struct AxisLimit {
 };
 using Limits = std::array<AxisLimit, kAxes>;
 
-/// Of a machine of three axes. The planners compared have one acceleration for both ways: the smaller one.
+/// The limits of a machine of three axes. The compared planners accelerate and brake equally: the smaller limit counts.
 Limits limits_of(const MachineConfig& machine);
 
 struct StraightMove {
@@ -35,15 +34,15 @@ struct StraightMove {
 
 /// How many chords an arc is cut into.
 using ChordCount = std::function<double(const ArcPath& arc)>;
-/// Klipper's gcode_arcs: chords of so many mm, as many as are whole; at least one.
+/// As Klipper's gcode_arcs: the number of whole chords of this length; at least one.
 ChordCount chords_of_length(double mm);
-/// grbl's $12: chords that are so far inside at their middles, as many as are whole; at least one.
+/// As grbl's $12: the number of whole chords with middles this far inside the arc; at least one.
 ChordCount chords_of_error(double mm);
 
 /// All moves of a program that does not rest between its ends. Moves without a length are left out.
 std::vector<StraightMove> straight_moves(const Program& program, const ChordCount& chords);
 
-/// The greatest value along a direction of which no axis gets more than its own.
+/// The greatest value along a direction at which no axis exceeds its own limit.
 double most_along(const Vector& direction, const Limits& limits, double AxisLimit::*value);
 
 }  // namespace lockstep::planners

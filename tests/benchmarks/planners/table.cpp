@@ -13,7 +13,7 @@
 namespace lockstep::planners {
 namespace {
 
-constexpr double kGrblChordError_mm = 0.002;  // its default
+constexpr double kGrblChordError_mm = 0.002;  // grbl's default
 
 __attribute__((format(printf, 1, 2))) std::string text(const char* format, ...) {
     char buffer[512];

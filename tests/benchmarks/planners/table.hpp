@@ -15,7 +15,7 @@ namespace lockstep::planners {
 enum class Other : std::size_t { Klipper, KlipperWithoutCruise, Grbl, GrblAllKnown };
 inline constexpr std::size_t kOthers = 4;
 
-/// Seconds, and what was measured on the samples.
+/// The time of a job in seconds, and its changes of speed.
 struct Result {
     double seconds = 0;
     ChangeShares changes{};
@@ -28,13 +28,13 @@ struct Row {
     std::array<Result, kOthers> others;
 };
 
-/// Error: our planner refuses the program.
+/// Error: Lockstep's planner refuses the program.
 std::expected<Row, std::string> compare(const MachineConfig& machine, const NamedProgram& named);
 
-/// Both tables, with the limits that the others were given.
+/// Both tables, with the limits that the other planners were given.
 std::string tables_text(const std::vector<Row>& rows, const Limits& limits);
 
-/// How long planning takes: a table of nanoseconds per move of the G-code, of the host that runs this.
+/// How long planning takes on this host: a table of nanoseconds per move of the G-code.
 std::expected<std::string, std::string> costs_text(const MachineConfig& machine,
                                                    const std::vector<NamedProgram>& programs);
 

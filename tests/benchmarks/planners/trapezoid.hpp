@@ -1,4 +1,4 @@
-// What a planner of straight moves finds for each: accelerate, keep a speed, decelerate.
+// The speeds that a planner gives to a straight move: it accelerates, keeps a speed, and decelerates.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace lockstep::planners {
 
-/// Speeds are along the path, squared, in mm^2/s^2: with a constant acceleration they are linear in the way.
+/// Squares of speeds along the path, in mm^2/s^2. With a constant acceleration a square is linear in the distance.
 struct Trapezoid {
     double begin2 = 0;
     double cruise2 = 0;  // at least the speeds at the ends

@@ -1,5 +1,5 @@
-// The same of a machine of real processes that is up and homed: prints, for each time, after how many milliseconds axis
-// 0 begins to brake and rests, by the states that it publishes.
+// Measures the reactions of a machine of real processes that is up and homed. Prints, for each time, after how many
+// milliseconds axis 0 begins to brake and rests, according to the states that it publishes.
 //
 // usage: lockstep-reactions-live MACHINE.textproto hold|stop|feed|own|kill TIMES [PID]
 #include <signal.h>
@@ -29,7 +29,7 @@ class LiveMachine {
 public:
     explicit LiveMachine(Session session) : session_(std::move(session)) { session_.await_axes(); }
 
-    /// From one end of its travel to the other.
+    /// Moves from one end of the travel to the other. Returns when the speed is steady.
     bool move(CommandKind kind) {
         const AxisConfig& axis = session_.config().axes[0];
         const double here = static_cast<double>(state().position.count()) / axis.steps_per_mm;
@@ -45,7 +45,8 @@ public:
         const auto reply = session_.command(command);
         return reply && reply->status == ReplyStatus::Accepted;
     }
-    /// After `event`, by the first state that is slower than before, and its limit: when it began to slow down.
+    /// The reaction to `event`. The begin of braking is computed from the first slower state and the axis's
+    /// deceleration.
     template <typename Event>
     Reaction after(const Event& event) {
         const double before = speed();

@@ -1,4 +1,4 @@
-// A machine in virtual time whose axis X moves, and how soon it reacts to what happens, by its pulses.
+// A machine in virtual time with a moving axis X. Measures by X's pulses how soon it reacts to an event.
 #pragma once
 
 #include <algorithm>
@@ -40,18 +40,19 @@ public:
     }
 
     VirtualMachine& vm() { return vm_; }
-    /// Nearly to the end of its travel, as one coordinated move.
+    /// Moves nearly to the end of the travel, as one coordinated move.
     void move() { give(CommandKind::Run, kFeed_mm_s); }
-    /// The same by itself, as fast as it can.
+    /// The same as a move of the axis on its own, as fast as possible.
     void move_own() { give(CommandKind::MoveOwn, 0); }
-    /// In positive direction, while the client below renews it.
+    /// Jogs in positive direction while client() renews the jog.
     void jog() { client_.press({{.axis = 0, .speed_mm_s = kFeed_mm_s}}); }
     Jogger& client() { return client_; }
     void wait(Ticks time) {
         if (client_.is_alive()) { return pass(vm_, {&client_}, time); }
         (void)vm_.advance_until([] { return false; }, time);
     }
-    /// From now on until the time between two pulses has grown by more than two ticks, and until no pulse comes.
+    /// The reaction to `event`. The axis begins to brake when the time between two pulses grows by more than two ticks,
+    /// and rests after the last pulse.
     Reaction after(const std::function<void()>& event) {
         const Tick now = vm_.now();
         const std::size_t before = pulses_.ticks.size();

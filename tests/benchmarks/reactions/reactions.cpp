@@ -1,5 +1,6 @@
-// How soon a machine in motion reacts to what happens: the least, the median and the greatest time until it begins to
-// brake and until it rests, by its pulses, in virtual time. Each event comes at many places of a frame and of a slot.
+// Measures how soon a machine in motion reacts to events: the least, the median and the greatest time until it begins
+// to brake and until it rests, by its pulses, in virtual time. Each event comes at many places of a frame and of a
+// slot.
 //
 // usage: lockstep-reactions MACHINE.textproto
 #include <algorithm>
@@ -34,7 +35,7 @@ std::string spread(std::vector<double> values) {
     return text;
 }
 
-/// A profile's timing; everything else as the machine's file has it.
+/// A profile's timing; everything else is as in the machine's file.
 struct Profile {
     const char* name;
     std::int64_t slot_us;
@@ -60,7 +61,7 @@ void begin(Motion motion, MovingMachine& moving) {
     }
 }
 
-/// From the client's command to the first pulse.
+/// Measures the time from the client's command to the first pulse.
 void measure_begin_of_jog(const MachineConfig& machine, const Profile& profile) {
     std::vector<double> begins;
     for (int i = 0; i < kTimes; ++i) {

@@ -57,7 +57,7 @@ def table(result, samples, options, seconds):
     """The table as Markdown."""
     last = samples.rows[-1]
     lines = [f"{options.clients} clients and {options.jobs} jobs in {seconds / 60:.0f} minutes; "
-             f"{samples.failed_jobs} jobs were cut short by the host and begun again.", "",
+             f"{samples.failed_jobs} jobs were interrupted by the host and repeated.", "",
              "| process | before, KB | after, KB | growth over the last half of the clients, bytes each "
              "| of the jobs, bytes each | descriptors | threads |", "|---|---|---|---|---|---|---|"]
     for process in samples.processes:

@@ -58,7 +58,7 @@ class Samples:
         return [row for row in self.rows if row.process == process and row.phase == phase]
 
     def replaced_processes(self):
-        """A process that was restarted proves nothing about growth in one process."""
+        """A restarted process proves nothing about growth in one process, so it is an error."""
         now = self.machine.processes()
         return [f"{name} ended meanwhile" for name, pid in self.processes.items() if now.get(name) != pid]
 

@@ -1,4 +1,5 @@
-// Keys for the benchmark: protected like a machine's, but each side may send and receive frames, which no role may.
+// Keys for the benchmark, with the protection of a machine's keys. Each side may send and receive frames, as no role
+// may.
 #pragma once
 
 #include <filesystem>

@@ -1,11 +1,10 @@
-// Half the time of a frame's way to another process and back, through DDS, translation and checks:
+// Measures half the time of a frame's way to another process and back, through DDS, translation and checks:
 //   dds_round_trip pong DOMAIN [KEYS]             returns each frame, until SIGTERM
-//   dds_round_trip ping DOMAIN AXES COUNT [KEYS]  prints the median of COUNT half round trips in microseconds; AXES: 3,
-//   32 dds_round_trip match DOMAIN COUNT [KEYS]      prints how many milliseconds it takes to find COUNT pongs
-//   dds_round_trip profile                        prints the DDS profile all use, for ddsperf to use the same
-//   dds_round_trip keys DOMAIN KEYS               makes keys in a new directory; each side may send what both sides
-//   send
-// With KEYS: with DDS Security.
+//   dds_round_trip ping DOMAIN AXES COUNT [KEYS]  prints the median of COUNT half round trips in us; AXES is 3 or 32
+//   dds_round_trip match DOMAIN COUNT [KEYS]      prints how many milliseconds it takes to find COUNT pongs
+//   dds_round_trip profile                        prints the DDS profile of these commands, for ddsperf
+//   dds_round_trip keys DOMAIN KEYS               makes keys in a new directory; each side may send what both send
+// KEYS turns on DDS Security.
 #include <algorithm>
 #include <cstdio>
 #include <string>

@@ -5,7 +5,7 @@
 
 namespace lockstep {
 
-/// With `pieces` body pieces per axis and a tail of one.
+/// A frame with `pieces` body pieces per axis and a tail of one piece.
 inline Frame frame_of(std::size_t axes, std::size_t pieces) {
     const Piece piece{{5000}, {1 << 30}, {1 << 10}};
     Frame frame{.number = 1, .ticks = {5000}, .axes = std::vector<AxisTrack>(axes)};

@@ -2,7 +2,7 @@
 # joined by a bridge, and reached from outside. Source it, call own_namespaces "$@" first, then: board NAME NUMBER UPTIME_S,
 # on NAME COMMAND..., unplug NAME. $work/ssh NAME COMMAND... works like ssh.
 
-# Starts the script again in namespaces that end with it, and all boards with them.
+# Starts the script again in new namespaces. These end with the script, and all boards with them.
 own_namespaces() {
     if [ -z "${IN_NAMESPACES:-}" ]; then
         unshare --net --mount --pid --fork --uts true 2>/dev/null ||
@@ -16,7 +16,7 @@ own_namespaces() {
     chmod +x "$work/ssh"
     cp -a /etc "$work/etc" && mkdir -p "$work/etc/lockstep" && mount --bind "$work/etc" /etc
     ip link set lo up
-    ip link add eth0 type bridge mcast_snooping 0  # the same name as on the boards: the machine's file has one
+    ip link add eth0 type bridge mcast_snooping 0  # as on the boards: the machine's file names one interface
     ip addr add 10.9.0.1/24 dev eth0
     ip link set eth0 up
     clocks=yes

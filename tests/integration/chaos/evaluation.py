@@ -1,4 +1,4 @@
-"""What must hold for a run with any faults."""
+"""The conditions that a run with any faults must satisfy."""
 import dataclasses
 import re
 
@@ -6,7 +6,7 @@ from machine import AXES
 from record import Record
 from story import Chapter
 
-# A late, silent or restarted axis or coordinator may cause these; anything else is a separate fault.
+# A late, silent or restarted axis or coordinator may cause these; any other fault is a failure.
 FAULTS_OF_LATENESS = {"", "axis-lost", "frames-differ", "frame-late", "emergency-stopped"}
 STALL_US = 160_000  # the machine allows for 200 ms
 ALARMS = re.compile(r"ERROR: \w+Sanitizer|runtime error:|terminate called|Assertion|check failed|Segmentation", re.I)
@@ -50,7 +50,7 @@ def timed(chapter, record):
 
 
 def partings(story, record):
-    """Axes without a fault end an epoch with the same frame. A stall of the host counts as a fault."""
+    """Yields epochs that axes without a fault ended with different frames. A stall of the host counts as a fault."""
     for epoch, ends in record.ends().items():
         last_us = max(run.start_us for run in ends.values())
         hit = set().union(*(chapter.injected.hit for chapter in story.chapters
@@ -63,7 +63,7 @@ def partings(story, record):
 
 
 def deaths(machine, story):
-    """Every end of a process was an injected one."""
+    """Yields each end of a process that the test did not cause."""
     asked = [chapter.injected.killed for chapter in story.chapters if chapter.injected.killed]
     for name, how in re.findall(r"(\S+) ((?:ended with code|was ended by signal) \d+)", machine.log("supervisor")):
         if how == "was ended by signal 9" and name in asked:

@@ -60,7 +60,7 @@ class Machine:
 
     @staticmethod
     def end(command):
-        """Its result: exit code, its report or nothing, its text output."""
+        """The result of a command: exit code, report (empty if there is none), text output."""
         try:
             out, err = command.communicate(timeout=CALL_PATIENCE_S)
         except subprocess.TimeoutExpired:
@@ -72,14 +72,14 @@ class Machine:
         return self.end(self.begin(*words))
 
     def make_whole(self, received, whole):
-        """lcm-logger drops messages while it stands still itself, and has messages that a killed process had not
-        written yet: merges its log and the processes' own."""
+        """Merges the log of lcm-logger and the processes' own logs. lcm-logger drops messages while it stalls,
+        but it has messages that a killed process had not written yet."""
         record = self.folder / "state" / self.name / "record"
         subprocess.run([self.lockstep, "log", "merge", str(whole), str(received), str(record)], env=self.environment,
                        capture_output=True)  # the evaluation handles messages that no log has
 
     def verify(self, log):
-        """As text, and whether the log is exact."""
+        """The output of lockstep verify, and whether the log is exact."""
         ran = subprocess.run([self.lockstep, "verify", str(log)], env=self.environment, capture_output=True, text=True)
         return (ran.stdout + ran.stderr).strip(), ran.returncode == 0
 

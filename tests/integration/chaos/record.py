@@ -43,25 +43,25 @@ class Record:
                 self.states.append(State(message.axis, message.tick, message.velocity_steps_per_s == 0))
 
     def reaction_us(self, since, until):
-        """When the first axis left its frames for a tail, or ceased its pulses, in that time. None: none did."""
+        """The time at which the first axis began a tail or ceased its pulses, in that time. None if none did."""
         tails = [run.start_us for run in self.runs if run.tail and since <= run.start_us < until]
         cut = {run.axis for run in self.runs if run.cut and since - FRAME_US <= run.start_us < until}
         ceased = [self.rest_us(since, [axis]) for axis in cut]
         return min(tails + [at for at in ceased if at is not None], default=None)
 
     def rest_us(self, since, axes):
-        """When the last of these axes first reported rest, from that time on. None: one never did."""
+        """The time, from `since` on, at which the last of these axes first reported rest. None if one never did."""
         rests = [min((s.tick_us for s in self.states if s.axis == axis and s.tick_us >= since and s.at_rest),
                      default=None) for axis in axes]
         return None if None in rests else max(rests)
 
     def longest_silence_us(self, axis, since, until):
-        """The times between an axis's states, of which it publishes one a slot."""
+        """The longest time between two states of an axis, which publishes one in each slot."""
         ticks = [state.tick_us for state in self.states if state.axis == axis and since <= state.tick_us < until]
         return max((after - before for before, after in zip(ticks, ticks[1:])), default=until - since)
 
     def ends(self):
-        """For each epoch: how far each axis came, (frame, in its tail, cut short), and when it began the last."""
+        """For each epoch, the last frame or tail that each axis ran."""
         last = {}
         for run in self.runs:
             if run.epoch:

@@ -8,7 +8,7 @@ def median(values):
 
 
 def figures(found):
-    """By kind of fault: the count, and medians of the times to the first reaction and to rest."""
+    """For each kind of fault: the count, and medians of the times to the first reaction and to rest."""
     kinds = sorted({timed.chapter.injected.kind for timed in found.timed})
     for kind in kinds:
         of_kind = [timed for timed in found.timed if timed.chapter.injected.kind == kind]

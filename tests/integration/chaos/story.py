@@ -13,15 +13,15 @@ class Chapter:
     fault: str = ""           # the name of its fault; empty: none
     job: str = ""             # the end of the running job
     remedies: list = dataclasses.field(default_factory=list)
-    watched_us: int = 0       # until then nothing was injected
+    watched_us: int = 0       # no further fault was injected before this
     over_us: int = 0
     is_printed: bool = False
 
 
 class Story:
-    SETTLE_S = 30    # for the machine to finish its action: a failure beyond
+    SETTLE_S = 30    # for the machine to finish its action; longer is a failure
     TRIES = 6
-    RUNS_ON_S = 1.5  # a machine that a fault has not stopped is observed for so long, then stopped
+    RUNS_ON_S = 1.5  # how long a machine that a fault has not stopped is observed before it is stopped
 
     def __init__(self, machine, now_us, quiet):
         self.machine, self.now_us, self.quiet = machine, now_us, quiet
@@ -77,7 +77,7 @@ class Story:
             if is_there(status):
                 return status
             time.sleep(0.05)
-        self.fail(f"the machine does not come to an end: {self.machine.status()}")
+        self.fail(f"the machine does not reach the expected state: {self.machine.status()}")
         return {}
 
     def bring_back(self):
@@ -99,25 +99,25 @@ class Story:
 
     @staticmethod
     def _what_next(status):
-        """Nothing if a job can begin."""
+        """The next command; empty if a job can begin."""
         phase = status.get("phase")
         if phase != "Idle":
             return "reset" if phase == "Fault" else "stop"
         return "" if all(axis.get("homed") for axis in status["axes"]) else "home"
 
     def _remedy(self, word):
-        """It may fail if the host stalls meanwhile; then it is repeated."""
+        """Gives a command. It may fail if the host stalls meanwhile; then the caller repeats it."""
         code, _, _ = self.machine.call(word)
         if self.chapters:
             self.chapters[-1].remedies.append(word if code == 0 else word + " (failed)")
 
     def run_to_the_end(self):
-        """A job without a fault."""
+        """Runs a job without a fault to its end."""
         for _ in range(self.TRIES):
             self.bring_back()
             if self.is_over or self.machine.end(self.machine.begin_job(lines=10))[0] == 0:
                 return
-        self.fail("the machine does not come to the end of a job that nothing befell")
+        self.fail("a job without a fault did not complete")
 
     def _tell(self, chapter):
         chapter.is_printed = True

@@ -1,4 +1,4 @@
-// A user's wrong input: exit code 2, nothing done, and the remedy.
+// Wrong input of a user leads to exit code 2, no action, and a message with the remedy.
 #include <gmock/gmock.h>
 
 #include "idl/proto/machine.pb.h"

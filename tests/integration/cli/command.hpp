@@ -36,7 +36,7 @@ public:
     ChildProcess& operator=(const ChildProcess&) = delete;
 
     void signal(int number) const;
-    /// What it has written so far.
+    /// Its standard output so far.
     std::string out() const;
     Ran wait();
 

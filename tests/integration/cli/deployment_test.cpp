@@ -1,4 +1,4 @@
-// Where the parts of a machine run, and their devices: devices that are mapped, parts that belong on other hosts.
+// The places of a machine's parts and devices: devices that are mapped, and parts that belong on other hosts.
 #include <gmock/gmock.h>
 #include <signal.h>
 
@@ -37,7 +37,7 @@ TEST_F(Deployment, ADeviceThatIsMappedIsDrivenAsOneInTheProcess) {
     EXPECT_EQ(status().axes(0).position_mm(), 15);
 }
 
-/// It may be powered up later: the axis waits for it.
+/// The device may be powered up later, so the axis waits for it.
 TEST_F(Deployment, RefusesAForeignDeviceByItsRegisters) {
     const std::string registers = write("x.registers", std::string(registers::kWindowBytes, '\0'));
     const std::string log = write("axis.log", "");
@@ -64,10 +64,10 @@ TEST_F(Deployment, ReportsThatNothingBelongsOnThisHost) {
     });
     const Ran up = run_lockstep({"up"});
     EXPECT_EQ(up.code, 2);
-    EXPECT_THAT(up.err, HasSubstr("places nothing on this host, " + host_name()));
+    EXPECT_THAT(up.err, HasSubstr("assigns no part of the machine to this host, " + host_name()));
 }
 
-/// The finding about this; empty: there is none.
+/// The finding about this; empty if there is none.
 proto::DoctorFinding about(const proto::DoctorReport& report, const std::string& what) {
     for (const auto& finding : report.findings()) {
         if (finding.what() == what) { return finding; }

@@ -59,7 +59,7 @@ TEST_F(Flight, AnAxisThatWasStoppedIsNamed) {
     begin_job();
     const pid_t axis = process("axis-Y");
     kill(axis, SIGSTOP);
-    std::this_thread::sleep_for(800ms);  // 200 are allowed
+    std::this_thread::sleep_for(800ms);  // 200 ms are allowed
     kill(axis, SIGCONT);
     ASSERT_TRUE(all_write());
     const auto report = incident();

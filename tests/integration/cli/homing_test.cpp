@@ -1,4 +1,4 @@
-// Homing ended by a person, or left without its coordinator: at rest, reported, and it works again.
+// A person or a lost coordinator ends a homing: the axis rests, the end is reported, and homing works again.
 #include <gmock/gmock.h>
 #include <signal.h>
 

@@ -1,4 +1,4 @@
-// Jogs by the command, with real processes: by a distance, by keys, with a client that is killed, and the record of it.
+// Jogs by the command, with real processes: by a distance, by keys, with a client that is killed, and their records.
 #include <gmock/gmock.h>
 #include <signal.h>
 
@@ -70,7 +70,7 @@ TEST_F(JogOfARealMachine, IsReleasedByCtrlC) {
     EXPECT_EQ(status().phase(), "Idle");
 }
 
-/// As a terminal repeats a key that is held.
+/// Types like a terminal that repeats a held key.
 TEST_F(JogOfARealMachine, ByKeysMovesWhileTheKeyIsRepeated) {
     using namespace std::chrono_literals;
     const std::int64_t before = steps_of_x();

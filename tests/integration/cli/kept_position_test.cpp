@@ -1,4 +1,4 @@
-// Positions that outlive an axis's process, where its device does: lockstep-fpga, behind shared memory.
+// Positions outlive an axis's process if its device does: here lockstep-fpga, behind shared memory.
 #include <gmock/gmock.h>
 #include <google/protobuf/text_format.h>
 #include <signal.h>
@@ -26,7 +26,7 @@ protected:
         ASSERT_EQ(home.code, 0) << home.out << home.err;
     }
     proto::AxisStatus y() const { return status().axes(1); }
-    /// The position of Y on disk is Y's.
+    /// The position of Y on disk becomes the position of Y.
     bool y_is_kept() const {
         return eventually([&] {
             proto::KeptPosition kept;
@@ -36,7 +36,7 @@ protected:
         });
     }
     std::filesystem::path file_of_y() const { return position_directory(status().machine()) / "Y.textproto"; }
-    /// Until another process has replaced it and reports it.
+    /// Kills the process of Y, and waits until another process has replaced it and is present.
     void kill_y() const {
         const pid_t before = process("axis-Y");
         kill(before, SIGKILL);
@@ -74,7 +74,7 @@ TEST_F(KeptPositions, AnAxisKilledInMotionRestartsUnhomedAndReportsWhy) {
     expect_verified();
 }
 
-/// The log ends before another process moves the axis: with the steps that it found in the device.
+/// The log ends before another process moves the axis. It has the steps that this process found in the device.
 TEST_F(KeptPositions, TheDeviceOfAKilledAxisContinuesAsPlanned) {
     const ChildProcess run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kShortJob)});
     ASSERT_TRUE(becomes("Running"));

@@ -1,4 +1,4 @@
-// Devices of real processes that die, or whose registers are removed or overwritten: nothing hangs or crashes, the
+// Devices of real processes die, or their registers are removed or overwritten: nothing hangs or crashes, the
 // fault names axis and remedy, and the remedy works.
 #include <gmock/gmock.h>
 #include <signal.h>
@@ -102,7 +102,7 @@ TEST_F(LostDevice, RegistersThatAreOverwrittenCrashNoProcess) {
     expect_usable();
 }
 
-/// It waits for the machine to stop, but not forever.
+/// The client waits for the machine to stop, but not forever.
 TEST_F(LostDevice, AClientEndsBySignalWhateverProcessHangs) {
     bring_up_with_devices();
     for (const char* hangs : {"fpga-Y", "axis-Y", "coordinator"}) {

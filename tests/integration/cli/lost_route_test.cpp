@@ -14,7 +14,7 @@ namespace {
 
 class LostRoute : public OwnMachine {
 protected:
-    /// Any message of the record is received within the bound.
+    /// Whether any message of the record is received within the bound.
     bool is_published() const {
         lcm::LCM lcm(lcm_url());
         bool has_come = false;

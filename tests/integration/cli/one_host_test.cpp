@@ -1,5 +1,5 @@
-// A machine whose states go through its host's memory: exact, as safe as over the network, and without states from
-// processes that do not share it.
+// A machine with its states in the host's memory moves exactly, is as safe as over the network, and waits for processes
+// that do not share this memory.
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <unistd.h>

@@ -56,7 +56,7 @@ void OwnMachine::SetUp() {
     start_guard();
 }
 
-/// The guard takes the machine down when the pipe closes: at the test's end, however it comes.
+/// The guard takes the machine down when the pipe closes. Any end of the test closes it.
 void OwnMachine::start_guard() {
     int ends[2] = {};
     ASSERT_EQ(pipe2(ends, O_CLOEXEC), 0);
@@ -112,7 +112,7 @@ void OwnMachine::record() {
     logger_.emplace("/usr/bin/lcm-logger", Words{"--force", "--quiet", "--lcm-url=" + lcm_url_, log_});
 }
 
-/// lcm-logger drops messages while it stands still itself: the processes' own logs have them. A killed process has not
+/// lcm-logger drops messages while it stalls itself: the processes' own logs have them. A killed process has not
 /// written its last messages: lcm-logger has received them.
 void OwnMachine::expect_verified() {
     const std::string whole = (folder_ / "whole.lcm").string();

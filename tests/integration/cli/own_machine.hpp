@@ -1,5 +1,5 @@
-// A machine for one test: network, name, state directory. However the test ends, even if it is
-// killed, everything that it started is taken down.
+// A machine for one test, with its own network, name and state directory. When the test ends, even if it is killed,
+// everything that it started is taken down.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The page beside a machine: `lockstep up` starts it, its supervisor keeps it, and the machine does without it.
+// The page of a machine: `lockstep up` starts it, its supervisor restarts it, and the machine works without it.
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <netinet/in.h>
@@ -29,7 +29,7 @@ public:
     Socket& operator=(const Socket&) = delete;
     ~Socket() { close(file_); }
 
-    /// At any free port where none is given. Returns the port.
+    /// Listens at a port; at any free one if it is 0. Returns the port.
     std::uint16_t listen_at(std::uint16_t port = 0) const {
         sockaddr_in address = at(port);
         socklen_t size = sizeof address;
@@ -38,7 +38,7 @@ public:
         EXPECT_EQ(getsockname(file_, std::bit_cast<sockaddr*>(&address), &size), 0);
         return ntohs(address.sin_port);
     }
-    /// What a server answers first; empty: nothing listens.
+    /// The begin of a server's answer; empty if nothing listens.
     std::string ask(std::uint16_t port) const {
         sockaddr_in address = at(port);
         constexpr std::string_view kRequest = "GET / HTTP/1.1\r\nHost: localhost\r\n\r\n";

@@ -1,4 +1,4 @@
-// A machine's processes: which are refused, restarted, and never left behind.
+// A machine's processes: some are refused, ended ones are restarted, and none is left behind.
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <sys/ptrace.h>
@@ -35,7 +35,7 @@ TEST_F(Processes, AreStartedOnce) {
     EXPECT_EQ(status().phase(), "Idle");
 }
 
-/// The second has a state directory of its own, as on another host: the lock of the first does not stop it.
+/// The second process has its own state directory, as on another host: the lock of the first does not stop it.
 TEST_F(Processes, AJobIsExactThoughASecondProcessOfAnAxisStarts) {
     bring_up();
     record();
@@ -69,7 +69,7 @@ TEST_F(Processes, ThatDieAreStartedAgainAndTheirAxisIsUnhomed) {
     EXPECT_TRUE(status().axes(0).homed());
 }
 
-/// Stops a process's first thread, which runs the loop; the others go on.
+/// Stops a process's first thread, which runs the loop; the others continue.
 class StoppedLoop {
 public:
     explicit StoppedLoop(pid_t process) : process_(process) {

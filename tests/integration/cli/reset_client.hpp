@@ -5,7 +5,7 @@
 
 namespace lockstep {
 
-/// False: the machine's processes are absent.
+/// Returns false if the machine's processes are absent.
 bool reset_often(const MachineConfig& machine, int times);
 
 }  // namespace lockstep

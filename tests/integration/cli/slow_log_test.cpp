@@ -32,7 +32,7 @@ public:
         std::filesystem::remove(path_);
         close(file_);
     }
-    /// All that was written and is waiting.
+    /// Reads everything that was written and waits.
     std::string read() const {
         std::array<char, 4096> bytes{};
         std::string text;
@@ -62,7 +62,7 @@ protected:
     }
 
     std::vector<std::unique_ptr<HungFile>> logs_;
-    std::vector<std::unique_ptr<ChildProcess>> processes_;  // end first
+    std::vector<std::unique_ptr<ChildProcess>> processes_;  // destroyed before the logs
 };
 
 TEST_F(SlowLog, AJobIsExactWhileTheLogsHangAndLostLinesAreReported) {

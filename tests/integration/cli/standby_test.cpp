@@ -23,7 +23,7 @@ protected:
         const Ran home = run_lockstep({"home"});
         ASSERT_EQ(home.code, 0) << home.out << home.err;
     }
-    /// The time in the log, to compare; empty: never.
+    /// The time of a coordinator's last claim in its log; empty if it never claimed.
     std::string claimed_at(const std::string& name) const {
         const std::string text = text_of_log(name);
         const auto claim = text.rfind("- owns the machine");
@@ -100,7 +100,7 @@ class ContinuingCoordinators : public TwoCoordinators {
 protected:
     ContinuingCoordinators() : TwoCoordinators({"--standby", "--on-takeover", "continue"}) {}
 
-    /// Whether the other one has continued the job of the owner that is killed in it.
+    /// Kills the owner during a job. Returns whether the other coordinator continued the job.
     bool is_gone_on_with() {
         EXPECT_TRUE(eventually([&] { return status().standby(); }));
         ChildProcess run(LOCKSTEP_COMMAND, {"run", write("job.gcode", kThereAndBack), "--json"});
@@ -121,8 +121,8 @@ protected:
     }
 };
 
-/// If the host stalls at that time for longer than the machine allows, the job ends; not every
-/// time.
+/// If the host stalls at that time for longer than the machine allows, the job ends. Therefore the test tries it three
+/// times.
 TEST_F(ContinuingCoordinators, AKilledOwnersJobContinuesToItsEnd) {
     bool done = false;
     for (int tries = 0; tries < 3 && !done; ++tries) {

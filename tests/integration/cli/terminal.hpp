@@ -1,4 +1,4 @@
-// A terminal of 80 columns with a command; it ends with the object.
+// A command on a terminal of 80 columns; it ends with the object.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -23,7 +23,7 @@ protected:
         unsetenv("LOCKSTEP_WRITER");
         OwnMachine::TearDown();
     }
-    /// Whose commands are run from now on.
+    /// The commands from now on are this person's.
     static void become(const char* name) { setenv("LOCKSTEP_WRITER", name, 1); }
     static void expect_refused(const Ran& ran) {
         EXPECT_EQ(ran.code, 1) << ran.out << ran.err;

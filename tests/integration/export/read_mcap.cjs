@@ -1,5 +1,5 @@
-// Reads an MCAP file with the format's own reader and prints its content as JSON. The registry's rules for JSON
-// is held to: encodings named so, a schema that is an object's, and each message as its schema has it.
+// Reads an MCAP file with the format's own reader and prints its content as JSON. Checks the registry's rules for JSON:
+// the names of the encodings, schemas of objects, and messages that match their schemas.
 const fs = require("fs");
 const { McapStreamReader } = require("@mcap/core");
 

@@ -25,7 +25,7 @@ axis {
 }
 )";
 
-/// A program until its end; SIGTERM at the latest in the destructor.
+/// A running program. The destructor sends SIGTERM if it has not ended.
 class Process {
 public:
     explicit Process(std::vector<std::string> words) {

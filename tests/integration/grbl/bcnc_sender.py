@@ -1,6 +1,6 @@
 """bCNC at the pseudo-terminal, driven over its own pendant: homes, runs the program, holds, resumes and turns the feed.
 
-By hand, where Debian's bcnc, python3-numpy and xvfb are installed; docs/grbl.md has the command.
+To be run by hand, where Debian's bcnc, python3-numpy and xvfb are installed; docs/grbl.md has the command.
 Usage: bcnc_sender.py TERMINAL PROGRAM FOLDER
 """
 import json

@@ -50,7 +50,7 @@ def await_state(state, seconds=60):
 
 
 def stream(to_send, between=lambda answered: None):
-    """Never more characters on the way than the receiver's buffer takes."""
+    """Sends lines, with never more unanswered characters than the receiver's buffer holds."""
     waiting = collections.deque(to_send)
     on_the_way = collections.deque()
     answered = 0
@@ -70,8 +70,8 @@ def stream(to_send, between=lambda answered: None):
 
 
 def at_some(answered):
-    """What a person does meanwhile, and what a busy host does."""
-    if answered % 500 == 0:  # the feed by 10 % and 1 % up, and by 10 % down; of a spindle nothing
+    """Acts as a person does meanwhile, and as a busy host does."""
+    if answered % 500 == 0:  # feed up by 10 % and 1 %, down by 10 %; the spindle's does nothing
         port.write((b"\x91", b"\x93", b"\x92", b"\x99")[answered // 500 % 4])
     if answered == 800:
         time.sleep(1.5)  # the machine rests on the path

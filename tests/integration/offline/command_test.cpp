@@ -66,7 +66,7 @@ TEST_F(Command, PlanSimulateAnalyzeVerify) {
 
     const auto analysed = report_of<proto::AnalysisReport>(run("analyze " + log + " --json"));
     ASSERT_EQ(analysed.axes_size(), 3);
-    EXPECT_GT(analysed.axes(0).steps(), planned.axes(0).steps());  // homing comes on top
+    EXPECT_GT(analysed.axes(0).steps(), planned.axes(0).steps());  // plus those of homing
     const auto verified = run("verify " + log + " --json");
     EXPECT_EQ(verified.exit, 0);
     const auto result = report_of<proto::VerifyReport>(verified);
@@ -198,7 +198,7 @@ TEST_F(Command, BadInputIsReportedWithItsPlaceAndExits2) {
     EXPECT_FALSE(std::filesystem::exists(log));
 }
 
-/// Of 70,002 lines, more than 2 MB.
+/// A program of 70,002 lines, more than 2 MB.
 std::string long_program() {
     std::string text = "G21 G90 F6000\nG0 X20 Y20\n";
     for (int k = 0; k < 35'000; ++k) { text += "G1 X20.0125 Y20.0000 Z5.0000 (there)\nG1 X20.0000 (and back)\n"; }

@@ -33,7 +33,7 @@ std::vector<double> numbers_in(const std::string& text) {
     return numbers;
 }
 
-/// rs274's offsets, units and feed, as its calls leave them.
+/// Reads rs274's calls. Keeps the offsets, units and feed that they set.
 class OutputReader {
 public:
     explicit OutputReader(bool is_exact) : is_exact_(is_exact) {}
@@ -86,7 +86,7 @@ private:
         return p;
     }
 
-    /// The sum of some roundings, and what a rounded angle makes of the place.
+    /// The sum of some roundings, and the error of the place by a rounded angle.
     double tolerance(const Place& place) const {
         if (is_exact_) { return kSixDecimals; }
         const double reach = rotation_ == 0 ? 0 : 1e-6 * (std::abs(place[0]) + std::abs(place[1]));
@@ -146,7 +146,7 @@ private:
         add_centre(centre, normal);
     }
 
-    /// Without the height, which says nothing of an arc.
+    /// Without the coordinate normal to the arc's plane, which does not define the arc.
     void add_centre(const Place& centre, std::size_t normal) {
         Call call{"centre", {centre[0], centre[1], centre[2]}, tolerance(centre)};
         const bool is_turned = rotation_ != 0 && normal != 2;
@@ -204,9 +204,9 @@ private:
     bool mixed_ = false;
 };
 
-/// The digits of the output hide shorter moves, and so do offsets in inches.
+/// The rounding of the output hides shorter moves, and so do offsets in inches.
 constexpr double kRest = 0.004;
-constexpr double kUnknown = 1e9;  // behind a spline: the output does not give its end
+constexpr double kUnknown = 1e9;  // after a spline: the output does not give its end
 
 bool is_at(const std::vector<double>& at, const Call& call) {
     for (std::size_t i = 0; i < kPlaces; ++i) {

@@ -11,7 +11,7 @@
 namespace lockstep::oracle {
 namespace {
 
-/// Up to the end of the shorter: what the refused line did before its error differs.
+/// Only up to the end of the shorter list: a refused line may have acted before its error.
 std::optional<std::size_t> first_difference(const std::vector<Call>& theirs, const std::vector<Call>& ours) {
     const std::size_t count = std::min(theirs.size(), ours.size());
     for (std::size_t i = 0; i < count; ++i) {
@@ -20,7 +20,7 @@ std::optional<std::size_t> first_difference(const std::vector<Call>& theirs, con
     return std::nullopt;
 }
 
-/// Messages and T on the one hand, all else on the other.
+/// Splits the calls into messages and T, and all others.
 std::pair<std::vector<Call>, std::vector<Call>> parted(const std::vector<Call>& calls) {
     std::pair<std::vector<Call>, std::vector<Call>> parts;
     for (const Call& call : calls) {
@@ -51,13 +51,13 @@ Difference difference_of(const std::string& text, const Reading& theirs, const R
     return difference.text.empty() ? difference_of_calls(text, their_messages, our_messages) : difference;
 }
 
-/// rs274 resets the machine at M2.
+/// Whether the call is part of rs274's reset of the machine at M2.
 bool is_of_the_end(const Call& call) {
     constexpr std::array kNames{"stop spindle", "mist off", "flood off", "feed override", "speed override"};
     return std::ranges::find(kNames, call.name) != kNames.end();
 }
 
-/// Its file has six decimals, in inches.
+/// The first kept parameter that differs. rs274's file has six decimals, in inches.
 std::string kept_difference(const Reading& theirs, const Reading& ours) {
     constexpr double kSixDecimals_mm = 2e-5;
     for (const auto& [number, value] : theirs.kept) {

@@ -1,4 +1,4 @@
-// Random paths with cutter compensation. The program's own place is kept here: #5420 reads the tool's.
+// Random paths with cutter compensation. The programmed place is kept here, because #5420 is the tool's place.
 #include <cmath>
 #include <cstdio>
 
@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::array<std::array<int, 2>, 3> kAxes{{{0, 1}, {2, 0}, {1, 2}}};
 
-/// Arcs then have one radius at both ends: see the list in the test.
+/// With so many digits arcs have the same radius at both ends: see the list in oracle_test.cpp.
 std::string exact(double value) {
     std::array<char, 64> text{};
     std::snprintf(text.data(), text.size(), "%.12f", value);
@@ -27,7 +27,7 @@ std::string LineMaker::end_words(PathEnd& path, std::array<double, 2> step) {
     return text;
 }
 
-/// Tools of the table, or diameters in the units in use.
+/// Turns compensation on, with a tool of the table or a diameter in the current units.
 std::string LineMaker::cutter_on() {
     const std::string left = one_in(2) ? "G41" : "G42";
     switch (below(is_plain_ ? 3 : 4)) {

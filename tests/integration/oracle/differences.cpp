@@ -12,7 +12,7 @@ namespace {
 
 bool matches(const std::string& text, const char* pattern) { return std::regex_search(text, std::regex(pattern)); }
 
-/// Of the first line with this text.
+/// The number of the first line with this text; 0 if there is none.
 int number_of(const std::string& text, const std::string& line) {
     const std::size_t at = text.find(line);
     return at == std::string::npos
@@ -32,7 +32,7 @@ struct KnownDifference {
     bool (*holds)(const Refusal& refusal);
 };
 
-/// rs274 takes the program.
+/// rs274 accepts the program, and we refuse it.
 constexpr std::array kRefusedByUs{
     KnownDifference{"the tool would cut into the path, or run backward; rs274's tool does",
                     [](const Refusal& r) {
@@ -62,7 +62,7 @@ constexpr std::array kRefusedByUs{
                     [](const Refusal& r) { return matches(r.ours.message, "repeats [A-Z]-1;"); }},
 };
 
-/// We take the program.
+/// We accept the program, and rs274 refuses it.
 constexpr std::array kRefusedByThem{
     KnownDifference{"#5420 is the place of the tool's centre: rs274 gives it in messages alone",
                     [](const Refusal& r) {
@@ -99,7 +99,7 @@ struct MotionDifference {
     bool (*holds)(const Parting& parting);
 };
 
-/// Both take the program, and move apart.
+/// Both accept the program, and move differently.
 constexpr std::array kMovesApart{
     MotionDifference{
         "rs274 alone has no tool changer: behind M6 and M61 it takes the axes to stand where the new offset "

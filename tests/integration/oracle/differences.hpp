@@ -1,4 +1,4 @@
-// Where rs274 and we differ on purpose, each with its exact condition.
+// The intended differences between rs274 and our interpreter, each with its exact condition.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace lockstep::oracle {
 
-/// Both have done the same up to the line that one of them refuses: whether the list allows that.
+/// Whether the list allows that only one of the two refuses a line, after both did the same up to this line.
 bool may_refuse_alone(const std::string& text, const Reading& theirs, const Reading& ours);
 
 /// Whether the list allows different motions from call `index` on.

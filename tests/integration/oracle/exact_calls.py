@@ -16,7 +16,7 @@ PLANES = {1: "XY", 2: "YZ", 3: "XZ"}
 
 
 class Canon:
-    """What the interpreter calls."""
+    """Collects the interpreter's calls."""
 
     def __init__(self, folder):
         self.parameter_file = str(folder / "parameters.var")
@@ -59,14 +59,14 @@ def read(program):
     canon = Canon(program.parent)
     try:
         gcode.parse(str(program), canon, "G21", "", "")
-    except KeyboardInterrupt:  # check_abort: it repeats a program that has ended
+    except KeyboardInterrupt:  # from check_abort: the library repeats a program that has ended
         pass
     program.with_suffix(".calls").write_text("\n".join(canon.lines) + "\n")
 
 
 def main():
     for program in sorted(pathlib.Path(sys.argv[1]).glob("*.ngc")):
-        child = os.fork()  # the library keeps the tool offset of the program before
+        child = os.fork()  # the library keeps the tool offset of the previous program
         if child == 0:
             read(program)
             os._exit(0)

@@ -22,7 +22,7 @@ struct Exception {
     const char* reason;
 };
 
-/// rs274 takes them. We refuse them with this reason.
+/// rs274 accepts them. We refuse them with this reason.
 constexpr std::array kRefused{
     Exception{"gridprobe.ngc", "G38.2 needs a probe"},
     Exception{"lathe_g7x_face_boring.ngc", "G72 is for lathes"},
@@ -33,7 +33,7 @@ constexpr std::array kRefused{
     Exception{"x-trim.ngc", "G38.2 needs a probe"},
 };
 
-/// Both take them, and do not do the same.
+/// Both accept them, but act differently.
 constexpr std::array kApart{
     Exception{"roparams.ngc", "prints the number of LinuxCNC's version"},
     Exception{"skeleton.ngc", "rs274 alone has no tool changer, and is lost behind M6 and G43 in a block"},

@@ -98,7 +98,7 @@ private:
         add(name + " do");
         add("#6=[#6-1]");
         add(inner + " if [#6 eq " + std::to_string(lines_.below(4)) + "]");
-        add(name + " break");  // not continue: see the list in the test
+        add(name + " break");  // not continue: see the list in oracle_test.cpp
         add(inner + " endif");
         one_level(depth);
         add(name + " while [#6 gt 0]");
@@ -117,7 +117,7 @@ private:
         has_subroutine_ = true;
     }
 
-    /// Behind the program's end, where its calls find it.
+    /// Adds a subroutine after the program's end, where its calls find it.
     void later_subroutine() {
         add("o<later> sub");
         add("G1 X#1 F100");

@@ -19,7 +19,7 @@ using At = std::array<double, 3>;
 
 constexpr double kSample_mm = 0.02;
 constexpr double kDigits_mm = 0.01;      // of rs274's output, and of the samples
-constexpr std::size_t kCallsAfter = 12;  // rs274's path is looked at so far behind the refused line
+constexpr std::size_t kCallsAfter = 12;  // how many calls of rs274 after the refused line are checked
 
 double distance(const At& a, const At& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
@@ -36,7 +36,7 @@ void sample_straight(const At& from, const At& to, std::vector<At>& path) {
     }
 }
 
-/// About the axis that has no part in the centre's call.
+/// An arc about the axis that is normal to the plane of the axes `in`.
 struct SweptArc {
     SweptArc(const At& from, const Call& arc, const Call& call, std::array<std::size_t, 2> in)
         : centre(place_of(call)), axes(in), begin(angle(from)) {
@@ -74,7 +74,7 @@ void sample_arc(const At& from, const SweptArc& arc, std::vector<At>& path) {
 
 struct Path {
     std::vector<At> places;
-    std::vector<At> ways;   // of the straight motions, of length 1
+    std::vector<At> ways;   // unit directions of the straight motions
     double most_sweep = 0;  // of an arc
 };
 
@@ -129,8 +129,8 @@ std::vector<Way> ways_of(const std::vector<Call>& calls, std::array<std::size_t,
     return ways;
 }
 
-/// The text with the words that turn compensation on taken out. An L beside them is a lathe's, unless another code of
-/// the line has one.
+/// The text without the words that turn compensation on. An L beside them belongs to a lathe's tool, unless another
+/// code of the line has one.
 std::string uncompensated(const std::string& text) {
     const std::regex on("G4[12](\\.1)?|D *[-+]?[0-9.]+");
     const std::regex lathe("L *[-+]?[0-9.]+");
@@ -181,7 +181,7 @@ double radius_in(const std::string& message) {
     return at == std::string::npos ? 0 : std::strtod(message.c_str() + at + before.size(), nullptr);
 }
 
-/// The path to which the tool is to keep its distance: without the entry.
+/// The programmed path, without the entry. The tool must keep its distance from it.
 Path programmed_path(const std::string& text, const Section& section, std::array<std::size_t, 2> axes) {
     const std::vector<Call> calls = read_with_ours(uncompensated(text)).calls;
     std::size_t begin = calls.size();
@@ -193,7 +193,7 @@ Path programmed_path(const std::string& text, const Section& section, std::array
     return path_of(calls, begin + (section.is_entry ? 0 : 1), end, axes);
 }
 
-/// In the plane.
+/// The least distance between the two paths in the plane.
 double nearest(const Path& tool, const Path& programmed, std::array<std::size_t, 2> axes) {
     double least = std::numeric_limits<double>::infinity();
     for (const At& a : tool.places) {
@@ -219,7 +219,7 @@ struct Corner {
     bool has_arc = false;
 };
 
-/// Of the program's path, in the plane of `line`.
+/// The corners of the program's path, in the plane of `line`.
 std::vector<Corner> corners_of(const std::string& text, int line) {
     const auto axes = axes_of(section_about(text, line));
     const std::vector<Way> ways = ways_of(read_with_ours(uncompensated(text)).calls, axes);

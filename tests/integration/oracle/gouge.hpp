@@ -1,5 +1,5 @@
-// Whether a path of the tool's centre strays from the programmed path: found by distances and directions alone, without
-// the rules of cutter compensation.
+// Whether a path of the tool's centre strays from the programmed path. Uses only distances and directions, not the
+// rules of cutter compensation.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace lockstep::oracle {
 
-/// At the line that we have refused, rs274's path comes nearer to the program's path than the tool's radius, runs
+/// Whether, at the line that we refuse, rs274's path comes nearer to the program's path than the tool's radius, runs
 /// backward along it, or goes around an arc once more.
 bool strays_from_path(const std::string& text, const Reading& theirs, const Reading& ours);
 
-/// The motion of `line` begins or ends where the program's path turns back between an arc and another motion.
+/// Whether the motion of `line` begins or ends where the program's path turns back between an arc and another motion.
 bool turns_back_at(const std::string& text, int line);
 
-/// The motion before that of `line` is an arc, or follows one, that it begins with so small a corner that it counts as
+/// Whether the motion before that of `line` begins with a corner, beside an arc, that is so small that it counts as
 /// none.
 bool follows_almost_straight_arc(const std::string& text, int line);
 

@@ -17,7 +17,7 @@ std::string LineMaker::number(double value) {
     return text.data();
 }
 
-/// The same value in one of the ways that the language has.
+/// Writes a random value in one of the forms of the language.
 std::string LineMaker::value(double from, double to) {
     const double wanted = drawn(from, to);
     switch (below(14)) {
@@ -78,7 +78,7 @@ std::string LineMaker::arc_by_radius() {
     return text + " R" + (one_in(3) ? "-" : "") + std::to_string(least + 0.01 + drawn(0, 30));
 }
 
-/// By a centre and an angle: the end is where the angle leads.
+/// An arc by radius, or by a centre and an angle that give its end.
 std::string LineMaker::arc() {
     constexpr std::array<std::array<int, 3>, 3> kAxes{{{0, 1, 2}, {2, 0, 1}, {1, 2, 0}}};
     const auto axes = kAxes[static_cast<std::size_t>(plane_)];
@@ -157,7 +157,7 @@ std::string LineMaker::mode() {
     }
 }
 
-/// Rotations and G92 not in the same program: see the list in the test.
+/// Rotations and G92 do not occur in the same program: see the list in oracle_test.cpp.
 std::string LineMaker::offset() {
     switch (below(13)) {
         case 0: return "G10 L2 P" + std::to_string(below(10)) + axis_words("XYA", 30) + " Z1";

@@ -1,4 +1,4 @@
-// Random lines of G-code that are right, mostly: it keeps in mind what the lines before have set.
+// Makes random lines of G-code that are mostly valid. Keeps the modes that earlier lines have set.
 #pragma once
 
 #include <array>
@@ -17,11 +17,12 @@ public:
 
     /// A block without its line's end.
     std::string block();
-    /// What the axes' places are by the program's own words.
+    /// A line that prints the axes' places as the program reads them.
     static std::string report() { return "(debug,#5420 #5421 #5422 #5423 #5424 #5425)"; }
-    /// A word in the middle of a line that it may not fit.
+    /// A word that may be invalid in the line into which it is put.
     std::string odd_word();
-    /// Within a loop or a branch a line may run again or not at all: nothing then that the lines behind rely on.
+    /// In a loop or a branch (nested) a line may run again or not at all. It then changes nothing that later lines
+    /// need.
     bool changes_units() const { return changes_units_; }
     void set_nested(bool nested) { nested_ = nested; }
 

@@ -1,33 +1,33 @@
-// Random programs: LinuxCNC's interpreter and ours do the same, or both refuse the same program.
+// Random programs: LinuxCNC's interpreter and ours do the same, or both refuse the program.
 //
-// The interpreter as a library gives all digits of motions, centres, feeds and dwells: these are compared to 1e-6. The
-// program rs274 gives every call, with four decimals, the refusals and the parameters that a program leaves. Places
-// that a program prints itself, (debug,#5420), have six. More programs: LOCKSTEP_ORACLE_COUNT, from
-// LOCKSTEP_ORACLE_SEED on.
+// LinuxCNC's interpreter as a library gives all digits of motions, centres, feeds and dwells, which are compared to
+// 1e-6. The program rs274 gives every call with four decimals, the refusals, and the parameters that a program leaves.
+// Places that a program prints itself, (debug,#5420), have six decimals. LOCKSTEP_ORACLE_COUNT sets the number of
+// programs, and LOCKSTEP_ORACLE_SEED the first seed.
 //
-// Where the two differ on purpose: differences.cpp, with the condition of each. The generator leaves these out:
-// - F in the block of G20 or G21 counts in the new units, as in grbl. rs274: in those before.
-// - A canned cycle goes across at the greater of two heights, as LinuxCNC's documentation has it. rs274 goes aslant, or
-//   down first, where R changes between cycles without G80.
+// differences.cpp has differences that are intended, with the condition of each. The generator leaves out these others;
+// each item says what our interpreter does, then what rs274 does:
+// - F in the block of G20 or G21 counts in the new units, as in grbl. rs274 counts it in the old units.
+// - A canned cycle crosses at the greater of two heights, as LinuxCNC's documentation says. Where R changes between
+//   cycles without G80, rs274 crosses aslant, or goes down first.
 // - A rotation (G10 L2 R) while G92 holds keeps the axes where they stand. rs274 turns the G92 offsets as well, and
 //   then moves axes that the block does not name.
-// - Tool lengths keep their size over G20 and G21. rs274 takes their number as one of the new units. The same with the
-//   feed that M72 and M73 take up again, which rs274 also rounds to a tenth.
-// - continue in a do loop leaves the loops behind it alone. rs274 repeats the next repeat loop again, or for ever.
-// - #<a>=[#<a>+1] with an #<a> that has no value is refused. rs274 takes 0.
-// - A call finds a subroutine anywhere behind it. rs274 does not find one that it has passed over on the way to
-//   another.
-// - M66 to M68 want whole numbers of outputs from 0, and M67 and M68 a Q. rs274 rounds and guesses.
-// - A % may stand behind blanks; a line has 256 characters. Labels of O-words are checked where the body ends, not
-//   where the program does: rs274 takes an if without endif.
-// - rs274 by itself is an inch machine without tool changer: #5400 to #5413 and where the axes stand behind M6 and M61
-//   are its own.
-// - With cutter compensation messages, T and stops come when the motions before them are done. rs274 gives messages and
-//   T at once, and stops at the end of a motion that the next corner would have cut short. M61 is refused meanwhile;
+// - Tool lengths keep their size over G20 and G21. rs274 takes their number as one of the new units. The same holds for
+//   the feed that M72 and M73 restore, which rs274 also rounds to a tenth.
+// - continue in a do loop does not affect later loops. rs274 repeats the next repeat loop again, or forever.
+// - #<a>=[#<a>+1] is refused if #<a> has no value. rs274 takes 0.
+// - A call finds a subroutine anywhere after it. rs274 does not find one that it has skipped on the way to another.
+// - M66 to M68 need whole numbers of outputs from 0, and M67 and M68 need a Q. rs274 rounds and guesses.
+// - A % may follow blanks, and a line may have 256 characters. Labels of O-words are checked at the end of the body.
+//   rs274 checks them at the end of the program: it accepts an if without endif.
+// - rs274 by itself is an inch machine without a tool changer. It has its own values of #5400 to #5413, and its own
+//   places of the axes after M6 and M61.
+// - With cutter compensation, messages, T and stops come when the motions before them are done. rs274 gives messages
+//   and T at once, and stops at the end of a motion that the next corner would have shortened. M61 is refused then;
 //   rs274 loses a motion at it.
-// - Where an arc's radius changes a little from its start to its end, a corner is found with the radius at the corner.
-// - The first motion after cutter compensation may not be a spline. An L beside G41 or G42 is refused; rs274 passes
-//   over it.
+// - If an arc's radius changes a little from its start to its end, a corner is found with the radius at the corner.
+// - The first motion after cutter compensation may not be a spline. An L beside G41 or G42 is refused; rs274 ignores
+//   it.
 // - Refused by name: G7, G33, G38, G70 to G72, G74, G76, G84, G87, G88, G95, G96, M19, M98 to M199.
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@
 namespace lockstep::oracle {
 namespace {
 
-constexpr double kTurns_mm = 1e-5;  // a move of less is one of turning axes
+constexpr double kTurns_mm = 1e-5;  // in a shorter move only turning axes move
 
 std::uint32_t number_from(const char* name, std::uint32_t usual) {
     const char* text = std::getenv(name);
@@ -78,7 +78,7 @@ protected:
     }
 };
 
-/// Without what the library does not report, and the feeds of moves that only turn, which it gives in units of length.
+/// Leaves out calls that the library does not report, and feeds of moves that only turn: it gives these in lengths.
 std::vector<Call> motions_of(const std::vector<Call>& calls) {
     constexpr std::array kNames{"rapid", "feed", "arc", "centre", "dwell"};
     std::vector<Call> motions;

@@ -45,7 +45,7 @@ std::string tool_table() {
     return text.str();
 }
 
-/// Of nine coordinates the first three and the last three are lengths.
+/// Converts a parameter to mm: the first three and the last three of nine coordinates are lengths.
 double in_mm(int parameter, double value) {
     const int place = parameter >= 5221 ? (parameter - 5221) % 20 : (parameter - 5161) % 20;
     const bool is_g92 = parameter >= 5211 && parameter <= 5219;
@@ -66,7 +66,7 @@ std::map<int, double> kept_parameters(const std::string& text) {
     return kept;
 }
 
-/// The first line of its complaint, and the line that it is about.
+/// Reads the first line of rs274's error message, and the line of the program that it is about.
 void read_complaint(const std::string& text, Reading& reading) {
     std::istringstream lines(text);
     std::string line;
@@ -97,7 +97,7 @@ Reading read_with_rs274(const std::string& text, const std::string& folder) {
     write(directory.file("program.ngc"), text);
     write(directory.file("tool.tbl"), tool_table());
     write(directory.file("parameters.var"), "");
-    // It keeps its tools in a file of the home directory.
+    // rs274 keeps its tools in a file of the home directory.
     const std::string command = "cd '" + folder + "' && D=" + directory.file("") +
                                 " && HOME=$D timeout 5 /usr/bin/rs274 -g -t $D/tool.tbl -v $D/parameters.var "
                                 "$D/program.ngc </dev/null >$D/output 2>$D/errors";

@@ -19,7 +19,7 @@ def look(html, folder, width, *flags):
         ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", f"--window-size={width},900",
          "--virtual-time-budget=3000", f"--user-data-dir={folder}/profile", *flags, "--dump-dom", f"file://{page}"],
         capture_output=True, text=True, timeout=100, check=True)
-    # Of the page, not of the browser's own ones.
+    # Errors of the page, not of the browser's own pages.
     complaints = [line for line in shown.stderr.splitlines() if "CONSOLE" in line and "source: chrome:" not in line]
     seen = re.search(r'data-seen="([^"]*)"', shown.stdout)
     assert not complaints, complaints

@@ -47,7 +47,7 @@ protected:
     std::filesystem::path folder_;
 };
 
-/// In all namespaces.
+/// The number of the machine's processes in all namespaces.
 int processes_of_machine() {
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator("/proc")) {

@@ -19,7 +19,7 @@ using std::chrono::steady_clock;
 
 class Flooded : public OwnMachine {
 protected:
-    /// From the machine's start until it has moved: discovery and the members' messages.
+    /// Captures the packets from the machine's start until it has moved: discovery and the members' messages.
     void SetUp() override {
         OwnMachine::SetUp();
         bring_up_and_home();
@@ -28,7 +28,7 @@ protected:
         ASSERT_GT(tap_.stop().size(), 1000U);
     }
 
-    /// source: of packets.
+    /// Sends 24,000 packets of the source, 4,000 in a second.
     template <typename Source>
     void flood(Source source) const {
         constexpr int kPackets = 24'000;
@@ -39,7 +39,7 @@ protected:
         }
     }
 
-    /// A person clears the fault, if the silence caused one.
+    /// Resets a fault that the silence may have caused. Returns whether the machine is ready.
     bool is_ready() const {
         if (run_lockstep({"reset"}).code != 0) { return false; }
         const Ran ran = run_lockstep({"status", "--json"});
@@ -48,7 +48,7 @@ protected:
         return report.phase() == "Idle" && report.axes(0).present() && report.axes(1).present();
     }
 
-    /// Ready, and the axes move on command.
+    /// Waits until the machine is ready; then the axes move on command.
     void expect_recovers() const {
         const auto stopped = steady_clock::now();
         ASSERT_TRUE(eventually([&] { return is_ready() && run_lockstep({"home"}).code == 0; }));

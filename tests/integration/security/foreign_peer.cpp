@@ -1,6 +1,6 @@
 // A foreign peer that tries to move the machine, on its network and with the given keys:
 //   integration_security_foreign_peer DOMAIN MACHINE PARTITION KEYS MEMBER [READERS]
-// PARTITION: that of an axis by its number, or -. KEYS: a directory, or - for none; MEMBER: whose keys.
+// PARTITION: that of an axis by its number, or -. KEYS: a directory, or - for none; MEMBER: the owner of the keys.
 // READERS: for a proper member, the number of readers that it must match; its tries count from then on.
 //   integration_security_foreign_peer DOMAIN MACHINE protocol NUMBER -     a process of the machine, of another version
 // Tries for a while to write every topic that moves something, and to read; prints the results, a line each.

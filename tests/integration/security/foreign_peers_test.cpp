@@ -1,4 +1,4 @@
-// Peers that do not belong to the machine get no answer, move nothing, and are reported: real processes that try.
+// Real processes that do not belong to the machine get no answer, move nothing, and are reported.
 #include <gmock/gmock.h>
 
 #include <filesystem>

@@ -13,8 +13,8 @@ public:
     /// packets: Ethernet frames with IPv4 and UDP, from PacketTap; those that are not of DDS are left out.
     PacketDamage(const std::vector<std::string>& packets, unsigned seed);
 
-    /// One of them with up to eight bits flipped, cut short, with another submessage length, or with two of its
-    /// two of its submessages exchanged.
+    /// One of the packets, with up to eight bits flipped, cut short, with another submessage length, or with two of its
+    /// submessages exchanged.
     std::string next();
 
 private:

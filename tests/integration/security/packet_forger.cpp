@@ -18,7 +18,7 @@ void put_sequence_number(std::string& packet, std::size_t at, std::uint64_t numb
     std::memcpy(&packet[at + 4], &low, 4);
 }
 
-/// A submessage's sequence number is so far behind its header; of a heartbeat and a gap there are two.
+/// Sets a submessage's sequence number, at its offset from the header. A heartbeat has two; of a gap the last is set.
 void advance(std::string& packet, std::size_t header, std::uint64_t number) {
     switch (static_cast<unsigned char>(packet[header])) {
         case kAckNack: return put_sequence_number(packet, header + 12, number);

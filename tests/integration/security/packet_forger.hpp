@@ -15,7 +15,7 @@ public:
 
     /// The number of packets to choose from.
     std::size_t size() const { return packets_.size(); }
-    /// One of them: unchanged, with sequence numbers far ahead, another sender, or another lease.
+    /// One of the packets: unchanged, with sequence numbers far ahead, another sender, or another lease.
     std::string next();
 
 private:

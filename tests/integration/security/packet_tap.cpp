@@ -16,7 +16,7 @@
 namespace lockstep {
 namespace {
 
-// Of an IPv4 packet without options, after its Ethernet header.
+// Offsets in an Ethernet frame that has an IPv4 packet without options.
 constexpr std::size_t kProtocolAt = 14 + 9;
 constexpr std::size_t kReceiver = 14 + 16;
 constexpr std::size_t kReceiverPort = 14 + 20 + 2;
@@ -75,7 +75,7 @@ const std::vector<std::string>& PacketTap::stop() {
     return packets_;
 }
 
-/// As a new datagram: the kernel drops a frame that is put onto lo with an address of lo as its sender.
+/// Sends the content as a new datagram: the kernel drops a frame put onto lo with an address of lo as its sender.
 bool PacketTap::send(const std::string& packet) const {
     sockaddr_in to{};
     to.sin_family = AF_INET;

@@ -16,13 +16,13 @@ public:
     PacketTap(const PacketTap&) = delete;
     PacketTap& operator=(const PacketTap&) = delete;
 
-    /// False: no raw sockets here.
+    /// False if there are no raw sockets here.
     bool works() const { return socket_ >= 0; }
-    /// Ends listening; the packets so far, each once.
+    /// Ends listening. Returns the packets so far, each once.
     const std::vector<std::string>& stop();
-    /// The same, after it has ended.
+    /// The captured packets, after listening has ended.
     const std::vector<std::string>& packets() const { return packets_; }
-    /// False: it was not sent completely.
+    /// Returns false if the packet was not sent completely.
     bool send(const std::string& packet) const;
     /// Sends them again, in their order. Returns how many were sent.
     std::size_t send_again() const;

@@ -14,7 +14,7 @@ inline constexpr std::size_t kSubmessages = kRtps + 20;
 inline constexpr std::size_t kSubmessageHeader = 4;
 inline constexpr std::size_t kSubmessageLength = 2;  // in the header: 16 bits
 
-/// Those of DDS.
+/// Those of the packets that are RTPS packets.
 std::vector<std::string> rtps_packets(const std::vector<std::string>& packets);
 
 /// Where the submessages of a packet begin, in order.

@@ -1,4 +1,4 @@
-// A machine whose processes authenticate, and a foreign peer.
+// A machine with processes that authenticate, and a foreign peer.
 #pragma once
 
 #include <memory>
@@ -22,7 +22,7 @@ protected:
     /// The same, in parallel to the test.
     std::unique_ptr<ChildProcess> begin_foreign_peer(const std::string& partition, const std::string& keys,
                                                      const std::string& member, const Words& how = {}) const;
-    /// No process accepted it, and the machine is unchanged.
+    /// No process accepted the foreign peer, and the machine is unchanged.
     void expect_excluded(const std::string& output) const;
     /// All axes are at their park positions, no job was begun, no fault.
     void expect_untouched() const;

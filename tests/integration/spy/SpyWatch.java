@@ -2,7 +2,7 @@
 // every channel expected, opens one, clicks on its curves, takes a picture, and reports the results.
 //
 // Argument: FOLDER,CHANNEL,CHANNEL... The first channel's fields are shown and plotted. FOLDER/spy.png is the picture,
-// FOLDER/spy.txt what was seen: a line for each channel, then "plotted POINTS PIXELS". Nothing where it never came.
+// FOLDER/spy.txt the result: a line for each channel, then "plotted POINTS PIXELS". No spy.txt if something is missing.
 import info.monitorenter.gui.chart.Chart2D;
 import info.monitorenter.gui.chart.ITrace2D;
 import java.awt.Component;
@@ -27,7 +27,7 @@ import javax.swing.SwingUtilities;
 import lcm.spy.ObjectPanel;
 
 public final class SpyWatch {
-    private static final int POINTS = 120; // of a curve, before it is looked at
+    private static final int POINTS = 120; // of a curve, before it is evaluated
     private static final String[] CURVES = {"position_mm", "velocity_mm_per_s"};
 
     private SpyWatch() {}
@@ -61,7 +61,7 @@ public final class SpyWatch {
         }
     }
 
-    /** Asks again and again on Swing's own thread until there is an answer; who is tired of waiting ends the process. */
+    /** Asks repeatedly on Swing's own thread until there is an answer. The script ends the process if none comes. */
     private static <T> T await(Supplier<T> question) throws Exception {
         ArrayList<T> answer = new ArrayList<>();
         while (true) {
@@ -99,8 +99,8 @@ public final class SpyWatch {
     }
 
     /**
-     * Every channel as "NAME TYPE UNDECODABLE", once all are there. Asked before a window is opened: lcm-spy counts as
-     * undecodable, too, what comes while it makes one.
+     * Every channel as "NAME TYPE UNDECODABLE", once all are there; null before. To be called before a window opens:
+     * lcm-spy also counts messages as undecodable that come while it opens one.
      */
     private static List<String> decoded(JTable table, List<String> channels) {
         List<String> lines = new ArrayList<>();
@@ -137,7 +137,7 @@ public final class SpyWatch {
         return fields;
     }
 
-    /** A click with the middle button on a field's curve opens its chart in a window of its own. */
+    /** A click with the middle button on a field's curve opens its chart in a separate window. */
     private static Chart2D openChart(ObjectPanel fields, String field, int y) throws Exception {
         int middle = await(() -> middleOfCurve(fields, field));
         List<Chart2D> before = await(() -> all(Chart2D.class));
@@ -151,7 +151,7 @@ public final class SpyWatch {
         return chart;
     }
 
-    /** Where it was drawn last, which the panel keeps to itself; null: not yet. */
+    /** Where the curve was drawn last, from private fields of the panel; null if it was not drawn yet. */
     private static Integer middleOfCurve(ObjectPanel fields, String field) {
         try {
             for (Object curve : (List<?>) read(fields, "visibleSparklines")) {

@@ -11,7 +11,7 @@ def expect(is_so, what):
 
 
 def refused(answer, status, code):
-    """Returns the problem."""
+    """Checks that an answer is a refusal. Returns its problem."""
     problem = answer.json()
     expect(answer.status == status and problem["code"] == code, f"{status} {code} awaited: {answer.status} {problem}")
     expect(problem["detail"] and answer.headers["content-type"] == "application/problem+json", problem)
@@ -74,7 +74,7 @@ class Client:
 
 
 def patched(document, patch):
-    """RFC 7396, from its own text."""
+    """A JSON merge patch, written from the text of RFC 7396."""
     if not isinstance(patch, dict):
         return patch
     document = dict(document) if isinstance(document, dict) else {}
@@ -87,7 +87,7 @@ def patched(document, patch):
 
 
 class Events:
-    """A stream of server-sent events over a socket of its own."""
+    """A stream of server-sent events over its own socket."""
 
     def __init__(self, client, last_id=None):
         self.socket = socket.create_connection(("127.0.0.1", client.port), timeout=30)

@@ -1,4 +1,4 @@
-"""The server's interface as clients/web/openapi.yaml has it, and what of it was seen."""
+"""The server's interface according to clients/web/openapi.yaml, and the responses that were seen."""
 import json
 import pathlib
 import re
@@ -6,7 +6,7 @@ import re
 import jsonschema
 import yaml
 
-# A request that comes from elsewhere, and a method that the path does not take, are refused wherever they come.
+# Every path may refuse a request from elsewhere, and a method that it does not have.
 EVERYWHERE = {403: "foreign-", 405: "wrong-method"}
 
 
@@ -22,7 +22,7 @@ class Contract:
                 for method, operation in methods.items()}
 
     def path_of(self, path):
-        """The document's: /api/reports/{name} of /api/reports/a.html. None: it has no such path."""
+        """The document's path: /api/reports/{name} for /api/reports/a.html. None if it has no such path."""
         plain = path.split("?")[0]
         for known in self.document["paths"]:
             if re.fullmatch(re.sub(r"\{\w+\}", "[^/]+", known), plain):
@@ -38,7 +38,7 @@ class Contract:
         return not self.errors({"$ref": f"#/components/schemas/Command_{verb}"}, body)
 
     def response(self, method, path, answer):
-        """The declared response; None where the document has none of this status."""
+        """The declared response; None if the document has none with this status."""
         declared = self.operations().get((method, path), {}).get("responses", {}).get(str(answer.status))
         if declared is None and answer.status in EVERYWHERE:
             code = json.loads(answer.body)["code"] if answer.body else ""
@@ -48,7 +48,7 @@ class Contract:
         return declared
 
     def check(self, method, asked, answer):
-        """Every answer below /api is one that the document describes."""
+        """Checks that the document describes the answer of a path that it has."""
         path = self.path_of(asked)
         if path is None or method == "HEAD":
             return

@@ -2,7 +2,7 @@
 """Prints what viewers of the page cost, as a table of Markdown: CPU of the server, CPU of the machine's processes beside
 it, and bytes for each viewer, at rest and in motion.
 
-Usage: load.py ROOT PROGRAMS [SECONDS]    SECONDS: of each row; 20 without it
+Usage: load.py ROOT PROGRAMS [SECONDS]    SECONDS: for each row, by default 20
 """
 import pathlib
 import sys

@@ -1,4 +1,4 @@
-"""A machine of its own with a server beside it, in a network of its own, for as long as a `with` lasts."""
+"""A machine with a server beside it, in its own network, for the time of a `with`."""
 import contextlib
 import os
 import pathlib
@@ -14,7 +14,7 @@ from contract import Contract
 
 
 def own_network():
-    """Runs this program again in a network of its own, where that is permitted."""
+    """Runs this program again in its own network, where that is permitted."""
     if "OWN_NETWORK" not in os.environ and subprocess.run(["unshare", "--net", "true"], capture_output=True).returncode == 0:
         os.execvpe("unshare", ["unshare", "--net", "--", sys.executable, *sys.argv], {**os.environ, "OWN_NETWORK": "yes"})
     if "OWN_NETWORK" in os.environ:
@@ -78,7 +78,7 @@ class Machine:
 
 @contextlib.contextmanager
 def served():
-    """(machine, client): of this program's arguments; the server and the machine end with it."""
+    """Yields (machine, client), from this program's arguments. The server and the machine end with the `with`."""
     own_network()
     with Machine(*sys.argv[1:]) as machine:
         machine.serve()

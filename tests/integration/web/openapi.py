@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The server does what clients/web/openapi.yaml says: every path, verb and status of it is asked for, every answer is
-of its schema, and the server has no route beside it.
+"""The server does what clients/web/openapi.yaml says: the test requests every path, verb and status of it, every answer
+matches its schema, and the server has no other route.
 
 Usage: openapi.py ROOT PROGRAMS
 """
@@ -35,7 +35,7 @@ BODIES = {
     "take": ({}, []),
     "give": ({}, []),
 }
-# Of what no request of one client can be sure: a queue that is full.
+# One client cannot cause this for certain: a full queue.
 NOT_ASKED = {("POST", "/api/commands/{verb}", 429), ("POST", "/api/program", 409)}
 
 

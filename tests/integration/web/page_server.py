@@ -134,7 +134,7 @@ def check_values(client):
 
 
 def check_jog(client):
-    """Renewed it moves; not renewed, or with its page gone, it stops by itself; a late renewal starts nothing."""
+    """A jog moves while it is renewed. Without renewal or page it stops by itself. A late renewal starts nothing."""
     jog = {"jogs": [{"axis": "X", "velocity": 20}], "stream": "none", "press": 0}
     for _ in range(200):  # a host that stalls for longer than a jog lasts without a renewal ends it
         answer = client.command("jog", jog)
@@ -178,7 +178,7 @@ def check_stop(client):
 
 
 def check_viewers(client):
-    """Fifty read; one does not and is dropped, while the others go on."""
+    """Fifty viewers read at the same time."""
     streams = [Events(client) for _ in range(50)]
     for stream in streams:
         while stream.state is None:

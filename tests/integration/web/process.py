@@ -1,4 +1,4 @@
-"""What a process takes of its host."""
+"""The CPU time and the memory of a process."""
 import os
 import pathlib
 

@@ -1,11 +1,11 @@
-"""Many event streams in one thread: what comes is counted and thrown away."""
+"""Many event streams in one thread: counts what they receive, and drops it."""
 import selectors
 import socket
 import time
 
 
 class Stream:
-    """`buffer`: of the kernel, in bytes, for a viewer that hardly reads."""
+    """`buffer`: the kernel's receive buffer, in bytes, for a viewer that hardly reads."""
 
     def __init__(self, client, buffer=None):
         self.socket = socket.socket()
@@ -23,7 +23,7 @@ class Stream:
 
 
 def read_all(streams, seconds):
-    """Reads what comes in this time."""
+    """Reads all streams for this time."""
     end = time.monotonic() + seconds
     with selectors.DefaultSelector() as selector:
         for stream in streams:

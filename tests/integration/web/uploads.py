@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Programs of megabytes are loaded, drawn and run; what is too long or no program gets a clear answer, also from a
-client that sends it to the end; reports of past jobs are listed and opened.
+"""Programs of megabytes are loaded, drawn and run. A text that is too long or no program gets a clear answer, also if
+the client sends all of it. Reports of past jobs are listed and opened.
 
 Usage: uploads.py ROOT PROGRAMS
 """
@@ -32,7 +32,7 @@ def check_refused(client):
 
 
 def check_told_early(client):
-    """A client that asks before it sends is told at once."""
+    """A client that asks before it sends is refused at once."""
     with socket.create_connection(("127.0.0.1", client.port), timeout=60) as connection:
         connection.sendall(f"POST /api/program HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer {client.token}\r\n"
                            f"Content-Length: {100 * MEGABYTE}\r\nExpect: 100-continue\r\n\r\n".encode())
@@ -67,7 +67,7 @@ def check_long_program(client):
 
 
 def check_reports(machine, client):
-    """Of the job that was just run, from the machine's own record."""
+    """The report of the job that was just run, from the machine's own record."""
     logs = machine.work / "job.lcm"
     records = {str(file.parent) for file in (machine.work / "state").rglob("*.lcm")}
     machine.lockstep("log", "merge", str(logs), *records)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Fifty viewers at once, and among them some that do not read or vanish: they are dropped, the others get everything,
-and the server's memory does not grow with what is not read.
+"""Fifty viewers at once, and others that do not read or that vanish: the server drops those, the fifty get everything,
+and unread data does not make the server's memory grow.
 
 Usage: viewers.py ROOT PROGRAMS
 """
@@ -22,11 +22,11 @@ MOST_IDLE_SHARE = 0.25
 
 
 def check_idle(machine):
-    """Nobody looks and nothing moves: the server waits."""
+    """The server hardly uses the CPU while it has no viewer and nothing moves."""
     before = cpu_s([machine.server.pid])
     time.sleep(IDLE_S)
     used = cpu_s([machine.server.pid]) - before
-    expect(used < MOST_IDLE_SHARE * IDLE_S, f"{used} s of {IDLE_S} s are spent on nothing")
+    expect(used < MOST_IDLE_SHARE * IDLE_S, f"the idle server used {used} s of processor time in {IDLE_S} s")
 
 
 def begin_motion(client):
@@ -37,7 +37,7 @@ def begin_motion(client):
 
 
 def check_stalled(machine, client):
-    """The deltas that a viewer may be behind, and what the kernel keeps for it, are bounded."""
+    """The deltas that the server keeps for a viewer that does not read, and the kernel's buffer, are bounded."""
     readers = [Stream(client) for _ in range(50)]
     stalled = [Stream(client, buffer=4096) for _ in range(5)]
     client.await_state(lambda s: s["viewers"] == 55)

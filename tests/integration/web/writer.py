@@ -28,7 +28,7 @@ def check_first_command(client):
     refused(client.command("resume"), 409, "nothing-to-do")
     writer = client.await_state(is_mine)["writer"]
     expect(writer["name"] == f"the page at http://127.0.0.1:{client.port}/", writer)
-    client.await_state(is_free)  # nobody is there who could give more work
+    client.await_state(is_free)  # no viewer is left that could give more commands
     expect(client.command("hold").status == 409 and is_free(client.state()), "a hold needs no lease")
 
 
@@ -67,7 +67,7 @@ def check_other_writer(machine, client):
 
 
 def check_taken_while_jogging(machine, client):
-    """The jog ends, and its key begins no other."""
+    """If another client takes the lease, the jog ends, and its key begins no other jog."""
     jog = {"jogs": [{"axis": "X", "velocity": 5}], "press": 1}
     for jog["press"] in range(1, 100):  # a host that stalls ends a jog, too
         answer = client.command("jog", jog)

@@ -12,7 +12,7 @@ export function openBrowser(graphics = WITHOUT_GPU) {
 export const PHONE = { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2, hasTouch: true, isMobile: true };
 export const DESKTOP = { viewport: { width: 1440, height: 900 } };
 
-/** A page of its own cookies. `complaints` has what its console said of errors, but not what the network refused. */
+/** A page with its own cookies. `complaints` collects the errors on its console, except those of the network. */
 export async function openPage(browser, address, options = DESKTOP) {
   const context = await browser.newContext({ locale: "en-GB", colorScheme: "light", ...options });
   const page = await context.newPage();

@@ -1,4 +1,4 @@
-// How soon the page of a machine shows it, on loopback: prints a table, or writes it into docs/page.md.
+// Measures how soon the page shows a machine, on loopback. Prints a table, or writes it into docs/page.md.
 // Usage: page_on_a_machine.py ROOT PROGRAMS node first_paint.mjs [docs/page.md]
 import { readFileSync, writeFileSync } from "node:fs";
 import { openBrowser, openPage, shown } from "./browser.mjs";
@@ -7,7 +7,7 @@ import { Server } from "./real_machine.mjs";
 const LOADS = 15;
 const [document_file] = process.argv.slice(2);
 
-/** In the page, before its own script: notes when the machine's values are first on the screen. */
+/** Runs in the page before its own script: notes when the machine's values are first on the screen. */
 function watch() {
   new MutationObserver((_, observer) => {
     if (document.documentElement.dataset.shown !== "yes") return;

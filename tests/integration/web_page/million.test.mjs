@@ -1,4 +1,5 @@
-// A program of a million segments: it is drawn, turned and followed. Times are printed, not judged: they are the host's.
+// A program of a million segments is drawn, turned and followed. Times are printed but not checked: they depend on the
+// host.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { openBrowser, openPage, shown } from "./browser.mjs";

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A machine that is up, in a network of its own, while a program of Node drives its page in a browser.
+"""A machine that is up, in its own network, while a program of Node drives its page in a browser.
 
 Usage: page_on_a_machine.py ROOT PROGRAMS COMMAND...    PROGRAMS: the folder of lockstep and lockstep-web
 MACHINE_NAME in the environment names the machine; otherwise it has a name of its own.

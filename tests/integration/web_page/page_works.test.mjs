@@ -1,4 +1,4 @@
-// The page in a real browser, at a stand-in machine: what a person does, and what then is on the screen.
+// Tests the page in a real browser, with a stand-in machine: a person acts, and the screen shows the result.
 import assert from "node:assert/strict";
 import { after, afterEach, before, beforeEach, describe, test } from "node:test";
 import { DESKTOP, openBrowser, openPage, PHONE, shown } from "./browser.mjs";

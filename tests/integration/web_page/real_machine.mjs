@@ -18,7 +18,7 @@ export function lockstep(...words) {
   assert.equal(ran.status, 0, `lockstep ${words}: ${ran.stdout}${ran.stderr}`);
 }
 
-/** A command of another client, which goes on beside the test until it has `ended`. */
+/** A command of another client, which runs in parallel to the test until `ended`. */
 export function startLockstep(env, ...words) {
   const process_ = spawn(`${PROGRAMS}/lockstep`, words, { stdio: "ignore", env: { ...process.env, ...env } });
   return { ended: new Promise((resolve) => process_.once("exit", resolve)) };
@@ -68,7 +68,7 @@ export class Server {
     return state;
   }
 
-  /** Idle, homed, at 100 %, whatever was before. */
+  /** Brings the machine from any state to Idle, homed, at 100 %. */
   async settle() {
     await this.becomes("a machine", ({ mode }) => !["Unreachable", "Waiting"].includes(mode));
     await until("idle", async () => {

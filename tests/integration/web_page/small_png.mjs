@@ -1,4 +1,4 @@
-// A screenshot with at most 256 colours: a fraction of the bytes, and no difference that is seen.
+// A screenshot with at most 256 colours: a fraction of the bytes, and no visible difference.
 import { deflateSync } from "node:zlib";
 
 /** Red, green, blue, opacity of each pixel; the browser decodes the picture. */

@@ -1,7 +1,7 @@
-// A machine that follows commands as lockstep-web's machine does, without one: for pictures, and for paths of any length.
+// Follows commands like a machine behind lockstep-web, without a real one: for pictures, and for paths of any length.
 
 const FAULTS = {
-  emergency: { number: 118, code: "emergency-stopped", axis: null, cause: "an emergency stop was commanded", remedy: "see that it is safe; the homing is suspect: lockstep reset, lockstep home" },
+  emergency: { number: 118, code: "emergency-stopped", axis: null, cause: "an emergency stop was commanded", remedy: "make sure that the machine is safe; an axis that was stopped in motion must be homed again: lockstep reset, lockstep home" },
 };
 
 const axis = (name, max, max_velocity) => ({
@@ -68,7 +68,7 @@ export class StandInMachine {
     this.state.program = { id: (this.state.program?.id ?? 0) + 1, name, bytes: this.program.text.length, lines: this.program.text.split("\n").length - 1, blocks: segments, notes: [] };
   }
 
-  /** @returns nothing where the command is accepted, else a problem */
+  /** @returns undefined if the command is accepted, otherwise a problem */
   command(verb, body) {
     if (verb !== "jog" || this.commands.at(-1)?.verb !== "jog" || body.jogs.length === 0) this.commands.push({ verb, body });
     const { state } = this;

@@ -24,7 +24,7 @@ async function bodyOf(request) {
   return Buffer.concat(parts).toString();
 }
 
-/** Wrong where a line has the word BAD. */
+/** An error for each line with the word BAD. */
 function wrongLines(text) {
   return text.split("\n").flatMap((line, i) => (line.includes("BAD") ? [{ line: i + 1, column: line.indexOf("BAD") + 1, message: "a letter that G-code does not know: B" }] : []));
 }
@@ -49,7 +49,7 @@ export class StandInServer {
     return `http://127.0.0.1:${this.port}`;
   }
 
-  /** Cuts every connection, as a server that dies. */
+  /** Cuts every connection, like a server that dies. */
   async close() {
     clearInterval(this.timer);
     this.server.closeAllConnections();

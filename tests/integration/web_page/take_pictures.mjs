@@ -27,7 +27,7 @@ async function keep(name, page) {
   writeFileSync(join(out, `page-${name}.png`), await smallPng(page, await page.screenshot()));
 }
 
-/** An axis stands still, as if its board had lost its power. */
+/** Signals the process of axis Y. Stopped, it looks as if its board had lost its power. */
 function signalAxisY(signal) {
   const state = process.env.LOCKSTEP_STATE;
   const [machine] = readdirSync(state);

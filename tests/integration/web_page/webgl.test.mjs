@@ -5,7 +5,7 @@ import { openBrowser, openPage, shown, WEBGL } from "./browser.mjs";
 import { StandInMachine } from "./stand_in_machine.mjs";
 import { StandInServer, TOKENS } from "./stand_in_server.mjs";
 
-/** How many pixels of the path's layer have a colour: of what is ahead, and of what is done. */
+/** Counts the pixels of the path's layer that have the colour of the path ahead, or of the path done. */
 function pixels(page) {
   return page.evaluate(() => {
     const gl = document.querySelector(".surface").children[1].getContext("webgl2");

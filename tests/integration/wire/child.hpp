@@ -1,4 +1,4 @@
-// A process of one test.
+// A child process of a test.
 #pragma once
 
 #include <signal.h>

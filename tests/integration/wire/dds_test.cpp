@@ -264,7 +264,7 @@ TEST(Dds, AReaderWithTheLongestAllowedStallGetsEveryState) {
     for (Slot stamp = 1; stamp <= kMaxStallSlots; ++stamp) { axis.state.write({.axis = 0, .stamp = stamp}); }
     std::vector<Slot> received;
     ASSERT_TRUE(eventually([&] {
-        std::this_thread::sleep_for(500ms);  // it takes none before all have arrived
+        std::this_thread::sleep_for(500ms);  // takes no message before all have arrived
         coordinator.states.take([&](AxisState&& state) { received.push_back(state.stamp); });
         return received.size() >= kMaxStallSlots;
     })) << received.size();

@@ -1,4 +1,4 @@
-// Waits for what must happen, with a deadline so far off that only a failure reaches it.
+// Waits for a condition, with a deadline so far off that only a failure reaches it.
 #pragma once
 
 #include <chrono>

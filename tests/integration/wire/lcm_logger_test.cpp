@@ -1,4 +1,4 @@
-// Published messages are in the log: of LCM's own logger, on real multicast, read by our reader.
+// Published messages are in the log of LCM's own logger, on real multicast, read by our reader.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// A network for one test: a namespace with only lo, if that is permitted (root); else the
-// host's lo, with domains and ports that no other process uses. In neither does anything leave the host.
+// A network for one test: a namespace with only lo, if that is permitted (root). Otherwise the host's lo, with domains
+// and ports that no other process uses. Nothing leaves the host in either case.
 #pragma once
 
 #include "core/machine.hpp"

@@ -1,5 +1,5 @@
-// With security, members exchange keys again after participants have left: DDS then drops the keys of these.
-// The exchange itself needs no security, and is observed by a writer that every process may read.
+// With security, members exchange keys again after participants have left. DDS then drops the keys sent to those
+// participants. The exchange itself needs no security. The test observes it at a writer that every process may read.
 #include "services/wire/dds/sent_keys.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,8 @@
 // D. Carrica, M. A. Funes, S. A. González, "Novel stepper motor controller based on FPGA hardware implementation": the
 // quantised profile of Fig. 4, the continuous one of Fig. 7, and the off-line table of Section I.A beside both.
 //
-// Fig. 4 has no numbers but n = 7 ... 1; Fig. 7 has no numbers in the text at all. The tests state what they take.
+// Fig. 4 has only the numbers n = 7 ... 1. The text gives no numbers for Fig. 7. The tests state the values that they
+// assume.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -64,7 +65,7 @@ TEST(CarricaFigure4, NChangesWhereTheReferenceReachesTheNextPossibleSpeed) {
     for (std::size_t i = 1; i < 7; ++i) {  // t_1 ... t_6
         const double speed = kFigure4.max / static_cast<double>(found[i].n);
         const double reached_s = (speed - kFigure4.start) / kFigure4.acceleration;
-        EXPECT_NEAR(found[i].from_s, reached_s, 7 * kClock4_s) << i;  // to a wait: the speed is compared once a step
+        EXPECT_NEAR(found[i].from_s, reached_s, 7 * kClock4_s) << i;  // within a wait: speed is compared once a step
     }
 }
 
@@ -76,8 +77,8 @@ TEST(CarricaFigure4, TheOffLineTableHasTheSameSpeedsButMixesNeighboursToKeepTheM
     for (std::size_t i = 0; i < ideal.size(); ++i) { ASSERT_NEAR(train->times_s[i], ideal[i], 0.501 * kClock4_s); }
 }
 
-/// A speed lies below the reference by less than the gap to the next possible one, and the reference changes by no more
-/// than the acceleration times a wait: no two neighbouring speeds may differ by more than both together.
+/// A speed lies below the reference by less than the gap to the next possible speed. During a wait the reference
+/// changes by at most the acceleration times the wait. Two neighbouring speeds may differ by at most the sum of both.
 TEST(CarricaFigure7, AtHighSpeedTheProfileIsContinuousOverTheWholeRange) {
     const auto train = carrica(kFigure7, Fit::Exact, {.clock_s = kClock7_s});
     ASSERT_TRUE(train.has_value()) << text_of(train.error());

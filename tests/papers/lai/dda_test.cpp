@@ -56,8 +56,8 @@ double deviation(std::int64_t from, LaiPulses how) {
     return farthest_from_line(walk_two_axes(periods, how), end);
 }
 
-/// The ports sAx0Puls and sAx1Puls while line {(1,0), (5,5)} is made, and that of the axis that is not in use. The
-/// phase signals Step0Out and Step1Out behind them belong to the drive, which takes step and direction here.
+/// The ports sAx0Puls and sAx1Puls during line {(1,0), (5,5)}, and the port of the axis that is not in use. The drive
+/// makes the phase signals Step0Out and Step1Out from them. Here it takes step and direction.
 TEST(LaiFigure12, BothAxesPulseEvenlyThroughEachPeriodAndTheThirdNot) {
     Dda x;
     Dda y;

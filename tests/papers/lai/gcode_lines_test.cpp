@@ -47,7 +47,7 @@ MachineConfig plotter() {
     return machine;
 }
 
-/// The moves of the program; every second one, from the first, is a line.
+/// The moves of the program. The first and every second one after it is a line.
 std::vector<PathMove> moves_of(const MachineConfig& machine) {
     GcodeSetup setup{.program_name = "six lines"};
     for (const AxisConfig& axis : machine.axes) {
@@ -77,7 +77,7 @@ Path planned(const std::vector<PathMove>& moves, const MachineConfig& machine, L
     return plan_lai_path(moves, {}, limits, scale, machine.tick_ns, least_move(machine), following);
 }
 
-/// The pulses of one line, period for period.
+/// The pulses of one line in each period.
 std::vector<methods::PeriodPulses> periods_of(const Path& path, const PathMove& line) {
     std::vector<methods::PeriodPulses> periods;
     for (const PathMove& part : path.moves) {
@@ -86,7 +86,7 @@ std::vector<methods::PeriodPulses> periods_of(const Path& path, const PathMove& 
     return periods;
 }
 
-/// The farthest from the straight line at the end of any period, in pulses of the short axis.
+/// The greatest distance from the straight line at the end of a period, in pulses of the short axis.
 double farthest_at_a_periods_end(const std::vector<methods::PeriodPulses>& periods, methods::PeriodPulses end) {
     double farthest = 0;
     methods::PeriodPulses at;

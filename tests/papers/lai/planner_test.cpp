@@ -1,8 +1,8 @@
 // C.-K. Lai, W.-N. Chien, Y.-T. Tsao, "An FPGA-Based Multiple-Axis Velocity Controller and Stepping Motors Drives
 // Design": the simulated runs of Figs. 5 to 9.
 //
-// The paper does not say how m v becomes whole pulses. Its figures need two roundings: Fig. 6 the one from the start of
-// the move, Fig. 8 the one in each period; the tests show that neither figure comes out of the other's.
+// The paper does not say how m v is rounded to whole pulses. Its figures need two roundings: Fig. 6 needs rounding from
+// the start of the move, Fig. 8 rounding in each period. The tests show that neither rounding gives both figures.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -52,7 +52,8 @@ TEST(LaiFigure8, RoundingInEachPeriodOverInterpolatesMinus93ToMinus94) {
     EXPECT_EQ(total(periods), (PeriodPulses{107, -94}));
 }
 
-/// The figure needs a V_max of at least 9 (it names none): only there does the long axis reach its root, or one less.
+/// The figure names no V_max, but needs one of at least 9. Only then does the long axis reach the root of its length,
+/// or one less.
 TEST(LaiFigure8, Minus94NeedsAVmaxOfAtLeast9AndTheDefaultOf4EndsAtMinus84) {
     const auto end_with = [](std::int64_t max) {
         return total(plan_two_axes(kFigure8, {.max = max}, LaiRounding::InEachPeriod, kUncompensated)).y;
@@ -86,7 +87,7 @@ TEST(LaiFigure6, WithAtMost3PulsesAPeriodTheShortAxisChangesSuddenlyByTwo) {
     EXPECT_EQ(largest_change(y), 2);  // counted from rest, between the sampling instants 3 and 4
 }
 
-/// So Fig. 6 cannot come from the rounding that Fig. 8 needs.
+/// This shows that Fig. 6 cannot come from the rounding that Fig. 8 needs.
 TEST(LaiFigure6, RoundingInEachPeriodNeverChangesTheShortAxisByMoreThanOne) {
     for (std::int64_t x = 1; x <= 120; ++x) {
         for (std::int64_t y = 0; y <= x; ++y) {
@@ -96,7 +97,8 @@ TEST(LaiFigure6, RoundingInEachPeriodNeverChangesTheShortAxisByMoreThanOne) {
     }
 }
 
-/// Nor from the one of Fig. 6 can -94: rounded from the start, every line ends where it should.
+/// This shows that the -94 of Fig. 8 cannot come from the rounding of Fig. 6: rounded from the start, every line ends
+/// exactly.
 TEST(LaiFigure8, RoundingFromTheStartDoesNotOverInterpolate) {
     for (std::int64_t max = 1; max <= 12; ++max) {
         const auto periods = plan_two_axes(kFigure8, {.max = max}, LaiRounding::FromTheStart, kUncompensated);
@@ -112,7 +114,7 @@ TEST(LaiFigure7, TheDerivativeLimitRemovesTheSuddenChange) {
     EXPECT_EQ(total(periods), (PeriodPulses{25, 20}));
 }
 
-/// Checks the end of the compensations for every pair of lengths up to 60 and both roundings.
+/// Checks both compensations for every pair of lengths up to 60 and both roundings.
 TEST(LaiCompensations, EveryLineEndsExactlyNoSpeedPassesVmaxOrChangesByMoreThanOne) {
     for (const LaiRounding rounding : {LaiRounding::InEachPeriod, LaiRounding::FromTheStart}) {
         for (std::int64_t x = 0; x <= 60; ++x) {

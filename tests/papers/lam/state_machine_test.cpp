@@ -23,7 +23,7 @@ struct Slide {
 
 constexpr int kLongest = 1'000'000;  // clocks a test waits for a state
 
-/// Runs until the state is reached; false: it is not reached.
+/// Runs until the state is reached. Returns false if it is not reached within kLongest clocks.
 bool run_until(LamController& controller, Slide& slide, LamState state) {
     for (int i = 0; i < kLongest && controller.state() != state; ++i) {
         slide.follow(controller.clock(slide.inputs()));
@@ -38,7 +38,7 @@ void ask_for(LamController& controller, Slide& slide, std::int64_t destination) 
     slide.follow(controller.clock(inputs));
 }
 
-/// The waits before each pulse of a move from 0 in their order, with the state of each.
+/// The wait before a pulse of a move from 0, and the state of the controller meanwhile.
 struct Wait {
     std::int64_t counts;
     LamState state;
@@ -146,7 +146,7 @@ TEST(LamFigure3, TheLeftLimitStopsPulsesAtOnceAndAfterADelayTheAxisInitializes) 
 
 TEST(LamMethod, RefusesOrApproximatesImpossibleMovesWithAReason) {
     const StepMove move{328, 100, 1'667, 4'200, 4'200};
-    EXPECT_NE(lam(move, Fit::Exact).error().nearest.find("no acceleration to choose"), std::string::npos);
+    EXPECT_NE(lam(move, Fit::Exact).error().nearest.find("a fixed acceleration"), std::string::npos);
     const auto train = lam(move, Fit::Nearest);
     ASSERT_TRUE(train.has_value());
     EXPECT_EQ(train->times_s.size(), 328U);

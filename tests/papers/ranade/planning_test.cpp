@@ -36,8 +36,8 @@ TEST(RanadeFigure3, EighteenHundredStepsAreNoTriangleButATrapezoid) {
     EXPECT_LT(acceleration(*profile), 25'000);
 }
 
-/// Fig. 4 names the waits T_1, T_2 ... between pulses; the text before it takes each for 1/speed at its beginning. The
-/// engine's waits are exact, so each lies between 1/speed at its beginning and at its end.
+/// Fig. 4 names the waits T_1, T_2 ... between pulses; the text before it takes each wait as 1/speed at its beginning.
+/// The engine's waits are exact, so each lies between 1/speed at its beginning and at its end.
 TEST(RanadeFigure4, EachWaitLiesBetweenTheReciprocalsOfTheSpeedsAtItsEnds) {
     const StepMove move{1'200, 1'000, 3'800, 11'200, 11'200};
     const auto train = methods::ranade(move, methods::Fit::Exact);
@@ -46,7 +46,7 @@ TEST(RanadeFigure4, EachWaitLiesBetweenTheReciprocalsOfTheSpeedsAtItsEnds) {
     const auto speed = [&](double time_s) {
         return move.start + move.acceleration * (time_s < top_s ? time_s : 2 * top_s - time_s);
     };
-    constexpr double kRounding_s = 2.1e-6;  // each pulse to a tick
+    constexpr double kRounding_s = 2.1e-6;  // each pulse is rounded to a tick
     for (std::size_t i = 1; i < train->times_s.size(); ++i) {
         const double from = train->times_s[i - 1];
         const double to = train->times_s[i];

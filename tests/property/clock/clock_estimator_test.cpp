@@ -1,4 +1,4 @@
-// Offsets of seconds, rates 100 ppm apart, different delays each way, losses: the bound holds and is narrow.
+// The bound holds and is narrow with offsets of seconds, rates 100 ppm apart, different delays each way, and losses.
 #include "core/clock/clock_estimator.hpp"
 
 #include <gtest/gtest.h>

@@ -89,8 +89,8 @@ private:
     Tick start_;
 };
 
-/// Two faults at once: when the device goes on, its clock cannot tell any more by how much this process's was set. The
-/// coordinator has told before.
+/// Two faults at once. When the device continues, its clock no longer shows by how much this process's clock was set.
+/// Exchanges with the coordinator have shown that before.
 TEST(DeviceTime, IsRightAgainAfterTheClockWasSetBackWhileTheDeviceStoodStill) {
     constexpr Ticks kLoop{500};
     MachineConfig machine;

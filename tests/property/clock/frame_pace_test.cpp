@@ -45,7 +45,7 @@ MachineConfig random_machine(Random& random) {
     return machine;
 }
 
-/// From one speed to another, as fast as the limits allow.
+/// A piece from one speed to another, as short as the acceleration `most` allows.
 Piece ramp(double from, double to, double most) {
     const double ticks = std::max(1.0, std::ceil(std::abs(to - from) / most));
     const double change = (to - from) / ticks;
@@ -53,7 +53,7 @@ Piece ramp(double from, double to, double most) {
         {std::llround(ticks)}, {std::llround((from + change / 2 - change) * 0x1p64)}, {std::llround(change * 0x1p64)}};
 }
 
-/// From the start velocity up to a random speed, on at this speed, and back.
+/// A move from the start velocity up to a random speed, on at this speed, and back.
 std::vector<Piece> random_move(Random& random, const AxisLimits& limits) {
     const double top =
         random.chance(0.5) ? limits.max_velocity : random.real(limits.start_velocity, limits.max_velocity);
@@ -138,7 +138,7 @@ class RandomMove {
 public:
     explicit RandomMove(std::uint64_t seed) : random_(seed), machine_(random_machine(random_)), known_(random_) {}
 
-    /// Frame by frame; a random frame is followed by the tail.
+    /// Runs a random move frame by frame. The tail follows a random frame.
     void run() {
         const AxisLimits planned = frame_limits_of(machine_, 0);
         const Ticks frame{random_.ticks(2000, 230'000)};
@@ -247,7 +247,7 @@ TEST(FramePace, ATailMakesUpForAllThatABodyMakesUpForInParts) {
 TEST(FramePace, ANewBeginningKeepsNoPartOfATick) {
     FramePace pace(Ticks{5000}, some_limits());
     pace.begin(Tick{0}, 1e-4);
-    (void)pace.body({Ticks{4900}, 1, Tick{4900}, 1e-4});  // by the rate nearly half a tick more
+    (void)pace.body({Ticks{4900}, 1, Tick{4900}, 1e-4});  // the rate adds nearly half a tick
     pace.begin(Tick{1'000'000}, 1e-4);
     EXPECT_EQ(pace.body({Ticks{2000}, 1, Tick{1'002'000}, 1e-4}).end, Tick{1'002'000});
 }

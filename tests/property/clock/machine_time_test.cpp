@@ -1,4 +1,5 @@
-// The machine time of an axis: within its bound of the coordinator's, never backwards, never set while in use.
+// The machine time of an axis is within its bound of the coordinator's. It never goes backwards and is never set while
+// in use.
 #include "core/clock/machine_time.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// Random motion for a device whose clock differs: every end is exact in every bit, each step within two ticks.
+// Random motion for a device with a different clock: every end is exact in every bit, and each step is within two
+// ticks.
 #include "core/axis/device/retime.hpp"
 
 #include <gtest/gtest.h>

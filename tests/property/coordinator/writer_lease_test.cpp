@@ -1,4 +1,4 @@
-// At most one writer at a time, whatever clients ask for, and whenever they fall silent: against a simple model.
+// There is at most one writer at a time, for any requests and silences of clients. A simple model gives the writer.
 #include "core/coordinator/writer_lease.hpp"
 
 #include <gtest/gtest.h>

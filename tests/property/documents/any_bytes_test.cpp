@@ -36,7 +36,8 @@ void check_machine(const std::string& text) {
 
 RC_GTEST_PROP(DocumentsOfAnyBytes, AMachineIsReadOrRefused, (const std::string& text)) { check_machine(text); }
 
-/// Overwrites, removes or inserts bytes; digits more often, so that not only the syntax but also values are wrong.
+/// Overwrites, removes or inserts bytes. Digits are more frequent, so that not only the syntax but also values are
+/// wrong.
 RC_GTEST_PROP(DocumentsOfAnyBytes, AChangedMachineIsValidOrRefused, ()) {
     std::string text = example();
     const auto changes = *rc::gen::inRange(1, 5);

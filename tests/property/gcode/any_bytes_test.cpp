@@ -47,7 +47,7 @@ void check(const std::string& text) {
     for (const Block& block : result->blocks) { check_block(block); }
 }
 
-/// An axis word, or none. It is so small that most programs stay within travel, whatever modes they use.
+/// An axis word, or none. Its value is so small that most programs stay within travel in any mode.
 rc::Gen<std::string> word(char letter, int min, int max) {
     return rc::gen::map(rc::gen::inRange(min, max), [letter](int tenths) {
         return tenths % 3 == 0 ? "" : " " + std::string(1, letter) + std::to_string(tenths / 10.0);

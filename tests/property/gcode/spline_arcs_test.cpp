@@ -1,4 +1,5 @@
-// Arcs of random splines follow them: places of the curve by Bernstein's polynomials, which the product does not use.
+// The arcs of random splines follow the splines. Bernstein's polynomials, which the product does not use, give the
+// places of the curve.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +14,7 @@ namespace {
 using Random = std::mt19937_64;
 using Place = std::array<double, 2>;
 
-/// One span with weights.
+/// The place at `share` of a spline of one span with weights.
 Place on_curve(const Spline& spline, double share) {
     const int degree = spline.order - 1;
     Place at{};
@@ -45,7 +46,7 @@ Spline random_spline(Random& random) {
 struct Part {
     Place from;
     Place to;
-    const Arc* arc;  // none: straight
+    const Arc* arc;  // null if the part is straight
 };
 
 double distance(Place place, const Part& part) {

@@ -29,7 +29,8 @@ PathRun run_on(PathPlanner& planner, std::vector<Position> from) {
     return run;
 }
 
-/// The spacing of the samples is far below a step, so the two paths have the same samples but for those of the tail.
+/// The greatest distance of a place from the path. Samples are far less than a step apart, so only the samples of the
+/// tail can differ.
 double furthest(const std::vector<Place>& places, const std::vector<Place>& path) {
     double most = 0;
     std::size_t at = 0;
@@ -40,7 +41,7 @@ double furthest(const std::vector<Place>& places, const std::vector<Place>& path
     return most;
 }
 
-/// Within what solving pieces in whole units rounds off.
+/// Allows for the rounding of pieces to whole units.
 void expect_end(const PathRun& run) {
     const std::vector<Position> at = end_of(run);
     EXPECT_NEAR(at[0].as_steps(), 10, 1e-9);

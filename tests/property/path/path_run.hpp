@@ -64,7 +64,7 @@ inline void give(PathPlanner& planner, const TestMove& move, std::uint32_t block
     move.arc ? planner.arc({*move.arc, move.to}, move.settings, block) : planner.line({move.to}, move.settings, block);
 }
 
-/// Chords of an arc, of a hundredth of a turn at most.
+/// The chords of an arc, of a hundredth of a radian at most, or the end of a line.
 inline std::vector<Place> chords_of(const TestMove& move, const Place& from) {
     if (!move.arc) { return {move.to}; }
     const ArcShape& arc = *move.arc;
@@ -97,7 +97,7 @@ struct TestProgram {
     std::vector<TestMove> moves;
 
     void add(Place to, double feed_mm_s) { moves.push_back({std::move(to), {.feed_mm_per_tick = feed_mm_s * 1e-6}}); }
-    /// From the start, in steps.
+    /// The places of the program from the start on, in steps.
     std::vector<Place> polyline(const PathSetup& setup) const {
         std::vector<Place> places{Place(setup.axes(), 0)};
         Place from(setup.axes(), 0);
@@ -116,7 +116,7 @@ struct PathRun {
     std::vector<PathFrame> frames;
     std::vector<Position> from;  // where it begins; empty: at 0
     std::int64_t slowed = 0;     // frames made again
-    std::int64_t braked = 0;     // frames that go along a tail
+    std::int64_t braked = 0;     // frames that go along the tail before them
     std::size_t most_waiting = 0;
 
     double seconds() const {
@@ -143,7 +143,7 @@ inline void drain(PathPlanner& planner, PathRun& run) {
     run.braked = planner.braked();
 }
 
-/// `drains(k)`: whether frames are taken behind move k.
+/// Plans the program. Takes frames behind move k if `drains(k)` is true.
 inline PathRun run_path(
     const PathSetup& setup, const TestProgram& program,
     const std::function<bool(std::size_t)>& drains = [](std::size_t) { return true; }) {
@@ -161,8 +161,8 @@ inline PathRun run_path(
     return run;
 }
 
-/// One axis: over every stretch of time its speed changes by at most start velocity + acceleration * time. Between the
-/// ends of pieces speed is linear, so that the ends decide.
+/// Checks that over any time the speed of one axis changes by at most start velocity + acceleration * time. Speed is
+/// linear within a piece, so the ends of pieces are enough.
 class SpeedWatch {
 public:
     explicit SpeedWatch(const AxisLimits& limits)
@@ -193,8 +193,8 @@ public:
     }
 
 private:
-    /// Pieces meet at whole ticks, which axes tolerate with two ticks' acceleration; the speeds at the ends of a piece
-    /// of one tick are its mean here, which is half a tick's acceleration off at each end.
+    /// Pieces meet at whole ticks, for which axes tolerate two ticks' acceleration. A piece of one tick counts here
+    /// with its mean speed at both ends, which is half a tick's acceleration off at each end.
     static constexpr double kTicks = 3;
 
     AxisLimits limits_;
@@ -228,7 +228,8 @@ inline void expect_within_limits(const PathSetup& setup, const PathRun& run) {
     }
 }
 
-/// The least over a segment's points of the greatest distance of an axis: convex, so thirds close in on it.
+/// The distance of p from the segment a to b: the greatest distance of an axis, at the point where it is least. The
+/// function is convex, so a ternary search finds the least.
 inline double distance(const Place& p, const Place& a, const Place& b) {
     const auto at = [&](double share) {
         double most = 0;
@@ -247,8 +248,8 @@ inline double distance(const Place& p, const Place& a, const Place& b) {
     return at((low + high) / 2);
 }
 
-/// Whether the points follow a path in order, each within `most` steps of every axis. The earliest segment that can
-/// hold a point leaves the most to those behind it. Returns the first point that does not follow.
+/// Returns the first point that does not follow the path in order within `most` steps of every axis, or nullopt. Each
+/// point takes the earliest possible segment, which leaves the most of the path to the points behind it.
 inline std::optional<std::size_t> first_astray(const std::vector<Place>& points, const std::vector<Place>& path,
                                                double most) {
     std::size_t at = 0;
@@ -259,7 +260,7 @@ inline std::optional<std::size_t> first_astray(const std::vector<Place>& points,
     return std::nullopt;
 }
 
-/// Where the axes are every so many ticks at most, in steps.
+/// The places of the axes, in steps, at most `every` ticks apart.
 inline std::vector<Place> samples_of(const PathRun& run, std::int64_t every) {
     std::vector<Place> places;
     for (const PathFrame& frame : run.frames) {

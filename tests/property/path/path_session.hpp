@@ -1,4 +1,4 @@
-// A program that is interrupted and resumed, and whose overrides are turned, at given frames.
+// A program that is interrupted, resumed, and turned to other overrides at given frames.
 #pragma once
 
 #include <deque>
@@ -7,7 +7,8 @@
 
 namespace lockstep {
 
-/// Happens when so many frames have been made: new overrides, or an interruption with frames that were not run.
+/// Happens when `made` frames have been made. It is a turn to new overrides, or an interruption with `unrun` frames
+/// that were not run.
 struct SessionEvent {
     std::size_t made = 0;
     std::optional<Overrides> turn;
@@ -46,7 +47,7 @@ public:
         planner_.begin(made_.from);
     }
 
-    /// `drains(k)`: whether frames are taken behind move k.
+    /// Plans the program. Takes frames behind move k if `drains(k)` is true.
     void run(const TestProgram& program, const std::function<bool(std::size_t)>& drains) {
         for (std::size_t k = 0; k < program.moves.size(); ++k) {
             give(planner_, program.moves[k], static_cast<std::uint32_t>(k + 1));
@@ -58,9 +59,9 @@ public:
         if (!made_.frames.empty()) { runs_.push_back(made_); }
     }
 
-    /// What was run between two rests; each begins where the one before ends.
+    /// The runs between two rests. Each begins where the previous one ends.
     const std::vector<PathRun>& runs() const { return runs_; }
-    /// Those that did happen.
+    /// The events that did happen.
     const std::deque<SessionEvent>& happened() const { return happened_; }
     /// All frames made, whether they were run or not.
     const std::vector<PathFrame>& frames() const { return frames_; }
@@ -80,7 +81,7 @@ private:
         }
     }
 
-    /// False: it waits for more of the path.
+    /// Returns false if the event waits for more of the path.
     bool happen() {
         const SessionEvent event = events_.front();
         const TurnResult result = event.turn ? planner_.turn(*event.turn) : TurnResult::Taken;
@@ -112,7 +113,7 @@ private:
     std::vector<PathFrame> frames_;
 };
 
-/// Interruptions and overrides at random frames; more of them where frames are short.
+/// Interruptions and overrides at random frames. Events are further apart if frames are short.
 inline std::deque<SessionEvent> random_events(Random& random, const PathSetup& setup) {
     std::deque<SessionEvent> events;
     const std::uint64_t apart = setup.frame_ticks < Ticks{10'000} ? 60 : 6;

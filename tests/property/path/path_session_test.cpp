@@ -1,4 +1,4 @@
-// What holds of a path that is interrupted, resumed and turned, wherever that happens.
+// The properties of a path that is interrupted, resumed and turned to other overrides at any frame.
 #include "tests/property/path/path_session.hpp"
 
 namespace lockstep {
@@ -45,7 +45,7 @@ TEST_P(RandomSession, FollowsTheWholeProgramAndEndsExactly) {
     }
 }
 
-/// Frames of the two runs that follow each other in the same order.
+/// Expects the same frames in the same order.
 void expect_equal(const std::vector<PathFrame>& a, const std::vector<PathFrame>& b) {
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t k = 0; k < a.size(); ++k) {
@@ -68,7 +68,7 @@ TEST_P(RandomSession, DependsOnTheFramesOfItsEventsAndNotOnWhenMovesArrive) {
     }
 }
 
-/// As a coordinator does that takes over: it knows the program, the place and the positions, and nothing else.
+/// A coordinator that takes over does this. It knows only the program, the place and the positions.
 TEST_P(RandomSession, IsResumedByAnotherPlannerInTheSameWay) {
     const PathRun run = run_path(case_.setup, case_.program);
     const std::size_t every = std::max<std::size_t>(1, run.frames.size() / 5);
@@ -94,7 +94,7 @@ TEST_P(RandomSession, IsResumedByAnotherPlannerInTheSameWay) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomSession, testing::Range<std::uint64_t>(1, 41));
 INSTANTIATE_TEST_SUITE_P(Arcs, RandomSession, testing::Range(kFirstWithArcs, kFirstWithArcs + 20));
-// In these, speeds that are equal but for rounding meet, and turns where the known path ends.
+// In these cases speeds meet that differ only by rounding, and overrides turn where the known path ends.
 INSTANTIATE_TEST_SUITE_P(Rounded, RandomSession, testing::Values<std::uint64_t>(561, 597));
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What every planned path keeps: the limits of the axes, the program within a step, and exact ends.
+// Every planned path keeps the limits of the axes, follows the program within a step, and ends exactly.
 #include "tests/property/path/random_path.hpp"
 
 namespace lockstep {
@@ -22,7 +22,7 @@ TEST_P(RandomPath, FollowsTheProgramWithinHalfAStepAndEndsExactly) {
     }
 }
 
-/// What pulses add is half a step more.
+/// Pulses add half a step to the distance.
 TEST_P(RandomPath, ComesWithinAStepOfEveryProgrammedPlace) {
     const RandomCase c = random_case(GetParam());
     EXPECT_EQ(first_astray(c.program.polyline(c.setup), samples_of(run_path(c.setup, c.program), 200), 1.0),
@@ -66,7 +66,7 @@ TEST_P(RandomPath, HasTailsThatEndOnThePath) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomPath, testing::Range<std::uint64_t>(1, 25));
-/// One axis, whose shortest moves there and back are joined to a piece in which it does not move.
+/// One axis. Its shortest moves there and back are joined to a piece in which it does not move.
 INSTANTIATE_TEST_SUITE_P(ThereAndBack, RandomPath, testing::Values(61));
 
 /// Random short moves of axes that accelerate fast: more pieces than a frame has room for.
@@ -126,7 +126,8 @@ TEST(PathMemory, DependsOnTheWayToStopAndNotOnTheProgram) {
     EXPECT_LT(kept, 2'000U);
 }
 
-/// The place where it turns is rounded to the last step of the travel; the machine rested beside the arc's begin.
+/// The place where the arc turns back is rounded to the last step of the travel. The machine rests on whole steps
+/// before the arc, beside its begin.
 TEST(Path, OfAnArcThatTouchesTheEndOfTheTravelEndsAtTheLastStep) {
     constexpr std::int64_t kLast = 100;
     PathSetup setup = setup_of(std::vector<TestAxis>(2), Ticks{5'000});

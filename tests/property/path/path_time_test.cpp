@@ -1,5 +1,5 @@
-// How long paths take: the same however finely they are cut, and as long as the limits ask for. The rows that the tests
-// print are the table in docs/dense-paths.md.
+// The time of a path does not depend on how finely it is cut, and is near the least time within the limits. The rows
+// that the tests print are the table in docs/dense-paths.md.
 #include <cstdio>
 #include <numbers>
 
@@ -33,7 +33,7 @@ double seconds_of(const TestProgram& program) {
     return run.seconds();
 }
 
-/// In chords of `mm`, places rounded as CAM programs write them.
+/// A line in chords of `mm`, with places rounded as CAM programs write them.
 TestProgram cut_line(double length, double mm) {
     TestProgram program;
     const int parts = static_cast<int>(std::lround(length / mm));
@@ -53,7 +53,7 @@ TEST(PathTime, OfALineIsTheSameHoweverItIsCut) {
     }
 }
 
-/// Two turns, in chords that are `error_mm` inside at their middles.
+/// Two turns of a circle, in chords that are `error_mm` inside the circle at their middles.
 TestProgram cut_circle(double radius, double error_mm) {
     TestProgram program;
     const double all = 4 * std::numbers::pi;
@@ -158,8 +158,8 @@ TEST(PathTime, OfRandomPolylinesIsNearTheLeast) {
 }
 
 /// Within ChordJoiner::kLook_mm only one of the turns is a corner; the others are joints at half the start velocity,
-/// between pieces of a single curve each. It must get faster between them.
-TEST(PathTime, OfShortWaysForthAndBackIsNotThatOfTheirTurns) {
+/// between pieces of a single curve each. The path must get faster between them.
+TEST(PathTime, ShortBackAndForthMovesSpeedUpBetweenTurns) {
     const PathSetup setup = setup_of({{.steps_per_mm = 3000,
                                        .start_velocity = 0.014,
                                        .max_velocity = 0.145,
@@ -177,7 +177,7 @@ TEST(PathTime, OfShortWaysForthAndBackIsNotThatOfTheirTurns) {
 }
 
 /// These axes need seconds to reach their start velocity. The planner spreads the cost of the joint over the whole line
-/// before it. The greatest speed of the line once spent all acceleration on that, so that a stop took most of the line.
+/// before it. If the greatest speed of the line spent all acceleration on that, a stop would take most of the line.
 TEST(PathTime, OfAStopOnALongLineBeforeASharpJointIsShort) {
     const PathSetup setup =
         setup_of({{10.8, 84, 350, 2100, 940}, {720, 4.76, 4.76, 0.88, 0.88}, {480, 40, 40, 10, 4}}, Ticks{20'000});

@@ -1,4 +1,4 @@
-// Overrides in the middle of a path: when they hold, and how fast the machine is then.
+// Overrides in the middle of a path: when they take effect, and how fast the machine is then.
 #include "tests/property/path/path_session.hpp"
 
 namespace lockstep {

@@ -46,7 +46,7 @@ struct RandomCase {
     TestProgram program;
 };
 
-/// Some moves become arcs, helices and whole turns with the same ends, and some keep their feed whatever the override.
+/// Some moves become arcs, helices and whole turns with the same ends, and some keep their feed with any override.
 inline void bend(TestProgram& program, Random& random) {
     Place from(program.moves.front().to.size(), 0);
     for (TestMove& move : program.moves) {
@@ -56,7 +56,7 @@ inline void bend(TestProgram& program, Random& random) {
         const double x = move.to[first] - from[first];
         const double y = move.to[second] - from[second];
         if (random() % 3 == 0 && std::hypot(x, y) > 0.01) {
-            // Radii of 20 mm at most: programs of hours would only be slow.
+            // Radii of 20 mm at most: programs of hours would only make tests slow.
             const double aside = log_uniform(random, 0.01, 20) / std::hypot(x, y) * (random() % 2 == 0 ? 1 : -1);
             move.arc = ArcShape{.first = first,
                                 .second = second,

@@ -1,9 +1,9 @@
-// The least time along a path, found slowly on a fine grid: what the planner is compared with.
+// The least time along a path, found slowly on a fine grid. Tests compare the planner with it.
 //
 // It shares nothing with the planner. The path is a list of places at equal distances; slopes and curvatures are their
 // differences. Speeds are integrated place by place, backward and then forward, with the greatest change of speed that
-// every axis allows. Sharp corners are places of their own: there an axis may jump by its start velocity.
-// Whether jumps add up is not asked, so a machine may need more time than this, never less.
+// every axis allows. Sharp corners are separate places, at which an axis may jump by its start velocity. The solver
+// ignores that jumps add up, so a machine may need more time than this, but never less.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,4 @@
-// No log, however damaged, makes its reader or a decoder fail; every byte belongs to an event or is reported as
-// damaged.
+// No damage to a log makes its reader or a decoder fail. Every byte belongs to an event or is reported as damaged.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

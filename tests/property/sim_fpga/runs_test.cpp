@@ -1,5 +1,5 @@
-// For any frames, a device makes the same steps as the tick-by-tick form makes from the same segments, however its time
-// is divided into calls.
+// For any frames, a device makes the same steps as the tick-by-tick form of the same segments. The division of its time
+// into calls does not matter.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -26,7 +26,7 @@ rc::Gen<Piece> any_piece() {
         });
 }
 
-/// Consecutive frames; half of the time the last one has the flag; some are armed, some may be vetoed.
+/// Consecutive frames. Half of the time the last one has the flag `last`. Some are armed, and some may be vetoed.
 Run any_run() {
     Run run;
     const auto count = *rc::gen::inRange<FrameNumber>(1, 7);

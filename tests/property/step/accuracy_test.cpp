@@ -12,8 +12,8 @@
 namespace lockstep::bench {
 namespace {
 
-/// The largest distance, in ticks, of a step's time from the time at which `ideal` crosses its half. A step made by
-/// tick n stands for the middle of this tick.
+/// The largest distance, in ticks, of a step's time from the time at which `ideal` crosses its half. A step at tick n
+/// counts as made in the middle of this tick.
 double worst_distance(const std::vector<std::int64_t>& ticks, const Trapezoid& ideal) {
     double worst = 0;
     for (std::size_t k = 0; k < ticks.size(); ++k) {

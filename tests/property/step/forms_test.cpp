@@ -51,7 +51,7 @@ TEST(StepForms, TheStepsOfASegmentAddUpToItsChangeOfCount) {
     }
 }
 
-/// Position p becomes -p, less one unit if p is on a half: the same halves in the other direction.
+/// Position p becomes -p less one unit, so that the motion crosses the same halves in the other direction.
 Segment mirrored(const Segment& segment) {
     Segment mirror = segment;
     mirror.from.raw = -segment.from.raw - 1;

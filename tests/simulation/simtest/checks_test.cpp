@@ -161,7 +161,7 @@ protected:
     }
 };
 
-/// From the middle on four times as fast.
+/// The second half runs four times as fast.
 TEST_F(ChecksOfShortMoves, DetectAJumpBeyondOneStartVelocityHoweverManyTheyAre) {
     const Tick from = job_steps(0)[20].tick;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -243,7 +243,7 @@ private:
     ClaimCheck& claims_;
 };
 
-/// Y moves in the last move only. A curve over all of them moves it before that.
+/// The program moves Y in the last move only. A curve that joins all moves moves Y before that.
 TEST(Joints, OfJoinedMovesAreThoseOfEveryAxis) {
     const Scenario scenario = two_axes();
     const auto joints_of_y = [&](PathMode mode) {

@@ -19,16 +19,16 @@ constexpr const char* kKinds =
   reorder    later messages overtake earlier ones:   lockstep-simtest --faults reorder,delay
   duplicate  messages come twice:                    lockstep-simtest --faults duplicate
   loss       messages are lost, up to one in 20:     lockstep-simtest --faults loss
-  freeze     a process's loop stands still for a while, its device goes on:
+  freeze     a process's loop stalls for a while, its device continues:
                                                      lockstep-simtest --faults freeze --axes 3
   crash      a process ends, and another takes its place later:
                                                      lockstep-simtest --faults crash
   partition  a link is cut, or a process from all others, both ways or one:
                                                      lockstep-simtest --faults partition
   corrupt    messages are altered on their way:      lockstep-simtest --faults corrupt
-  stall      a process stands still between what a loop decides and what it does about it:
+  stall      a process stalls between a loop's decisions and their execution:
                                                      lockstep-simtest --faults stall
-  clock      boards have clocks of their own, seconds and 100 ppm apart, which may be set:
+  clock      boards have their own clocks, seconds and 100 ppm apart, which may be set:
                                                      lockstep-simtest --faults clock
   override   no fault: feed and rapid are turned while jobs run:
                                                      lockstep-simtest --faults override,loss
@@ -42,7 +42,7 @@ constexpr const char* kKinds =
                                                      lockstep-simtest --faults stream,override
   curve      no fault: programs have arcs, path modes, fixed feeds and events:
                                                      lockstep-simtest --faults curve,override
-  mixed      a half of the other kinds named, in each run:
+  mixed      each run has about half of the other named kinds:
                                                      lockstep-simtest --faults mixed,loss,clock
 
 Everything follows from the seed. A run that fails prints the command that replays it:
@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
     app.add_flag("--trace", options.trace, "print a line for each event of a run");
     app.add_flag("--verbose", options.verbose, "print a line for every run");
     CLI11_PARSE(app, argc, argv);
-    std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // a failed run is told at once, also into a file
+    std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // a failed run is printed at once, also into a file
     const Tally tally = run_all(options);
     print_tally(tally, options);
     if (!options.coverage.empty() && !save_coverage(tally.coverage, options.coverage)) {

@@ -22,7 +22,7 @@ thread_local std::uint64_t g_count = 0;
 thread_local std::array<Place, kPlacesKept> g_places{};
 
 void note_allocation() {
-    g_counts = false;  // a call stack may allocate
+    g_counts = false;  // backtrace() may allocate
     if (g_count < kPlacesKept) {
         Place& place = g_places[g_count];
         place.depth = backtrace(place.calls.data(), kDepth);
@@ -48,7 +48,7 @@ void* allocate(std::size_t bytes, std::align_val_t alignment) {
 
 }  // namespace
 
-// NOLINTBEGIN(misc-new-delete-overloads): of test programs
+// NOLINTBEGIN(misc-new-delete-overloads): only test programs use them
 void* operator new(std::size_t bytes) { return allocate(bytes); }
 void* operator new[](std::size_t bytes) { return allocate(bytes); }
 void* operator new(std::size_t bytes, std::align_val_t alignment) { return allocate(bytes, alignment); }

@@ -6,7 +6,7 @@
 
 namespace lockstep {
 
-/// Counts while it exists, if `counts`. A test program that uses it replaces operator new.
+/// An object counts while it exists, if `counts` is true. A test program that uses it replaces operator new.
 class CountedAllocations {
 public:
     explicit CountedAllocations(bool counts = true);
@@ -14,9 +14,9 @@ public:
     CountedAllocations(const CountedAllocations&) = delete;
     CountedAllocations& operator=(const CountedAllocations&) = delete;
 
-    /// Of this thread, in all scopes so far.
+    /// The number of allocations of this thread, in all scopes so far.
     static std::uint64_t count();
-    /// Where the first of them came from: call stacks, a line each, for addr2line.
+    /// The call stacks of the first allocations, one per line, for addr2line.
     static std::string places();
 };
 

@@ -57,7 +57,7 @@ TEST_F(AnalysisTest, RecordsOverridesAsEventsOfTheirJob) {
     ASSERT_EQ(found->jobs.size(), 1U);
     EXPECT_TRUE(found->jobs[0].overridden);
     ASSERT_EQ(found->happened.size(), 1U);
-    EXPECT_EQ(found->happened[0].what, "overrides turned to feed 100 %, rapid 100 %, for all behind frame 0");
+    EXPECT_EQ(found->happened[0].what, "overrides changed to feed 100 %, rapid 100 %, for all frames after frame 0");
 }
 
 TEST_F(AnalysisTest, CountsEveryStepOfEveryAxis) {
@@ -153,7 +153,7 @@ TEST_F(AnalysisTest, ContinuesAfterADamagedMessage) {
     }
     const auto event = std::filesystem::file_size(log) / 3;
     std::fstream file(log, std::ios::in | std::ios::out | std::ios::binary);
-    file.seekp(static_cast<std::streamoff>(2 * event - 15));  // in the second message's steps
+    file.seekp(static_cast<std::streamoff>(2 * event - 15));  // damages the second message's steps
     file.write("\xFF\xFF\xFF\xFF", 4);
     file.close();
     const auto found = analyze_log(log);

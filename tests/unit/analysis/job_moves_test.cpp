@@ -1,4 +1,4 @@
-// The distance of each move from its line, from steps in the order of time, and from late ones.
+// The distance of each move from its line is measured from steps in the order of time, and from late steps.
 #include "clients/analysis/measure/job_moves.hpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace lockstep::analysis {
 namespace {
 
-/// 1 mm on X and Y together, then 1 mm on X.
+/// The path is 1 mm on X and Y together, then two moves of 1 mm on X.
 class LateSteps : public testing::Test {
 protected:
     void move(std::size_t axis, std::int64_t first, std::int64_t from_count, std::int64_t steps) {
@@ -45,7 +45,7 @@ TEST_F(LateSteps, InTheOrderOfTimeEachMoveHasItsDistance) {
 TEST_F(LateSteps, LeaveOnlyTheDistancesOfTheMovesMeanwhileUnknown) {
     both(1000, 0, 50);
     move(0, 6000, 50, 150);  // into the second move
-    move(1, 6001, 50, 50);   // of the first
+    move(1, 6001, 50, 50);   // still in the first move
     move(0, 40'000, 200, 100);
     EXPECT_FALSE(job.move(0).largest_distance_mm);
     EXPECT_FALSE(job.move(1).largest_distance_mm);

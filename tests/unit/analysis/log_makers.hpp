@@ -87,14 +87,14 @@ public:
         writer_.write_message(job_channel("mill"), tick, to_lcm(record, Tick{tick}, 1000));
     }
 
-    /// Of the job above, unless its number is another.
+    /// Writes an event of job 3, unless the event names another job.
     void event(PublishedEvent event) {
         if (event.job == 0) { event.job = 3; }
         const EventRecord record{.machine = "mill", .number = {.sequence = job_events_++}, .event = event};
         writer_.write_message(event_channel("mill"), event.tick.value, to_lcm(record, event.tick, 1000));
     }
 
-    /// The next `count` of each are not in the log.
+    /// Skips the numbers of the next `count` positions of each axis and job events: the log lacks them.
     void lose(std::uint64_t count) {
         for (std::uint64_t& positions : positions_) { positions += count; }
         job_events_ += count;
@@ -104,7 +104,7 @@ public:
 
 private:
     LogWriter writer_;
-    std::array<std::uint64_t, 2> positions_{};  // of each axis, numbered so far
+    std::array<std::uint64_t, 2> positions_{};  // numbers of positions used so far, by axis
     std::uint64_t job_events_ = 0;
 };
 

@@ -19,7 +19,7 @@ using test::path_through;
 struct Moves : testing::Test {
     std::filesystem::path log = test::test_directory() / "run.lcm";
 
-    /// X 0 to 10 mm and back, with so many steps on the way there.
+    /// Reports a log of X from 0 to 10 mm and back, with `steps_there` steps on the way there.
     proto::AnalysisReport there_and_back(int steps_there, const std::string& outcome = "done") const {
         const Program program = path_through({{0, 0}, {10, 0}, {0, 0}});
         {
@@ -80,7 +80,7 @@ TEST_F(Moves, OfADamagedLogAreDoubtful) {
     const std::size_t event = test::text_of(log).rfind("LOCKSTEP_MILL_X_STEPS") - 28;
     std::fstream file(log, std::ios::in | std::ios::out | std::ios::binary);
     file.seekp(static_cast<std::streamoff>(event));
-    file.put('?');  // in its sync word
+    file.put('?');  // damages the event's sync word
     file.close();
     const auto report = to_report(analyze_log(log).value());
     EXPECT_EQ(report.verdict(), "doubtful");
@@ -90,7 +90,7 @@ TEST_F(Moves, OfADamagedLogAreDoubtful) {
     EXPECT_EQ(report.unread(0).bytes(), report.unread(0).last_byte() - event + 1);
 }
 
-/// One entry, whatever the number of messages: first and last byte, and how many.
+/// The report has one entry for all these messages, with the first and the last byte and the number of messages.
 TEST_F(Moves, OfAnotherVersionAreNamedByReason) {
     {
         auto writer = LogWriter::open(log).value();
@@ -107,7 +107,7 @@ TEST_F(Moves, OfAnotherVersionAreNamedByReason) {
     EXPECT_EQ(report.unread(0).reason(), "not a step_batch_t of this version on LOCKSTEP_MILL_X_STEPS");
 }
 
-/// Positions and events of jobs are numbered, so that their loss is known, even without lost steps.
+/// Positions and events of jobs are numbered. Their loss is found even if no steps are lost.
 TEST_F(Moves, WithLostEventsAreDoubtful) {
     {
         test::LogMaker maker(log);

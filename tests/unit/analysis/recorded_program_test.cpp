@@ -1,4 +1,4 @@
-// A program in a log is read from there block by block, whatever its length; one that cannot be read is an error.
+// A program of any length is read from its log block by block. An unreadable program is an error.
 #include "clients/analysis/log/recorded_program.hpp"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr std::uint32_t kBlocks = 60'000;  // more than the reader of a log has in memory
+constexpr std::uint32_t kBlocks = 60'000;  // more blocks than the reader of a log keeps in memory
 
 /// Moves along X, with an event or a dwell now and then.
 Program long_program() {
@@ -38,7 +38,7 @@ class RecordedProgramTest : public testing::Test {
 protected:
     const std::filesystem::path path = test::test_directory() / "program.lcm";
 
-    /// Parts with whole blocks, or cut anywhere.
+    /// Writes the program in parts of whole blocks, or in parts cut anywhere.
     void write(const Program& program, bool cut_anywhere) const {
         auto log = LogWriter::open(path);
         std::vector<std::vector<std::uint8_t>> parts;
@@ -91,7 +91,7 @@ TEST_F(RecordedProgramTest, HasEveryBlockInAnyOrder) {
         EXPECT_EQ((*program)->events().size(), kBlocks / 1000);
         const WholeProgram expected(std::make_shared<const Program>(whole));
         for (std::uint32_t k = 0; k < kBlocks; ++k) {
-            const std::uint32_t number = k % 2 == 0 ? k : kBlocks - k;  // far from each other
+            const std::uint32_t number = k % 2 == 0 ? k : kBlocks - k;  // consecutive numbers are far apart
             const Block* block = (*program)->block(number);
             ASSERT_NE(block, nullptr);
             EXPECT_EQ(block->line, static_cast<std::int32_t>(number + 1));
@@ -116,7 +116,7 @@ TEST_F(RecordedProgramTest, OneThatCannotBeReadIsAnError) {
     EXPECT_FALSE(RecordedProgram::open(wrong));
 }
 
-/// A part without its beginning: its bytes are no program by themselves.
+/// The first part of the program comes twice. Only the first part may name axes.
 TEST_F(RecordedProgramTest, PartsOfSeveralProgramsAreAnError) {
     write(long_program(), false);
     ProgramPlaces twice = places();

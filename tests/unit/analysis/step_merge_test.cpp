@@ -49,7 +49,7 @@ TEST_F(Merging, WaitsForALateAxisForAnyTime) {
     merge.stands(y, Tick{95}, 10);
     merge.take(x, steps(0, 10, 5'000'000));
     EXPECT_EQ(settled(), 9U + 9U);
-    merge.stands(y, Tick{4'000'000}, 700);  // elsewhere: it has reported its position, but not its steps
+    merge.stands(y, Tick{4'000'000}, 700);  // Y has reported another position, but not its steps
     EXPECT_EQ(settled(), 9U + 9U);
     merge.take(y, steps(100, 10, 2'000'000));
     EXPECT_EQ(finished(), 500'000U + 200'000U);

@@ -21,7 +21,7 @@ Trace trace_of(const std::vector<StepEdge>& steps, std::size_t max_knots = Trace
     return trace;
 }
 
-/// Farthest from any step's own point, in steps.
+/// The greatest distance of the trace from the middle of a step at the step's tick, in steps.
 double error_of(const Trace& trace, const std::vector<StepEdge>& steps) {
     double worst = 0;
     double position = 0;

@@ -1,4 +1,4 @@
-// The axis controller by itself: what it believes of others, and what it does without them.
+// The axis controller alone: which states of others it accepts, and what it does without them.
 #include <gtest/gtest.h>
 
 #include "tests/unit/axis/controller_rig.hpp"
@@ -87,7 +87,7 @@ protected:
     }
 };
 
-TEST_F(Peers, WhoHoldTheFrameLetItBeArmed) {
+TEST_F(Peers, FrameIsArmedWhenAllPeersHoldIt) {
     EXPECT_EQ(state.held, 1u);
     peer_reports(94);
     owner_reports(94, kEpoch);
@@ -96,13 +96,13 @@ TEST_F(Peers, WhoHoldTheFrameLetItBeArmed) {
 
 TEST_F(Peers, AreNotBelievedInTheFuture) {
     peer_reports(94);
-    loop(91);  // three slots before the stamp: no clock is so far off
+    loop(91);  // three slots before the stamp, which is more than any clock error
     owner_reports(94, kEpoch);
     EXPECT_TRUE(orders_of<device::Arm>(loop(kCheck)).empty());
     EXPECT_EQ(state.veto, 1u);
 }
 
-TEST_F(Peers, AreBelievedUpToAHopAhead) {
+TEST_F(Peers, StatesUpToOneHopAheadAreAccepted) {
     peer_reports(94);
     loop(92);
     owner_reports(94, kEpoch);

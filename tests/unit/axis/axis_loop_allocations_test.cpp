@@ -1,5 +1,5 @@
-// The loop of an axis allocates no memory while frames come and go: it cannot wait for the allocator, nor fault a page
-// in.
+// The loop of an axis allocates no memory while frames come and go, so it never waits for the allocator or a page
+// fault.
 #include <gtest/gtest.h>
 
 #include "core/coordinator/coordinator.hpp"
@@ -11,7 +11,7 @@
 namespace lockstep {
 namespace {
 
-/// A coordinator and an axis with its device in one thread, a loop of each in each slot.
+/// A coordinator and an axis with its device in one thread. Each runs one loop per slot.
 class RunningAxis : public testing::Test {
 protected:
     RunningAxis() { node_.measure(meter_); }
@@ -35,7 +35,7 @@ protected:
         commands_.push_back({.client = 1, .sequence = ++sequence_, .kind = kind, .program = 1});
         slot();
     }
-    /// The program goes there and back, and is held and resumed on the way.
+    /// Runs the program there and back, and holds and resumes it on the way.
     void run_hold_and_resume() {
         ask(CommandKind::Run);
         ASSERT_EQ(coordinator_.phase(), MachinePhase::Running);

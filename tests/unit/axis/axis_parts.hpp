@@ -1,4 +1,4 @@
-// An axis's condition and device, by hand: for tests of its parts.
+// The condition of an axis and a device written by hand, for tests of the axis's parts.
 #pragma once
 
 #include <gtest/gtest.h>

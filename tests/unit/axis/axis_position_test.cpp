@@ -1,4 +1,4 @@
-// Where an axis stands: known after a homing or by the position kept, and kept once after each run.
+// The position of an axis is known after homing or from the kept position, and is kept once after each run.
 #include "core/axis/state/axis_position.hpp"
 
 #include "axis_parts.hpp"

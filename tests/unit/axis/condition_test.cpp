@@ -1,4 +1,4 @@
-// What an axis reports of itself: its state, its fault, the order it carries out, the trend of its speed.
+// An axis reports its state, its fault, the order that it carries out, and the trend of its speed.
 #include <gtest/gtest.h>
 
 #include "core/axis/state/client_stops.hpp"

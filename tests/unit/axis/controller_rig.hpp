@@ -1,4 +1,4 @@
-// An axis controller of two, its device and its peers written by hand: one loop for each slot.
+// The controller of one axis of two. Its device and its peers are written by hand. It runs one loop per slot.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,10 +21,10 @@ protected:
     static DeviceStatus resting_device() {
         return {.power_up = 9, .run = 3, .run_asked = 3, .finished = true, .free_segments = 1000};
     }
-    /// Axis 0, homed by the position that the process before it has kept.
+    /// The position that the previous process of axis 0 kept: it makes the axis homed.
     static KeptPosition kept() { return {scale_of(machine(), 0), 9, 3, {}, 0, 0}; }
 
-    /// One loop at the beginning of a slot, with the messages that were given since the last.
+    /// Runs one loop at the beginning of a slot, with the messages given since the last loop.
     AxisOutputs loop(Slot at) {
         slot = at;
         device.now = {at * kSlot};
@@ -44,11 +44,11 @@ protected:
         if (out.state) { state = *out.state; }
         return out;
     }
-    /// The owner's state of this slot.
+    /// Gives the owner's state of this slot to the next loop.
     void owner_reports(Slot at, Epoch epoch = 0) {
         coordinator.push_back({.term = kTerm, .stamp = at, .phase = MachinePhase::Idle, .epoch = epoch});
     }
-    /// Loops from one slot to another, both included, in which the owner reports.
+    /// Runs a loop in each slot from `from` to `to`, both included. The owner reports in each.
     void owned(Slot from, Slot to, Epoch epoch = 0) {
         for (Slot at = from; at <= to; ++at) {
             owner_reports(at, epoch);

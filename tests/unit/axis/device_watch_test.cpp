@@ -1,4 +1,4 @@
-// What cannot be a device: each contradiction, a clock that stands still, a run that does not end.
+// The watch doubts a device that contradicts itself, that has a stopped clock, or that does not end a run.
 #include "core/axis/device/device_watch.hpp"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 namespace lockstep {
 namespace {
 
-/// Slots of 1 ms, ticks of 1 us: patience for 16 slots.
+/// Slots of 1 ms, ticks of 1 us. The watch tolerates 16 slots.
 class Watch : public testing::Test {
 protected:
     static MachineConfig machine() {
@@ -15,14 +15,14 @@ protected:
         machine.timing.freshness_slots = 2;
         return machine;
     }
-    /// A loop later, by both clocks.
+    /// Looks at the device one loop later by both clocks.
     std::string look() {
         own_ += Ticks{500};
         shown_.now += Ticks{500};
         return look_at(shown_);
     }
     std::string look_at(const DeviceStatus& status) { return watch_.doubt_of(own_, status).value_or(""); }
-    /// Loops until there is doubt, with the device's clock standing still; in ms.
+    /// The time in ms until the watch doubts a device with a stopped clock, if it looks every `loop`.
     int patience(Ticks loop) {
         const Tick begun = own_;
         while (look_at(shown_).empty() && own_ - begun < Ticks{10'000'000}) { own_ += loop; }
@@ -43,11 +43,11 @@ protected:
 TEST_F(Watch, BelievesADeviceThatCounts) {
     for (int loop = 0; loop < 100; ++loop) {
         EXPECT_EQ(look(), "");
-        shown_.position = shown_.position + Displacement::steps(500);  // a pulse each tick
+        shown_.position = shown_.position + Displacement::steps(500);  // one pulse per tick
     }
 }
 
-TEST_F(Watch, AClockThatStandsStillIsBorneForASilenceAndNoLonger) {
+TEST_F(Watch, ToleratesAStoppedClockOnlyForTheSilenceTime) {
     (void)look();
     EXPECT_EQ(patience(Ticks{500}), 16);
 }
@@ -89,13 +89,13 @@ TEST_F(Watch, AnotherPowerUpIsAnotherDevice) {
     EXPECT_NE(look().find("powered up again"), std::string::npos);
 }
 
-TEST_F(Watch, AClockThatGoesBackIsNone) {
+TEST_F(Watch, DoubtsAClockThatGoesBack) {
     (void)look();
     shown_.now = shown_.now - Ticks{501};
     EXPECT_NE(look().find("its clock went back"), std::string::npos);
 }
 
-TEST_F(Watch, ACountThatIsFasterThanTheTicksIsNone) {
+TEST_F(Watch, DoubtsACountFasterThanTheTicks) {
     (void)look();
     shown_.position = shown_.position - Displacement::steps(502);
     EXPECT_NE(look().find("its count went from 0 to -502"), std::string::npos);
@@ -104,7 +104,7 @@ TEST_F(Watch, ACountThatIsFasterThanTheTicksIsNone) {
 TEST_F(Watch, ARunThatWasNotOrderedIsRefuted) {
     (void)look();
     shown_.run_asked = 9;
-    EXPECT_NE(look().find("asked for run 9"), std::string::npos);
+    EXPECT_NE(look().find("was ordered run 9"), std::string::npos);
     shown_.run_asked = 3;
     shown_.run = 9;
     EXPECT_NE(look().find("of run 9"), std::string::npos);
@@ -118,11 +118,11 @@ TEST_F(Watch, TheFrameOfTheRunBeforeIsShownUntilTheNewOneIsTaken) {
     EXPECT_EQ(look(), "");
 }
 
-TEST_F(Watch, AFrameThatWasNotLoadedIsNone) {
+TEST_F(Watch, DoubtsAFrameThatWasNotLoaded) {
     (void)look();
     order_run(4, Ticks{2000});
     shown_.frame = 2;
-    EXPECT_NE(look().find("shows frame 2 of run 4"), std::string::npos);
+    EXPECT_NE(look().find("reports frame 2 of run 4"), std::string::npos);
 }
 
 }  // namespace

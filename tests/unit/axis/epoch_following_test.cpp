@@ -1,4 +1,4 @@
-// An axis with the coordinator's frames: run, refused, vetoed and recorded.
+// An axis runs, refuses, vetoes and records the coordinator's frames.
 #include "core/axis/following/epoch_following.hpp"
 
 #include "axis_parts.hpp"

@@ -1,4 +1,4 @@
-// What an axis accepts of a frame's track, and where each limit begins.
+// Which tracks of a frame an axis accepts, and the exact place of each limit.
 #include "core/axis/following/frame_check.hpp"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ AxisTrack track_of(std::initializer_list<Piece> body, std::initializer_list<Piec
     return track;
 }
 
-/// The result for a track behind which the axis has the speed `end` and at whose beginning it has the speed `begin`.
+/// The result for a track that the axis begins with the speed `begin`.
 FaultCode check(const AxisTrack& track, double begin = 0, bool last = false, const AxisLimits& limits = kLimits) {
     MotionPoint from{track.from, begin, {}};
     return check_track(track, total_ticks(track.body), last, limits, from);

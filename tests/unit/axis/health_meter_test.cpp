@@ -18,7 +18,7 @@ protected:
         meter_.end_loop(free_captures_);
     }
     std::optional<AxisHealth> report() { return meter_.report({}, {}); }
-    /// What is said a period after `now`.
+    /// The report one period after `now`.
     AxisHealth after(Tick now) {
         loop(now + kPeriod);
         return report().value();
@@ -53,7 +53,7 @@ TEST_F(Health, SlackIsHowLongBeforeItsStartAFrameCame) {
     EXPECT_EQ(health.setpoint_age, kPeriod);
 }
 
-TEST_F(Health, FramesOfAnOwnMoveCameFromNowhere) {
+TEST_F(Health, FramesOfAnOwnMoveHaveNoSlackOrAge) {
     loop({1'000'000}, begins(true, {1'390'000}));
     (void)report();
     const AxisHealth health = after({1'000'000});
@@ -61,7 +61,7 @@ TEST_F(Health, FramesOfAnOwnMoveCameFromNowhere) {
     EXPECT_FALSE(health.setpoint_age);
 }
 
-TEST_F(Health, NoFrameIsAwaitedAfterTheLastNorWhenTheRunHasEnded) {
+TEST_F(Health, ReportsNoFrameAgeAfterTheLastFrameOrTheRunsEnd) {
     loop({1'000'000}, begins(false, {1'390'000}, true));
     (void)report();
     EXPECT_FALSE(after({1'000'000}).setpoint_age);
@@ -131,7 +131,7 @@ TEST_F(Health, LowWaterMarksAreTheLeastRoomThatThereWas) {
 TEST_F(Health, LoopTimesAreOfTheLastThousand) {
     loop({1'000'000});
     (void)report();
-    meter_.loop_took({1'000'000});  // long ago
+    meter_.loop_took({1'000'000});  // older than the last thousand
     for (std::int64_t us = 1000; us >= 1; --us) { meter_.loop_took({us}); }
     const AxisHealth health = after({1'000'000});
     EXPECT_EQ(health.loop, (LoopTime{{500}, {990}, {1000}}));

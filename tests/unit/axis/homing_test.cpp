@@ -1,4 +1,4 @@
-// The homing sequence by itself: what each move's end leads to.
+// The homing sequence alone: the step that follows the end of each move.
 #include <gtest/gtest.h>
 
 #include "core/axis/own_moves/homing.hpp"
@@ -19,7 +19,7 @@ protected:
     }
     static LocalEnd stands_at(std::int64_t count) { return {.count = count}; }
 
-    /// A touch, and pulling off it.
+    /// Touches the switch, and pulls off if that is the next step.
     HomingStep touch(std::int64_t count) {
         const HomingStep step = homing.next(closes_at(count));
         return homing.stage() == HomingStage::PullOff ? homing.next(stands_at(count + 100)) : step;

@@ -1,4 +1,4 @@
-// An own move's frames: they join each other, end on the last step, and from each of them the axis can rest.
+// The frames of an own move join each other and end on the last step. The axis can come to rest from each of them.
 #include "core/axis/own_moves/own_move.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace lockstep {
 namespace {
 
-/// 80 steps/mm; as fast as suits the method.
+/// An axis of 80 steps/mm, as fast as the method allows.
 AxisConfig axis_by(StepMethod method) {
     AxisConfig axis{.name = "X",
                     .steps_per_mm = 80,
@@ -79,7 +79,7 @@ TEST_P(ByMethod, EveryTailRestsWithinTheLimitsAndNotBeyondTheMove) {
             const double entry = tail.velocity.steps_per_tick() + a / 2;
             const double exit = entry + a * static_cast<double>(tail.ticks.value);
             const double speed = static_cast<double>(before.velocity_after(before.ticks)) * 0x1p-64;
-            const double some = 0.03 * limits.start_velocity;  // what whole ticks make of it
+            const double some = 0.03 * limits.start_velocity;  // the effect of rounding to whole ticks
             EXPECT_LE(-a, limits.max_deceleration * 1.001) << frame.number;
             EXPECT_LE(a, 0) << frame.number;
             EXPECT_LE(std::abs(speed - entry), limits.start_velocity + some) << frame.number;
@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(All, ByMethod,
                                          StepMethod::Carrica),
                          [](const auto& method) { return std::string(name_of(method.param)); });
 
-TEST(OwnPieces, ThatWouldBreakTheLimitsGoNoFurther) {
+TEST(OwnPieces, StopBeforeAPieceThatBreaksTheLimits) {
     AxisConfig axis = axis_by(StepMethod::Lam);
     axis.max_velocity_mm_s = 100;
     const AxisLimits limits = limits_of(axis, 1000);
@@ -116,7 +116,7 @@ TEST(OwnPieces, ThatWouldBreakTheLimitsGoNoFurther) {
     EXPECT_NEAR(rest.as_steps(), static_cast<double>(rest.count()), 1e-9);
 }
 
-TEST(OwnPieces, InATimeAreRanadesAlone) {
+TEST(OwnPieces, OnlyRanadeMovesInAGivenTime) {
     EXPECT_TRUE(OwnPieces::plan(axis_by(StepMethod::Ranade), 1000, StepMethod::Ranade, {80, 150, Ticks{100'000}},
                                 methods::begin_steps));
     const auto other = OwnPieces::plan(axis_by(StepMethod::Lai), 1000, StepMethod::Lai, {80, 50, Ticks{100'000}},

@@ -1,4 +1,4 @@
-// Moves that an axis makes by itself: begun, refused, fed, halted, ended, and gone on with after a missed start.
+// Moves that an axis makes by itself: begun, refused, fed, halted, ended, and continued after a missed start.
 #include "core/axis/own_moves/own_moves.hpp"
 
 #include "axis_parts.hpp"

@@ -1,4 +1,4 @@
-// When a position that was kept at rest is believed, and which doubt is named where it is not.
+// When an axis accepts a position that was kept at rest, and which doubt it names if it does not.
 #include "core/axis/device/position_claim.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What an axis leaves on disk of its position is read as it was written, or refused with the reason.
+// The file with the position of an axis is read as it was written, or refused with the reason.
 #include "services/axis/position_file.hpp"
 
 #include <gmock/gmock.h>
@@ -46,7 +46,7 @@ TEST_F(PositionFile, IsReadBitForBit) {
     EXPECT_EQ(read_position(file_).kept, KeptOrNot(position_after(7)));
 }
 
-TEST_F(PositionFile, ThatIsNotThereIsNoTrouble) {
+TEST_F(PositionFile, MayBeMissing) {
     EXPECT_EQ(read_position(file_).kept, KeptOrNot(std::unexpected(FaultCode::PositionNotKept)));
     EXPECT_EQ(read_position(folder_ / "no" / "folder").kept, KeptOrNot(std::unexpected(FaultCode::PositionNotKept)));
 }

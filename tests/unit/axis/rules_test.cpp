@@ -15,7 +15,7 @@ constexpr ProtocolTiming kTiming{.slot_us = 1000,
                                  .freshness_slots = 2,
                                  .send_ahead_slots = 12,
                                  .frame_slots = 5};
-constexpr Slot kStart = 100;  // of frame k
+constexpr Slot kStart = 100;  // the start of frame k
 
 TEST(Rules, TheCheckIsFourSlotsAndTheLateOnesBeforeTheStart) {
     EXPECT_EQ(kTiming.check_slots(), 4);
@@ -63,7 +63,7 @@ TEST(Rules, AnAxisVetoesOnlyWhatStillReachesEveryone) {
 
 TEST(Rules, AFrameIsSentFromAOnAndNeverPastItsDeadline) {
     EXPECT_EQ(rules::first_send_slot(kStart, kTiming), 88);
-    EXPECT_TRUE(rules::may_send(91, kStart, kTiming));  // two slots before the lease
+    EXPECT_TRUE(rules::may_send(91, kStart, kTiming));  // two slots before the lease begins
     EXPECT_FALSE(rules::may_send(92, kStart, kTiming));
 }
 

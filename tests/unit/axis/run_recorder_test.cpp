@@ -1,4 +1,4 @@
-// What is recorded of a run, and when: each body once the next has begun, the last with its tail.
+// The record of a run: each body is recorded when the next one has begun, the last body with its tail.
 #include "core/axis/state/run_recorder.hpp"
 
 #include <gtest/gtest.h>

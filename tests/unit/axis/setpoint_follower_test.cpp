@@ -1,4 +1,4 @@
-// One axis of two, by hand: what it holds, arms, vetoes and refuses.
+// Which frames one axis of two holds, arms, vetoes and refuses. The test writes its inputs.
 #include "core/axis/following/setpoint_follower.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ MachineConfig machine() { return pair_machine(); }
 constexpr Velocity kSlow{static_cast<std::int64_t>(0x1p64 * 500e-6)};   // 500 steps/s, below the start velocity
 constexpr Velocity kTooFast{static_cast<std::int64_t>(0x1p64 * 2e-2)};  // 20,000 steps/s, above the limit
 
-/// Frame k at constant speed from `from`, ending its axis's motion by stopping dead, as the start velocity allows.
+/// Frame k at constant speed from `from`. It has no tail: the axis stops at once, as the start velocity allows.
 Frame frame(FrameNumber k, Position from, Velocity v = kSlow, bool last = false) {
     Frame f{.term = kTerm,
             .epoch = kEpoch,
@@ -43,7 +43,7 @@ MachineState coordinator(Slot stamp, std::optional<FrameNumber> veto = std::null
 
 const Position kHome = Position::steps(0);
 
-/// Axis 0 of two, which has heard of the epoch.
+/// Axis 0 of two, after it has received the epoch.
 SetpointFollower informed() {
     SetpointFollower follower{0, machine()};
     follower.receive(MachineState{.epoch = kEpoch});
@@ -165,7 +165,7 @@ TEST_F(Follower, VetoesAFrameThatIsNotReceivedByItsCheck) {
     follower.receive(coordinator(94));
     EXPECT_TRUE(armed_at(95, 1));
     follower.receive(peer(99, 1));
-    (void)follower.decide(101, true);  // V before frame 2
+    (void)follower.decide(101, true);  // V slots before frame 2
     EXPECT_EQ(follower.veto(), 2u);
 }
 
@@ -212,7 +212,7 @@ TEST_F(Follower, RefusesWhatBreaksItsOwnLimits) {
 
 TEST_F(Follower, RefusesATailThatDoesNotComeToRest) {
     Frame f = frame(1, kHome);
-    const Velocity fast{static_cast<std::int64_t>(0x1p64 * 5e-3)};  // 5,000 steps/s: legal, but not to stop from
+    const Velocity fast{static_cast<std::int64_t>(0x1p64 * 5e-3)};  // 5,000 steps/s: legal, too fast to stop at once
     const Acceleration up{static_cast<std::int64_t>(0x1p64 * 0.99e-7)};
     f.axes[0].body.clear();
     (void)f.axes[0].body.push_back({{5 * kSlot}, kSlow, up});
@@ -238,7 +238,7 @@ TEST_F(Follower, AFirstFrameThatIsRefusedBeginsNothing) {
     EXPECT_TRUE(follower.open()) << "the same frame, unharmed, is taken";
 }
 
-TEST_F(Follower, AnEpochNoCoordinatorComesToDoesNotShutTheAxisOut) {
+TEST_F(Follower, AbsurdEpochNumberDoesNotBlockLaterEpochs) {
     Frame absurd = frame(1, kHome);
     absurd.epoch = ~Epoch{0} / 3;
     follower.receive(MachineState{.epoch = absurd.epoch});

@@ -9,7 +9,7 @@ namespace {
 
 constexpr Velocity kStepEach100Ticks{static_cast<std::int64_t>(kOneStep / 100)};
 
-/// A steady run of so many steps, one each 100 ticks.
+/// A steady run of `steps` steps, one every 100 ticks.
 ExecutedTrack steady(Tick start, std::int64_t steps) {
     return {.start = start, .from = Position::steps(0), .pieces = {{{100 * steps}, kStepEach100Ticks, {}}}};
 }

@@ -1,4 +1,4 @@
-// Rows in memory: read as they were written, and forgotten when they were released.
+// Rows in memory are read as they were written, and forgotten when they are released.
 #include "clients/simulation/sliding_rows.hpp"
 
 #include <gtest/gtest.h>

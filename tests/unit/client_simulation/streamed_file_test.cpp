@@ -1,4 +1,4 @@
-// A file that is simulated as it is read: the same steps as of the whole program, in bounded memory.
+// A file that is simulated while it is read gives the same steps as the whole program, in bounded memory.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -77,7 +77,7 @@ protected:
             expect_same(part_by_part.steps[channel], steps);
         }
     }
-    /// The program begins some slots later: its first part is on its way.
+    /// Steps of the program may come some slots later, because its first part is still on its way.
     void expect_same(const std::vector<RecordedStep>& steps, const std::vector<RecordedStep>& expected) const {
         ASSERT_EQ(steps.size(), expected.size());
         std::vector<std::int64_t> later;
@@ -157,7 +157,7 @@ TEST_F(StreamedFile, OfAnyLengthIsKeptInTheSameMemory) {
     }
 }
 
-/// One straight line of 20,000: the planner cannot begin before it knows where it ends.
+/// The 20,000 lines are one straight line. The planner cannot begin before it knows the end of it.
 TEST_F(StreamedFile, IsKeptAsFarAsThePlannerMustLookAhead) {
     std::string text = "G21 G90 F3000\n";
     for (int k = 1; k <= 20'000; ++k) { text += "G1 X" + std::to_string(10 + 0.001 * k) + "\n"; }

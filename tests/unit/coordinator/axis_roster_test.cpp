@@ -1,4 +1,5 @@
-// The axes as the coordinator knows them: present, replaced, silent; and the orders they were given.
+// The coordinator's view of the axes: whether they are present, replaced or silent, and the orders that they were
+// given.
 #include "core/coordinator/axes/axis_roster.hpp"
 
 #include "coordinator_parts.hpp"

@@ -1,4 +1,4 @@
-// About how long the blocks of a program take, in bounded memory.
+// The estimated times of the blocks of a program, in bounded memory.
 #include "core/coordinator/program/block_times.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A command that comes again is known as long as its client is among the newest, whatever the clients' identities.
+// A repeated command is recognised while its client is among the newest. The clients' identities do not matter.
 #include "core/protocol/client_memory.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,4 @@
-// The loop of a coordinator allocates no memory while a job runs: it cannot wait for the allocator, nor fault a page
-// in.
+// The loop of a coordinator allocates no memory while a job runs, so it never waits for the allocator or a page fault.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -44,7 +43,7 @@ Program all_kinds() {
     return program;
 }
 
-/// A coordinator and two axes with their devices in one thread, a loop of each in each slot.
+/// A coordinator and two axes with their devices in one thread. Each runs one loop per slot.
 class RunningCoordinator : public testing::Test {
 protected:
     RunningCoordinator() {
@@ -54,10 +53,10 @@ protected:
             }));
         }
     }
-    /// `what`: the situation to which allocations are counted.
+    /// Runs a slot. Its allocations are counted for the situation `what`.
     void slot(const char* what) {
         now_ += Ticks{1000};
-        if (lease_.sequence > 0 && ++slots_ % 500 == 0) { commands_.push_back(lease_); }  // its client keeps it
+        if (lease_.sequence > 0 && ++slots_ % 500 == 0) { commands_.push_back(lease_); }  // the client keeps the lease
         const std::uint64_t before = CountedAllocations::count();
         const CoordinatorOutputs& out = step();
         if (counts_) { counts_by_situation_[what] += CountedAllocations::count() - before; }
@@ -117,7 +116,7 @@ protected:
         ask(CommandKind::Home, "home");
         ASSERT_TRUE(reaches(MachinePhase::Idle, "homing"));
     }
-    /// With a hold and two overrides on the way, and a pause in the program.
+    /// Runs a program with a pause in it, and gives a hold and two overrides on the way.
     void run_program() {
         ask(CommandKind::Run, "begin of a job");
         ASSERT_EQ(coordinator_.phase(), MachinePhase::Running);

@@ -1,4 +1,4 @@
-// The parts of a coordinator of two axes, by hand.
+// The parts of a coordinator of two axes. The test writes their inputs.
 #pragma once
 
 #include <gtest/gtest.h>

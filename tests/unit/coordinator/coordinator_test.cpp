@@ -1,4 +1,4 @@
-// The coordinator alone, with axes that say what no axis of ours would.
+// The coordinator alone, with states of axes that no Lockstep axis would send.
 #include "core/coordinator/coordinator.hpp"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace lockstep {
 namespace {
 
-/// One axis, which the test speaks for. Slots of 1 ms.
+/// One axis. The test writes its states. Slots of 1 ms.
 class CoordinatorAlone : public testing::Test {
 protected:
     static MachineConfig machine() {
@@ -28,7 +28,7 @@ protected:
                                 .position_max_mm = 100});
         return machine;
     }
-    /// A slot: the axis says its state, the coordinator takes it, and its orders are done.
+    /// Runs a slot: the axis reports its state, the coordinator takes it, and the axis carries out the orders.
     void slot(std::span<const Command> commands = {}) {
         ++axis_.stamp;
         const CoordinatorOutputs out =
@@ -194,8 +194,8 @@ TEST_F(StandbyAlone, TakesOverTheLeaseOfTheOwnersWriter) {
     EXPECT_EQ(state_.lease, owner_.lease);
 }
 
-/// Its devices may have been switched off: where it is when it comes back proves nothing.
-TEST_F(StandbyAlone, EndsTheJobWhenAnAxisFallsSilentBeforeItIsGoneOnWith) {
+/// The axis's device may have been switched off, so its position after the silence proves nothing.
+TEST_F(StandbyAlone, EndsTheJobIfAnAxisFallsSilentBeforeItContinues) {
     ASSERT_TRUE(takes_over());
     pass(false, true);
     ASSERT_TRUE(doubts_.empty());
@@ -204,7 +204,7 @@ TEST_F(StandbyAlone, EndsTheJobWhenAnAxisFallsSilentBeforeItIsGoneOnWith) {
     EXPECT_EQ(state_.outcome, JobOutcome::Stopped);
 }
 
-/// Its frames would have to jump. The fault is of no axis.
+/// The frames would have to jump. The fault names no axis.
 TEST_F(StandbyAlone, FailsWhereNoFrameLeadsFromWhereTheAxisRests) {
     ProgramMove wide{{90}, 20, false};
     wide.tolerance_mm = 10;

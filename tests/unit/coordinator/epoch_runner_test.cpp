@@ -1,4 +1,4 @@
-// How an epoch comes to its end, as the coordinator sees it.
+// The coordinator's side of an epoch: its frames, its vetoes and its end.
 #include "core/coordinator/path/epoch_runner.hpp"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ MachineConfig one_slow_axis() {
     return machine;
 }
 
-/// The axis as it says it is in a slot.
+/// The state that the axis reports in a slot.
 std::vector<AxisView> says(Slot slot, FrameNumber held, std::optional<FrameNumber> veto, FrameNumber ran, Position at,
                            Epoch epoch = 1) {
     const bool rests = ran > 0;
@@ -39,7 +39,7 @@ std::vector<AxisView> says(Slot slot, FrameNumber held, std::optional<FrameNumbe
          slot}};
 }
 
-/// Begun in slot 100, at 0.
+/// A runner with an epoch that begins in slot 100 at position 0.
 EpochRunner runner_of(const MachineConfig& machine, const Program& program) {
     const ProgramPlanner planner(machine);
     const std::size_t axes = machine.axes.size();
@@ -61,7 +61,7 @@ Program long_move() {
 
 EpochRunner on_a_long_move() { return runner_of(one_slow_axis(), long_move()); }
 
-/// With two axes nobody else is there to repeat it when the link between them breaks.
+/// If the link between two axes breaks, only the coordinator can repeat a veto to the other axis.
 TEST(EpochRunner, RepeatsTheLowestVetoItReceives) {
     EpochRunner runner = on_a_long_move();
     (void)runner.send(110, says(110, 0, {}, 0, {}));
@@ -74,7 +74,7 @@ TEST(EpochRunner, RepeatsTheLowestVetoItReceives) {
     EXPECT_EQ(runner.veto(), 1u);
 }
 
-/// Two seconds of braking are far more frames than the coordinator remembers the ends of.
+/// Braking takes two seconds. The coordinator remembers the ends of far fewer frames than that.
 TEST(EpochRunner, MakesNoFramesBehindAVetoHoweverLongTheTail) {
     EpochRunner runner = on_a_long_move();
 
@@ -106,7 +106,7 @@ TEST(EpochRunner, AnAxisThatMovesLongAfterAllTailsIsOverdue) {
     for (; runner.sent() < 20; ++slot) { (void)runner.send(slot, says(slot, runner.sent(), {}, 0, {})); }
     runner.stop(slot);
     const Slot patience = 2 * 16 + 2;
-    slot += 100'000;  // a stall of its own proves nothing
+    slot += 100'000;  // the coordinator's own stall proves nothing
     for (Slot asked = 0; asked < patience; ++asked) {
         ++slot;
         (void)runner.send(slot, says(slot, 20, 21, 0, {}));
@@ -118,7 +118,7 @@ TEST(EpochRunner, AnAxisThatMovesLongAfterAllTailsIsOverdue) {
     EXPECT_FALSE(runner.evaluate(slot, says(slot, 20, 21, 0, {})).has_value());
 }
 
-/// Its last frames may begin in the future still.
+/// The last frames of the previous epoch may still begin in the future.
 TEST(EpochRunner, SendsNoFrameOfAnEpochBefore) {
     EpochRunner runner = on_a_long_move();
     Slot slot = 101;
@@ -131,7 +131,7 @@ TEST(EpochRunner, SendsNoFrameOfAnEpochBefore) {
     EXPECT_GT(runner.sent(), 0u);
 }
 
-/// So many mm along its block.
+/// `along` of a place is in mm along its block.
 TEST(EpochRunner, KnowsWhereTheProgramIsAtTheEndOfEachFrame) {
     EpochRunner runner = on_a_long_move();
     for (Slot slot = 101; runner.sent() < 40; ++slot) {
@@ -142,8 +142,8 @@ TEST(EpochRunner, KnowsWhereTheProgramIsAtTheEndOfEachFrame) {
     }
 }
 
-/// It remembers only the last frames.
-TEST(EpochRunner, OfATimeLongAgoKnowsTheFirstPlaceThatItRemembers) {
+/// The runner remembers only the last frames.
+TEST(EpochRunner, ReturnsItsOldestPlaceForEarlierTimes) {
     EpochRunner runner = on_a_long_move();
     Position early;
     for (Slot slot = 101; runner.sent() < 200; ++slot) {
@@ -164,13 +164,12 @@ Program moves_of_0_05_mm(int count) {
     return program;
 }
 
-/// The newest overrides, once behind each frame.
 TEST(EpochRunner, TurnsOnceBehindEachFrameToTheNewestOverrides) {
     EpochRunner runner = runner_of(one_slow_axis(), moves_of_0_05_mm(20'000));
     std::vector<FrameNumber> behind;
     runner.read_ahead();
     for (Slot slot = 101; slot < 151; ++slot) {
-        runner.turn({50 + static_cast<int>(slot - 100), 100});  // each slot another
+        runner.turn({50 + static_cast<int>(slot - 100), 100});  // another feed in each slot
         (void)runner.send(slot, says(slot, runner.sent(), {}, 0, {}));
         if (const auto turn = runner.take_turn()) {
             EXPECT_EQ(turn->overrides.feed_percent, 50 + slot - 100);
@@ -182,7 +181,7 @@ TEST(EpochRunner, TurnsOnceBehindEachFrameToTheNewestOverrides) {
     EXPECT_EQ(std::ranges::adjacent_find(behind), behind.end());
 }
 
-/// Frames that become known when the test says so.
+/// A source of frames that become known when the test sets `is_known`.
 class LateFrames final : public FrameSource {
 public:
     LateFrames(std::unique_ptr<FrameSource> frames, const bool& is_known)
@@ -220,7 +219,7 @@ protected:
         runner.load(OwnedSource(std::make_unique<LateFrames>(std::move(frames), is_known)));
         runner.begin(1, {0, {}}, {Position{}}, {});
     }
-    /// Slot by slot, up to this one. Returns where the last frame rests.
+    /// Sends frames slot by slot up to `until`. Sets `rest` to the place where the last frame rests.
     void go_on(Slot until) {
         for (; slot < until; ++slot) {
             for (const Frame& frame : runner.send(slot, says(slot, runner.sent(), {}, 0, {}))) {
@@ -291,7 +290,7 @@ TEST_F(LatePlanner, RestsOnThePathAndGoesOnFromThere) {
     EXPECT_EQ(rest.count(), 10'000);
 }
 
-TEST_F(LatePlanner, LacksBlocksWhereTheFrameThatWasDueCouldNotBeMadeWhateverCameAfterwards) {
+TEST_F(LatePlanner, ReportsMissingBlocksIfTheDueFrameLackedThemDespiteALaterStall) {
     is_known = true;
     go_on(1000);
     for (const FrameNumber sent = runner.sent(); runner.sent() == sent;) { go_on(slot + 1); }
@@ -324,7 +323,7 @@ TEST_F(LatePlanner, LacksNoBlocksWhereOnlyThisProcessWasLate) {
     EXPECT_FALSE(runner.lacked_blocks());
 }
 
-/// Three axes after frame 3 of a move of the first, which was stopped behind it.
+/// Three axes after the first one moved and was stopped behind frame 3.
 class EndOfEpoch : public testing::Test {
 protected:
     static constexpr FrameNumber kRan = 3;
@@ -393,7 +392,7 @@ TEST_F(EndOfEpoch, LeavesOutAnAxisThatIsNotPresent) {
     EXPECT_EQ(runner.evaluate(slot, axes)->kind, EpochEnd::Kind::Interrupted);
 }
 
-TEST_F(EndOfEpoch, OfFramesThatWereNotSentIsADifference) {
+TEST_F(EndOfEpoch, ReportsFramesThatWereNeverSent) {
     for (AxisView& axis : axes) { axis.state->ran = kRan + 1; }
     EXPECT_EQ(runner.evaluate(slot, axes)->kind, EpochEnd::Kind::FramesDiffer);
 }

@@ -1,4 +1,4 @@
-// The events of a leg wait for the motion to come to their places, also where it goes back to an earlier one.
+// The events of a leg wait until the motion comes to their places, also if it goes back to an earlier place.
 #include "core/coordinator/path/event_queue.hpp"
 
 #include <gtest/gtest.h>
@@ -10,12 +10,12 @@ namespace {
 
 class EventsOfALeg : public testing::Test {
 protected:
-    /// Before the moves of blocks 2 and 5.
+    /// Adds events before the moves of blocks 2 and 5.
     EventsOfALeg() {
         queue.add({.block = 1, .line = 11});
         queue.add({.block = 4, .line = 14});
     }
-    /// The lines of those that are due in a frame in which the moves of these blocks begin.
+    /// The lines of the events that are due in a frame in which the moves of these blocks begin.
     std::vector<std::int32_t> due(std::initializer_list<std::uint32_t> blocks, bool is_last = false) {
         std::vector<MoveBegin> begins;
         for (const std::uint32_t block : blocks) { begins.push_back({block, 10}); }

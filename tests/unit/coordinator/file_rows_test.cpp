@@ -22,14 +22,14 @@ protected:
     static std::array<double, kWidth> row_of(std::uint32_t number) {
         return {static_cast<double>(number), number / 3.0, -1.5 * number, 7};
     }
-    /// As fast as the disk takes them.
+    /// Appends rows as fast as the disk takes them.
     static void append(FileRows& rows, std::uint32_t from, std::uint32_t to) {
         for (; from < to; ++from) {
             while (rows.free_rows() == 0) { std::this_thread::yield(); }
             ASSERT_TRUE(rows.append(row_of(from)));
         }
     }
-    /// Waits until it is at hand.
+    /// Reads a row. Waits until it is in memory.
     static std::array<double, kWidth> read(FileRows& rows, std::uint32_t number) {
         std::array<double, kWidth> row{};
         while (!rows.read(number, row)) { std::this_thread::sleep_for(std::chrono::microseconds{100}); }
@@ -50,7 +50,7 @@ TEST_F(Rows, AreReadAsTheyWereWritten) {
     EXPECT_TRUE(std::filesystem::is_empty(directory.path())) << "nothing is left where the coordinator is killed";
 }
 
-/// By the thread that asks for them.
+/// Counts the allocations of the thread that reads.
 TEST_F(Rows, AreReadWithoutAllocationOnceTheMemoryIsFull) {
     constexpr std::uint32_t kRows = 200 * kPageRows;
     FileRows rows(kWidth, directory.path(), kPlenty);

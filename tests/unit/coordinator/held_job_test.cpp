@@ -1,4 +1,4 @@
-// A job of a whole machine in one thread: what its outputs say when it is held, goes on and ends.
+// A job of a whole machine in one thread: the outputs when the job is held, resumed and ended.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace lockstep {
 namespace {
 
-/// A coordinator and two axes with their devices, a loop of each in each slot.
+/// A coordinator and two axes with their devices. Each runs one loop per slot.
 class HeldJob : public testing::Test {
 protected:
     HeldJob() {
@@ -50,7 +50,7 @@ protected:
         commands_.push_back({.client = 1, .sequence = ++sequence_, .kind = kind, .program = 1});
         slot();
     }
-    /// From where the axes park, with an event between two moves.
+    /// Homes, and runs a program from the park positions with an event between two moves.
     void run() {
         ASSERT_TRUE(reaches(MachinePhase::Idle));
         ask(CommandKind::Home);
@@ -110,7 +110,7 @@ TEST_F(HeldJob, SaysOnceHowEachEpochEnded) {
     EXPECT_EQ(count(JobEvent::Kind::Ended), 1);
 }
 
-/// What the record keeps of them, to do the job again.
+/// The record keeps these numbers so that the job can be repeated from it.
 TEST_F(HeldJob, NamesTheProgramWhereItBeginsAndEndsAndTheEpochWhereThatBegins) {
     run();
     ASSERT_TRUE(reaches(MachinePhase::Idle));

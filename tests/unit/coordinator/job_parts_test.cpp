@@ -159,7 +159,7 @@ TEST_F(Inherited, NamesWhyItIsNotGoneOnWith) {
     EXPECT_FALSE(job.exists());
 }
 
-/// Holds before a first frame are asked for: they say nothing about the path.
+/// A hold before the first frame was requested, so it says nothing about the path.
 TEST_F(CoordinatorParts, APathIsGivenUpAfterInterruptionsWithoutAFrameAndNotAfterHolds) {
     PathJob path(machine);
     const EpochEnd fruitless{.kind = EpochEnd::Kind::Interrupted};

@@ -1,4 +1,4 @@
-// A job by hand: begun, interrupted, failed and ended, with axes that report what the test lets them.
+// A job is begun, interrupted, failed and ended. The test writes the reports of the axes.
 #include "core/coordinator/jobs/job_runner.hpp"
 
 #include "coordinator_parts.hpp"
@@ -131,7 +131,7 @@ TEST_F(Running, OwnMovesEndAtTheirTargetsOrInAFault) {
     EXPECT_TRUE(ask([&](auto& l) { return jobs.move_own({.kind = CommandKind::MoveOwn, .program = 1}, l); }));
     EXPECT_FALSE(ask([&](auto& l) { return jobs.interrupt(Intent::Hold, l); })) << "they cannot be resumed";
     finish_order(0);
-    finish_order(1);  // at 0 still, where neither was to go
+    finish_order(1);  // both are still at 0, which is not their target
     ask([&](auto& l) { jobs.advance(l); });
     EXPECT_EQ(condition.fault(), FaultCode::PositionMismatch);
 }

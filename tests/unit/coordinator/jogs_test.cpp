@@ -1,4 +1,4 @@
-// Jogs by hand: who holds which axis, and the orders that the axes get while they are held.
+// Jogs: which client holds which axis, and the orders that the axes get meanwhile.
 #include "core/coordinator/jobs/jogs.hpp"
 
 #include "coordinator_parts.hpp"
@@ -40,7 +40,7 @@ TEST_F(Jogged, AnAxisIsOrderedAtOnceAndForAsLongAsAJogHolds) {
     EXPECT_EQ(out.axis_commands[0].target_steps, 10'000) << "to the end of its travel";
 }
 
-TEST_F(Jogged, AKeyThatArrivesAfterAStallMovesNothingUntilItIsRenewed) {
+TEST_F(Jogged, PressReceivedAfterAStallMovesOnlyOnceRenewed) {
     press(pressed(1), true);
     EXPECT_TRUE(out.axis_commands.empty()) << "its client may be dead";
     ++slot;
@@ -58,10 +58,10 @@ TEST_F(Jogged, AKeyIsRenewedOnlyByItsClientAndItsCommand) {
     EXPECT_FALSE(renew(other));
 }
 
-/// Another key is pressed beside it: an axis that goes on as before is not to stop.
+/// The client presses a second key. An axis with an unchanged jog must not stop.
 TEST_F(Jogged, AnAxisThatIsAskedForTheSameAgainGoesOn) {
     AxisState state = state_of(0);
-    state.homed = false;  // it knows no end: its target is as far from where the key was pressed
+    state.homed = false;  // no end of travel is known: the target is a distance from where the key was pressed
     axes.take(state, slot);
     machine.axes[0].unhomed_jog_mm_s = 5;
     press(pressed(1));

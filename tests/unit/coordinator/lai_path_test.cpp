@@ -1,4 +1,4 @@
-// Coordinated moves by Lai's velocity planner: whole pulses in every period, exactly at the end, never past a limit.
+// Coordinated moves by Lai's velocity planner have whole pulses in every period, end exactly, and keep the limits.
 #include "core/coordinator/path/lai_path.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ constexpr std::int64_t kTick_ns = 1000;
 constexpr Ticks kPeriod{6500};
 constexpr Ticks kLeastMove{400};
 
-/// Two pulses per period to start with; a change of one pulse per period takes half the acceleration.
+/// The start velocity is two pulses per period. A change of one pulse per period takes half the acceleration.
 AxisLimits axis_of(double steps_per_s, double steps_per_s2) {
     return {400e-6, steps_per_s * 1e-6, steps_per_s2 * 1e-12, steps_per_s2 * 1e-12, -1'000'000, 1'000'000};
 }
@@ -34,7 +34,7 @@ Path path_through(const std::vector<AxisCounts>& places, LaiFollowing following 
     return plan_lai_path(moves, {}, kLimits, kScale, kTick_ns, kLeastMove, following);
 }
 
-/// Runs the path to `end` as one frame, the tail behind it, and asks both axes.
+/// Makes one frame of the path up to `end` and a tail behind it. Expects both axes to accept it.
 void expect_accepted(const Path& path, Ticks end) {
     std::vector<Position> at{start_of(path, 0, 0), start_of(path, 1, 0)};
     std::vector<AxisTrack> tracks{{at[0], {}, {}}, {at[1], {}, {}}};
@@ -70,7 +70,7 @@ TEST(LaiPath, EveryPeriodHasWholePulsesAndThePapersLength) {
     }
 }
 
-TEST(LaiPath, TheSpeedChangesByOnePulsePerPeriodWhereThatIsWhatTheAxisCanDo) {
+TEST(LaiPath, SpeedChangesByAtMostOnePulsePerPeriod) {
     const Path path = path_through({{0, 0}, {107, 0}});
     std::int64_t before = 0;
     for (const PathMove& period : path.moves) {
@@ -83,7 +83,7 @@ TEST(LaiPath, TheSpeedChangesByOnePulsePerPeriodWhereThatIsWhatTheAxisCanDo) {
               10);  // floor(sqrt(107))
 }
 
-/// 32.5 pulses per period are the most that the axis does.
+/// The greatest velocity of the axis is 32.5 pulses per period.
 TEST(LaiPath, ALongMoveGoesAsFastAsWholePulsesAllow) {
     const Path path = path_through({{0, 0}, {4000, 0}});
     std::int64_t fastest = 0;
@@ -144,7 +144,7 @@ TEST(LaiPath, AsPublishedIsThePapersPlanPeriodForPeriod) {
     }
 }
 
-TEST(LaiPath, WhatIsLeftOfAHeldMoveIsMadeFromRestAndEndsWhereItShould) {
+TEST(LaiPath, HeldMoveContinuesFromRestToItsTarget) {
     const Path whole = path_through({{0, 0}, {107, -93}, {0, 0}});
     for (std::size_t held = 1; held < whole.moves.size(); ++held) {
         const std::vector<PathMove> left(whole.moves.begin() + static_cast<std::ptrdiff_t>(held), whole.moves.end());
@@ -188,9 +188,9 @@ MachineConfig machine_of(double start_mm_s, double accel_mm_s2) {
 
 TEST(LaiPath, AMachineThatCannotChangeSpeedByWholePulsesIsRefused) {
     EXPECT_TRUE(suits_lai_path(machine_of(5, 800)).has_value());
-    EXPECT_NE(text_of(suits_lai_path(machine_of(3, 800)).error()).find("start_velocity_mm_s of at least 3.84615"),
+    EXPECT_NE(text_of(suits_lai_path(machine_of(3, 800)).error()).find("start_velocity_mm_s must be at least 3.84615"),
               std::string::npos);
-    EXPECT_NE(text_of(suits_lai_path(machine_of(5, 500)).error()).find("max_accel_mm_s2 of at least 591.716"),
+    EXPECT_NE(text_of(suits_lai_path(machine_of(5, 500)).error()).find("max_accel_mm_s2 must be at least 591.716"),
               std::string::npos);
     MachineConfig one = machine_of(5, 800);
     one.axes.pop_back();

@@ -1,4 +1,4 @@
-// Who may claim a machine, who must stand down: from what is heard alone.
+// Which coordinator may claim a machine and which must stand down, judged from received messages alone.
 #include "core/coordinator/ownership.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ constexpr ProtocolTiming kTiming{.slot_us = 1000,
 const Slot kSilence = rules::silence_slots(kTiming);
 constexpr Term kOther{500, 4};
 
-/// Two axes and a coordinator that is process 7, slot by slot.
+/// Two axes and a coordinator with identity 7, slot by slot.
 struct Scene {
     Ownership ownership{7, kTiming};
     std::vector<AxisView> axes = std::vector<AxisView>(2);
@@ -28,7 +28,7 @@ struct Scene {
         axes[axis].state->stamp = now;
         ownership.receive(*axes[axis].state);
     }
-    /// Both axes follow `term`, and hear its owner.
+    /// Both axes report that they follow `term`, and whether they receive its owner.
     void axes_follow(const Term& term, bool receive_owner = true, bool at_rest = true) {
         for (std::size_t i = 0; i < 2; ++i) {
             say(i, {.at_rest = at_rest, .term = term, .hears_owner = receive_owner});
@@ -42,7 +42,7 @@ struct Scene {
         ++now;
         return change;
     }
-    /// Until something changes, `tell` being said each slot; no longer than `slots`.
+    /// Evaluates slot by slot until something changes, at most `slots` slots. Calls `tell` before each.
     template <typename Tell>
     Ownership::Change look_for(Slot slots, Tell tell) {
         for (Slot i = 0; i < slots; ++i) {
@@ -95,7 +95,7 @@ TEST(Ownership, IsNotClaimedForAnOwnStall) {
     EXPECT_EQ(scene.look_for(kSilence / 2, [] {}), Change::None);
 }
 
-TEST(Ownership, OfTwoThatWaitTheElderGoesFirst) {
+TEST(Ownership, ElderOfTwoWaitingCoordinatorsClaimsFirst) {
     Scene younger;
     const auto elder_waits = [&] {
         younger.ownership.receive({.term = {0, 3}, .stamp = younger.now, .phase = MachinePhase::Standby}, younger.now);

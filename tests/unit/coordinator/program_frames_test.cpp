@@ -1,5 +1,4 @@
-// The frames of a leg: the program is read a bounded amount at a time, and what comes of it depends on the program
-// alone.
+// The program of a leg is read a bounded amount at a time. The frames depend only on the program.
 #include "core/coordinator/path/program_frames.hpp"
 
 #include <gtest/gtest.h>
@@ -106,7 +105,7 @@ TEST_F(ProgramFramesTest, NameTheMovesThatBeginInThem) {
     for (source->read_ahead(); !source->is_done(); source->read_ahead()) {
         const auto frame = source->next().value();
         for (const MoveBegin& begin : source->begins()) {
-            if (begin.block + 1 == next) { continue; }  // at the end of the frame before, too
+            if (begin.block + 1 == next) { continue; }  // also named at the end of the previous frame
             EXPECT_EQ(begin.block, next++);
             EXPECT_LE(begin.at, static_cast<double>(frame->ticks.value));
         }
@@ -145,7 +144,7 @@ protected:
         machine.axes[1].position_max_mm = 0;
         return machine;
     }
-    /// The arc's ends are 0.4 steps beyond the travel of Y: a quarter of its radius.
+    /// The arc's ends are 0.4 steps beyond the travel of Y, which is a quarter of the arc's radius.
     static Program arc() {
         Program program{.name = "arc", .axes = {"X", "Y"}, .start_mm = {0, 0}};
         ProgramMove arc{{0.875, 0.1}, 10, false};
@@ -201,7 +200,7 @@ TEST_F(LaiFramesTest, EndWhereTheProgramDoes) {
     EXPECT_EQ(rest_of(frames.back())[1].count(), 4800);
 }
 
-/// The long axis leads: its steps are the way along the block.
+/// The long axis leads. Its steps measure the way along the block.
 TEST_F(LaiFramesTest, RestWhereTheyReport) {
     OwnedSource source = this->source();
     for (const PathFrame& frame : up_to(source, 1000)) {
@@ -212,7 +211,7 @@ TEST_F(LaiFramesTest, RestWhereTheyReport) {
     }
 }
 
-/// Also behind a rest within a period.
+/// This also holds behind a rest within a period.
 TEST_F(LaiFramesTest, AreTheSameWhenResumedTwiceAtOnePlace) {
     OwnedSource source = this->source();
     for (int rests = 0; rests < 3; ++rests) {
@@ -270,7 +269,7 @@ TEST(ProgramPlan, ABlockThatTakesNoTimeIsNoMove) {
     EXPECT_TRUE(planner.moves_of(program, legs->front()).empty());
 }
 
-TEST(ProgramPlan, AStartElsewhereIsOfNoLine) {
+TEST(ProgramPlan, StartMismatchNamesNoLine) {
     const ProgramPlanner planner(two_long_axes());
     const auto legs = planner.plan(line_in_parts(10, 10), {80, 0});
     ASSERT_FALSE(legs);

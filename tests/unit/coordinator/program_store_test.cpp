@@ -1,4 +1,4 @@
-// Programs arrive in parts: each part is answered, and one that cannot be run says why.
+// Programs arrive in parts. Each part is answered, and the answer to a part that cannot be run gives the reason.
 #include "core/coordinator/program/program_store.hpp"
 
 #include <gtest/gtest.h>
@@ -65,7 +65,7 @@ TEST_F(ProgramInParts, NamesNoLineWhereNoneIsWrong) {
     EXPECT_TRUE(taken.reply.text.starts_with("the program moves axis Q")) << taken.reply.text;
 }
 
-/// Keeps nothing but what it is told.
+/// Keeps no rows, only the number before which rows were released.
 class ReleasedRows final : public RowStore {
 public:
     explicit ReleasedRows(std::uint32_t& released) : released_(&released) {}

@@ -1,5 +1,5 @@
-// What a new owner makes of the job of the one before it: what is left, or why it does not go on.
-// A place is so many mm along a block.
+// What is left of the previous owner's job for a new owner, or why the job does not continue. `along` of a place is in
+// mm along its block.
 #include "core/coordinator/jobs/takeover.hpp"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ protected:
         program.blocks = {{1, ProgramMove{{30, 20}, 20, false}}, {2, ProgramMove{{60, 20}, 20, false}}};
         rest_at(10);
     }
-    /// Both axes rest where the path is, so many mm along a block.
+    /// Both axes rest on the path, `along_mm` along the block.
     void rest_at(double along_mm, std::uint32_t block = 0) {
         const double x = block == 0 ? 10 + along_mm : 30 + along_mm;
         const std::vector<Position> positions{{static_cast<Int128>(x * 100 * 0x1p64)}, Position::steps(2000)};
@@ -59,7 +59,7 @@ protected:
     }
     TakeoverDoubt doubt() const {
         const auto found = rest();
-        return found ? TakeoverDoubt::NotAsked : found.error();  // NotAsked: none
+        return found ? TakeoverDoubt::NotAsked : found.error();  // NotAsked stands for no doubt
     }
 
     MachineConfig machine = make_machine();
@@ -85,7 +85,7 @@ TEST_F(RestOfJob, GoesOnAtTheEndOfAMove) {
     EXPECT_EQ(found->positions[0].count(), 3000);
 }
 
-TEST_F(RestOfJob, IsOnlyTheEndOfTheLegBehindItsLastFrame) {
+TEST_F(RestOfJob, IsDoneBehindTheLastFrameOfTheLastLeg) {
     rest_at(30, 1);
     last.rests[0].last = true;
     const auto found = rest();
@@ -155,15 +155,15 @@ TEST_F(RestOfJob, BeforeItsFirstFrameStartsOnWholeSteps) {
     rest_at(0);
     last.rests[0].frame = 0;
     for (AxisView& axis : axes) { axis.state->ran = 0; }
-    last.rests[0].digest += 1;  // of the exact places the owner set out from
+    last.rests[0].digest += 1;  // the owner made the digest of the exact positions at its start
     const auto found = rest();
     ASSERT_TRUE(found.has_value());
     EXPECT_TRUE(found->positions.empty());
     EXPECT_EQ(found->place, (PathPlace{0, {}}));
 }
 
-/// Only before the first frame: one that was run has brought the axes to where it says.
-TEST_F(RestOfJob, IsInDoubtBehindItsFirstFrameElsewhereThanThatEnds) {
+/// The digest is ignored only before the first frame. Once a frame was run, the axes must rest where it ends.
+TEST_F(RestOfJob, IsInDoubtIfAnAxisIsNotWhereTheFirstFrameEnds) {
     rest_at(0);
     last.rests[0].frame = 1;
     for (AxisView& axis : axes) { axis.state->ran = 1; }
@@ -172,7 +172,7 @@ TEST_F(RestOfJob, IsInDoubtBehindItsFirstFrameElsewhereThanThatEnds) {
     EXPECT_EQ(doubt(), TakeoverDoubt::Misplaced);
 }
 
-/// Joining moves and whole steps take an axis so far from the program.
+/// Joining of moves and rounding to whole steps take an axis up to three steps from the program.
 TEST_F(RestOfJob, GoesOnThreeStepsFromThePlaceOfTheProgramAndNoFarther) {
     for (AxisConfig& axis : machine.axes) { axis.steps_per_mm = 64; }  // steps are exact in mm
     program.blocks.insert(program.blocks.begin(), {0, Dwell{1}});

@@ -108,7 +108,7 @@ TEST(ValueKeeper, AStandbyFollowsTheOwnerAndEndsItsJob) {
     ASSERT_TRUE(keeper.accept(7, {3, with_x(2)}, standby));
     keeper.follow(3, with_x(1));
     EXPECT_EQ(keeper.values(), with_x(1));
-    keeper.take(ended(7, JobOutcome::Done));  // it has taken the job over, and so there is no event of its beginning
+    keeper.take(ended(7, JobOutcome::Done));  // the keeper took the job over, so it has no event of its beginning
     EXPECT_EQ(keeper.values(), with_x(2));
     EXPECT_EQ(keeper.revision(), 4U);
 }

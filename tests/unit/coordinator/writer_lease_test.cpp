@@ -1,4 +1,4 @@
-// Who may give commands: the lease is taken, kept, given back, taken over, and lost by silence.
+// The writer's lease is taken, kept, given back, taken over, and lost by silence.
 #include "core/coordinator/writer_lease.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// A broken promise ends the process and is named, in every build.
+// A failed check names its promise and ends the process, in every build.
 #include "core/check.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The rest of a program, from a line.
+// The rest of a program from a given line.
 #include "core/program.hpp"
 
 #include <gtest/gtest.h>

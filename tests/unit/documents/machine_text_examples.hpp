@@ -7,7 +7,7 @@
 
 namespace lockstep {
 
-/// Line by line, so that places are known: name is line 1, the axis begins on line 2.
+/// Each key has its own line, so that the places of errors are known: name is on line 1, the axis begins on line 2.
 inline constexpr std::string_view kShortest = R"(name: "m"
 axis {
   name: "X"
@@ -28,10 +28,10 @@ inline std::string with(std::string_view from, std::string_view to, std::string_
     return changed.replace(at, from.size(), to);
 }
 
-/// kShortest with a line more at the end of its axis: it is line 10.
+/// kShortest with `line` added at the end of its axis, as line 10.
 inline std::string axis_with(std::string_view line) { return with("200\n", "200\n  " + std::string(line) + "\n"); }
 
-/// kShortest with a line more at its end: it is line 11.
+/// kShortest with `line` added at its end, as line 11.
 inline std::string machine_with(std::string_view line) { return std::string(kShortest) + std::string(line) + "\n"; }
 
 }  // namespace lockstep

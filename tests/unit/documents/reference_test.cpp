@@ -1,5 +1,4 @@
-// Every range and default that machine.proto states is the code's. docs/configuration.md is made from
-// the same comments.
+// machine.proto states the ranges and defaults of the code. docs/configuration.md is made from the same comments.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -43,7 +42,7 @@ std::vector<Key> keys() {
     return found;
 }
 
-/// The shortest machine with this key set; nothing for a block that is not in the table.
+/// The shortest machine with this key set; nullopt if the block is not in the table.
 std::optional<std::string> machine_with_key(const Key& key, const std::string& value) {
     static const std::map<std::string, std::pair<std::string, std::string>> kAround{
         {"Machine", {"", ""}},

@@ -1,4 +1,4 @@
-// Reports are JSON for other programs: keys as documented, zeros written, unknown values left out.
+// Reports as JSON for other programs have the documented keys. Zeros are written, unknown values are left out.
 #include "services/documents/report_json.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// The slots of a machine's file are rewritten; everything else stays.
+// The edit rewrites the slots of a machine's file and leaves everything else.
 #include <gtest/gtest.h>
 
 #include <string>

@@ -1,4 +1,4 @@
-// The values that outlive programs, as text and as bytes: what is written is read, and nothing else is taken.
+// The values that outlive programs are read as they were written, as text and as bytes. Other input is refused.
 #include "services/documents/values/values_document.hpp"
 
 #include <gmock/gmock.h>

@@ -9,7 +9,7 @@
 
 namespace lockstep::test {
 
-/// A '&' begins one of XML's predefined entities.
+/// Whether every '&' begins one of XML's predefined entities.
 inline bool entities_are_known(std::string_view text) {
     for (std::size_t at = text.find('&'); at != text.npos; at = text.find('&', at + 1)) {
         const std::string_view rest = text.substr(at);
@@ -21,7 +21,7 @@ inline bool entities_are_known(std::string_view text) {
     return true;
 }
 
-/// The error in the document; nothing if it is well-formed.
+/// The error in the document, or nullopt if it is well-formed.
 inline std::optional<std::string> xml_problem(std::string_view xml) {
     if (!entities_are_known(xml)) { return "a bare '&'"; }
     std::vector<std::string> open;

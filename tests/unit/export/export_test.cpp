@@ -1,4 +1,5 @@
-// A log's table: a row for each instant, times that rise, a column for each signal with its unit in its name.
+// The table of a log has a row for each instant, in rising time, and a column for each signal with its unit in its
+// name.
 #include "clients/export/export.hpp"
 
 #include <gmock/gmock.h>

@@ -60,7 +60,7 @@ TEST_F(TextFile, ItsRefusalIsOfTheFileAsAWhole) {
     EXPECT_EQ(to_text("m.textproto", machine.error()), "m.textproto: error: this is a directory; name a file in it\n");
 }
 
-/// A child process replaces the file again and again; it is killed after each of many times.
+/// A child process replaces the file again and again until it is killed. This is repeated with many delays.
 TEST_F(TextFile, OfAProcessThatIsKilledWhileItReplacesItIsTheOldOrTheNewOne) {
     const auto path = folder_ / "file";
     const std::string texts[] = {std::string(100'000, 'a'), std::string(70'000, 'b')};

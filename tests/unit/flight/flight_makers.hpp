@@ -1,4 +1,4 @@
-// A process's flight for tests, in a folder of its own.
+// A flight source, its rings and its incident files in a temporary folder, for tests.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// At a fault the notes are in a file that LCM's tools read, and the number of files is limited.
+// A fault puts the notes into a file that LCM's tools read. The number of files is limited.
 #include "services/flight/incident_file.hpp"
 
 #include <gmock/gmock.h>
@@ -134,7 +134,7 @@ TEST_F(Recorder, SavesTheNotesOfAKilledProcess) {
         raise(SIGKILL);
     }
     waitpid(child, nullptr, 0);
-    begin().reset();  // its successor
+    begin().reset();  // the successor of the killed process
     ASSERT_EQ(files().size(), 1U);
     EXPECT_EQ(read_file(files()[0]).heads.at(0).reason, "ended");
     EXPECT_EQ(read_file(files()[0]).events.at(0).frame, 42);

@@ -1,4 +1,4 @@
-// Runs a text and keeps what it does, with a machine of nine axes and two tools, at 0.
+// Runs a text for a machine of nine axes at 0 and two tools, and keeps its actions.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ inline State two_tools() {
     return state;
 }
 
-/// Until the first error.
+/// Runs the text up to its first error.
 inline Ran run(std::string_view text, Setup setup = {}) {
     Ran ran;
     setup.program = text;

@@ -97,7 +97,7 @@ TEST(GcodeErrors, ReportsEveryWrongLineUpToALimit) {
     EXPECT_EQ(errors(text).size(), kMaxGcodeErrors);
 }
 
-TEST(GcodeErrors, AByteOrderMarkAtTheStartIsNone) {
+TEST(GcodeErrors, ByteOrderMarkAtTheStartIsAccepted) {
     EXPECT_EQ(errors("\xef\xbb\xbfG0 X1\n").size(), 0U);
     const auto wrong = errors("\xef\xbb\xbfG7\n");
     ASSERT_EQ(wrong.size(), 1U);

@@ -87,14 +87,14 @@ TEST(GcodeFlow, SubroutineMayStandBehindItsCall) {
                          "o3 endsub\n"),
                 ElementsAre("7.000000", "a", "8.000000", "a"));
     EXPECT_THAT(messages("o1 if [0]\no2 call\no1 endif\no2 sub\n(debug,a)\no2 endsub\no2 call\n"), ElementsAre("a"));
-    EXPECT_THAT(run("o2 call\nM2\no3 sub\no3 endsub\n").error->message, HasSubstr("calls what is not there"));
+    EXPECT_THAT(run("o2 call\nM2\no3 sub\no3 endsub\n").error->message, HasSubstr("does not exist"));
 }
 
 TEST(GcodeFlow, SubroutineBehindItsCallMayNotBeInTheProgramsWay) {
     const Ran ran = run("o2 call\nG0 X1\no2 sub\no2 endsub\n");
     ASSERT_TRUE(ran.error);
     EXPECT_EQ(ran.error->line, 3);
-    EXPECT_THAT(ran.error->message, HasSubstr("behind M2"));
+    EXPECT_THAT(ran.error->message, HasSubstr("after M2"));
 }
 
 TEST(GcodeFlow, OneLabelOpensOneThing) {

@@ -6,7 +6,7 @@
 namespace lockstep {
 namespace {
 
-/// Runs one program after the other; each begins where the machine stands at 0 with the values of the one before.
+/// Reads one program after the other. Each begins with the machine at 0 and with the values that the previous one left.
 GcodeReading read_in_turn(std::initializer_list<const char*> texts) {
     GcodeReading reading;
     GcodeSetup setup = three_axes();

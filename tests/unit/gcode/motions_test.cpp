@@ -1,4 +1,4 @@
-// Arcs, splines, cycles and offsets: the motions that a text comes to.
+// The motions of a text: arcs, splines, cycles and offsets.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -98,7 +98,7 @@ TEST(GcodeChords, OfANurbsOfACircleAreOnTheCircle) {
     EXPECT_LE(greatest_error(ends, {1, 0, 0}, 1), 1e-4);
 }
 
-/// The heights and places of straight moves: "x y z" of each.
+/// The targets of the straight moves: x, y and z of each.
 std::vector<std::array<double, 3>> places(std::string_view text) {
     std::vector<std::array<double, 3>> result;
     const Ran ran = run(text);

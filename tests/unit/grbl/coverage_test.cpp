@@ -1,4 +1,4 @@
-// docs/grbl.md and the tables that senders load say what the code does. The tables are written again by
+// docs/grbl.md and the tables that senders load agree with the code. This command writes the tables again:
 //   LOCKSTEP_WRITE_GRBL_TABLES=1 build/bin/unit_grbl --gtest_filter=GrblTables.*
 #include <cstdlib>
 #include <map>
@@ -19,7 +19,7 @@ using testing::Not;
 
 std::string document() { return read_text_file("docs/grbl.md").value(); }
 
-/// The rows of the table with this title in its first column: the first column, and the second.
+/// The first and second column of the table that has this title in its first column.
 std::map<std::string, std::string> rows_of(const std::string& title) {
     std::map<std::string, std::string> rows;
     std::istringstream text(document());
@@ -33,7 +33,7 @@ std::map<std::string, std::string> rows_of(const std::string& title) {
     return rows;
 }
 
-/// The numbers behind a prefix, and all between two that "to" joins.
+/// The numbers behind a prefix. Two numbers joined by "to" stand for all between them too.
 std::set<int> numbers_in(const std::string& text, const std::string& prefix, int base) {
     std::set<int> numbers;
     const std::regex range(prefix + R"(([0-9A-F]+)`?(?: to `?)" + prefix + R"(([0-9A-F]+))?)");

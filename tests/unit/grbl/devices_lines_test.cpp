@@ -1,4 +1,4 @@
-// Spindle and coolant by lines, on a machine in virtual time.
+// Lines switch spindle and coolant, on a machine in virtual time.
 #include "tests/unit/grbl/virtual_sender.hpp"
 
 namespace lockstep::grbl {

@@ -1,4 +1,4 @@
-// Spindle, coolant and tools: what lines do with them, and what a sender reads of them.
+// Spindle, coolant and tools: how lines change them, and what a sender reads about them.
 #include "tests/unit/grbl/hand_sender.hpp"
 
 namespace lockstep::grbl {
@@ -26,7 +26,7 @@ protected:
         }
         return kinds;
     }
-    /// As the machine's state shows it.
+    /// Passes a state of the machine with these devices to the protocol.
     void turn(const ProgramDevices& devices) {
         view.devices = devices;
         grbl.see(view);

@@ -1,4 +1,4 @@
-// Lines of G-code by hand: what they become, and how they are answered.
+// Lines of G-code, sent by the test: the requests that they become, and their answers.
 #include "tests/unit/grbl/hand_sender.hpp"
 
 namespace lockstep::grbl {
@@ -124,7 +124,7 @@ TEST_F(Sender, HasADwellAndAPauseAnsweredWhenTheyWereRun) {
     EXPECT_THAT(lines(), ElementsAre("[MSG:Pgm End]", "ok")) << "behind the last move";
 }
 
-TEST_F(Sender, LosesLinesToAnAlarm) {
+TEST_F(Sender, AlarmDropsItsLines) {
     (void)send("G0 X12\n");
     asked();
     grbl.answer(requests[0].number, {.is_done = true});

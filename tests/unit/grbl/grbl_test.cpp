@@ -1,4 +1,4 @@
-// A sender and a machine by hand: what grbl's protocol answers, and what it asks of the machine.
+// The test acts as sender and as machine: the answers of grbl's protocol, and its requests to the machine.
 #include "tests/unit/grbl/hand_sender.hpp"
 
 #include <random>
@@ -308,12 +308,12 @@ TEST_F(Sender, LosesItsLinesWithASoftReset) {
     EXPECT_THAT(send("\n"), ElementsAre("ok"));
 }
 
-TEST_F(Sender, OfAMegabyteInALineIsRefusedOnce) {
+TEST_F(Sender, LineOfAMegabyteIsRefusedOnce) {
     EXPECT_THAT(send(std::string(1'000'000, 'G')), ElementsAre());
     EXPECT_THAT(send("\n$G\n"), ElementsAre("error:11", StartsWith("[GC:"), "ok"));
 }
 
-TEST_F(Sender, OfMoreLinesThanFitGetsNoMoreAnswersThanLines) {
+TEST_F(Sender, GetsOneAnswerPerLineIfLinesOverflow) {
     EXPECT_THAT(send("G1 X12 F100\n"), ElementsAre());
     for (int i = 0; i < 10'000; ++i) { grbl.receive("G0\n"); }
     asked();
@@ -323,7 +323,7 @@ TEST_F(Sender, OfMoreLinesThanFitGetsNoMoreAnswersThanLines) {
     EXPECT_THAT(send("$G\n"), ElementsAre(StartsWith("[GC:"), "ok")) << "there is room again";
 }
 
-/// Whatever bytes come, in whatever state: every line ends, memory is bounded, and a plain line is answered afterwards.
+/// With any bytes in any state every line ends, memory is bounded, and a plain line is answered afterwards.
 TEST_F(Sender, OfGarbageDoesNoHarm) {
     std::mt19937 random(1);
     constexpr std::string_view kUsual = "$#GIXCHJ=NRSTLP0123456789.-+XYZFGM?!~\x18\x85\n\r ()%;*";

@@ -1,4 +1,4 @@
-// A sender and a machine by hand.
+// The test acts as sender and as machine.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -24,7 +24,7 @@ protected:
         grbl.greet();
         (void)grbl.take_output();
     }
-    /// The lines that come back.
+    /// Sends the bytes and returns the lines of the answer.
     std::vector<std::string> send(std::string_view bytes) {
         grbl.receive(bytes);
         return lines();
@@ -56,7 +56,7 @@ protected:
         return found.empty() ? "" : found.back();
     }
 
-    /// The machine's file lets the words for devices pass.
+    /// Configures a machine that accepts the words for devices.
     void assign_devices() {
         MachineConfig machine = mill();
         machine.unassigned = {
@@ -64,7 +64,7 @@ protected:
         grbl = Grbl(machine, "1.0");
         grbl.see(view);
     }
-    /// A line is run, and the machine rests.
+    /// Runs a line until the machine rests.
     void run(const std::string& line) {
         (void)send(line + "\n");
         for (const Kind kind : asked()) {

@@ -24,7 +24,7 @@ protected:
         pass(0.01);
         (void)sender->take_text();
     }
-    /// In virtual time.
+    /// Lets this many seconds of virtual time pass.
     void pass(double seconds) {
         (void)passes_until([] { return false; }, seconds);
     }
@@ -50,12 +50,12 @@ protected:
     bool is_at_rest() const {
         return std::ranges::all_of(vm.axis_states(), [](const auto& axis) { return axis->at_rest; });
     }
-    /// Everything that came back but for status reports that were asked for here.
+    /// All answers except the status reports that status() requested.
     std::string answers() {
         kept_ += sender->take_text();
         return std::exchange(kept_, {});
     }
-    /// A zigzag of short lines along X, and how they end.
+    /// A zigzag of short lines along X.
     static std::string zigzag(int from, int lines) {
         std::string text;
         for (int k = from; k < from + lines; ++k) {
@@ -301,7 +301,7 @@ TEST_F(Lines, OfTwoSendersAreNotMixed) {
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{100 * (5 + 80 - 149 % 80), 600}));
 }
 
-/// Of both a line has been accepted before either has begun: one of them is told.
+/// The protocol accepts a line of each sender before either begins. One sender gets an alarm.
 TEST_F(Lines, OfTwoSendersAtOnceAreRunByOne) {
     VirtualSender other(vm, 80);
     sender->send("G0 X50\n");

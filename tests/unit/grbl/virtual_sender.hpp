@@ -38,7 +38,7 @@ public:
         return nullptr;
     }
 
-    /// Sends what is due of the program, and takes the replies.
+    /// Sends the parts of the program that are due, and takes the replies.
     void pump(std::chrono::nanoseconds now) {
         for (; seen_ < machine_.replies().size(); ++seen_) {
             Reply reply = machine_.replies()[seen_];
@@ -63,11 +63,11 @@ private:
     std::uint32_t programs_ = 0;
     std::optional<ProgramSender> sender_;
     ProgramInbox inbox_;
-    std::map<std::uint64_t, std::uint64_t> chunks_;  // the program's numbers, by those of the network
+    std::map<std::uint64_t, std::uint64_t> chunks_;  // the program's numbers by the network's numbers
     std::size_t seen_ = 0;                           // replies
 };
 
-/// As lockstep-grbl joins them.
+/// Joins the protocol, its lines and the port as lockstep-grbl does.
 class VirtualSender {
 public:
     explicit VirtualSender(VirtualMachine& machine, Identity client = 70, bool is_to_switch_off = false)
@@ -91,7 +91,7 @@ public:
         carry_out();
         text_ += grbl_.take_output();
     }
-    /// What came back since the last call.
+    /// The answers since the last call.
     std::string take_text() { return std::exchange(text_, {}); }
     const std::string& text() const { return text_; }
     /// The sender's process ends.

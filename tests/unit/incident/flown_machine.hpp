@@ -10,7 +10,7 @@
 
 namespace lockstep {
 
-/// The notes of one life of a process.
+/// The notes of one process from its start to its end.
 struct VirtualFlight : FlightLog {
     explicit VirtualFlight(std::size_t of) : process(of) {}
     void add(const FlightEvent& event) override { events.push_back({events.size() + 1, event}); }
@@ -49,7 +49,7 @@ protected:
     }
     static Ticks seconds(double s) { return {static_cast<std::int64_t>(s * 1e6)}; }
 
-    /// The first incident that a life noted.
+    /// The first incident that a process noted.
     static const NumberedEvent* incident_in(const VirtualFlight& flight) {
         for (const NumberedEvent& event : flight.events) {
             if (event.event.kind == FlightKind::Incident) { return &event; }
@@ -59,7 +59,7 @@ protected:
     bool any_incident() const {
         return std::ranges::any_of(*flights, [](const VirtualFlight& f) { return incident_in(f) != nullptr; });
     }
-    /// Of every life that had an incident, or was followed by another.
+    /// The files of every process that had an incident or was replaced by a successor.
     std::vector<incident::FlightFile> files() const {
         std::vector<incident::FlightFile> files;
         for (std::size_t i = 0; i < flights->size(); ++i) {

@@ -1,4 +1,4 @@
-// Faults of every class are injected in virtual time: the cause is found from the processes' notes.
+// Faults of every class are injected in virtual time. Their cause is found from the processes' notes.
 #include <gmock/gmock.h>
 
 #include "tests/unit/incident/flown_machine.hpp"
@@ -12,7 +12,7 @@ using testing::HasSubstr;
 
 class Flown : public FlownMachine {
 protected:
-    /// Also that all axes came to rest in time.
+    /// Expects this cause, and that all axes came to rest in time.
     void expect(const Evaluation& evaluation, CauseKind kind, std::optional<FlightPeer> who) {
         EXPECT_EQ(incident::name_of(evaluation.cause.kind), incident::name_of(kind))
             << testing::PrintToString(evaluation.story);
@@ -144,7 +144,7 @@ TEST_F(Flown, AnEmergencyStopIsFound) {
     expect(evaluation(), CauseKind::EmergencyStop, std::nullopt);
 }
 
-/// A silence that ended before the fault is not its cause, though it is noted as an incident of its own.
+/// A silence that ended before the fault is not the fault's cause, although it is noted as a separate incident.
 TEST_F(Flown, AReconnectionBeforeTheFaultIsNotItsCause) {
     home();
     inject({.kind = Kind::Cut, .process = kY, .lasts = seconds(1)});

@@ -1,4 +1,4 @@
-// A program that continues from a line: the tool leaves the work, crosses, and goes down, in this order.
+// A program continues from a line: first the tool leaves the work, then it crosses, then it goes down.
 #include "clients/lockstep/job/approach.hpp"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 struct Approach : testing::Test {
-    MachineConfig machine = load_machine_file("deploy/examples/three-axis.textproto").value();  // Z homes first, up
+    MachineConfig machine = load_machine_file("deploy/examples/three-axis.textproto").value();  // Z homes first, upward
 
     std::vector<ApproachMove> to_work(const std::vector<double>& at_mm, const std::string& lift = "") const {
         return approach(machine, lifts_of(machine, lift).value(), at_mm, {60, 40, 2}, 10);
@@ -74,7 +74,7 @@ TEST_F(Approach, WithoutAFeedGoesDownAtTheStartVelocity) {
     EXPECT_DOUBLE_EQ(moves.back().move.feed_mm_s, machine.axes[2].start_velocity_mm_s);
 }
 
-/// The lifting axis is unknown.
+/// It is unknown which axis lifts the tool.
 TEST_F(Approach, IsRefusedIfAllAxesHomeTogether) {
     for (AxisConfig& axis : machine.axes) { axis.homing.sequence = 0; }
     const auto lifts = lifts_of(machine, "");

@@ -1,4 +1,4 @@
-// The words that change offsets and tools.
+// The command-line words that change offsets and tools.
 #include "clients/lockstep/values/values_text.hpp"
 
 #include <gmock/gmock.h>
@@ -60,7 +60,7 @@ TEST(TouchOff, CountsTheOffsetsOfG92) {
     EXPECT_EQ(values.systems[0].origin[0] + values.g92[0], 30);
 }
 
-TEST(TouchOff, OfWhatThereIsNotIsRefused) {
+TEST(TouchOff, RefusesUnknownAxesAndSystems) {
     gcode::KeptValues values;
     for (const ChangeWords& words : {ChangeWords{}, {"Q=1"}, {"X2=1"}, {"X"}, {"X=1e9"}}) {
         EXPECT_FALSE(touch_off(mill(), {0, 0, 0, 0}, "G54", words, values));

@@ -141,7 +141,7 @@ TEST(Watch, ReportsAStepTimeErrorOnlyBeyondTheClockError) {
     status.mutable_axes(0)->mutable_health()->set_clock_error_us(50);
     EXPECT_THAT(alarms_of(status, kScale), IsEmpty());
     status.mutable_axes(0)->mutable_health()->set_clock_error_us(5);
-    EXPECT_THAT(alarms_of(status, kScale), ElementsAre("axis X: a step was 40 us beside its time"));
+    EXPECT_THAT(alarms_of(status, kScale), ElementsAre("axis X: a step was 40 us off its commanded time"));
 }
 
 TEST(Watch, FitsInEightyColumnsForAnyFault) {

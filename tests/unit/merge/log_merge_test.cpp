@@ -1,4 +1,4 @@
-// Several logs that each lack messages are merged to one complete log, or the missing messages are reported.
+// Several logs that each lack messages are merged to one complete log. Messages missing in all of them are reported.
 #include "clients/merge/log_merge.hpp"
 
 #include <gmock/gmock.h>
@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// The written messages, in the form of a log.
+/// Keeps the times, channels and step numbers of the written messages.
 class Kept : public RecordSink {
 public:
     void write(const std::string& channel, std::int64_t utime, std::span<const std::uint8_t> bytes) override {
@@ -34,7 +34,7 @@ public:
     std::map<std::string, std::vector<std::int64_t>> sequences;
 };
 
-/// Axes X and Y: a message of ten steps each 10 ms, with a position between. Machine time is in us, and so are ticks.
+/// Axes X and Y: a message of ten steps every 10 ms, with a position between. Machine time is in us, and so are ticks.
 class Merge : public testing::Test {
 protected:
     using Wanted = std::function<bool(std::int64_t sequence)>;
@@ -285,7 +285,7 @@ protected:
         JobRecord record{.machine = "mill", .coordinator = 50, .sequence = sequence, .job = job, .event = event};
         log.write_message(job_channel("mill"), utime, to_lcm(record, Tick{utime}, 1000));
     }
-    /// The session's number is that of its processes.
+    /// Writes the logs of a session. Its number is the incarnation of its axis's process.
     void write_session(std::int64_t number) {
         const std::string name = std::to_string(number) + ".lcm";
         auto axis = LogWriter::open(folder / ("axis-X." + name)).value();

@@ -1,4 +1,4 @@
-// A method's steps one at a time are those of its whole train.
+// The steps of a method made one at a time are the steps of its whole train.
 #include "core/methods/paper_steps.hpp"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ TEST(PaperSteps, RefusesTheMovesThatTheMethodRefuses) {
     EXPECT_FALSE(begin_steps(StepMethod::Ranade, {10, 10, 100, 42'000, 42'000}));
 }
 
-/// Carrica's counter as in its paper: every clock period, one after the other.
+/// Carrica's counter as in the paper. It counts every clock period.
 std::vector<double> counted(const StepMove& move, double clock_s) {
     const auto fixed = [](double steps) { return static_cast<std::int64_t>(std::ceil(steps * 0x1p60)); };
     const std::int64_t min = fixed(move.start * clock_s);

@@ -43,7 +43,7 @@ TEST(Spielauer, DoesNotSuitIfItsFirstWaitsJumpTooFar) {
 
 TEST(Spielauer, DoesNotSuitSpeedsBeyondItsTimer) {
     EXPECT_THAT(why_not(StepMethod::Spielauer, {800, 1'100'000, 1e8, 1e8, 1e-7}),
-                HasSubstr("by its clock a step takes at least 1 us"));
+                HasSubstr("with the method's clock a step takes at least 1 us"));
 }
 
 TEST(Carrica, SuitsOneAccelerationBothWays) {
@@ -54,7 +54,7 @@ TEST(Carrica, SuitsOneAccelerationBothWays) {
 
 TEST(Carrica, DoesNotSuitSpeedsBeyondItsClock) {
     EXPECT_THAT(why_not(StepMethod::Carrica, {800, 1'300'000, 1e8, 1e8, 1e-7}),
-                HasSubstr("by its clock a step takes at least 0.8 us"));
+                HasSubstr("with the method's clock a step takes at least 0.8 us"));
 }
 
 TEST(Lai, SuitsWhereItsPulsesComeEvenlyEnough) {

@@ -1,4 +1,4 @@
-// The end of a tail. Those of whole paths are checked with the planners that make them.
+// The end of a tail. The tests of the planners check the tails of whole paths.
 #include <gtest/gtest.h>
 
 #include "core/motion/profile.hpp"
@@ -6,7 +6,8 @@
 namespace lockstep {
 namespace {
 
-/// Down to zero speed, in two ticks at least: a jump to rest would add up with that of a corner just after.
+/// The tail brakes to zero speed in at least two ticks. A jump to rest would add up with the jump of a corner just
+/// after.
 TEST(Tail, EndsOnAWholeTickWithoutAJump) {
     const Subticks corner{12 * kSubticksPerTick + 40'000};
     const Profile hardly = plan_brake_to({}, 1e-7, 1e-6, corner);

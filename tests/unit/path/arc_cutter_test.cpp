@@ -14,7 +14,7 @@ PathSetup mill_setup() {
     return {std::vector<AxisLimits>(3, {.min_steps = -100'000, .max_steps = 100'000}), {80, 80, 400}, Ticks{1000}};
 }
 
-/// The deviation of the pieces from a helix, in mm, and their length.
+/// The deviation of the pieces from a helix and their length, in mm.
 struct Shape {
     double deviation = 0;
     double length = 0;

@@ -22,7 +22,7 @@ std::vector<Quadratic> pieces_of(const PathTrail& trail) {
     return pieces;
 }
 
-/// Chord k has block k.
+/// Joins the chords. Chord k has block k.
 PathTrail trail_of(const Chords& chords) {
     ChordJoiner joiner(plane());
     joiner.begin(zeros(2));
@@ -129,7 +129,7 @@ TEST(ChordJoiner, EndsPiecesWhereTheFeedChanges) {
     EXPECT_NEAR(slow_mm, 2, 1e-9);
 }
 
-/// A chord that is too short counts for the one behind it.
+/// A chord that is too short counts as part of the next one.
 TEST(ChordJoiner, MarksWhereEachChordBegins) {
     Chords chords;
     for (int k = 1; k <= 50; ++k) { chords.to_mm.emplace_back(0.1 * k, 0); }

@@ -8,8 +8,8 @@
 namespace lockstep {
 namespace {
 
-/// A straight piece whose joints turn an axis about as much as the piece itself goes along it. At the limit that its
-/// charge sets, the slowest passage keeps its speed from interval to interval.
+/// The joints of a straight piece turn an axis about as much as this axis moves along the piece. At the speed limit
+/// that the charge for the joints sets, the slowest passage keeps its speed from interval to interval.
 TEST(IntervalBounds, TheSlowestPassageNeverGetsFaster) {
     const PathSetup setup = setup_of(mill());
     JoinedPiece piece{.shape = {.length = 100, .is_straight = true}, .is_charged = true};
@@ -31,7 +31,7 @@ TEST(IntervalBounds, TheSlowestPassageNeverGetsFaster) {
     }
 }
 
-/// x'' = x' u'' + x'' u'^2 anywhere in an interval that is gone through as fast as its bounds allow.
+/// Checks the acceleration x'' = x' u'' + x'' u'^2 at places of an interval that is passed as fast as its bounds allow.
 TEST(IntervalBounds, AxesKeepTheirAccelerationsFromEndToEnd) {
     const PathSetup setup = setup_of(mill());
     Random random(19);

@@ -36,7 +36,7 @@ TEST(PathPlanner, RestsOnWholeStepsAtTheEnd) {
     EXPECT_NEAR(end[2], 49, 1e-9);
 }
 
-/// Of the ticks in which no axis moves.
+/// The number of ticks in which no axis moves.
 std::int64_t ticks_at_rest(const PathRun& run) {
     std::int64_t ticks = 0;
     for (const PathFrame& frame : run.frames) {
@@ -115,7 +115,7 @@ TEST(PathPlanner, BeginsAnewFromWhereItRests) {
     EXPECT_NEAR(samples_of(run, 1'000).back()[0], 480, 1e-9);
 }
 
-/// Short corners, far more of them than frames of these machines have pieces.
+/// Adds short moves with corners, far more of them than frames of these machines have pieces.
 void add_zigzag(PathPlanner& planner, std::uint32_t moves) {
     for (std::uint32_t k = 1; k <= moves; ++k) { planner.line({{k % 2 == 0 ? 0.0 : 0.2, 0.05 * k, 0}}, kFast, k); }
 }
@@ -194,7 +194,7 @@ TEST(PathPlanner, NamesTheMoveInWhichAFrameBeginsAndRests) {
     EXPECT_EQ(run.frames.back().rest.block, 59U);
 }
 
-/// The tail of the last frame but one ends where the path does.
+/// The tail of the frame before the last ends at the end of the path.
 TEST(PathPlanner, HasNothingLeftWhereTheTailReachedTheEnd) {
     PathPlanner planner(setup_of(mill()));
     planner.begin(std::vector<Position>(3));
@@ -224,7 +224,7 @@ TEST(PathPlanner, EndsOnAWholeStepFromANearPlace) {
     }
 }
 
-/// Before the first frame was run: an axis vetoed it.
+/// An axis vetoed the first frame, so no frame was run.
 TEST(PathPlanner, GoesOnFromTheBeginningAgain) {
     const PathSetup setup = setup_of(mill());
     PathPlanner planner(setup);
@@ -240,7 +240,8 @@ TEST(PathPlanner, GoesOnFromTheBeginningAgain) {
     for (std::size_t k = 0; k < first.frames.size(); ++k) { EXPECT_EQ(again.frames[k].axes, first.frames[k].axes); }
 }
 
-/// The joint at its end turns an axis that is slow but has time, and hardly the one that brakes all the way.
+/// The joint at the end of the piece turns the slow axis, which has enough time. It hardly turns the other axis, which
+/// brakes all the way.
 TEST(PathPlanner, GoesFastThroughALongPieceWhoseJointOneAxisAloneCannotRecover) {
     const std::vector<TestAxis> machine{{12.5, 724, 724, 91, 171}, {60.5, 4.76, 6.34, 3.47, 5.71}};
     PathPlanner planner(setup_of(machine));
@@ -251,7 +252,7 @@ TEST(PathPlanner, GoesFastThroughALongPieceWhoseJointOneAxisAloneCannotRecover) 
     EXPECT_LT(finish(planner).seconds(), 4.5) << "575 mm with 91 mm/s^2, and 1 mm";
 }
 
-/// A dwell that was begun is begun anew.
+/// An interrupted dwell starts again from its beginning.
 TEST(PathPlanner, RestsAgainWhereItWasInterruptedInADwell) {
     PathPlanner planner(setup_of(mill()));
     planner.begin(std::vector<Position>(3));

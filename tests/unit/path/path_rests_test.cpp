@@ -1,4 +1,4 @@
-// Many rests in the time of one frame: each alone would take a piece, and a frame has room for few.
+// Many rests in the time of one frame. Each would take a piece of its own, but a frame has room for few pieces.
 #include <gtest/gtest.h>
 
 #include "core/path/path_planner.hpp"
@@ -8,9 +8,9 @@ namespace lockstep {
 namespace {
 
 constexpr MoveSettings kExactStop{.feed_mm_per_tick = 100e-6, .mode = PathMode::ExactStop};
-constexpr std::uint32_t kMany = 2'000;  // least rests of 64 ticks: half a frame of 230 ms
+constexpr std::uint32_t kMany = 2'000;  // their least rests of 64 ticks take half a frame of 230 ms
 
-/// Makes the frames of what the planner was given, and returns the last place of the first axis.
+/// Finishes the path, makes its frames, and returns the last place of the first axis.
 double finish(PathPlanner& planner, const PathSetup& setup) {
     planner.finish();
     PathRun run;
@@ -20,7 +20,7 @@ double finish(PathPlanner& planner, const PathSetup& setup) {
     return samples_of(run, 1'000).back()[0];
 }
 
-/// Each ends at rest, at the place where it began.
+/// Each move ends at rest, at the place where it began.
 TEST(PathRests, CarriesMovesWithoutLengthInOneFrame) {
     const PathSetup setup = setup_of(mill());
     PathPlanner planner(setup);

@@ -35,7 +35,7 @@ TEST(Plan, WithinTheLimitsOfEachAxisAndAsFarAsItGoes) {
     ASSERT_TRUE(plan.has_value());
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         const double tick_s = static_cast<double>(machine.tick_ns) * 1e-9;
-        const double by_rounding = 2 * machine.axes[i].max_accel_mm_s2 * tick_s;  // as the rule of pieces allows it
+        const double by_rounding = 2 * machine.axes[i].max_accel_mm_s2 * tick_s;  // the check of pieces allows for this
         EXPECT_LE(plan->axes[i].peak_velocity_mm_s, machine.axes[i].max_velocity_mm_s * (1 + 1e-6) + by_rounding);
         EXPECT_LE(plan->axes[i].peak_acceleration_mm_s2, machine.axes[i].max_accel_mm_s2 * (1 + 1e-6));
         EXPECT_GE(plan->axes[i].min_mm, machine.axes[i].position_min_mm);
@@ -56,10 +56,10 @@ TEST(Plan, NoAxisMayStandOutsideItsTravel) {
     EXPECT_THAT(fits.error().text, testing::HasSubstr("outside its travel"));
 }
 
-/// The motion of an axis from its positions alone, every 0.2 ms.
+/// The motion of an axis, measured from its positions at every `sample` ticks.
 struct Followed {
     double velocity = 0;  // the greatest, steps per tick
-    double change = 0;    // of it from one sample to the next
+    double change = 0;    // the greatest, of the velocity from one sample to the next
 
     void follow(const LegPlan& leg, std::size_t axis, Ticks sample) {
         double before = 0;
@@ -85,8 +85,8 @@ std::string pieces_of_gcode(std::mt19937_64& random) {
     return text;
 }
 
-/// Programs of pieces from hundredths of a millimetre to centimetres: the figures are those of the motion, and within
-/// the limits.
+/// The moves are from hundredths of a millimetre to centimetres long. The figures of the plan agree with the motion and
+/// are within the limits.
 TEST(Plan, HasThePeaksOfTheMotionItself) {
     const MachineConfig machine = example("three-axis");
     const double per_s = machine.ticks_per_second();

@@ -1,4 +1,4 @@
-// A file that is planned as it is read has the same plan as one that is held as a whole.
+// A file that is planned while it is read has the same plan as a file that is read as a whole.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -82,7 +82,7 @@ TEST_F(PlannedAsItIsRead, StopsAtTwentyErrors) {
     EXPECT_EQ(program->errors().size(), kMaxGcodeErrors);
 }
 
-/// A text of which all is at hand may call a subroutine that stands behind the call.
+/// Only a text that is read as a whole may call a subroutine that stands behind the call.
 TEST_F(PlannedAsItIsRead, RefusesASubroutineBehindItsCall) {
     const auto program = read("o1 call\nM0\no1 sub\nG0 X20\no1 endsub\nM2\n");
     (void)plan(program);

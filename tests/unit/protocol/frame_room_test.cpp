@@ -15,7 +15,7 @@ constexpr ProtocolTiming kQuiet{.slot_us = 1000,
                                 .send_ahead_slots = 11,
                                 .frame_slots = 5};
 
-/// Moves by Lai's method, whose frames have the pieces of each move.
+/// For moves by Lai's method, a frame has the pieces of each move.
 TEST(FrameRoom, SetsTheShortestMove) {
     EXPECT_EQ(least_move({.timing = {}}), Ticks{50'000 / 12 + 1});
     EXPECT_EQ(least_move({.timing = kQuiet}), Ticks{5000 / 44 + 1});

@@ -1,4 +1,4 @@
-// What messages say of what nobody has filled in: nothing. A value that is not known would be taken for one that is.
+// Fields that nobody has filled in say nothing. Otherwise an unknown value would be taken for a known one.
 #include "core/protocol/messages.hpp"
 
 #include <gtest/gtest.h>
@@ -105,7 +105,7 @@ TEST(Messages, OfAClientAndToItThatNobodyFilledInAskForNothing) {
     EXPECT_EQ(reply.free_blocks, 0u);
 }
 
-/// docs/configuration.md names them.
+/// docs/configuration.md states these defaults.
 TEST(ProtocolTiming, WithoutAConfigurationIsThatOfTheDocumentation) {
     const ProtocolTiming timing;
     EXPECT_EQ(timing.slot_us, 10'000);

@@ -1,4 +1,4 @@
-// A process that receives nothing opens its DDS participant again, in virtual time.
+// A process that receives nothing opens its DDS participant again. The tests run in virtual time.
 #include "core/protocol/reception_watch.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ public:
     Reception found{.may_reopen = true};
     std::vector<std::pair<double, ReopenReason>> reopened;  // when, in seconds
 
-    /// before_each: changes the results, at each check.
+    /// Calls `before_each` before each check, to change the results.
     template <typename Change>
     void run(double seconds, Change before_each) {
         const Tick end = now_ + Ticks{static_cast<std::int64_t>(seconds * 1e6)};
@@ -134,7 +134,7 @@ TEST(ReceptionWatch, IsNotDisturbedBySamplesThatWereSentAgain) {
     process.found.topics = topics;
     int look = 0;
     process.run(100, [&] {
-        topics[0].received += 1;  // some of each come, and others twice
+        topics[0].received += 1;  // a few new samples come, and many that were sent again
         topics[0].discarded += 100;
     });
     process.run(100, [&] { topics[0].discarded += ++look % 3 == 0 ? 0 : 100; });  // a repair now and then

@@ -1,4 +1,4 @@
-// Of two processes of one axis exactly one ends: the newer one, whatever their hosts' clocks read.
+// If one axis has two processes, exactly one ends: the newer one. The readings of their hosts' clocks do not matter.
 #include "core/protocol/rival.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ struct Pair {
     std::array<Process, 2> processes;
     std::int64_t joined = 0;  // before that they are on separate networks
 
-    /// Which ones end within a minute.
+    /// Whether each process ends within a minute.
     std::array<bool, 2> left() const {
         std::array<bool, 2> left{};
         std::array<int, 2> received{};

@@ -1,4 +1,4 @@
-// A process's record is also on its own board's disk, in LCM's format and bounded.
+// A process also records to its own board's disk, in LCM's format and with bounded size.
 #include "services/record/own_log.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ protected:
         return RotatingLog::open({.directory = folder, .name = "axis-X", .limit_bytes = limit}).value();
     }
     static void write(RecordSink& log, std::int64_t from, std::int64_t to) {
-        for (std::int64_t i = from; i < to; ++i) { log.write("STEPS", i, std::vector<std::uint8_t>(967)); }  // 1000
+        for (std::int64_t i = from; i < to; ++i) { log.write("STEPS", i, std::vector<std::uint8_t>(967)); }  // 1000 B
     }
     std::vector<fs::path> files() const {
         std::vector<fs::path> found;
@@ -116,7 +116,7 @@ TEST_F(OwnLog, ADirectoryThatGoesIsMadeUpForByTheNextFile) {
     write(log, 0, 5);
     log.flush();
     fs::remove_all(folder);
-    write(log, 5, 20);  // the file is full by then, and no next one can be made
+    write(log, 5, 20);  // the file fills up, and no next one can be made
     EXPECT_GT(log.failures(), 0U);
     fs::create_directories(folder);
     const std::uint64_t failed = log.failures();
@@ -126,7 +126,7 @@ TEST_F(OwnLog, ADirectoryThatGoesIsMadeUpForByTheNextFile) {
     EXPECT_EQ(times().back(), RotatingLog::kRetry_us + 24);
 }
 
-/// A disk of so many bytes in a directory, visible only to this process.
+/// Mounts a disk of `size` bytes on a directory, visible only to this process.
 bool mount_disk(const fs::path& folder, const char* size, unsigned long flags = 0) {
     return mount("tmpfs", folder.c_str(), "tmpfs", flags, size) == 0;
 }

@@ -1,4 +1,4 @@
-// A slow disk costs a log messages, and the log lists them; it never delays the writer.
+// If the disk is slow, the log loses messages and lists the losses. The disk never delays the writer.
 #include "services/record/queued_sink.hpp"
 
 #include <gtest/gtest.h>
@@ -14,13 +14,13 @@ struct Disk {
     std::promise<void> opens;
     std::shared_future<void> open{opens.get_future()};
     std::atomic<bool> is_full = false;
-    std::atomic<bool> is_busy = false;  // with a message
+    std::atomic<bool> is_busy = false;  // with writing a message
     std::vector<std::int64_t> written;  // utimes
     std::vector<RecordLoss> losses;
-    std::vector<std::size_t> losses_at;  // after so many messages
+    std::vector<std::size_t> losses_at;  // how many messages were written before each loss
 };
 
-/// Each write takes until the disk opens.
+/// Each write waits until the disk is open.
 class DiskSink : public RecordSink {
 public:
     explicit DiskSink(Disk& disk) : disk_(disk) {}
@@ -71,8 +71,8 @@ TEST_F(SinkQueue, KeepsEveryMessageInItsOrder) {
 TEST_F(SinkQueue, NeverMakesAWriterWaitForADiskThatHangs) {
     begin(2000);
     write(0);
-    while (!disk.is_busy) { std::this_thread::yield(); }   // the disk holds it
-    for (std::int64_t i = 1; i < 1000; ++i) { write(i); }  // would never end if it waited
+    while (!disk.is_busy) { std::this_thread::yield(); }   // the write waits for the disk
+    for (std::int64_t i = 1; i < 1000; ++i) { write(i); }  // would never end if write() waited
     const std::uint64_t lost = sink->failures();
     EXPECT_GT(lost, 900U);
     disk.opens.set_value();

@@ -1,4 +1,4 @@
-// Every step of an axis is published in order, and the messages show that.
+// Every step of an axis is published in order, and the numbers in the messages prove it.
 #include "services/record/step_batcher.hpp"
 
 #include <gtest/gtest.h>

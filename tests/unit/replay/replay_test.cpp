@@ -1,4 +1,5 @@
-// Each device's recorded input makes the recorded steps again, whatever interrupted them; a difference is reported.
+// A replay of each device's recorded input makes the recorded steps again, also through interruptions. It reports
+// differences.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -151,7 +152,7 @@ TEST_F(ARecordedRun, WithoutItsFirstFramesIsReportedAsIncomplete) {
     EXPECT_THAT(findings.difference->text, HasSubstr("the record of runs 0 to 2 are not in the log"));
 }
 
-/// Damaged numbers in messages that still decode: any result is allowed, but there is one.
+/// Numbers are damaged in messages that still decode. The replay may have any result, but it must end.
 TEST_F(ARecordedRun, WithAnyDamagedNumbersIsReplayedToItsEnd) {
     const test::AlteredLog whole(log());
     std::mt19937_64 random(11);

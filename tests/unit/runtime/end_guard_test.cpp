@@ -1,4 +1,4 @@
-// A process with a stop request ends, whatever it waits for.
+// A process with a stop request ends, even if it waits for something that never happens.
 #include "services/runtime/end_guard.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ protected:
     StopSignal stop;
     const EndGuard guard(stop, 200ms);
     raise(SIGTERM);
-    for (;;) { pause(); }  // like a join of a thread whose disk hangs
+    for (;;) { pause(); }  // like joining a thread that waits for a hung disk
 }
 
 TEST_F(EndGuards, EndAProcessThatWaitsForever) {

@@ -1,4 +1,4 @@
-// Freed large blocks are returned to the system, however often it was done before.
+// Freed large blocks are returned to the system, also after earlier large blocks were freed.
 #include "services/runtime/heap.hpp"
 
 #include <gtest/gtest.h>

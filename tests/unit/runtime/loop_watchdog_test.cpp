@@ -1,4 +1,4 @@
-// A loop that stands still is detected; one that runs, however slowly, is not.
+// The watchdog detects a loop that stands still. It does not report a loop that runs slowly.
 #include "services/runtime/loop_watchdog.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A host grants a service's requests, or the effect of the refusal is reported; the service runs either way.
+// A host grants a service's requests, or the service reports the effect of the refusal. It runs either way.
 #include "services/runtime/real_time.hpp"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace lockstep {
 namespace {
 
-/// In a thread: its scheduler and its processors end with it.
+/// Asks in a thread of its own, because the settings end with the thread.
 std::vector<std::string> ask(const RealTimeConfig& wanted) {
     std::vector<std::string> lines;
     std::thread([&] { lines = ask_for_real_time(wanted); }).join();

@@ -30,7 +30,7 @@ protected:
         ::close(socket_);
         ::unlink(path_.c_str());
     }
-    /// The next message; empty: there is none.
+    /// The next message, or an empty string if there is none.
     std::string notification() const {
         std::array<char, 256> text{};
         const ssize_t length = ::recv(socket_, text.data(), text.size(), MSG_DONTWAIT);

@@ -39,7 +39,7 @@ std::vector<Check> checks(const std::string& expect, const Evidence& evidence,
     return evaluate(parsed(whole("expect { " + expect + " }")), observed, evidence);
 }
 
-/// The first check: expectations come before the checks that are always made.
+/// The first check. Expectations come before the checks that are always made.
 Check check(const std::string& expect, const Evidence& evidence, const Observations& observed = good_observations()) {
     return checks(expect, evidence, observed).front();
 }

@@ -24,7 +24,7 @@ inline std::string whole(const std::string& text) {
     return with_machine("shows: \"something\"\nstep { home {} }\n" + text);
 }
 
-/// All errors, "line:column: message", a line each; empty: none.
+/// All errors as "line:column: message", one per line. Empty if there are none.
 inline std::string errors_of(const std::string& text) {
     const auto scenario = parse_scenario(text, "/tmp/of-a-test.textproto");
     std::string errors;

@@ -105,7 +105,7 @@ TEST_F(Keys, OfAnotherRunAreNotMixed) {
     }
     EXPECT_THAT(errors_of(client_member()), ElementsAre(HasSubstr("client.pem: was not issued by this authority"),
                                                         HasSubstr("client.key: is not the key of the certificate"),
-                                                        HasSubstr("client.p7s: the signature does not hold")));
+                                                        HasSubstr("client.p7s: the signature is not valid")));
 }
 
 TEST_F(Keys, AreMadeForOneMachineAndItsOrderOfAxes) {

@@ -1,4 +1,4 @@
-// Who may publish and read: by role, and each axis for itself.
+// Rights to publish and read: they depend on the role, and each axis has its own.
 #include <gmock/gmock.h>
 
 #include "services/security/access_documents.hpp"

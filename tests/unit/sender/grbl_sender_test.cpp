@@ -1,4 +1,4 @@
-// A sender at a controller whose answers the test writes, in a time that it chooses.
+// A sender at a controller. The test writes the answers of the controller and sets the time.
 #include "clients/sender/grbl_sender.hpp"
 
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 class AtController : public testing::Test {
 protected:
-    /// What the sender writes in answer.
+    /// Gives these bytes to the sender and returns its answer.
     std::string say(const std::string& bytes) {
         sender.receive(bytes, now);
         return passes(10ms);
@@ -193,7 +193,7 @@ TEST_F(AtController, RefusesALineThatTheBufferNeverTakes) {
     EXPECT_THAT(sender.trouble()->text, HasSubstr("50 bytes"));
 }
 
-TEST_F(AtController, BearsGarbage) {
+TEST_F(AtController, ToleratesGarbage) {
     begin(3);
     (void)passes(10ms);
     (void)say(std::string(100'000, '<'));

@@ -1,4 +1,4 @@
-// When a jog's command is sent again.
+// The times at which a client sends a jog's command again.
 #include "clients/session/control/jog_repeat.hpp"
 
 #include <gtest/gtest.h>

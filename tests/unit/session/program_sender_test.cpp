@@ -1,4 +1,4 @@
-// A program is sent while it is made: parts in flight, repetitions, the room that the coordinator has.
+// A program is sent while it is made: parts in flight, repetitions, and the free room of the coordinator.
 #include "clients/session/program_sender.hpp"
 
 #include <gtest/gtest.h>

@@ -27,7 +27,7 @@ protected:
     static ProgramStream stream_of(const std::string& path) {
         return {LineReader::open(path).value(), setup_of_two(), 3};
     }
-    /// What a coordinator with plenty of room gets, until nothing more comes.
+    /// The program that a coordinator with plenty of room receives.
     static ProgramDocument sent(ProgramStream& stream) {
         ProgramSender sender(7, 1, 42, stream.head(), stream.values());
         std::vector<std::uint8_t> bytes;

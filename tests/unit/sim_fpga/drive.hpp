@@ -1,4 +1,4 @@
-// Drives a plant by the pulses of a profile, in the units its user writes.
+// Drives a plant with the pulses of a profile that is given in mm and seconds.
 #pragma once
 
 #include <cmath>

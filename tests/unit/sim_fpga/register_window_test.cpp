@@ -1,4 +1,4 @@
-// One register map over this process's memory, shared memory and files.
+// One register map in this process's memory, in shared memory and in files.
 #include "sim_fpga/register_window.hpp"
 
 #include <fcntl.h>
@@ -83,7 +83,7 @@ TEST(RegisterWindow, AMappedFileWorksToo) {
     EXPECT_EQ(bench.at(Tick{5}).now, Tick{5});
 }
 
-/// Accesses to missing memory: neither side crashes, and both see that this is not a device.
+/// Both sides access missing memory. Neither crashes, and both see that this is not a device.
 TEST(RegisterWindow, AFileThatIsCutShortWhileItIsMappedReadsZeros) {
     for (const off_t left : {off_t{0}, off_t{4096}}) {  // with and without the page of the device's words
         DeviceBench bench(endless_axis(), RegisterWindow::create_shared(own_name("cut")).value());

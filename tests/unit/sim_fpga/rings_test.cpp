@@ -1,4 +1,4 @@
-// Traffic between host and device: segments one way, the ticks of steps the other.
+// Traffic between host and device: segments to the device, the ticks of steps to the host.
 #include "tests/unit/sim_fpga/device_bench.hpp"
 
 namespace lockstep {

@@ -1,4 +1,4 @@
-// Causes for pulses to cease: limit switches, the home input, the host.
+// Limit switches, the home input and the host stop pulses.
 #include "tests/unit/sim_fpga/device_bench.hpp"
 
 namespace lockstep {

@@ -109,7 +109,7 @@ void own_move_that_stops(Walker& m) {
     ask_for(m, CommandKind::Stop);
 }
 
-/// Its client holds the key until the command comes, and then falls silent.
+/// A client holds the key of a jog until the command is sent, and then sends nothing more.
 void jogging(Walker& m) {
     m.home();
     ASSERT_EQ(m.jog(7, 0, 0.4).status, ReplyStatus::Accepted);
@@ -237,7 +237,7 @@ void frame_damaged(Walker& m) {
     expect_phase(m, MachinePhase::Fault);
 }
 
-/// In the last frame of the job: no later frame has to join it.
+/// Damages the last frame of the job, because no later frame has to join it.
 void ends_elsewhere(Walker& m) {
     running(m);
     ASSERT_TRUE(m.vm.advance_until([&] { return m.vm.state()->remaining_s < 0.008; }, Ticks{10'000'000}));
@@ -246,8 +246,8 @@ void ends_elsewhere(Walker& m) {
     expect_fault(m, FaultCode::PositionMismatch);
 }
 
-/// Y is cut off from the others just when it has their evidence for a frame and they lack its own: it runs the
-/// frame, they do not. The time depends on the frame.
+/// Y is cut off from the others just when it has their evidence for a frame and they lack Y's. Y runs the frame, and
+/// the others do not. The right time depends on the frame.
 void frames_differ(Walker& m) {
     running(m);
     for (int tries = 0; tries < 40 && m.vm.state()->phase != MachinePhase::Fault; ++tries) {
@@ -260,7 +260,7 @@ void frames_differ(Walker& m) {
     expect_fault(m, FaultCode::FramesDiffer);
 }
 
-/// One axis is started with another file than the rest; `by hand`, it is started again with theirs.
+/// One axis is started with another file than the others. `by_hand` starts it again with their file.
 void other_configuration(Walker& m) {
     m.home();
     m.inject({.kind = Kind::Crash, .process = kY, .other_config = true}, 0.1);
@@ -302,7 +302,7 @@ void switch_stuck(Walker& m) {
     expect_phase(m, MachinePhase::Fault, 40);
 }
 
-/// Three epochs in a row in which no frame is run: the coordinator stands still whenever one is about to begin.
+/// Three epochs in a row run no frame, because the coordinator stands still whenever one is about to begin.
 void frames_late(Walker& m) {
     running(m);
     for (int stalls = 0; stalls < 40 && m.vm.state()->phase != MachinePhase::Fault; ++stalls) {
@@ -338,7 +338,7 @@ void coordinator_silent_in_own_move(Walker& m) {
     expect_fault(m, FaultCode::CoordinatorSilent);
 }
 
-/// A program is being sent: nothing of it has arrived yet.
+/// A program is being sent, but no part of it has arrived yet.
 void program_arriving(Walker& m) {
     m.home();
     m.delay_program();

@@ -15,7 +15,7 @@ struct MachineSituation {
 
 const std::vector<MachineSituation>& situations();
 
-/// For tests with a state as their parameter.
+/// The name of the parameter, for tests with a state as their parameter.
 std::string situation_name(const testing::TestParamInfo<MachineSituation>& info);
 
 }  // namespace lockstep

@@ -18,7 +18,7 @@ VirtualOptions on_boards() {
     return options;
 }
 
-/// Boards have their own clocks, so only states that can be entered with any clocks.
+/// Boards have their own clocks, so these are only the states that can be entered with any clocks.
 std::vector<MachineSituation> situations_on_boards() {
     std::vector<MachineSituation> chosen;
     for (const char* name :
@@ -43,7 +43,7 @@ class RebootedCoordinator : public testing::TestWithParam<MachineSituation> {};
 TEST_P(RebootedCoordinator, WithAYoungerClockRunsJobsAgainByTheRemediesOffered) {
     constexpr std::size_t kCoordinator = 2;
     Walker m(on_boards());
-    m.wait(20);  // its clock is older than a machine slews
+    m.wait(20);  // the reboot then sets the clock back too far to be slewed
     GetParam().enter(m);
     if (HasFatalFailure()) { return; }
     const Slot before = m.vm.state()->stamp;

@@ -1,5 +1,5 @@
 // In every state of the machine every command is answered, an accepted one has its effect, and the offered remedies
-// lead back to a machine that runs jobs. docs/states.md is the result of this walk; to write it again:
+// lead back to a machine that runs jobs. docs/states.md is the result of this walk; this command writes it again:
 //   LOCKSTEP_WRITE_STATES=1 build/bin/unit_states
 #include <cstdlib>
 #include <fstream>
@@ -36,15 +36,13 @@ const std::vector<Question>& questions() {
 std::string head() {
     std::string text =
         "# What the machine does, in every state, at every command\n\n"
-        "Each cell is the state in which the machine then settles, with how the job in progress or begun has ended, "
-        "or\n"
-        "the refusal. Every refusal and fault names its remedies (`core/faults.hpp`); from every cell they lead back "
-        "to\n"
-        "a machine that runs jobs. `tests/unit/states` walks all of it in virtual time, follows the remedies, and "
-        "fails\n"
-        "where this table is not what it found. To write it again: `LOCKSTEP_WRITE_STATES=1 build/bin/unit_states`, "
-        "in\n"
-        "the repository's folder.\n\n| state |";
+        "Each cell gives the state in which the machine settles after the command and the outcome of the job in\n"
+        "progress or begun, or the refusal. Every refusal and fault names its remedies (`core/faults.hpp`); from "
+        "every\n"
+        "cell they lead back to a machine that runs jobs. `tests/unit/states` walks all of it in virtual time, "
+        "follows\n"
+        "the remedies, and fails if this table differs from its findings. To write it again:\n"
+        "`LOCKSTEP_WRITE_STATES=1 build/bin/unit_states`, in the repository's folder.\n\n| state |";
     std::string rule = "|---|";
     for (const Question& question : questions()) {
         text += " " + question.name + " |";
@@ -74,7 +72,7 @@ protected:
         static std::map<std::string, std::string> rows;
         return rows;
     }
-    /// Brings a machine into the state, sends the command, follows the remedies. Returns the cell.
+    /// Brings a machine into the state, sends the command, follows the remedies. Returns the cell of the table.
     static std::string walk(const MachineSituation& situation, const Question& question, std::size_t choice = 0) {
         Walker machine(situation.options());
         situation.enter(machine);

@@ -6,9 +6,9 @@
 namespace lockstep {
 namespace {
 
-constexpr double kRestWithin_s = 2;  // a hold, a stop, an emergency stop, a reset
-constexpr double kJobWithin_s = 60;  // homing, and any job of these tests
-constexpr int kRounds = 8;           // of remedies, until a job runs
+constexpr double kRestWithin_s = 2;  // for a hold, a stop, an emergency stop, a reset
+constexpr double kJobWithin_s = 60;  // for homing, and for any job of these tests
+constexpr int kRounds = 8;           // of remedies, at most, until a job runs
 constexpr std::uint64_t kNotSent = 999;
 constexpr Identity kJogger = 60;
 constexpr double kJog_mm = 1;
@@ -69,7 +69,7 @@ bool Walker::is_settled() const {
     }
 }
 
-/// With a state published after the last command.
+/// Waits until the machine is settled, by a state published after the last command.
 bool Walker::settles(double seconds) {
     wait(0.01);
     return is_settled() ||
@@ -145,7 +145,7 @@ std::size_t Walker::choices(FaultCode code) {
     return text != nullptr && text->remedies.is_choice ? text->remedies.count : 1;
 }
 
-/// `By hand`: faults end, and missing parts are sent.
+/// Does the repairs that a person makes by hand: faults end, and missing parts are sent.
 void Walker::repair() {
     if (std::exchange(is_program_delayed_, false)) { vm.give_program(kNotSent, program_of({{40, 40}, {20, 20}}, 20)); }
     (void)vm.advance_until([this] { return !vm.faults_pending(); }, Ticks{120'000'000});

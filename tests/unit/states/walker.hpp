@@ -8,7 +8,7 @@
 
 namespace lockstep {
 
-/// A client's command; the column of the table.
+/// A client's command: a column of the table.
 struct Question {
     std::string name;
     CommandKind kind = CommandKind::Stop;
@@ -16,7 +16,7 @@ struct Question {
     int feed_percent = 0;  // Override
 };
 
-/// Its result: the cell of the table.
+/// The result of a command: a cell of the table.
 struct Answer {
     std::string text;
     std::optional<FaultCode> refusal;
@@ -26,16 +26,16 @@ class Walker : public Rig {
 public:
     explicit Walker(const VirtualOptions& options) : Rig(options) {}
 
-    // For states to bring the machine into them.
+    // The states use these to bring the machine into them.
     using Rig::ask;
     using Rig::home;
     using Rig::reaches;
     using Rig::vm;
     using Rig::wait;
-    /// A job of one straight line from the axes' positions; it pauses before, if `pauses`.
+    /// A job of one straight line from the axes' positions; if `pauses`, it pauses before the line.
     Reply go(CommandKind kind, double x_mm, double y_mm, double feed_mm_s, bool pauses = false);
     void inject(VirtualFault fault, double seconds);
-    /// Of X, by a client that renews it for `seconds`, or until its end.
+    /// Jogs X by a client that renews the jog for `seconds` or until it ends.
     Reply jog(Identity client, double distance_mm, double seconds);
     /// The program that Question::Program::Unknown names arrives with the next repair.
     void delay_program() { is_program_delayed_ = true; }
@@ -45,7 +45,7 @@ public:
 
     /// How many alternative remedies a refusal or fault offers.
     static std::size_t choices(FaultCode code);
-    /// Follows the code's remedies; each command of them must be accepted.
+    /// Follows the code's remedies. The machine must accept each of their commands.
     void follow(FaultCode code, std::size_t choice = 0);
     /// Continues by the offered remedies until a job has run to its end.
     bool recovers();

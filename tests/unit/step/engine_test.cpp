@@ -47,7 +47,7 @@ TEST(StepEngine, GoesUpAndComesBackWithinAPiece) {
     EXPECT_EQ(steps[1].direction, 1);
     EXPECT_EQ(steps[2].direction, -1);
     EXPECT_EQ(steps[3].direction, -1);
-    EXPECT_EQ(steps[1].tick.value + steps[2].tick.value, 256);  // seen in time, down mirrors up
+    EXPECT_EQ(steps[1].tick.value + steps[2].tick.value, 256);  // in time, the steps down mirror the steps up
     EXPECT_EQ(engine.position(), Position{});
 }
 

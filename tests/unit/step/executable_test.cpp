@@ -16,7 +16,7 @@ TEST(Executable, IsEveryPieceWhoseVelocityStaysIn64Bits) {
     EXPECT_TRUE(executable({Ticks{1}, {-1}, {-kTop}}));
 }
 
-TEST(Executable, IsNoneFasterThanHalfAStepPerTick) {
+TEST(Executable, RefusesPiecesFasterThanHalfAStepPerTick) {
     EXPECT_FALSE(executable({Ticks{1}, {kTop}, {1}}));
     EXPECT_FALSE(executable({Ticks{2}, {-2}, {-kTop}}));
     EXPECT_FALSE(executable({kMaxPieceTicks, {0}, {std::int64_t{1} << 21}}));

@@ -1,4 +1,4 @@
-// The exact arithmetic of the skip-ahead form, also where ticking through would take weeks.
+// The exact arithmetic of the skip-ahead form, also where tick-by-tick execution would take weeks.
 #include "core/step/stretch.hpp"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ TEST(Stretch, EndsWhereTheSpeedPassesTheCrossover) {
     EXPECT_TRUE(fast.fast);
 }
 
-/// A trapezoid of exactly 2^40 steps at up to 1/64 step per tick: 2^46 ticks and more, so in several pieces.
+/// A trapezoid of exactly 2^40 steps at up to 1/64 step per tick: 2^46 ticks and more, so it has several pieces.
 TEST(Stretch, AMoveOf2To40StepsLandsOnItsLastStepExactly) {
     const std::int64_t a = std::int64_t{1} << 20;
     const Ticks rise{kCruise / a};  // 2^38 ticks, 2^31 steps

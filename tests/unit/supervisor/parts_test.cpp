@@ -1,4 +1,5 @@
-// The parts of a machine on several hosts: which are awaited, which run elsewhere, which are lost in a damaged record.
+// The parts of a machine on several hosts: which parts are awaited, which run elsewhere, and which are missing in a
+// damaged record.
 #include "clients/session/parts.hpp"
 
 #include <gmock/gmock.h>
@@ -72,7 +73,7 @@ private:
 
 TEST(OwnParts, AreNotMistakenForThoseOfOtherHosts) {
     const ProcessRecord supervisor{"supervisor", getpid(), *start_of(getpid())};
-    // Independent of the number of a process on another host, and of its start.
+    // The number and the start of a process on another host do not matter.
     EXPECT_EQ(foreign_part(on_three_hosts(), {.axes = {0}}, supervisor,
                            {{std::nullopt, "board-a", 1}, {1, "board-c", getppid()}}),
               std::nullopt);
@@ -88,7 +89,7 @@ TEST(OwnParts, ThatRanBeforeTheSupervisorAreForeign) {
 }
 
 TEST(OwnParts, OfAKilledProcessStillOnTheNetworkAreNotForeign) {
-    const std::vector<PresentProcess> present{{0, host_name(), getpid()}};  // its number is another program's now
+    const std::vector<PresentProcess> present{{0, host_name(), getpid()}};  // another program has its number now
     EXPECT_EQ(foreign_part(on_three_hosts(), {.axes = {0}}, {"supervisor", 1, ~std::uint64_t{0}}, present),
               std::nullopt);
 }

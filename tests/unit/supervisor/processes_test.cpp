@@ -34,12 +34,12 @@ TEST(ProcessRecord, IsKnownToBeDamaged) {
     }
 }
 
-TEST(ProcessRecord, IsOfOneProcessNotOfItsNumber) {
+TEST(ProcessRecord, DoesNotMatchAnotherProcessWithTheSamePid) {
     EXPECT_TRUE(is_running(this_process()));
     ProcessRecord earlier = this_process();
     --earlier.start;
     EXPECT_FALSE(is_running(earlier));
-    signal_process(earlier, SIGKILL);  // or this test ends here
+    signal_process(earlier, SIGKILL);  // must not signal this process: the test would end here
     EXPECT_TRUE(wait_until_gone({earlier}, 0ms));
     EXPECT_FALSE(wait_until_gone({this_process()}, 0ms));
 }

@@ -27,7 +27,7 @@ public:
         }
     }
 
-    /// Changes the messages of a channel that `change` returns true for; returns how many.
+    /// Changes the messages of a channel for which `change` returns true. Returns their number.
     template <typename Message>
     int change(std::string_view suffix, const std::function<bool(Message&)>& change) {
         int changed = 0;
@@ -42,7 +42,7 @@ public:
         return changed;
     }
 
-    /// Leaves out the messages of a channel that `unwanted` returns true for; returns how many.
+    /// Leaves out the messages of a channel for which `unwanted` returns true. Returns their number.
     template <typename Message>
     std::size_t leave_out(std::string_view suffix, const std::function<bool(const Message&)>& unwanted) {
         return std::erase_if(events_, [&](const Event& event) {

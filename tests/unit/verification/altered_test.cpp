@@ -1,4 +1,4 @@
-// Any change in a log, however small, is found and named.
+// Even the smallest change in a log is found and named.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -13,7 +13,7 @@ using test::AlteredLog;
 
 class Altered : public testing::Test {
 protected:
-    /// A machine that is homed, runs a program, is held in the middle of it and resumed.
+    /// Records a machine that is homed and runs a program, which is held in the middle and resumed.
     static void SetUpTestSuite() {
         const std::string name = "lockstep_original_" + std::to_string(getpid()) + ".lcm";  // tests run side by side
         original = std::filesystem::path(testing::TempDir()) / name;
@@ -124,7 +124,7 @@ TEST_F(Altered, TheVeryLastStepRemoved) {
     EXPECT_FALSE(found.tick_seen.has_value());
 }
 
-TEST_F(Altered, OnePositionAnother) {
+TEST_F(Altered, OnePositionChanged) {
     ASSERT_EQ(log.change<step_batch_t>(
                   "_STEPS", [&](step_batch_t& batch) { return is_the_one(batch) && ++batch.position_before != 0; }),
               1);
@@ -222,7 +222,7 @@ TEST_F(Altered, AHomingRunFromAnotherPlace) {
     (void)difference();
 }
 
-TEST_F(Altered, TheProgramAnother) {
+TEST_F(Altered, ProgramChanged) {
     ASSERT_EQ(log.change<job_t>("_JOB",
                                 [&](job_t& job) {
                                     const auto at = job.program.find("62");

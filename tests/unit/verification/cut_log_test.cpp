@@ -1,5 +1,5 @@
-// A log of a good run, cut at any message: the rest is exact, and the missing part is unknown.
-// A healthy run is never rated bad, and a part that the log lacks is never rated good.
+// If the log of a good run is cut at any message, the rest is exact and the missing part is unknown. A healthy run is
+// never rated bad, and a part that the log lacks is never rated good.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -17,8 +17,8 @@ using analysis::Grade;
 using test::AlteredLog;
 using testing::HasSubstr;
 
-/// Homing, a job that is held and resumed, moves of the axes on their own, another job. The parameter is a share of all
-/// messages, so that shares are tested side by side.
+/// The log has homing, a job that is held and resumed, moves of the axes on their own, and another job. The parameter
+/// is a share of all messages, so that the shares are tested in parallel.
 class CutLog : public testing::TestWithParam<std::size_t> {
 protected:
     static constexpr std::size_t kShares = 12;
@@ -48,7 +48,7 @@ protected:
     }
     static void TearDownTestSuite() { fs::remove(original); }
 
-    /// Calls back with the log from each of this share's messages on, or up to it.
+    /// Calls `look` for each message of this share, with the log from this message on, or up to it.
     void for_each_cut(bool begins_late, const std::function<void(const fs::path&)>& look) const {
         const auto path = test::test_directory() / "cut.lcm";
         const auto events = std::ssize(whole->events());
@@ -103,7 +103,7 @@ TEST_P(CutLog, ThatEndsEarlyIsExactIfItsJobsEndedElseUnknown) {
     });
 }
 
-TEST_P(CutLog, IsNeverBadToAnalyze) {
+TEST_P(CutLog, AnalysisNeverRatesItBad) {
     for (const bool begins_late : {true, false}) {
         for_each_cut(begins_late, [](const fs::path& log) {
             const auto found = analysis::analyze_log(log);

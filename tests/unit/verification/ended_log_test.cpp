@@ -1,5 +1,5 @@
-// A log that ends badly: with an axis killed in motion, or with a job whose coordinator was. The run is still as
-// planned, and a wrong step is still found.
+// A log that ends badly, because an axis or the coordinator of a job was killed in motion. The run is still as planned,
+// and a wrong step is still found.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -45,7 +45,7 @@ protected:
         EXPECT_TRUE(findings.has_value()) << findings.error();
         return findings.value_or(Findings{});
     }
-    /// The last message of an axis's steps with enough of them has one a tick later.
+    /// The log with one step a tick later, in the last message of the axis with enough steps.
     std::filesystem::path with_a_step_later(const std::string& axis, std::int64_t& tick) const {
         AlteredLog log(path());
         const auto is_fit = [&](const step_batch_t& batch) { return batch.axis == axis && batch.count > 3; };

@@ -1,4 +1,4 @@
-// A process that is killed leaves its last run or steps unrecorded: these are compared with the plan, and reported.
+// A killed process leaves its last run or steps unrecorded. These are compared with the plan and reported.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// An axis whose process 7 ran frames of 10 ms at a step every 100 ticks; process 8 follows it.
+/// Process 7 of an axis ran frames of 10 ms at a step every 100 ticks. Process 8 follows it.
 class EndedProcess : public testing::Test {
 protected:
     static constexpr std::int64_t kFrame = 10'000;
@@ -26,7 +26,7 @@ protected:
                 .pieces = {{Ticks{kFrame}, Velocity{(std::int64_t{1} << 62) / 25}, {}}},
                 .stop_count = before + kSteps};
     }
-    /// With it the axis may come to rest in place of frame 2.
+    /// The axis may come to rest with this tail in place of frame 2.
     static analysis::Run tail_of_first() {
         analysis::Run tail = frame(2);
         tail.frame = 1;
@@ -42,7 +42,7 @@ protected:
         }
         return batch;
     }
-    /// Another process, from its position on and later.
+    /// Another process moves the axis later, from its own position on.
     void another_process_moves() {
         batches_ = 0;
         const analysis::Run run = frame(9, 8);
@@ -94,7 +94,7 @@ TEST_F(EndedProcess, StepsThatLackTheirRunAndAreNotThoseOfThePlanAreADifference)
     EXPECT_EQ(findings.difference->tick_seen, batch.steps[20].tick);
 }
 
-/// It braked to rest instead, the plan's other course; neither is recorded.
+/// Two courses are planned: the axis brakes to rest, or it runs frames 2 and 3. The record lacks the runs of both.
 TEST_F(EndedProcess, TheStepsDetermineTheCourseTaken) {
     plan = {{tail_of_first()}, {frame(2), frame(3)}};
     check.take(published(frame(1), kSteps));
@@ -119,7 +119,7 @@ TEST_F(EndedProcess, TooFewStepsLeaveSeveralCourses) {
                 HasSubstr("they are as planned: tail of frame 1 or frame 2; of their course at least 20 steps"));
 }
 
-TEST_F(EndedProcess, StepsThatTheNextOneFoundInTheDeviceAreOfThePlanToo) {
+TEST_F(EndedProcess, StepsRecordedByTheSuccessorAreComparedWithThePlan) {
     plan = {{frame(2)}};
     check.take(published(frame(1), kSteps));
     check.take(frame(1));

@@ -1,4 +1,4 @@
-// A log that begins later than the machine is verified from there on; only messages missing in between count.
+// A log that begins later than the machine is verified from its beginning on. Only messages missing in between count.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
-// An axis whose messages come late in the log, since its process stalled or the network delayed them, is analysed like
-// any other.
+// The messages of an axis come late in the log, because its process stalled or the network delayed them. The axis is
+// analysed like any other.
 #include <gtest/gtest.h>
 
 #include "clients/analysis/analysis.hpp"

@@ -29,7 +29,7 @@ protected:
     }
     static void TearDownTestSuite() { std::filesystem::remove(original); }
 
-    /// The last job is another coordinator's, and the one before it has no end.
+    /// Gives the last job to another coordinator, and removes the end of the job before it.
     void SetUp() override {
         log.change<job_t>("_JOB", [&](job_t& job) {
             last = std::max(last, job.job);
@@ -53,7 +53,7 @@ protected:
     std::int64_t last = 0;
 };
 
-TEST_F(LateRecord, AnEpochIsHeldToItsJobThoughAnotherHasBegunSince) {
+TEST_F(LateRecord, LateEpochIsComparedWithItsOwnJob) {
     std::rotate(word(last - 1, "epoch"), word(last - 1, "epoch") + 1, word(last, "begun") + 1);
     const Findings found = verified();
     EXPECT_FALSE(found.difference) << to_text(found);

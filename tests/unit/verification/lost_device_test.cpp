@@ -1,4 +1,4 @@
-// A device that dies and is replaced by another, which counts from 0: the runs before and after are verified.
+// A device dies, and another replaces it and counts from 0. The runs before and after are verified.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// A log contains the machine time of each step, whatever clocks the boards have, and its uncertainty.
+// A log contains the machine time of each step and its uncertainty, for any clocks of the boards.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -145,8 +145,8 @@ TEST_F(MachineTime, IsVerifiedAndAStepBeyondTheClockErrorIsFound) {
         << findings->difference->text;
 }
 
-/// A network on which a message takes up to 4 ms: the estimate of time changes by as much between exchanges, and
-/// so do intervals of machine time at the ends of messages of steps.
+/// A message takes up to 4 ms on this network. The estimate of time changes by up to that much between exchanges. So do
+/// the intervals of machine time at the ends of messages of steps.
 TEST(MachineTimeOfAPoorNetwork, SpeedsAreThoseByTheDevicesClockWhichTheMotorFollows) {
     const std::filesystem::path log = test::test_directory() / "run.lcm";
     VirtualOptions options = boards_apart();
@@ -173,7 +173,7 @@ TEST(MachineTimeOfAPoorNetwork, SpeedsAreThoseByTheDevicesClockWhichTheMotorFoll
     EXPECT_EQ(summary(*found).find("above its limit"), std::string::npos) << summary(*found);
 }
 
-/// As with PTP, whose time is counted from 1970.
+/// PTP counts time from 1970.
 TEST(MachineTimeByPtp, OfAMachineThatCountsFrom1970IsReadAndVerified) {
     const std::filesystem::path log = test::test_directory() / "run.lcm";
     VirtualOptions options{.machine = test::example("two-axis"), .start = Tick{1'795'000'000'000'000}};

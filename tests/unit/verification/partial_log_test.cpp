@@ -1,5 +1,5 @@
-// A log of a good run that lacks something: the results that depend on the missing part are
-// unknown. Nothing that only the missing part could show is rated good, or bad.
+// The log of a good run lacks a part. The results that depend on the missing part are unknown, and are rated neither
+// good nor bad.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -32,7 +32,7 @@ protected:
 
     static void TearDownTestSuite() { std::filesystem::remove(whole_); }
 
-    /// Of a log with the events that `keeps` returns true for.
+    /// The analysis of a log with only the events for which `keeps` returns true.
     template <typename Keeps>
     Analysis without(Keeps keeps) const {
         AlteredLog log(whole_);
@@ -105,8 +105,8 @@ TEST_F(PartialLog, WithoutAnAxissRunsDoesNotKnowWhetherItsStepsCameInTime) {
     expect_finding(found, "were in time cannot be determined: the times commanded are not in this log");
 }
 
-/// Whatever is missing, and for whatever time: a good run is never rated bad, and no distance is measured from an
-/// outdated position of an axis.
+/// A good run is never rated bad, for any missing messages and for any time without them. No distance is measured from
+/// an outdated position of an axis.
 TEST_F(PartialLog, NeverTakesMissingMessagesForAFault) {
     std::mt19937 random(5);
     const Analysis whole = without([](const auto&) { return true; });

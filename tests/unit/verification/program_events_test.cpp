@@ -26,7 +26,7 @@ protected:
         line = 0;
         return {.name = "events.gcode", .axes = {"X", "Y"}, .start_mm = std::move(start_mm), .blocks = {}};
     }
-    /// Five events between moves, one of them behind the last.
+    /// A program of four moves with five events: one before, three between and one behind the moves.
     Program square(double x, double y) {
         Program program = program_from({x, y});
         program.blocks.push_back(event(EventKind::SpindleForward, 0, 1200));
@@ -88,7 +88,7 @@ protected:
         alter(log);
         return verify_log(log.write(test::test_directory() / "altered.lcm")).value();
     }
-    /// The event with this number of its term.
+    /// Changes the event with this number in its term.
     static auto numbered(std::int64_t number, std::function<void(program_event_t&)> change) {
         return [number, change](test::AlteredLog& log) {
             EXPECT_EQ(log.change<program_event_t>("_EVENTS",

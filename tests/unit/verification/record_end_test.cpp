@@ -1,4 +1,5 @@
-// However the end of a record is lost, merge, verify and analyze each report it, or report that it is unknown.
+// If the end of a record is lost in any way, merge, verify and analyze each report that, or report that the end is
+// unknown.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -40,7 +41,7 @@ protected:
     }
     static void TearDownTestSuite() { fs::remove(original); }
 
-    /// By the process that writes it: an axis's name, empty for the coordinator.
+    /// The logs by the process that writes them: an axis's name, empty for the coordinator.
     static std::map<std::string, AlteredLog> own_logs() {
         const AlteredLog whole(original);
         std::map<std::string, AlteredLog> logs{{"", whole}, {"X", whole}, {"Y", whole}};

@@ -33,7 +33,7 @@ inline MachineConfig example(const std::string& name) {
     return load_machine_file("deploy/examples/" + name + ".textproto").value();
 }
 
-/// From the park positions.
+/// The program of a text that starts at the park positions.
 inline Program program_of(const MachineConfig& machine, std::string_view gcode) {
     return parse_gcode(gcode, gcode_setup(machine, parked_mm(machine), "example.gcode")).value();
 }
@@ -56,7 +56,7 @@ public:
     void advance_ms(std::int64_t ms) {
         vm_.advance_until([] { return false; }, Ticks{ms * 1000});
     }
-    /// Repeated until it is answered.
+    /// Sends the command until it is answered.
     void command(CommandKind kind, std::uint64_t program = 0) {
         bool answered = false;
         for (int tries = 0; tries < 50 && !answered; ++tries) {
@@ -80,7 +80,7 @@ public:
         command(CommandKind::Run, programs_);
         ASSERT_TRUE(reaches(MachinePhase::Running));
     }
-    /// Axes to their places each by itself.
+    /// Begins moves in which each axis goes to its place on its own.
     void begin_own(Program program) {
         vm_.give_program(++programs_, std::move(program));
         command(CommandKind::MoveOwn, programs_);

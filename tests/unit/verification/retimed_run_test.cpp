@@ -29,7 +29,7 @@ protected:
         }
         return plan;
     }
-    /// The run that an axis gives its device, whose clock is up to 700 ppm off and whose rate changes.
+    /// The run that an axis gives its device. The device's clock is up to 700 ppm off, and its rate changes.
     analysis::Run on_another_clock(const analysis::Run& plan) {
         analysis::Run run = plan;
         run.start = Tick{between(0, 1'000'000'000)};

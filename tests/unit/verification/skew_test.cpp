@@ -19,7 +19,7 @@ protected:
         ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
     }
 
-    /// Between the machine's two axes.
+    /// The skew between the machine's two axes.
     static PairSkew skew_in(const std::filesystem::path& log) {
         const auto found = analyze_log(log);
         EXPECT_TRUE(found.has_value());

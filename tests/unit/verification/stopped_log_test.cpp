@@ -1,4 +1,4 @@
-// The last step marks when pulses ceased, not the frame that was cut.
+// The last step marks when pulses ceased. The end of the frame that was cut does not.
 #include <gtest/gtest.h>
 
 #include "clients/analysis/analysis.hpp"

@@ -17,7 +17,7 @@ protected:
     static constexpr std::uint64_t kProgram = 77;
     static std::filesystem::path path() { return test::test_directory() / "stream.lcm"; }
 
-    /// A curve in short chords: how it is joined depends on what follows.
+    /// A curve in short chords. Each chord is joined according to the ones that follow.
     std::vector<Block> chords(int count) {
         std::vector<Block> blocks;
         for (int k = 0; k < count; ++k, ++line) {
@@ -42,7 +42,7 @@ protected:
             },
             Ticks{20'000'000});
     }
-    /// Its parts come late, so that it rests on the path again and again, with other overrides each time.
+    /// The program's parts come late. The machine rests on the path again and again, with other overrides each time.
     void run(bool is_ended = true) {
         const MachineConfig machine = test::example("two-axis");
         start = parked_mm(machine);
@@ -80,7 +80,7 @@ protected:
         }
         return blocks;
     }
-    /// Parts come at any time, mostly early enough, and overrides are turned while they do.
+    /// Parts come at any time, mostly early enough. Overrides are turned meanwhile.
     void run_with_turns(std::uint64_t seed) {
         std::mt19937_64 random(seed);
         const MachineConfig machine = test::example("two-axis");

@@ -1,4 +1,5 @@
-// A reset that is accepted while an axis is not received holds for that axis as well: it leaves Fault when it is back.
+// A reset that is accepted while an axis is not received applies to that axis too. The axis leaves Fault when it is
+// received again.
 #include "tests/unit/virtual/rig.hpp"
 
 namespace lockstep {
@@ -52,7 +53,7 @@ TEST_F(AbsentAxisReset, AxisThatIsCutOffBeforeItReceivesTheResetLeavesFaultWhenI
     expect_idle_without_another_reset();
 }
 
-/// A reset that was carried out is over: a fault that comes later needs one of its own.
+/// A reset does not apply to faults that come after it. Each of them needs another reset.
 TEST_F(AbsentAxisReset, LaterFaultOfAnAbsentAxisNeedsAnotherReset) {
     home();
     strike_y(Kind::KillDevice, 0.5);

@@ -37,7 +37,7 @@ TEST_F(Rig, AProgramThatNeverArrivedIsRefused) {
     EXPECT_EQ(why(ask(CommandKind::Run, 0, 999)), FaultCode::UnknownProgram);
 }
 
-TEST_F(Rig, OneThingAtATime) {
+TEST_F(Rig, RefusesHomeRunAndResetWhileAJobRuns) {
     home();
     ASSERT_EQ(run(program_of({{90, 90}}, 50)).status, ReplyStatus::Accepted);
     EXPECT_EQ(why(ask(CommandKind::Home)), FaultCode::Busy);
@@ -47,7 +47,7 @@ TEST_F(Rig, OneThingAtATime) {
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{9000, 9000}));
 }
 
-TEST_F(Rig, AnAxisThatOthersMoveWithoutStandsBy) {
+TEST_F(Rig, AxisWithoutMotionInTheMoveIsInStandby) {
     home();
     ASSERT_EQ(run(program_of({{25, 5}, {25, 85}}, 40)).status, ReplyStatus::Accepted);
     wait(0.3);
@@ -90,7 +90,7 @@ TEST_F(Rig, AHoldBeginsSoonAndAResumeEndsAtTheProgramsEnd) {
     const Tick asked = vm.now();
     EXPECT_EQ(ask(CommandKind::Hold).status, ReplyStatus::Accepted);
     ASSERT_TRUE(reaches(MachinePhase::Holding, 3)) << describe();
-    // Not later than the check instant, a frame, the braking and the hops take: 12 + 5 slots, 40 ms of braking.
+    // The bound covers the check instant, a frame and the hops (12 + 5 slots of 1 ms), and 40 ms of braking.
     EXPECT_LT((vm.now() - asked).value, 80'000);
     EXPECT_NEAR(static_cast<double>(counts()[1] - 500), static_cast<double>(counts()[0] - 500) / 2, 1.0);
     wait(1);
@@ -260,15 +260,15 @@ TEST_F(Rig, ALegalProgramLosesNoStep) {
     for (const auto& state : vm.axis_states()) { EXPECT_EQ(state->following_error_steps, 0); }
 }
 
-/// Alone for long enough to own the machine. Returns the time.
+/// Runs the coordinator alone until it owns the machine. Returns the time.
 Tick listen_until_owner(Coordinator& coordinator, const MachineConfig& machine) {
     Tick now{10'000};
     for (; !coordinator.owns_machine(); now += machine.slot_ticks()) { (void)coordinator.step({.now = now}); }
     return now;
 }
 
-/// The decisions of a coordinator that has just started, after it received another owner's states for so many slots,
-/// each `age` slots after it was stamped.
+/// The decisions of a coordinator that has just started, after it received another owner's states for `slots` slots,
+/// each `age` slots after its stamp.
 CoordinatorOutputs meet_owner(Coordinator& coordinator, const MachineConfig& machine, int slots, Slot age) {
     CoordinatorOutputs out;
     Tick now{3'000'000};

@@ -1,4 +1,4 @@
-// Boards with their own clocks: offsets of seconds, rates 100 ppm apart, and still one machine.
+// Boards with their own clocks work as one machine, with offsets of seconds and rates 100 ppm apart.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -43,7 +43,7 @@ public:
     }
     void record() { recording_ = true; }
 
-    /// Every step is within the last bound that its axis published before it, and two ticks.
+    /// Expects every step within the last bound that its axis published before the step, plus two ticks.
     void expect_within_bounds() {
         for (std::size_t axis = 0; axis < options_.clocks.size(); ++axis) {
             const std::vector<Tick> commanded = commanded_of(axis);
@@ -57,7 +57,7 @@ public:
             }
         }
     }
-    /// In ticks, over all steps compared.
+    /// The greatest error of all compared steps, in ticks.
     double worst() const { return worst_; }
     std::int64_t widest() const { return widest_; }
     std::size_t steps() const { return made_.at(0).size(); }
@@ -202,7 +202,7 @@ TEST_F(OwnClocks, WithoutTheCoordinatorTheBoundGrows) {
     EXPECT_GT(widest_error(), before + 60);
 }
 
-/// Until it is given up (16 slots), a device whose clock stands still does not make its axis silent.
+/// An axis keeps reporting although the clock of its device stands still. After 16 slots it gives the device up.
 TEST_F(OwnClocks, AxisGoesOnReportingWhileItsDeviceStandsStill) {
     home();
     wait(1);

@@ -1,5 +1,5 @@
-// Programs of any density run without a stop: a line takes the same time however finely it is cut, and 100,000 lines
-// start at once.
+// Programs of any density run without a stop. The time of a line does not depend on how finely it is cut, and 100,000
+// lines start at once.
 #include <cmath>
 #include <numbers>
 

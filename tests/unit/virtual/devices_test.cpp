@@ -1,4 +1,4 @@
-// Devices that die, stop, or show impossible values: in every state of the machine it comes to Fault, names axis and
+// A device dies, stops, or shows impossible values. In every state the machine goes to Fault, names the axis and the
 // fault, and is usable again after the remedy.
 #include "tests/unit/virtual/rig.hpp"
 
@@ -10,7 +10,7 @@ using Kind = VirtualFault::Kind;
 /// X is process 0, Y process 1. A device may be silent for 16 slots of 1 ms.
 class Devices : public Rig {
 protected:
-    static constexpr double kSoon = 0.5;  // s, by when the machine is in Fault: the silence, a frame and a tail
+    static constexpr double kSoon = 0.5;  // s, the machine is in Fault by then: the silence, a frame and a tail
 
     void strike(Kind kind, double seconds, bool garbage = true) {
         vm.schedule({.kind = kind,
@@ -81,7 +81,7 @@ TEST_F(Devices, OneThatDiesInHomingEndsIt) {
         strike(Kind::KillDevice, 1);
         ASSERT_TRUE(reaches(MachinePhase::Fault, kSoon)) << part << ": " << describe();
         EXPECT_EQ(fault(), FaultCode::DeviceLost) << part << ": " << describe();
-        wait(4);  // the other axis homes on
+        wait(4);  // the other axis finishes its homing
         expect_usable();
     }
 }
@@ -138,7 +138,7 @@ TEST_F(Devices, AnAxisThatStartsBeforeItsDeviceWaitsForItWithoutAFault) {
     home();
 }
 
-/// Registers that can be opened, without a device: only a device's clock advances.
+/// The registers can still be opened without a device, but their clock does not advance.
 TEST_F(Devices, MemoryOfADeadOneIsNotTakenForADevice) {
     home();
     strike(Kind::StopDevice, 4);
@@ -185,7 +185,7 @@ TEST_F(Devices, OneThatStallsNoLongerThanItMayIsNotNoticed) {
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{2000, 6000}));
 }
 
-/// Its own standstill proves nothing about the device.
+/// The axis's own standstill proves nothing about its device.
 TEST_F(Devices, AnAxisThatStalledForLongDoesNotGiveUpItsDevice) {
     home();
     vm.schedule({.kind = Kind::Freeze, .process = kY, .at = vm.now(), .lasts = {300'000}});

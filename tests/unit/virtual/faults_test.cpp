@@ -1,4 +1,4 @@
-// Processes that stall, end and restart, links that fail: each with the machine's reaction.
+// The machine's reactions to processes that stall, end and restart, and to links that fail.
 #include "tests/unit/virtual/rig.hpp"
 
 namespace lockstep {
@@ -18,8 +18,8 @@ protected:
         vm.schedule({.kind = kind, .process = process, .at = vm.now(), .lasts = ticks(seconds)});
     }
     static Ticks ticks(double seconds) { return {static_cast<std::int64_t>(seconds * 1e6)}; }
-    /// Both slides on the line from (5, 5) mm to (85, 45) mm, by their true positions: except for a frame of 5 ms that
-    /// an axis did not receive.
+    /// Expects the true positions of both slides on the line from (5, 5) mm to (85, 45) mm. The tolerance is a frame of
+    /// 5 ms that an axis did not receive.
     void expect_on_the_line() {
         const double frame_mm = 40 * 0.005;
         const double x = vm.device(0).plant().position_mm() - 5;
@@ -79,7 +79,7 @@ TEST_F(Faults, AnAxisThatEndsLeavesTheOtherOnThePath) {
     ASSERT_TRUE(reaches(MachinePhase::Fault, 3)) << describe();
     EXPECT_EQ(fault(), FaultCode::AxisLost);
     wait(1.2);
-    expect_on_the_line();  // the device of the one that ended ran on by itself
+    expect_on_the_line();  // the device of the axis that ended ran on without its process
     EXPECT_FALSE(vm.axis_states()[kY]->homed) << "a new process cannot prove its position";
     EXPECT_TRUE(vm.axis_states()[0]->homed);
     expect_usable();
@@ -106,7 +106,8 @@ TEST_F(Faults, AnAxisThatRestartsWhileItIsHomedIsLost) {
     expect_usable();
 }
 
-/// The axes have executed as many commands of the previous coordinator as the new one has given.
+/// The axes have executed as many commands of the previous coordinator as the new one has given. These must not count
+/// as executed commands of the new one.
 TEST_F(Faults, AwaitsAResetByARestartedCoordinator) {
     home();
     ASSERT_EQ(run(program_of({{85, 45}}, 40)).status, ReplyStatus::Accepted);

@@ -1,4 +1,4 @@
-// Homing is ended by a stop or a hold in any of its stages: soon, within the limits, at rest, and it can begin again.
+// A stop or a hold ends homing in any of its stages soon, within the limits and at rest. Homing can then begin again.
 #include <set>
 
 #include "core/axis/own_moves/homing.hpp"
@@ -10,7 +10,7 @@
 namespace lockstep {
 namespace {
 
-/// Of each axis: the stage of its homing, all its steps, and when its newest run began.
+/// Keeps for each axis the stage of its homing, all its steps, and the beginning of its newest run.
 class HomingLog : public VirtualObserver {
 public:
     void on_step(std::size_t axis, StepEdge step) override { axes[axis].steps.push_back(step.tick); }
@@ -40,7 +40,7 @@ MachineConfig machine_that_homes_by(StepMethod method) {
         if (method == StepMethod::Lam) { axis.max_velocity_mm_s = 16.66; }
     }
     machine.axes[0].plant.start_position_mm = 1;
-    machine.axes[1].plant.start_position_mm = -1.5;  // on its switch, which is released first
+    machine.axes[1].plant.start_position_mm = -1.5;  // on its switch: homing first releases the switch
     return machine;
 }
 
@@ -49,7 +49,7 @@ class EndedHoming : public Rig {
 public:
     explicit EndedHoming(StepMethod method) : Rig({.machine = machine_that_homes_by(method)}) { vm.observe(log_); }
 
-    /// False: it was done before.
+    /// Returns false if homing was done before that.
     bool ends_after(std::int64_t ms, CommandKind how) {
         EXPECT_TRUE(reaches(MachinePhase::Idle, 2));
         EXPECT_EQ(ask(CommandKind::Home).status, ReplyStatus::Accepted);
@@ -97,7 +97,7 @@ private:
         return vm.device(i).plant().position_mm() >= axis.position_min_mm - 0.6 / axis.steps_per_mm;
     }
 
-    /// The order takes four slots at most, a frame in progress 10 ms, and a step may last longer.
+    /// The order takes four slots at most, and the frame in progress 10 ms. A step in progress may last longer.
     std::size_t most_steps_to_rest(std::size_t i) const {
         const AxisConfig& axis = vm.machine().axes[i];
         const double speed = stage(i) == HomingStage::Park ? axis.max_velocity_mm_s : axis.homing.search_velocity_mm_s;
@@ -113,7 +113,7 @@ private:
         bool is_first = true;
         for (const Tick step : log_.axes[i].steps) {
             if (step <= log_.axes[i].run_begins) { continue; }
-            const Ticks wait = (step - before) * std::int64_t{is_first ? 2 : 1};  // it is half a step on its way
+            const Ticks wait = (step - before) * std::int64_t{is_first ? 2 : 1};  // the first wait is for half a step
             EXPECT_FALSE(watch.step(static_cast<double>(wait.value) * 1e-6)) << "axis " << i;
             before = step;
             is_first = false;

@@ -1,4 +1,4 @@
-// Jogs of a whole machine with the default timing: how they end, and what refuses them.
+// Jogs of a whole machine with the default timing: how they end, and why they are refused.
 #include <cmath>
 #include <random>
 
@@ -63,7 +63,7 @@ protected:
             EXPECT_LE(state.position.count(), 10'000);
         }
     }
-    /// From the steps alone, except for the effect of a tick on the speed.
+    /// Checks the limits by the steps alone, and allows for the effect of a tick on the speed.
     void expect_within_limits() const {
         for (std::size_t axis = 0; axis < 2; ++axis) {
             for (std::size_t run = 0; run < log.runs[axis].size(); ++run) {
@@ -84,7 +84,7 @@ protected:
             is_first = false;
             last = step.tick;
         }
-        // It rests half a step after the last one, and slows down until there.
+        // The axis rests half a step after the last step, and slows down until then.
         const auto at_rest = watch.rest();
         EXPECT_LE(at_rest ? at_rest->change - at_rest->allowed : 0, 100'000 * 0.5 / 1000) << "axis " << axis;
     }

@@ -14,7 +14,7 @@ public:
     explicit Jogger(VirtualMachine& vm, Identity client = 50)
         : vm_(vm), command_{.client = client, .sequence = client * 1'000'000} {}
 
-    /// All axes that it jogs from now on. Returns the command's sequence number.
+    /// Jogs these axes and no others from now on. Returns the command's sequence number.
     std::uint64_t press(std::vector<JogAxis> jogs) {
         command_.kind = CommandKind::Jog;
         ++command_.sequence;
@@ -25,7 +25,7 @@ public:
     }
     void release() { press({}); }
     void write_as(std::uint64_t writer) { command_.writer.id = writer; }
-    /// Nothing more comes from it.
+    /// The client sends nothing more.
     void die() { is_alive_ = false; }
     bool is_alive() const { return is_alive_; }
 
@@ -50,7 +50,7 @@ private:
     bool is_alive_ = false;
 };
 
-/// Goes on for so long while the clients renew their jogs.
+/// Runs the machine for `time` while the clients renew their jogs.
 inline void pass(VirtualMachine& vm, const std::vector<Jogger*>& joggers, Ticks time) {
     for (const Tick end = vm.now() + time; vm.now() < end;) {
         Tick next = end;

@@ -1,10 +1,10 @@
-// Axes whose positions outlive their processes: homed again only if the device proves it.
+// The positions of axes outlive their processes. An axis is homed again only if its device proves the position.
 #include "tests/unit/virtual/rig.hpp"
 
 namespace lockstep {
 namespace {
 
-/// X is process 0, Y process 1. Devices live on; what an axis keeps is on disk at once.
+/// X is process 0, Y process 1. Devices outlive processes. A kept position is on disk at once.
 class KeptPositions : public Rig {
 protected:
     KeptPositions() : Rig({.machine = small_machine(), .keeps_positions = true}) {}
@@ -55,7 +55,7 @@ TEST_F(KeptPositions, AnAxisThatWasNeverHomedHasNone) {
     EXPECT_EQ(doubt(), FaultCode::None) << "it is homed now, the past does not matter";
 }
 
-/// In every phase of a job: runs after the position was kept were not observed to their end.
+/// The process ends in every phase of a job. It kept the position before runs that it did not observe to their end.
 TEST_F(KeptPositions, AnAxisThatEndsInMotionRestartsUnhomedAndReportsWhy) {
     home();
     for (int part = 0; part < 10; ++part) {

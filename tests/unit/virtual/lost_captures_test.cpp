@@ -1,5 +1,5 @@
-// A device that makes more steps than its capture ring holds while its process stalls: the axis is in fault, and the
-// record has all steps with recorded times, and a jump for the others.
+// A device makes more steps than its capture ring holds while its process stalls. The axis is in fault. The record has
+// all steps with recorded times, and a jump for the others.
 #include <gmock/gmock.h>
 
 #include "clients/simulation/machine_recorder.hpp"
@@ -26,7 +26,7 @@ public:
             faults.push_back(decode_lcm<axis_position_t>(bytes).value().fault);
         }
     }
-    /// The first jump of the count; 0: none. From the message `from` on.
+    /// The first jump of the count from message `from` on, or 0 if there is none.
     std::int64_t first_jump(std::size_t from) const {
         for (std::size_t i = from + 1; i < batches.size(); ++i) {
             std::int64_t end = batches[i - 1].position_before;

@@ -1,4 +1,4 @@
-// A machine of as many axes as there can be: each of them counts.
+// A machine with the greatest number of axes: every axis moves, and the loss of the last one stops all others.
 #include "tests/unit/virtual/rig.hpp"
 
 namespace lockstep {

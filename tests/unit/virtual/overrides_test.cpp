@@ -1,4 +1,4 @@
-// Feed and rapid are changed while the machine runs: soon, on the path, within limits, and kept.
+// Feed and rapid are changed while the machine runs. The change comes soon, on the path and within limits, and lasts.
 #include <cmath>
 
 #include "tests/unit/virtual/rig.hpp"
@@ -20,7 +20,7 @@ protected:
         return std::abs(vm.axis_states()[axis]->velocity.steps_per_tick()) * 1e6 / 100;
     }
     double seconds() const { return static_cast<double>(vm.now().value) * 1e-6; }
-    /// From the command until it is done.
+    /// The time in s from the command until the program is done.
     double time_of(const Program& program) {
         const double begun = seconds();
         EXPECT_EQ(run(program).status, ReplyStatus::Accepted);

@@ -1,4 +1,5 @@
-// Moves of an axis on its own, by each method: exact, at the method's own times, and stopped, stalled or refused
+// Moves of an axis on its own, by each method: they are exact and at the method's own times, and may be stopped,
+// stalled or refused.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +13,7 @@
 namespace lockstep {
 namespace {
 
-/// small_machine() with both axes by one method, and as fast as suits it.
+/// small_machine() with one method for both axes, as fast as the method allows.
 MachineConfig machine_by(StepMethod method) {
     MachineConfig machine = small_machine();
     for (AxisConfig& axis : machine.axes) {
@@ -85,7 +86,7 @@ protected:
         for (const double at_s : times_s) { ticks.push_back(std::llround(at_s * 1e6)); }
         return ticks;
     }
-    /// From the steps alone, except for the effect of a tick on the speed.
+    /// Checks the limits by the steps alone, and allows for the effect of a tick on the speed.
     void expect_within_limits() const {
         const auto limits = methods::speed_limits_of(vm.machine().axes[0], vm.machine().tick_ns);
         const double rounding = 1.1 * limits.max * limits.max * limits.tick_s;
@@ -201,7 +202,8 @@ TEST_F(OwnMoves, AMoveInTooShortATimeIsRefusedWithTheMinimum) {
     home();
     const Reply reply = own({95, 5}, Ticks{500'000});
     EXPECT_EQ(why(reply), FaultCode::BadProgram);
-    // 0.09 s each way to full speed, and 81 mm of it between; in half a second 0.32 s of it.
+    // Reaching full speed and braking take 0.09 s each, with 81 mm at full speed between. Half a second leaves 0.32 s
+    // for that.
     EXPECT_NE(reply.text.find("90 mm in 0.5 s would break the limits of axis X: it takes at least 0.981"),
               std::string::npos)
         << reply.text;

@@ -84,7 +84,7 @@ protected:
     StepLog log;
 };
 
-/// The axes step apart: so the steps show where each move begins.
+/// Only one axis moves at a time, so the steps show where each move begins.
 TEST_F(Events, HappenAtTheTickAtWhichTheirNextMoveBegins) {
     for (const PathMode mode : {PathMode::ExactStop, PathMode::ExactPath}) {
         if (published.events.empty()) { home(); }
@@ -149,7 +149,7 @@ TEST_F(Events, HappenOnceEachHoweverOftenTheJobIsHeld) {
     expect_each_once(its);
 }
 
-/// Some places are passed on the way to the rest.
+/// The motion passes some places on its way to the rest.
 TEST_F(Events, BetweenShortMovesHappenOnceEachHoweverOftenTheJobIsHeld) {
     home();
     Program its = program_of({}, 0);

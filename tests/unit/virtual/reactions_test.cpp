@@ -13,7 +13,7 @@ MachineConfig machine_by_default() {
     return machine;
 }
 
-/// The event at several places of a frame and of a slot.
+/// Expects the machine to brake in this time after the event, at several places of a frame and of a slot.
 void expect_braking(double from_ms, double to_ms, bool own, const std::function<void(VirtualMachine&)>& event) {
     for (int i = 0; i < 10; ++i) {
         MovingMachine moving(machine_by_default());
@@ -50,7 +50,7 @@ TEST(Reactions, AnAxisThatMovesByItselfBrakesWithinThirtyMilliseconds) {
     expect_braking(0, 30, true, [](VirtualMachine& vm) { (void)vm.command(CommandKind::Stop); });
 }
 
-/// A jog of X at 100 mm/s, and the event at several places of a loop and of a slot.
+/// Expects a jog of X at 100 mm/s to brake after the event, at several places of a loop and of a slot.
 void expect_jog_to_brake(double to_ms, const std::function<void(MovingMachine&)>& event) {
     for (int i = 0; i < 20; ++i) {
         MovingMachine moving(machine_by_default());
@@ -99,7 +99,7 @@ TEST(Reactions, AJogWhoseCableIsCutBrakesWithinThirtyMilliseconds) {
     }
 }
 
-/// Its device has no frames for longer.
+/// The device has no frames for a longer time.
 TEST(Reactions, AJogWhoseAxisStallsBrakesWithinThirtyMilliseconds) {
     for (const auto kind : {VirtualFault::Kind::Freeze, VirtualFault::Kind::Crash}) {
         expect_jog_to_brake(30, [&](MovingMachine& m) {

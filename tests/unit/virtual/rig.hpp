@@ -1,4 +1,4 @@
-// A small machine in virtual time, and the helpers of its tests.
+// A small machine in virtual time, and helpers for its tests.
 #pragma once
 
 #include <gtest/gtest.h>

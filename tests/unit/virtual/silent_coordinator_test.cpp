@@ -11,7 +11,7 @@ namespace {
 
 using Kind = VirtualFault::Kind;
 
-/// When each axis made its last step, and how many.
+/// The time of the last step of each axis, and the number of its steps.
 class LastSteps : public VirtualObserver {
 public:
     void on_step(std::size_t axis, StepEdge step) override {
@@ -42,7 +42,7 @@ protected:
         silent_since_ = vm.now();
         vm.schedule({.kind = kind, .process = kCoordinator, .at = vm.now(), .lasts = {std::llround(seconds * 1e6)}});
     }
-    /// A frame in progress is ended, and one that is loaded may have begun; then the axis brakes.
+    /// The frame in progress runs to its end, and a loaded frame may have begun. Then the axis brakes.
     Ticks most_to_rest(std::size_t axis) const {
         const AxisConfig& config = vm.machine().axes[axis];
         const Slot slots = rules::silence_slots(vm.machine().timing) + 2 * (vm.machine().timing.stall_slots + 2) + 2;
@@ -81,7 +81,7 @@ protected:
     LastSteps log;
 
 private:
-    /// For any job: a new coordinator counts them from 0.
+    /// Accepts the phase of any job, because a new coordinator counts jobs from 0.
     bool becomes(MachinePhase phase, double seconds) {
         return vm.advance_until([&] { return vm.state()->phase == phase; }, {std::llround(seconds * 1e6)});
     }

@@ -46,7 +46,7 @@ protected:
     void TearDown() override { owners.expect_one_writer_each(); }
 
     static Ticks ticks(double seconds) { return {static_cast<std::int64_t>(seconds * 1e6)}; }
-    /// Determines the owner and the standby. Both may have claimed the machine at first: they began together.
+    /// Determines the owner and the standby. Both may have claimed the machine at first, because they began together.
     void settle() {
         home();
         owner = vm.owner().value();
@@ -126,7 +126,8 @@ TEST_F(Standby, AnOwnerThatStalledForLongMovesNothingAndGivesUpTheMachine) {
     expect_moves_without_homing();
 }
 
-/// Its network may need a while to discover the axes again: they are first received when it would regard them as lost.
+/// After a stall the network may need a while to discover the axes again. The owner receives them only when it would
+/// already regard them as lost.
 class Woken : public Standby, public testing::WithParamInterface<int> {};
 
 TEST_P(Woken, AnOwnerMovesNothingBeforeItReceivedEveryAxisTwice) {
@@ -245,7 +246,7 @@ TEST_F(Standby, DoesNotExecuteACommandThatTheOwnerMayHaveBegun) {
     EXPECT_EQ(counts(), at);
 }
 
-/// Axes stop by themselves; a coordinator that takes over must not refuse to report it.
+/// The axes stop without a coordinator. A coordinator that takes over must not refuse to report the stop.
 TEST_F(Standby, TakesAnEmergencyStopThatTheOwnerNeverAnswered) {
     start_job();
     inject(Kind::Crash, owner, 100);
@@ -268,7 +269,7 @@ protected:
     }
     static Program there_and_back() { return program_of({{85, 45}, {20, 60}, {20, 60}, {30, 20}}, 40); }
 
-    /// From the job's first step to its end; the owner ends after so long.
+    /// Runs a job from its first step to its end. The owner ends after `seconds`.
     void run_with_crash_after(double seconds) {
         settle();
         steps.steps.clear();
@@ -380,7 +381,7 @@ TEST_F(Continue, NoCoordinatorContinuesOnAMachineWhoseAxesAreSplit) {
     EXPECT_EQ(doubts.continued, 0);
 }
 
-/// The same job on the same machine; the owner ends at an instant of it, or never.
+/// Runs the same job on the same machine. The owner ends at an instant of the job, or never.
 class ContinueAt : public Continue, public testing::WithParamInterface<int> {};
 
 TEST_P(ContinueAt, AnyInstantEndsAtTheSamePlaceOnTheSamePath) {

@@ -1,4 +1,4 @@
-// Programs that are sent while they run: they starve, go on, settle, end before their end, and are taken over.
+// Programs that are sent while they run: they starve, continue, settle, end early, and are taken over.
 #include "tests/unit/virtual/rig.hpp"
 
 namespace lockstep {
@@ -6,7 +6,7 @@ namespace {
 
 using Kind = VirtualFault::Kind;
 
-/// A zigzag along X, there and back, a corner a line.
+/// A zigzag along X, there and back, with a corner at each line.
 class Stream : public Rig {
 protected:
     static constexpr std::uint64_t kProgram = 50;
@@ -43,13 +43,13 @@ protected:
         ASSERT_EQ(send({.blocks = moves(count)}).status, ReplyStatus::Accepted);
         ASSERT_EQ(ask(CommandKind::Run, 0, kProgram).status, ReplyStatus::Accepted);
     }
-    /// Of what was sent so far.
+    /// The end of the moves that were sent so far, in steps.
     std::vector<std::int64_t> end() const { return {std::lround(x_mm * 100), std::lround(y_mm * 100)}; }
     bool is_at_rest() const {
         return std::ranges::all_of(vm.axis_states(), [](const auto& axis) { return axis && axis->at_rest; });
     }
     bool starves(double seconds) {
-        wait(0.2);  // until the state is of what was sent last
+        wait(0.2);  // until the state includes the last part that was sent
         return vm.advance_until([&] { return vm.state()->lacks_blocks && is_at_rest(); },
                                 Ticks{static_cast<std::int64_t>(seconds * 1e6)});
     }

@@ -1,4 +1,4 @@
-// The parts of a virtual machine by themselves: its clocks, faults, schedule, post, client and devices.
+// Each part of a virtual machine alone: its clocks, faults, schedule, post, client and devices.
 #include <gtest/gtest.h>
 
 #include "services/virtual/fault_schedule.hpp"

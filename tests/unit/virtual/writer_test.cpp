@@ -1,4 +1,4 @@
-// One writer at a time, on a whole machine in virtual time: two clients, a takeover of each kind, and silence.
+// A whole machine in virtual time has one writer at a time, with two clients, each kind of takeover, and silence.
 #include <gmock/gmock.h>
 
 #include "tests/unit/virtual/jogger.hpp"
@@ -9,7 +9,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A client of its own writer: it repeats a command until it is answered, as a session does.
+/// A client with a writer of its own. It repeats a command until it is answered, as a session does.
 class Client {
 public:
     Client(VirtualMachine& vm, LeaseHolder writer, Identity client)
@@ -30,7 +30,7 @@ public:
     Reply ask(CommandKind kind) { return ask({.kind = kind}); }
     Reply take() { return ask(CommandKind::TakeLease); }
     Reply take_over() { return ask({.kind = CommandKind::TakeLease, .takes_over = true}); }
-    /// Repeats its request for so long, as often as a session does.
+    /// Repeats the request for the lease for `seconds`, as often as a session does.
     void keep(double seconds) {
         for (double passed = 0; passed < seconds; passed += 0.5) {
             (void)take();

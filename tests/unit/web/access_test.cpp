@@ -1,4 +1,4 @@
-// Who may do what.
+// The roles that tokens and cookies give, and refused hosts and origins.
 #include "clients/web/api/access.hpp"
 
 #include <gtest/gtest.h>
@@ -99,7 +99,7 @@ TEST(Access, RefusesAForeignOrigin) {
     EXPECT_EQ(refusal(Access(with_tls), {{"origin", "https://localhost:2302"}}), "");
 }
 
-TEST(Access, TooManyWrongTokensCloseTheDoorForAMinute) {
+TEST(Access, TooManyWrongTokensBlockRequestsForAMinute) {
     Access access(rules());
     for (std::size_t i = 0; i < Access::kMostWrongTokens; ++i) {
         EXPECT_EQ(access.try_token("wrong", 1s).error().status, 401);

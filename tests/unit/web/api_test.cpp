@@ -1,4 +1,4 @@
-// Routes, roles and headers of the interface, with a machine that only notes what it is asked.
+// Routes, roles and headers of the interface, with a machine that only notes the requests.
 #include "clients/web/api/api.hpp"
 
 #include <gmock/gmock.h>
@@ -50,7 +50,7 @@ public:
 
 class Interface : public testing::Test {
 protected:
-    /// As one with this token; empty: without any.
+    /// Sends a request with this token, or without a token if it is empty.
     Response ask(const std::string& method, const std::string& path, const std::string& body = "",
                  const std::string& token = "operate-token-0123", std::map<std::string, std::string> headers = {}) {
         headers.emplace("host", "localhost");

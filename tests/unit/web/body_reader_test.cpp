@@ -13,7 +13,7 @@ std::string refusal(std::string_view text) {
 
 class Body : public testing::Test {
 protected:
-    /// What `read` is refused with: status, code and place.
+    /// The status, code and place of the refusal of `read`.
     template <typename Read>
     std::string refused(const Json& object, const Read& read) {
         std::optional<Problem> problem;

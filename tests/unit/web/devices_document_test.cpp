@@ -1,4 +1,4 @@
-// What a page shows of spindle, coolant, tool and outputs.
+// The document from which a page shows spindle, coolant, tool and outputs.
 #include "clients/web/state/devices_document.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The dead man of jogs.
+// The dead-man switch of jogs.
 #include "clients/web/machine/jog_guard.hpp"
 
 #include <gtest/gtest.h>

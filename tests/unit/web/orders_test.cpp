@@ -18,7 +18,7 @@ T order(std::string_view verb, std::string_view body) {
     return std::get<T>(*read);
 }
 
-/// Status and place.
+/// The status and place of the refusal.
 std::string refusal(std::string_view verb, std::string_view body) {
     const auto read = read_order(verb, body, two_axes());
     return read ? "" : std::to_string(read.error().status) + " " + read.error().place;

@@ -1,4 +1,4 @@
-// Why a request is refused, as JSON.
+// The reason why a request is refused, as JSON.
 #include "clients/web/request/problem.hpp"
 
 #include <gtest/gtest.h>

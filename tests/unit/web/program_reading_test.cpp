@@ -1,4 +1,4 @@
-// Programs that a client sends: checked as a whole, and made ready to run.
+// Programs that a client sends are checked as a whole, and made ready to run.
 #include "clients/web/program/program_reading.hpp"
 
 #include <gtest/gtest.h>
@@ -54,7 +54,7 @@ TEST(CheckedStart, AnAxisWhosePlaceIsNotKnownCountsAsParked) {
     EXPECT_EQ(checked_start(snapshot, two_axes()).place_mm[0], two_axes().axes[0].homing.park_mm);
 }
 
-/// The code with which a run is refused on a machine changed by `change`; empty: it is not refused.
+/// The code of the refusal of a run on a machine changed by `change`, or empty if it is not refused.
 template <typename Change>
 std::string run_refusal(const Change& change) {
     Snapshot snapshot = snapshot_at_rest();

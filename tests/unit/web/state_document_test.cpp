@@ -1,4 +1,4 @@
-// What a page shows of a machine.
+// The document from which a page shows a machine.
 #include "clients/web/state/state_document.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// When a server asks for the writer's lease, and when it gives it back.
+// When a server asks for the writer's lease, and when it gives the lease back.
 #include "clients/web/machine/writer_turn.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Cyclone DDS's settings: it is bound to the configured interface, and uses multicast unless peers are named.
+// The settings bind Cyclone DDS to the configured interface. It uses multicast unless peers are named.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// An invalid sample is refused, with the invalid field.
+// An invalid sample is refused, and the invalid field is named.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,7 +32,7 @@ Frame good_frame() {
     return {.number = 1, .ticks = {200}, .axes = {{{}, {piece, piece}, {piece}}, {{}, {piece}, {piece}}}};
 }
 
-/// good_frame() after `lie` has altered its message.
+/// Expects that good_frame() is refused after `lie` has altered its message.
 void expect_frame_refused(const std::string& field, const std::function<void(SetpointMessage&)>& lie) {
     SetpointMessage message = to_wire(good_frame());
     ASSERT_TRUE(from_wire(message));
@@ -68,7 +68,7 @@ TEST(HostileFrame, NumbersThatWouldOverflowAreRefused) {
     expect_frame_refused("acceleration", [](auto& m) { m.storage.acceleration[2] = kMin; });
 }
 
-/// Whatever is written over a message, translating it is defined: it is refused, or the result is within bounds.
+/// Any bytes may overwrite a message. The translation refuses it, or its result is within bounds.
 TEST(HostileFrame, RandomDamageNeverGetsPastTheBounds) {
     RandomMessages random(2);
     for (int i = 0; i < 2000; ++i) {
@@ -238,7 +238,7 @@ TEST(HostileReply, IsRefused) {
     overwrite(wire.status, 2);
     expect_refused(wire, "status");
     wire = to_wire(Reply{});
-    std::fill(std::begin(wire.text), std::end(wire.text), 'x');  // no end
+    std::fill(std::begin(wire.text), std::end(wire.text), 'x');  // no terminating zero
     expect_refused(wire, "text");
 }
 

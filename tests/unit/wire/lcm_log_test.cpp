@@ -1,4 +1,4 @@
-// A log is read to its end despite any damage, and missing parts are reported.
+// A log is read to its end despite any damage. Missing parts are reported.
 #include "services/wire/lcm/lcm_log.hpp"
 
 #include <gtest/gtest.h>
@@ -92,7 +92,7 @@ TEST_F(LcmLog, CutAnywhereGivesAllWholeEventsAndReportsTheRest) {
 }
 
 TEST_F(LcmLog, ADamagedHeaderCostsOneEvent) {
-    for (const std::size_t at : {0u, 20u, 22u}) {  // the sync word; the channel's length
+    for (const std::size_t at : {0u, 20u, 22u}) {  // in the sync word, in the channel's length
         Bytes bytes = log_of(5);
         bytes[offset_of(2) + at] ^= 0xFF;
         const Read damaged = read(bytes);

@@ -1,4 +1,4 @@
-// Messages that a loop sends and receives in each slot are translated without allocation, in memory that is used again.
+// Messages that a loop sends and receives in each slot are translated without allocation, in reused memory.
 #include <gtest/gtest.h>
 
 #include "services/wire/translate/translate.hpp"
@@ -23,7 +23,7 @@ MachineState running_state() {
     return state;
 }
 
-/// There and back again, twice: in the memory of the first time the second time allocates nothing.
+/// Translates a message there and back twice. The second time uses the memory of the first and allocates nothing.
 template <typename Message>
 void expect_reused(const Message& sent) {
     decltype(to_wire(sent)) wire{};

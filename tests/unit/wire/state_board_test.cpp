@@ -22,7 +22,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr std::size_t kPartStride_bytes = 65536 + 64;  // from one axis's in the file to the next one's
+constexpr std::size_t kPartStride_bytes = 65536 + 64;  // from the part of one axis to the next in the file
 constexpr std::size_t kFirstSlotByte = 64;
 
 class StateBoard : public testing::Test {
@@ -145,7 +145,7 @@ TEST_F(StateBoard, IgnoresHalfWrittenState) {
     StateBoardReader listener = reader();
     for (const Slot stamp : {1, 2, 3}) { axis.write(state_of(0, stamp)); }
     const std::size_t slot_bytes = NumberedSlot<lockstep_wire_AxisState>::kWords * sizeof(std::uint64_t);
-    overwrite(kFirstSlotByte + 2 * slot_bytes, std::string(8, '\0'));  // its number
+    overwrite(kFirstSlotByte + 2 * slot_bytes, std::string(8, '\0'));  // overwrites its number
     EXPECT_THAT(read_from(listener), ElementsAre(state_of(0, 1), state_of(0, 3)));
 }
 
@@ -179,7 +179,7 @@ TEST_F(StateBoard, DamagedIsRefusedOrHarmless) {
     RandomMessages random(6);
     for (int i = 0; i < 2000; ++i) {
         for (int n = 0; n < 3; ++n) { axis.write(random.axis_state()); }
-        const auto at = static_cast<std::size_t>(random.between(8, 3000));  // the count of states as well
+        const auto at = static_cast<std::size_t>(random.between(8, 3000));  // may be the count of states too
         overwrite(kPartStride_bytes + at, std::string(1, static_cast<char>(random.bits())));
         (void)read_from(listener);
     }

@@ -1,4 +1,4 @@
-// Signs in, reads what the machine is, and shows its state ten times a second.
+// Signs in, reads the machine's description, and shows its state ten times a second.
 import "uplot/dist/uPlot.min.css";
 import "./styles/palette.css";
 import "./styles/base.css";

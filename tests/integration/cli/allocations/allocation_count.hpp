@@ -1,4 +1,5 @@
-// Which calls of a program's own code have allocated memory in its main thread, in a file that a test maps too.
+// Counts the calls of a program's own code that allocate memory in its main thread. A test maps the file of the counts
+// too.
 #pragma once
 
 #include <array>
@@ -15,9 +16,9 @@ struct AllocationCount {
         std::atomic<std::uint64_t> address;  // of the call's return, in the program's file; 0: free
         std::atomic<std::uint64_t> calls;
     };
-    std::atomic<std::uint64_t> own;    // called by the program's code, through the C or C++ library or not
+    std::atomic<std::uint64_t> own;    // by the program's code, directly or through the C or C++ library
     std::atomic<std::uint64_t> other;  // by libraries: Cyclone DDS allocates each message that it sends
-    std::array<Place, 500> places;     // of own ones
+    std::array<Place, 500> places;     // of own allocations
 };
 
 }  // namespace lockstep

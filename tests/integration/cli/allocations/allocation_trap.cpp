@@ -1,4 +1,4 @@
-// A library to load before all others (LD_PRELOAD): counts who allocates memory in a program's main thread.
+// A library to load before all others (LD_PRELOAD): counts the allocations of memory in a program's main thread.
 #include <dlfcn.h>
 #include <execinfo.h>
 #include <fcntl.h>
@@ -35,7 +35,7 @@ struct Range {
 AllocationCount* count = nullptr;
 std::uintptr_t program_begin = 0;
 Range program;
-std::array<Range, 2> languages;  // the libraries of C++ and C: who calls them counts
+std::array<Range, 2> languages;  // the libraries of C++ and C: their caller is counted instead
 pid_t main_thread = 0;
 thread_local bool is_counting = false;
 

@@ -1,5 +1,5 @@
-// Real services allocate nothing in their loops while a job runs, is held and resumed: what they would wait for, the
-// allocator and the kernel, they do not call. Libraries that they call are counted apart.
+// Real services allocate nothing in their loops while a job runs, is held and resumed. So they do not wait for the
+// allocator or the kernel. Allocations by libraries that they call are counted separately.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -14,7 +14,7 @@
 namespace lockstep {
 namespace {
 
-/// The count of one process, as it goes on.
+/// The count of one running process.
 class WatchedProcess {
 public:
     WatchedProcess(const std::filesystem::path& directory, pid_t process) {
@@ -31,7 +31,7 @@ public:
 
     bool is_watched() const { return count_ != nullptr && count_->own > 0; }
     std::uint64_t other() const { return count_->other; }
-    /// Calls of each place.
+    /// The number of calls by place.
     std::map<std::uint64_t, std::uint64_t> places() const {
         std::map<std::uint64_t, std::uint64_t> calls;
         for (const auto& place : count_->places) {
@@ -44,7 +44,7 @@ private:
     const AllocationCount* count_ = nullptr;
 };
 
-/// More than the frames that a coordinator keeps, twice: until then its queues grow.
+/// More than twice the time of the frames that a coordinator keeps: until then its queues grow.
 constexpr std::chrono::seconds kWarmUp{8};
 
 class LoopAllocations : public OwnMachine {

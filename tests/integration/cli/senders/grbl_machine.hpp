@@ -50,12 +50,12 @@ public:
             read_all();
         }
     }
-    /// Whatever has come so far is forgotten.
+    /// Drops everything received so far.
     void forget() {
         read_all();
         text_.clear();
     }
-    /// Reads until this comes; what came before it is forgotten.
+    /// Reads until this text comes, and drops everything up to its end.
     bool receives(const std::string& what) {
         return eventually([&] {
             read_all();

@@ -116,7 +116,7 @@ TEST_F(GrblSender, MayUseATerminalAndComeAgain) {
     for (int i = 0; i < 2; ++i) {
         auto sender = Sender::over_terminal(terminal_);
         ASSERT_TRUE(sender);
-        sender->send("\x18");  // one that comes back at once is not greeted by itself
+        sender->send("\x18");  // a sender that reconnects at once is greeted only after a reset
         EXPECT_TRUE(sender->receives("Grbl 1.1h ['$' for help]")) << i;
         EXPECT_TRUE(sender->answers("$I", "[VER:1.1h."));
         EXPECT_TRUE(sender->receives("ok"));

@@ -1,4 +1,4 @@
-// lockstep send and lockstep-grbl: a program through both, and what a person and a wrong line do to it.
+// A program is sent through lockstep send and lockstep-grbl. A person or a wrong line can stop it.
 #include <gmock/gmock.h>
 #include <signal.h>
 
@@ -27,7 +27,7 @@ protected:
         EXPECT_EQ(grbl_->wait().code, 0);
         OwnMachine::TearDown();
     }
-    /// Of 200 short lines, from X20 to X120.
+    /// A program of 200 short lines, from X20 to X120.
     std::string wave() const {
         std::string text = "%\n$H (first)\nG21 G90 G94\nG1 X20 Y0 F6000 ; to the start!\n";
         for (int i = 0; i <= 200; ++i) {

@@ -108,7 +108,8 @@ private:
         if (track.cut && !asked && !stopped) { object(i, track.start, "a frame was cut short"); }
     }
 
-    /// All axes ran the same frames, except those that a fault may have separated; and never by more than most_apart().
+    /// All axes ran the same frames, except those that a fault may have separated. No two axes are apart by more than
+    /// most_apart().
     void check_same() {
         for (const auto& [number, runs] : epoch_runs(recording_)) {
             if (!runs.apart) { continue; }
@@ -139,9 +140,9 @@ private:
         }
     }
 
-    /// An axis whose device stops, or is stopped by a switch, vetoes what begins four slots after its next state, a
-    /// slot or two later. While it stalls as well, the others run what they have evidence for, up to the lease; and so
-    /// does the device of a process that has ended, or receives nothing, meanwhile.
+    /// If a device stops, or a switch stops it, its axis vetoes what begins four slots after its next state, which
+    /// comes a slot or two later. If the axis stalls as well, the others run all frames for which they have evidence,
+    /// up to the lease. So does the device of a process that meanwhile has ended or receives nothing.
     FrameNumber most_apart() const {
         using Kind = VirtualFault::Kind;
         const ProtocolTiming& t = recording_.machine.timing;

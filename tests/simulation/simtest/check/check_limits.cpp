@@ -11,12 +11,12 @@ namespace {
 constexpr double kRounding = 1 + 1e-5;  // error of rounding doubles to integers
 constexpr double kJointTicks = 2;       // two phases of a motion meet at whole ticks: each can be off by one
 
-/// A window of steps: its two ends are each off by as much as pieces of constant acceleration leave of the path.
+/// Each end of a window of steps may be off by the deviation of pieces of constant acceleration from the path.
 constexpr double kStray_steps = 2 * 0.04;
 double least(double steps) { return steps - kStray_steps; }
 double most_of(double steps) { return steps + kStray_steps; }
 
-/// A feed is kept within this share of the start velocity: what one piece makes of a speed that changes.
+/// A feed may be exceeded by this share of the start velocity: a piece only approximates a changing speed.
 constexpr double kFeedShare = 0.005;
 
 /// How a device's own clock changes machine time. The limits of an axis hold in its device's time, including clock
@@ -84,13 +84,13 @@ public:
     }
 
 private:
-    /// Behind a pause, too, it rests as long.
+    /// Whether the axis may have rested before step n. After a pause it rests at least as long.
     bool may_rest_before(std::size_t n) const {
         const bool turns = at_ == nullptr && steps_[n].direction != steps_[n - 1].direction;
         return turns || (steps_[n].tick - steps_[n - 1].tick).value >= least_rest_;
     }
 
-    /// Between two steps; the one behind the last is the end of the job.
+    /// The number of joints between two steps. The index after the last step is the end of the job.
     std::size_t joints(std::size_t from, std::size_t to) const {
         if (at_ == nullptr) { return 0; }
         return joints_up_to_[to] - std::min(joints_before_[from], joints_up_to_[to]);
@@ -138,10 +138,11 @@ private:
 
     struct Asked {
         double feed = 0;   // steps per tick
-        double moved = 0;  // steps: the way to a whole step, in the same time
+        double moved = 0;  // steps: the move of an arc's end to a whole step, in the same time
     };
-    /// Of all moves in which the steps can be. Joined moves lead from one's direction to the other's; with a wide
-    /// tolerance further, since a parabola that is within it of a corner is steeper at its ends than the lines there.
+    /// The most of all moves that the steps can belong to. Joined moves lead from one direction to the other. With a
+    /// wide tolerance an axis can be faster than in both: a parabola within the tolerance of a corner is steeper at its
+    /// ends than the lines there.
     Asked asked_of(std::size_t from, std::size_t to) const {
         const auto first = static_cast<std::size_t>((*at_)[from].first);
         const auto last = static_cast<std::size_t>((*at_)[to].last);
@@ -156,7 +157,7 @@ private:
         return most;
     }
 
-    /// |x| from -1 to 1 is within 1/8 of x^2 + 1/8, which has twice its slope at the ends.
+    /// How much faster. |x| from -1 to 1 is within 1/8 of x^2 + 1/8, which has twice its slope at the ends.
     double steeper(std::size_t stretch) const {
         constexpr double kSlopePerTolerance = 8;
         const Stretch& it = course_.stretches[stretch];
@@ -185,12 +186,12 @@ private:
         if (falls > most_fall) { object("deceleration", n, falls, most_fall, m); }
     }
 
-    /// Joined moves can lead an axis forth and back.
+    /// Whether the axis turns between two steps: joined moves can lead it forth and back.
     bool turns(std::size_t from, std::size_t to) const {
         return std::abs(distance(from, to)) < static_cast<double>(to - from);
     }
 
-    /// However many joints follow each other: their jumps add up to at most one start velocity.
+    /// The jumps of any number of successive joints add up to at most one start velocity.
     void check_change_either_way(std::size_t n, std::size_t m, double between, bool may_jump) {
         struct Mean {
             double low, high;
@@ -210,8 +211,8 @@ private:
     }
 
     /// The first crossing is at most one step from the position of rest. An axis that did not rest, but moved slowly,
-    /// can have accelerated over one step. With joints it can have got faster by one start velocity more: from the
-    /// crossing back into the gap its speed is at least a line that is so much lower, with less than a step below it.
+    /// can have accelerated over one step. With joints it can be faster by one more start velocity. From the crossing
+    /// back into the gap its speed is at least a line that is lower by this, and the line covers less than a step.
     double speed_beside_rest(std::size_t gap, double rate) const {
         const bool between = gap > 0 && gap < steps_.size();
         const double slow = between ? 1 / (time(gap - 1, gap) - rounding_) : 0;

@@ -71,8 +71,8 @@ private:
         }
     }
 
-    /// A device that stops is lost to its axis, and what it was at is over; it may go on later, and the steps that it
-    /// then makes are a motion from where the axis lost it.
+    /// Whether the axis gave its device up during the motion, which ends the motion. The device may continue later. Its
+    /// steps are then a new motion from where the axis lost it.
     bool has_given_up(const Motion& motion, Tick by) const {
         return std::ranges::any_of(recording_.faults, [&](const VirtualFault& fault) {
             const bool meanwhile = fault.at < by && fault.at + fault.lasts >= motion.begin;
@@ -109,8 +109,8 @@ private:
         }
     }
 
-    /// An owner sends frames when every axis has reported that it follows it. The axis can have changed its owner
-    /// during the message delay, and its process can have restarted.
+    /// An owner sends frames only after every axis has reported that it follows this owner. The axis can have changed
+    /// its owner during the message delay, and its process can have restarted.
     void check_begun(Epoch number, const SentEpoch& epoch) {
         for (std::size_t i = 0; i < recording_.axes.size(); ++i) {
             const AxisRecord& axis = recording_.axes[i];

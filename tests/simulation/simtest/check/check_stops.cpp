@@ -19,7 +19,7 @@ bool is_disturbed(const Recording& recording, Tick over) {
     });
 }
 
-/// A fault of any process lasts at some time in between.
+/// Whether a fault of any process lasts at some time between the two instants.
 bool is_faulty(const Recording& recording, Tick from, Tick until) {
     return std::ranges::any_of(recording.faults,
                                [&](const VirtualFault& fault) { return fault.at <= until && fault.end() >= from; });
@@ -39,7 +39,8 @@ void check_emergency(const Recording& recording, const Emergency& emergency, Vio
     }
 }
 
-/// A device that is stopped makes its pulses when it goes on, though they have the ticks of before.
+/// Whether the device is stopped at this tick. When it continues, it makes the pulses of this time with their old
+/// ticks.
 bool is_stopped(const Recording& recording, std::size_t axis, Tick tick) {
     return std::ranges::any_of(recording.faults, [&](const VirtualFault& fault) {
         return fault.kind == VirtualFault::Kind::StopDevice && fault.process == axis && fault.at <= tick &&
@@ -74,21 +75,22 @@ void check_cut_is_reported(const Recording& recording, std::size_t i, const Trac
     violations.push_back({"limit", i, track.start.value, {}, "its motion was cut short, and the machine continues"});
 }
 
-/// A device that is lost for longer than its axis waits for it is a Fault by then, where nothing else goes wrong.
+/// If no other fault occurs, the machine is in Fault when a device is lost for longer than its axis waits for it.
 void check_loss_is_reported(const Recording& recording, const VirtualFault& fault, Violations& violations) {
-    constexpr Slot kNoticed = 10;  // from the axis's look to the coordinator's
+    constexpr Slot kNoticed = 10;  // from the axis's reading of the device to the coordinator's Fault
     const Ticks patience = recording.machine.slot_ticks() * (rules::silence_slots(recording.machine.timing) + kNoticed);
     const bool alone = recording.faults.size() == 1 && !recording.lossy() && recording.emergencies.empty();
     if (!alone || !fault.is_of_device() || fault.lasts <= patience) { return; }
     const bool reported = std::ranges::any_of(
         recording.machine_faults, [&](Tick tick) { return fault.at <= tick && tick <= fault.at + patience; });
     if (!reported) {
-        violations.push_back({"device", fault.process, fault.at.value, {}, "its device is lost, and no Fault"});
+        violations.push_back(
+            {"device", fault.process, fault.at.value, {}, "its device is lost, but the machine reports no Fault"});
     }
 }
 
-/// An axis that is told to halt brakes within kHaltSlots and kHalt_ns, whatever the others do: no body of a move of its
-/// own lasts longer, until its next order. A body of one step is as long as the step.
+/// An axis that is ordered to halt brakes within kHaltSlots and kHalt_ns, independently of the others. Until its next
+/// order no body of the axis's own moves lasts longer. A body of one step lasts as long as the step.
 void check_halt(const Recording& recording, std::size_t i, const GivenOrder& halt, Tick until, Violations& violations) {
     const Ticks within = recording.machine.slot_ticks() * kHaltSlots + Ticks{kHalt_ns / recording.machine.tick_ns};
     const Tick braked = halt.at + within;

@@ -12,20 +12,20 @@ namespace lockstep::simtest {
 /// power-up, the steps add up.
 Violations check_counts(const Recording& recording);
 
-/// Within limits: a motion exists within the axis's speed, acceleration, deceleration and sudden change whose
-/// half-step crossings are all within the tick before their step.
+/// Within limits: a motion exists that keeps the axis's limits of speed, acceleration, deceleration and sudden change,
+/// and that crosses every half step within the tick before the step.
 ///
 /// For any two adjacent windows of steps, the mean speeds differ by at most a times the time between their middles,
-/// plus one start velocity if joints of moves can be in them: over every stretch of time the speed changes by at most
+/// plus one start velocity if joints of moves can be in them: over any stretch of time the speed changes by at most
 /// one start velocity more than the acceleration does in that time. The mean of a window is computed with its time one
-/// tick longer or shorter, and its way 0.08 step longer or shorter. All windows of 1, 4, 16 ... steps are checked;
-/// rests with v^2 = v0^2 + 2 a s.
+/// tick longer or shorter, and its way 0.08 step longer or shorter. All windows of 1, 4, 16 ... steps are checked, and
+/// ramps beside rests with v^2 = v0^2 + 2 a s.
 Violations check_limits(const Recording& recording, const Followings& followings);
 
-/// Together: at every step there is a place on the program's path, never before the one of the step before, such that
-/// no axis is more than one step from it: half of it is the error of rounding a place to whole steps. Moves between
-/// sharp corners are not joined with others: there no axis is more than this half and 0.04 step from it. A completed
-/// job has come to the path's end. Rests are on whole steps.
+/// Together: for every step the program's path has a place from which no axis is more than one step away, and these
+/// places never go back. Half of this step is the error of rounding a place to whole steps. Moves between sharp corners
+/// are not joined with others: there no axis is more than this half and 0.04 step away. A completed job has reached the
+/// path's end. Rests are on whole steps.
 Violations check_together(const Recording& recording, const Followings& followings);
 
 /// Frames: every axis ran the same frames of each epoch and the same tail, in order, each once, at the time they were
@@ -42,7 +42,7 @@ Violations check_frames(const Recording& recording);
 Violations check_stops(const Recording& recording);
 inline constexpr int kCeaseSlots = 6;                 // two messages with a loop at both ends, and one coordinator slot
 inline constexpr int kHaltSlots = 2;                  // one message, with a loop at both ends
-inline constexpr std::int64_t kHalt_ns = 10'000'000;  // the frame in progress, and the time between two looks
+inline constexpr std::int64_t kHalt_ns = 10'000'000;  // the frame in progress, and the time between two readings
 
 /// Owners: one owner at a time moves the axes. An axis moves only for the owner that it follows. An owner begins only
 /// after all axes follow it. A previous owner never returns, and terms never decrease. No frame runs

@@ -15,7 +15,7 @@ Ticks ticks_of(double slots, const MachineConfig& machine) {
         std::max<std::int64_t>(1, static_cast<std::int64_t>(slots * static_cast<double>(machine.slot_ticks().value)))};
 }
 
-/// Half as long as the protocol tolerates, or exactly as long; otherwise slightly longer, or much longer.
+/// Shorter than the protocol tolerates, exactly as long, slightly longer, or much longer.
 double draw_freeze_slots(Draw& draw, const ProtocolTiming& t) {
     switch (draw.index(6)) {
         case 0: return draw.real(0.1, t.stall_slots);
@@ -39,8 +39,8 @@ void draw_cut(Draw& draw, VirtualFault& fault, std::size_t processes) {
     fault.incoming = way != 2;
 }
 
-/// Sets a clock by one slot (less than a round trip looks like delay) up to seconds. The error ends when two exchanges
-/// have shown it.
+/// Sets a clock by one slot to ten seconds. (An error below a round trip looks like delay.) The error ends when two
+/// exchanges have shown it.
 VirtualFault clock_set(Draw& draw, const MachineConfig& machine) {
     VirtualFault fault{.kind = Kind::SetClock, .process = draw.index(machine.axes.size())};
     const double by_s =
@@ -79,7 +79,7 @@ std::optional<PlannedFault> draw_fault(Draw& draw, const MachineConfig& machine,
     planned.frame = draw.chance(0.4) ? 1 + draw.index(3) : 1 + static_cast<FrameNumber>(draw.magnitude(1, 100));
     planned.edge = static_cast<PlannedFault::Edge>(draw.index(PlannedFault::kFrameEdges));
     planned.slots = draw.chance(0.7) ? draw.real(-2, 2) : draw.real(0, machine.timing.frame_slots);
-    // In this one slot of a frame a cut separates a process after its message was received, but before it gets theirs.
+    // In this one slot of a frame a cut separates a process after the others got its message, before it gets theirs.
     const bool cut_off = event->kind == Kind::Cut && !event->peer && event->outgoing && event->incoming;
     if (cut_off && draw.chance(0.5)) {
         planned.edge = PlannedFault::Edge::Evidence;

@@ -6,10 +6,10 @@
 
 namespace lockstep::simtest {
 
-/// For a job. No result: no kind of fault is requested, or sometimes at random.
+/// Draws a fault for a job. Returns nullopt if no kind of fault is requested, and sometimes at random.
 std::optional<PlannedFault> draw_fault(Draw& draw, const MachineConfig& machine, const FaultKinds& faults);
 
-/// For a homing.
+/// Draws a fault for a homing.
 std::optional<PlannedFault> draw_homing_fault(Draw& draw, const MachineConfig& machine, const FaultKinds& faults);
 
 }  // namespace lockstep::simtest

@@ -8,7 +8,7 @@
 namespace lockstep::simtest {
 namespace {
 
-/// From slots as short as a quiet network allows to slots for hosts with long stalls.
+/// Draws slots as short as a quiet network allows, up to slots for hosts with long stalls.
 ProtocolTiming draw_timing(Draw& draw) {
     ProtocolTiming t;
     t.slot_us = draw.any_of<std::int64_t>({500, 1000, 2000, 2000, 5000, 5000, 10'000, 10'000});

@@ -6,11 +6,11 @@
 
 namespace lockstep::simtest {
 
-/// The duration of a switch search over the whole travel: after a stuck switch, or after a fault far from the switch.
+/// The slots of a switch search over the whole travel, as after a stuck switch or after a fault far from the switch.
 double search_slots(const AxisConfig& axis, const ProtocolTiming& timing);
 
-/// `long_searches`: searches of all durations. Without it none takes more than some thousand slots, which halves the
-/// time for the same number of faults.
+/// With `long_searches` a search may last any time. Without it none takes more than 4,000 slots, which halves the time
+/// for the same number of faults.
 MachineConfig draw_machine(Draw& draw, std::size_t axes, bool long_searches);
 
 }  // namespace lockstep::simtest

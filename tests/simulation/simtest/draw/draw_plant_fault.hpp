@@ -6,14 +6,14 @@
 
 namespace lockstep::simtest {
 
-/// For a job, or for the time shortly before it.
+/// Draws a fault for a job, or for the time shortly before it.
 PlannedFault draw_plant_fault(Draw& draw, const MachineConfig& machine);
 
-/// For a homing.
+/// Draws a fault for a homing.
 PlannedFault draw_plant_fault_of_homing(Draw& draw, const MachineConfig& machine);
 
-/// A device that dies and is replaced, that stops for less or more than its axis tolerates, or whose registers are
-/// overwritten: in a job, or in a homing.
+/// A device dies and is replaced, stops for less or more than its axis tolerates, or has its registers overwritten: in
+/// a job, or in a homing.
 PlannedFault draw_device_fault(Draw& draw, const MachineConfig& machine);
 PlannedFault draw_device_fault_of_homing(Draw& draw, const MachineConfig& machine);
 

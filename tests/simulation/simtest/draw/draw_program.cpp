@@ -23,7 +23,7 @@ public:
         }
     }
 
-    /// Goes on behind the last move of a program.
+    /// Continues after the last move of a program.
     ProgramDrawer(Draw& draw, const MachineConfig& machine, Program program)
         : draw_(draw), machine_(machine), program_(std::move(program)) {
         for (const std::string& name : program_.axes) {
@@ -40,7 +40,7 @@ public:
         if (moved_) { dense_curve(); }
         return std::move(program_);
     }
-    /// Path modes, fixed feeds and events between the blocks, then arcs behind the last one.
+    /// Puts path modes, fixed feeds and events between the blocks, and arcs after the last one.
     Program with_curves() {
         std::vector<Block> blocks;
         std::swap(blocks, program_.blocks);
@@ -157,7 +157,7 @@ private:
         }
     }
 
-    /// Arcs, helices and whole turns of two axes, each where the last one ends.
+    /// Arcs, helices and whole turns of two axes. Each begins where the previous one ends.
     void arcs() {
         if (at_.size() < 2) { return; }
         const std::size_t a = draw_.index(at_.size());

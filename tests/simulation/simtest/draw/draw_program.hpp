@@ -12,10 +12,10 @@ namespace lockstep::simtest {
 
 Program draw_program(Draw& draw, const MachineConfig& machine);
 
-/// Goes on with a smooth curve or a line in chords of a fraction of a step and more.
+/// Appends a smooth curve or a line, in chords of a fraction of a step and more.
 Program with_dense_curve(Draw& draw, const MachineConfig& machine, Program program);
 
-/// Its moves get path modes and fixed feeds, with events between them; arcs follow behind the last one.
+/// Gives the moves path modes and fixed feeds, puts events between them, and appends arcs.
 Program with_curves(Draw& draw, const MachineConfig& machine, Program program);
 
 }  // namespace lockstep::simtest

@@ -213,8 +213,8 @@ void give_device_faults(std::uint64_t seed, bool mixed, Scenario& scenario) {
     }
 }
 
-/// The known clock error then changes from one exchange to the next. The random numbers are separate, as for overrides;
-/// the clocks use the rest of a hop.
+/// Uneven delays change the known clock error from one exchange to the next. The random numbers are separate, as for
+/// overrides. The clocks use the rest of a hop.
 void give_uneven_delays(std::uint64_t seed, Scenario& scenario) {
     Draw draw(seed ^ 0x0de1a70fc10c0000U);
     if (draw.chance(0.3)) { return; }
@@ -266,7 +266,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     for (std::int64_t n = draw.whole(1, 2); n > 0; --n) {
         scenario.tasks.push_back(draw_task(draw, scenario.machine, faults));
     }
-    // After any fault the machine then works like a new one.
+    // A last job without faults shows that the machine works again after any fault.
     if (faults.breaks_processes()) { scenario.tasks.push_back({draw_program(draw, scenario.machine), {}, {}, {}}); }
     give_homing_stop(seed, scenario);
     if (asked.override) { give_overrides(seed, asked.mixed, scenario); }

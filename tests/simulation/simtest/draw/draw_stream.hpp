@@ -6,8 +6,8 @@
 
 namespace lockstep::simtest {
 
-/// Cuts a task's program into parts, with times between them that starve the machine or do not. Some parts end with a
-/// rest, as a sender's that has no more for now.
+/// Cuts a task's program into parts. Some times between the parts are so long that the machine runs out of blocks. Some
+/// parts end with a rest, like those of a sender that has no more blocks for now.
 void send_in_parts(Draw& draw, Task& task);
 
 }  // namespace lockstep::simtest

@@ -88,7 +88,7 @@ private:
         }
     }
 
-    /// Each coordinator's number stands for the other one.
+    /// The numbers of both coordinators stand for the other coordinator: no cut from itself is placed.
     std::vector<std::size_t> draw_peers() {
         std::vector<std::size_t> peers;
         for (std::size_t i = 0; i < axes(); ++i) {

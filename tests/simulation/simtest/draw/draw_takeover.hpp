@@ -9,13 +9,14 @@
 
 namespace lockstep::simtest {
 
-/// For a job, in the order in which they are placed.
+/// Draws faults for a job, in the order in which they are placed.
 std::vector<PlannedFault> draw_takeover(Draw& draw, const MachineConfig& machine);
 
-/// For a homing.
+/// Draws faults for a homing.
 std::vector<PlannedFault> draw_takeover_of_homing(Draw& draw, const MachineConfig& machine);
 
-/// Sometimes the network finds a frozen process only when that process is about to count its silent peers as lost.
+/// Sometimes adds a cut. The network then finds a frozen process only when that process is about to count its silent
+/// peers as lost.
 void draw_late_network(Draw& draw, const MachineConfig& machine, std::vector<PlannedFault>& planned);
 
 }  // namespace lockstep::simtest

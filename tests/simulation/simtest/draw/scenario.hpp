@@ -118,7 +118,7 @@ struct Interrupt {
     Overrides overrides;
 };
 
-/// So many blocks of a program, sent so long after those before were taken.
+/// A number of blocks of a program, sent `after_s` after the previous part was taken.
 struct SentPart {
     std::size_t blocks = 0;
     double after_s = 0;
@@ -133,7 +133,7 @@ struct Task {
     std::vector<SentPart> parts = {};  // empty: the program is sent whole, before it runs
 };
 
-/// Stop or EmergencyStop, so long after the homing began.
+/// Stop or EmergencyStop, `after_s` after the homing began.
 struct HomingStop {
     CommandKind kind = CommandKind::EmergencyStop;
     double after_s = 0;
@@ -149,7 +149,7 @@ struct Scenario {
     OnTakeover on_takeover = OnTakeover::Stop;
     std::vector<WrongCommand> before_homing;
     std::optional<HomingStop> homing_stop;
-    bool asks_in_fault = false;  // requests a homing, which must be refused
+    bool asks_in_fault = false;  // requests a homing in Fault, which must be refused
     bool resets_early = false;   // resets while a fault may still last
     std::vector<PlannedFault> homing_faults;
     std::vector<Task> tasks;
@@ -158,7 +158,7 @@ struct Scenario {
     bool lossy() const { return network.lost > 0 || network.corrupted > 0; }
 };
 
-/// axes: their number; none: it is drawn too.
+/// kind.axes: the number of axes; if it is absent, the number is drawn too.
 Scenario draw_scenario(std::uint64_t seed, const FaultKinds& faults, const MachineKind& kind);
 
 }  // namespace lockstep::simtest

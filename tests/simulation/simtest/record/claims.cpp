@@ -12,7 +12,7 @@ void ClaimCheck::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, Axi
     if (lacks_device && state.homed) { object(axis, now, "it says that it is homed, and that it has no device"); }
     if (lacks_device) { unnoticed_[axis].reset(); }
     const bool may_not_know = has_yet_to_notice(axis);
-    if (lacks_device || !has_device_[axis] || may_not_know) { return; }  // it says where the device was last seen
+    if (lacks_device || !has_device_[axis] || may_not_know) { return; }  // it reports where it last read the device
     if (claimed + node.controller().zero_count() != pulses_[axis]) {
         object(axis, now,
                "it reports step " + std::to_string(claimed) + " after " + std::to_string(pulses_[axis]) + " pulses");
@@ -28,14 +28,15 @@ void ClaimCheck::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, Axi
     if (state.at_rest && state.velocity != Velocity{}) { object(axis, now, "it reports that it rests, but moves"); }
 }
 
-/// An axis gives its device up after as many slots of its own as it has patience, later if it stood still meanwhile.
+/// Whether the axis may not know yet that its device is lost. It gives the device up after silence_slots of its own
+/// slots, later if its process stood still meanwhile.
 bool ClaimCheck::has_yet_to_notice(std::size_t axis) {
     auto& states = unnoticed_[axis];
     return states && ++*states <= rules::silence_slots(vm_.machine().timing) + 1;
 }
 
 /// A device that replaces another one, or is powered up again, counts from 0. While a device is stopped or its
-/// registers are overwritten, what it shows is not what it does; nor is it before its axis has looked at it again.
+/// registers are overwritten, they do not show what it does, until its axis has read it again.
 void ClaimCheck::on_fault(Tick /*now*/, const VirtualFault& fault, bool begins) {
     if (!fault.is_of_device()) { return; }
     has_device_[fault.process] = !begins;

@@ -1,4 +1,4 @@
-// Checks that what each axis reports is true: compares every one of its states with its pulses and its slide.
+// Checks that each axis reports the truth: compares every one of its states with its pulses and its slide.
 #pragma once
 
 #include <limits>
@@ -36,9 +36,9 @@ private:
     Recording& recording_;
     std::vector<std::int64_t> pulses_;  // since the device's power-up
     std::vector<Tick> power_up_;        // in its own time
-    std::vector<bool> has_device_;      // and the axis has taken it
+    std::vector<bool> has_device_;      // the device works, and the axis uses it
     std::vector<std::optional<Slot>>
-        unnoticed_;  // of an axis that has not noticed that its device was lost: its states
+        unnoticed_;  // the states of an axis since it lost its device; none when it has noticed
 };
 
 }  // namespace lockstep::simtest

@@ -7,11 +7,11 @@
 namespace lockstep::simtest {
 namespace {
 
-constexpr double kExactly = 0.5 + 0.04;  // steps: whole pulses, and what pieces of constant acceleration leave
-constexpr double kArc = 1.04;            // the same, and where its pieces are: up to half a step from it at a rest
-constexpr double kSharp = 0.9;           // cosine: at greater angles of the directions moves are not joined,
-constexpr double kLong_mm = 0.1;         // if both are so long
-constexpr double kJointHair = 1e-9;      // of a stretch: so near to a joint a place is at it
+constexpr double kExactly = 0.5 + 0.04;  // steps: rounding to pulses, and what pieces of constant acceleration deviate
+constexpr double kArc = 1.04;            // the same, and up to half a step: an arc before a rest ends on whole steps
+constexpr double kSharp = 0.9;           // cosine: moves with a greater angle between their directions are not joined,
+constexpr double kLong_mm = 0.1;         // if both are longer than this
+constexpr double kJointHair = 1e-9;      // part of a stretch: a place this near to a joint is at the joint
 
 double length_mm(const MachineConfig& machine, const Places& from, const Places& to) {
     double square = 0;
@@ -49,7 +49,7 @@ public:
     }
 
 private:
-    /// An arc as chords of a fiftieth of a step.
+    /// Adds an arc as chords that deviate from it by at most a fiftieth of a step.
     void add(const ProgramMove& move) {
         if (!move.arc) {
             add_line(move);
@@ -101,7 +101,7 @@ private:
     double scale_of(std::size_t axis) const {
         return std::ranges::find(machine_.axes, program_.axes[axis], &AxisConfig::name)->steps_per_mm;
     }
-    /// How far the axes of the program are from its place: less than a step, where they rest on whole ones.
+    /// How far the program's axes are from the programmed place: less than a step, because they rest on whole steps.
     std::vector<double> off_mm() const {
         std::vector<double> mm;
         for (std::size_t i = 0; i < program_.axes.size(); ++i) {
@@ -131,7 +131,7 @@ private:
         at_ = stretch.to;
         course_.stretches.push_back(std::move(stretch));
     }
-    /// Steps, of the axis for which it is the most.
+    /// In steps, of the axis for which it is greatest; at least 1.
     double tolerance_of(const ProgramMove& move) const {
         double steps = 1;
         for (const AxisConfig& axis : machine_.axes) { steps = std::max(steps, move.tolerance_mm * axis.steps_per_mm); }
@@ -209,7 +209,7 @@ private:
         return 2 * seconds;
     }
 
-    /// Speeds of each axis, when all places are known. A joined move begins and ends within half a step of its places.
+    /// Sets the speeds of each axis, after all places are known. A joined move may begin and end half a step off.
     void limit() {
         for (std::size_t k = 0; k < course_.stretches.size(); ++k) {
             const Places from = start_of(k);
@@ -232,11 +232,11 @@ private:
     const MachineConfig& machine_;
     double most_feed_;
     Places at_;
-    std::vector<double> programmed_mm_;  // where the last move leads to, of the program's axes
+    std::vector<double> programmed_mm_;  // the end of the last move, for the program's axes
     Course course_;
     std::size_t arc_ = 0;        // the first chord of the last arc
     std::vector<double> feed_;   // of each stretch; 0: none
-    std::vector<Places> asked_;  // where each stretch leads to by the program
+    std::vector<Places> asked_;  // the programmed end of each stretch
 };
 
 }  // namespace

@@ -19,18 +19,18 @@ std::int64_t nearest_step(const AxisConfig& axis, double mm);
 struct Stretch {
     Places to;               // on whole steps where the machine rests
     Places fastest;          // speed of each axis, steps per tick: the limit, or the axis's part of the feed
-    bool is_joined = false;  // with a move before or behind
+    bool is_joined = false;  // with the move before or after it
     bool is_exact = false;   // corners are kept
-    bool is_arc = false;     // a chord of one
-    double tolerance = 1;    // steps, where it is joined
-    double within = 0;       // steps: how far an axis may be from it, whole pulses included
-    Places moved = {};       // steps: of an arc behind which the machine rests, how far its end is from the program's
+    bool is_arc = false;     // a chord of an arc
+    double tolerance = 1;    // steps, if it is joined
+    double within = 0;       // steps: how far an axis may be from it, with the rounding to pulses
+    Places moved = {};       // steps: how far the end of an arc before a rest is from the programmed end
     double seconds = 0;      // of a dwell
     bool rests = false;      // a dwell or pause
     bool pauses = false;
 };
 
-/// A place on it is a stretch + part of it, from 0 to the number of stretches.
+/// A place on a course is the number of a stretch plus a part of it, from 0 to the number of stretches.
 struct Course {
     Counts from;
     Counts to;
@@ -45,18 +45,17 @@ struct Course {
     }
 };
 
-/// Ends of moves of an axis, where its speed may change at once. Pauses have none. Joined moves are moves of every
-/// axis: one that the program moves in any of them is moved by the curve in the others, too, as far as the tolerance
-/// allows.
+/// The ends of an axis's moves, where its speed may jump. Pauses have no joints. Joined moves count for every axis: the
+/// curve also moves an axis in moves in which the program does not move it, as far as the tolerance allows.
 class Joints {
 public:
     Joints(const Course& course, std::size_t axis);
-    /// How many are before a place, and how many up to it.
+    /// The number of joints before a place, and up to it.
     std::size_t before(double place) const;
     std::size_t up_to(double place) const;
 
 private:
-    std::vector<std::size_t> before_;  // each stretch's begin
+    std::vector<std::size_t> before_;  // by the begin of each stretch
 };
 
 /// `most_feed`: the largest factor of the feeds.

@@ -20,8 +20,8 @@ std::int64_t unrecorded_steps(const AxisRecord& axis, std::size_t tracks) {
     return net;
 }
 
-/// The faults that can have affected an epoch, from the creation of its first frame until each axis has read of its
-/// device, within a slot, that the last has ended.
+/// The faults that can have affected an epoch, from the creation of its first frame until one slot after the end of its
+/// last frame. By then each axis has read this end from its device.
 std::vector<VirtualFault> faults_in(const Recording& recording, const SentEpoch& epoch) {
     const ProtocolTiming& t = recording.machine.timing;
     const Ticks slot = recording.machine.slot_ticks();

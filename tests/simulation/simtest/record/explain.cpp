@@ -52,7 +52,7 @@ constexpr std::array kExplanations{
     Explanation{Cause::Cut, FaultCode::FrameLate},
     Explanation{Cause::Cut, FaultCode::FramesDiffer},
     Explanation{Cause::Cut, FaultCode::AxisLost},
-    // An axis whose clock is seconds off sends and receives nothing in time.
+    // An axis with a clock that is seconds off sends and receives nothing in time.
     Explanation{Cause::SetClock, FaultCode::FrameLate},
     Explanation{Cause::SetClock, FaultCode::FramesDiffer},
     Explanation{Cause::SetClock, FaultCode::AxisLost},

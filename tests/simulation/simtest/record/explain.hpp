@@ -11,11 +11,11 @@ bool explains(const Recording& recording, FaultCode fault);
 /// True: the machine must not even pause for this fault.
 bool is_tolerable(const VirtualFault& fault, const MachineConfig& machine);
 
-/// The axis that may have run one frame more or less than the others because of the fault; no result: none may.
+/// The axis that may have run one frame more or less than the others because of the fault; nullopt if none may.
 std::optional<std::size_t> may_be_apart(const VirtualFault& fault, const MachineConfig& machine);
 
-/// The time after which the axis may not know what its device did: a lost device loses its unread captures. A process
-/// that was away, or had just been started again, had read none since.
+/// The time after which the axis may not know what its device did, because a lost device loses its unread captures. A
+/// process that was away, or had just been restarted, has read none since it went away.
 Tick unread_from(const VirtualFault& fault, const Recording& recording);
 
 /// True: a switch may end this axis's motion at once between these instants: a switch is stuck then, the slide was

@@ -12,10 +12,10 @@ namespace {
 constexpr Tick kNever{std::numeric_limits<std::int64_t>::max()};
 constexpr double kHair = 1e-9;
 
-/// Counts that an axis may have; nothing: any.
+/// The counts that an axis may have; nullopt: any count.
 using Range = std::optional<std::pair<double, double>>;
 
-/// The part of a stretch, from 0 to 1, that fits an axis's counts: its place is linear in it.
+/// The part of a stretch, from 0 to 1, that fits an axis's counts. The axis's place is linear in this part.
 Reached part_that_fits(double from, double to, const Range& counts, double within) {
     if (!counts) { return {0, 1}; }
     const double low = counts->first - within - from;
@@ -31,9 +31,9 @@ class ReachedPlaces {
 public:
     explicit ReachedPlaces(const Course& course) : course_(course) {}
 
-    /// More counts are possible than before.
+    /// To be called when more counts are possible.
     void widen(const std::vector<Range>& counts) { reached_ = extended(reached_, counts); }
-    /// Fewer are. False: no place is left, and nothing has changed.
+    /// To be called when fewer counts are possible. Returns false, and changes nothing, if no place is left.
     bool narrow(const std::vector<Range>& counts) {
         std::vector<Reached> left;
         for (const Reached& places : reached_) { cut(places, counts, left); }
@@ -42,7 +42,7 @@ public:
         reached_ = extended(left, counts);
         return true;
     }
-    /// Right after the counts were narrowed.
+    /// The places that fit right after the counts were narrowed.
     const Reached& fitting() const { return fitting_; }
     Reached reached() const { return {reached_.front().first, reached_.back().last}; }
 
@@ -66,7 +66,7 @@ private:
         }
     }
 
-    /// A place at a joint is also the end of the stretch before.
+    /// A place at a joint is also the end of the previous stretch.
     void cut(const Reached& places, const std::vector<Range>& counts, std::vector<Reached>& left) const {
         auto k = static_cast<std::size_t>(std::max(0.0, std::floor(places.first - kHair)));
         for (; k < course_.stretches.size() && static_cast<double>(k) <= places.last + kHair; ++k) {
@@ -95,11 +95,11 @@ private:
     }
 
     const Course& course_;
-    std::vector<Reached> reached_{{0, 0}};  // apart, in order
+    std::vector<Reached> reached_{{0, 0}};  // separate ranges, in order
     Reached fitting_;
 };
 
-/// All steps of a job in order of true time.
+/// Follows all steps of a job in order of true time.
 class Follower {
 public:
     Follower(const Recording& recording, const JobRecord& job, const std::vector<Tick>& until)
@@ -140,7 +140,7 @@ private:
         std::size_t may_have = 0;  // steps possibly made
         Tick next_made = kNever;   // latest time of the next step
         Tick next_may = kNever;
-        double earliest = 0;  // place of its next step; when it is no longer bound, it may stay behind the others
+        double earliest = 0;  // earliest place of its next step; it stays once the axis is not bound
     };
 
     Tick next_tick() const { return std::ranges::min_element(axes_, {}, &Axis::next_made)->next_made; }
@@ -236,8 +236,8 @@ std::vector<Tick> bound_until(const Recording& recording, const std::map<Epoch, 
 
 namespace {
 
-/// A new owner may know the program no further than to the end of a move: there the machine rests on whole steps, and
-/// the move leads to them.
+/// A new owner may know the program only up to the end of a move. The machine then rests there on whole steps. Makes
+/// this move lead to these steps. Returns false if no move ends there.
 bool leads_to_rest(const Recording& recording, JobRecord& job) {
     std::vector<double> rest;
     for (std::size_t i = 0; i < recording.axes.size(); ++i) {

@@ -1,7 +1,7 @@
 // Where on its program the machine can have been at each step of a job.
 //
-// The program's path goes one way. A place fits the counts of the axes if no axis is farther from it than its stretch
-// allows. Of all places that fit, those are kept that can be reached from the ones before without leaving the path.
+// The machine goes only forward on the program's path. A place fits the counts of the axes if no axis is farther from
+// it than its stretch allows. Of all places that fit, those remain that are reached from the previous ones on the path.
 #pragma once
 
 #include <map>
@@ -13,7 +13,7 @@
 
 namespace lockstep::simtest {
 
-/// From the earliest to the latest.
+/// A range of places, from the earliest to the latest.
 struct Reached {
     double first = 0;
     double last = 0;
@@ -35,16 +35,16 @@ struct Following {
 
 /// `until`: the time after which an axis is no longer bound to the others.
 ///
-/// A step can differ from its intended time by the clock error bound that its axis has published. So an axis may have
-/// made any number of steps from those certainly made to those possibly made.
+/// A step can differ from its intended time by the clock error bound that its axis has published. Therefore the number
+/// of steps that an axis has made is between those certainly made and those possibly made.
 Following follow(const Recording& recording, const JobRecord& job, const std::vector<Tick>& until);
 
-/// Of each job of the recording; nothing for a homing.
+/// One for each job of the recording; nullopt for a homing.
 using Followings = std::vector<std::optional<Following>>;
 Followings follow_all(const Recording& recording);
 
-/// An axis is bound until an emergency stop; one that a fault may separate from the others, until that fault;
-/// one that a switch may stop, until that stop.
+/// The time until which each axis is bound to the others: until an emergency stop, until a fault that may separate it
+/// from the others, or until a stop by a switch.
 std::vector<Tick> bound_until(const Recording& recording, const std::map<Epoch, EpochRuns>& epochs,
                               const JobRecord& job);
 

@@ -38,7 +38,7 @@ Motion motion_of(const Recording& recording, std::size_t i, std::size_t n) {
     return motion;
 }
 
-/// An unreported motion, known by its steps only; no result: no step was made.
+/// An unreported motion, known by its steps only. Returns nullopt if no step was made.
 std::optional<Motion> motion_of(const Recording& recording, std::size_t i, const LostRun& lost) {
     const AxisRecord& axis = recording.axes[i];
     const Tick from = lost.tracks == 0 ? axis.power_up : ended(axis.tracks[lost.tracks - 1]);
@@ -60,8 +60,8 @@ std::vector<Motion> motions_of(const Recording& recording) {
         }
         const LostRun* before = nullptr;
         for (const LostRun& lost : recording.axes[i].lost) {
-            // A process that ended again, or lacked its device, before it reported a motion: what moved is of the
-            // first.
+            // The process ended again, or lacked its device, before it reported a motion. The motion belongs to the
+            // first loss.
             const LostRun* last = std::exchange(before, &lost);
             const bool is_known = last != nullptr && last->tracks == lost.tracks;
             if (is_known) { continue; }

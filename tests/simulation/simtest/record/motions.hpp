@@ -1,4 +1,4 @@
-// Who moved which axis when, by the tracks of the pulses and by the sender of the frames or the owner followed.
+// Which owner moved which axis when, by the tracks of the pulses and by the frames' sender or the owner followed.
 #pragma once
 
 #include "tests/simulation/simtest/record/recording.hpp"

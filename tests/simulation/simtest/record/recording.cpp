@@ -83,7 +83,7 @@ void Recorder::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisN
         const auto* arm = std::get_if<device::Arm>(&order);
         if (arm != nullptr) { armed_[axis] = std::max(armed_[axis], arm->number); }
     }
-    // An axis that does not know the time says what it finds in its states later, if it still lacks the device then.
+    // An axis that does not know the time reports the loss in a later state, if it still lacks the device then.
     bool loses = std::ranges::any_of(out.notices, [](const AxisNotice& notice) {
         return notice.kind == AxisNotice::Kind::Fault && notice.fault == FaultCode::DeviceLost;
     });
@@ -146,7 +146,7 @@ void Recorder::on_fault(Tick now, const VirtualFault& fault, bool begins) {
     if (fault.kind == VirtualFault::Kind::Crash && i < recording_.axes.size()) { lose_run(i, now); }
 }
 
-/// No process reports what its device does after that.
+/// From now on no process reports what the device does.
 void Recorder::lose_run(std::size_t i, Tick now) {
     AxisRecord& axis = recording_.axes[i];
     const bool some = !axis.tracks.empty() && axis.tracks.back().epoch == epoch_[i];

@@ -1,4 +1,4 @@
-// What a check reports.
+// The report of a check.
 #pragma once
 
 #include <cstdint>

@@ -10,7 +10,7 @@ namespace lockstep::simtest {
 
 namespace {
 
-/// From top speed, with only the axis's own limit.
+/// The longest stop from top speed, with only the axis's own limit.
 double longest_stop_seconds(const MachineConfig& machine) {
     double longest = 0;
     for (const AxisConfig& axis : machine.axes) {
@@ -97,7 +97,7 @@ void Bench::wait(double seconds) {
     while (vm_.now() < until) { advance(); }
 }
 
-/// As an impatient person does: an axis or a device may still be missing, so the machine can do nothing then.
+/// Acts as an impatient operator. An axis or a device may still be missing; the machine must do nothing then.
 void Bench::reset_early() {
     constexpr std::uint64_t kNeverSent = 0;
     (void)ask(CommandKind::Reset);
@@ -116,7 +116,7 @@ void Bench::settle(double seconds) {
     const Ticks rest = machine().slot_ticks() * (t.send_ahead_slots + 2 * t.frame_slots);
     const Tick from = vm_.now();
     const Ticks limit{static_cast<std::int64_t>(std::ceil((seconds + outage_s_) * machine().ticks_per_second()))};
-    // What a device did while its axis lacked it is known when the axis has taken it again.
+    // The recording knows what a device did without its axis only after the axis uses the device again.
     const auto has_device = [](const AxisState& axis) {
         return static_cast<FaultCode>(axis.unproved) != FaultCode::DeviceMissing;
     };
@@ -161,8 +161,8 @@ double Bench::most_feed() const {
     return most;
 }
 
-/// A restarted coordinator is followed, and answers, when the axes rest. A tail along a path can be long. A command, or
-/// its answer, can also be lost by a fault that comes after it.
+/// A restarted coordinator answers when the axes rest and follow it. A tail along a path can be long. A fault that
+/// comes after a command can also lose the command or its answer.
 const Reply* Bench::await_reply(std::uint64_t sequence) {
     constexpr int kMostRepeats = 20;
     const auto is_answered = [&] { return vm_.reply_to(sequence) != nullptr; };

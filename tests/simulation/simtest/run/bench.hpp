@@ -36,9 +36,9 @@ public:
     /// Waits for this number of slots.
     void wait_slots(double slots) { wait(slots * slot_s()); }
 
-    /// Sends a command and waits for the answer; repeats it if messages may be lost. Null: the run is over.
+    /// Sends a command and waits for the answer; repeats it if messages may be lost. Null if the run is over.
     const Reply* ask(CommandKind kind, std::uint64_t program = 0);
-    /// The same, but a refusal because of uncertain clocks is obeyed first: it tells the client to wait and ask again.
+    /// The same, but repeats a command that is refused because of uncertain clocks, as that refusal asks the client to.
     const Reply* ask_in_time(CommandKind kind, std::uint64_t program = 0);
     const Reply* turn(const Overrides& overrides);
     /// The faults of the next job.
@@ -46,7 +46,8 @@ public:
     /// No further fault begins. Runs until no fault is left and every axis has rested long enough to stay at rest.
     void settle(double seconds);
     std::uint64_t send_program(Program program);
-    /// Sends it in parts from now on, until the next is sent or end_stream(). Returns when the first part is taken.
+    /// Sends the program in parts from now on, until the next program is sent or until end_stream(). Returns when the
+    /// first part is taken.
     std::uint64_t stream_program(Program program, const std::vector<SentPart>& parts);
     void end_stream() { stream_.reset(); }
 
@@ -69,8 +70,8 @@ private:
     void reset_early();
     static constexpr double kAnswerSlots = 12;  // two hops each way, and a loop of the process that answers
 
-    /// A new owner may have received a command as the standby, and answers when the command is repeated. Before a
-    /// coordinator owns the machine, there is no answer.
+    /// A new owner may have received a command as the standby, and answers only when the command is repeated. No
+    /// coordinator answers before it owns the machine.
     bool may_lose() const {
         const bool taken_over = scenario_.coordinators > 1 && watch_.disturbed();
         return lossy() || vm_.faults_pending() || taken_over || !vm_.owner();
@@ -84,7 +85,7 @@ private:
     FaultPlacer placer_;
     ClaimCheck claims_;
     CoverageWatch coverage_;
-    double outage_s_;  // of all planned faults, and as long again until all peers are received
+    double outage_s_;  // of all planned faults, and the time after each until all peers are received
     std::uint64_t programs_ = 0;
     std::optional<StreamSender> stream_;
     bool over_ = false;

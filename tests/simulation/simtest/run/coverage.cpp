@@ -20,7 +20,7 @@ constexpr std::array kCheckNames{"armed when due",        "armed late",
                                  "vetoed when due",       "vetoed late",
                                  "too late, next vetoed", "vetoed early, for its own reasons"};
 constexpr std::array kOwnershipNames{"claimed", "stood down", "job cut short by a takeover",
-                                     "job gone on with after a takeover"};
+                                     "job continued after a takeover"};
 constexpr std::array kInjectedNames{"freeze of an axis that must not stop the machine",
                                     "freeze of the coordinator that must not stop the machine",
                                     "longer freeze of an axis",

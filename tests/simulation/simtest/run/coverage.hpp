@@ -11,7 +11,7 @@
 
 namespace lockstep::simtest {
 
-/// Counts by group and name. It contains everything that can be reached from the start, with count 0.
+/// Counts by group and name. From the start it contains everything that can be reached, with count 0.
 class Coverage {
 public:
     using Counts = std::map<std::string, std::uint64_t, std::less<>>;
@@ -32,7 +32,7 @@ private:
 class CoverageWatch : public VirtualObserver {
 public:
     CoverageWatch(const MachineConfig& machine, Coverage& coverage);
-    /// Includes the axis processes that still run.
+    /// Adds the counts of the axis processes that still run.
     ~CoverageWatch() override;
     CoverageWatch(const CoverageWatch&) = delete;
     CoverageWatch& operator=(const CoverageWatch&) = delete;

@@ -1,4 +1,4 @@
-// Plays a scenario on a machine in virtual time, as its client and as its laboratory.
+// Plays a scenario on a machine in virtual time: gives its commands and injects its faults.
 #pragma once
 
 #include "tests/simulation/simtest/draw/scenario.hpp"

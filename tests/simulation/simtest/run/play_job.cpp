@@ -25,7 +25,7 @@ double protocol_seconds(const Bench& bench) {
     return rests * bench.slot_s() * (2 * t.send_ahead_slots + 3 * t.frame_slots + 20);
 }
 
-/// For a homing that has to repeat the search for a switch.
+/// The same for a homing that has to repeat the search for a switch.
 double homing_seconds(const Bench& bench) {
     constexpr int kSearches = 4;
     double seconds = protocol_seconds(bench);
@@ -72,7 +72,7 @@ std::int64_t place_after_homing(const Bench& bench, std::size_t axis, JobOutcome
     return nearest_step(config, config.homing.park_mm);
 }
 
-/// Ends the homing at rest; an order may find it at its end.
+/// Ends the homing at rest. The homing may have ended before the command arrives.
 void play_homing_stop(Bench& bench, CommandKind kind, double seconds, JobRecord& job) {
     if (kind == CommandKind::EmergencyStop) {
         job.emergency = play_emergency(bench);
@@ -275,7 +275,8 @@ void JobPlayer::turn(const Overrides& overrides) {
 
 void JobPlayer::stop_at_once() { job_.emergency = play_emergency(bench_); }
 
-/// Refused while the machine moves. Home would be accepted at the job's end, so it is sent long before that or never.
+/// Gives a command that is refused while the machine moves. Home would be accepted at the job's end, so it is sent long
+/// before that or never.
 void JobPlayer::give(const WrongCommand& wrong) {
     const double long_s = (bench_.lossy() ? 400 : 40) * bench_.slot_s();
     if (wrong.kind == CommandKind::Home && !(bench_.vm().state()->remaining_s > long_s)) { return; }

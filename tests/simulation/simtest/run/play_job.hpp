@@ -43,7 +43,7 @@ private:
 /// A command that an idle machine must refuse: its position stays the same.
 void play_refusal(Bench& bench, const WrongCommand& wrong, const Counts& at);
 
-/// Homes all axes together and in their order; `at` is their position then. Recorded as a job, whatever its outcome.
+/// Homes all axes together and in their order; `at` is their position then. Recorded as a job with any outcome.
 void play_homing(Bench& bench, Counts& at, const std::optional<HomingStop>& stop = {});
 
 /// The operator's work after a Fault or a restart: resets and homes until the machine is Idle with known positions.

@@ -27,7 +27,7 @@ void StreamSender::send(ProgramPart part) {
     sent_ = vm_.now();
 }
 
-/// A new owner may lack parts that the one before had taken.
+/// A new owner may lack parts that the previous owner had taken.
 void StreamSender::take(const Reply& reply) {
     if (reply.status == ReplyStatus::Refused) { refusal_ = reply; }
     if (reply.parts != taken_) { moved_on_ = vm_.now(); }

@@ -1,4 +1,4 @@
-// Sends a program in parts while it runs, as a client does: each part until it is taken, and questions meanwhile.
+// Sends a program in parts while it runs, as a client does: repeats each part until it is taken, and asks meanwhile.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ public:
     void tend();
     /// The first part is taken: the program can be run.
     bool may_run() const { return taken_ > 0; }
-    /// The coordinator takes no more of it.
+    /// The reply by which the coordinator refused the program.
     const std::optional<Reply>& refusal() const { return refusal_; }
 
 private:
@@ -33,10 +33,10 @@ private:
     std::uint64_t id_;
     Program program_;
     std::vector<SentPart> parts_;
-    std::uint32_t taken_ = 0;               // parts
-    Tick moved_on_;                         // when the last of them was
-    Tick sent_;                             // anything
-    std::optional<std::uint64_t> awaited_;  // the reply to it
+    std::uint32_t taken_ = 0;               // parts that were taken
+    Tick moved_on_;                         // when the last part was taken
+    Tick sent_;                             // when the last message was sent
+    std::optional<std::uint64_t> awaited_;  // the reply to that message
     std::optional<Reply> refusal_;
 };
 

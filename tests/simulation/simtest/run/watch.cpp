@@ -8,8 +8,8 @@ void Watch::on_coordinator(std::size_t process, Tick /*now*/, const CoordinatorO
     for (const JobEvent& job : out.jobs) { take_job(process, job); }
 }
 
-/// The job has ended for the test when another coordinator has taken over and all axes follow it. But the new
-/// owner continues the job and reports that before.
+/// For the test the job has ended when another coordinator has taken over and all axes follow it. If the new owner
+/// continues the job, it reports that earlier.
 void Watch::take_notice(std::size_t process, const CoordinatorNotice& notice) {
     using Kind = CoordinatorNotice::Kind;
     if (notice.kind == Kind::Fault) { fault_ = notice.fault; }
@@ -43,7 +43,7 @@ void Watch::on_fault(Tick now, const VirtualFault& fault, bool begins) {
     if (fault.process == job_of_) { orphan(JobOutcome::Failed); }
 }
 
-/// Also after the previous coordinator failed in the job: it was cut off and lost the axes that follow this one.
+/// Also if the job failed: the previous coordinator was cut off and lost the axes, which now follow this one.
 void Watch::go_on(std::size_t process) {
     job_of_ = process;
     orphaned_ = false;

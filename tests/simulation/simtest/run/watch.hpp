@@ -25,11 +25,11 @@ public:
     Tick moved() const { return moved_; }
     /// The last state of each axis, even if it was not delivered.
     const std::vector<AxisState>& axes() const { return axes_; }
-    /// The phase of the machine is that of its owner; Waiting: it has no owner.
+    /// The phase of the machine is that of its owner; Waiting if it has no owner.
     MachinePhase phase() const;
     FaultCode fault() const { return fault_; }
-    /// A coordinator has taken over and does not own all axes yet: only then it continues the job of the other one, or
-    /// does not.
+    /// A coordinator has taken over and does not own all axes yet. It has not yet decided whether it continues the
+    /// other coordinator's job.
     bool is_taking_over() const {
         const auto owner = vm_.owner();
         return on_takeover_ == OnTakeover::Continue && owner && *owner != job_of_ && phase() == MachinePhase::Waiting;

@@ -1,4 +1,4 @@
-// Requests to the server. The session's cookie goes with them by itself.
+// Requests to the server. The browser adds the session's cookie to them.
 import type { Accepted, LoadedProgram, Machine, ReportFile, Role } from "./contract";
 import { noAnswer, problemOf, type Result } from "./result";
 

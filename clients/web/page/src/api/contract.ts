@@ -122,7 +122,7 @@ export interface LoadedProgram {
   notes?: Maybe<{ line: number; text: string }[]>;
 }
 
-/** By axis letter; absent: 0. */
+/** By axis letter; an absent letter counts as 0. */
 export type Place = Record<string, number>;
 
 export interface Offsets {

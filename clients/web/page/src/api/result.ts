@@ -1,4 +1,4 @@
-// What a request gave: a value, or what is wrong with it.
+// The result of a request: a value, or a Problem.
 import type { Problem } from "./contract";
 
 export type Result<T> = { readonly ok: true; readonly value: T } | { readonly ok: false; readonly problem: Problem };
@@ -8,7 +8,7 @@ function isProblem(value: unknown): value is Problem {
     && typeof (value as Problem).title === "string";
 }
 
-/** An answer that is no Problem (of a proxy, say) still names its status. */
+/** Makes a Problem of an error. An answer that is no Problem, such as a proxy's, is named by its status. */
 export function problemOf(status: number, statusText: string, body: string): Problem {
   try {
     const parsed: unknown = JSON.parse(body);

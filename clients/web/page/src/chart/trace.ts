@@ -1,4 +1,4 @@
-// The last seconds of some signals: a ring, so that a page that is open for days needs no more memory.
+// Keeps the last seconds of some signals in a ring, so that a page that is open for days needs no more memory.
 
 export class Trace {
   private readonly times: (number | null)[];
@@ -19,7 +19,7 @@ export class Trace {
     this.count = Math.min(this.count + 1, this.most);
   }
 
-  /** Times relative to `now_s`, then the signals, the oldest first; of the last `span_s` seconds. */
+  /** Returns times relative to `now_s`, then the signals, the oldest first, of the last `span_s` seconds. */
   since(now_s: number, span_s: number): (number | null)[][] {
     const order = Array.from({ length: this.count }, (_, i) => (this.next - this.count + i + this.most) % this.most);
     const kept = order.filter((i) => now_s - (this.times[i] ?? -Infinity) <= span_s);

@@ -1,4 +1,4 @@
-// Where each line of a text begins, so that any line of a long program is found at once.
+// Indexes where each line of a text begins, so that any line of a long program is found at once.
 
 export class LineIndex {
   private constructor(private readonly text: string, private readonly starts: Uint32Array) {}
@@ -6,7 +6,7 @@ export class LineIndex {
   static of(text: string): LineIndex {
     let starts = new Uint32Array(1024), count = 1;
     for (let at = text.indexOf("\n"); at >= 0; at = text.indexOf("\n", at + 1)) {
-      if (at + 1 === text.length) break; // the end of the last line begins no other one
+      if (at + 1 === text.length) break; // a line break at the end begins no further line
       if (count === starts.length) {
         const more = new Uint32Array(2 * count);
         more.set(starts);

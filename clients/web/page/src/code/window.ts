@@ -1,14 +1,14 @@
-// Which lines of a long text are in view. Browsers limit the height of an element, so the scroll bar of a very long text is
-// compressed: it then covers the text in proportion, and single lines are still shown whole.
+// Computes which lines of a long text are in view. Browsers limit the height of an element, so the scroll bar of a very
+// long text is compressed: its range covers the text in proportion, and each line still has its full height.
 
 /** Browsers draw elements of this height without errors. Pixels. */
 export const MOST_HEIGHT = 8_000_000;
 
 export interface Lines {
   readonly count: number;
-  /** Of a line, pixels. */
+  /** Height of a line, pixels. */
   readonly height: number;
-  /** Of the view, pixels. */
+  /** Height of the view, pixels. */
   readonly view: number;
 }
 
@@ -31,7 +31,7 @@ export interface Window {
   readonly top: number;
 }
 
-/** What to draw at a place of the scroll bar. */
+/** The lines to draw at a position of the scroll bar. */
 export function windowAt(lines: Lines, scrolled: number): Window {
   const { bar, text } = scrolls(lines);
   const hidden = bar > 0 ? (Math.min(scrolled, bar) / bar) * text : 0; // pixels of text above the view
@@ -40,7 +40,7 @@ export function windowAt(lines: Lines, scrolled: number): Window {
   return { first, count, top: Math.min(scrolled, bar) - (hidden - first * lines.height) };
 }
 
-/** Where to scroll so that a line (from 0) is at a share of the view's height. */
+/** The scroll position that puts a line (from 0) at a share of the view's height. */
 export function scrollTo(lines: Lines, line: number, share: number): number {
   const { bar, text } = scrolls(lines);
   if (text === 0) return 0;

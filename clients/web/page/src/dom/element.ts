@@ -1,4 +1,4 @@
-// Elements with attributes, listeners and children. No text is ever taken for markup.
+// Makes elements with attributes, listeners and children. Text is never parsed as markup.
 
 type Child = Node | string | undefined;
 type Value = string | number | boolean | undefined;
@@ -24,7 +24,7 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-/** False and undefined take the attribute away; true gives it an empty value. */
+/** False and undefined remove the attribute; true gives it an empty value. */
 export function setAttribute(element: Element, name: string, value: Value): void {
   if (value === undefined || value === false) element.removeAttribute(name);
   else {
@@ -33,7 +33,7 @@ export function setAttribute(element: Element, name: string, value: Value): void
   }
 }
 
-/** Writes only what has changed: most values of a machine at rest do not. */
+/** Writes only a changed text: most values of a machine at rest do not change. */
 export function setText(element: Element, text: string): void {
   if (element.textContent !== text) element.textContent = text;
 }

@@ -1,4 +1,4 @@
-// Dark or light: as the system asks, until the person chooses.
+// Dark or light: the system's preference, until the user chooses.
 
 const KEY = "lockstep.theme";
 const listeners: (() => void)[] = [];
@@ -12,7 +12,7 @@ function tell(): void {
   listeners.forEach((listener) => listener());
 }
 
-/** Called with each change: what is drawn on a canvas takes its colours anew. */
+/** Calls the listener at each change, because canvases must be drawn again in the new colours. */
 export function onTheme(listener: () => void): void {
   listeners.push(listener);
 }
@@ -33,12 +33,12 @@ export function switchTheme(): void {
   try {
     localStorage.setItem(KEY, chosen);
   } catch {
-    // not remembered
+    // the choice is not remembered
   }
   tell();
 }
 
-/** A colour of the palette now, as #rrggbb. */
+/** The present value of a palette's colour, as #rrggbb. */
 export function paletteColour(name: string): string {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 }

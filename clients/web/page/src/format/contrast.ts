@@ -9,7 +9,7 @@ function luminance(hex: string): number {
   return 0.2126 * linear[0]! + 0.7152 * linear[1]! + 0.0722 * linear[2]!;
 }
 
-/** 1 ... 21, of two colours as #rrggbb. */
+/** Returns 1 ... 21 for two colours given as #rrggbb. */
 export function contrast(one: string, other: string): number {
   const [low, high] = [luminance(one), luminance(other)].sort((a, b) => a - b) as [number, number];
   return (high + 0.05) / (low + 0.05);

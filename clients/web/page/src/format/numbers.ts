@@ -2,7 +2,7 @@
 
 export const MISSING = "–";
 
-/** A true minus sign, so that columns of numbers line up; never "-0". */
+/** Uses a true minus sign, so that columns of numbers line up. Never returns "-0". */
 export function fixed(value: number | undefined | null, digits: number): string {
   if (value === undefined || value === null || !Number.isFinite(value)) return MISSING;
   const text = Math.abs(value).toFixed(digits);

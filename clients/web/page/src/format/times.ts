@@ -1,7 +1,7 @@
 // Times as people read them.
 import { MISSING } from "./numbers";
 
-/** 0:07, 12:05, 1:02:03; of a job's time left. */
+/** A job's time left as 0:07, 12:05 or 1:02:03. */
 export function duration(seconds: number | undefined | null): string {
   if (seconds === undefined || seconds === null || !Number.isFinite(seconds) || seconds < 0) return MISSING;
   const whole = Math.ceil(seconds);
@@ -10,14 +10,14 @@ export function duration(seconds: number | undefined | null): string {
   return h > 0 ? `${h}:${two(m)}:${s}` : `${m}:${s}`;
 }
 
-/** 14:05, in this browser's time zone, of a time in ISO 8601. */
+/** A time in ISO 8601 as 14:05, in this browser's time zone. */
 export function timeOfDay(time: string): string {
   const date = new Date(time);
   const two = (n: number) => String(n).padStart(2, "0");
   return Number.isNaN(date.getTime()) ? MISSING : `${two(date.getHours())}:${two(date.getMinutes())}`;
 }
 
-/** An age in the coarsest unit that still says something: 80 ms, 1.4 s, 12 s, 3 min, 2 h. */
+/** An age in a unit that fits it: 80 ms, 1.4 s, 12 s, 3 min, 2 h. */
 export function age(milliseconds: number | undefined | null): string {
   if (milliseconds === undefined || milliseconds === null) return MISSING;
   if (milliseconds < 1000) return `${Math.round(milliseconds / 10) * 10} ms`;

@@ -1,7 +1,7 @@
 // A jog lasts as long as a key is held and the server answers. Pure: time and events come in, requests come out.
 //
-// The server brakes the axes by itself when renewals cease. This part only makes sure that they do cease: with the key's
-// release, with the window's focus, and when a renewal fails.
+// The server brakes the axes by itself when renewals cease. This part only makes sure that they cease: when the key is
+// released, when the window loses focus, and when a renewal fails.
 
 /** Signed directions by axis name: { X: 1, Y: -1 }. */
 export type Direction = Readonly<Record<string, 1 | -1>>;
@@ -11,7 +11,7 @@ export type JogRequest =
   | { readonly kind: "renew" }
   | { readonly kind: "stop" };
 
-/** Releases the jog whatever held it. */
+/** Why a jog ends although a key is still held. */
 export type ReleaseReason = "blur" | "hidden" | "refused";
 
 function sum(held: Iterable<Direction>): Record<string, 1 | -1> {
@@ -45,13 +45,13 @@ export class JogDeadMan {
     return this.held.delete(holder) ? this.update(now_ms) : [];
   }
 
-  /** Everything is let go of, because nobody can be seen to hold it any more. */
+  /** Releases everything, because the page can no longer see whether it is held. */
   releaseAll(_reason: ReleaseReason, now_ms: number): JogRequest[] {
     this.held.clear();
     return this.update(now_ms);
   }
 
-  /** To be called often: gives the renewal that is due. */
+  /** Call it often. Returns the renewal that is due. */
   tick(now_ms: number): JogRequest[] {
     if (!this.isMoving() || now_ms - this.renewed_ms < this.period_ms) return [];
     this.renewed_ms = now_ms;

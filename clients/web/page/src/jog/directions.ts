@@ -12,7 +12,7 @@ export function keyDirections(machine: Machine): Record<string, Direction> {
   return keys;
 }
 
-/** The axis's speed at a share of its greatest; an axis that is not homed has a lower limit. Nothing: it may not jog. */
+/** The axis's speed at a share of its greatest, less if it is not homed; undefined if it may not jog. */
 export function jogVelocity(axis: MachineAxis, isHomed: boolean, share: number): number | undefined {
   const most = isHomed ? axis.max_velocity : axis.unhomed_jog_velocity;
   if (most === null || most === undefined) return undefined;

@@ -1,4 +1,4 @@
-// Joins the dead man with the server: held keys become requests, refusals let go of the keys.
+// Connects the dead-man's switch with the server: held keys become requests, and refusals release the keys.
 import { command } from "../api/client";
 import type { JogAxis, Problem } from "../api/contract";
 import { JogDeadMan, type Direction, type JogRequest, type ReleaseReason } from "./dead_man";
@@ -8,17 +8,17 @@ const TICK_MS = 10;
 
 interface JogBody {
   readonly stream?: string;
-  /** The number of the press: a request that comes late, behind its release, starts nothing. */
+  /** The number of the press. A request that arrives after its release starts nothing. */
   readonly press: number;
   readonly jogs: readonly JogAxis[];
 }
 
 export interface JogSource {
-  /** What a direction means now: speeds and distance. */
+  /** The axes, speeds and distance that a direction means now. */
   jogs(direction: Direction): JogAxis[];
   /** The name of the open connection; empty while there is none. */
   stream(): string;
-  /** The jog is over though the key is held. */
+  /** The jog has ended although the key is held. */
   ended(problem: Problem | undefined): void;
 }
 

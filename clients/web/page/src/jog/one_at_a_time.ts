@@ -7,17 +7,17 @@ export interface Clock {
   after(ms: number, action: () => void): () => void;
 }
 
-/** A request that takes longer is given up for a stop: the server's dead man brakes by then. */
+/** A stop aborts a request that takes longer. The server's dead-man's switch then brakes the axes. */
 export const STOP_WAITS_MS = 150;
 
 export class OneAtATime<T> {
   private sending: AbortController | undefined;
   private next: { body: T; isStop: boolean } | undefined;
 
-  /** @param refused is called where the server does not follow a request that is no stop */
+  /** @param refused is called if the server does not follow a request other than a stop */
   constructor(private readonly send: Send<T>, private readonly clock: Clock, private readonly refused: () => void) {}
 
-  /** A renewal is dropped while another request is on its way: the next one says the same. */
+  /** Drops the renewal while another request is on its way, because the next renewal says the same. */
   renew(body: T): void {
     if (this.sending === undefined) void this.start({ body, isStop: false });
   }

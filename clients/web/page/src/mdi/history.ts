@@ -1,4 +1,4 @@
-// Lines that were entered before, newest last; the arrow keys walk through them.
+// Lines that were entered before, newest last. The arrow keys step through them.
 
 export const MOST_LINES = 100;
 
@@ -12,14 +12,14 @@ export class History {
     this.at = this.lines.length;
   }
 
-  /** A line that was sent. The same one again is not kept twice in a row. */
+  /** Adds a line that was sent. Equal lines in a row are kept once. */
   add(line: string): void {
     if (line.trim() !== "" && this.lines.at(-1) !== line) this.lines = [...this.lines, line].slice(-MOST_LINES);
     this.at = this.lines.length;
     this.draft = "";
   }
 
-  /** The line before; what was being written is kept for the way back. */
+  /** The line before. Keeps the text being written, to which later() returns. */
   earlier(written: string): string {
     if (this.at === this.lines.length) this.draft = written;
     this.at = Math.max(0, this.at - 1);

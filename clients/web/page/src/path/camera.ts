@@ -1,14 +1,14 @@
-// How the machine's space is seen: a parallel projection, so that a millimetre has the same length everywhere.
+// The camera: a parallel projection, so that a millimetre has the same length everywhere.
 
 export type Vector = readonly [number, number, number];
 
 export interface Camera {
-  /** What is in the middle of the view, mm. */
+  /** The point in the middle of the view, mm. */
   readonly target: Vector;
   readonly mm_per_pixel: number;
-  /** About Z, radians; 0: the X axis points to the right. */
+  /** Rotation about Z, radians. At 0 the X axis points to the right. */
   readonly yaw: number;
-  /** Elevation of the eye, radians; PI / 2: from above. */
+  /** Elevation of the eye, radians. At PI / 2 it looks from above. */
   readonly pitch: number;
 }
 
@@ -61,7 +61,7 @@ function clampScale(mm_per_pixel: number): number {
   return Math.min(MOST_MM_PER_PIXEL, Math.max(LEAST_MM_PER_PIXEL, mm_per_pixel));
 }
 
-/** The view follows the pointer: right and up in pixels. */
+/** Moves the view with the pointer by pixels to the right and up. */
 export function pan(camera: Camera, right_px: number, up_px: number): Camera {
   const { right, up } = basis(camera);
   const scale = camera.mm_per_pixel;
@@ -69,7 +69,7 @@ export function pan(camera: Camera, right_px: number, up_px: number): Camera {
   return { ...camera, target };
 }
 
-/** Nearer (factor > 1) or farther; what is under the pointer (pixels from the middle) stays there. */
+/** Zooms in (factor > 1) or out. The point under the pointer (pixels from the middle) stays there. */
 export function zoom(camera: Camera, factor: number, right_px: number, up_px: number): Camera {
   const mm_per_pixel = clampScale(camera.mm_per_pixel / factor);
   const moved = pan(camera, -right_px, -up_px);
@@ -80,7 +80,7 @@ export function orbit(camera: Camera, yaw: number, pitch: number): Camera {
   return { ...camera, yaw: camera.yaw + yaw, pitch: Math.min(Math.PI / 2, Math.max(-Math.PI / 2, camera.pitch + pitch)) };
 }
 
-/** Whether any of a box (least x, y, z, greatest x, y, z from `at` on) may be in the view. */
+/** Tests whether a part of a box (least x, y, z, greatest x, y, z from `at` on) may be in the view. */
 export function boxSight(camera: Camera, view: Size): (bounds: Float32Array, at: number) => boolean {
   const { right, up } = basis(camera);
   const across = (view.width / 2) * camera.mm_per_pixel, above = (view.height / 2) * camera.mm_per_pixel;

@@ -1,4 +1,4 @@
-// How many points a picture may have. It follows the host: fewer where pictures come slowly, more where they come at once.
+// Limits the points of a picture by the host's speed: fewer if pictures come slowly, more if they come fast.
 
 const SLOW_MS = 45; // between two pictures of a moving view
 const FAST_MS = 25;
@@ -7,7 +7,7 @@ const MOST = 200_000;
 const AT_REST = 6; // a single picture may take longer
 
 export class DrawBudget {
-  /** @param points of a picture of a moving view, until it is known how fast the host is */
+  /** @param points the limit for a moving view until the host's speed is known */
   constructor(private points: number) {}
 
   /** @param isMoving whether more pictures follow at once */

@@ -1,4 +1,4 @@
-// How long the pictures took to draw, for the test in a browser: the median of the last ones, as an attribute.
+// Shows how long pictures take to draw, for the test in a browser: the median of the last ones, as an attribute.
 
 const LAST = 120;
 

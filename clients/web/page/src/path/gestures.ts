@@ -1,7 +1,7 @@
-// Pointer, wheel and keys on a view of space: what they do to its camera.
+// Moves the camera of a view by pointer, wheel and keys.
 import { orbit, pan, zoom, type Camera } from "./camera";
 
-/** What gestures move. */
+/** The view that gestures move. */
 export interface Viewer {
   camera: Camera;
   readonly is3D: boolean;
@@ -21,7 +21,7 @@ function dragged(view: Viewer, dx: number, dy: number, isPan: boolean): Camera {
   return isPan ? pan(view.camera, dx, -dy) : orbit(view.camera, -dx * ORBIT, dy * ORBIT);
 }
 
-/** One finger or button drags or turns; two fingers drag and zoom. */
+/** One finger or button drags or turns the view; two fingers drag and zoom it. */
 function pointers(element: HTMLElement, view: Viewer): void {
   const down = new Map<number, { x: number; y: number }>();
   element.addEventListener("pointerdown", (event) => {

@@ -9,7 +9,7 @@ import type { Path } from "./path_points";
 const POINT_BYTES = 16;
 const BY_SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i;
 
-/** Asked on a canvas of its own: one that has a context of WebGL can have no other. */
+/** Uses a separate canvas: one that has a context of WebGL can have no other. */
 function hasGraphicsProcessor(): boolean {
   const gl = document.createElement("canvas").getContext("webgl2", { failIfMajorPerformanceCaveat: true });
   if (gl === null) return false;
@@ -25,8 +25,8 @@ export class GlPainter extends LevelledPainter {
   private readonly buffers = new Map<Level, WebGLBuffer>();
 
   /**
-   * Nothing where the browser has no WebGL 2, or has it only by software: then a canvas is faster.
-   * @param byForce takes it by software too
+   * Returns undefined if the browser has no WebGL 2, or only by software: then CanvasPainter is faster.
+   * @param byForce accepts software, too
    */
   static on(canvas: HTMLCanvasElement, byForce: boolean): GlPainter | undefined {
     if (!byForce && !hasGraphicsProcessor()) return undefined;

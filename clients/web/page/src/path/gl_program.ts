@@ -57,7 +57,7 @@ export interface LineProgram {
   uniform(name: "clip" | "view" | "width" | "cutColour" | "rapidColour" | "dash"): WebGLUniformLocation | null;
 }
 
-/** @throws Error where the driver cannot compile it */
+/** @throws Error if the driver cannot compile it */
 export function lineProgram(gl: WebGL2RenderingContext): LineProgram {
   const program = gl.createProgram();
   gl.attachShader(program, compile(gl, gl.VERTEX_SHADER, VERTEX));

@@ -1,4 +1,4 @@
-// What painters of paths have in common: which level, what of it is in view, and what of it is done.
+// The common part of path painters: chooses the level, the part of it in view, and the part that is done.
 import { boxSight } from "./camera";
 import { chooseLevel, pointsUpTo, type Level, type Run } from "./levels";
 import type { Colour, PathColours, PathPainter, Picture } from "./painter";
@@ -44,7 +44,7 @@ export abstract class LevelledPainter implements PathPainter {
 
   protected abstract prepare(picture: Picture): void;
   protected abstract clear(picture: Picture): void;
-  /** The segments between points `first` and `last` of a level. */
+  /** Paints the segments between points `first` and `last` of a level. */
   protected abstract paint(level: Level, first: number, last: number, cut: Colour, rapid: Colour): void;
 
   private doneOf(level: Level, { reached }: Picture): number {

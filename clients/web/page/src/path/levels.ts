@@ -2,7 +2,7 @@
 import { simplify, type Positions } from "./simplify";
 
 export interface Level {
-  /** No left-out point is farther from the drawn line than this. 0: all points. */
+  /** No left-out point is farther from the drawn line than this. 0 if all points are drawn. */
   readonly tolerance_mm: number;
   /** Rising indices of the points that are drawn. */
   readonly points: Uint32Array;
@@ -58,7 +58,7 @@ async function simplified(
 }
 
 /**
- * Levels from the finest (all points) to the coarsest. Tolerances add up from level to level; the sum is what counts.
+ * Levels from the finest (all points) to the coarsest. Tolerances add up from level to level; tolerance_mm is the sum.
  * @param pause is awaited after each piece of the work, some milliseconds long
  */
 export async function makeLevels(at: Positions, kind: Uint8Array, pause: () => Promise<void>): Promise<Level[]> {
@@ -75,7 +75,7 @@ export async function makeLevels(at: Positions, kind: Uint8Array, pause: () => P
   return levels;
 }
 
-/** The runs of a level whose chunks `sees` says are in view. */
+/** The runs of a level in the chunks for which `sees` returns true. */
 export function visibleRuns(level: Level, sees: (bounds: Float32Array, at: number) => boolean): Run[] {
   const runs: { first: number; last: number }[] = [];
   for (let chunk = 0; chunk < level.bounds.length / 6; ++chunk) {
@@ -90,8 +90,8 @@ export function visibleRuns(level: Level, sees: (bounds: Float32Array, at: numbe
 }
 
 /**
- * The level to draw, and what of it is in view: the coarsest level that differs from the path by no more than half a pixel.
- * Where that has more points in view than the painter can draw in a frame, the finest that has not.
+ * Chooses the level to draw and its runs in view: the coarsest level within half a pixel of the path.
+ * If that has more points in view than the painter can draw in a frame, the finest that has not.
  */
 export function chooseLevel(
   levels: readonly Level[], mm_per_pixel: number, most_points: number, sees: (bounds: Float32Array, at: number) => boolean,
@@ -108,7 +108,7 @@ export function chooseLevel(
   }
 }
 
-/** How many of the level's points are at or before a point of the path: what is done of a level. */
+/** How many of the level's points are at or before a point of the path, that is, are done. */
 export function pointsUpTo(level: Level, point: number): number {
   let low = 0, high = level.points.length;
   while (low < high) {

@@ -1,4 +1,4 @@
-// What draws a path: WebGL where the browser has it, else a canvas.
+// The interface of path painters: with WebGL if the browser has it, else with a canvas.
 import type { Camera, Size } from "./camera";
 import type { Path } from "./path_points";
 import type { Level } from "./levels";
@@ -9,7 +9,7 @@ export interface Picture {
   readonly view: Size;
   /** Device pixels in a CSS pixel. */
   readonly density: number;
-  /** The point of the path that the head is on its way to; what is before it is done. */
+  /** The point of the path that the head is on its way to; the points before it are done. */
   readonly reached: number;
   readonly most_points: number;
 }
@@ -28,7 +28,7 @@ export interface PathPainter {
   draw(picture: Picture, colours: PathColours): void;
   /** Draws what was done since the last picture, on top of it. */
   advance(picture: Picture, colours: PathColours): void;
-  /** The last point of the path up to which it is drawn as done. */
+  /** The last point of the path that is drawn as done. */
   drawnTo(): number;
 }
 

@@ -3,9 +3,9 @@
 export interface Path {
   /** x, y, z of each point, mm of the machine's coordinates. */
   readonly at: Float32Array;
-  /** The program's line that leads to the point; 0: where the program begins. */
+  /** The program's line that leads to the point; 0 for the point where the program begins. */
   readonly line: Uint32Array;
-  /** Whether a rapid move leads to the point: 1, else 0. */
+  /** 1 if a rapid move leads to the point, else 0. */
   readonly rapid: Uint8Array;
 }
 
@@ -25,7 +25,7 @@ export function readPath(bytes: ArrayBuffer): Path {
   return path;
 }
 
-/** Least and greatest x, y, z; nothing of a path without points. */
+/** Least and greatest x, y, z; undefined for a path without points. */
 export function pathBounds(at: Float32Array): { low: [number, number, number]; high: [number, number, number] } | undefined {
   if (at.length === 0) return undefined;
   const low: [number, number, number] = [Infinity, Infinity, Infinity];

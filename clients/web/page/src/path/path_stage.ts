@@ -11,7 +11,7 @@ import { PathProgress } from "./progress";
 import { drawFloor, drawHead, drawScale, drawTrail, type SceneColours } from "./scene";
 import { paletteColour } from "../dom/theme";
 
-const FRAME_MS = 100; // two moves that are closer belong to one movement
+const FRAME_MS = 100; // moves that are closer in time belong to one movement
 const AT_REST_MS = 160; // after the camera's last move the path is drawn in full
 const LONGEST_TRAIL = 2000; // points
 const FIRST_POINTS_GL = 60_000;
@@ -68,12 +68,12 @@ export class PathStage {
     this.takeColours();
   }
 
-  /** What a fitted view shows: the path, or the travel where there is none. */
+  /** The bounds of a fitted view: of the path, or of the travel if there is none. */
   get bounds(): Bounds {
     return (this.path && pathBounds(this.path.at)) ?? this.travel;
   }
 
-  /** Shows another path as soon as its levels are made; @returns its segments, or nothing where a newer one came meanwhile. */
+  /** Shows a path once its levels are made; @returns its segments, or undefined if a newer path came meanwhile. */
   async show(bytes: ArrayBuffer): Promise<number | undefined> {
     const path = readPath(bytes);
     this.coming = path;
@@ -94,7 +94,7 @@ export class PathStage {
     setTimeout(() => this.redraw(), AT_REST_MS + 10);
   }
 
-  /** @param camera gives the one for the new size, if it is to change */
+  /** @param camera returns the camera for the new size, or undefined to keep the old one */
   resize(camera: () => Camera | undefined): void {
     const box = this.surface.getBoundingClientRect();
     this.view = { width: Math.max(1, box.width), height: Math.max(1, box.height) };
@@ -151,7 +151,7 @@ export class PathStage {
     });
   }
 
-  /** How fast pictures follow each other while the view moves says how much may be in them. */
+  /** Adapts the number of points to the time between pictures while the view moves. */
   private noteFrame(now_ms: number): void {
     const isMoving = now_ms - this.moved_ms < FRAME_MS;
     if (isMoving && this.movedAt_ms !== undefined) this.budget.note(now_ms - this.movedAt_ms);
@@ -174,7 +174,7 @@ export class PathStage {
     drawHead(this.above, this.camera, this.view, this.head.at, this.travel.low[2], this.head.isLive, this.colours.scene);
   }
 
-  /** From points that the painter has drawn to the head. */
+  /** The points from the last one that the painter has drawn as done, to the head. */
   private trail(): Vector[] {
     if (this.path === undefined || this.reached < 1 || this.reached >= this.path.line.length) return [];
     const { at } = this.path;

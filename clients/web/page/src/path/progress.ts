@@ -1,4 +1,4 @@
-// How far along its path a program is, from the line in motion and the place of the head.
+// Finds how far a program is along its path, from the line in motion and the place of the head.
 import type { Path } from "./path_points";
 import type { Vector } from "./camera";
 
@@ -25,7 +25,7 @@ export class PathProgress {
 
   constructor(private readonly path: Path) {}
 
-  /** The point that the head is on its way to. All points before it are behind the head. Line 0: none is in motion. */
+  /** The point that the head moves to; the head has passed all points before it. Line 0: no line is in motion. */
   advance(line: number, head: Vector): number {
     const first = line > 0 ? this.find(line) : undefined;
     if (first === undefined) return this.reached;
@@ -40,12 +40,12 @@ export class PathProgress {
     return (this.reached = best);
   }
 
-  /** A new job begins at the beginning. */
+  /** A new job starts at the path's beginning. */
   restart(): void {
     this.reached = 0;
   }
 
-  /** The next point of the line; where all of its points were left out, the first of a later line. */
+  /** The next point of the line, or the first of a later line if all points of the line were left out. */
   private find(line: number): number | undefined {
     const lines = this.path.line;
     if (lines[this.reached] === line) return this.reached;

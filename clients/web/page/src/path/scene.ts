@@ -1,4 +1,4 @@
-// What surrounds the path: the machine's travel with a grid below the path, and the head above it.
+// Draws what surrounds the path: the machine's travel with a grid below the path, and the head above it.
 import { project, type Bounds, type Camera, type Size, type Vector } from "./camera";
 
 export interface SceneColours {
@@ -13,7 +13,7 @@ export interface SceneColours {
 
 type Pen = CanvasRenderingContext2D;
 
-/** A round distance between grid lines, at least so many pixels. mm. */
+/** A round distance between grid lines in mm, at least so many pixels. */
 export function gridStep(mm_per_pixel: number, least_pixels = 28): number {
   const least = mm_per_pixel * least_pixels;
   const decade = 10 ** Math.floor(Math.log10(least));
@@ -77,7 +77,7 @@ function drawAxes(pen: Pen, at: (p: Vector) => [number, number], { low }: Bounds
   });
 }
 
-/** The head: a ring, and where it stands above the floor. */
+/** The head: a ring, and a line down to the floor. */
 export function drawHead(pen: Pen, camera: Camera, view: Size, head: Vector, floor: number, isLive: boolean, colours: SceneColours): void {
   const at = placer(camera, view);
   const [x, y] = at(head), [fx, fy] = at([head[0], head[1], floor]);
@@ -102,7 +102,7 @@ export function drawHead(pen: Pen, camera: Camera, view: Size, head: Vector, flo
   pen.setLineDash([]);
 }
 
-/** What the path's painter has not yet drawn as done: the points up to the head. */
+/** Draws the points up to the head that the path's painter has not yet drawn as done. */
 export function drawTrail(pen: Pen, camera: Camera, view: Size, points: readonly Vector[], colours: SceneColours): void {
   const at = placer(camera, view);
   pen.strokeStyle = colours.done;

@@ -1,4 +1,4 @@
-// Fewer points for the same line, within a tolerance: Douglas and Peucker's method, block by block.
+// Reduces the points of a line, within a tolerance, by Douglas and Peucker's method, block by block.
 // Source: D. Douglas, T. Peucker, "Algorithms for the reduction of the number of points required to represent a
 // digitized line", 1973. Blocks bound the work, so that a million points take a fraction of a second.
 
@@ -18,8 +18,8 @@ export function squaredDistance(at: Positions, p: number, a: number, b: number):
   return ex * ex + ey * ey + ez * ez;
 }
 
-/** The point between `first` and `last` that is farthest from the line between these two: its place in `from`, or -1 where
- * none is farther than the tolerance. The innermost loop of all: it calls nothing. */
+/** The point between `first` and `last` that is farthest from the line between these two: its place in `from`, or -1 if
+ * none is farther than the tolerance. It is the innermost loop, so it calls no function. */
 function farthest(at: Positions, from: Uint32Array, first: number, last: number, tolerance2: number): number {
   const a = 3 * from[first]!, b = 3 * from[last]!;
   const ax = at[a]!, ay = at[a + 1]!, az = at[a + 2]!;
@@ -42,8 +42,8 @@ function farthest(at: Positions, from: Uint32Array, first: number, last: number,
 }
 
 /**
- * Which of the points `from` (rising indices into `at`) to keep, so that none that is left out is farther than
- * `tolerance_mm` from the line of those kept. Points where `kind` changes are always kept.
+ * Returns the points of `from` (rising indices into `at`) to keep. No left-out point is farther than
+ * `tolerance_mm` from the line of the kept points. Points where `kind` changes are always kept.
  */
 export function simplify(at: Positions, kind: Uint8Array, from: Uint32Array, tolerance_mm: number): Uint32Array {
   const keep = new Uint8Array(from.length);

@@ -1,5 +1,6 @@
-// Server-sent events from the text of a stream, as the HTML standard defines them. Unlike a browser's EventSource it also
-// shows comments, which the server sends so that a silent connection can be told from a dead one.
+// Parses server-sent events from the text of a stream, as the HTML standard defines them. Unlike with a browser's
+// EventSource, the reader also sees comments arrive. The server sends them so that a silent connection can be told from
+// a dead one.
 
 export interface ServerEvent {
   readonly name: string;
@@ -13,7 +14,7 @@ export class EventParser {
   private data: string[] = [];
   private id = "";
 
-  /** The events that are complete with this piece of the stream. */
+  /** Returns the events that this piece of the stream completes. */
   take(piece: string): ServerEvent[] {
     const lines = (this.rest + piece).split(/\r\n|\n|\r(?!$)/);
     this.rest = lines.pop() ?? "";

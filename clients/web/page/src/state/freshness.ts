@@ -1,13 +1,13 @@
-// How old a value is, and whether it may still be taken for the present one.
+// How old a value is, and whether it may still count as current.
 
 export type Freshness = "live" | "stale" | "unknown";
 
-/** A value that is older may no longer describe the machine: it sends a hundred states in this time. */
+/** An older value may no longer describe the machine, which sends a hundred states in this time. */
 export const STALE_AFTER_MS = 1500;
 
 /**
  * The age of a value now: its age when the server sent it, and the time that has passed since it arrived here.
- * Nothing where the server never had the value.
+ * Undefined if the server never had the value.
  */
 export function ageNow(ageWhenSent_ms: number | undefined, arrived_ms: number, now_ms: number): number | undefined {
   return ageWhenSent_ms === undefined ? undefined : ageWhenSent_ms + Math.max(0, now_ms - arrived_ms);

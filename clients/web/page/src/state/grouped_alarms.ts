@@ -3,11 +3,11 @@ import type { Alarm } from "../api/contract";
 
 export interface AlarmGroup {
   readonly alarm: Alarm;
-  /** None: it is the whole machine's. */
+  /** Empty for an alarm of the whole machine. */
   readonly axes: readonly string[];
 }
 
-/** In the order of the first of each. A fault of the machine stands for the same one of its axes. */
+/** Groups are in the order of their first alarms. A fault of the machine includes the same fault of its axes. */
 export function groupedAlarms(alarms: readonly Alarm[]): AlarmGroup[] {
   const groups = new Map<string, Alarm[]>();
   for (const alarm of alarms) {

@@ -8,7 +8,7 @@ export class LiveState {
   private streamName = "";
   private lastId = "";
 
-  /** Whether the event changed the state. A patch without a state to patch is passed over. */
+  /** Returns true if the event changed the state. Ignores a patch without a state to patch. */
   take(event: ServerEvent): boolean {
     if (event.name === "stream") {
       this.streamName = (JSON.parse(event.data) as { stream: string }).stream;
@@ -31,12 +31,12 @@ export class LiveState {
     return this.streamName;
   }
 
-  /** From where the server may continue after a lost connection. */
+  /** The event after which the server may continue after a lost connection. */
   get resumeFrom(): string {
     return this.lastId;
   }
 
-  /** The connection is gone, and with it its name. */
+  /** The connection is lost, so its name is no longer valid. */
   disconnected(): void {
     this.streamName = "";
   }

@@ -1,4 +1,4 @@
-// JSON merge patches, RFC 7396: how the server sends what has changed of the machine's state.
+// JSON merge patches, RFC 7396: the server sends changes of the machine's state in this form.
 
 export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
 

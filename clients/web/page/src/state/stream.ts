@@ -1,4 +1,4 @@
-// The connection to the server's events: opened again when it ends, and probed when it is silent.
+// The connection to the server's events. It is opened again when it ends, and probed when it is silent.
 import { session } from "../api/client";
 import { EventParser } from "./event_parser";
 import { LiveState } from "./live_state";
@@ -9,7 +9,7 @@ const RETRY_MS = [250, 500, 1000, 2000, 3000];
 
 export interface StreamListener {
   changed(): void;
-  /** The session is not or no longer valid. */
+  /** The session is not valid, or no longer. */
   denied(): void;
 }
 
@@ -52,7 +52,7 @@ export class StateStream {
       if (!response.ok || response.body === null) return response.status === 401;
       await this.read(response.body);
     } catch {
-      // tried again
+      // run() tries again
     }
     return false;
   }
@@ -72,7 +72,7 @@ export class StateStream {
     }
   }
 
-  /** A state that does not change sends no events: an answer to a small request proves the connection instead. */
+  /** A state that does not change causes no events, so the answer to a small request proves the connection. */
   private async watch(): Promise<void> {
     const now = performance.now();
     if (this.connected && now - this.received_ms > DEAD_AFTER_MS) this.aborted?.abort();

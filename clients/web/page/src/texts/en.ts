@@ -45,9 +45,9 @@ export const en = {
     notHomed: "Not homed", missing: "Not received", unproved: "Position not proved: {cause}", age: "Age", slack: "Slack", late: "Late",
     skew: "Skew", clock: "Clock", following: "Following error: {steps} steps", now: "< 1 s",
     hints: {
-      age: "Of the values of this axis", slack: "How long before its start the latest setpoint came, at least, ms",
-      late: "Step beside its commanded time, at most, µs", skew: "Between steps of two axes, at most, µs",
-      clock: "Machine time is at most so far off, µs",
+      age: "Age of this axis's values", slack: "Least time from a setpoint's arrival to its start, ms",
+      late: "Largest deviation of a step from its commanded time, µs", skew: "Largest skew between steps of two axes, µs",
+      clock: "Largest error of machine time, µs",
     },
   },
   jog: {

@@ -19,7 +19,7 @@ export function language(): string {
   return wanted in LANGUAGES ? wanted : "en";
 }
 
-/** The page is built anew in the other language; the session's cookie outlives that. */
+/** Loads the page again in the other language; the session's cookie stays valid. */
 export function switchLanguage(): void {
   try {
     localStorage.setItem(KEY, language() === "en" ? "de" : "en");

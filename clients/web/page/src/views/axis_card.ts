@@ -7,7 +7,7 @@ import { age } from "../format/times";
 import { ageNow, freshness } from "../state/freshness";
 import { fill, t } from "../texts";
 
-const FRESH_MS = 1000; // below this the exact age says nothing more
+const FRESH_MS = 1000; // below this the exact age is not shown
 
 class Figure {
   private readonly value = h("dd", {});
@@ -26,7 +26,7 @@ class Figure {
 export interface AxisMoment {
   readonly machine: Machine;
   readonly state: AxisState;
-  /** In the coordinates that are shown. */
+  /** In the shown coordinates. */
   readonly position: number | undefined;
   readonly contact_ms: number;
   readonly now_ms: number;
@@ -90,7 +90,7 @@ export class AxisCard {
     return state === "Standby" ? "good" : state === "Stop" ? "warning" : "busy";
   }
 
-  /** Where in its travel the axis is: a place of 100, as an attribute, because the page allows no style in markup. */
+  /** Marks the axis's place within its travel. A script sets the style, because the page allows none in markup. */
   private showTravel({ position }: AxisState): void {
     const { position_min, position_max } = this.axis;
     show(this.place, position !== null && position !== undefined);

@@ -2,7 +2,7 @@
 import type { Offsets } from "../api/contract";
 
 /**
- * Machine coordinates to work coordinates: the system's origin and G92 are taken off, and a rotation about Z is undone.
+ * Converts machine coordinates to work coordinates: subtracts origin and G92, and undoes the rotation about Z.
  * Axes without a known position stay unknown.
  */
 export function workPlace(

@@ -1,4 +1,4 @@
-// The program's text: only the lines in view are in the document, and the one in motion is marked and followed.
+// Shows the program's text. Only the lines in view are in the document; the line in motion is marked and followed.
 import { h, setAttribute, setText } from "../dom/element";
 import { LineIndex } from "../code/line_index";
 import { contentHeight, scrollTo, windowAt, type Lines } from "../code/window";
@@ -46,7 +46,7 @@ export class CodeView {
     this.draw();
   }
 
-  /** Marks wrong lines, and shows one of them. */
+  /** Marks lines with errors, and shows one of them. */
   showErrors(lines: readonly number[], shown: number): void {
     this.errors = new Set(lines);
     this.follow(false);

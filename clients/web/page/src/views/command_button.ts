@@ -1,4 +1,4 @@
-// A button that gives a command, and the notice of what the machine refused.
+// Makes command buttons, and gives commands and reports their refusals.
 import { command } from "../api/client";
 import type { Accepted } from "../api/contract";
 import type { Result } from "../api/result";

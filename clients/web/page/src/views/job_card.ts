@@ -1,4 +1,4 @@
-// The job: which, how far, how long still; and the button that runs the loaded program.
+// The job with its progress and the time left, and the button that runs the loaded program.
 import type { Job, State } from "../api/contract";
 import { h, setAttribute, setText, show } from "../dom/element";
 import { ICONS } from "../dom/icons";
@@ -9,7 +9,7 @@ import { fill, t } from "../texts";
 import { button, type Give } from "./command_button";
 import type { Model, View } from "./view";
 
-/** Its name, else its kind; of another client's job that has ended neither is known. */
+/** The job's name, else its kind, else its number: of another client's ended job neither is known. */
 export function jobName({ name, kind, number }: Job): string {
   return name ?? (kind ? t.job.kind[kind] : fill(t.job.number, { number }));
 }

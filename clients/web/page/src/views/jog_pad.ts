@@ -13,7 +13,7 @@ import type { Model, View } from "./view";
 const DISTANCES = [undefined, 0.01, 0.1, 1, 10] as const;
 const SHARES = [0.02, 0.05, 0.1, 0.25, 0.5, 1];
 const FIRST_SHARE = 3;
-const JOG_OVER = "jog-over"; // the machine, or another, ended it
+const JOG_OVER = "jog-over"; // the machine or another client ended it
 
 export class JogPad implements View {
   readonly element: HTMLElement;

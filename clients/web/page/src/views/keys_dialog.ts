@@ -1,4 +1,4 @@
-// What the keys do.
+// The dialog that explains the keys.
 import { h } from "../dom/element";
 import { t } from "../texts";
 

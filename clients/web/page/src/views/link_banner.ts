@@ -1,4 +1,4 @@
-// Says when what the page shows may no longer be so.
+// Says when the shown values may be out of date.
 import { h, setText, show } from "../dom/element";
 import { age } from "../format/times";
 import { ageNow, freshness } from "../state/freshness";

@@ -1,4 +1,4 @@
-// One line of G-code at a time, with the lines before.
+// One line of G-code at a time, and the list of earlier lines.
 import { mdiLines } from "../api/client";
 import { h, setAttribute, show } from "../dom/element";
 import { History } from "../mdi/history";

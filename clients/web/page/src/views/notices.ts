@@ -1,4 +1,4 @@
-// What the server refused: what, where, why, and the remedy.
+// Notices of refused requests: what was refused, where, why, and the remedy.
 import type { Problem } from "../api/contract";
 import { NO_ANSWER, type Result } from "../api/result";
 import { h, icon } from "../dom/element";
@@ -21,7 +21,7 @@ function details(problem: Problem): string {
 export class Notices {
   readonly element = h("div", { class: "notices", role: "status", "aria-live": "polite" });
 
-  /** Shows what was refused; says nothing of what was accepted. */
+  /** Shows a refusal; ignores an accepted request. */
   readonly report = (result: Result<unknown>): void => {
     if (!result.ok) this.show(result.problem);
   };

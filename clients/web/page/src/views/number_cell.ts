@@ -1,8 +1,8 @@
-// A number in a table that can be changed: Enter or leaving it saves, Escape takes the change back.
+// A number in a table that can be changed: Enter or leaving it saves, Escape undoes the change.
 import { h, setAttribute } from "../dom/element";
 import { fixed } from "../format/numbers";
 
-/** A number as people write it, with a comma or a point; nothing where it is none. */
+/** A number as people write it, with a comma or a point; undefined if it is not a number. */
 export function parseNumber(text: string): number | undefined {
   const value = Number(text.trim().replace(",", ".").replace("−", "-"));
   return text.trim() === "" || !Number.isFinite(value) ? undefined : value;
@@ -18,7 +18,7 @@ export class NumberCell {
         if (event.key === "Enter") this.commit();
         else if (event.key === "Escape") this.restore();
         else return;
-        event.stopPropagation(); // Escape stops the machine elsewhere
+        event.stopPropagation(); // elsewhere Escape stops the machine
       },
       blur: () => this.commit(),
     } });

@@ -1,4 +1,4 @@
-// Work coordinate systems: their origins, and setting them where the machine stands.
+// Work coordinate systems: edits their origins, and sets them to the machine's position.
 import type { Machine } from "../api/contract";
 import { h, setAttribute, setText, show } from "../dom/element";
 import { fixed } from "../format/numbers";

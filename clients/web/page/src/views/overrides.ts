@@ -1,4 +1,4 @@
-// Feed and rapid overrides. The slider shows what the machine follows, except while it is moved.
+// Feed and rapid overrides. The slider shows the machine's value, except while the user moves it.
 import type { Machine } from "../api/contract";
 import { h, icon, setAttribute, setText } from "../dom/element";
 import { ICONS } from "../dom/icons";

@@ -1,4 +1,4 @@
-// The program's path from above or in space, what is done of it, and the head.
+// The program's path, seen from above or in space, its done part, and the head.
 import { programPath } from "../api/client";
 import type { Machine } from "../api/contract";
 import { h, icon, setAttribute, setText, show } from "../dom/element";
@@ -10,7 +10,7 @@ import { fill, t } from "../texts";
 import { onTheme } from "../dom/theme";
 import type { Model, View } from "./view";
 
-/** The machine's travel, as far as X, Y and Z go. */
+/** The machine's travel in X, Y and Z. */
 export function travelOf(machine: Machine): Bounds {
   const range = (letter: string): [number, number] => {
     const axis = machine.axes.find((a) => a.name === letter);

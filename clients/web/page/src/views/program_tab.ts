@@ -1,4 +1,4 @@
-// Loading a program: the server checks it first, and names each wrong line.
+// Loads a program. The server checks it first, and names each line with an error.
 import { loadProgram, programText } from "../api/client";
 import type { LoadedProgram, Machine, Problem, ProblemLine } from "../api/contract";
 import { h, icon, setText, show } from "../dom/element";
@@ -73,7 +73,7 @@ export class ProgramTab implements View {
     else await this.refused(file, answer.problem);
   }
 
-  /** The wrong file's own text is shown, so that each error stands at its line. */
+  /** Shows the refused file's text, so that each error is at its line. */
   private async refused(file: File, problem: Problem): Promise<void> {
     const errors = problem.errors ?? [];
     if (errors.length === 0) {
@@ -96,7 +96,7 @@ export class ProgramTab implements View {
     return h("li", {}, h("button", { type: "button", class: "plain", on: { click: go } }, text));
   }
 
-  /** Back to the program that the server has. */
+  /** Shows the server's program again. */
   private dismiss(): void {
     show(this.errors, false);
     this.shown = NOT_LOADED;

@@ -18,7 +18,7 @@ export class ReportsTab implements View {
     this.element = h("div", {}, h("button", { type: "button", class: "action small", on: { click: () => void this.fetch() } }, icon(ICONS.reset), t.reports.refresh), this.none, this.list);
   }
 
-  /** Read anew when a job has ended: it may have left a file. */
+  /** Reads the list again when a job has ended, because the job may have left a file. */
   show({ state }: Model): void {
     const job = `${state.job?.number ?? ""} ${state.job?.outcome ?? ""} ${state.mode}`;
     const ended = !["Running", "Homing", "Jogging", "Holding", "Stopping"].includes(state.mode);

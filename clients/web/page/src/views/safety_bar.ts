@@ -1,4 +1,4 @@
-// Hold, resume, stop, reset and the emergency stop: in reach wherever the page is scrolled.
+// Hold, resume, stop, reset and the emergency stop. They stay in reach when the page is scrolled.
 import { ICONS } from "../dom/icons";
 import { h, icon, setAttribute, show } from "../dom/element";
 import { t } from "../texts";
@@ -37,7 +37,7 @@ export class SafetyBar implements View {
     show(this.element, mayOperate);
   }
 
-  /** Acts when it is pressed, not when it is let go of. Never disabled: a state may be out of date. */
+  /** Acts when it is pressed, not when it is released. Never disabled, because the shown state may be out of date. */
   private emergency(give: Give): HTMLElement {
     let pressed_ms = -Infinity;
     const press = () => {

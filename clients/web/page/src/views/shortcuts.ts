@@ -1,4 +1,4 @@
-// Keys that work anywhere on the page. None is a character, so none is typed by accident.
+// Keys that work anywhere on the page. None of them is a character, so typing triggers none.
 import type { Give } from "./command_button";
 
 const VERBS: Record<string, string> = { F1: "estop", Escape: "stop", F2: "hold", F4: "resume" };
@@ -8,7 +8,7 @@ export function shortcutVerb(event: Pick<KeyboardEvent, "key" | "repeat" | "ctrl
   return VERBS[event.key];
 }
 
-/** @param mayOperate whether commands are of use. A dialog keeps Escape for itself. */
+/** @param mayOperate whether this page may give commands. An open dialog keeps Escape for itself. */
 export function listenToShortcuts(give: Give, mayOperate: () => boolean): void {
   addEventListener("keydown", (event) => {
     const verb = shortcutVerb(event);

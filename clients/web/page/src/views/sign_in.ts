@@ -1,10 +1,10 @@
-// The token comes in the address's fragment, which a browser never sends; else it is asked for.
+// Signs in with the token in the address's fragment, which a browser never sends, or asks for a token.
 import { session, signIn } from "../api/client";
 import type { Problem, Role } from "../api/contract";
 import { h, setText } from "../dom/element";
 import { t } from "../texts";
 
-/** Takes the token out of the address, so that it is in no history and no screenshot. */
+/** Removes the token from the address, so that no history and no screenshot shows it. */
 export function takeToken(): string | undefined {
   const token = new URLSearchParams(location.hash.slice(1)).get("token");
   if (token === null) return undefined;
@@ -12,7 +12,7 @@ export function takeToken(): string | undefined {
   return token;
 }
 
-/** The role of the address's token, or of a session that still is; else what is wrong, which without a token is nothing. */
+/** The role of the address's token or of a valid session; else a Problem, or undefined if there is neither. */
 export async function enter(): Promise<Role | Problem | undefined> {
   const token = takeToken();
   const answer = token === undefined ? await session() : await signIn(token);

@@ -1,4 +1,4 @@
-// Tabs by the pattern of the ARIA practices: arrow keys choose, one tab is in the order of the Tab key.
+// Tabs by the pattern of the ARIA practices: arrow keys choose a tab, and the Tab key reaches only the chosen one.
 import { h, setAttribute, show } from "../dom/element";
 
 export interface Tab {

@@ -1,4 +1,4 @@
-// What every part of the page gets: the newest of everything, ten times a second.
+// The interface of the page's parts. Each part gets the newest state ten times a second.
 import type { Machine, Role, State } from "../api/contract";
 
 export interface Model {
@@ -16,5 +16,5 @@ export interface View {
   show(model: Model): void;
 }
 
-/** A part of the page with a heading. */
+/** The modes in which axes may move. */
 export const MOVING = new Set(["Homing", "Running", "Holding", "Stopping", "Jogging"]);
