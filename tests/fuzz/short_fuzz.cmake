@@ -1,6 +1,6 @@
-# short_fuzz(NAME RUNS NUMBER SOURCES ... SEEDS ...): tests/fuzz/NAME.cpp, given texts that libFuzzer makes of the seeds:
-# the same number of them, from the same seed, each time. Only these sources are built with clang and its sanitizers;
-# tests/fuzz/run searches for longer.
+# short_fuzz(NAME RUNS NUMBER SOURCES ... SEEDS ...) adds a test that gives tests/fuzz/NAME.cpp the texts that libFuzzer
+# makes of the seeds. The number of texts and the random seed are fixed, so every run is the same. Only these sources
+# are built with clang and its sanitizers. tests/fuzz/run searches for longer.
 find_program(FUZZ_CLANG clang++-19)
 if(NOT FUZZ_CLANG)
   message(STATUS "clang++-19 is not installed: short fuzzing is left out; deploy/install-dependencies installs it")
@@ -12,19 +12,17 @@ function(short_fuzz target)
   endif()
   cmake_parse_arguments(ARG "" "RUNS" "SOURCES;SEEDS" ${ARGN})
   set(sanitize -fsanitize=address,undefined -fno-sanitize-recover=all)
-  set(objects)
-  foreach(source ${ARG_SOURCES} ${PROJECT_SOURCE_DIR}/tests/fuzz/${target}.cpp)
-    file(RELATIVE_PATH name ${PROJECT_SOURCE_DIR} ${source})
-    string(REPLACE "/" "_" name ${name})
-    set(object ${CMAKE_CURRENT_BINARY_DIR}/${name}.o)
-    add_custom_command(OUTPUT ${object} DEPENDS ${source} DEPFILE ${object}.d
-      COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} ${FUZZ_CLANG} -std=c++23 -O1 -g1 -I${PROJECT_SOURCE_DIR} ${sanitize}
-              -fsanitize=fuzzer-no-link -MD -MF ${object}.d -c ${source} -o ${object})
-    list(APPEND objects ${object})
-  endforeach()
   set(program ${CMAKE_CURRENT_BINARY_DIR}/fuzz_${target})
-  add_custom_command(OUTPUT ${program} DEPENDS ${objects}
-    COMMAND ${FUZZ_CLANG} ${sanitize} -fsanitize=fuzzer ${objects} -o ${program})
+  set(all ${program}.cpp)  # one file, since the headers take most of the compiler's time
+  set(includes ${ARG_SOURCES} ${PROJECT_SOURCE_DIR}/tests/fuzz/${target}.cpp)
+  list(TRANSFORM includes REPLACE "(.+)" "#include \"\\1\"\n")
+  list(JOIN includes "" includes)
+  file(CONFIGURE OUTPUT ${all} CONTENT "${includes}")
+  add_custom_command(OUTPUT ${program}.o DEPENDS ${all} DEPFILE ${program}.d
+    COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} ${FUZZ_CLANG} -std=c++23 -O1 -g1 -I${PROJECT_SOURCE_DIR} ${sanitize}
+            -fsanitize=fuzzer-no-link -MD -MF ${program}.d -c ${all} -o ${program}.o)
+  add_custom_command(OUTPUT ${program} DEPENDS ${program}.o
+    COMMAND ${FUZZ_CLANG} ${sanitize} -fsanitize=fuzzer ${program}.o -o ${program})
   add_custom_target(short_fuzz_${target} ALL DEPENDS ${program})
   list(JOIN ARG_SEEDS "," seeds)
   add_test(NAME fuzz.${target} COMMAND ${program} -seed_inputs=${seeds} -seed=1 -runs=${ARG_RUNS} -max_len=4096 -timeout=60

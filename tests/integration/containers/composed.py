@@ -8,7 +8,7 @@ import time
 import image
 
 PARTS = ("coordinator", "axis-x", "axis-y", "axis-z")
-# The log of the logger, completed by the parts' own logs: lcm-logger drops messages while it stands still itself.
+# The log of the logger, completed by the parts' own logs: lcm-logger drops messages while it stalls itself.
 VERIFY_ALL = "lockstep log merge --force whole.lcm record.lcm.0 /records/*/*/record; lockstep verify whole.lcm"
 PATIENCE_S = 90  # not a measurement: a hanging command must not hang the test
 TRIES = 6        # of actions that fail if the host stalls for longer than the machine allows
@@ -51,7 +51,7 @@ class Composed:
         return self.compose("run", "-T", "--rm", "client", *words)
 
     def client_by_podman(self, *words):
-        """The same without docker-compose, which takes podman's network with addresses for one that has changed."""
+        """The same without docker-compose, which mistakes podman's network with addresses for a changed one."""
         volumes = [f"mill_{part}:/records/{part}:ro" for part in PARTS]
         volumes += ["mill_log:/var/log/lockstep", f"{self.environment['MACHINE_FILE']}:/etc/lockstep/machine.textproto:ro"]
         return self.podman.ask("run", "--rm", "--network", "mill_machine", "--workdir",
@@ -89,7 +89,7 @@ class Composed:
         return {}
 
     def home(self):
-        """From any state to Idle and homed, as a user does: the machine's state determines the commands."""
+        """Homes the machine from any state, as a user does: the machine's state determines the commands."""
         for _ in range(TRIES):
             status = self.wait_for("all axes are there and nothing moves", is_settled)
             if not status or (status["phase"] == "Idle" and all(axis.get("homed") for axis in status["axes"])):
@@ -99,7 +99,7 @@ class Composed:
         return self.expect(False, f"the machine cannot be homed: {output}")
 
     def move(self, *words, by=None):
-        """A move, repeated if the host spoiled it."""
+        """A move, repeated if a stall of the host interrupted it."""
         for _ in range(TRIES):
             if not self.home():
                 return False

@@ -47,7 +47,7 @@ class Podman:
         return ran.returncode, ran.stdout.strip()
 
     def as_the_hosts(self):
-        """The environment of a program that calls podman itself: for it this storage is the host's."""
+        """The environment of a program that calls podman itself: it uses this storage as the host's."""
         driver, images, running = self.ask("info", "--format", STORE)[1].split()
         file = pathlib.Path(running) / "storage.conf"
         file.write_text(f'[storage]\ndriver = "{driver}"\ngraphroot = "{images}"\nrunroot = "{running}"\n')

@@ -35,7 +35,7 @@ def sources():
 
 
 def mirror():
-    """Empty if this host's apt has none."""
+    """The Debian mirror of this host's apt; empty if there is none."""
     return next((site for site, suite in sources() if suite == "bookworm"), "")
 
 

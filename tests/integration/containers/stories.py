@@ -98,7 +98,7 @@ def an_axis_is_paused_in_motion(composed):
 
 
 def begin_move(composed):
-    """A long move, in motion."""
+    """Begins a long move. Returns it in motion, or None."""
     for _ in range(3):
         if not composed.home():
             return None

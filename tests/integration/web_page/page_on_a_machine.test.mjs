@@ -1,4 +1,4 @@
-// The page in a real browser, at lockstep-web beside a simulated machine: what a person does, and what the machine does then.
+// Tests the page in a real browser, with lockstep-web and a simulated machine: a person acts, and the machine reacts.
 import assert from "node:assert/strict";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -42,7 +42,7 @@ const mode = (page, text) => page.locator(".mode", { hasText: new RegExp(`^${tex
 const upload = (page, name, text) => page.setInputFiles("#program-file", { name, mimeType: "text/plain", buffer: Buffer.from(text) });
 
 let programs = 0;
-/** Run is for the program that the page shows: it has to know the new one first. */
+/** Run applies to the program that the page shows, so the page must show the new one first. */
 async function runLong(page) {
   const name = `long-${++programs}.gcode`;
   await server.load(name, LONG);
@@ -224,7 +224,7 @@ describe("a page that stays open", () => {
   });
 
   test("keeps neither memory nor elements", async () => {
-    const watched_ms = 1000 * Number(process.env.VIEWER_SECONDS ?? 60), settles_ms = 30_000; // until the chart is full
+    const watched_ms = 1000 * Number(process.env.VIEWER_SECONDS ?? 20), settles_ms = 30_000; // until the chart is full
     const page = await enter("view");
     await server.load("long.gcode", LONG);
     const session = await page.context().newCDPSession(page);
