@@ -1,5 +1,7 @@
 #include "clients/analysis/analysis.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <system_error>
 
@@ -25,7 +27,7 @@ std::expected<void, std::string> make_directory(const std::optional<std::filesys
 std::string first_reason(const Analysis& analysis) {
     if (analysis.damages.empty()) { return ""; }
     const Damage& first = analysis.damages.front();
-    return ", or not in a readable form: " + first.what + ", at byte " + std::to_string(first.first_byte);
+    return fmt::format(", or not in a readable form: {}, at byte {}", first.what, first.first_byte);
 }
 
 std::string of_machine(const std::optional<std::string>& machine) { return machine ? " of machine " + *machine : ""; }

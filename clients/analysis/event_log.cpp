@@ -1,5 +1,7 @@
 #include "clients/analysis/event_log.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "core/faults.hpp"
@@ -10,9 +12,9 @@ namespace {
 Event fault_event(const axis_position_t& message) {
     const FaultText* known = find_fault(static_cast<FaultCode>(message.fault));
     Event event{.at = {message.tick}, .what = {}, .axis = message.axis, .remedy = {}, .is_fault = true};
-    event.what = "fault " + std::to_string(message.fault);
+    event.what = fmt::format("fault {}", message.fault);
     if (known == nullptr) { return event; }
-    event.what += ", " + std::string(known->name) + ": " + std::string(known->cause);
+    event.what += fmt::format(", {}: {}", known->name, known->cause);
     event.remedy = remedy_text(*known);
     return event;
 }

@@ -1,6 +1,7 @@
 #include "clients/channel/listener.hpp"
 
 #include <arpa/inet.h>
+#include <fmt/format.h>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -36,7 +37,7 @@ std::uint16_t port_of(int socket) {
 }  // namespace
 
 std::expected<Listener, std::string> listen_at(const std::string& address, std::uint16_t port) {
-    const std::string place = "address " + address + ", port " + std::to_string(port);
+    const std::string place = fmt::format("address {}, port {}", address, port);
     addrinfo hints{};
     hints.ai_socktype = SOCK_STREAM;
     hints.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV;

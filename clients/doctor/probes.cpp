@@ -1,5 +1,6 @@
 #include "clients/doctor/probes.hpp"
 
+#include <fmt/format.h>
 #include <ifaddrs.h>
 #include <net/if.h>
 #include <sched.h>
@@ -44,7 +45,7 @@ std::string try_memory() {
     rlimit limit{};
     (void)getrlimit(RLIMIT_MEMLOCK, &limit);
     if (geteuid() == 0 || limit.rlim_cur == RLIM_INFINITY) { return ""; }
-    return "the limit is " + std::to_string(limit.rlim_cur / 1024) + " KB";
+    return fmt::format("the limit is {} KB", limit.rlim_cur / 1024);
 }
 
 int buffer_given(int option, std::int64_t asked) {
@@ -84,7 +85,7 @@ std::int64_t send_buffer_given(std::int64_t asked) { return buffer_given(SO_SNDB
 std::optional<bool> receives_own_message(const std::string& lcm_url) {
     lcm::LCM lcm(lcm_url);
     if (!lcm.good()) { return std::nullopt; }
-    const std::string channel = "LOCKSTEP_DOCTOR_" + std::to_string(getpid());
+    const std::string channel = fmt::format("LOCKSTEP_DOCTOR_{}", getpid());
     bool received = false;
     lcm.subscribeFunction(
         channel, +[](const lcm::ReceiveBuffer*, const std::string&, bool* done) { *done = true; }, &received);

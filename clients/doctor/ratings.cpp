@@ -1,5 +1,7 @@
 #include "clients/doctor/ratings.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -61,18 +63,18 @@ std::int64_t buffer_asked(const std::string& lcm_url) {
 }
 
 Finding rate_buffer(std::int64_t asked, std::int64_t given) {
-    const std::string text = std::to_string(given) + " of " + std::to_string(asked) + " bytes";
+    const std::string text = fmt::format("{} of {} bytes", given, asked);
     if (given >= asked) { return {Rating::Good, "socket buffer", text, ""}; }
     return {Rating::Doubtful, "socket buffer", text + ": bursts of the record may be lost",
-            "sysctl -w net.core.rmem_max=" + std::to_string(asked)};
+            fmt::format("sysctl -w net.core.rmem_max={}", asked)};
 }
 
 Finding rate_send_buffer(std::int64_t needed, std::int64_t given) {
-    const std::string text = std::to_string(given) + " bytes; " + std::to_string(needed) + " are needed";
+    const std::string text = fmt::format("{} bytes; {} are needed", given, needed);
     if (given >= needed) { return {Rating::Good, "send buffer", text, ""}; }
     return {Rating::Doubtful, "send buffer",
             text + ": while many of network.peers are absent, this host's parts may fall silent for seconds",
-            "sysctl -w net.core.wmem_max=" + std::to_string(needed)};
+            fmt::format("sysctl -w net.core.wmem_max={}", needed)};
 }
 
 Finding rate_states(const MachineConfig& machine, const std::expected<std::string, std::string>& memory) {
@@ -85,8 +87,7 @@ Finding rate_states(const MachineConfig& machine, const std::expected<std::strin
     if (shares) { return {Rating::Good, "axes' states", "go through " + *memory, ""}; }
     if (machine.network.interface != "lo" || axes < kMany) { return {Rating::Good, "axes' states", "go by DDS", ""}; }
     return {Rating::Doubtful, "axes' states",
-            std::to_string(axes) + " axes on one host receive " + std::to_string(axes * (axes - 1)) +
-                " states from the network each slot",
+            fmt::format("{} axes on one host receive {} states from the network each slot", axes, axes * (axes - 1)),
             "network { one_host: true } in the machine's file"};
 }
 
@@ -127,9 +128,9 @@ std::int64_t least_slot_us(const ProtocolTiming& timing) {
 Finding rate_stalls(const ProtocolTiming& timing, const StallFacts& facts) {
     const double may_us = static_cast<double>(timing.stall_slots) * static_cast<double>(timing.slot_us);
     const ProtocolTiming better = timing_for(facts, least_slot_us(timing));
-    const std::string found = "in " + std::to_string(static_cast<int>(std::lround(facts.seconds))) +
-                              " s a thread woke " + milliseconds(facts.worst_us) + " late at most, " +
-                              milliseconds(facts.p99_us) + " in one of 100; the timing allows " + milliseconds(may_us);
+    const std::string found = fmt::format(
+        "in {} s a thread woke {} late at most, {} in one of 100; the timing allows {}", std::lround(facts.seconds),
+        milliseconds(facts.worst_us), milliseconds(facts.p99_us), milliseconds(may_us));
     if (facts.worst_us > may_us) { return {Rating::Bad, "stalls", found, slots_text(better)}; }
     if (2 * facts.worst_us > may_us) { return {Rating::Doubtful, "stalls", found, slots_text(better)}; }
     const auto reaction = [](const ProtocolTiming& t) { return t.slot_us * (t.lease_slots() + t.frame_slots); };
@@ -201,7 +202,7 @@ Finding rate_keys(const KeyFacts& facts) {
     }
     if (facts.is_out) { return {Rating::Bad, what, facts.trouble, kSee}; }
     if (!facts.trouble.empty()) { return {Rating::Doubtful, what, facts.trouble, kSee}; }
-    return {Rating::Good, what, "are in order for " + std::to_string(facts.days_left) + " days", ""};
+    return {Rating::Good, what, fmt::format("are in order for {} days", facts.days_left), ""};
 }
 
 }  // namespace lockstep::doctor

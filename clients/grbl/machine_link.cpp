@@ -14,9 +14,7 @@ using std::chrono::nanoseconds;
 constexpr nanoseconds kRepeatAfter = 250ms;
 constexpr nanoseconds kPatience = 3s;
 
-Answer answer_of(const Reply& reply) {
-    return {reply.status == ReplyStatus::Accepted, static_cast<FaultCode>(reply.fault), reply.text};
-}
+Answer answer_of(const Reply& reply) { return {reply.status == ReplyStatus::Accepted, reply.fault, reply.text}; }
 
 Command command_of(const Request& request) {
     switch (request.kind) {
@@ -138,8 +136,7 @@ bool MachineLink::has_ended(const Open& open, Grbl& grbl) const {
         state && (state->state.job > open.job || (state->state.job == open.job && state->state.outcome));
     if (!is_over || !rests()) { return false; }
     const bool is_done = state->state.job == open.job && state->state.outcome == JobOutcome::Done;
-    grbl.answer(open.number, {is_done, static_cast<FaultCode>(state->state.fault),
-                              is_done ? "" : "homing was not brought to its end"});
+    grbl.answer(open.number, {is_done, state->state.fault, is_done ? "" : "homing was not brought to its end"});
     return true;
 }
 

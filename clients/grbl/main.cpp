@@ -1,4 +1,6 @@
 // lockstep-grbl: its command line, and the loop that connects a sender to the machine.
+#include <fmt/format.h>
+
 #include <csignal>
 #include <iostream>
 
@@ -138,8 +140,8 @@ int run(const Options& options) {
     while (!stop.requested()) {
         auto session = Session::open(*machine, Purpose::Command);
         if (!session) { return output.fail(session.error()); }
-        output.print("machine '" + machine->config.name + "' takes grbl's protocol at " + options.address + ", port " +
-                     std::to_string(options.port) + (doors.terminal ? ", and at " + options.terminal : ""));
+        output.print(fmt::format("machine '{}' takes grbl's protocol at {}, port {}{}", machine->config.name,
+                                 options.address, options.port, doors.terminal ? ", and at " + options.terminal : ""));
         std::cout << std::flush;
         serve_all(doors, *machine, *session, options, stop);
         machine = choose_machine(options.machine_file);

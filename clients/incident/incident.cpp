@@ -1,5 +1,7 @@
 #include "clients/incident/incident.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -83,7 +85,7 @@ void add(const Life& life, Incident& incident) {
     const auto before = std::ranges::count(incident.processes, life.who, &Process::who);
     if (before > 0 && life.who.kind == FlightPeer::Kind::Axis) { process.name += ", restarted"; }
     if (before > 0 && life.who.kind == FlightPeer::Kind::Coordinator) {
-        process.name += " (" + std::to_string(before + 1) + ")";
+        process.name += fmt::format(" ({})", before + 1);
     }
     for (const auto& [number, event] : life.events) {
         if (process.first == Tick{} || event.tick < process.first) { process.first = event.tick; }

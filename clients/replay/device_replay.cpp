@@ -1,5 +1,7 @@
 #include "clients/replay/device_replay.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -129,9 +131,9 @@ void DeviceReplay::take(StepEdge made) {
     if (expected_.empty()) { return differ("the device makes a step that is not on record", {}, made.tick); }
     const auto [step, is_recorded] = expected_.front();
     if (made != step.edge) {
-        return differ("the device steps at tick " + std::to_string(made.tick.value) +
-                          (made.direction > 0 ? " forward" : " backward") + "; on record is a step at tick " +
-                          std::to_string(step.edge.tick.value) + (step.edge.direction > 0 ? " forward" : " backward"),
+        return differ(fmt::format("the device steps at tick {} {}; on record is a step at tick {} {}", made.tick.value,
+                                  made.direction > 0 ? "forward" : "backward", step.edge.tick.value,
+                                  step.edge.direction > 0 ? "forward" : "backward"),
                       step.edge.tick, made.tick);
     }
     expected_.pop_front();
@@ -168,8 +170,8 @@ void DeviceReplay::look_at_end() {
     }
     const std::int64_t stands = status->position.count() + count_at_power_up_;
     if (!status->finished || stands != last.device_stop()) {
-        differ("the device comes to count " + std::to_string(stands) + (status->finished ? "" : ", in motion") +
-                   "; on record is " + std::to_string(last.device_stop()),
+        differ(fmt::format("the device comes to count {}{}; on record is {}", stands,
+                           status->finished ? "" : ", in motion", last.device_stop()),
                {}, {});
     }
 }

@@ -1,5 +1,7 @@
 #include "clients/sender/grbl_sender.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 
@@ -161,8 +163,8 @@ void GrblSender::pass_streaming(Time now) {
     output_ += flow_.take();
     if (const Line* line = flow_.too_long(); line != nullptr && flow_.oldest() == nullptr) {
         return stop({.line = line->number,
-                     .text = "the line has " + std::to_string(line->text.size()) +
-                             " bytes, more than the controller's buffer takes; shorten it"},
+                     .text = fmt::format("the line has {} bytes, more than the controller's buffer takes; shorten it",
+                                         line->text.size())},
                     now);
     }
     if (flow_.is_done()) { return enter(Phase::Finishing, now); }

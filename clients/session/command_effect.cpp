@@ -1,5 +1,7 @@
 #include "clients/session/command_effect.hpp"
 
+#include <fmt/format.h>
+
 #include "clients/session/reports.hpp"
 #include "clients/text/format.hpp"
 #include "services/runtime/clock.hpp"
@@ -34,8 +36,8 @@ std::string missing_axes(const Session& session) {
 
 std::string late_text(const Session& session, CommandKind command) {
     if (!session.state()) { return "the machine has not published its state yet; see: lockstep status"; }
-    const std::string still = "the machine is still " + std::string(name_of(session.state()->state.phase)) + " after " +
-                              std::to_string(kPatience.count()) + " s";
+    const std::string still =
+        fmt::format("the machine is still {} after {} s", name_of(session.state()->state.phase), kPatience.count());
     const std::string missing = missing_axes(session);
     if (!missing.empty()) { return still + ": not received: " + missing + "; start it, or see its log"; }
     return still + (command == CommandKind::Reset ? "; see: lockstep status" : "; cease all pulses: lockstep estop");

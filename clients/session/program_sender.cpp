@@ -103,7 +103,7 @@ bool ProgramSender::take_answer(const Reply& reply) {
 void ProgramSender::give_up(const Reply& reply) {
     refusal_ = reply;
     refusal_->status = ReplyStatus::Refused;
-    refusal_->fault = static_cast<std::uint16_t>(FaultCode::ProgramCutShort);
+    refusal_->fault = FaultCode::ProgramCutShort;
     refusal_->text =
         "the coordinator that has taken over lacks a part of the program that was sent before; the machine "
         "runs what it has and rests; then: lockstep run FILE --from-line LINE";

@@ -1,5 +1,7 @@
 #include "clients/session/program_stream.hpp"
 
+#include <fmt/format.h>
+
 #include <iterator>
 #include <utility>
 
@@ -92,7 +94,7 @@ void ProgramStream::feed(ProgramSender& sender, std::chrono::nanoseconds now) {
 }
 
 void ProgramStream::finish(ProgramSender& sender) {
-    if (trouble_) { return sender.cut("line " + std::to_string(trouble_->line) + ": " + trouble_->message); }
+    if (trouble_) { return sender.cut(fmt::format("line {}: {}", trouble_->line, trouble_->message)); }
     const gcode::KeptValues after = gcode_.values();
     sender.end(after == before_ ? std::nullopt : std::optional(after));
 }

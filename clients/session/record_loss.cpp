@@ -1,5 +1,7 @@
 #include "clients/session/record_loss.hpp"
 
+#include <fmt/format.h>
+
 namespace lockstep {
 
 std::uint64_t lost_records(const proto::StatusReport& status) {
@@ -11,7 +13,7 @@ std::uint64_t lost_records(const proto::StatusReport& status) {
 std::string record_loss_text(const proto::StatusReport& status) {
     std::string text;
     const auto add = [&](const std::string& process, std::uint64_t lost) {
-        if (lost > 0) { text += (text.empty() ? "" : ", ") + process + " " + std::to_string(lost); }
+        if (lost > 0) { text += fmt::format("{}{} {}", text.empty() ? "" : ", ", process, lost); }
     };
     add("coordinator", status.lost_records());
     for (const proto::AxisStatus& axis : status.axes()) { add(axis.name(), axis.health().lost_records()); }

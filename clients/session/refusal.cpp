@@ -7,7 +7,7 @@ namespace lockstep {
 ExitCode print_refusal(const Reply& reply, Output& output) {
     proto::CommandReport report;
     report.set_accepted(false);
-    *report.mutable_fault() = fault_report(static_cast<FaultCode>(reply.fault), "");
+    *report.mutable_fault() = fault_report(reply.fault, "");
     report.set_text(reply.text);
     output.report(report);
     if (!output.json()) { output.warn("refused: " + reply.text + "\n" + fault_text(report.fault())); }

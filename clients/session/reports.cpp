@@ -1,5 +1,7 @@
 #include "clients/session/reports.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "clients/session/health_report.hpp"
@@ -35,8 +37,8 @@ void fill(proto::StatusReport& report, const MachineState& state, const MachineC
     if (state.job > 0) { report.set_job(state.job); }
     report.set_feed_override_percent(state.overrides.feed_percent);
     report.set_rapid_override_percent(state.overrides.rapid_percent);
-    if (state.job_fault != 0) {
-        *report.mutable_ended_early() = fault_report(static_cast<FaultCode>(state.job_fault), "");
+    if (state.job_fault != FaultCode::None) {
+        *report.mutable_ended_early() = fault_report(state.job_fault, "");
         report.set_line(state.line);
     }
     if (state.lease) { *report.mutable_writer() = writer_report(state, machine); }
@@ -63,8 +65,8 @@ proto::FaultReport fault_report(FaultCode fault, const std::string& axis) {
 }
 
 std::optional<proto::FaultReport> fault_of(const MachineState& state, const MachineConfig& machine) {
-    if (state.fault == 0) { return std::nullopt; }
-    const auto fault = static_cast<FaultCode>(state.fault);
+    if (state.fault == FaultCode::None) { return std::nullopt; }
+    const auto fault = state.fault;
     const bool has_axis = is_of_an_axis(fault) && state.fault_axis < machine.axes.size();
     return fault_report(fault, has_axis ? machine.axes[state.fault_axis].name : "");
 }
@@ -86,7 +88,7 @@ std::optional<proto::DevicesReport> devices_report(const ProgramDevices& devices
 
 std::string fault_text(const proto::FaultReport& fault, std::size_t width) {
     const std::string axis = fault.has_axis() ? "axis " + fault.axis() + ": " : "";
-    const std::string what = axis + fault.name() + " (" + std::to_string(fault.number()) + "): " + fault.cause();
+    const std::string what = fmt::format("{}{} ({}): {}", axis, fault.name(), fault.number(), fault.cause());
     return wrapped("fault: " + what, width, "       ") + "\n" + wrapped("to do: " + fault.remedy(), width, "       ");
 }
 
@@ -100,10 +102,8 @@ proto::AxisStatus axis_status(const AxisConfig& axis, std::int64_t tick_ns, cons
     status.set_velocity_mm_s(state->velocity.steps_per_tick() * 1e9 / static_cast<double>(tick_ns) / axis.steps_per_mm);
     status.set_state(std::string(name_of(state->phase)));
     status.set_homed(state->homed);
-    if (state->fault != 0) { *status.mutable_fault() = fault_report(static_cast<FaultCode>(state->fault), axis.name); }
-    if (state->unproved != 0) {
-        *status.mutable_unproved() = fault_report(static_cast<FaultCode>(state->unproved), axis.name);
-    }
+    if (state->fault != FaultCode::None) { *status.mutable_fault() = fault_report(state->fault, axis.name); }
+    if (state->unproved != FaultCode::None) { *status.mutable_unproved() = fault_report(state->unproved, axis.name); }
     status.set_at_rest(state->at_rest);
     status.set_following_error_steps(state->following_error_steps);
     status.set_refused_frames(state->refused_frames);

@@ -1,5 +1,7 @@
 #include "clients/session/session.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <random>
 #include <ranges>
@@ -195,8 +197,8 @@ std::vector<PresentProcess> Session::present() const {
 }
 
 std::string Session::place_text() const {
-    return "machine '" + config().name + "' answers on interface " + config().network.interface + ", domain " +
-           std::to_string(config().network.domain);
+    return fmt::format("machine '{}' answers on interface {}, domain {}", config().name, config().network.interface,
+                       config().network.domain);
 }
 
 std::string Session::received_axes() const {

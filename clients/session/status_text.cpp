@@ -1,5 +1,7 @@
 #include "clients/session/status_text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,7 +21,7 @@ int percent(const proto::StatusReport& status) { return static_cast<int>(std::fl
 /// The known values of the job in motion, each part after a separator.
 std::string job_parts(const proto::StatusReport& status, const std::string& separator) {
     std::string text;
-    if (status.has_line()) { text += separator + "line " + std::to_string(status.line()); }
+    if (status.has_line()) { text += fmt::format("{}line {}", separator, status.line()); }
     if (status.waits_for_program()) { text += separator + "waits for more of the program"; }
     if (status.has_remaining_s()) { text += separator + duration_text(status.remaining_s()) + " left"; }
     return text;
@@ -27,8 +29,8 @@ std::string job_parts(const proto::StatusReport& status, const std::string& sepa
 
 std::string headline(const proto::StatusReport& status) {
     std::string text = status.machine() + ": " + (status.phase().empty() ? "unknown" : status.phase());
-    if (status.has_job()) { text += ", job " + std::to_string(status.job()); }
-    if (status.has_progress()) { text += ", " + std::to_string(percent(status)) + " %"; }
+    if (status.has_job()) { text += fmt::format(", job {}", status.job()); }
+    if (status.has_progress()) { text += fmt::format(", {} %", percent(status)); }
     return wrapped(text + job_parts(status, ", ") + " (" + age_text(status) + ")", 80, "  ") + "\n";
 }
 
@@ -79,7 +81,7 @@ std::string count_line(const std::string& label, std::uint64_t coordinator, cons
                        OfAxis of_axis) {
     std::string text;
     const auto add = [&](const std::string& process, std::uint64_t count) {
-        if (count > 0) { text += (text.empty() ? label + ": " : ", ") + process + " " + std::to_string(count); }
+        if (count > 0) { text += fmt::format("{}{} {}", text.empty() ? label + ": " : ", ", process, count); }
     };
     add("coordinator", coordinator);
     for (const proto::AxisStatus& axis : status.axes()) { add(axis.name(), of_axis(axis.health())); }
@@ -104,8 +106,8 @@ std::string writer_line(const proto::StatusReport& status) {
 
 /// A directory is not broken over lines, so that it can be copied.
 std::string incidents_text(const proto::Incidents& incidents) {
-    return std::to_string(incidents.files()) + " incident files, the newest " + incidents.newest() +
-           "\nread them: lockstep analyze --incident " + incidents.directory() + "\n";
+    return fmt::format("{} incident files, the newest {}\nread them: lockstep analyze --incident {}\n",
+                       incidents.files(), incidents.newest(), incidents.directory());
 }
 
 }  // namespace
@@ -128,8 +130,7 @@ std::string status_text(const proto::StatusReport& status) {
     text += clock_line(status) + unproved_lines(status);
     if (status.has_fault()) { text += fault_text(status.fault()) + "\n"; }
     if (status.has_ended_early()) {
-        text += "the last job ended near line " + std::to_string(status.line()) + "\n" +
-                fault_text(status.ended_early()) + "\n";
+        text += fmt::format("the last job ended near line {}\n{}\n", status.line(), fault_text(status.ended_early()));
     }
     for (const proto::AxisStatus& axis : status.axes()) {
         const bool is_printed = status.has_fault() && status.fault().number() == axis.fault().number() &&
@@ -150,8 +151,7 @@ std::string writer_text(const proto::StatusReport& status) {
 std::string overrides_text(const proto::StatusReport& status) {
     const bool as_programmed = status.feed_override_percent() == 100 && status.rapid_override_percent() == 100;
     if (!status.has_feed_override_percent() || as_programmed) { return ""; }
-    return "feed " + std::to_string(status.feed_override_percent()) + " %, rapid " +
-           std::to_string(status.rapid_override_percent()) + " %";
+    return fmt::format("feed {} %, rapid {} %", status.feed_override_percent(), status.rapid_override_percent());
 }
 
 std::string devices_text(const proto::StatusReport& status) {
@@ -163,9 +163,9 @@ std::string devices_text(const proto::StatusReport& status) {
     }
     if (devices.mist()) { add("mist"); }
     if (devices.flood()) { add("flood"); }
-    if (devices.has_tool()) { add("tool " + std::to_string(devices.tool())); }
+    if (devices.has_tool()) { add(fmt::format("tool {}", devices.tool())); }
     if (devices.outputs_size() > 0) { add(devices.outputs_size() == 1 ? "output" : "outputs"); }
-    for (const std::uint32_t output : devices.outputs()) { text += " " + std::to_string(output); }
+    for (const std::uint32_t output : devices.outputs()) { text += fmt::format(" {}", output); }
     return text;
 }
 
@@ -179,7 +179,7 @@ std::string progress_bar(const proto::StatusReport& status) {
 }
 
 std::string progress_text(const proto::StatusReport& status) {
-    const std::string done = status.has_progress() ? ": " + std::to_string(percent(status)) + " %" : "";
+    const std::string done = status.has_progress() ? fmt::format(": {} %", percent(status)) : "";
     return status.phase() + done + job_parts(status, ", ");
 }
 

@@ -1,5 +1,7 @@
 #include "clients/simulation/program_feed.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <utility>
 
@@ -9,7 +11,7 @@ namespace {
 constexpr double kAskAfter_s = 0.1;  // well within ProgramStore::kSenderSilence_s
 
 std::string place_and_text(const std::string& file, const Diagnostic& error) {
-    return file + ":" + std::to_string(error.line) + ":" + std::to_string(error.column) + ": " + error.message;
+    return fmt::format("{}:{}:{}: {}", file, error.line, error.column, error.message);
 }
 
 }  // namespace

@@ -107,11 +107,11 @@ SimulatedStage Simulation::stage_since(Tick tick, double computing_s) const {
 
 SimulationResult Simulation::finish(SimulationResult result) {
     recorder_.finish();
-    if (const auto& state = vm_.state(); state && state->fault != 0) {
-        result.fault = static_cast<FaultCode>(state->fault);
+    if (const auto& state = vm_.state(); state && state->fault != FaultCode::None) {
+        result.fault = state->fault;
         result.fault_axis = state->fault_axis;
-    } else if (feed_ && state && state->job_fault != 0) {
-        result.fault = static_cast<FaultCode>(state->job_fault);
+    } else if (feed_ && state && state->job_fault != FaultCode::None) {
+        result.fault = state->job_fault;
     }
     if (trouble_.empty() && feed_) { trouble_ = feed_->trouble(); }
     if (result.fault != FaultCode::None && trouble_.empty()) {

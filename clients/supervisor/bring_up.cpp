@@ -138,7 +138,7 @@ Failure missing(const Session& session, const OwnParts& parts, const StateDirect
     for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
         const std::string& name = session.config().axes[i].name;
         const auto& axis = session.axis(i);
-        if (axis && axis->state.unproved == static_cast<std::uint16_t>(FaultCode::DeviceMissing)) {
+        if (axis && axis->state.unproved == FaultCode::DeviceMissing) {
             return failed(with_log("axis " + name + " waits for its device", "axis-" + name, state));
         }
     }

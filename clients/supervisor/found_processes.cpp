@@ -1,5 +1,6 @@
 #include "clients/supervisor/found_processes.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -33,7 +34,7 @@ std::vector<pid_t> all_processes() {
 
 bool has_open(pid_t pid, const fs::path& file) {
     std::error_code error;
-    for (const auto& entry : fs::directory_iterator("/proc/" + std::to_string(pid) + "/fd", error)) {
+    for (const auto& entry : fs::directory_iterator(fmt::format("/proc/{}/fd", pid), error)) {
         std::error_code gone;
         if (fs::read_symlink(entry.path(), gone) == file) { return true; }
     }

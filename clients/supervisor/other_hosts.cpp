@@ -1,6 +1,7 @@
 #include "clients/supervisor/other_hosts.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -94,9 +95,9 @@ bool OtherHosts::finish(Output& output, std::size_t lines_where_well) {
         }
         if (is_well) { continue; }
         good = false;
-        output.warn(remote.host + ": lockstep failed on this host with code " +
-                    (ended && WIFEXITED(status) ? std::to_string(WEXITSTATUS(status)) : std::string("unknown")) +
-                    "; does `ssh " + remote.host + " lockstep status` work?");
+        output.warn(fmt::format("{0}: lockstep failed on this host with code {1}; does `ssh {0} lockstep status` work?",
+                                remote.host,
+                                ended && WIFEXITED(status) ? std::to_string(WEXITSTATUS(status)) : "unknown"));
     }
     return good;
 }

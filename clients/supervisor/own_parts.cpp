@@ -1,5 +1,7 @@
 #include "clients/supervisor/own_parts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "clients/session/parts.hpp"
@@ -50,7 +52,7 @@ std::optional<std::string> foreign_part(const MachineConfig& machine, const Plac
     for (const PresentProcess& process : present) {
         if (!is_placed(placed, process) || process.host.empty()) { continue; }
         const std::string part = part_name(machine, process.axis) + " of machine '" + machine.name + "'";
-        const std::string number = "process " + std::to_string(process.pid);
+        const std::string number = fmt::format("process {}", process.pid);
         if (process.host != here) {
             return part + " runs on " + process.host + " (" + number + "), but the machine's file places it here, on " +
                    here + "; end it there: lockstep down; and give all hosts the same file";

@@ -1,5 +1,6 @@
 #include "clients/supervisor/process_record.hpp"
 
+#include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
 
@@ -77,8 +78,7 @@ bool is_damaged(std::string_view text) {
 }
 
 std::optional<std::uint64_t> start_of(pid_t pid) {
-    const std::string id = std::to_string(pid);
-    std::ifstream stat("/proc/" + id + "/task/" + id + "/stat");  // an emulator replaces /proc/ID/stat by its own
+    std::ifstream stat(fmt::format("/proc/{0}/task/{0}/stat", pid));  // an emulator replaces /proc/ID/stat by its own
     std::string text;
     if (!std::getline(stat, text, '\0')) { return std::nullopt; }
     // Field 2 is the name in parentheses, which may contain any character. Field 3 is the state, 22 the start.
@@ -95,7 +95,7 @@ std::optional<std::uint64_t> start_of(pid_t pid) {
 bool is_running(const ProcessRecord& record) { return record.pid > 0 && start_of(record.pid) == record.start; }
 
 std::vector<std::string> command_line_of(pid_t pid) {
-    std::ifstream file("/proc/" + std::to_string(pid) + "/cmdline");
+    std::ifstream file(fmt::format("/proc/{}/cmdline", pid));
     std::vector<std::string> words;
     for (std::string word; std::getline(file, word, '\0');) { words.push_back(word); }
     return words;

@@ -1,6 +1,7 @@
 #include "clients/supervisor/supervisor.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -52,8 +53,8 @@ timespec to_timespec(nanoseconds time) { return {time.count() / 1'000'000'000, t
 }
 
 std::string how(int status) {
-    return WIFEXITED(status) ? "ended with code " + std::to_string(WEXITSTATUS(status))
-                             : "was ended by signal " + std::to_string(WTERMSIG(status));
+    return WIFEXITED(status) ? fmt::format("ended with code {}", WEXITSTATUS(status))
+                             : fmt::format("was ended by signal {}", WTERMSIG(status));
 }
 
 bool is_hopeless(int status) {
@@ -104,7 +105,7 @@ void Supervisor::start(Service& service) {
         return;
     }
     service.process = ProcessRecord{service.line.name, pid, start_of(pid).value_or(0)};
-    log_info("started " + service.line.name + ", process " + std::to_string(pid));
+    log_info("started {}, process {}", service.line.name, pid);
 }
 
 void Supervisor::reap() {
@@ -124,7 +125,7 @@ void Supervisor::ended(Service& service, int status) {
         const ProcessEnd end = WIFSIGNALED(status) ? ProcessEnd::Signal : ProcessEnd::Exit;
         if (const auto delay = service.policy.after_end(monotonic_now(), end)) {
             service.start_at = monotonic_now() + *delay;
-            return log_warning(what + "; starts again in " + std::to_string(delay->count()) + " ms");
+            return log_warning(fmt::format("{}; starts again in {} ms", what, delay->count()));
         }
     }
     log_error(what + "; it is not started again: see " + state_.log_file(service.line.name).string());

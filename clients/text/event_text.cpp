@@ -1,5 +1,7 @@
 #include "clients/text/event_text.hpp"
 
+#include <fmt/format.h>
+
 #include "core/number_text.hpp"
 
 namespace lockstep {
@@ -7,7 +9,6 @@ namespace lockstep {
 std::string event_text(const ProgramEvent& event) {
     using Kind = ProgramEvent::Kind;
     const std::string speed = ", " + number_text(event.value) + " rev/min";
-    const std::string number = std::to_string(event.index);
     switch (event.kind) {
         case Kind::SpindleStop: return "spindle stop";
         case Kind::SpindleForward: return "spindle forward" + speed;
@@ -16,10 +17,11 @@ std::string event_text(const ProgramEvent& event) {
         case Kind::CoolantOff: return "coolant off";
         case Kind::MistOn: return "mist on";
         case Kind::FloodOn: return "flood on";
-        case Kind::OutputOn: return "output " + number + " on";
-        case Kind::OutputOff: return "output " + number + " off";
-        case Kind::AnalogOutput: return "analog output " + number + " to " + number_text(event.value);
-        case Kind::Tool: return event.index == 0 ? "no tool in the spindle" : "tool " + number + " in the spindle";
+        case Kind::OutputOn: return fmt::format("output {} on", event.index);
+        case Kind::OutputOff: return fmt::format("output {} off", event.index);
+        case Kind::AnalogOutput: return fmt::format("analog output {} to {}", event.index, number_text(event.value));
+        case Kind::Tool:
+            return event.index == 0 ? "no tool in the spindle" : fmt::format("tool {} in the spindle", event.index);
     }
     return "unknown";
 }

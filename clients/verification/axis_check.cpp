@@ -1,5 +1,7 @@
 #include "clients/verification/axis_check.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
@@ -14,12 +16,11 @@ namespace {
 constexpr Tick kBeginning{std::numeric_limits<std::int64_t>::min()};
 
 std::string at_tick(const std::optional<Tick>& tick, const char* otherwise) {
-    return tick ? "tick " + std::to_string(tick->value) : otherwise;
+    return tick ? fmt::format("tick {}", tick->value) : otherwise;
 }
 
 std::string text_of(StepEdge step, std::int64_t count) {
-    return std::string(step.direction > 0 ? "forward" : "backward") + " to " + std::to_string(count) + " at tick " +
-           std::to_string(step.tick.value);
+    return fmt::format("{} to {} at tick {}", step.direction > 0 ? "forward" : "backward", count, step.tick.value);
 }
 
 std::string text_of_missing(const LeftSteps& found) {
@@ -52,9 +53,8 @@ void AxisCheck::take(Run run) {
 
 void AxisCheck::runs_missing(std::int64_t from, std::int64_t end) {
     if (!findings_.going()) { return; }
-    const std::string which = end - from == 1
-                                  ? "run " + std::to_string(from) + " is"
-                                  : "runs " + std::to_string(from) + " to " + std::to_string(end - 1) + " are";
+    const std::string which =
+        end - from == 1 ? fmt::format("run {} is", from) : fmt::format("runs {} to {} are", from, end - 1);
     differ("axis " + name_ + ": the record of " + which + " not in the log; the steps up to " +
                at_tick(last_tick_, "its beginning") + " are compared",
            {}, {});
@@ -148,16 +148,16 @@ bool AxisCheck::begin_next_run() {
     const bool follows = last_run_ && last_run_->incarnation == run.incarnation;
     const bool jumps = follows && last_run_->device_stop() != run.device_start();
     if (jumps && std::exchange(device_lost_, false)) {
-        findings_.notes.push_back("axis " + name_ + ": its device was lost after " + name_of(*last_run_) + "; from " +
-                                  name_of(run) + " on another device counts, from " +
-                                  std::to_string(run.device_start()));
+        findings_.notes.push_back(
+            fmt::format("axis {}: its device was lost after {}; from {} on another device counts, from {}", name_,
+                        name_of(*last_run_), name_of(run), run.device_start()));
     } else if (jumps) {
-        differ("axis " + name_ + ": " + name_of(run) + " starts at count " + std::to_string(run.device_start()) +
-                   " of the device, the run before it ended at " + std::to_string(last_run_->device_stop()),
+        differ(fmt::format("axis {}: {} starts at count {} of the device, the run before it ended at {}", name_,
+                           name_of(run), run.device_start(), last_run_->device_stop()),
                {}, run.start);
     } else if (!run.cut && run.to().count() != run.stop_count) {
-        differ("axis " + name_ + ": " + name_of(run) + " is recorded to end at " + std::to_string(run.stop_count) +
-                   ", its pieces end at " + std::to_string(run.to().count()),
+        differ(fmt::format("axis {}: {} is recorded to end at {}, its pieces end at {}", name_, name_of(run),
+                           run.stop_count, run.to().count()),
                {}, run.start);
     } else if (run.epoch == 0 && run.frame <= 1 && !run.tail && !starts_from_rest(run)) {
         differ("axis " + name_ + ": " + name_of(run) + " does not start from rest on a whole step", {}, run.start);
@@ -190,8 +190,8 @@ void AxisCheck::compare(const SeenStep& seen) {
     const std::int64_t count = maker_->count() + expected.direction;
     const std::string step = step_name();
     if (seen.edge.tick != expected.tick) {
-        return differ(step + " is expected at tick " + std::to_string(expected.tick.value) +
-                          ", the log has it at tick " + std::to_string(seen.edge.tick.value),
+        return differ(fmt::format("{} is expected at tick {}, the log has it at tick {}", step, expected.tick.value,
+                                  seen.edge.tick.value),
                       expected.tick, seen.edge.tick);
     }
     if (seen.edge.direction != expected.direction) {
@@ -200,8 +200,7 @@ void AxisCheck::compare(const SeenStep& seen) {
                       expected.tick, seen.edge.tick);
     }
     if (seen.count != count) {
-        return differ(step + " is expected to reach " + std::to_string(count) + ", in the log it reaches " +
-                          std::to_string(seen.count),
+        return differ(fmt::format("{} is expected to reach {}, in the log it reaches {}", step, count, seen.count),
                       expected.tick, seen.edge.tick);
     }
     compare_time(seen, step);
@@ -221,9 +220,9 @@ void AxisCheck::compare_time(const SeenStep& seen, const std::string& step) {
     findings_.latest = std::max(findings_.latest, late);
     findings_.clock_error = std::max(findings_.clock_error, seen.error + run.clock_error);
     if (late <= allowed(seen.error, run.clock_error)) { return; }
-    differ(step + " was made at machine time " + std::to_string(seen.machine.value) + ", commanded for " +
-               std::to_string(maker_->commanded().value) + "; the uncertainty of its clocks was " +
-               plural((seen.error + run.clock_error).value, "tick"),
+    differ(fmt::format("{} was made at machine time {}, commanded for {}; the uncertainty of its clocks was {}", step,
+                       seen.machine.value, maker_->commanded().value,
+                       plural((seen.error + run.clock_error).value, "tick")),
            maker_->commanded(), seen.machine);
 }
 
@@ -258,10 +257,10 @@ void AxisCheck::leave_run() {
     for (; maker_->next() != nullptr && !is_cut_here(nullptr); pass_step(false)) { ++steps; }
     unrecorded_ += steps;
     if (unrecorded_ > StepBatcher::kMaxSteps) { return differ_unrecorded(unrecorded_); }
-    findings_.notes.push_back("axis " + name_ + ": " + plural(steps, "step") + " after " +
-                              at_tick(last_tick_, "the log's beginning") +
-                              " are not on record, its process ended; with " + name_of(maker_->run()) + " it came to " +
-                              std::to_string(maker_->run().stop_count));
+    findings_.notes.push_back(
+        fmt::format("axis {}: {} after {} are not on record, its process ended; with {} it came to {}", name_,
+                    plural(steps, "step"), at_tick(last_tick_, "the log's beginning"), name_of(maker_->run()),
+                    maker_->run().stop_count));
     end_run();
 }
 
@@ -275,9 +274,9 @@ void AxisCheck::leave_steps() {
 }
 
 void AxisCheck::check_left(const std::vector<SeenStep>& left) {
-    const std::string what = "axis " + name_ + ": " + plural(static_cast<std::int64_t>(left.size()), "step") +
-                             " from tick " + std::to_string(left.front().edge.tick.value) +
-                             " on belong to no run on record, its process ended; ";
+    const std::string what =
+        fmt::format("axis {}: {} from tick {} on belong to no run on record, its process ended; ", name_,
+                    plural(static_cast<std::int64_t>(left.size()), "step"), left.front().edge.tick.value);
     const std::vector<Course> courses = planned_(left.front().machine);
     if (courses.empty()) { return findings_.notes.push_back(what + "there is no plan to compare them with"); }
     const LeftSteps found = compare_left(
@@ -295,9 +294,9 @@ void AxisCheck::check_left(const std::vector<SeenStep>& left) {
 void AxisCheck::differ_from_plan(const std::string& what, const SeenStep& seen, const LeftSteps& found) {
     const auto& [run, expected, count] = *found.misfit;
     const auto tick = expected ? std::optional(expected->tick) : std::nullopt;
-    findings_.differ({.text = what + "they are not as planned: after " + std::to_string(found.fit) +
-                              " that are, the log has one " + text_of(seen.edge, seen.count) + ", " + name_of(*run) +
-                              (expected ? " has it " + text_of(*expected, count) : " has no more"),
+    findings_.differ({.text = fmt::format("{}they are not as planned: after {} that are, the log has one {}, {} {}",
+                                          what, found.fit, text_of(seen.edge, seen.count), name_of(*run),
+                                          expected ? "has it " + text_of(*expected, count) : "has no more"),
                       .axis = name_,
                       .tick_expected = tick,
                       .tick_seen = seen.edge.tick,
@@ -326,9 +325,9 @@ void AxisCheck::finish(const HasEnded& has_ended, LogEdges edges) {
     if (findings_.going() && !maker_ && !waiting_.empty() && is_left_at_end(has_ended)) { leave_steps(); }
     if (findings_.going()) { end_of_log(edges); }
     if (findings_.going() && before_log_steps_ > 0) {
-        findings_.notes.push_back("axis " + name_ + ": " + plural(before_log_steps_, "step") + " before tick " +
-                                  std::to_string(runs_from_->second.value) +
-                                  " belong to runs that ended before the log began, and are not compared");
+        findings_.notes.push_back(fmt::format(
+            "axis {}: {} before tick {} belong to runs that ended before the log began, and are not compared", name_,
+            plural(before_log_steps_, "step"), runs_from_->second.value));
     }
     if (findings_.going() && follower_ != nullptr) { follower_->on_end(); }
 }
@@ -349,17 +348,18 @@ void AxisCheck::end_of_log(LogEdges edges) {
         findings_.add_unknown("axis " + name_ + ": no run of it is in the log, which begins later; " +
                               plural(static_cast<std::int64_t>(waiting_.size()), "step") + " cannot be compared");
     } else if (edges.ends_early && !waiting_.empty()) {
-        findings_.add_unknown("axis " + name_ + ": the log ends before the record of the run that " +
-                              plural(static_cast<std::int64_t>(waiting_.size()), "step") + " from tick " +
-                              std::to_string(waiting_.front().edge.tick.value) + " on belong to; " + compared);
+        findings_.add_unknown(fmt::format(
+            "axis {}: the log ends before the record of the run that {} from tick {} on belong to; {}", name_,
+            plural(static_cast<std::int64_t>(waiting_.size()), "step"), waiting_.front().edge.tick.value, compared));
     } else if (maker_) {
         const Tick expected = maker_->next()->tick;
-        differ("axis " + name_ + ": the log has no more steps, though " + name_of(maker_->run()) +
-                   " makes one at tick " + std::to_string(expected.value) + "; " + compared,
+        differ(fmt::format("axis {}: the log has no more steps, though {} makes one at tick {}; {}", name_,
+                           name_of(maker_->run()), expected.value, compared),
                expected, {});
     } else if (!waiting_.empty()) {
-        differ("axis " + name_ + ": " + plural(static_cast<std::int64_t>(waiting_.size()), "step") + " from tick " +
-                   std::to_string(waiting_.front().edge.tick.value) + " on belong to no run in the log; " + compared,
+        differ(fmt::format("axis {}: {} from tick {} on belong to no run in the log; {}", name_,
+                           plural(static_cast<std::int64_t>(waiting_.size()), "step"), waiting_.front().edge.tick.value,
+                           compared),
                {}, waiting_.front().edge.tick);
     }
 }
@@ -371,6 +371,6 @@ void AxisCheck::differ(std::string text, std::optional<Tick> expected, std::opti
     findings_.differ(std::move(found));
 }
 
-std::string AxisCheck::step_name() const { return "axis " + name_ + ": step " + std::to_string(steps_ + 1); }
+std::string AxisCheck::step_name() const { return fmt::format("axis {}: step {}", name_, steps_ + 1); }
 
 }  // namespace lockstep::verification

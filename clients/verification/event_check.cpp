@@ -1,5 +1,7 @@
 #include "clients/verification/event_check.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "services/wire/lcm/translate_lcm.hpp"
@@ -8,16 +10,14 @@ namespace lockstep::verification {
 namespace {
 
 std::string text_of(std::string_view kind, std::int32_t index, double value) {
-    return std::string(kind) + " (index " + std::to_string(index) + ", value " + std::to_string(value) + ")";
+    return fmt::format("{} (index {}, value {:f})", kind, index, value);
 }
 
 std::string text_of(const program_event_t& event) { return text_of(event.kind, event.index, event.value); }
 
 std::string text_of(const ProgramEvent& event) { return text_of(name_of(event.kind), event.index, event.value); }
 
-std::string place_of(std::int32_t line, std::int64_t block) {
-    return "line " + std::to_string(line) + ", block " + std::to_string(block);
-}
+std::string place_of(std::int32_t line, std::int64_t block) { return fmt::format("line {}, block {}", line, block); }
 
 std::string place_of(const program_event_t& event) { return place_of(event.line, event.block); }
 
@@ -82,8 +82,8 @@ bool EventCheck::is_the_same(const program_event_t& recorded, const PathEvent& p
     const ProgramEvent& event = planned.event;
     const bool is_same = recorded.kind == name_of(event.kind) && recorded.index == event.index &&
                          recorded.value == event.value && recorded.line == planned.line;
-    return is_same || differ("the event of " + place_of(planned) + " is recorded as " + text_of(recorded) +
-                                 " of line " + std::to_string(recorded.line) + "; its program has " + text_of(event),
+    return is_same || differ(fmt::format("the event of {} is recorded as {} of line {}; its program has {}",
+                                         place_of(planned), text_of(recorded), recorded.line, text_of(event)),
                              planned.line, {}, Tick{recorded.tick});
 }
 
@@ -97,8 +97,7 @@ bool EventCheck::is_in_time(const program_event_t& recorded, Tick planned) {
         return differ(event + " is recorded at rest; its place is in motion", recorded.line, planned, seen);
     }
     if (static_cast<Epoch>(recorded.epoch) != epoch_) {
-        return differ(event + " is recorded in epoch " + std::to_string(recorded.epoch) + "; planned: epoch " +
-                          std::to_string(epoch_),
+        return differ(fmt::format("{} is recorded in epoch {}; planned: epoch {}", event, recorded.epoch, epoch_),
                       recorded.line, planned, seen);
     }
     return seen == planned || differ(event + " is recorded at another tick than planned", recorded.line, planned, seen);
@@ -110,8 +109,8 @@ bool EventCheck::is_of_rest(const program_event_t& recorded) {
         return differ(event + " is recorded in motion, where the axes rest", recorded.line, {}, Tick{recorded.tick});
     }
     const bool is_later = static_cast<Epoch>(recorded.epoch) >= epoch_ || coordinators_.size() > 1;
-    return is_later || differ(event + " is recorded in epoch " + std::to_string(recorded.epoch) + ", before epoch " +
-                                  std::to_string(epoch_) + ", to which it belongs",
+    return is_later || differ(fmt::format("{} is recorded in epoch {}, before epoch {}, to which it belongs", event,
+                                          recorded.epoch, epoch_),
                               recorded.line, {}, Tick{recorded.tick});
 }
 
@@ -227,7 +226,7 @@ void EventCheck::finish() {
     for (const auto& [whose, events] : waiting_) {
         const auto extra = std::ranges::find_if(events, [](const auto& event) { return event.of_program != 0; });
         if (extra == events.end() || is_heirs(*extra)) { continue; }
-        label_ = "job " + std::to_string(whose.first);
+        label_ = fmt::format("job {}", whose.first);
         (void)differ("an event of " + place_of(*extra) + ", " + text_of(*extra) +
                          ", is recorded, but its job is not in progress",
                      extra->line, {}, Tick{extra->tick});
@@ -239,8 +238,8 @@ void EventCheck::finish() {
 bool EventCheck::differ(const std::string& text, std::int32_t line, std::optional<Tick> expected,
                         std::optional<Tick> seen) {
     std::string commanded = label_;
-    if (line != 0) { commanded += ", line " + std::to_string(line); }
-    if (epoch_ != 0) { commanded += ", epoch " + std::to_string(epoch_); }
+    if (line != 0) { commanded += fmt::format(", line {}", line); }
+    if (epoch_ != 0) { commanded += fmt::format(", epoch {}", epoch_); }
     findings_.differ(
         {.text = text, .axis = {}, .tick_expected = expected, .tick_seen = seen, .commanded = std::move(commanded)});
     return false;

@@ -1,5 +1,7 @@
 #include "clients/verification/job_check.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
 
@@ -16,10 +18,10 @@ PathPlace place_in(const RecordedJob& record) {
 }
 
 std::string text_of(const PathPlace& place) {
-    return "block " + std::to_string(place.block) + ", " + std::to_string(place.along.as_steps()) + " mm along it";
+    return fmt::format("block {}, {:f} mm along it", place.block, place.along.as_steps());
 }
 
-std::string number_of(const RecordedJob& record) { return "job " + std::to_string(record.job); }
+std::string number_of(const RecordedJob& record) { return fmt::format("job {}", record.job); }
 
 std::size_t index_of(const MachineConfig& machine, const std::string& axis) {
     return static_cast<std::size_t>(std::ranges::find(machine.axes, axis, &AxisConfig::name) - machine.axes.begin());
@@ -173,8 +175,9 @@ void JobCheck::turn(const RecordedJob& record) {
     if (!epoch_ || epoch_->replay.epoch() != static_cast<Epoch>(record.epoch)) { return; }  // no axis ran a frame of it
     if (!epoch_->replay.turn(static_cast<FrameNumber>(record.behind_frame),
                              {record.feed_percent, record.rapid_percent})) {
-        differ(job_->label + ": its overrides were changed after frame " + std::to_string(record.behind_frame) +
-               ", but frames after that had been run when it was recorded");
+        differ(fmt::format(
+            "{}: its overrides were changed after frame {}, but frames after that had been run when it was recorded",
+            job_->label, record.behind_frame));
     }
 }
 
@@ -221,7 +224,7 @@ void JobCheck::close_epoch(bool lacks_events) {
 /// Returns true, and notes why, if the axis did not run its last frame and tail to their end.
 bool JobCheck::breaks_off(std::size_t i) {
     const Progress& axis = epoch_->axes[i];
-    const std::string frame = "frame " + std::to_string(axis.ran);
+    const std::string frame = fmt::format("frame {}", axis.ran);
     if (axis.cut) {
         break_off(i, "was stopped early in " + frame);
         return true;
@@ -262,16 +265,15 @@ void JobCheck::finish(bool at_rest, const HasEnded& has_ended) {
     for (; !records_.empty() && findings_.going(); records_.pop_front()) { handle(records_.front()); }
     if (!waiting_.empty()) {
         const auto& [axis, run] = waiting_.front();
-        differ("axis " + axis + ": the log has no record of epoch " + std::to_string(run.epoch) + ", which it ran",
-               axis, &run);
+        differ(fmt::format("axis {}: the log has no record of epoch {}, which it ran", axis, run.epoch), axis, &run);
     }
     if (!job_ && at_rest && !begins_late_) { events_.finish(); }
     if (!job_ || !findings_.going()) { return; }
     if (at_rest) { return leave_job(has_ended); }
     check_events_so_far();
     const auto& last = findings_.last_tick;
-    findings_.add_unknown("the log ends before " + job_->label + " does; the steps up to " +
-                          (last ? "tick " + std::to_string(last->value) : "there") + " are compared");
+    findings_.add_unknown(fmt::format("the log ends before {} does; the steps up to {} are compared", job_->label,
+                                      last ? fmt::format("tick {}", last->value) : "there"));
 }
 
 /// Checks the events of the epoch in progress at the end of the log.
@@ -285,8 +287,9 @@ void JobCheck::check_events_so_far() {
 void JobCheck::note_beginning() {
     const std::string late = "the log begins later than the record";
     if (first_job_) {
-        findings_.notes.push_back(late + ": the result applies from job " + std::to_string(*first_job_) +
-                                  " on; earlier runs are compared only with their own records");
+        findings_.notes.push_back(
+            fmt::format("{}: the result applies from job {} on; earlier runs are compared only with their own records",
+                        late, *first_job_));
     } else if (left_out_ > 0) {
         findings_.add_unknown(late + ", and no job begins in it: runs are compared only with their own records");
     } else {
@@ -425,7 +428,7 @@ std::vector<Course> JobCheck::planned(const std::string& axis, Tick tick) {
 
 /// Returns an empty text if the run follows the axis's previous one.
 std::string JobCheck::out_of_order(const Progress& axis, const Run& run) const {
-    const std::string after = " follows frame " + std::to_string(axis.ran);
+    const std::string after = fmt::format(" follows frame {}", axis.ran);
     if (axis.cut || axis.in_tail) { return after + ", with which the epoch had ended"; }
     const FrameNumber next = run.tail ? axis.ran : axis.ran + 1;
     return run.frame == next && run.frame > 0 ? "" : after;
@@ -438,9 +441,9 @@ std::string JobCheck::commanded(const Run& run, Tick tick) const {
         if (epoch == run.epoch) { text = label + ", "; }
     }
     if (epoch_ && epoch_->replay.epoch() == run.epoch) {
-        text += "line " + std::to_string(job_->replay->line_of(epoch_->replay.block_at(tick + run.ahead))) + ", ";
+        text += fmt::format("line {}, ", job_->replay->line_of(epoch_->replay.block_at(tick + run.ahead)));
     }
-    return text + "epoch " + std::to_string(run.epoch) + ", " + name_of(run);
+    return text + fmt::format("epoch {}, {}", run.epoch, name_of(run));
 }
 
 /// If a program cannot be read any more, its plan proves nothing about the record.

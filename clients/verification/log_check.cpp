@@ -1,5 +1,7 @@
 #include "clients/verification/log_check.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "clients/analysis/analysis_text.hpp"
@@ -81,8 +83,8 @@ void LogCheck::note_beginning(Machine& machine, std::int64_t coordinator, std::i
     machine.jobs.begins_late();
     const auto marked = machine.marked_jobs.find(coordinator);
     if (marked == machine.marked_jobs.end() || sequence <= marked->second) { return; }
-    findings_.differ({.text = std::to_string(sequence - marked->second) +
-                              " messages of jobs are missing from the log before job " + std::to_string(job),
+    findings_.differ({.text = fmt::format("{} messages of jobs are missing from the log before job {}",
+                                          sequence - marked->second, job),
                       .axis = {},
                       .tick_expected = {},
                       .tick_seen = {},
@@ -139,7 +141,7 @@ void LogCheck::on_job(const analysis::RecordedJob& message, analysis::LogPlace p
 
 void LogCheck::on_damage(analysis::LogPlace place, std::string what) {
     if (++damages_ > kDamagesNoted) { return; }
-    findings_.notes.push_back("damaged at byte " + std::to_string(place.offset) + ": " + what);
+    findings_.notes.push_back(fmt::format("damaged at byte {}: {}", place.offset, what));
 }
 
 LogCheck::Machine* LogCheck::machine(const std::string& name, analysis::LogPlace place) {
@@ -219,25 +221,26 @@ Findings LogCheck::finish() {
         machine.finish();
         if (const std::int64_t missing = machine.job_numbers.missing_within(); missing > 0) {
             findings_.notes.push_back(
-                "messages of jobs that are missing from the log: " + std::to_string(missing) +
-                "; they may cause a difference (`lockstep log merge` with the coordinator's own log)");
+                fmt::format("messages of jobs that are missing from the log: {}; they may cause a difference "
+                            "(`lockstep log merge` with the coordinator's own log)",
+                            missing));
         }
     }
     if (!make_follower_) { findings_.end = end_.finish(); }
     for (std::string& line : analysis::open_sentences(findings_.end)) { findings_.notes.push_back(std::move(line)); }
     if (damages_ > kDamagesNoted) {
-        findings_.notes.push_back("and " + std::to_string(damages_ - kDamagesNoted) + " more damaged places");
+        findings_.notes.push_back(fmt::format("and {} more damaged places", damages_ - kDamagesNoted));
     }
     if (findings_.local_runs > 0) {
         findings_.notes.push_back(
-            std::to_string(findings_.local_runs) +
-            " runs of axes on their own (homing, own moves) were compared only with their records");
+            fmt::format("{} runs of axes on their own (homing, own moves) were compared only with their records",
+                        findings_.local_runs));
     }
     if (findings_.clock_error > Ticks{}) {
-        findings_.notes.push_back("the axes knew machine time within " + std::to_string(findings_.clock_error.value) +
-                                  " ticks: every step is at its exact tick by its device's clock, and by machine time "
-                                  "within " +
-                                  std::to_string(findings_.latest.value) + " ticks of the tick planned");
+        findings_.notes.push_back(
+            fmt::format("the axes knew machine time within {} ticks: every step is at its exact tick by its device's "
+                        "clock, and by machine time within {} ticks of the tick planned",
+                        findings_.clock_error.value, findings_.latest.value));
     }
     return std::move(findings_);
 }

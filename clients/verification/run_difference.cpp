@@ -1,5 +1,7 @@
 #include "clients/verification/run_difference.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,13 +9,11 @@ namespace lockstep::verification {
 namespace {
 
 std::string text_of(const Piece& piece) {
-    return std::to_string(piece.ticks.value) + " ticks, velocity " + std::to_string(piece.velocity.raw) +
-           ", acceleration " + std::to_string(piece.acceleration.raw);
+    return fmt::format("{} ticks, velocity {}, acceleration {}", piece.ticks.value, piece.velocity.raw,
+                       piece.acceleration.raw);
 }
 
-std::string text_of(Position position) {
-    return std::to_string(position.count()) + " + " + std::to_string(position.phase()) + " / 2^64";
-}
+std::string text_of(Position position) { return fmt::format("{} + {} / 2^64", position.count(), position.phase()); }
 
 std::string what_differs(const Run& planned, const Run& seen) {
     if (seen.from != planned.from) {
@@ -21,11 +21,9 @@ std::string what_differs(const Run& planned, const Run& seen) {
     }
     const auto [p, s] = std::ranges::mismatch(planned.pieces, seen.pieces);
     if (p == planned.pieces.end() || s == seen.pieces.end()) {
-        return "has " + std::to_string(seen.pieces.size()) + " pieces, planned are " +
-               std::to_string(planned.pieces.size());
+        return fmt::format("has {} pieces, planned are {}", seen.pieces.size(), planned.pieces.size());
     }
-    return "has piece " + std::to_string(p - planned.pieces.begin() + 1) + " of " + text_of(*s) +
-           "; planned: " + text_of(*p);
+    return fmt::format("has piece {} of {}; planned: {}", p - planned.pieces.begin() + 1, text_of(*s), text_of(*p));
 }
 
 void find_step(const Run& planned, const Run& seen, RunDifference& difference) {
@@ -83,8 +81,8 @@ std::optional<std::size_t> misplaced_piece(const Run& planned, const Run& seen) 
 /// Compares the machine times for which the axis took the frame with the planned ones.
 std::optional<RunDifference> compare_commanded(const Run& planned, const Run& seen) {
     if (seen.commanded_start() != planned.start) {
-        return RunDifference{"was executed for a start at tick " + std::to_string(seen.commanded_start().value) +
-                                 " of machine time, planned at tick " + std::to_string(planned.start.value),
+        return RunDifference{fmt::format("was executed for a start at tick {} of machine time, planned at tick {}",
+                                         seen.commanded_start().value, planned.start.value),
                              planned.start, seen.commanded_start()};
     }
     const auto as_long = [](const Piece& piece, Ticks ticks) { return piece.ticks == ticks; };
@@ -98,20 +96,20 @@ std::optional<RunDifference> compare_commanded(const Run& planned, const Run& se
 std::optional<RunDifference> compare_retimed(const Run& planned, const Run& seen, std::optional<Tick> joins) {
     if (auto found = compare_commanded(planned, seen)) { return found; }
     if (joins && seen.start != *joins) {
-        return RunDifference{"starts at tick " + std::to_string(seen.start.value) +
-                                 "; the one before it ends at tick " + std::to_string(joins->value),
-                             joins, seen.start};
+        return RunDifference{
+            fmt::format("starts at tick {}; the one before it ends at tick {}", seen.start.value, joins->value), joins,
+            seen.start};
     }
     const auto length = static_cast<double>(planned.ticks().value);
     const double longer = std::abs(static_cast<double>((seen.ticks() - planned.ticks()).value));
     if (longer > length * kMostStretch + kStretchSlack_ticks) {
-        return RunDifference{"lasts " + std::to_string(seen.ticks().value) + " ticks of its device, planned are " +
-                                 std::to_string(planned.ticks().value),
-                             std::nullopt, seen.start};
+        return RunDifference{
+            fmt::format("lasts {} ticks of its device, planned are {}", seen.ticks().value, planned.ticks().value),
+            std::nullopt, seen.start};
     }
     if (seen.from != planned.from) { return RunDifference{what_differs(planned, seen), std::nullopt, seen.start}; }
     if (const auto piece = misplaced_piece(planned, seen)) {
-        return RunDifference{"is not at its planned place after piece " + std::to_string(*piece), std::nullopt,
+        return RunDifference{fmt::format("is not at its planned place after piece {}", *piece), std::nullopt,
                              seen.start};
     }
     return std::nullopt;
@@ -119,9 +117,9 @@ std::optional<RunDifference> compare_retimed(const Run& planned, const Run& seen
 
 std::optional<RunDifference> compare_runs(const Run& planned, const Run& seen) {
     if (seen.start != planned.start) {
-        return RunDifference{"starts at tick " + std::to_string(seen.start.value) + ", planned at tick " +
-                                 std::to_string(planned.start.value),
-                             planned.start, seen.start};
+        return RunDifference{
+            fmt::format("starts at tick {}, planned at tick {}", seen.start.value, planned.start.value), planned.start,
+            seen.start};
     }
     if (seen.from == planned.from && seen.pieces == planned.pieces) { return std::nullopt; }
     RunDifference difference{what_differs(planned, seen), {}, {}};

@@ -5,6 +5,7 @@
 #include <optional>
 #include <thread>
 
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include "clients/supervisor/machine_choice.hpp"
@@ -58,8 +59,8 @@ std::expected<web::TlsFiles, Failure> read_tls(const WebConfig& web) {
 
 std::string address_text(const WebConfig& web, const Listener& listener) {
     const bool is_six = web.address.contains(':');
-    return (web.certificate_file.empty() ? "http://" : "https://") + (is_six ? "[" + web.address + "]" : web.address) +
-           ":" + std::to_string(listener.port) + "/";
+    return fmt::format("{}://{}:{}/", web.certificate_file.empty() ? "http" : "https",
+                       is_six ? "[" + web.address + "]" : web.address, listener.port);
 }
 
 web::AccessRules rules_of(const WebConfig& web, const Listener& listener, const web::Tokens& tokens) {

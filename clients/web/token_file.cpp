@@ -1,5 +1,6 @@
 #include "clients/web/token_file.hpp"
 
+#include <fmt/format.h>
 #include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -37,9 +38,10 @@ std::expected<Tokens, std::string> read_file(const std::filesystem::path& file) 
         tokens.operate != tokens.view) {
         return tokens;
     }
-    return std::unexpected(file.string() +
-                           ": it needs two lines, 'operate TOKEN' and 'view TOKEN', with two tokens of " +
-                           std::to_string(kShortestToken) + " characters or more; or remove it: a new one is made");
+    return std::unexpected(fmt::format(
+        "{}: it needs two lines, 'operate TOKEN' and 'view TOKEN', with two tokens of {} characters or more; "
+        "or remove it: a new one is made",
+        file.string(), kShortestToken));
 }
 
 std::expected<Tokens, std::string> make_file(const std::filesystem::path& file) {

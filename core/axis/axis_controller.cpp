@@ -211,19 +211,19 @@ AxisState AxisController::state(const AxisLoop& loop, Ticks clock_error) const {
             .at_rest = at_rest(),  // the device may still finish a run that another process began
             .homed = homed(),
             .phase = phase(),
-            .fault = static_cast<std::uint16_t>(condition_.phases.fault()),
+            .fault = condition_.phases.fault(),
             .position = condition_.position.in_machine(device.position),
             .velocity = device.velocity,
             .tick = device.now,
             .following_error_steps = condition_.position.following_error(device),
             .command_done = condition_.orders.done(),
-            .command_fault = static_cast<std::uint16_t>(condition_.orders.fault()),
+            .command_fault = condition_.orders.fault(),
             .config_hash = config_hash_,
             .refused_frames = following_.refused_frames(),
             .clock_error = clock_error,
             .term = owner_.term(),
             .hears_owner = owner_.receives_owner(loop.slot),
-            .unproved = static_cast<std::uint16_t>(condition_.position.unproved())};
+            .unproved = condition_.position.unproved()};
 }
 
 }  // namespace lockstep

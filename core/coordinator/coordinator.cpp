@@ -144,10 +144,10 @@ void Coordinator::watch_axis(std::size_t axis, CoordinatorLoop& loop) {
     if (!state) { return; }
     if (!axes_.is_present(axis, loop.slot)) { return lose_axis(axis, loop); }
     if (state->config_hash != config_hash_) { return jobs_.fail(FaultCode::ConfigMismatch, axis, loop); }
-    if (state->fault != 0) {
+    if (state->fault != FaultCode::None) {
         const bool is_being_homed = condition_.phase() == MachinePhase::Homing && !loop.is_order_done(axis);
         if (is_being_homed || orders_.is_open(axis, AxisCommandKind::Reset, axes_)) { return; }
-        return jobs_.fail(static_cast<FaultCode>(state->fault), axis, loop);
+        return jobs_.fail(state->fault, axis, loop);
     }
     if (jobs_.is_on_path() && axes_.is_uncertain(axis, machine_.clock_error_limit())) {
         jobs_.fail(FaultCode::ClockUncertain, axis, loop);
@@ -251,7 +251,7 @@ void Coordinator::report(CoordinatorLoop& loop) const {
              .stamp = loop.slot,
              .tick = loop.now,
              .phase = condition_.phase(),
-             .fault = static_cast<std::uint16_t>(condition_.fault()),
+             .fault = condition_.fault(),
              .fault_axis = static_cast<std::uint32_t>(condition_.fault_axis()),
              .axes_present = axes_.present(loop.slot),
              .config_hash = config_hash_,

@@ -5,10 +5,9 @@
 namespace lockstep {
 
 Reply reply_to(const Command& command, const CommandResult& result, std::uint64_t job) {
-    if (result) { return {command.client, command.sequence, ReplyStatus::Accepted, 0, job, {}}; }
+    if (result) { return {command.client, command.sequence, ReplyStatus::Accepted, FaultCode::None, job, {}}; }
     const Refusal& refusal = result.error();
-    return {command.client, command.sequence, ReplyStatus::Refused, static_cast<std::uint16_t>(refusal.why), 0,
-            refusal.text};
+    return {command.client, command.sequence, ReplyStatus::Refused, refusal.why, 0, refusal.text};
 }
 
 Reply reply_of_new_owner(const Command& command) {

@@ -56,8 +56,7 @@ void AxisFlight::take(const AxisInputs& in, const AxisOutputs& out) {
 void AxisFlight::receive(const AxisInputs& in) {
     for (const AxisState& peer : in.peers) {
         if (peer.axis >= axes_.size() || peer.axis == axis_) { continue; }
-        axes_[peer.axis].receive(in.now, {peer.identity, static_cast<FaultCode>(peer.fault), peer.epoch, peer.veto},
-                                 log_);
+        axes_[peer.axis].receive(in.now, {peer.identity, peer.fault, peer.epoch, peer.veto}, log_);
     }
     for (const MachineState& state : in.coordinator) {
         if (state.phase != MachinePhase::Standby) { receive_owner(in.now, state); }
@@ -73,7 +72,7 @@ void AxisFlight::receive(const AxisInputs& in) {
 }
 
 void AxisFlight::receive_owner(Tick now, const MachineState& state) {
-    owner_.receive(now, {state.term.coordinator, static_cast<FaultCode>(state.fault), state.epoch, state.veto}, log_);
+    owner_.receive(now, {state.term.coordinator, state.fault, state.epoch, state.veto}, log_);
     if (machine_phase_ == state.phase) { return; }
     machine_phase_ = state.phase;
     log_.add({.tick = now,
@@ -154,7 +153,7 @@ void AxisFlight::note_state(Tick now, const AxisState& state) {
     log_.add({.tick = state.tick,
               .kind = is_new_phase ? FlightKind::Phase : FlightKind::State,
               .detail = static_cast<std::uint8_t>(state.phase),
-              .fault = static_cast<FaultCode>(state.fault),
+              .fault = state.fault,
               .epoch = state.epoch,
               .frame = state.ran,
               .count = state.position.count(),

@@ -45,7 +45,7 @@ void CoordinatorFlight::take(const CoordinatorInputs& in, const CoordinatorOutpu
     for (const JobEvent& job : out.jobs) { take_job(in.now, job); }
     for (const Reply& reply : out.replies) {
         if (reply.status != ReplyStatus::Refused) { continue; }
-        log_.add({.tick = in.now, .kind = FlightKind::CommandRefused, .fault = static_cast<FaultCode>(reply.fault)});
+        log_.add({.tick = in.now, .kind = FlightKind::CommandRefused, .fault = reply.fault});
     }
     send(in.now, out);
     if (out.state) { note_state(in.now, *out.state); }
@@ -54,14 +54,12 @@ void CoordinatorFlight::take(const CoordinatorInputs& in, const CoordinatorOutpu
 void CoordinatorFlight::receive(const CoordinatorInputs& in) {
     for (const AxisState& axis : in.axes) {
         if (axis.axis >= axes_.size()) { continue; }
-        axes_[axis.axis].receive(in.now, {axis.identity, static_cast<FaultCode>(axis.fault), axis.epoch, axis.veto},
-                                 log_);
+        axes_[axis.axis].receive(in.now, {axis.identity, axis.fault, axis.epoch, axis.veto}, log_);
     }
     for (const MachineState& other : in.others) {
         if (other.phase == MachinePhase::Standby) { continue; }
         knew_owner_ = true;
-        other_owner_.receive(in.now, {other.term.coordinator, static_cast<FaultCode>(other.fault), other.epoch, {}},
-                             log_);
+        other_owner_.receive(in.now, {other.term.coordinator, other.fault, other.epoch, {}}, log_);
     }
     for (const Command& command : in.commands) {  // a client repeats its command until it is answered
         if (command.client == client_ && command.sequence == command_) { continue; }
@@ -135,7 +133,7 @@ void CoordinatorFlight::note_state(Tick now, const MachineState& state) {
     log_.add({.tick = now,
               .kind = is_new_phase ? FlightKind::Phase : FlightKind::State,
               .detail = static_cast<std::uint8_t>(state.phase),
-              .fault = static_cast<FaultCode>(state.fault),
+              .fault = state.fault,
               .epoch = state.epoch,
               .frame = state.sent,
               .count = state.line});

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/axis_set.hpp"
+#include "core/faults.hpp"
 #include "core/overrides.hpp"
 #include "core/path_place.hpp"
 #include "core/program.hpp"
@@ -85,19 +86,19 @@ struct AxisState {
     bool at_rest = true;
     bool homed = false;
     AxisPhase phase = AxisPhase::Initialize;
-    std::uint16_t fault = 0;  // FaultCode; 0: none
-    Position position;        // machine coordinates, by its pulses
+    FaultCode fault = FaultCode::None;
+    Position position;  // machine coordinates, by its pulses
     Velocity velocity;
-    Tick tick;                               // when position and velocity were read
-    std::int64_t following_error_steps = 0;  // encoder minus count, since it was homed
-    std::uint64_t command_done = 0;          // the newest AxisCommand carried out or refused
-    std::uint16_t command_fault = 0;         // why it was refused; 0: it was carried out
-    std::uint64_t config_hash = 0;           // of the configuration it runs with
-    std::uint64_t refused_frames = 0;        // since start
-    Ticks clock_error;                       // bound on the error of its machine time
-    Term term;                               // of the owner it follows; never lower than before
-    bool hears_owner = false;                // it received its owner within silence_slots
-    std::uint16_t unproved = 0;  // FaultCode: why it did not know its position at its start; 0: it knows it now
+    Tick tick;                                  // when position and velocity were read
+    std::int64_t following_error_steps = 0;     // encoder minus count, since it was homed
+    std::uint64_t command_done = 0;             // the newest AxisCommand carried out or refused
+    FaultCode command_fault = FaultCode::None;  // why it was refused; 0: it was carried out
+    std::uint64_t config_hash = 0;              // of the configuration it runs with
+    std::uint64_t refused_frames = 0;           // since start
+    Ticks clock_error;                          // bound on the error of its machine time
+    Term term;                                  // of the owner it follows; never lower than before
+    bool hears_owner = false;                   // it received its owner within silence_slots
+    FaultCode unproved = FaultCode::None;       // why it did not know its position at its start; 0: it knows it now
     bool operator==(const AxisState&) const = default;
 };
 
@@ -182,18 +183,18 @@ struct MachineState {
     Slot stamp = 0;
     Tick tick;
     MachinePhase phase = MachinePhase::Waiting;
-    std::uint16_t fault = 0;
+    FaultCode fault = FaultCode::None;
     std::uint32_t fault_axis = 0;  // meaningful if `fault` is not 0 and names an axis
     Epoch epoch = 0;
-    FrameNumber sent = 0;               // the highest frame sent
-    std::optional<FrameNumber> veto;    // the coordinator's own, of this epoch
-    std::uint64_t job = 0;              // number of the newest job, done or in progress
-    std::optional<JobOutcome> outcome;  // of that job; empty while it is in progress
-    Term job_begun;                     // the term in which it began; another owner may have continued it
-    std::int32_t line = 0;              // the G-code line now in motion, or the line at which a job ended early
-    std::uint16_t job_fault = 0;        // FaultCode: why the program of the last job ended early; 0: it did not
-    bool lacks_blocks = false;          // the machine waits for more of the program
-    double progress = 0;                // 0 ... 1 of the job's planned time
+    FrameNumber sent = 0;                   // the highest frame sent
+    std::optional<FrameNumber> veto;        // the coordinator's own, of this epoch
+    std::uint64_t job = 0;                  // number of the newest job, done or in progress
+    std::optional<JobOutcome> outcome;      // of that job; empty while it is in progress
+    Term job_begun;                         // the term in which it began; another owner may have continued it
+    std::int32_t line = 0;                  // the G-code line now in motion, or the line at which a job ended early
+    FaultCode job_fault = FaultCode::None;  // why the program of the last job ended early; 0: it did not
+    bool lacks_blocks = false;              // the machine waits for more of the program
+    double progress = 0;                    // 0 ... 1 of the job's planned time
     double remaining_s = 0;
     Overrides overrides;       // for what is planned from now on
     AxisSet axes_present = 0;  // the axes that the coordinator receives
@@ -306,9 +307,9 @@ struct Reply {
     Identity client = 0;
     std::uint64_t sequence = 0;
     ReplyStatus status = ReplyStatus::Accepted;
-    std::uint16_t fault = 0;  // FaultCode of a refusal
-    std::uint64_t job = 0;    // the job that a command began; for a jog's renewal: 0 when the jog is over
-    std::string text;         // what, where, the limit and the remedy, for a person
+    FaultCode fault = FaultCode::None;  // of a refusal
+    std::uint64_t job = 0;              // the job that a command began; for a jog's renewal: 0 when the jog is over
+    std::string text;                   // what, where, the limit and the remedy, for a person
     // To a ProgramChunk:
     std::uint32_t parts = 0;        // of its program, taken so far; the client does not send these again
     std::uint64_t free_blocks = 0;  // how many more blocks the coordinator takes now

@@ -1,5 +1,7 @@
 #include "services/axis/axis_service.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <iostream>
@@ -189,7 +191,7 @@ private:
         const std::uint64_t refused = network_.refused();
         if (refused != refused_) {
             refused_ = refused;
-            log_warning(std::to_string(refused) + " messages refused so far: " + network_.refusals());
+            log_warning(fmt::format("{} messages refused so far: {}", refused, network_.refusals()));
         }
         if (!has_device_) { report_missing_device(); }
         if (!node_.knows_time()) { log_info("waits for the coordinator's clock"); }
@@ -201,9 +203,10 @@ private:
 
     void end_if_coordinator_clock_restarted() {
         if (!node_.must_restart()) { return; }
-        end_reason_ = "the coordinator's clock went back by " +
-                      std::to_string(node_.clock_error().value * setup_.machine.tick_ns / 1'000'000'000) +
-                      " s; its host may have restarted. Restart axis " + own_name() + ", so that it uses the new time";
+        end_reason_ = fmt::format(
+            "the coordinator's clock went back by {} s; its host may have restarted. Restart axis {}, so that it uses "
+            "the new time",
+            node_.clock_error().value * setup_.machine.tick_ns / 1'000'000'000, own_name());
     }
 
     const std::string& own_name() const { return setup_.machine.axes[setup_.axis].name; }
@@ -266,8 +269,8 @@ int run(const AxisServiceOptions& options, const MachineConfig& machine, std::si
     watchdog.reset();
     manager.stopping();
     service.finish();
-    log_info("ends; " + std::to_string(periodic.skipped_periods()) + " loops skipped, the latest " +
-             std::to_string(periodic.worst_lateness().count() / 1000) + " us late");
+    log_info("ends; {} loops skipped, the latest {} us late", periodic.skipped_periods(),
+             periodic.worst_lateness().count() / 1000);
     return service.end_reason().empty() ? kServiceDone : fail(service.end_reason());
 }
 

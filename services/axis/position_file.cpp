@@ -1,5 +1,6 @@
 #include "services/axis/position_file.hpp"
 
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -20,12 +21,11 @@ ReadPosition unreadable(const std::filesystem::path& path, const std::string& wh
 std::string refusal_of(const struct stat& file) {
     if (!S_ISREG(file.st_mode)) { return "this is not a regular file; remove it"; }
     if (file.st_uid != geteuid() && file.st_uid != 0) {
-        return "it belongs to user " + std::to_string(file.st_uid) + "; remove it";
+        return fmt::format("it belongs to user {}; remove it", file.st_uid);
     }
     if ((file.st_mode & (S_IWGRP | S_IWOTH)) != 0) { return "others may write it; chmod go-w, or remove it"; }
     if (file.st_size > kMostBytes) {
-        return "it has " + std::to_string(file.st_size) + " bytes, at most " + std::to_string(kMostBytes) +
-               " are read; remove it";
+        return fmt::format("it has {} bytes, at most {} are read; remove it", file.st_size, kMostBytes);
     }
     return {};
 }

@@ -1,5 +1,7 @@
 #include "services/coordinator/coordinator_service.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -194,31 +196,34 @@ private:
             case Kind::AxisGone:
                 return log_event(spdlog::level::warn, notice.fault,
                                  "axis " + axis_name(notice.number) + " fell silent");
-            case Kind::Claimed: return log_info("owns the machine, term " + std::to_string(notice.number));
+            case Kind::Claimed: return log_info("owns the machine, term {}", notice.number);
             case Kind::StoodDown:
-                return log_warning("gives up the machine: another coordinator owns it, term " +
-                                   std::to_string(notice.number));
+                return log_warning(
+                    fmt::format("gives up the machine: another coordinator owns it, term {}", notice.number));
             case Kind::JobCutShort:
-                return log_warning("the previous coordinator's job ended early near line " +
-                                   std::to_string(notice.number) + ": " + std::string(text_of(notice.doubt)) +
-                                   "; the axes rest; go on: lockstep run FILE --from-line " +
-                                   std::to_string(notice.number));
+                return log_warning(fmt::format(
+                    "the previous coordinator's job ended early near line {0}: {1}; the axes rest; go on: lockstep run "
+                    "FILE --from-line {0}",
+                    notice.number, text_of(notice.doubt)));
             case Kind::JobContinued:
-                return log_info("continues the previous coordinator's job near line " + std::to_string(notice.number));
+                return log_info("continues the previous coordinator's job near line {}", notice.number);
             case Kind::ProgramLate:
-                return log_warning("the axes rest on the path after frame " + std::to_string(notice.number) +
-                                   ": no more of the program has arrived; the job continues when it does");
+                return log_warning(fmt::format(
+                    "the axes rest on the path after frame {}: no more of the program has arrived; the job continues "
+                    "when it does",
+                    notice.number));
             case Kind::ProgramCut:
-                return log_event(spdlog::level::warn, notice.fault,
-                                 "the job ended near line " + std::to_string(notice.number) +
-                                     ", at the end of the blocks received; the axes rest; continue: lockstep run FILE "
-                                     "--from-line " +
-                                     std::to_string(notice.number));
+                return log_event(
+                    spdlog::level::warn, notice.fault,
+                    fmt::format("the job ended near line {0}, at the end of the blocks received; the axes rest; "
+                                "continue: lockstep run FILE --from-line {0}",
+                                notice.number));
             case Kind::EpochBegun: return log_info("epoch {} begun", notice.number);
             case Kind::Interrupted:
-                return log_event(spdlog::level::warn, notice.fault,
-                                 "the axes came to rest together after frame " + std::to_string(notice.number) +
-                                     ", on the path; goes on from there");
+                return log_event(
+                    spdlog::level::warn, notice.fault,
+                    fmt::format("the axes came to rest together after frame {}, on the path; goes on from there",
+                                notice.number));
             case Kind::Fault: {
                 const FaultText* text = find_fault(notice.fault);
                 return log_event(spdlog::level::err, notice.fault,
@@ -260,7 +265,7 @@ private:
         const std::uint64_t refused = network_.refused();
         if (refused != refused_) {
             refused_ = refused;
-            log_warning(std::to_string(refused) + " messages refused so far: " + network_.refusals());
+            log_warning(fmt::format("{} messages refused so far: {}", refused, network_.refusals()));
         }
     }
 
@@ -341,8 +346,8 @@ int run(const CoordinatorServiceOptions& options, const MachineConfig& machine, 
     watchdog.reset();
     manager.stopping();
     service.finish();
-    log_info("ends; " + std::to_string(periodic.skipped_periods()) + " loops skipped, the latest " +
-             std::to_string(periodic.worst_lateness().count() / 1000) + " us late");
+    log_info("ends; {} loops skipped, the latest {} us late", periodic.skipped_periods(),
+             periodic.worst_lateness().count() / 1000);
     if (alone) { return kServiceDone; }
     log_event(spdlog::level::err, FaultCode::SecondCoordinator,
               "another coordinator runs machine " + machine.name + "; stop one of them");

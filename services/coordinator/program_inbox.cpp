@@ -1,5 +1,7 @@
 #include "services/coordinator/program_inbox.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -15,7 +17,7 @@ Reply reply_to(const ProgramChunk& chunk, const CommandResult& accepted) {
         return reply;
     }
     reply.status = ReplyStatus::Refused;
-    reply.fault = static_cast<std::uint16_t>(accepted.error().why);
+    reply.fault = accepted.error().why;
     reply.text = accepted.error().text;
     return reply;
 }
@@ -34,8 +36,7 @@ const ProgramInbox::Known* ProgramInbox::find(const ProgramChunk& chunk) const {
 
 std::expected<ProgramPart, Reply> ProgramInbox::read(const ProgramChunk& chunk) {
     if (chunk.count != 0 && chunk.index >= chunk.count) {
-        return refuse(chunk, "chunk " + std::to_string(chunk.index) + " of " + std::to_string(chunk.count) +
-                                 ": chunks are numbered from 0");
+        return refuse(chunk, fmt::format("chunk {} of {}: chunks are numbered from 0", chunk.index, chunk.count));
     }
     const Known* known = find(chunk);
     if (known != nullptr && (known->is_edit || !known->accepted)) {

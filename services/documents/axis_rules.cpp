@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -44,13 +46,14 @@ public:
 
 private:
     void check_name() {
-        problems_.require(is_axis_name(axis_.name), "name",
-                          "name is \"" + axis_.name + "\"; a letter, then letters, digits and _, at most " +
-                              std::to_string(kMaxAxisName));
+        problems_.require(
+            is_axis_name(axis_.name), "name",
+            fmt::format("name is \"{}\"; a letter, then letters, digits and _, at most {}", axis_.name, kMaxAxisName));
         for (std::size_t other = 0; other < index_; ++other) {
-            problems_.require(!same_name(axis_.name, machine_.axes[other].name), "name",
-                              "the name is taken by axis " + std::to_string(other + 1) + ", " +
-                                  machine_.axes[other].name + "; names must differ in more than upper and lower case");
+            problems_.require(
+                !same_name(axis_.name, machine_.axes[other].name), "name",
+                fmt::format("the name is taken by axis {}, {}; names must differ in more than upper and lower case",
+                            other + 1, machine_.axes[other].name));
         }
     }
 

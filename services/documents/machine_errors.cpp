@@ -1,5 +1,7 @@
 #include "services/documents/machine_errors.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 #include <tuple>
@@ -19,7 +21,7 @@ struct Text {
 
     TextSource::Place place_of(const Problem& problem) const {
         const auto& [axis, key] = problem.field;
-        const std::string parent = axis ? block + "axis[" + std::to_string(*axis) + "]" : block;
+        const std::string parent = axis ? fmt::format("{}axis[{}]", block, *axis) : block;
         const bool needs_point = axis && !key.empty();
         return source.place_of(document, parent + (needs_point ? "." : "") + key);
     }

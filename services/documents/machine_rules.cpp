@@ -1,5 +1,7 @@
 #include "services/documents/machine_rules.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/coordinator/path/lai_path.hpp"
@@ -21,10 +23,10 @@ constexpr std::size_t kMaxPeers = 64;
 void check_timing(const MachineConfig& machine, ProblemList& problems) {
     const ProtocolTiming& t = machine.timing;
     problems.require_range("timing.slot_us", static_cast<double>(t.slot_us), 500, 1e6);
-    problems.require_between({"timing.slot_us", "tick_ns"},
-                             machine.tick_ns == 0 || Int128{t.slot_us} * 1000 % machine.tick_ns == 0,
-                             "timing.slot_us is " + std::to_string(t.slot_us) + ", not a whole number of ticks of " +
-                                 std::to_string(machine.tick_ns) + " ns; choose another slot or tick_ns");
+    problems.require_between(
+        {"timing.slot_us", "tick_ns"}, machine.tick_ns == 0 || Int128{t.slot_us} * 1000 % machine.tick_ns == 0,
+        fmt::format("timing.slot_us is {}, not a whole number of ticks of {} ns; choose another slot or tick_ns",
+                    t.slot_us, machine.tick_ns));
     problems.require_range("timing.stall_slots", t.stall_slots, 1, kMaxStallSlots);
     problems.require_range("timing.freshness_slots", t.freshness_slots, 1, kMaxStallSlots + 50);
     problems.require_range("timing.send_ahead_slots", t.send_ahead_slots, 1, kMaxSlots);
@@ -36,23 +38,22 @@ void check_timing(const MachineConfig& machine, ProblemList& problems) {
 void check_protocol(const ProtocolTiming& t, ProblemList& problems) {
     const auto require = [&](std::string_view key, int value, int least, const std::string& rule) {
         problems.require_between({key, "timing.stall_slots", "timing.freshness_slots"}, value >= least,
-                                 std::string(key) + " is " + std::to_string(value) + "; at least " +
-                                     std::to_string(least) + " (" + rule + ")");
+                                 fmt::format("{} is {}; at least {} ({})", key, value, least, rule));
     };
     const int s = t.stall_slots;
     const int m = t.freshness_slots;
     require("timing.freshness_slots", m, RULE_LEAST_FRESHNESS(s), "stall_slots + 1");
     problems.require_between({"timing.late_check_slots", "timing.stall_slots"},
                              t.late_check_slots >= 0 && t.late_check_slots <= s,
-                             "timing.late_check_slots is " + std::to_string(t.late_check_slots) +
-                                 "; 0 to stall_slots, " + std::to_string(s));
+                             fmt::format("timing.late_check_slots is {}; 0 to stall_slots, {}", t.late_check_slots, s));
     require("timing.send_ahead_slots", t.send_ahead_slots, RULE_LEAST_SEND_AHEAD(t.check_slots(), m, s),
             "freshness_slots + stall_slots + late_check_slots + 8");
     const int least = t.send_ahead_slots > 0 && t.send_ahead_slots <= kMaxSlots ? least_frame_slots(t) : 1;
-    problems.require_between({"timing.frame_slots", "timing.send_ahead_slots"}, t.frame_slots >= least,
-                             "timing.frame_slots is " + std::to_string(t.frame_slots) + "; at least " +
-                                 std::to_string(least) + ", so that a device has room for all frames that are sent " +
-                                 std::to_string(t.send_ahead_slots) + " slots ahead (send_ahead_slots)");
+    problems.require_between(
+        {"timing.frame_slots", "timing.send_ahead_slots"}, t.frame_slots >= least,
+        fmt::format("timing.frame_slots is {}; at least {}, so that a device has room for all frames that are "
+                    "sent {} slots ahead (send_ahead_slots)",
+                    t.frame_slots, least, t.send_ahead_slots));
 }
 
 /// Checks the limit of the clock error. In the setpoint protocol a hop must cover twice this error and the network's
@@ -60,10 +61,12 @@ void check_protocol(const ProtocolTiming& t, ProblemList& problems) {
 void check_clocks(const ProtocolTiming& t, ProblemList& problems) {
     if (t.time_source == TimeSource::Shared) { return; }
     const std::int64_t most = t.most_clock_error_us();
-    problems.require_between({"timing.clock_error_limit_us", "timing.slot_us"},
-                             t.clock_error_limit_us >= 1 && t.clock_error_limit_us <= most,
-                             "timing.clock_error_limit_us is " + std::to_string(t.clock_error_limit_us) + "; 1 to " +
-                                 std::to_string(most) + " (a quarter of slot_us); lengthen the slot, or lower it");
+    problems.require_between(
+        {"timing.clock_error_limit_us", "timing.slot_us"},
+        t.clock_error_limit_us >= 1 && t.clock_error_limit_us <= most,
+        fmt::format("timing.clock_error_limit_us is {}; 1 to {} (a quarter of slot_us); lengthen the slot, or "
+                    "lower it",
+                    t.clock_error_limit_us, most));
 }
 
 bool is_interface_name(std::string_view name) {
@@ -81,9 +84,8 @@ bool is_lcm_url(std::string_view url) {
 }
 
 void check_peers(const std::vector<std::string>& peers, ProblemList& problems) {
-    problems.require(
-        peers.size() <= kMaxPeers, "network",
-        "network.peers has " + std::to_string(peers.size()) + " hosts; at most " + std::to_string(kMaxPeers));
+    problems.require(peers.size() <= kMaxPeers, "network",
+                     fmt::format("network.peers has {} hosts; at most {}", peers.size(), kMaxPeers));
     for (const std::string& peer : peers) {
         problems.require(
             is_host_name(peer), "network",
@@ -117,8 +119,7 @@ void check_real_time(const RealTimeConfig& real_time, ProblemList& problems) {
     problems.require_range("real_time.priority", real_time.priority, 0, 99);
     for (const int cpu : real_time.cpus) {
         problems.require(cpu >= 0 && cpu <= kMaxCpu, "real_time",
-                         "real_time.cpus has " + std::to_string(cpu) + "; processors are numbered from 0 to " +
-                             std::to_string(kMaxCpu));
+                         fmt::format("real_time.cpus has {}; processors are numbered from 0 to {}", cpu, kMaxCpu));
     }
 }
 
@@ -164,8 +165,8 @@ void check_hosts(const MachineConfig& machine, ProblemList& problems) {
 std::vector<Problem> machine_problems(const MachineConfig& machine) {
     ProblemList problems;
     problems.require(is_machine_name(machine.name), "name",
-                     "name is \"" + machine.name + "\"; a letter, then letters, digits, _ and -, at most " +
-                         std::to_string(kMaxMachineName));
+                     fmt::format("name is \"{}\"; a letter, then letters, digits, _ and -, at most {}", machine.name,
+                                 kMaxMachineName));
     problems.require_range("tick_ns", static_cast<double>(machine.tick_ns), 100, 1e6);
     check_timing(machine, problems);
     check_protocol(machine.timing, problems);
@@ -179,8 +180,8 @@ std::vector<Problem> machine_problems(const MachineConfig& machine) {
     if (machine.web) { check_web(*machine.web, problems); }
     check_hosts(machine, problems);
     problems.require(!machine.axes.empty() && machine.axes.size() <= kMaxAxes, "",
-                     "the machine has " + std::to_string(machine.axes.size()) +
-                         " axes; write one axis { ... } for each, 1 to " + std::to_string(kMaxAxes));
+                     fmt::format("the machine has {} axes; write one axis {{ ... }} for each, 1 to {}",
+                                 machine.axes.size(), kMaxAxes));
     if (machine.coordination == StepMethod::Lai && problems.empty()) {
         const auto suits = suits_lai_path(machine);
         problems.require(suits.has_value(), "coordination", suits ? "" : text_of(suits.error()));

@@ -1,5 +1,6 @@
 #include "services/documents/program_document.hpp"
 
+#include <fmt/format.h>
 #include <google/protobuf/stubs/logging.h>
 
 #include "services/documents/program_proto.hpp"
@@ -40,8 +41,7 @@ std::vector<std::uint8_t> program_bytes(const Program& program, const std::optio
 std::expected<ProgramDocument, std::string> program_document_from_bytes(std::span<const std::uint8_t> bytes,
                                                                         std::optional<std::size_t> axes) {
     if (bytes.size() > kMaxProgramBytes) {
-        return std::unexpected("the program has " + std::to_string(bytes.size()) + " bytes; at most " +
-                               std::to_string(kMaxProgramBytes));
+        return std::unexpected(fmt::format("the program has {} bytes; at most {}", bytes.size(), kMaxProgramBytes));
     }
     const google::protobuf::LogSilencer what_is_wrong_is_the_answer;
     proto::Program message;

@@ -1,5 +1,7 @@
 #include "services/documents/program_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -96,8 +98,9 @@ std::expected<ProgramFile, Diagnostics> read_program_file(const std::filesystem:
                                                           const std::vector<double>& start_mm, GcodeSwitches switches,
                                                           const gcode::KeptValues& values) {
     if (!is_start_of(machine, start_mm)) {
-        return std::unexpected(Diagnostics{{.message = "the start is not one place in mm for each of the machine's " +
-                                                       std::to_string(machine.axes.size()) + " axes"}});
+        return std::unexpected(
+            Diagnostics{{.message = fmt::format("the start is not one place in mm for each of the machine's {} axes",
+                                                machine.axes.size())}});
     }
     auto text = read_text_file(path);
     if (!text) { return std::unexpected(Diagnostics{text.error()}); }

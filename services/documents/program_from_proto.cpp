@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cmath>
 #include <optional>
 
@@ -13,9 +15,7 @@ namespace {
 using Refusal = std::optional<std::string>;
 using Numbers = google::protobuf::RepeatedField<double>;
 
-std::string at_most(std::size_t value, std::size_t limit) {
-    return std::to_string(value) + "; at most " + std::to_string(limit);
-}
+std::string at_most(std::size_t value, std::size_t limit) { return fmt::format("{}; at most {}", value, limit); }
 
 Refusal check_axes(const proto::Program& message) {
     const auto& axes = message.axes();
@@ -23,7 +23,7 @@ Refusal check_axes(const proto::Program& message) {
     const auto count = static_cast<std::size_t>(axes.size());
     if (count > kMaxAxes) { return "the program's number of axes is " + at_most(count, kMaxAxes); }
     for (int i = 0; i < axes.size(); ++i) {
-        if (!is_axis_name(axes[i])) { return "axis " + std::to_string(i + 1) + " of the program has no axis's name"; }
+        if (!is_axis_name(axes[i])) { return fmt::format("axis {} of the program has no axis's name", i + 1); }
         for (int other = 0; other < i; ++other) {
             if (same_name(axes[i], axes[other])) { return "the program names axis " + axes[i] + " twice"; }
         }
@@ -33,11 +33,11 @@ Refusal check_axes(const proto::Program& message) {
 
 Refusal check_places(const Numbers& places, const proto::Program& message, std::size_t axes) {
     if (static_cast<std::size_t>(places.size()) != axes) {
-        return "has " + std::to_string(places.size()) + " places for " + std::to_string(axes) + " axes";
+        return fmt::format("has {} places for {} axes", places.size(), axes);
     }
     for (int i = 0; i < places.size(); ++i) {
         if (!(std::abs(places[i]) <= kMaxPlace_mm)) {
-            const std::string axis = i < message.axes_size() ? message.axes(i) : "axis " + std::to_string(i + 1);
+            const std::string axis = i < message.axes_size() ? message.axes(i) : fmt::format("axis {}", i + 1);
             return "puts " + axis + " at " + number_text(places[i]) + " mm; places go to " + number_text(kMaxPlace_mm) +
                    " mm either way";
         }
@@ -59,8 +59,8 @@ Refusal check_arc(const proto::ProgramMove& move, std::size_t axes) {
     const proto::ArcShape& arc = move.arc();
     if (move.rapid()) { return "an arc is rapid; it needs a feed"; }
     if (arc.first() >= axes || arc.second() >= axes || arc.first() == arc.second()) {
-        return "the arc's plane is of axes " + std::to_string(arc.first()) + " and " + std::to_string(arc.second()) +
-               "; they are two different ones of " + std::to_string(axes);
+        return fmt::format("the arc's plane is of axes {} and {}; they are two different ones of {}", arc.first(),
+                           arc.second(), axes);
     }
     for (const double mm : {arc.centre_first_mm(), arc.centre_second_mm()}) {
         if (!(std::abs(mm) <= kMaxCentre_mm)) {
@@ -69,8 +69,7 @@ Refusal check_arc(const proto::ProgramMove& move, std::size_t axes) {
         }
     }
     if (arc.turns() < 1 || arc.turns() > kMaxTurns) {
-        return "the arc's turns are " + std::to_string(arc.turns()) + "; they go from 1 to " +
-               std::to_string(kMaxTurns);
+        return fmt::format("the arc's turns are {}; they go from 1 to {}", arc.turns(), kMaxTurns);
     }
     return {};
 }
@@ -81,7 +80,7 @@ Refusal check_move(const proto::ProgramMove& move, const proto::Program& message
         return "the feed is " + number_text(move.feed_mm_s()) + " mm/s; it is above 0, to " +
                number_text(kMaxFeed_mm_s);
     }
-    if (!proto::PathMode_IsValid(move.mode())) { return "the path mode is unknown: " + std::to_string(move.mode()); }
+    if (!proto::PathMode_IsValid(move.mode())) { return fmt::format("the path mode is unknown: {}", int{move.mode()}); }
     if (!(move.tolerance_mm() >= 0 && move.tolerance_mm() <= kMaxTolerance_mm)) {
         return "the tolerance is " + number_text(move.tolerance_mm()) + " mm; it goes from 0 to " +
                number_text(kMaxTolerance_mm);
@@ -91,18 +90,17 @@ Refusal check_move(const proto::ProgramMove& move, const proto::Program& message
 
 Refusal check_event(const proto::ProgramEvent& event) {
     if (!proto::ProgramEvent::Kind_IsValid(event.kind())) {
-        return "the event's kind is unknown: " + std::to_string(event.kind());
+        return fmt::format("the event's kind is unknown: {}", int{event.kind()});
     }
     if (event.index() < 0 || event.index() > kMaxEventIndex) {
-        return "the event's index is " + std::to_string(event.index()) + "; it goes from 0 to " +
-               std::to_string(kMaxEventIndex);
+        return fmt::format("the event's index is {}; it goes from 0 to {}", event.index(), kMaxEventIndex);
     }
     if (!std::isfinite(event.value())) { return "the event's value is not a number"; }
     return {};
 }
 
 Refusal check_block(const proto::Block& block, const proto::Program& message, std::size_t axes) {
-    if (block.line() < 0) { return "the line is " + std::to_string(block.line()) + "; lines count from 1"; }
+    if (block.line() < 0) { return fmt::format("the line is {}; lines count from 1", block.line()); }
     if (block.has_move()) { return check_move(block.move(), message, axes); }
     if (block.has_event()) { return check_event(block.event()); }
     if (block.has_dwell() && !(block.dwell().seconds() >= 0 && block.dwell().seconds() <= kMaxDwell_s)) {
@@ -163,7 +161,7 @@ std::expected<Program, std::string> program_from_proto(const proto::Program& mes
     program.blocks.reserve(static_cast<std::size_t>(message.blocks_size()));
     for (const proto::Block& block : message.blocks()) {
         if (Refusal refusal = check_block(block, message, places)) {
-            return std::unexpected("block " + std::to_string(program.blocks.size() + 1) + ": " + *refusal);
+            return std::unexpected(fmt::format("block {}: {}", program.blocks.size() + 1, *refusal));
         }
         program.blocks.push_back(read_block(block));
     }

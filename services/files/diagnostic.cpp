@@ -1,12 +1,12 @@
 #include "services/files/diagnostic.hpp"
 
+#include <fmt/format.h>
+
 namespace lockstep {
 
 std::string to_text(const std::string& file, const Diagnostic& diagnostic) {
     std::string place = file;
-    if (diagnostic.line > 0) {
-        place += ":" + std::to_string(diagnostic.line) + ":" + std::to_string(diagnostic.column);
-    }
+    if (diagnostic.line > 0) { place += fmt::format(":{}:{}", diagnostic.line, diagnostic.column); }
     return place + ": error: " + diagnostic.message;
 }
 

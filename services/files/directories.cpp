@@ -1,5 +1,6 @@
 #include "services/files/directories.hpp"
 
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -26,7 +27,7 @@ fs::path root(const fs::path& of_root, const char* users, const fs::path& below)
     if (const auto set = named_by("LOCKSTEP_STATE")) { return *set; }
     if (geteuid() == 0) { return of_root; }
     if (const auto own = named_by(users)) { return *own / below; }
-    return "/tmp/lockstep-" + std::to_string(geteuid());
+    return fmt::format("/tmp/lockstep-{}", geteuid());
 }
 
 fs::path lasting_root() { return root("/var/lib/lockstep", "HOME", ".local/state/lockstep"); }
@@ -64,10 +65,10 @@ std::expected<void, std::string> make_own_directory(const fs::path& directory) {
 fs::path shared_states_file(const std::string& machine, std::uint32_t domain) {
     struct stat network {};
     const bool known = stat("/proc/self/ns/net", &network) == 0;
-    const std::string of_network = known ? "." + std::to_string(network.st_ino) : "";
-    return memory_directory() / (machine + "." + std::to_string(domain) + of_network + ".states");
+    const std::string of_network = known ? fmt::format(".{}", network.st_ino) : "";
+    return memory_directory() / fmt::format("{}.{}{}.states", machine, domain, of_network);
 }
 
-fs::path memory_directory() { return "/dev/shm/lockstep-" + std::to_string(geteuid()); }
+fs::path memory_directory() { return fmt::format("/dev/shm/lockstep-{}", geteuid()); }
 
 }  // namespace lockstep

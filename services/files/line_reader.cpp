@@ -1,6 +1,7 @@
 #include "services/files/line_reader.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -101,7 +102,7 @@ std::expected<LineReader::Next, std::string> LineReader::next() {
             if (const auto line = cut_line()) { return Next{State::Line, *line}; }
         }
         if (buffer_.size() - at_ > kMostLineBytes) {
-            return std::unexpected(name_ + ": a line is longer than " + std::to_string(kMostLineBytes) + " bytes");
+            return std::unexpected(fmt::format("{}: a line is longer than {} bytes", name_, kMostLineBytes));
         }
         const auto filled = fill();
         if (!filled) { return std::unexpected(filled.error()); }

@@ -1,6 +1,7 @@
 #include "services/files/text_file.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -64,8 +65,7 @@ std::expected<std::string, Diagnostic> read_text_file(const std::filesystem::pat
     if (!std::filesystem::is_regular_file(status)) { return refusal("this is not a regular file"); }
     const auto size = std::filesystem::file_size(path, error);
     if (!error && size > kMaxTextFileBytes) {
-        return refusal("the file has " + std::to_string(size) + " bytes, more than " +
-                       std::to_string(kMaxTextFileBytes));
+        return refusal(fmt::format("the file has {} bytes, more than {}", size, kMaxTextFileBytes));
     }
     std::ifstream stream(path, std::ios::binary);
     if (!stream) { return refusal(std::string("cannot be read: ") + std::strerror(errno)); }
@@ -86,7 +86,7 @@ std::expected<void, std::string> write_text_file(const std::filesystem::path& pa
 }
 
 std::expected<void, std::string> replace_text_file(const std::filesystem::path& path, std::string_view text) {
-    const std::filesystem::path fresh = path.string() + ".new-" + std::to_string(::getpid());
+    const std::filesystem::path fresh = fmt::format("{}.new-{}", path.string(), ::getpid());
     const bool is_replaced = write_durably(fresh, text) && ::rename(fresh.c_str(), path.c_str()) == 0 &&
                              File(path.parent_path(), O_RDONLY | O_DIRECTORY).sync();
     if (is_replaced) { return {}; }

@@ -1,5 +1,6 @@
 #include "services/files/unfinished_file.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <system_error>
@@ -8,7 +9,7 @@
 namespace lockstep {
 
 UnfinishedFile::UnfinishedFile(const std::filesystem::path& path)
-    : path_(path), unfinished_(path.string() + ".unfinished-" + std::to_string(::getpid())) {}
+    : path_(path), unfinished_(fmt::format("{}.unfinished-{}", path.string(), ::getpid())) {}
 
 UnfinishedFile::UnfinishedFile(UnfinishedFile&& other) noexcept
     : path_(std::move(other.path_)), unfinished_(std::exchange(other.unfinished_, {})) {}

@@ -1,5 +1,7 @@
 #include "services/flight/flight_messages.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -84,8 +86,8 @@ flight_note_t to_lcm(const FlightSource& source, const IncidentMark& mark, const
 std::expected<FlightHead, std::string> from_lcm(const flight_head_t& message) {
     const auto reason = incident_reason(message.reason);
     if (message.version != kFlightVersion || !reason || message.tick_ns < 1) {
-        return std::unexpected("a head of version " + std::to_string(message.version) + ", reason \"" + message.reason +
-                               "\": this command reads version " + std::to_string(kFlightVersion));
+        return std::unexpected(fmt::format("a head of version {}, reason \"{}\": this command reads version {}",
+                                           message.version, message.reason, kFlightVersion));
     }
     if (message.process.contains('/') || message.machine.contains('/')) {
         return std::unexpected("a head of a process that is neither a coordinator nor an axis");
@@ -129,7 +131,7 @@ std::vector<std::uint8_t> encode_source(const FlightSource& source) {
     const flight_head_t head = to_lcm(source, {});
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(head.getEncodedSize()));
     head.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
-    const std::string rest = "\n" + std::to_string(source.files) + " " + source.directory.string();
+    const std::string rest = fmt::format("\n{} {}", source.files, source.directory.string());
     bytes.insert(bytes.end(), rest.begin(), rest.end());
     return bytes;
 }

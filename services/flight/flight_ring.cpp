@@ -1,6 +1,7 @@
 #include "services/flight/flight_ring.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -63,8 +64,7 @@ std::expected<FlightRing, std::string> FlightRing::create(const fs::path& direct
                                                           std::size_t events) {
     if (const auto made = make_own_directory(directory); !made) { return std::unexpected(made.error()); }
     static std::atomic<int> rings = 0;  // rings of this process; only tests make more than one
-    const std::string name =
-        source.machine + "." + source.process + "." + std::to_string(getpid()) + "." + std::to_string(rings++);
+    const std::string name = fmt::format("{}.{}.{}.{}", source.machine, source.process, getpid(), rings++);
     const fs::path unfinished = directory / (name + ".new");
     const fs::path path = directory / (name + ".ring");
     const std::vector<std::uint8_t> source_bytes = encode_source(source);

@@ -1,5 +1,7 @@
 #include "services/flight/incident_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -33,8 +35,8 @@ std::string stamp(std::int64_t wall_us) {
 
 /// The name is STAMP-PROCESS-INCARNATION, so a coordinator and its standby get different names.
 fs::path file_for(const FlightSource& source, const IncidentMark& mark) {
-    return source.directory / (stamp(mark.wall_us) + "-" + source.process + "-" +
-                               std::to_string(source.incarnation % 100'000) + std::string(kEnd));
+    return source.directory /
+           fmt::format("{}-{}-{}{}", stamp(mark.wall_us), source.process, source.incarnation % 100'000, kEnd);
 }
 
 bool is_of(const fs::path& file, const std::string& process) {

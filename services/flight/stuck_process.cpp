@@ -1,5 +1,7 @@
 #include "services/flight/stuck_process.hpp"
 
+#include <fmt/format.h>
+
 #include <cstdlib>
 
 #include "services/runtime/log.hpp"
@@ -15,8 +17,10 @@ constexpr std::chrono::milliseconds kPatience{200};  // how long to wait for the
 void end_stuck_process(FlightLog& flight, Tick now, std::int64_t tick_ns) {
     const Ticks stood{std::chrono::nanoseconds(kLongestLoop).count() / tick_ns};
     flight.add({.tick = now + stood, .kind = FlightKind::LoopStuck, .lasts = stood});
-    log_error("the loop has not run for " + std::to_string(kLongestLoop.count()) +
-              " s: a library call does not return; this process ends itself, to be started again");
+    log_error(fmt::format(
+        "the loop has not run for {} s: a library call does not return; this process ends itself, to be started "
+        "again",
+        kLongestLoop.count()));
     drain_log(kPatience);
     std::abort();
 }

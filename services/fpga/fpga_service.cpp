@@ -100,7 +100,7 @@ int serve_fpga(const FpgaOptions& options) {
         if (!well) { stop.request(); }
     });
     if (!well) { return fail(well.error()); }
-    log_info("ended; the loop was late by " + std::to_string(loop.worst_lateness().count() / 1000) + " us at worst");
+    log_info("ended; the loop was late by {} us at worst", loop.worst_lateness().count() / 1000);
     return 0;
 }
 

@@ -1,6 +1,7 @@
 #include "services/network/lcm_url.hpp"
 
 #include <arpa/inet.h>
+#include <fmt/format.h>
 
 #include <charconv>
 
@@ -12,8 +13,8 @@ std::expected<Number, std::string> number(std::string_view text, std::string_vie
     Number value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size() || value < 0 || value > most) {
-        return std::unexpected("the LCM URL's " + std::string(what) + " is '" + std::string(text) +
-                               "'; it must be a number from 0 to " + std::to_string(most));
+        return std::unexpected(
+            fmt::format("the LCM URL's {} is '{}'; it must be a number from 0 to {}", what, text, most));
     }
     return value;
 }

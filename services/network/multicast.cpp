@@ -1,6 +1,7 @@
 #include "services/network/multicast.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -47,9 +48,9 @@ std::expected<void, std::string> check_multicast(const NetworkConfig& network) {
     const auto interface = route_interface(url->address);
     if (!interface) { return std::unexpected("LCM: " + interface.error() + "; " + remedy(network.interface)); }
     if (url->ttl == 0 || *interface == network.interface) { return {}; }
-    return std::unexpected("LCM: ttl " + std::to_string(url->ttl) + " would send " + url->address + " out by " +
-                           *interface + ", not by " + network.interface + "; " + remedy(network.interface) +
-                           ", or set ttl=0 in the LCM URL");
+    return std::unexpected(
+        fmt::format("LCM: ttl {} would send {} out by {}, not by {}; {}, or set ttl=0 in the LCM URL", url->ttl,
+                    url->address, *interface, network.interface, remedy(network.interface)));
 }
 
 std::expected<bool, std::string> ensure_loopback_multicast() {

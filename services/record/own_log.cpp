@@ -1,5 +1,6 @@
 #include "services/record/own_log.hpp"
 
+#include <fmt/format.h>
 #include <lockstep/record_loss_t.hpp>
 
 #include "services/files/directories.hpp"
@@ -47,10 +48,13 @@ std::expected<std::unique_ptr<RecordSink>, std::string> open_own_log(const Machi
 }
 
 std::string lost_records_text(const MachineConfig& machine, std::uint64_t lost) {
-    return std::to_string(lost) + " messages of the record are lost so far: they could not be " +
-           (machine.record.own_logs ? "written to " + own_log_directory(machine).string() + " (free room there)"
-                                    : std::string("sent (record { own_logs: true } keeps them on a disk)")) +
-           " or sent; lockstep log merge lists what no log contains";
+    const std::string failed = machine.record.own_logs
+                                   ? fmt::format("written to {} (free room there)", own_log_directory(machine).string())
+                                   : "sent (record { own_logs: true } keeps them on a disk)";
+    return fmt::format(
+        "{} messages of the record are lost so far: they could not be {} or sent; lockstep log merge lists what no log "
+        "contains",
+        lost, failed);
 }
 
 }  // namespace lockstep

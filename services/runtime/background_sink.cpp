@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
 #include <spdlog/formatter.h>
 
 #include "services/runtime/line_queue.hpp"
@@ -56,7 +57,7 @@ struct BackgroundSink::Shared {
         const std::uint64_t now = lost();
         if (now == reported) { return; }
         write(spdlog::log_clock::now(), spdlog::level::warn,
-              "- " + std::to_string(now - reported) + " lines of this log are lost: they could not be written in time");
+              fmt::format("- {} lines of this log are lost: they could not be written in time", now - reported));
         reported = lost();
     }
 

@@ -1,5 +1,6 @@
 #include "services/runtime/real_time.hpp"
 
+#include <fmt/format.h>
 #include <malloc.h>
 #include <sched.h>
 #include <sys/mman.h>
@@ -20,7 +21,7 @@ std::string cause() { return std::string(" (") + std::strerror(errno) + ")"; }
 std::string ask_for_scheduler(int priority) {
     const sched_param wanted{.sched_priority = priority};
     if (sched_setscheduler(0, SCHED_FIFO, &wanted) == 0) {
-        return "scheduler FIFO, priority " + std::to_string(priority);
+        return fmt::format("scheduler FIFO, priority {}", priority);
     }
     return "scheduler normal: FIFO was refused" + cause() +
            "; a busy host may stall this process, and one stalled for more than timing.stall_slots brings the machine "
@@ -31,14 +32,12 @@ std::string ask_for_scheduler(int priority) {
 std::string ask_for_cpus(const std::vector<int>& cpus) {
     cpu_set_t set;
     CPU_ZERO(&set);
-    std::string names;
-    for (const int cpu : cpus) {
-        CPU_SET(static_cast<std::size_t>(cpu), &set);
-        names += (names.empty() ? "" : " ") + std::to_string(cpu);
-    }
+    for (const int cpu : cpus) { CPU_SET(static_cast<std::size_t>(cpu), &set); }
+    const std::string names = fmt::format("{}", fmt::join(cpus, " "));
     if (sched_setaffinity(0, sizeof set, &set) == 0) { return "runs on processors " + names; }
-    return "runs on any processor: " + names + " was refused" + cause() + "; this host has processors 0 to " +
-           std::to_string(sysconf(_SC_NPROCESSORS_CONF) - 1) + " (real_time.cpus)";
+    const std::string why = cause();
+    return fmt::format("runs on any processor: {} was refused{}; this host has processors 0 to {} (real_time.cpus)",
+                       names, why, sysconf(_SC_NPROCESSORS_CONF) - 1);
 }
 
 /// Makes the process keep freed memory, and touches the heap once, so that the loop causes no page faults.

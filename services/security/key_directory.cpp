@@ -1,6 +1,7 @@
 #include "services/security/key_directory.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -140,7 +141,7 @@ std::expected<MadeKeys, std::string> make_keys(const MachineConfig& machine, con
                                ": there are files here already; --force moves them aside and makes new ones; after "
                                "that every process of the machine needs its new files");
     }
-    const fs::path fresh = directory.string() + ".unfinished-" + std::to_string(::getpid());
+    const fs::path fresh = fmt::format("{}.unfinished-{}", directory.string(), ::getpid());
     auto done = make_directory(fresh, fs::perms(0755));
     if (done) { done = make_directory(fresh / "ca", fs::perms(0700)); }
     if (done) { done = write_all(machine, fresh, valid); }

@@ -22,7 +22,7 @@ function(short_fuzz target)
     COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} ${FUZZ_CLANG} -std=c++23 -O1 -g1 -I${PROJECT_SOURCE_DIR} ${sanitize}
             -fsanitize=fuzzer-no-link -MD -MF ${program}.d -c ${all} -o ${program}.o)
   add_custom_command(OUTPUT ${program} DEPENDS ${program}.o
-    COMMAND ${FUZZ_CLANG} ${sanitize} -fsanitize=fuzzer ${program}.o -o ${program})
+    COMMAND ${FUZZ_CLANG} ${sanitize} -fsanitize=fuzzer ${program}.o -lfmt -o ${program})
   add_custom_target(short_fuzz_${target} ALL DEPENDS ${program})
   list(JOIN ARG_SEEDS "," seeds)
   add_test(NAME fuzz.${target} COMMAND ${program} -seed_inputs=${seeds} -seed=1 -runs=${ARG_RUNS} -max_len=4096 -timeout=60

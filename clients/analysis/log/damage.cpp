@@ -44,7 +44,7 @@ void report_damages(const LogReader& reader, const std::function<void(LogPlace, 
     if (reader.damaged_stretches() == reader.damages().size()) { return; }
     const std::uint64_t more = reader.damaged_stretches() - reader.damages().size();
     on_damage({reader.damages().back().offset, reader.damaged_bytes() - bytes},
-              std::to_string(more) + " more damaged places after these");
+              fmt::format("{} more damaged places after these", more));
 }
 
 std::string damage_sentence(const Damage& damage) {

@@ -1,5 +1,7 @@
 #include "clients/analysis/log/program_parts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 #include <string_view>
@@ -86,8 +88,8 @@ void ProgramParts::complete(RecordedJob& job) const {
     if (parts == nullptr) {
         job.lacks = "no part of it is in the log";
     } else if (const std::size_t missing = parts->missing(); missing > 0) {
-        job.lacks = std::to_string(missing) + " of its " +
-                    std::to_string(std::max(parts->count, parts->places.size())) + " parts are not in the log";
+        job.lacks =
+            fmt::format("{} of its {} parts are not in the log", missing, std::max(parts->count, parts->places.size()));
     } else {
         job.parts = ProgramPlaces{.log = log_, .offsets = {}};
         for (const auto& place : parts->places) { job.parts->offsets.push_back(place->offset); }

@@ -1,5 +1,7 @@
 #include "clients/analysis/log/run.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -59,9 +61,9 @@ std::expected<Run, std::string> to_run(const run_t& message) {
 }
 
 std::string name_of(const Run& run) {
-    const std::string frame = (run.tail ? "tail of frame " : "frame ") + std::to_string(run.frame);
+    const std::string frame = fmt::format("{} {}", run.tail ? "tail of frame" : "frame", run.frame);
     if (run.epoch != 0) { return frame; }
-    return "run " + std::to_string(run.sequence) + ", " + frame + " of the axis's own move";
+    return fmt::format("run {}, {} of the axis's own move", run.sequence, frame);
 }
 
 bool starts_from_rest(const Run& run) {

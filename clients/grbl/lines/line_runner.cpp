@@ -114,8 +114,8 @@ void LineRunner::answer_done(const std::vector<std::uint64_t>& requests) {
 
 /// Gives no reason if the machine has a fault, because the fault is an alarm by itself.
 void LineRunner::lose(const MachineState& state, nanoseconds now) {
-    if (state.fault == 0) { loss_ = program_->why(); }
-    program_->may_run(state) && state.fault == 0 ? stop(now) : drop();
+    if (state.fault == FaultCode::None) { loss_ = program_->why(); }
+    program_->may_run(state) && state.fault == FaultCode::None ? stop(now) : drop();
 }
 
 void LineRunner::drop() {

@@ -1,5 +1,7 @@
 #include "clients/grbl/protocol/gcode_lines.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -59,11 +61,11 @@ Refused refused(const GcodeError& error) { return {error_of(error.message), erro
 
 std::string motion_text(int motion) {
     if (motion < 0) { return "G80"; }
-    return "G" + std::to_string(motion / 10) + (motion % 10 == 0 ? "" : "." + std::to_string(motion % 10));
+    return motion % 10 == 0 ? fmt::format("G{}", motion / 10) : fmt::format("G{}.{}", motion / 10, motion % 10);
 }
 
 std::string system_text(std::size_t system) {
-    return system < 6 ? "G" + std::to_string(54 + system) : "G59." + std::to_string(system - 5);
+    return system < 6 ? fmt::format("G{}", 54 + system) : fmt::format("G59.{}", system - 5);
 }
 
 std::string spindle_text(gcode::Turning spindle) {
@@ -199,11 +201,11 @@ double GcodeLines::seconds_of(const std::vector<Block>& blocks, const std::vecto
 std::string GcodeLines::modes_text() const {
     constexpr const char* kPlanes[] = {"G17", "G18", "G19"};
     const double feed = modal_.inches ? modal_.feed_linear / 25.4 : modal_.feed_linear;
-    return motion_text(modal_.motion) + " " + system_text(modal_.system) + " " +
-           kPlanes[static_cast<std::size_t>(modal_.plane)] + (modal_.inches ? " G20" : " G21") +
-           (modal_.relative ? " G91" : " G90") + (modal_.feed_mode == gcode::FeedMode::InverseTime ? " G93" : " G94") +
-           spindle_text(modal_.spindle) + coolant_text(modal_) + " T" + std::to_string(selected_tool_) + " F" +
-           number(feed, 0) + " S" + number(modal_.spindle_speed, 0);
+    return fmt::format("{} {} {} {} {} {}{}{} T{} F{} S{}", motion_text(modal_.motion), system_text(modal_.system),
+                       kPlanes[static_cast<std::size_t>(modal_.plane)], modal_.inches ? "G20" : "G21",
+                       modal_.relative ? "G91" : "G90",
+                       modal_.feed_mode == gcode::FeedMode::InverseTime ? "G93" : "G94", spindle_text(modal_.spindle),
+                       coolant_text(modal_), selected_tool_, number(feed, 0), number(modal_.spindle_speed, 0));
 }
 
 std::vector<double> GcodeLines::offset_mm(const gcode::KeptValues& values) const {

@@ -1,5 +1,7 @@
 #include "clients/grbl/protocol/grbl.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <string_view>
@@ -60,7 +62,7 @@ void Grbl::see(const MachineView& view) {
     view_ = view;
     if (waits_for_ && waits_for_line_) { view_.lines = std::max<std::size_t>(view_.lines, 1); }
     if (has_fault && !had_fault) {
-        say("ALARM:" + std::to_string(alarm_of(view.fault)));
+        say(fmt::format("ALARM:{}", alarm_of(view.fault)));
         const FaultText* text = find_fault(view.fault);
         if (text != nullptr) { say_message(std::string(text->name) + ": " + std::string(text->cause)); }
         modes_.is_unlocked = false;
@@ -217,7 +219,7 @@ void Grbl::say_message(const std::string& text) {
 
 void Grbl::refuse(Error error, const std::string& text) {
     if (!text.empty()) { say_message(text); }
-    say("error:" + std::to_string(static_cast<int>(error)));
+    say(fmt::format("error:{}", static_cast<int>(error)));
 }
 
 Request& Grbl::ask(Request::Kind kind) {

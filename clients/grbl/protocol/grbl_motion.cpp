@@ -1,4 +1,6 @@
 // Grbl: lines that move axes.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -111,7 +113,7 @@ void Grbl::abort(const std::string& why) {
 }
 
 void Grbl::raise_alarm(int number, const std::string& why) {
-    say("ALARM:" + std::to_string(number));
+    say(fmt::format("ALARM:{}", number));
     say_message(why);
     modes_.is_aborted = true;
 }

@@ -1,4 +1,6 @@
 // Grbl: lines that begin with $.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -112,7 +114,7 @@ void Grbl::keep_setting(int number, double value) {
     Request& request = ask(Request::Kind::KeepSettings);
     request.settings = *written;
     waits_for_ = request.number;
-    before_ok_ = "[MSG:$" + std::to_string(number) + " is kept; " + kInForce + "]";
+    before_ok_ = fmt::format("[MSG:${} is kept; {}]", number, kInForce);
 }
 
 /// Prints the settings as written, and names those that are not in force yet.
@@ -120,7 +122,7 @@ void Grbl::print_settings() {
     const auto in_force = settings_of(machine_, options_);
     std::string later;
     for (const Setting& setting : settings_of(next_machine_, options_)) {
-        const std::string name = "$" + std::to_string(setting.number);
+        const std::string name = fmt::format("${}", setting.number);
         say(name + "=" + setting.value);
         const auto now = std::ranges::find(in_force, setting.number, &Setting::number);
         if (now->value != setting.value) { later += name + " "; }
@@ -143,7 +145,7 @@ void Grbl::print_parameters() {
     for (const AxisConfig& axis : machine_.axes) { park.push_back(axis.homing.park_mm); }
     const gcode::KeptValues& values = view_.values;
     for (int i = 0; i < 6; ++i) {
-        say("[G" + std::to_string(54 + i) + ":" + places_of(values.systems[static_cast<std::size_t>(i)].origin) + "]");
+        say(fmt::format("[G{}:{}]", 54 + i, places_of(values.systems[static_cast<std::size_t>(i)].origin)));
     }
     const auto home_of = [&](const std::optional<gcode::Point>& place) {
         return place ? places_of(*place) : places_text(park, options_.inches);
@@ -158,7 +160,7 @@ void Grbl::print_parameters() {
 
 void Grbl::print_build() {
     say("[VER:1.1h.20190830:Lockstep " + version_ + "]");
-    say("[OPT:NH," + std::to_string(kPlannerLines) + "," + std::to_string(kMaxWaiting) + "]");
+    say(fmt::format("[OPT:NH,{},{}]", kPlannerLines, kMaxWaiting));
     ok();
 }
 

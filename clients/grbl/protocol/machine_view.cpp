@@ -9,7 +9,7 @@ MachineView view_of(const MachineConfig& machine, const MachineState& state,
     MachineView view;
     view.is_received = true;
     view.phase = state.phase;
-    view.fault = static_cast<FaultCode>(state.fault);
+    view.fault = state.fault;
     view.line = state.line;
     view.overrides = state.overrides;
     view.devices = state.devices;

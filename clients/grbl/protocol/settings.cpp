@@ -1,5 +1,7 @@
 #include "clients/grbl/protocol/settings.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -49,13 +51,13 @@ int homing_mask(const MachineConfig& machine) {
 double travel_of(const AxisConfig& axis) { return axis.position_max_mm - axis.position_min_mm; }
 
 Refused out_of_range(int number, const std::string& range) {
-    return {Error::SettingOutOfRange, "$" + std::to_string(number) + " is " + range};
+    return {Error::SettingOutOfRange, fmt::format("${} is {}", number, range)};
 }
 
 std::expected<KeptSettings, Refused> write_homing_mask(const MachineConfig& machine, double value) {
     const int all = (1 << axes_of(machine)) - 1;
     if (value != std::floor(value) || value > all) {
-        return std::unexpected(out_of_range(kHomingMask, "a whole number from 0 to " + std::to_string(all)));
+        return std::unexpected(out_of_range(kHomingMask, fmt::format("a whole number from 0 to {}", all)));
     }
     KeptSettings settings;
     for (std::size_t i = 0; i < axes_of(machine); ++i) {
@@ -131,7 +133,7 @@ std::expected<KeptSettings, Refused> write_setting(const MachineConfig& machine,
                                                    ReportOptions& options) {
     const auto settings = settings_of(machine, options);
     const auto found = std::ranges::find(settings, number, &Setting::number);
-    const std::string name = "$" + std::to_string(number);
+    const std::string name = fmt::format("${}", number);
     if (found == settings.end()) { return std::unexpected(Refused{Error::UnknownCommand, "there is no " + name}); }
     if (value < 0) { return std::unexpected(Refused{Error::NegativeValue, {}}); }
     if (number == 10) {

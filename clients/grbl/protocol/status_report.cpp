@@ -1,5 +1,7 @@
 #include "clients/grbl/protocol/status_report.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -85,10 +87,9 @@ std::string StatusReport::text(const MachineView& view, State state, const std::
     std::string text = std::string("<") + name_of(state) + (has_machine_places ? "|MPos:" : "|WPos:") +
                        places_text(places, options.inches);
     if ((options.mask & 2) != 0) {
-        text +=
-            "|Bf:" + std::to_string(kPlannerLines - std::min(kPlannerLines, view.lines)) + "," + std::to_string(room);
+        text += fmt::format("|Bf:{},{}", kPlannerLines - std::min(kPlannerLines, view.lines), room);
     }
-    if (view.line > 0 && state == State::Run) { text += "|Ln:" + std::to_string(view.line); }
+    if (view.line > 0 && state == State::Run) { text += fmt::format("|Ln:{}", view.line); }
     text += "|FS:" + number(options.inches ? view.feed_mm_min / kInch_mm : view.feed_mm_min, 0) + "," +
             number(view.devices.spindle_rpm, 0);
     const std::string accessories = accessories_of(view.devices);
@@ -107,8 +108,7 @@ std::string StatusReport::text(const MachineView& view, State state, const std::
         overrides_due_ = every - 1;
         overrides_ = view.overrides;
         accessories_ = accessories;
-        text += "|Ov:" + std::to_string(view.overrides.feed_percent) + "," +
-                std::to_string(view.overrides.rapid_percent) + ",100";
+        text += fmt::format("|Ov:{},{},100", view.overrides.feed_percent, view.overrides.rapid_percent);
         if (!accessories.empty()) { text += "|A:" + accessories; }  // Ov without A means that all are off
     }
     return text + ">";

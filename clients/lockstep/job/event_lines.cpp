@@ -1,5 +1,7 @@
 #include "clients/lockstep/job/event_lines.hpp"
 
+#include <fmt/format.h>
+
 #include "clients/text/event_text.hpp"
 #include "clients/text/numbers.hpp"
 
@@ -7,7 +9,7 @@ namespace lockstep {
 namespace {
 
 std::string line_of(const PublishedEvent& event) {
-    const std::string place = event.line > 0 ? "line " + std::to_string(event.line) + ": " : "";
+    const std::string place = event.line > 0 ? fmt::format("line {}: ", event.line) : "";
     return place + event_text(event.event) + (event.is_of_program ? "" : ", at the job's end");
 }
 

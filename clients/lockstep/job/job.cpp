@@ -1,5 +1,7 @@
 #include "clients/lockstep/job/job.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "clients/lockstep/job/final_positions.hpp"
@@ -40,8 +42,8 @@ std::string title(const Job& job) {
 std::string cut_short_text(const proto::RunReport& report) {
     const std::string text = "the coordinator fell silent and another has taken over; the axes rest on the path";
     if (!report.has_line()) { return text; }
-    const std::string line = std::to_string(report.line());
-    return text + " near line " + line + "; the rest of the job: lockstep run FILE --from-line " + line;
+    return fmt::format("{0} near line {1}; the rest of the job: lockstep run FILE --from-line {1}", text,
+                       report.line());
 }
 
 std::string stopped_text(const Job& job, const Session& session) {
@@ -66,7 +68,7 @@ void print_end(const Session& session, const Job& job, const proto::RunReport& r
 
 ExitCode refused(const Job& job, const Reply& reply, proto::RunReport& report, Output& output) {
     report.set_outcome("refused");
-    *report.mutable_fault() = fault_report(static_cast<FaultCode>(reply.fault), "");
+    *report.mutable_fault() = fault_report(reply.fault, "");
     output.report(report);
     if (!output.json()) { output.warn(title(job) + ": refused: " + reply.text + "\n" + fault_text(report.fault())); }
     return kExitFailed;
@@ -88,8 +90,9 @@ std::expected<void, Failure> send_rest(Session& session, const StopSignal& stop,
         if (session.is_silent()) { return std::unexpected(session.silent()); }
         if (before_it_runs && session.sender()->lacks_room()) {
             return std::unexpected(bad_input(
-                "with coordination: LAI a program is planned as a whole, so it has at most " +
-                std::to_string(kMaxProgramBlocks) + " blocks; cut it in two, or choose another coordination"));
+                fmt::format("with coordination: LAI a program is planned as a whole, so it has at most {} blocks; "
+                            "cut it in two, or choose another coordination",
+                            kMaxProgramBlocks)));
         }
         session.receive(100ms);
     }
@@ -131,12 +134,13 @@ void await_values(Session& session, const Job& job, Output& output) {
 /// Warns if the machine did not run all of a program that was read while it ran, and says why.
 void report_stream(const Session& session, const Job& job, Output& output) {
     for (const GcodeNote& note : job.stream->take_notes()) {
-        output.warn("line " + std::to_string(note.line) + ": " + note.text);
+        output.warn(fmt::format("line {}: {}", note.line, note.text));
     }
     if (const auto& trouble = job.stream->trouble()) {
-        output.warn(job.name + ":" + std::to_string(trouble->line) + ":" + std::to_string(trouble->column) + ": " +
-                    trouble->message + "\nthe lines before it were run; correct it and go on: lockstep run FILE " +
-                    "--from-line " + std::to_string(trouble->line));
+        output.warn(
+            fmt::format("{0}:{1}:{2}: {3}\nthe lines before it were run; correct it and go on: "
+                        "lockstep run FILE --from-line {1}",
+                        job.name, trouble->line, trouble->column, trouble->message));
     } else if (const auto& refusal = session.sender()->refusal()) {
         output.warn(job.name + ": the coordinator takes no more of it: " + refusal->text);
     }
@@ -145,7 +149,7 @@ void report_stream(const Session& session, const Job& job, Output& output) {
 ExitCode end_begun(const Job& job, proto::RunReport& report, Output& output) {
     report.set_outcome(outcome_name(JobResult::InProgress));
     output.report(report);
-    output.print(title(job) + ": begun as job " + std::to_string(report.job()) + "; see: lockstep watch");
+    output.print(fmt::format("{}: begun as job {}; see: lockstep watch", title(job), report.job()));
     return kExitDone;
 }
 
@@ -166,8 +170,8 @@ ExitCode end(Session& session, const Job& job, JobResult result, JobWatch& watch
         }
     }
     const MachineState& state = session.state()->state;
-    if (result == JobResult::Stopped && state.job_fault != 0) {
-        *report.mutable_fault() = fault_report(static_cast<FaultCode>(state.job_fault), "");
+    if (result == JobResult::Stopped && state.job_fault != FaultCode::None) {
+        *report.mutable_fault() = fault_report(state.job_fault, "");
         report.set_line(state.line);
     }
     const std::int32_t line = state.line;
@@ -200,8 +204,8 @@ ExitCode run_job(Session& session, const Job& job, Output& output) {
         if (const auto sent = send_rest(session, stop, false); !sent) { return output.fail(sent.error()); }
     }
     if (job.detach) { return end_begun(job, report, output); }
-    output.print(title(job) + ": job " + std::to_string(reply->job) +
-                 (job.planned_s ? ", planned to take " + duration_text(*job.planned_s) : ""));
+    output.print(fmt::format("{}: job {}{}", title(job), reply->job,
+                             job.planned_s ? ", planned to take " + duration_text(*job.planned_s) : ""));
     const nanoseconds begun = monotonic_now();
     JobWatch watch(session, reply->job, job.command, output, stop, hang_up);
     const auto result = watch.wait();

@@ -1,5 +1,7 @@
 #include "clients/lockstep/job/job_watch.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "clients/session/reports.hpp"
@@ -57,8 +59,10 @@ Failure JobWatch::silent() const {
 }
 
 Failure JobWatch::restless() const {
-    return failed("the job has not ended within " + std::to_string(kRestPatience.count()) +
-                  " s of the stop; the machine may be in motion: lockstep status; to cease all pulses: lockstep estop");
+    return failed(
+        fmt::format("the job has not ended within {} s of the stop; the machine may be in motion: lockstep status; "
+                    "to cease all pulses: lockstep estop",
+                    kRestPatience.count()));
 }
 
 std::expected<void, Failure> JobWatch::follow_signals() {
@@ -81,7 +85,7 @@ std::expected<void, Failure> JobWatch::send_stop() {
     output_.print(command_ == CommandKind::Home ? "stopping ..." : "stopping on the path ...");
     const auto reply = session_.command({.kind = CommandKind::Stop});
     if (!reply) { return std::unexpected(reply.error()); }
-    const bool has_ended = reply->fault == static_cast<std::uint16_t>(FaultCode::NothingToDo);
+    const bool has_ended = reply->fault == FaultCode::NothingToDo;
     if (reply->status == ReplyStatus::Accepted || has_ended) { return {}; }
     return std::unexpected(
         failed("the stop was refused: " + reply->text + "; the machine goes on; to stop it at once: lockstep estop"));
@@ -98,12 +102,12 @@ void JobWatch::print_phase(const MachineState& state) {
     if (state.term != runs_it_ && state.phase != MachinePhase::Waiting) {
         runs_it_ = state.term;
         output_.print("another coordinator has taken over and goes on with the job" +
-                      (line_ > 0 ? " at line " + std::to_string(line_) : ""));
+                      (line_ > 0 ? fmt::format(" at line {}", line_) : ""));
     }
     const bool rests = state.phase == MachinePhase::Holding || state.phase == MachinePhase::Paused;
     if (rests && state.phase != printed_) {
         const std::string how = state.phase == MachinePhase::Paused ? "paused" : "held";
-        const std::string where = line_ > 0 ? " at line " + std::to_string(line_) : "";
+        const std::string where = line_ > 0 ? fmt::format(" at line {}", line_) : "";
         output_.print(how + where + ": go on with lockstep resume, or end it with lockstep stop");
     }
     printed_ = state.phase;

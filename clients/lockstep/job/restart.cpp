@@ -1,5 +1,7 @@
 #include "clients/lockstep/job/restart.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace lockstep {
@@ -30,8 +32,8 @@ std::expected<Rest, std::string> rest_of(const Program& program, ModalState moda
     const std::vector<double> begins_mm = place_before(program, options.from_line);
     auto left = program_from(program, options.from_line, begins_mm);
     if (!left) {
-        return std::unexpected("nothing is left from line " + std::to_string(options.from_line) +
-                               "; the last motion is in line " + std::to_string(left.error()));
+        return std::unexpected(fmt::format("nothing is left from line {}; the last motion is in line {}",
+                                           options.from_line, left.error()));
     }
     auto moves = find_approach(options, machine, program, stands_mm, begins_mm);
     if (!moves) { return std::unexpected(moves.error()); }

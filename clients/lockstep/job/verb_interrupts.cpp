@@ -83,7 +83,7 @@ ExitCode interrupt_machine(const LiveOptions& options, const Interrupt& interrup
 /// Whether the axis is at rest with a fault, so that nothing moves it before a reset.
 bool is_stopped(const Session& session, std::size_t axis) {
     const bool is_known = session.axis_present(axis);
-    return is_known && session.axis(axis)->state.at_rest && session.axis(axis)->state.fault != 0;
+    return is_known && session.axis(axis)->state.at_rest && session.axis(axis)->state.fault != FaultCode::None;
 }
 
 /// Reports which axes have stopped by themselves, if no coordinator replies.

@@ -1,4 +1,6 @@
 // lockstep override
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 
 #include "clients/lockstep/live_options.hpp"
@@ -20,8 +22,7 @@ struct OverrideOptions : LiveOptions {
 };
 
 std::string text_of(const Overrides& overrides) {
-    return "feed " + std::to_string(overrides.feed_percent) + " %, rapid " + std::to_string(overrides.rapid_percent) +
-           " %";
+    return fmt::format("feed {} %, rapid {} %", overrides.feed_percent, overrides.rapid_percent);
 }
 
 ExitCode turn(const OverrideOptions& options) {

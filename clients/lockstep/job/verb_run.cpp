@@ -1,4 +1,5 @@
 // lockstep run
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <iostream>
@@ -42,8 +43,8 @@ ExitCode report_dry_run(const Job& job, const std::vector<ApproachMove>& approac
     report.set_planned_s(*job.planned_s);
     fill_approach(*job.program, approach, report);
     output.report(report);
-    output.print(job.name + ": would run " + std::to_string(job.program->blocks.size()) + " blocks in " +
-                 duration_text(*job.planned_s) + " from where the machine stands; nothing was sent");
+    output.print(fmt::format("{}: would run {} blocks in {} from where the machine stands; nothing was sent", job.name,
+                             job.program->blocks.size(), duration_text(*job.planned_s)));
     return kExitDone;
 }
 
@@ -55,9 +56,7 @@ std::expected<ProgramFile, Failure> read(const RunOptions& options, const Machin
     if (!started) { return std::unexpected(bad_input("--started-at: " + started.error())); }
     auto file = read_program_file(options.file, machine, *started, options.switches, values);
     if (!file) { return std::unexpected(bad_file(options.file, file.error())); }
-    for (const GcodeNote& note : file->reading.notes) {
-        output.warn("line " + std::to_string(note.line) + ": " + note.text);
-    }
+    for (const GcodeNote& note : file->reading.notes) { output.warn(fmt::format("line {}: {}", note.line, note.text)); }
     return *std::move(file);
 }
 
@@ -76,8 +75,8 @@ std::expected<Chosen, Failure> choose(const RunOptions& options, std::string_vie
     if (!options.is_restart()) { return Chosen{{std::move(file->reading.program), {}, {}}, std::move(values)}; }
     auto rest = rest_of(file->reading.program, text, file->setup, options.restart, machine, stands_mm);
     if (!rest) { return std::unexpected(bad_input("--from-line: " + rest.error())); }
-    output.print("from line " + std::to_string(options.restart.from_line) + ":\n" +
-                 approach_text(rest->program, rest->approach) + modal_text(machine, rest->modal));
+    output.print(fmt::format("from line {}:\n{}{}", options.restart.from_line,
+                             approach_text(rest->program, rest->approach), modal_text(machine, rest->modal)));
     return Chosen{*std::move(rest), std::move(values)};
 }
 
@@ -112,8 +111,8 @@ std::expected<void, Failure> read_first(const RunOptions& options, const Machine
     if (!beginning) { return std::unexpected(bad_file(options.file, beginning.error())); }
     const auto rest = rest_of(*beginning, stream.modal(), options.restart, machine, stands_mm);
     if (!rest) { return std::unexpected(bad_input("--from-line: " + rest.error())); }
-    output.print("from line " + std::to_string(options.restart.from_line) + ":\n" +
-                 approach_text(rest->program, rest->approach) + modal_text(machine, rest->modal));
+    output.print(fmt::format("from line {}:\n{}{}", options.restart.from_line,
+                             approach_text(rest->program, rest->approach), modal_text(machine, rest->modal)));
     stream.replace_first(rest->program);
     return {};
 }
@@ -147,9 +146,7 @@ ExitCode run_stream(const RunOptions& options) {
         return kExitDone;
     }
     if (const auto confirmed = confirm(options, output); !confirmed) { return output.fail(confirmed.error()); }
-    for (const GcodeNote& note : stream.take_notes()) {
-        output.warn("line " + std::to_string(note.line) + ": " + note.text);
-    }
+    for (const GcodeNote& note : stream.take_notes()) { output.warn(fmt::format("line {}: {}", note.line, note.text)); }
     const Job job{.command = CommandKind::Run,
                   .kind = "run",
                   .name = stream.head().name,
@@ -183,8 +180,8 @@ ExitCode plan_stream(const RunOptions& options) {
     report.set_outcome("dry-run");
     report.set_planned_s(*planned_s);
     output.report(report);
-    output.print(text->head().name + ": would run " + std::to_string(text->lines()) + " lines in " +
-                 duration_text(*planned_s) + " from where the machine stands; nothing was sent");
+    output.print(fmt::format("{}: would run {} lines in {} from where the machine stands; nothing was sent",
+                             text->head().name, text->lines(), duration_text(*planned_s)));
     return kExitDone;
 }
 

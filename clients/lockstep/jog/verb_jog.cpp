@@ -96,7 +96,7 @@ ExitCode finish(Session& session, const Arrival& arrival, bool is_released, prot
 
 ExitCode refuse(const Reply& reply, proto::RunReport& report, Output& output) {
     report.set_outcome("refused");
-    *report.mutable_fault() = fault_report(static_cast<FaultCode>(reply.fault), "");
+    *report.mutable_fault() = fault_report(reply.fault, "");
     output.report(report);
     if (!output.json()) {
         output.warn("jog " + report.name() + ": refused: " + reply.text + "\n" + fault_text(report.fault()));

@@ -1,5 +1,7 @@
 #include "clients/lockstep/live/timing_report.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <cmath>
 
@@ -18,7 +20,7 @@ doctor::StallFacts watch_for_stalls(std::int64_t slot_us, double seconds, Output
     const auto period = std::chrono::microseconds(slot_us) / 4;
     const auto during = std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9));
     return doctor::look_for_stalls(period, during, [&](double done) {
-        output.progress("watching for stalls " + std::to_string(std::lround(done * 100)) + " %");
+        output.progress(fmt::format("watching for stalls {} %", std::lround(done * 100)));
     });
 }
 

@@ -1,4 +1,6 @@
 // lockstep keys
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -43,7 +45,7 @@ void report_member(const proto::MemberKeys& member, bool with_fingerprint, Outpu
     const std::string mark = !member.problems().empty() ? "BAD  " : member.here() ? "ok   " : "-    ";
     std::string name = member.name();
     name.resize(std::max(name.size() + 1, kColumn), ' ');
-    const std::string until = "until " + member.until() + ", " + std::to_string(member.days_left()) + " days";
+    const std::string until = fmt::format("until {}, {} days", member.until(), member.days_left());
     output.print(mark + name + (member.here() ? until : "not on this host"));
     if (with_fingerprint && member.here()) {
         output.print("     " + member.subject() + "\n     " + member.fingerprint());
@@ -81,8 +83,8 @@ ExitCode make(const KeysOptions& options) {
     proto::KeysReport report = keys_report(machine, keys->directory);
     if (!made->replaced.empty()) { report.set_replaced(made->replaced); }
     output.report(report);
-    output.print("made keys for " + std::to_string(report.members_size()) + " members of machine '" + machine.name +
-                 "' in " + keys->directory.string());
+    output.print(fmt::format("made keys for {} members of machine '{}' in {}", report.members_size(), machine.name,
+                             keys->directory.string()));
     if (!made->replaced.empty()) {
         output.print("the previous keys are in " + made->replaced + "; delete them when the new keys work");
     }

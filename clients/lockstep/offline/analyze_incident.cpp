@@ -1,5 +1,7 @@
 #include "clients/lockstep/offline/analyze_incident.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "clients/incident/incident_input.hpp"
@@ -57,8 +59,8 @@ std::expected<fs::path, std::string> write_page(const IncidentOptions& options, 
 }
 
 std::string earlier_text(int back, std::size_t earlier) {
-    return std::to_string(earlier) + " earlier incident" + (earlier == 1 ? "" : "s") + " in the same files: --back " +
-           std::to_string(back + 1) + (earlier == 1 ? "" : " and on");
+    return fmt::format("{} earlier incident{} in the same files: --back {}{}", earlier, earlier == 1 ? "" : "s",
+                       back + 1, earlier == 1 ? "" : " and on");
 }
 
 }  // namespace
@@ -87,9 +89,8 @@ ExitCode analyze_incident(const IncidentOptions& options) {
     for (const std::string& left_out : input->left_out) { output.warn(left_out); }
     const std::size_t count = input->incidents.size();
     if (options.back < 0 || static_cast<std::size_t>(options.back) >= count) {
-        return output.fail(bad_input("--back " + std::to_string(options.back) + ": the files hold " +
-                                     std::to_string(count) + " incidents, so it goes from 0 to " +
-                                     std::to_string(count - 1)));
+        return output.fail(bad_input(fmt::format("--back {}: the files hold {} incidents, so it goes from 0 to {}",
+                                                 options.back, count, count - 1)));
     }
     const std::size_t earlier = count - 1 - static_cast<std::size_t>(options.back);
     const incident::Incident& incident = input->incidents[earlier];

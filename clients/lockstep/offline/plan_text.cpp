@@ -1,5 +1,7 @@
 #include "clients/lockstep/offline/plan_text.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cstdio>
 
@@ -31,9 +33,9 @@ std::string plan_text(const PlannedFile& input) {
     const ProgramPlan& plan = input.plan;
     std::string text = plan.program + " on machine " + input.machine.name + ", from" + places(input) + "\n";
     text += "  duration  " + duration_text(plan.duration_s) + " (" + fixed(plan.duration_s, 6) + " s)";
-    if (plan.pauses > 0) { text += ", and what its " + std::to_string(plan.pauses) + " pauses take"; }
+    if (plan.pauses > 0) { text += fmt::format(", and what its {} pauses take", plan.pauses); }
     text += "\n  length    " + fixed(plan.length_mm, 3) + " mm along the path\n";
-    text += "  moves     " + std::to_string(plan.moves) + ", of " + std::to_string(input.lines) + " lines\n\n";
+    text += fmt::format("  moves     {}, of {} lines\n\n", plan.moves, input.lines);
     std::array<char, 160> head{};
     std::snprintf(head.data(), head.size(), "%-16s %4s %12s %10s %10s %10s %11s %11s", "axis", "unit", "steps",
                   "peak /s", "peak /s²", "jump /s", "from", "to");

@@ -1,5 +1,7 @@
 #include "clients/lockstep/offline/program_input.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -60,8 +62,8 @@ public:
         const Ticks motion = planned.begin + planned.frame.ticks;
         const auto share = static_cast<int>(100 * text_.share_read());
         if (std::exchange(shown_, share) == share) { return; }
-        output_.progress(name_ + ": " + std::to_string(share) + " %, " + std::to_string(text_.lines()) + " lines, " +
-                         duration_text(static_cast<double>(motion.value) / ticks_per_s_) + " of motion");
+        output_.progress(fmt::format("{}: {} %, {} lines, {} of motion", name_, share, text_.lines(),
+                                     duration_text(static_cast<double>(motion.value) / ticks_per_s_)));
     }
 
 private:
@@ -137,7 +139,7 @@ std::expected<PlannedFile, Failure> plan_file(const ProgramOptions& options, Out
 }
 
 void warn(const PlannedFile& input, Output& output) {
-    for (const GcodeNote& note : input.notes) { output.warn("line " + std::to_string(note.line) + ": " + note.text); }
+    for (const GcodeNote& note : input.notes) { output.warn(fmt::format("line {}: {}", note.line, note.text)); }
 }
 
 }  // namespace lockstep

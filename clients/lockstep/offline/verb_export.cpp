@@ -1,4 +1,6 @@
 // lockstep export
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <memory>
 
@@ -45,11 +47,11 @@ proto::ExportReport to_report(const Exported& exported, const ExportOptions& opt
 
 void warn_of_losses(const Exported& exported, Output& output) {
     if (exported.left_out > 0) {
-        output.warn(std::to_string(exported.left_out) +
-                    " samples are left out: they came more than 2 s late, or exceed the number of topics");
+        output.warn(fmt::format("{} samples are left out: they came more than 2 s late, or exceed the number of topics",
+                                exported.left_out));
     }
     if (exported.damages > 0) {
-        output.warn(std::to_string(exported.damages) + " places in the log cannot be read; see: lockstep analyze");
+        output.warn(fmt::format("{} places in the log cannot be read; see: lockstep analyze", exported.damages));
     }
 }
 
@@ -70,8 +72,8 @@ ExitCode export_verb(const ExportOptions& options) {
     const auto exported =
         exporting::export_log(options.log, to, options.format == "csv" ? Format::Csv : Format::Mcap, progress);
     if (!exported) { return output.fail(bad_input(exported.error())); }
-    output.print(to.string() + ": " + std::to_string(exported->samples) + " samples; the record is " +
-                 analysis::to_text(exported->record));
+    output.print(fmt::format("{}: {} samples; the record is {}", to.string(), exported->samples,
+                             analysis::to_text(exported->record)));
     warn_of_losses(*exported, output);
     output.report(to_report(*exported, options));
     return kExitDone;

@@ -1,4 +1,6 @@
 // lockstep log
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <expected>
 #include <filesystem>
@@ -52,8 +54,9 @@ std::expected<merge::TimeSpan, std::string> span_of(const LogMergeOptions& optio
     if (options.job) {
         const auto its = merge::span_of_job(chosen.jobs, *options.job);
         if (!its) {
-            return std::unexpected("no log has the beginning of job " + std::to_string(*options.job) +
-                                   (chosen.left_out.empty() ? "" : "; --all looks for it in other sessions as well"));
+            return std::unexpected(
+                fmt::format("no log has the beginning of job {}{}", *options.job,
+                            chosen.left_out.empty() ? "" : "; --all looks for it in other sessions as well"));
         }
         span = *its;
     }

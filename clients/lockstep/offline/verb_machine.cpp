@@ -1,4 +1,6 @@
 // lockstep machine check
+#include <fmt/format.h>
+
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -31,8 +33,8 @@ ExitCode check(const CheckOptions& options) {
     const auto machine = choose_machine(options.file);
     if (!machine) { return output.fail(machine.error()); }
     const MachineConfig& config = machine->config;
-    output.print(machine->file.string() + ": ok: machine '" + config.name +
-                 "', axes: " + std::to_string(config.axes.size()));
+    output.print(
+        fmt::format("{}: ok: machine '{}', axes: {}", machine->file.string(), config.name, config.axes.size()));
     for (const AxisConfig& axis : config.axes) { output.print(axis_line(axis)); }
     output.report(machine_to_proto(config));
     return kExitDone;

@@ -1,4 +1,6 @@
 // lockstep scenario
+#include <fmt/format.h>
+
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -73,7 +75,7 @@ std::string coloured(const proto::ScenarioReport& report, bool events) {
 
 ExitCode end(const ScenarioOptions& options, const proto::ScenarioRunReport& report, Output& output) {
     output.report(report);
-    output.print(std::to_string(report.held()) + " of " + std::to_string(report.scenarios_size()) + " scenarios hold");
+    output.print(fmt::format("{} of {} scenarios hold", report.held(), report.scenarios_size()));
     const auto written = options.junit.empty() ? std::expected<void, std::string>{}
                                                : write_text_file(options.junit, scenario::junit_xml(report));
     if (!written) { output.warn("no JUnit file: " + written.error()); }

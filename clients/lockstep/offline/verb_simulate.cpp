@@ -1,4 +1,6 @@
 // lockstep simulate
+#include <fmt/format.h>
+
 #include <expected>
 #include <functional>
 #include <memory>
@@ -64,9 +66,8 @@ std::string speed_row(const std::string& name, const SimulatedStage& stage) {
 std::string in_words(const SimulateOptions& options, const PlannedFile& input, const SimulationResult& result) {
     const SimulatedStage all{result.homing.machine_s + result.running.machine_s,
                              result.homing.computing_s + result.running.computing_s};
-    std::string text = input.plan.program + ": " + outcome_of(result) + ", " + std::to_string(result.steps) +
-                       " steps recorded in " + options.log + "; " + fixed(all.times_real_time(), 0) +
-                       " times real time";
+    std::string text = fmt::format("{}: {}, {} steps recorded in {}; {} times real time", input.plan.program,
+                                   outcome_of(result), result.steps, options.log, fixed(all.times_real_time(), 0));
     if (!options.speed_report) { return text; }
     text += speed_row("homing   ", result.homing) + speed_row("program  ", result.running);
     return text + "\n  " + fixed(static_cast<double>(result.steps) / std::max(all.computing_s, 1e-9) / 1000, 0) +

@@ -1,4 +1,5 @@
 // lockstep send
+#include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
 
@@ -74,9 +75,9 @@ private:
         if (sender_.status().empty()) { return; }
         const bool may_resume = has_keys_ && is_held();
         const double share = lines_.share_read();
-        output_.progress(std::to_string(sender_.answered()) + " lines accepted, " +
-                         (share > 0 ? fixed(share * 100, 0) + " % read, " : "") + sender_.status() +
-                         (may_resume ? ": Enter resumes" : ""));
+        output_.progress(fmt::format("{} lines accepted, {}{}{}", sender_.answered(),
+                                     share > 0 ? fixed(share * 100, 0) + " % read, " : "", sender_.status(),
+                                     may_resume ? ": Enter resumes" : ""));
         char key = 0;
         if (may_resume && wait_for(STDIN_FILENO, POLLIN, 0) != 0 && read(STDIN_FILENO, &key, 1) == 1 && key == '\n') {
             sender_.resume();
@@ -109,14 +110,14 @@ proto::SendReport report_of(const SendOptions& options, const sender::GrblSender
 
 ExitCode finish(const SendOptions& options, const sender::GrblSender& sender, double seconds, Output& output) {
     const proto::SendReport report = report_of(options, sender, seconds);
-    const std::string lines = std::to_string(sender.answered()) + " lines accepted";
+    const std::string lines = fmt::format("{} lines accepted", sender.answered());
     output.report(report);
     switch (sender.outcome()) {
         case sender::Outcome::Done: output.print(lines + " and run in " + fixed(seconds, 1) + " s"); return kExitDone;
         case sender::Outcome::Stopped: output.print("stopped: held, and reset at rest; " + lines); return kExitFailed;
         default: break;
     }
-    const std::string place = options.file + (report.has_line() ? ":" + std::to_string(report.line()) : "");
+    const std::string place = report.has_line() ? fmt::format("{}:{}", options.file, report.line()) : options.file;
     output.warn(place + ": " + report.text() + " (" + lines + ")");
     return sender.outcome() == sender::Outcome::Silent ? kExitUnreachable : kExitFailed;
 }

@@ -1,5 +1,7 @@
 #include "clients/lockstep/status/alarms.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,13 +15,13 @@ constexpr double kStepSlack_us = 2;  // the remaining error when a frame is mapp
 
 std::string sentence(const proto::FaultReport& fault) {
     const std::string axis = fault.has_axis() ? "axis " + fault.axis() + ": " : "";
-    return axis + fault.name() + " (" + std::to_string(fault.number()) + "): " + fault.cause() + "; " + fault.remedy();
+    return fmt::format("{}{} ({}): {}; {}", axis, fault.name(), fault.number(), fault.cause(), fault.remedy());
 }
 
 std::string refusals(const proto::HealthReport& health) {
     std::string text;
     const auto add = [&](std::uint64_t count, const char* what) {
-        if (count > 0) { text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + what; }
+        if (count > 0) { text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what); }
     };
     add(health.refused_frames(), "frames refused");
     add(health.refused_commands(), "commands refused");

@@ -1,5 +1,6 @@
 #include "clients/lockstep/status/screen.hpp"
 
+#include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -55,7 +56,7 @@ std::string redrawn(const std::string& text, std::size_t rows) {
     std::string line;
     for (std::size_t row = 1; row <= rows && std::getline(rest, line); ++row) {
         const bool is_short = row == rows && lines > rows;
-        if (is_short) { line = "... " + std::to_string(lines - rows + 1) + " more lines: make the window higher"; }
+        if (is_short) { line = fmt::format("... {} more lines: make the window higher", lines - rows + 1); }
         out += (row == 1 ? "" : "\r\n") + line + "\x1b[K";
     }
     return out + "\x1b[J";

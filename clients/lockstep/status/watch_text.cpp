@@ -1,5 +1,7 @@
 #include "clients/lockstep/status/watch_text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -112,7 +114,7 @@ SlackScale slack_scale(const ProtocolTiming& timing) {
 
 std::string watch_text(const proto::StatusReport& status, const SlackScale& scale, Ink ink) {
     const std::string phase = status.phase().empty() ? "unknown" : status.phase();
-    const std::string job = status.has_job() ? ", job " + std::to_string(status.job()) : "";
+    const std::string job = status.has_job() ? fmt::format(", job {}", status.job()) : "";
     const std::string heading = spread(status.machine() + ": " + phase + job, age_text(status));
     std::string text = painted(heading, kBold, ink) + "\n" + job_row(status, ink) + "\n" + conditions_row(status, ink) +
                        "\n" + devices_row(status, ink) + painted(title_row(), kFaint, ink) + "\n";

@@ -1,5 +1,7 @@
 #include "clients/lockstep/values/values_text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -82,8 +84,8 @@ std::expected<int, std::string> whole(const Word& word, int most) {
     if (word.value >= 0 && word.value <= most && word.value == std::floor(word.value)) {
         return static_cast<int>(word.value);
     }
-    return std::unexpected(word.name + "=" + number_text(word.value) + " is not a whole number from 0 to " +
-                           std::to_string(most));
+    return std::unexpected(
+        fmt::format("{}={} is not a whole number from 0 to {}", word.name, number_text(word.value), most));
 }
 
 std::unexpected<std::string> no_offset(std::string_view name) {
@@ -136,9 +138,9 @@ std::string tools_text(const MachineConfig& machine, const KeptValues& values) {
     std::string text;
     for (const auto& [number, tool] : values.tools) {
         std::string line = places_text(machine, tool.offset) + "  D " + number_text(tool.diameter);
-        if (tool.pocket != 0) { line += "  P " + std::to_string(tool.pocket); }
-        if (tool.orientation != 0) { line += "  Q " + std::to_string(tool.orientation); }
-        text += row("T" + std::to_string(number), line);
+        if (tool.pocket != 0) { line += fmt::format("  P {}", tool.pocket); }
+        if (tool.orientation != 0) { line += fmt::format("  Q {}", tool.orientation); }
+        text += row(fmt::format("T{}", number), line);
     }
     if (text.empty()) { return "no tools; add one: lockstep tools set 1 Z=25.4 D=6"; }
     text.pop_back();
@@ -173,7 +175,7 @@ Changed touch_off(const MachineConfig& machine, const std::vector<double>& place
     if (!system) {
         return std::unexpected("'" + std::string(name) + "' is no coordinate system; write G54 to G59, G59.1 to G59.3");
     }
-    std::string line = "G21 G10 L20 P" + std::to_string(*system + 1);
+    std::string line = fmt::format("G21 G10 L20 P{}", *system + 1);
     const Changed read = for_each_word(words, [&](const Word& word) -> Changed {
         Point place{};
         if (auto known = set_axis(machine, word, place); !known) { return known; }
@@ -207,8 +209,8 @@ Changed clear_offset(std::string_view name, KeptValues& values) {
 
 Changed set_tool(const MachineConfig& machine, int number, const ChangeWords& words, KeptValues& values) {
     if (!values.tools.contains(number) && values.tools.size() >= gcode::kMaxTools) {
-        return std::unexpected("there are " + std::to_string(gcode::kMaxTools) +
-                               " tools, as many as are kept; remove one: lockstep tools remove NUMBER");
+        return std::unexpected(fmt::format(
+            "there are {} tools, as many as are kept; remove one: lockstep tools remove NUMBER", gcode::kMaxTools));
     }
     gcode::Tool& tool = values.tools[number];
     return for_each_word(words, [&](const Word& word) { return set_tool_word(machine, word, tool); });
@@ -216,7 +218,7 @@ Changed set_tool(const MachineConfig& machine, int number, const ChangeWords& wo
 
 Changed remove_tool(int number, KeptValues& values) {
     if (values.tools.erase(number) > 0) { return {}; }
-    return std::unexpected("there is no tool " + std::to_string(number) + "; see: lockstep tools");
+    return std::unexpected(fmt::format("there is no tool {}; see: lockstep tools", number));
 }
 
 }  // namespace lockstep

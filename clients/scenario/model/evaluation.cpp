@@ -1,5 +1,7 @@
 #include "clients/scenario/model/evaluation.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "clients/scenario/model/problems.hpp"
@@ -42,7 +44,7 @@ private:
 
     void check_rest(const AwaitedRest& rest) {
         const std::string asked =
-            rest.act + ": " + listed(rest.axes) + " at rest within " + std::to_string(rest.within_frames) + " frames";
+            fmt::format("{}: {} at rest within {} frames", rest.act, listed(rest.axes), rest.within_frames);
         if (rest.axes.empty()) { return add(asked, "no axis process was running", kAsObserved, false); }
         const auto at = evidence_.record.all_at_rest(rest.axes, rest.at);
         if (!at) { return add(asked, "the record has no rest after it", kWholeLog, false); }
@@ -54,7 +56,7 @@ private:
     /// The directory of the incident files within the kept files.
     std::string notes() const { return "state/" + machine_.name + "/record/incidents"; }
 
-    static std::string place_at(Tick tick) { return std::string(kWholeLog) + ", tick " + std::to_string(tick.value); }
+    static std::string place_at(Tick tick) { return fmt::format("{}, tick {}", kWholeLog, tick.value); }
 
     const proto::AxisAnalysis* analysis_of(const std::string& name) const {
         if (!evidence_.analysis) { return nullptr; }
@@ -84,7 +86,7 @@ private:
     }
 
     void check_interruptions() {
-        const std::string asked = std::to_string(expect_.interruptions()) + " interruptions of jobs";
+        const std::string asked = fmt::format("{} interruptions of jobs", expect_.interruptions());
         if (!evidence_.analysis) { return add(asked, evidence_.analysis.error(), kWholeLog, false); }
         std::int64_t found = 0;
         for (const auto& job : evidence_.analysis->jobs()) { found += job.interruptions(); }
@@ -96,8 +98,8 @@ private:
         const auto parting = evidence_.record.parting(axes);
         const auto epochs = evidence_.record.epochs_of(axes);
         add(listed(axes) + " ended each epoch with the same frame",
-            parting ? *parting : "the same in all " + std::to_string(epochs) + " epochs",
-            std::string(kWholeLog) + ", runs", !parting && epochs > 0);
+            parting ? *parting : fmt::format("the same in all {} epochs", epochs), std::string(kWholeLog) + ", runs",
+            !parting && epochs > 0);
     }
 
     void check_vetoes() {
@@ -148,7 +150,7 @@ private:
         if (!evidence_.verified) { return add(asked, evidence_.verified.error(), kWholeLog, false); }
         const proto::VerifyReport& report = *evidence_.verified;
         const std::string found = report.exact()
-                                      ? std::to_string(report.steps_compared()) + " steps compared, none differs"
+                                      ? fmt::format("{} steps compared, none differs", report.steps_compared())
                                       : report.first_difference().text();
         add(asked, found, kWholeLog, report.exact());
     }
@@ -157,14 +159,14 @@ private:
         const std::string asked = "nothing missing in the record";
         if (!evidence_.merged) { return add(asked, evidence_.merged.error(), kWholeLog, false); }
         const proto::MergeReport& report = *evidence_.merged;
-        std::string found = std::to_string(report.messages()) + " messages, none missing";
+        std::string found = fmt::format("{} messages, none missing", report.messages());
         if (!report.complete()) {
             found = "missing:";
             for (const auto& axis : report.axes()) {
-                found += " " + axis.axis() + " " + std::to_string(axis.missing_step_messages()) + " of steps, " +
-                         std::to_string(axis.missing_runs()) + " of runs;";
+                found += fmt::format(" {} {} of steps, {} of runs;", axis.axis(), axis.missing_step_messages(),
+                                     axis.missing_runs());
             }
-            found += " " + std::to_string(report.missing_job_events()) + " of jobs";
+            found += fmt::format(" {} of jobs", report.missing_job_events());
         }
         add(asked, found, kWholeLog, report.complete());
     }

@@ -1,5 +1,7 @@
 #include "clients/scenario/model/record_facts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "clients/analysis/log/log_read.hpp"
@@ -35,7 +37,7 @@ private:
 };
 
 std::string rest_text(const std::string& axis, const EpochEnd& end) {
-    return axis + " with " + (end.tail ? "the tail of " : "") + "frame " + std::to_string(end.frame);
+    return fmt::format("{} with {}frame {}", axis, end.tail ? "the tail of " : "", end.frame);
 }
 
 }  // namespace
@@ -67,8 +69,8 @@ std::optional<std::string> RecordFacts::parting(const std::vector<std::string>& 
             if (std::ranges::find(axes, axis) == axes.end()) { continue; }
             if (!first) { first = {axis, end}; }
             if (end != first->second) {
-                return "epoch " + std::to_string(epoch) + ": " + rest_text(first->first, first->second) + ", " +
-                       rest_text(axis, end);
+                return fmt::format("epoch {}: {}, {}", epoch, rest_text(first->first, first->second),
+                                   rest_text(axis, end));
             }
         }
     }

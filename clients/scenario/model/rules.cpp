@@ -1,5 +1,7 @@
 #include "clients/scenario/model/rules.hpp"
 
+#include <fmt/format.h>
+
 #include "clients/incident/cause.hpp"
 #include "clients/planning/plan_summary.hpp"
 #include "clients/scenario/model/act_rules.hpp"
@@ -31,9 +33,8 @@ public:
             check_clock(asked_.wrong_clock(i), nth("wrong_clock", i));
         }
         problems_.require(asked_.step_size() > 0, "", "no step: add one, such as step { home {} }");
-        problems_.require(
-            asked_.step_size() <= kMostSteps, nth("step", kMostSteps),
-            std::to_string(asked_.step_size()) + " steps; there are " + std::to_string(kMostSteps) + " at most");
+        problems_.require(asked_.step_size() <= kMostSteps, nth("step", kMostSteps),
+                          fmt::format("{} steps; there are {} at most", asked_.step_size(), kMostSteps));
         for (int i = 0; i < asked_.step_size(); ++i) { check_step(asked_.step(i), nth("step", i)); }
         check_expectations(asked_.expect());
         return problems_.take();
@@ -122,7 +123,7 @@ private:
         problems_.require(!during.has_line() || step.has_run(), path + ".line",
                           "only a run has lines; use another event, or after_s alone");
         problems_.require(!during.has_line() || during.line() >= 1, path + ".line",
-                          "line is " + std::to_string(during.line()) + "; lines are counted from 1");
+                          fmt::format("line is {}; lines are counted from 1", during.line()));
         if (during.has_passes()) { require_place(during.passes(), path + ".passes"); }
         if (during.has_after_s()) { problems_.require_range(path, "after_s", during.after_s(), 0, kMostSeconds); }
         if (during.has_rests_within_frames()) {
@@ -138,7 +139,7 @@ private:
                           "path_within_mm is " + number_text(expect.path_within_mm()) +
                               "; it is above 0: a step, 1 / steps_per_mm, is the least that can be held");
         problems_.require(expect.interruptions() >= 0, "expect.interruptions",
-                          "interruptions is " + std::to_string(expect.interruptions()) + "; it is at least 0");
+                          fmt::format("interruptions is {}; it is at least 0", expect.interruptions()));
         problems_.require(expect.together_size() != 1, "expect.together[0]", "this compares axes; name two at least");
         for (int i = 0; i < expect.together_size(); ++i) {
             require_axis(nth("expect.together", i), expect.together(i));

@@ -1,5 +1,7 @@
 #include "clients/scenario/model/scenario_text.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 
 #include "clients/scenario/model/problems.hpp"
@@ -32,8 +34,8 @@ std::string loss_text(const Asked::Loss& loss) {
 
 std::string override_text(const Asked::Override& turn) {
     std::string text = "override";
-    if (turn.has_feed()) { text += " feed " + std::to_string(turn.feed()) + " %"; }
-    if (turn.has_rapid()) { text += " rapid " + std::to_string(turn.rapid()) + " %"; }
+    if (turn.has_feed()) { text += fmt::format(" feed {} %", turn.feed()); }
+    if (turn.has_rapid()) { text += fmt::format(" rapid {} %", turn.rapid()); }
     return text;
 }
 
@@ -56,7 +58,7 @@ std::string what_text(const Asked::Act& act) {
 
 std::string event_text(const Asked::During& during) {
     switch (during.event_case()) {
-        case Asked::During::kLine: return "at line " + std::to_string(during.line());
+        case Asked::During::kLine: return fmt::format("at line {}", during.line());
         case Asked::During::kPasses:
             return "as " + during.passes().axis() + " passes " + number_text(during.passes().mm()) + " mm";
         case Asked::During::kPhase: return "when " + text_of(during.phase());

@@ -1,6 +1,7 @@
 #include "clients/scenario/runner/child_process.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
@@ -50,7 +51,7 @@ std::expected<void, std::string> run_program(const CommandLine& words, const std
 
 std::expected<std::string, std::string> output_of_program(const CommandLine& words) {
     const int memory = memfd_create("output", MFD_CLOEXEC);
-    const std::filesystem::path log = "/proc/self/fd/" + std::to_string(memory);
+    const std::filesystem::path log = fmt::format("/proc/self/fd/{}", memory);
     const auto ran = run_program(words, log);
     std::ifstream file(log);
     const std::string output{std::istreambuf_iterator<char>(file), {}};

@@ -1,5 +1,7 @@
 #include "clients/scenario/runner/network.hpp"
 
+#include <fmt/format.h>
+
 #include "core/number_text.hpp"
 
 namespace lockstep::scenario {
@@ -49,14 +51,14 @@ std::expected<void, std::string> Network::make_bridge() {
 
 std::expected<void, std::string> Network::add(const std::string& process, int number) {
     const std::string bridge = kBridge;
-    const std::string link = "to-" + std::to_string(number);
+    const std::string link = fmt::format("to-{}", number);
     const std::string on = "ip -n " + process + " ";
     namespaces_[process] = process;
     return run_all({split_words("ip netns add " + process),
                     split_words("ip link add " + link + " type veth peer name " + bridge + " netns " + process),
                     split_words("ip link set " + link + " mtu " + kMtu + " master " + bridge + " up"),
                     split_words(on + "link set lo up"), split_words(on + "link set " + bridge + " mtu " + kMtu + " up"),
-                    split_words(on + "addr add 10.9.0." + std::to_string(number) + "/24 dev " + bridge),
+                    split_words(fmt::format("{}addr add 10.9.0.{}/24 dev {}", on, number, bridge)),
                     split_words(on + "route add " + kMulticast + " dev " + bridge)});
 }
 

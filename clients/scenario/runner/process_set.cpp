@@ -1,5 +1,6 @@
 #include "clients/scenario/runner/process_set.hpp"
 
+#include <fmt/format.h>
 #include <signal.h>
 #include <sys/wait.h>
 
@@ -21,8 +22,8 @@ constexpr auto kProcessStartPatience = 20s;  // for the started program to start
 constexpr std::size_t kTailLines = 4;
 
 std::string how(int status) {
-    return WIFEXITED(status) ? "ended with code " + std::to_string(WEXITSTATUS(status))
-                             : "was ended by signal " + std::to_string(WTERMSIG(status));
+    return WIFEXITED(status) ? fmt::format("ended with code {}", WEXITSTATUS(status))
+                             : fmt::format("was ended by signal {}", WTERMSIG(status));
 }
 
 /// Does not reap the process.

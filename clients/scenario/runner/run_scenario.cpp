@@ -1,5 +1,6 @@
 #include "clients/scenario/runner/run_scenario.hpp"
 
+#include <fmt/format.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -182,7 +183,7 @@ void keep_logs(const fs::path& folder, int directory) {
         (void)analysis::write_html(*found, folder / "whole.html");
     }
     std::error_code error;
-    fs::copy(folder, "/proc/self/fd/" + std::to_string(directory), fs::copy_options::recursive, error);
+    fs::copy(folder, fmt::format("/proc/self/fd/{}", directory), fs::copy_options::recursive, error);
 }
 
 proto::ScenarioReport report_of(const Scenario& scenario, const Observations& observed,

@@ -1,5 +1,7 @@
 #include "clients/scenario/runner/scenario_executor.hpp"
 
+#include <fmt/format.h>
+
 #include "clients/scenario/model/scenario_text.hpp"
 #include "clients/session/job_plan.hpp"
 #include "clients/session/move_program.hpp"
@@ -124,7 +126,7 @@ void ScenarioExecutor::execute_job(const Step& step) {
     }
     std::optional<Ended> end;
     if (reply->status == ReplyStatus::Refused) {
-        end = Ended{Step::REFUSED, std::string(name_of(static_cast<FaultCode>(reply->fault)))};
+        end = Ended{Step::REFUSED, std::string(name_of(reply->fault))};
     } else {
         end = watch({reply->job, asked, asked}, schedule);
     }
@@ -273,9 +275,7 @@ void ScenarioExecutor::settle() {
     observed_.status = status_report(session_);
 }
 
-std::string ScenarioExecutor::title(const Step& step) const {
-    return "step " + std::to_string(step_) + ", " + text_of(step);
-}
+std::string ScenarioExecutor::title(const Step& step) const { return fmt::format("step {}, {}", step_, text_of(step)); }
 
 double ScenarioExecutor::at_s(Tick tick) const { return scenario_.machine.microseconds(tick - start_) * 1e-6; }
 

@@ -1,5 +1,6 @@
 #include "clients/session/lease/login_writer.hpp"
 
+#include <fmt/format.h>
 #include <pwd.h>
 #include <unistd.h>
 
@@ -17,7 +18,7 @@ std::string login_name() {
     passwd entry{};
     passwd* found = nullptr;
     const bool is_read = getpwuid_r(getuid(), &entry, text.data(), text.size(), &found) == 0;
-    return is_read && found != nullptr ? entry.pw_name : "user " + std::to_string(getuid());
+    return is_read && found != nullptr ? entry.pw_name : fmt::format("user {}", getuid());
 }
 
 /// Replaces control characters, because other people's terminals show the text.

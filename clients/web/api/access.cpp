@@ -1,5 +1,6 @@
 #include "clients/web/api/access.hpp"
 
+#include <fmt/format.h>
 #include <openssl/crypto.h>
 #include <openssl/sha.h>
 
@@ -59,7 +60,7 @@ std::string_view name_of(Role role) { return role == Role::Operate ? "operate" :
 
 Access::Access(AccessRules rules)
     : rules_(std::move(rules)),
-      cookie_name_("lockstep_session_" + std::to_string(rules_.port)),
+      cookie_name_(fmt::format("lockstep_session_{}", rules_.port)),
       cookies_{hash_of("cookie " + rules_.tokens.view), hash_of("cookie " + rules_.tokens.operate)} {}
 
 std::optional<Problem> Access::refuse_foreign(const Request& request) const {
@@ -93,8 +94,8 @@ std::expected<Role, Problem> Access::try_token(std::string_view token, std::chro
         return std::unexpected(Problem{.status = 429,
                                        .code = "too-many-tokens",
                                        .title = "too many wrong tokens",
-                                       .detail = std::to_string(wrong_.size()) + " wrong tokens came within a minute",
-                                       .limit = std::to_string(kMostWrongTokens) + " a minute",
+                                       .detail = fmt::format("{} wrong tokens came within a minute", wrong_.size()),
+                                       .limit = fmt::format("{} a minute", kMostWrongTokens),
                                        .remedy = "wait a minute, then use the address that lockstep-web printed"});
     }
     const auto role = role_among(rules_.tokens, token);

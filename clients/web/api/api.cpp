@@ -1,5 +1,7 @@
 #include "clients/web/api/api.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "clients/web/request/body_reader.hpp"
@@ -64,9 +66,9 @@ Problem too_long(std::size_t limit) {
     return {.status = 413,
             .code = "too-long",
             .title = "the body is too long",
-            .detail = "the body is longer than " + std::to_string(limit) + " bytes",
+            .detail = fmt::format("the body is longer than {} bytes", limit),
             .place = "body",
-            .limit = std::to_string(limit) + " bytes",
+            .limit = fmt::format("{} bytes", limit),
             .remedy = limit == kMaxProgram_bytes ? "run a longer program with: lockstep run FILE" : "send less"};
 }
 
@@ -96,7 +98,7 @@ const std::vector<Api::Row>& Api::rows() {
 Api::Api(const ApiParts& parts, AccessRules rules)
     : parts_(parts),
       access_(std::move(rules)),
-      stream_names_("s" + std::to_string(monotonic_now().count() & 0xffffff) + "-") {}
+      stream_names_(fmt::format("s{}-", monotonic_now().count() & 0xffffff)) {}
 
 std::size_t Api::body_limit(const Request& head) const {
     const bool is_program = head.path == "/api/program" && head.method == "POST" && !access_.refuse_foreign(head) &&
@@ -198,7 +200,7 @@ void Api::open_events(Request&& request, const Answer& answer) {
         return answer(to_response({.status = 503,
                                    .code = "too-many-viewers",
                                    .title = "too many viewers",
-                                   .detail = std::to_string(kMaxViewers) + " event streams are open",
+                                   .detail = fmt::format("{} event streams are open", kMaxViewers),
                                    .limit = std::to_string(kMaxViewers),
                                    .remedy = "close another page"}));
     }

@@ -1,4 +1,6 @@
 // The commands, including those that run programs.
+#include <fmt/format.h>
+
 #include "clients/web/api/api.hpp"
 #include "clients/web/program/values_edit.hpp"
 #include "clients/web/request/body_reader.hpp"
@@ -26,7 +28,7 @@ Problem too_busy() {
     return {.status = 429,
             .code = "too-many-commands",
             .title = "too many programs wait",
-            .detail = std::to_string(ProgramDesk::kMostTasks) + " programs wait to be read",
+            .detail = fmt::format("{} programs wait to be read", ProgramDesk::kMostTasks),
             .limit = std::to_string(ProgramDesk::kMostTasks),
             .remedy = "wait for their answers"};
 }
@@ -43,7 +45,7 @@ Problem other_program(std::uint64_t wanted, std::uint64_t loaded) {
     return {.status = 409,
             .code = "other-program",
             .title = "another program is loaded",
-            .detail = "program " + std::to_string(loaded) + " is loaded",
+            .detail = fmt::format("program {} is loaded", loaded),
             .place = "/program",
             .value = wanted,
             .limit = std::to_string(loaded),

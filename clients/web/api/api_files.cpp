@@ -1,4 +1,6 @@
 // The requests for the loaded program, its path and the reports.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 
@@ -25,7 +27,7 @@ Problem desk_is_full() {
     return {.status = 409,
             .code = "busy",
             .title = "other programs are being checked",
-            .detail = std::to_string(ProgramDesk::kMostTasks) + " programs wait to be read",
+            .detail = fmt::format("{} programs wait to be read", ProgramDesk::kMostTasks),
             .limit = std::to_string(ProgramDesk::kMostTasks),
             .remedy = "try again in a moment"};
 }
@@ -44,7 +46,7 @@ std::expected<std::size_t, Problem> most_points(const Request& request) {
     const bool is_number = error == std::errc{} && end == text.data() + text.size();
     if (is_number && points >= 2 && points <= kMaxPathPoints) { return points; }
     return std::unexpected(
-        wrong_value(400, "points", text.substr(0, 100), "a whole number from 2 to " + std::to_string(kMaxPathPoints)));
+        wrong_value(400, "points", text.substr(0, 100), fmt::format("a whole number from 2 to {}", kMaxPathPoints)));
 }
 
 Response path_response(const LoadedProgram& program, std::size_t most) {

@@ -1,5 +1,7 @@
 #include "clients/web/machine/jog_guard.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "clients/web/state/limits.hpp"
@@ -8,15 +10,15 @@ namespace lockstep::web {
 namespace {
 
 Problem press_is_over(std::uint64_t press) {
-    return {.status = 409,
-            .code = "jog-over",
-            .title = "the jog is over",
-            .detail = "press " + std::to_string(press) + " was released, or was not renewed in time",
-            .place = "/press",
-            .value = press,
-            .limit = "a renewal each " + std::to_string(kJogRenew.count()) + " ms, at the latest after " +
-                     std::to_string(kJogLife.count()) + " ms",
-            .remedy = "release the key and press it again"};
+    return {
+        .status = 409,
+        .code = "jog-over",
+        .title = "the jog is over",
+        .detail = fmt::format("press {} was released, or was not renewed in time", press),
+        .place = "/press",
+        .value = press,
+        .limit = fmt::format("a renewal each {} ms, at the latest after {} ms", kJogRenew.count(), kJogLife.count()),
+        .remedy = "release the key and press it again"};
 }
 
 }  // namespace

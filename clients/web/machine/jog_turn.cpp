@@ -30,9 +30,7 @@ void JogTurn::follow(const SessionLease& lease, nanoseconds now) {
     }
     const Reply* reply = link_.reply();
     if (link_.is_pressed() && reply == nullptr) { return; }
-    if (link_.is_pressed() && reply->status == ReplyStatus::Refused) {
-        return end(refused(static_cast<FaultCode>(reply->fault), reply->text));
-    }
+    if (link_.is_pressed() && reply->status == ReplyStatus::Refused) { return end(refused(reply->fault, reply->text)); }
     answer(Accepted{.jogging = link_.is_pressed() && !link_.is_over()});
 }
 

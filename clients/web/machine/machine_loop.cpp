@@ -1,5 +1,7 @@
 #include "clients/web/machine/machine_loop.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "services/runtime/clock.hpp"
@@ -17,7 +19,7 @@ Problem too_many() {
     return {.status = 429,
             .code = "too-many-commands",
             .title = "too many commands wait",
-            .detail = std::to_string(kMostActions) + " commands wait for the machine",
+            .detail = fmt::format("{} commands wait for the machine", kMostActions),
             .limit = std::to_string(kMostActions),
             .remedy = "wait for their answers"};
 }

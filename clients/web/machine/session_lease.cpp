@@ -39,7 +39,7 @@ void SessionLease::end() { session_.give_lease(300ms); }
 std::optional<Problem> SessionLease::refusal(bool takes_over) const {
     const auto& answer = session_.lease_reply();
     if (!turn_.is_refused(takes_over) || !answer) { return std::nullopt; }
-    Problem problem = refused(static_cast<FaultCode>(answer->fault), answer->text);
+    Problem problem = refused(answer->fault, answer->text);
     if (writer_ && !writer_->is_this_server) { problem.value = writer_json(*writer_); }
     return problem;
 }

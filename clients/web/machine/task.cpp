@@ -15,9 +15,7 @@ constexpr nanoseconds kRepeatAfter = 250ms;
 constexpr nanoseconds kRepeatStopAfter = 20ms;  // for an emergency stop
 
 Outcome outcome_of(const Reply& reply) {
-    if (reply.status == ReplyStatus::Refused) {
-        return std::unexpected(refused(static_cast<FaultCode>(reply.fault), reply.text));
-    }
+    if (reply.status == ReplyStatus::Refused) { return std::unexpected(refused(reply.fault, reply.text)); }
     return Accepted{.job = reply.job == 0 ? std::nullopt : std::optional(reply.job)};
 }
 
@@ -30,7 +28,7 @@ ProgramHead head_of_edit(const MachineConfig& machine) {
     return head;
 }
 
-Problem refused_program(const Reply& reply) { return refused(static_cast<FaultCode>(reply.fault), reply.text); }
+Problem refused_program(const Reply& reply) { return refused(reply.fault, reply.text); }
 
 }  // namespace
 

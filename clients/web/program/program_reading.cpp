@@ -1,5 +1,6 @@
 #include "clients/web/program/program_reading.hpp"
 
+#include <fmt/format.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -38,7 +39,7 @@ Problem no_text(std::string_view text) {
 }
 
 Problem wrong_program(const Diagnostics& errors) {
-    const std::string more = errors.size() > 1 ? ", and " + std::to_string(errors.size() - 1) + " more" : "";
+    const std::string more = errors.size() > 1 ? fmt::format(", and {} more", errors.size() - 1) : "";
     return {.status = 422,
             .code = "bad-program",
             .title = "the program is wrong",
@@ -93,7 +94,7 @@ std::expected<LineReader, std::string> lines_of_text(const std::string& text) {
         written += static_cast<std::size_t>(bytes);
     }
     auto lines = file >= 0 && written == text.size()
-                     ? LineReader::open("/proc/self/fd/" + std::to_string(file))
+                     ? LineReader::open(fmt::format("/proc/self/fd/{}", file))
                      : std::expected<LineReader, std::string>(std::unexpected("no memory is left for the program"));
     if (file >= 0) { close(file); }
     return lines;

@@ -1,5 +1,7 @@
 #include "clients/web/program/values_edit.hpp"
 
+#include <fmt/format.h>
+
 #include "clients/web/request/body_reader.hpp"
 #include "core/gcode/gcode.hpp"
 #include "core/number_text.hpp"
@@ -16,7 +18,7 @@ void set_letters(const Letters& letters, gcode::Point& place) {
 
 std::expected<gcode::KeptValues, Problem> edited(const TouchOrder& order, const gcode::KeptValues& values,
                                                  const MachineConfig& machine, const std::vector<double>& place_mm) {
-    std::string line = "G21 G10 L20 P" + std::to_string(order.system + 1);
+    std::string line = fmt::format("G21 G10 L20 P{}", order.system + 1);
     for (const auto& [letter, value] : order.places) { line += " " + std::string(1, letter) + number_text(value); }
     GcodeSetup setup = gcode_setup(machine, place_mm, "touch");
     setup.values = values;
@@ -47,7 +49,7 @@ std::expected<gcode::KeptValues, Problem> edited(const ToolOrder& order, gcode::
     if (!is_known && values.tools.size() >= gcode::kMaxTools) {
         return std::unexpected(
             wrong_value(422, "/number", order.number,
-                        "a tool in the table, which has no room for more than " + std::to_string(gcode::kMaxTools)));
+                        fmt::format("a tool in the table, which has no room for more than {}", gcode::kMaxTools)));
     }
     gcode::Tool& tool = values.tools[order.number];
     tool.pocket = order.pocket.value_or(tool.pocket);

@@ -1,5 +1,7 @@
 #include "clients/web/request/body_reader.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "core/number_text.hpp"
@@ -61,7 +63,7 @@ std::string between(double least, double most) {
 
 std::expected<Json, Problem> read_object(std::string_view text) {
     if (text.empty()) { return Json::object(); }
-    const std::string depth = "at most " + std::to_string(kMostDepth) + " objects and lists within each other";
+    const std::string depth = fmt::format("at most {} objects and lists within each other", kMostDepth);
     if (nests_too_deep(text)) { return std::unexpected(not_json("it nests too deep", depth)); }
     Strict strict;
     Json json;
@@ -148,8 +150,8 @@ std::optional<std::string> BodyReader::text(const std::string& name, std::size_t
     if (found == nullptr) { return std::nullopt; }
     const bool is_text = found->is_string();
     if (is_text && found->get_ref<const std::string&>().size() <= longest) { return found->get<std::string>(); }
-    refuse(wrong_value(is_text ? 422 : 400, place_of(name), *found,
-                       "a text of at most " + std::to_string(longest) + " bytes"));
+    refuse(
+        wrong_value(is_text ? 422 : 400, place_of(name), *found, fmt::format("a text of at most {} bytes", longest)));
     return std::nullopt;
 }
 
@@ -165,7 +167,7 @@ const Json* BodyReader::list(const std::string& name, std::size_t longest) {
     const Json* found = find(name);
     if (found == nullptr || (found->is_array() && found->size() <= longest)) { return found; }
     refuse(wrong_value(found->is_array() ? 422 : 400, place_of(name), *found,
-                       "a list of at most " + std::to_string(longest) + " members"));
+                       fmt::format("a list of at most {} members", longest)));
     return nullptr;
 }
 

@@ -1,5 +1,7 @@
 #include "clients/web/request/orders.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -46,7 +48,7 @@ std::optional<Order> home(const Json& body, const MachineConfig& machine, std::o
     Command command{.kind = CommandKind::Home};
     const Json* axes = reader.list("axes", machine.axes.size());
     for (std::size_t i = 0; axes != nullptr && i < axes->size(); ++i) {
-        const std::string place = "/axes/" + std::to_string(i);
+        const std::string place = fmt::format("/axes/{}", i);
         if (!(*axes)[i].is_string()) {
             reader.refuse(wrong_value(400, place, (*axes)[i], "an axis's name"));
             continue;
@@ -71,7 +73,7 @@ std::optional<Order> override_speeds(const Json& body, const MachineConfig&, std
 
 void read_jog(const Json& json, std::size_t i, const MachineConfig& machine, JogOrder& order,
               std::optional<Problem>& problem) {
-    BodyReader reader(json, "/jogs/" + std::to_string(i), problem);
+    BodyReader reader(json, fmt::format("/jogs/{}", i), problem);
     reader.require("axis");
     reader.require("velocity");
     const auto name = reader.text("axis", 64);
@@ -101,7 +103,7 @@ std::optional<Order> jog(const Json& body, const MachineConfig& machine, std::op
         if ((*jogs)[i].is_object()) {
             read_jog((*jogs)[i], i, machine, order, problem);
         } else {
-            reader.refuse(wrong_value(400, "/jogs/" + std::to_string(i), (*jogs)[i], "an object"));
+            reader.refuse(wrong_value(400, fmt::format("/jogs/{}", i), (*jogs)[i], "an object"));
         }
     }
     order.stream = reader.text("stream", 64).value_or("");

@@ -1,5 +1,7 @@
 #include "clients/web/state/alarm_list.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -33,24 +35,23 @@ void add_once(json& alarms, json alarm) {
 }
 
 void add_faults(const Snapshot& snapshot, const MachineConfig& machine, json& alarms) {
-    if (snapshot.machine && snapshot.machine->value.fault != 0) {
+    if (snapshot.machine && snapshot.machine->value.fault != FaultCode::None) {
         const MachineState& state = snapshot.machine->value;
-        const auto fault = static_cast<FaultCode>(state.fault);
+        const auto fault = state.fault;
         const bool has_axis = is_of_an_axis(fault) && state.fault_axis < machine.axes.size();
         add_once(alarms, as_alarm(fault_json(fault, has_axis ? machine.axes[state.fault_axis].name : ""), "fault"));
     }
     for (std::size_t i = 0; i < snapshot.axes.size(); ++i) {
         const auto& axis = snapshot.axes[i].state;
-        if (!axis || axis->value.fault == 0) { continue; }
-        add_once(alarms,
-                 as_alarm(fault_json(static_cast<FaultCode>(axis->value.fault), machine.axes[i].name), "fault"));
+        if (!axis || axis->value.fault == FaultCode::None) { continue; }
+        add_once(alarms, as_alarm(fault_json(axis->value.fault, machine.axes[i].name), "fault"));
     }
 }
 
 std::string refusals(const RefusalCounts& counts) {
     std::string text;
     const auto add = [&](std::uint64_t count, const char* what) {
-        if (count > 0) { text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + what; }
+        if (count > 0) { text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what); }
     };
     add(counts.frames, "frames refused");
     add(counts.commands, "commands refused");
@@ -114,7 +115,7 @@ json alarm_list(const Snapshot& snapshot, const MachineConfig& machine) {
     }
     if (lost > 0) {
         alarms.push_back(own_alarm("lost-records", "",
-                                   std::to_string(lost) + " messages of the record could not be written or sent",
+                                   fmt::format("{} messages of the record could not be written or sent", lost),
                                    "see the logs, and whether a disk is full"));
     }
     return alarms;

@@ -14,8 +14,8 @@ using nlohmann::json;
 constexpr int kPlaceDigits = 4;  // a tenth of a micrometre
 constexpr int kTimeDigits = 1;
 
-json fault_or_null(std::uint16_t fault, const std::string& axis) {
-    return fault == 0 ? json() : fault_json(static_cast<FaultCode>(fault), axis);
+json fault_or_null(FaultCode fault, const std::string& axis) {
+    return fault == FaultCode::None ? json() : fault_json(fault, axis);
 }
 
 json spread(const Extremes& extremes, double least, double most) {

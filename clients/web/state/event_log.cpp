@@ -1,5 +1,7 @@
 #include "clients/web/state/event_log.hpp"
 
+#include <fmt/format.h>
+
 #include <charconv>
 
 #include "clients/web/http/json_text.hpp"
@@ -7,9 +9,7 @@
 
 namespace lockstep::web {
 
-std::string EventLog::id_text(std::uint64_t number) const {
-    return "id: " + run_ + "-" + std::to_string(number) + "\n";
-}
+std::string EventLog::id_text(std::uint64_t number) const { return fmt::format("id: {}-{}\n", run_, number); }
 
 void EventLog::publish(const nlohmann::json& state) {
     const std::lock_guard lock(mutex_);

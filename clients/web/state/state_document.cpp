@@ -69,7 +69,7 @@ json job_json(const Snapshot& snapshot) {
             {"time_left_s", measured ? json(rounded(state.remaining_s, 1)) : json()},
             {"waits_for_program", state.lacks_blocks},
             {"outcome", outcome_json(state.outcome)},
-            {"ended_by", state.job_fault != 0 ? fault_json(static_cast<FaultCode>(state.job_fault), "") : json()}};
+            {"ended_by", state.job_fault != FaultCode::None ? fault_json(state.job_fault, "") : json()}};
 }
 
 json hold_json(const Snapshot& snapshot) {

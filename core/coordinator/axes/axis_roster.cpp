@@ -58,7 +58,7 @@ std::optional<std::size_t> AxisRoster::missing(Slot now) const {
 }
 
 std::optional<std::size_t> AxisRoster::without_device() const {
-    constexpr auto kMissing = static_cast<std::uint16_t>(FaultCode::DeviceMissing);
+    constexpr auto kMissing = FaultCode::DeviceMissing;
     return first_axis(views_, [](const AxisView& view) { return view.state && view.state->unproved == kMissing; });
 }
 

@@ -12,7 +12,7 @@ std::expected<std::shared_ptr<const KnownProgram>, Refusal> program_of(const Com
                                                                        const CoordinatorLoop& loop, bool whole) {
     auto program = loop.programs.find(command.program);
     if (const Reply* refusal = loop.programs.refusal_of(command.program)) {
-        return refuse(static_cast<FaultCode>(refusal->fault), refusal->text);
+        return refuse(refusal->fault, refusal->text);
     }
     if (!program) { return refuse(FaultCode::UnknownProgram, "the program has not arrived"); }
     if (whole && program->is_open()) {

@@ -31,10 +31,8 @@ void JobRunner::advance_homing(CoordinatorLoop& loop) {
         if (!loop.is_order_done(i)) { return; }
         const auto& order = loop.orders.newest(i);
         const auto& state = loop.axes.state(i);
-        const bool refused = order && state && state->command_fault != 0;
-        if (refused && order->kind == AxisCommandKind::Home) {
-            return fail(static_cast<FaultCode>(state->command_fault), i, loop);
-        }
+        const bool refused = order && state && state->command_fault != FaultCode::None;
+        if (refused && order->kind == AxisCommandKind::Home) { return fail(state->command_fault, i, loop); }
     }
     home_next_group(loop);
 }
@@ -49,7 +47,7 @@ void JobRunner::advance_alone(CoordinatorLoop& loop) {
     for (std::size_t i = 0; i < loop.axes.size(); ++i) {
         if (!has_axis(axes, i) || !loop.axes.state(i)) { continue; }
         const AxisState& state = *loop.axes.state(i);
-        if (state.command_fault != 0) { return fail(static_cast<FaultCode>(state.command_fault), i, loop); }
+        if (state.command_fault != FaultCode::None) { return fail(state.command_fault, i, loop); }
         if (intent_ != Intent::GoOn) { continue; }
         if (state.position.count() != own_.target(i)) { return fail(FaultCode::PositionMismatch, i, loop); }
     }
@@ -59,7 +57,7 @@ void JobRunner::advance_alone(CoordinatorLoop& loop) {
 void JobRunner::advance_jogs(CoordinatorLoop& loop) {
     if (!has_jog()) { return; }
     const auto refused = jogs_.advance(loop);
-    if (refused) { fail(static_cast<FaultCode>(loop.axes.state(*refused)->command_fault), *refused, loop); }
+    if (refused) { fail(loop.axes.state(*refused)->command_fault, *refused, loop); }
 }
 
 /// An emergency stop that was ordered before remains the newest order.
@@ -209,7 +207,7 @@ void JobRunner::report(MachineState& state, const CoordinatorLoop& loop) const {
     state.outcome = has_any() ? std::nullopt : count_.outcome();
     state.job_begun = count_.begun_in();
     state.line = count_.line();
-    state.job_fault = static_cast<std::uint16_t>(count_.fault());
+    state.job_fault = count_.fault();
     path_.report_epoch(state);
     if (job_ && job_->kind == JobKind::MoveOwn) {
         state.progress = own_.progress(loop.axes);

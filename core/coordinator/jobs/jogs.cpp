@@ -120,7 +120,7 @@ Jogs::Next Jogs::next_at_rest(std::size_t axis, const CoordinatorLoop& loop) con
     const Jog& jog = *jogs_[axis];
     const auto& state = loop.axes.state(axis);
     if (!state || loop.now - jog.renewed > Ticks{kForgetAfter_ns / loop.machine.tick_ns}) { return Next::Forget; }
-    if (jog.target && state->command_fault != 0) { return Next::Report; }
+    if (jog.target && state->command_fault != FaultCode::None) { return Next::Report; }
     if (jog.target == state->position.count()) { return Next::Forget; }
     return loop.now == jog.renewed ? Next::Order : Next::Nothing;
 }

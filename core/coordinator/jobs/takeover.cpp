@@ -17,7 +17,7 @@ constexpr double kNear_steps = 3;
 constexpr double kNear_share = 1e-4;  // of an arc's length: the lengths of its pieces may add up to a different length
 
 bool is_in_doubt(const AxisView& axis) {
-    return !axis.state || !axis.state->homed || axis.state->fault != 0 || !axis.state->at_rest;
+    return !axis.state || !axis.state->homed || axis.state->fault != FaultCode::None || !axis.state->at_rest;
 }
 
 /// Returns the last frame that all axes ran; 0: none of the epoch.

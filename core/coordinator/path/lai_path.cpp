@@ -142,7 +142,8 @@ std::string text_of(const LaiLack& lack) {
     const std::string value = short_number(lack.value);
     switch (lack.why) {
         case LaiLack::Why::Axes: return "coordination LAI is for two and more axes; the machine has one";
-        case LaiLack::Why::Tick: return "coordination LAI needs a tick_ns that divides 6500000; it is " + value;
+        case LaiLack::Why::Tick:
+            return "coordination LAI needs a tick_ns that divides 6500000; it is " + number_text(lack.value);
         case LaiLack::Why::FrameRoom:
             return "coordination LAI makes a move each 6.5 ms, but frames of this length have room for one each " +
                    value + " ms; lower timing.frame_slots or timing.slot_us";

@@ -8,7 +8,7 @@ namespace {
 
 void refuse(Reply& reply, const ProgramCut& cut) {
     reply.status = ReplyStatus::Refused;
-    reply.fault = static_cast<std::uint16_t>(cut.why);
+    reply.fault = cut.why;
     reply.text = (cut.line > 0 ? "line " + std::to_string(cut.line) + ": " : "") + cut.text;
 }
 

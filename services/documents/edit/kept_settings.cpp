@@ -1,5 +1,7 @@
 #include "services/documents/edit/kept_settings.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -75,9 +77,9 @@ std::unexpected<Diagnostics> without_places(Diagnostics errors) {
 std::unexpected<Diagnostics> of_file(const fs::path& settings, const Diagnostics& errors) {
     Diagnostics named;
     for (const Diagnostic& error : errors) {
-        const std::string line = error.line > 0 ? ", line " + std::to_string(error.line) : "";
-        named.push_back({.message = "with the settings in " + settings.string() + line + ": " + error.message +
-                                    "; correct or remove that file"});
+        const std::string line = error.line > 0 ? fmt::format(", line {}", error.line) : "";
+        named.push_back({.message = fmt::format("with the settings in {}{}: {}; correct or remove that file",
+                                                settings.string(), line, error.message)});
     }
     return std::unexpected(named);
 }
@@ -155,7 +157,7 @@ std::expected<std::string, Diagnostics> with_settings(std::string_view text, con
     for (const KeptSetting& setting : settings) {
         const auto axis = std::ranges::find(machine->axes, setting.axis, &AxisConfig::name);
         if (axis == machine->axes.end()) { return refusal("the machine has no axis " + setting.axis); }
-        const std::string block = "axis[" + std::to_string(axis - machine->axes.begin()) + "].";
+        const std::string block = fmt::format("axis[{}].", axis - machine->axes.begin());
         if (!set_key(edited, block + setting.key, setting.value)) {
             return refusal(line_of(setting) +
                            " cannot be written: a comment stands between the key and its value in "

@@ -1,5 +1,7 @@
 #include "services/documents/edit/timing_edit.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cstdint>
 #include <utility>
@@ -27,7 +29,7 @@ bool has_slots(const ProtocolTiming& is, const ProtocolTiming& asked) { return k
 
 std::string slots_text(const ProtocolTiming& timing) {
     std::string text = "timing {";
-    for (const auto& [key, value] : keys_of(timing)) { text += " " + std::string(key) + ": " + std::to_string(value); }
+    for (const auto& [key, value] : keys_of(timing)) { text += fmt::format(" {}: {}", key, value); }
     return text + " }";
 }
 

@@ -1,4 +1,6 @@
 // Translates between the values that outlive programs and their Protobuf message.
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <optional>
@@ -86,7 +88,7 @@ void read_system(const proto::CoordinateSystem& message, KeptValues& values, Val
 }
 
 void read_tool(const proto::Tool& message, KeptValues& values, ValuesReader& reader) {
-    const std::string what = "tool " + std::to_string(message.number());
+    const std::string what = fmt::format("tool {}", message.number());
     const int number = reader.whole(message.number(), 1, kMaxToolNumber, "a tool's number");
     const gcode::Tool tool{
         .pocket = reader.whole(message.pocket(), 0, kMaxToolNumber, what + ": the pocket"),
@@ -121,8 +123,8 @@ proto::KeptValues values_to_proto(const RevisedValues& revised) {
 
 std::expected<RevisedValues, std::string> values_from_proto(const proto::KeptValues& message) {
     if (message.tool_size() > static_cast<int>(gcode::kMaxTools)) {
-        return std::unexpected("there are " + std::to_string(message.tool_size()) + " tools; at most " +
-                               std::to_string(gcode::kMaxTools) + " are kept");
+        return std::unexpected(
+            fmt::format("there are {} tools; at most {} are kept", message.tool_size(), gcode::kMaxTools));
     }
     RevisedValues revised{.revision = message.revision(), .values = {}};
     KeptValues& values = revised.values;

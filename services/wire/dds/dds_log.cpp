@@ -2,6 +2,7 @@
 
 #include <dds/dds.h>
 #include <dds/ddsrt/log.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
@@ -81,7 +82,7 @@ std::optional<std::string> RepeatFilter::pass(std::chrono::nanoseconds now, cons
         ++kind.held_back;
         return std::nullopt;
     }
-    const std::string more = kind.held_back == 0 ? "" : " (and " + std::to_string(kind.held_back) + " more like it)";
+    const std::string more = kind.held_back == 0 ? "" : fmt::format(" (and {} more like it)", kind.held_back);
     kind = {now, 0};
     return message + more;
 }

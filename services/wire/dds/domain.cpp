@@ -1,5 +1,7 @@
 #include "services/wire/dds/domain.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
@@ -38,7 +40,7 @@ std::chrono::nanoseconds lease_of(const NetworkConfig& network) {
 }
 
 std::string domain_place(const NetworkConfig& network) {
-    return "DDS domain " + std::to_string(network.domain) + " on interface " + network.interface;
+    return fmt::format("DDS domain {} on interface {}", network.domain, network.interface);
 }
 
 std::string cannot_open_domain(const NetworkConfig& network, const char* why) {

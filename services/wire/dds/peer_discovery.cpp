@@ -1,5 +1,7 @@
 #include "services/wire/dds/peer_discovery.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace lockstep {
@@ -11,20 +13,17 @@ constexpr int kAskEvery_ms = 800;  // a new process gets answers at once
 constexpr int kGivenUpAfter_ms = 4000;         // three ARP requests, a second each, and the delay of a busy host
 constexpr std::int64_t kQuestionBytes = 1280;  // as the kernel counts them
 
-std::string milliseconds(int ms) { return std::to_string(ms) + " ms"; }
-
 }  // namespace
 
 std::string peer_discovery(const std::vector<std::string>& peers) {
     std::string listed;
     for (const std::string& peer : peers) { listed += "<Peer address=\"" + peer + "\"/>"; }
-    return "<General><AllowMulticast>false</AllowMulticast></General><Discovery><SPDPInterval>" +
-           milliseconds(kAskEvery_ms) + "</SPDPInterval><LeaseDuration>" +
-           milliseconds(static_cast<int>(kPeerLease.count())) +
-           "</LeaseDuration><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" +
-           std::to_string(kProcessesOfHost) + "</MaxAutoParticipantIndex><Peers>" + listed +
-           "</Peers></Discovery><Internal><SocketSendBufferSize max=\"" +
-           std::to_string(peer_send_buffer(peers.size())) + " B\"/></Internal>";
+    return fmt::format(
+        "<General><AllowMulticast>false</AllowMulticast></General><Discovery><SPDPInterval>{} ms</SPDPInterval>"
+        "<LeaseDuration>{} ms</LeaseDuration><ParticipantIndex>auto</ParticipantIndex>"
+        "<MaxAutoParticipantIndex>{}</MaxAutoParticipantIndex><Peers>{}</Peers></Discovery>"
+        "<Internal><SocketSendBufferSize max=\"{} B\"/></Internal>",
+        kAskEvery_ms, kPeerLease.count(), kProcessesOfHost, listed, peer_send_buffer(peers.size()));
 }
 
 std::int64_t peer_send_buffer(std::size_t peers) {

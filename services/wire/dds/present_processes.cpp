@@ -1,5 +1,6 @@
 #include "services/wire/dds/present_processes.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <array>
@@ -46,7 +47,7 @@ std::optional<PresentProcess> process_of(const dds_builtintopic_endpoint_t& writ
 }  // namespace
 
 void announce_process(dds_qos_t& writer) {
-    const std::string process = host_name() + " " + std::to_string(getpid());
+    const std::string process = fmt::format("{} {}", host_name(), getpid());
     dds_qset_userdata(&writer, process.data(), process.size());
 }
 

@@ -1,5 +1,7 @@
 #include "services/wire/dds/protocol_version.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <charconv>
 #include <map>
@@ -49,7 +51,7 @@ std::string* kept_name(const std::string& machine) {
 }  // namespace
 
 std::string calling_card(int protocol, const std::string& machine) {
-    return std::string(kMark) + std::to_string(protocol) + " " + machine;
+    return fmt::format("{}{} {}", kMark, protocol, machine);
 }
 
 std::optional<std::string> other_version(std::string_view card, const std::string& machine) {
@@ -59,9 +61,10 @@ std::optional<std::string> other_version(std::string_view card, const std::strin
     const auto [end, error] = std::from_chars(card.data(), card.data() + card.size(), protocol);
     if (error != std::errc{} || protocol == kProtocol) { return std::nullopt; }
     if (std::string_view(end, card.data() + card.size()) != " " + machine) { return std::nullopt; }
-    return "a process of machine '" + machine + "' uses protocol " + std::to_string(protocol) + ", this one " +
-           std::to_string(kProtocol) +
-           ": they do not receive each other's messages; install the same version of Lockstep on all hosts";
+    return fmt::format(
+        "a process of machine '{}' uses protocol {}, this one {}: they do not receive each other's messages; install "
+        "the same version of Lockstep on all hosts",
+        machine, protocol, kProtocol);
 }
 
 void announce_version(dds_qos_t& participant, int protocol, const std::string& machine) {

@@ -1,5 +1,7 @@
 #include "services/wire/lcm/lcm_log.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -122,7 +124,7 @@ std::expected<std::optional<LogEvent>, std::string> LogReader::next() {
         at_ = end;
         if (!file_.failed()) { return event; }
     }
-    if (file_.failed()) { return std::unexpected("reading the log failed near byte " + std::to_string(at_)); }
+    if (file_.failed()) { return std::unexpected(fmt::format("reading the log failed near byte {}", at_)); }
     return std::nullopt;
 }
 

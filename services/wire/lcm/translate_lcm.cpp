@@ -36,7 +36,7 @@ axis_position_t to_lcm(const MachineConfig& machine, const AxisState& state, Rec
     out.velocity_mm_per_s = steps_per_s / axis.steps_per_mm;
     out.state = name_of(state.phase);
     out.homed = state.homed ? 1 : 0;
-    out.fault = state.fault;
+    out.fault = static_cast<std::int32_t>(state.fault);
     out.following_error_steps = state.following_error_steps;
     return out;
 }

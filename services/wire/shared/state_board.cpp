@@ -1,6 +1,7 @@
 #include "services/wire/shared/state_board.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -94,8 +95,8 @@ std::expected<StateBoardWriter, std::string> StateBoardWriter::open(const fs::pa
     auto file = StateBoardFile::open(path);
     if (!file) { return std::unexpected(file.error()); }
     if (!lock_part(file->descriptor(), axis)) {
-        return std::unexpected("axis " + std::to_string(axis) + " is already run by another process (" + path.string() +
-                               "); end that one first");
+        return std::unexpected(
+            fmt::format("axis {} is already run by another process ({}); end that one first", axis, path.string()));
     }
     SharedMapping part(file->descriptor(), kPartBytes, PROT_READ | PROT_WRITE, MAP_POPULATE, axis * kPartBytes);
     if (part.words() == nullptr) { return cannot_share(path, "map it"); }
@@ -143,8 +144,9 @@ std::uint64_t StateBoardReader::written_by(std::uint32_t axis) {
     std::uint64_t& read = read_[axis];
     if (written == read) { return written; }
     if (shared_word(part_of(axis) + kRules).load(std::memory_order_relaxed) != kRulesHere) {
-        refusals_.add("axis " + std::to_string(axis) + " writes to " + path().string() +
-                      " in the format of another version; give all processes one version");
+        refusals_.add(
+            fmt::format("axis {} writes to {} in the format of another version; give all processes one version", axis,
+                        path().string()));
         read = written;
     }
     const std::uint64_t kept_from = written - std::min<std::uint64_t>(written, kStatesKept);
@@ -156,8 +158,8 @@ std::optional<AxisState> StateBoardReader::state_of(std::uint32_t axis, std::uin
     const auto read = StateSlot::read(slot_of(part_of(axis), number));
     if (!read || read->number != number) { return std::nullopt; }  // overwritten meanwhile
     if (read->record.axis != axis || !has_booleans(read->record)) {
-        refusals_.add(path().string() + ": the content of the part of axis " + std::to_string(axis) +
-                      " is not a state of that axis");
+        refusals_.add(
+            fmt::format("{}: the content of the part of axis {} is not a state of that axis", path().string(), axis));
         return std::nullopt;
     }
     auto state = from_wire(read->record);

@@ -22,21 +22,21 @@ lockstep_wire_AxisState to_wire(const AxisState& state) {
             .at_rest = state.at_rest,
             .homed = state.homed,
             .phase = static_cast<lockstep_wire_AxisPhase>(state.phase),
-            .fault = state.fault,
+            .fault = static_cast<std::uint16_t>(state.fault),
             .position_count = state.position.count(),
             .position_phase = state.position.phase(),
             .velocity = state.velocity.raw,
             .tick = state.tick.value,
             .following_error_steps = state.following_error_steps,
             .command_done = state.command_done,
-            .command_fault = state.command_fault,
+            .command_fault = static_cast<std::uint16_t>(state.command_fault),
             .config_hash = state.config_hash,
             .refused_frames = state.refused_frames,
             .clock_error_ticks = state.clock_error.value,
             .term = state.term.number,
             .coordinator = state.term.coordinator,
             .hears_owner = state.hears_owner,
-            .unproved = state.unproved};
+            .unproved = static_cast<std::uint16_t>(state.unproved)};
 }
 
 FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
@@ -61,19 +61,19 @@ FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
                      .at_rest = wire.at_rest,
                      .homed = wire.homed,
                      .phase = phase,
-                     .fault = wire.fault,
+                     .fault = static_cast<FaultCode>(wire.fault),
                      .position = Position::from_count(wire.position_count, wire.position_phase),
                      .velocity = {wire.velocity},
                      .tick = {wire.tick},
                      .following_error_steps = wire.following_error_steps,
                      .command_done = wire.command_done,
-                     .command_fault = wire.command_fault,
+                     .command_fault = static_cast<FaultCode>(wire.command_fault),
                      .config_hash = wire.config_hash,
                      .refused_frames = wire.refused_frames,
                      .clock_error = {wire.clock_error_ticks},
                      .term = {wire.term, wire.coordinator},
                      .hears_owner = wire.hears_owner,
-                     .unproved = wire.unproved};
+                     .unproved = static_cast<FaultCode>(wire.unproved)};
 }
 
 lockstep_wire_AxisCommand to_wire(const AxisCommand& command) {

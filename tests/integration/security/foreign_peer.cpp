@@ -53,7 +53,9 @@ AxisCommand own_move() {
 }
 
 /// A state of axis 0, with a fault that it does not have.
-AxisState false_state() { return {.identity = 1, .axis = 0, .stamp = 1, .phase = AxisPhase::Fault, .fault = 103}; }
+AxisState false_state() {
+    return {.identity = 1, .axis = 0, .stamp = 1, .phase = AxisPhase::Fault, .fault = FaultCode::LimitHit};
+}
 
 struct Outcome {
     std::uint32_t matched = 0;  // the maximum of matched readers

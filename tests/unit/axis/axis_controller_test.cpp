@@ -127,7 +127,7 @@ TEST_F(StoppedAxis, IsInFaultBehindAnEmergencyStopAtRestToo) {
     requests.push_back({.client = 4, .sequence = 1, .kind = CommandKind::EmergencyStop});
     EXPECT_TRUE(orders_of<device::StopNow>(loop(10)).empty());
     EXPECT_EQ(state.phase, AxisPhase::Fault);
-    EXPECT_EQ(state.fault, static_cast<std::uint16_t>(FaultCode::EmergencyStopped));
+    EXPECT_EQ(state.fault, FaultCode::EmergencyStopped);
 }
 
 TEST_F(StoppedAxis, SaysThatItsDeviceWasStoppedByAnotherProcess) {
@@ -139,7 +139,7 @@ TEST_F(StoppedAxis, SaysThatItsDeviceWasStoppedByAnotherProcess) {
     device.finished = device.stopped_by_host = true;
     const AxisOutputs out = loop(22);
     EXPECT_TRUE(has_notice(out, AxisNotice::Kind::Fault, FaultCode::EmergencyStopped));
-    EXPECT_EQ(state.fault, static_cast<std::uint16_t>(FaultCode::EmergencyStopped));
+    EXPECT_EQ(state.fault, FaultCode::EmergencyStopped);
     EXPECT_FALSE(state.homed);
 }
 

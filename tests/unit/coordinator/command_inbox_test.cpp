@@ -36,7 +36,7 @@ TEST(CommandInbox, KnowsCommandsThatWereAnswered) {
 TEST(Reply, NamesTheReasonOfARefusal) {
     const Reply reply = reply_to({.client = 1, .sequence = 5}, refuse(FaultCode::Busy, "the machine is Running"), 3);
     EXPECT_EQ(reply.status, ReplyStatus::Refused);
-    EXPECT_EQ(reply.fault, static_cast<std::uint16_t>(FaultCode::Busy));
+    EXPECT_EQ(reply.fault, FaultCode::Busy);
     EXPECT_EQ(reply.text, "the machine is Running");
     EXPECT_EQ(reply.job, 0u);
 }
@@ -77,7 +77,7 @@ TEST_F(Readiness, NamesTheAxisThatHasNoDevice) {
     receive_all();
     enter(MachinePhase::Idle);
     AxisState state = state_of(1);
-    state.unproved = static_cast<std::uint16_t>(FaultCode::DeviceMissing);
+    state.unproved = FaultCode::DeviceMissing;
     axes.take(state, slot);
     const CommandResult result = check_ready(loop(), false);
     ASSERT_FALSE(result);

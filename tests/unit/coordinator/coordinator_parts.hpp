@@ -46,7 +46,7 @@ protected:
     void finish_order(std::uint32_t axis, FaultCode fault = FaultCode::None) {
         AxisState state = state_of(axis);
         state.command_done = orders.newest(axis)->sequence;
-        state.command_fault = static_cast<std::uint16_t>(fault);
+        state.command_fault = fault;
         axes.take(state, slot);
     }
     bool has_job_event(JobEvent::Kind kind) const { return std::ranges::count(out.jobs, kind, &JobEvent::kind) != 0; }

@@ -69,7 +69,7 @@ TEST_F(CoordinatorAlone, AStopThatAnAxisDoesNotFollowEndsInAFaultThatNamesIt) {
     ask(CommandKind::Stop);
     ASSERT_EQ(coordinator_.phase(), MachinePhase::Stopping);
     ASSERT_TRUE(reaches(MachinePhase::Fault, 300)) << "frames, tail, and twice the silence";
-    EXPECT_EQ(static_cast<FaultCode>(state_.fault), FaultCode::NotAtRest);
+    EXPECT_EQ(state_.fault, FaultCode::NotAtRest);
     EXPECT_EQ(state_.fault_axis, 0u);
     EXPECT_EQ(state_.outcome, JobOutcome::Failed);
     axis_.at_rest = true;
@@ -219,7 +219,7 @@ TEST_F(StandbyAlone, FailsWhereNoFrameLeadsFromWhereTheAxisRests) {
     axis_.term = standby_.term();
     for (int i = 0; i < 300 && standby_.phase() != MachinePhase::Fault; ++i) { pass(false, true); }
     EXPECT_TRUE(doubts_.empty());
-    EXPECT_EQ(static_cast<FaultCode>(state_.fault), FaultCode::FrameBeyondLimits);
+    EXPECT_EQ(state_.fault, FaultCode::FrameBeyondLimits);
     EXPECT_EQ(state_.fault_axis, 0u);
 }
 

@@ -19,23 +19,25 @@ constexpr Ticks kPeriod{6500};
 constexpr Ticks kLeastMove{400};
 
 /// The start velocity is two pulses per period. A change of one pulse per period takes half the acceleration.
-AxisLimits axis_of(double steps_per_s, double steps_per_s2) {
-    return {400e-6, steps_per_s * 1e-6, steps_per_s2 * 1e-12, steps_per_s2 * 1e-12, -1'000'000, 1'000'000};
+AxisLimits axis_of(double steps_per_s, double acceleration, double deceleration) {
+    return {400e-6, steps_per_s * 1e-6, acceleration * 1e-12, deceleration * 1e-12, -1'000'000, 1'000'000};
 }
+AxisLimits axis_of(double steps_per_s, double steps_per_s2) { return axis_of(steps_per_s, steps_per_s2, steps_per_s2); }
 const std::vector<AxisLimits> kLimits(2, axis_of(5000, 60'000));
 const std::vector<double> kScale{80, 400};
 
-Path path_through(const std::vector<AxisCounts>& places, LaiFollowing following = LaiFollowing::OnTheLine) {
+Path path_through(const std::vector<AxisCounts>& places, LaiFollowing following = LaiFollowing::OnTheLine,
+                  const std::vector<AxisLimits>& limits = kLimits) {
     std::vector<PathMove> moves;
     for (std::size_t i = 1; i < places.size(); ++i) {
-        moves.push_back(make_move(places[i - 1], places[i], kLimits, kScale, 0));
+        moves.push_back(make_move(places[i - 1], places[i], limits, kScale, 0));
         moves.back().block = static_cast<std::uint32_t>(i);
     }
-    return plan_lai_path(moves, {}, kLimits, kScale, kTick_ns, kLeastMove, following);
+    return plan_lai_path(moves, {}, limits, kScale, kTick_ns, kLeastMove, following);
 }
 
 /// Makes one frame of the path up to `end` and a tail behind it. Expects both axes to accept it.
-void expect_accepted(const Path& path, Ticks end) {
+void expect_accepted(const Path& path, Ticks end, const std::vector<AxisLimits>& limits = kLimits) {
     std::vector<Position> at{start_of(path, 0, 0), start_of(path, 1, 0)};
     std::vector<AxisTrack> tracks{{at[0], {}, {}}, {at[1], {}, {}}};
     std::vector<MotionPoint> from{{at[0], 0, {}}, {at[1], 0, {}}};
@@ -44,13 +46,13 @@ void expect_accepted(const Path& path, Ticks end) {
     while (body.next(pieces)) {
         for (std::size_t i = 0; i < 2; ++i) { ASSERT_TRUE(tracks[i].body.push_back(pieces[i])); }
     }
-    const Path tail = brake_from(path, subticks(end), kLimits);
+    const Path tail = brake_from(path, subticks(end), limits);
     PieceSource rest(tail, Ticks{0}, tail.duration().ceil(), at);
     while (rest.next(pieces)) {
         for (std::size_t i = 0; i < 2; ++i) { ASSERT_TRUE(tracks[i].tail.push_back(pieces[i])); }
     }
     for (std::size_t i = 0; i < 2; ++i) {
-        EXPECT_EQ(check_track(tracks[i], end, false, kLimits[i], from[i]), FaultCode::None)
+        EXPECT_EQ(check_track(tracks[i], end, false, limits[i], from[i]), FaultCode::None)
             << "axis " << i << ", tail from tick " << end.value << " of " << path.duration().ceil().value;
     }
 }
@@ -123,6 +125,14 @@ TEST(LaiPath, EveryFrameAndEveryTailKeepsTheLimits) {
         const Path path = path_through({{0, 0}, {40, 31}, {37, 60}, {-20, 60}, {-20, 58}, {20, 0}}, following);
         ASSERT_LT(path.moves.size(), kMaxBodyPieces);
         for (Ticks end{1}; end < path.duration().floor(); end += Ticks{97}) { expect_accepted(path, end); }
+    }
+}
+
+TEST(LaiPath, TailsKeepADecelerationThatDiffersFromTheAcceleration) {
+    for (const auto& [acceleration, deceleration] : {std::pair{90'000, 60'000}, {60'000, 90'000}}) {
+        const std::vector<AxisLimits> limits(2, axis_of(5000, acceleration, deceleration));
+        const Path path = path_through({{0, 0}, {40, 31}, {37, 60}, {-20, 58}}, LaiFollowing::OnTheLine, limits);
+        for (Ticks end{1}; end < path.duration().floor(); end += Ticks{97}) { expect_accepted(path, end, limits); }
     }
 }
 

@@ -56,7 +56,7 @@ TEST(ProgramInbox, NonsenseIsRefusedAndSaysWhy) {
     ProgramInbox inbox;
     const auto refused = inbox.read(chunk(3, 2, {}));
     ASSERT_FALSE(refused);
-    EXPECT_EQ(static_cast<FaultCode>(refused.error().fault), FaultCode::BadProgram);
+    EXPECT_EQ(refused.error().fault, FaultCode::BadProgram);
     EXPECT_FALSE(refused.error().text.empty());
 }
 
@@ -73,7 +73,7 @@ TEST(ProgramInbox, ARefusedProgramStaysRefused) {
     for (int n = 0; n < 2; ++n) {
         const auto refused = inbox.read(chunk(0, 0, some_program()));
         EXPECT_EQ(refused.error().text, "no");
-        EXPECT_EQ(refused.error().fault, static_cast<std::uint16_t>(FaultCode::WriterHeld));
+        EXPECT_EQ(refused.error().fault, FaultCode::WriterHeld);
     }
 }
 

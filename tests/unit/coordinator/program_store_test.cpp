@@ -19,7 +19,7 @@ protected:
                 .blocks = std::move(blocks)};
     }
     static Block to(double x_mm, std::int32_t line) { return {line, ProgramMove{{x_mm, 0}, 10, false}}; }
-    static FaultCode fault_of(const Reply& reply) { return static_cast<FaultCode>(reply.fault); }
+    static FaultCode fault_of(const Reply& reply) { return reply.fault; }
 
     ProgramStore programs{two_long_axes()};
 };

@@ -100,9 +100,9 @@ TEST_F(RestOfJob, IsInDoubtWithAnAxisThatIsMissingUnhomedInFaultOrInMotion) {
     y().homed = false;
     EXPECT_EQ(doubt(), TakeoverDoubt::AxisInDoubt);
     y().homed = true;
-    y().fault = 1;
+    y().fault = FaultCode::LimitHit;
     EXPECT_EQ(doubt(), TakeoverDoubt::AxisInDoubt);
-    y().fault = 0;
+    y().fault = FaultCode::None;
     y().at_rest = false;
     EXPECT_EQ(doubt(), TakeoverDoubt::AxisInDoubt);
     y().at_rest = true;

@@ -17,13 +17,13 @@ TEST(Messages, OfAnAxisThatNobodyFilledInSayNothing) {
     EXPECT_EQ(axis.ran, 0u);
     EXPECT_TRUE(axis.at_rest);
     EXPECT_FALSE(axis.homed);
-    EXPECT_EQ(axis.fault, 0u);
+    EXPECT_EQ(axis.fault, FaultCode::None);
     EXPECT_EQ(axis.following_error_steps, 0);
     EXPECT_EQ(axis.command_done, 0u);
-    EXPECT_EQ(axis.command_fault, 0u);
+    EXPECT_EQ(axis.command_fault, FaultCode::None);
     EXPECT_EQ(axis.refused_frames, 0u);
     EXPECT_FALSE(axis.hears_owner);
-    EXPECT_EQ(axis.unproved, 0u);
+    EXPECT_EQ(axis.unproved, FaultCode::None);
     EXPECT_EQ(axis.term, Term{});
     EXPECT_EQ(axis.term.number, 0u) << "nobody's";
     EXPECT_EQ(axis.term.coordinator, 0u);
@@ -32,13 +32,13 @@ TEST(Messages, OfAnAxisThatNobodyFilledInSayNothing) {
 TEST(Messages, OfAMachineThatNobodyFilledInSayNothing) {
     const MachineState machine;
     EXPECT_EQ(machine.stamp, 0);
-    EXPECT_EQ(machine.fault, 0u);
+    EXPECT_EQ(machine.fault, FaultCode::None);
     EXPECT_EQ(machine.fault_axis, 0u);
     EXPECT_EQ(machine.epoch, 0u);
     EXPECT_EQ(machine.sent, 0u);
     EXPECT_EQ(machine.job, 0u);
     EXPECT_EQ(machine.line, 0);
-    EXPECT_EQ(machine.job_fault, 0u);
+    EXPECT_EQ(machine.job_fault, FaultCode::None);
     EXPECT_FALSE(machine.lacks_blocks);
     EXPECT_EQ(machine.progress, 0);
     EXPECT_EQ(machine.remaining_s, 0);
@@ -99,7 +99,7 @@ TEST(Messages, OfAClientAndToItThatNobodyFilledInAskForNothing) {
     EXPECT_FALSE(part.is_last);
     EXPECT_EQ(part.share, 0);
     const Reply reply;
-    EXPECT_EQ(reply.fault, 0u);
+    EXPECT_EQ(reply.fault, FaultCode::None);
     EXPECT_EQ(reply.job, 0u);
     EXPECT_EQ(reply.parts, 0u);
     EXPECT_EQ(reply.free_blocks, 0u);

@@ -134,10 +134,9 @@ TEST(StatusText, ShowsThatNothingIsReceived) {
 }
 
 TEST(MachineFault, NamesAnAxisOnlyIfItIsOneAxiss) {
-    const auto limit =
-        fault_of({.fault = static_cast<std::uint16_t>(FaultCode::LimitHit), .fault_axis = 1}, two_axes());
+    const auto limit = fault_of({.fault = FaultCode::LimitHit, .fault_axis = 1}, two_axes());
     EXPECT_EQ(limit->axis(), "Y");
-    const auto estop = fault_of({.fault = static_cast<std::uint16_t>(FaultCode::EmergencyStopped)}, two_axes());
+    const auto estop = fault_of({.fault = FaultCode::EmergencyStopped}, two_axes());
     EXPECT_FALSE(estop->has_axis());
     EXPECT_FALSE(fault_of({}, two_axes()));
 }

@@ -35,7 +35,7 @@ void expect_phase(Walker& m, MachinePhase phase, double seconds = 3) {
 
 void expect_fault(Walker& m, FaultCode code) {
     EXPECT_EQ(m.vm.state()->phase, MachinePhase::Fault);
-    EXPECT_EQ(static_cast<FaultCode>(m.vm.state()->fault), code) << m.state_text();
+    EXPECT_EQ(m.vm.state()->fault, code) << m.state_text();
 }
 
 void ask_for(Walker& m, CommandKind kind) { ASSERT_EQ(m.ask(kind).status, ReplyStatus::Accepted); }

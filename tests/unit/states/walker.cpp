@@ -78,7 +78,7 @@ bool Walker::settles(double seconds) {
 
 std::string Walker::state_text() const {
     std::string text(name_of(vm.state()->phase));
-    if (vm.state()->fault != 0) { text += ": " + std::string(name_of(fault())); }
+    if (vm.state()->fault != FaultCode::None) { text += ": " + std::string(name_of(fault())); }
     return text;
 }
 
@@ -102,7 +102,7 @@ Answer Walker::answer_to(const Question& question) {
     const Reply reply = put(question);
     EXPECT_NE(reply.text, "no reply") << "it is answered in time";
     if (reply.status == ReplyStatus::Refused) {
-        const auto code = static_cast<FaultCode>(reply.fault);
+        const auto code = reply.fault;
         const FaultText* text = find_fault(code);
         EXPECT_NE(text, nullptr) << reply.text;
         EXPECT_FALSE(reply.text.empty());
@@ -186,7 +186,7 @@ bool Walker::recovers() {
         }
         const Reply reply = go(CommandKind::Run, 20, 30, 80);
         if (reply.status == ReplyStatus::Refused) {
-            follow(static_cast<FaultCode>(reply.fault));
+            follow(reply.fault);
             continue;
         }
         EXPECT_TRUE(settles(kJobWithin_s)) << state_text();

@@ -7,7 +7,7 @@
 namespace lockstep {
 namespace {
 
-FaultCode why(const Reply& reply) { return static_cast<FaultCode>(reply.fault); }
+FaultCode why(const Reply& reply) { return reply.fault; }
 
 TEST_F(Rig, NothingRunsBeforeHoming) {
     ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
@@ -374,7 +374,7 @@ TEST(Coordinator, AnswersCommandsReceivedDuringItsStall) {
     const auto asked = vm.command(CommandKind::Resume);
     (void)vm.advance_until([] { return false; }, stall + machine.slot_ticks() * std::int64_t{12});
     ASSERT_NE(vm.reply_to(asked), nullptr) << "it receives the axes first, then every command";
-    EXPECT_EQ(vm.reply_to(asked)->fault, static_cast<std::uint16_t>(FaultCode::NothingToDo));
+    EXPECT_EQ(vm.reply_to(asked)->fault, FaultCode::NothingToDo);
 }
 
 }  // namespace

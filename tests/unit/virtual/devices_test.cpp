@@ -120,10 +120,10 @@ TEST_F(Devices, AResetBeforeItReturnsIsAcceptedAndTheMachineWaitsForIt) {
     EXPECT_EQ(ask(CommandKind::Reset).status, ReplyStatus::Accepted);
     wait(0.5);
     EXPECT_EQ(vm.state()->phase, MachinePhase::Waiting) << describe();
-    EXPECT_EQ(static_cast<FaultCode>(vm.axis_states()[kY]->unproved), FaultCode::DeviceMissing);
+    EXPECT_EQ(vm.axis_states()[kY]->unproved, FaultCode::DeviceMissing);
     const Reply refusal = ask(CommandKind::Home);
     EXPECT_EQ(refusal.status, ReplyStatus::Refused);
-    EXPECT_EQ(static_cast<FaultCode>(refusal.fault), FaultCode::DeviceMissing);
+    EXPECT_EQ(refusal.fault, FaultCode::DeviceMissing);
     ASSERT_TRUE(reaches(MachinePhase::Idle, 4)) << describe();
     expect_usable();
 }
@@ -133,7 +133,7 @@ TEST_F(Devices, AnAxisThatStartsBeforeItsDeviceWaitsForItWithoutAFault) {
     wait(1);
     EXPECT_EQ(vm.state()->phase, MachinePhase::Waiting) << describe();
     EXPECT_EQ(fault(), FaultCode::None);
-    EXPECT_EQ(static_cast<FaultCode>(vm.axis_states()[kY]->unproved), FaultCode::DeviceMissing);
+    EXPECT_EQ(vm.axis_states()[kY]->unproved, FaultCode::DeviceMissing);
     ASSERT_TRUE(reaches(MachinePhase::Idle, 3)) << describe();
     home();
 }

@@ -60,7 +60,7 @@ TEST_F(Faults, NothingIsBegunWithoutAnAxis) {
     wait(1);
     const Reply reply = run(program_of({{20, 10}}, 40));
     EXPECT_EQ(reply.status, ReplyStatus::Refused);
-    EXPECT_EQ(static_cast<FaultCode>(reply.fault), FaultCode::AxisMissing) << reply.text;
+    EXPECT_EQ(reply.fault, FaultCode::AxisMissing) << reply.text;
 }
 
 TEST_F(Faults, AStalledCoordinatorOnlyCostsTime) {

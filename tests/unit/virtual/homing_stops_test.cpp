@@ -67,7 +67,7 @@ public:
         for (std::size_t i = 0; i < 2; ++i) {
             const AxisState& state = *vm.axis_states()[i];
             EXPECT_TRUE(state.at_rest);
-            EXPECT_EQ(state.fault, 0);
+            EXPECT_EQ(state.fault, FaultCode::None);
             EXPECT_EQ(state.following_error_steps, 0) << "no step is lost";
             const bool has_zero = stage(i) == HomingStage::Park || stage(i) == HomingStage::Idle;
             EXPECT_EQ(state.homed, has_zero && is_within_travel(i))
@@ -190,7 +190,7 @@ TEST_F(HomingInTurn, AxesWhoseTurnHasNotComeStayAsTheyAre) {
     ASSERT_TRUE(reaches(MachinePhase::Idle, 1)) << describe();
     EXPECT_FALSE(vm.axis_states()[0]->homed);
     EXPECT_TRUE(vm.axis_states()[1]->homed);
-    EXPECT_EQ(run(program_of({{10, 10}}, 0)).fault, static_cast<std::uint16_t>(FaultCode::NotHomed));
+    EXPECT_EQ(run(program_of({{10, 10}}, 0)).fault, FaultCode::NotHomed);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ protected:
     FaultCode refusal(const Jogger& jogger) const {
         const Reply* reply = jogger.reply();
         if (reply == nullptr) { return FaultCode::DeviceFault; }
-        return reply->status == ReplyStatus::Accepted ? FaultCode::None : static_cast<FaultCode>(reply->fault);
+        return reply->status == ReplyStatus::Accepted ? FaultCode::None : reply->fault;
     }
     FaultCode press(Jogger& jogger, std::vector<JogAxis> jogs) {
         jogger.press(std::move(jogs));
@@ -226,7 +226,7 @@ TEST_F(AJog, IsEndedByAStopAndAHoldAndOtherCommandsWait) {
     for (const CommandKind kind : {CommandKind::Stop, CommandKind::Hold}) {
         EXPECT_EQ(press(client, {{.axis = kX, .speed_mm_s = 20}}), FaultCode::None);
         jog(0.2);
-        EXPECT_EQ(static_cast<FaultCode>(ask(CommandKind::Home).fault), FaultCode::Busy);
+        EXPECT_EQ(ask(CommandKind::Home).fault, FaultCode::Busy);
         (void)vm.command(kind);
         jog(0.4);
         EXPECT_EQ(phase(), MachinePhase::Idle) << "renewals do not begin it again";

@@ -17,7 +17,7 @@ protected:
         wait(seconds + 0.1);
     }
     bool y_is_homed() const { return vm.axis_states()[kY]->homed; }
-    FaultCode doubt() const { return static_cast<FaultCode>(vm.axis_states()[kY]->unproved); }
+    FaultCode doubt() const { return vm.axis_states()[kY]->unproved; }
     void run_to(double x, double y) {
         Program program = program_of({{x, y}}, 40, at_);
         ASSERT_EQ(run(program).status, ReplyStatus::Accepted);

@@ -62,7 +62,7 @@ protected:
         ASSERT_TRUE(reaches(MachinePhase::Idle, 60)) << describe();
         ASSERT_EQ(vm.state()->outcome, JobOutcome::Done);
     }
-    FaultCode why(const Reply& reply) const { return static_cast<FaultCode>(reply.fault); }
+    FaultCode why(const Reply& reply) const { return reply.fault; }
 
     OwnMoveLog log;
 

@@ -86,8 +86,8 @@ protected:
         for (const auto& state : vm.axis_states()) { counts.push_back(state->position.count()); }
         return counts;
     }
-    FaultCode fault() const { return static_cast<FaultCode>(vm.state()->fault); }
-    FaultCode axis_fault(std::size_t i) const { return static_cast<FaultCode>(vm.axis_states()[i]->fault); }
+    FaultCode fault() const { return vm.state()->fault; }
+    FaultCode axis_fault(std::size_t i) const { return vm.axis_states()[i]->fault; }
     std::string describe() const {
         std::string text =
             "phase " + std::to_string(static_cast<int>(vm.state()->phase)) + ", " + std::string(name_of(fault()));

@@ -241,7 +241,7 @@ TEST_F(Standby, DoesNotExecuteACommandThatTheOwnerMayHaveBegun) {
     wait(0.1);
     const Reply* last = &vm.replies().back();
     EXPECT_EQ(last->sequence, asked);
-    EXPECT_EQ(static_cast<FaultCode>(last->fault), FaultCode::CoordinatorChanged);
+    EXPECT_EQ(last->fault, FaultCode::CoordinatorChanged);
     wait(0.5);
     EXPECT_EQ(counts(), at);
 }

@@ -62,13 +62,13 @@ protected:
     void expect_cut(FaultCode why) {
         ASSERT_TRUE(reaches(MachinePhase::Idle, 30)) << describe();
         EXPECT_EQ(vm.state()->outcome, JobOutcome::Stopped);
-        EXPECT_EQ(static_cast<FaultCode>(vm.state()->job_fault), why);
+        EXPECT_EQ(vm.state()->job_fault, why);
         EXPECT_EQ(vm.state()->line, line) << "the last one that is known";
         EXPECT_EQ(counts(), end()) << "at its end";
         ASSERT_EQ(run(program_of({{x_mm, 20}}, 40, {x_mm, y_mm})).status, ReplyStatus::Accepted)
             << "the next job begins";
         ASSERT_TRUE(reaches(MachinePhase::Idle, 10)) << describe();
-        EXPECT_EQ(vm.state()->job_fault, 0);
+        EXPECT_EQ(vm.state()->job_fault, FaultCode::None);
     }
 
     std::int32_t line = 0;
@@ -171,7 +171,7 @@ TEST_F(Stream, APartThatTheMachineCannotRunIsRefusedAndWhatIsBeforeItIsRun) {
     blocks.push_back({++line, ProgramMove{{300, 5}, kFeed_mm_s}});
     const Reply reply = send({.blocks = blocks});
     EXPECT_EQ(reply.status, ReplyStatus::Refused);
-    EXPECT_EQ(static_cast<FaultCode>(reply.fault), FaultCode::OutsideTravel);
+    EXPECT_EQ(reply.fault, FaultCode::OutsideTravel);
     EXPECT_NE(reply.text.find("line 71"), std::string::npos) << reply.text;
     line = known;
     x_mm = x;

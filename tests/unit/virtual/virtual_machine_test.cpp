@@ -10,12 +10,9 @@ namespace {
 
 std::string describe(const VirtualMachine& vm) {
     std::string text = "phase " + std::to_string(static_cast<int>(vm.state()->phase)) + " fault " +
-                       std::string(name_of(static_cast<FaultCode>(vm.state()->fault)));
+                       std::string(name_of(vm.state()->fault));
     for (const auto& axis : vm.axis_states()) {
-        if (axis) {
-            text += " | " + std::string(name_of(axis->phase)) + " " +
-                    std::string(name_of(static_cast<FaultCode>(axis->fault)));
-        }
+        if (axis) { text += " | " + std::string(name_of(axis->phase)) + " " + std::string(name_of(axis->fault)); }
     }
     return text;
 }

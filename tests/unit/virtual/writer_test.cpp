@@ -53,9 +53,7 @@ private:
     std::uint64_t sequence_ = 0;
 };
 
-FaultCode code_of(const Reply& reply) {
-    return reply.status == ReplyStatus::Accepted ? FaultCode::None : static_cast<FaultCode>(reply.fault);
-}
+FaultCode code_of(const Reply& reply) { return reply.status == ReplyStatus::Accepted ? FaultCode::None : reply.fault; }
 
 class TwoWriters : public Rig {
 protected:

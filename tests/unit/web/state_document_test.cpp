@@ -114,8 +114,8 @@ TEST(StateDocument, ALoadedProgramIsShownWithItsNotes) {
 
 TEST(StateDocument, AlarmsNameFaultsOnceWithTheirRemedy) {
     Snapshot snapshot = snapshot_at_rest();
-    snapshot.machine->value.fault = static_cast<std::uint16_t>(FaultCode::EmergencyStopped);
-    snapshot.axes[0].state->value.fault = static_cast<std::uint16_t>(FaultCode::EmergencyStopped);
+    snapshot.machine->value.fault = FaultCode::EmergencyStopped;
+    snapshot.axes[0].state->value.fault = FaultCode::EmergencyStopped;
     const Json list = document(snapshot)["alarms"];
     ASSERT_GE(list.size(), 1u);
     EXPECT_EQ(list[0]["code"], "emergency-stopped");

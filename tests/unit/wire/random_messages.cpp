@@ -125,7 +125,7 @@ MachineState RandomMessages::machine_state() {
             .outcome = index(2) == 0 ? std::nullopt : std::optional(static_cast<JobOutcome>(index(3))),
             .job_begun = term(),
             .line = static_cast<std::int32_t>(between(0, INT32_MAX)),
-            .job_fault = static_cast<std::uint16_t>(between(0, UINT16_MAX)),
+            .job_fault = fault(),
             .lacks_blocks = coin(),
             .progress = static_cast<double>(between(0, 1000)) / 1000,
             .remaining_s = static_cast<double>(between(0, 1'000'000)) / 7,

@@ -40,7 +40,7 @@ public:
 private:
     std::int64_t far() { return between(-(std::int64_t{1} << 62), std::int64_t{1} << 62); }
     std::int64_t rate() { return between(-INT64_MAX, INT64_MAX); }
-    std::uint16_t fault() { return static_cast<std::uint16_t>(bits()); }
+    FaultCode fault() { return static_cast<FaultCode>(bits()); }
     Term term() { return {bits(), bits()}; }
     Extremes extremes() { return {bits(), {far()}, {far()}}; }
     bool coin() { return bits() % 2 == 1; }

@@ -8,7 +8,7 @@ void ClaimCheck::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, Axi
     if (!out.state) { return; }
     const AxisState& state = *out.state;
     const std::int64_t claimed = state.position.count();
-    const bool lacks_device = static_cast<FaultCode>(state.unproved) == FaultCode::DeviceMissing;
+    const bool lacks_device = state.unproved == FaultCode::DeviceMissing;
     if (lacks_device && state.homed) { object(axis, now, "it says that it is homed, and that it has no device"); }
     if (lacks_device) { unnoticed_[axis].reset(); }
     const bool may_not_know = has_yet_to_notice(axis);

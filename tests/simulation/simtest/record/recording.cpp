@@ -88,7 +88,7 @@ void Recorder::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisN
         return notice.kind == AxisNotice::Kind::Fault && notice.fault == FaultCode::DeviceLost;
     });
     if (out.state) {
-        const bool lacks = static_cast<FaultCode>(out.state->unproved) == FaultCode::DeviceMissing;
+        const bool lacks = out.state->unproved == FaultCode::DeviceMissing;
         loses = loses || (lacks && !lacks_device_[axis]);
         lacks_device_[axis] = lacks;
     }

@@ -117,9 +117,7 @@ void Bench::settle(double seconds) {
     const Tick from = vm_.now();
     const Ticks limit{static_cast<std::int64_t>(std::ceil((seconds + outage_s_) * machine().ticks_per_second()))};
     // The recording knows what a device did without its axis only after the axis uses the device again.
-    const auto has_device = [](const AxisState& axis) {
-        return static_cast<FaultCode>(axis.unproved) != FaultCode::DeviceMissing;
-    };
+    const auto has_device = [](const AxisState& axis) { return axis.unproved != FaultCode::DeviceMissing; };
     const auto is_over = [&](const VirtualFault& fault) { return !fault.is_of_device() || fault.end() < vm_.now(); };
     const auto settled = [&] {
         return !vm_.faults_pending() && std::ranges::all_of(played_.recording.faults, is_over) &&
@@ -140,8 +138,7 @@ const Reply* Bench::ask_in_time(CommandKind kind, std::uint64_t program) {
     constexpr double kLearning_s = 10;
     const Tick patience = vm_.now() + Ticks{std::llround(kLearning_s * machine().ticks_per_second())};
     const auto is_too_soon = [](const Reply& reply) {
-        return reply.status == ReplyStatus::Refused &&
-               reply.fault == static_cast<std::uint16_t>(FaultCode::ClockUncertain);
+        return reply.status == ReplyStatus::Refused && reply.fault == FaultCode::ClockUncertain;
     };
     const Reply* reply = ask(kind, program);
     while (reply != nullptr && is_too_soon(*reply) && vm_.now() < patience) {

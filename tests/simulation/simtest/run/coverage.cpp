@@ -164,7 +164,7 @@ void CoverageWatch::on_coordinator(std::size_t /*process*/, Tick /*now*/, const 
         if (notice.fault != FaultCode::None) { coverage_.hit(kFaults, name_of(notice.fault)); }
     }
     for (const Reply& reply : out.replies) {
-        if (reply.fault != 0) { coverage_.hit(kFaults, name_of(static_cast<FaultCode>(reply.fault))); }
+        if (reply.fault != FaultCode::None) { coverage_.hit(kFaults, name_of(reply.fault)); }
     }
     if (!out.epoch_end) { return; }
     coverage_.hit(kEnds, kEpochEndNames[static_cast<std::size_t>(out.epoch_end->kind)]);

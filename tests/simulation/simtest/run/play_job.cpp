@@ -47,11 +47,11 @@ void end_record(Bench& bench, JobRecord& job) {
 
 std::string answer_text(const Reply& reply) {
     return std::string(reply.status == ReplyStatus::Accepted ? "accepted" : "refused: ") +
-           (reply.fault == 0 ? "" : std::string(name_of(static_cast<FaultCode>(reply.fault)))) + " " + reply.text;
+           (reply.fault == FaultCode::None ? "" : std::string(name_of(reply.fault))) + " " + reply.text;
 }
 
 bool is_refusal(const Reply& reply, FaultCode why) {
-    return reply.status == ReplyStatus::Refused && reply.fault == static_cast<std::uint16_t>(why);
+    return reply.status == ReplyStatus::Refused && reply.fault == why;
 }
 
 /// A machine in Fault accepts nothing before a reset. With a standby another owner may not know of the fault, and obey.
