@@ -38,9 +38,9 @@ private:
     struct Lane {
         std::string axis;
         LateFigures late;
-        std::optional<std::int64_t> seen_us{};  // time of its newest position or step
-        std::int64_t incarnation = 0;           // process of its newest position
-        std::int64_t sequence = 0;              // number of that position
+        std::optional<std::int64_t> seen_us;  // time of its newest position or step
+        std::int64_t incarnation = 0;         // process of its newest position
+        std::int64_t sequence = 0;            // number of that position
     };
 
     JobLog* job(const job_t& message);

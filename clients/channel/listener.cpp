@@ -28,7 +28,7 @@ bool is_loopback(const sockaddr* address) {
 std::uint16_t port_of(int socket) {
     sockaddr_storage bound{};
     socklen_t size = sizeof bound;
-    if (getsockname(socket, std::bit_cast<sockaddr*>(&bound), &size) != 0) { return 0; }
+    if (getsockname(socket, reinterpret_cast<sockaddr*>(&bound), &size) != 0) { return 0; }
     const bool is_four = bound.ss_family == AF_INET;
     return ntohs(is_four ? std::bit_cast<sockaddr_in*>(&bound)->sin_port
                          : std::bit_cast<sockaddr_in6*>(&bound)->sin6_port);

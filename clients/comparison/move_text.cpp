@@ -10,9 +10,8 @@ namespace {
 
 template <typename Number>
 bool read(std::string_view text, Number& value) {
-    const char* const end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, value);
-    return error == std::errc{} && stop == end;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc{} && stop == text.data() + text.size();
 }
 
 std::vector<std::string_view> split(std::string_view text) {

@@ -83,8 +83,8 @@ struct ProcessFacts {
     std::string name;
     bool received = false;
     std::uint64_t config_hash = 0;
-    std::vector<std::string> hosts = {};  // on which this process runs
-    bool may_be_two = false;              // for a coordinator and its standby
+    std::vector<std::string> hosts;  // on which this process runs
+    bool may_be_two = false;         // for a coordinator and its standby
 };
 Finding rate_process(const ProcessFacts& facts, std::uint64_t config_hash);
 

@@ -28,7 +28,11 @@ std::vector<Group> grouped(const std::vector<FlightFile>& files) {
     std::vector<Group> groups;
     for (const FlightFile* file : all) {
         const auto found = std::ranges::find_if(groups, [&](const Group& g) { return is_near(*g.back(), *file); });
-        found == groups.end() ? void(groups.push_back({file})) : found->push_back(file);
+        if (found == groups.end()) {
+            groups.push_back({file});
+        } else {
+            found->push_back(file);
+        }
     }
     std::ranges::sort(groups, {}, [](const Group& group) { return group.front()->head.mark.wall_us; });
     return groups;

@@ -126,7 +126,7 @@ Weight weight_of(const Incident& incident, const Entry& entry) {
     switch (event.kind) {
         case Kind::Phase: return is_axis ? Weight::Routine : Weight::Notable;
         case Kind::PeerReceived: return event.lasts == Ticks{} ? Weight::Routine : Weight::Telling;
-        case Kind::OwnerFollowed: return Weight::Notable;
+        case Kind::OwnerFollowed:
         case Kind::CommandReceived:
         case Kind::CommandRefused:
         case Kind::JobBegun:

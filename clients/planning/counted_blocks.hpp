@@ -14,7 +14,7 @@ class CountedBlocks final : public ProgramBlocks {
 public:
     /// `axes`: indices of the machine's axes that the program names.
     CountedBlocks(const ProgramPlanner& planner, std::shared_ptr<const ProgramBlocks> blocks,
-                  std::vector<std::size_t> axes, AxisCounts start);
+                  std::vector<std::size_t> axes, const AxisCounts& start);
 
     const std::vector<std::string>& axes() const override { return blocks_->axes(); }
     const Block* block(std::uint32_t number) const override;

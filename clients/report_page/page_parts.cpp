@@ -2,10 +2,16 @@
 
 namespace lockstep::analysis {
 
-std::string within_page(std::string json) {
+std::string within_page(const std::string& json) {
     std::string out;
     out.reserve(json.size());
-    for (const char c : json) { c == '<' ? void(out += "\\u003c") : out.push_back(c); }
+    for (const char c : json) {
+        if (c == '<') {
+            out += "\\u003c";
+        } else {
+            out.push_back(c);
+        }
+    }
     return out;
 }
 

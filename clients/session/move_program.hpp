@@ -21,11 +21,11 @@ struct AxisTarget {
 std::expected<AxisTarget, std::string> parse_target(std::string_view word);
 
 struct MoveOptions {
-    std::vector<std::string> targets;        // "X=10"; absolute machine mm
-    std::optional<double> feed_mm_min = {};  // along the path; nullopt means rapid
-    bool relative = false;                   // targets are relative to the axes' positions
-    bool own = false;                        // each axis by itself, not in a line
-    std::optional<double> in_s = {};         // with `own`: how long each axis's move lasts
+    std::vector<std::string> targets;   // "X=10"; absolute machine mm
+    std::optional<double> feed_mm_min;  // along the path; nullopt means rapid
+    bool relative = false;              // targets are relative to the axes' positions
+    bool own = false;                   // each axis by itself, not in a line
+    std::optional<double> in_s;         // with `own`: how long each axis's move lasts
 };
 
 /// Starts at the axes' positions; axes that are not named stay. Fails if the machine lacks a named axis, an axis is

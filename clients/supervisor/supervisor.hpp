@@ -26,8 +26,8 @@ private:
     struct Service {
         ServiceLine line;
         RestartPolicy policy = {};
-        std::optional<ProcessRecord> process = {};
-        std::optional<std::chrono::nanoseconds> start_at = {};  // nullopt if it runs or was given up
+        std::optional<ProcessRecord> process;
+        std::optional<std::chrono::nanoseconds> start_at;  // nullopt if it runs or was given up
     };
 
     void start_due();

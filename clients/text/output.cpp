@@ -43,19 +43,20 @@ void Output::progress(const std::string& line) {
     clear_progress();
     std::cout << line;
     progress_shown_ = is_terminal_;
-    is_terminal_ ? std::cout << std::flush : std::cout << std::endl;
+    if (!is_terminal_) { std::cout << '\n'; }
+    std::cout << std::flush;
 }
 
 void Output::print(const std::string& line) {
     if (json_) { return; }
     clear_progress();
-    std::cout << line << std::endl;
+    std::cout << line << '\n' << std::flush;
 }
 
 void Output::warn(const std::string& line) {
     clear_progress();
     std::cout << std::flush;
-    std::cerr << "lockstep: " << line << std::endl;
+    std::cerr << "lockstep: " << line << '\n' << std::flush;
 }
 
 void Output::report(const google::protobuf::Message& message) {

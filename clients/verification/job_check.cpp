@@ -402,7 +402,7 @@ std::vector<Course> JobCheck::courses_of(EpochReplay& replay, std::size_t axis) 
     std::vector<Course> courses;
     if (progress.cut || progress.in_tail) { return courses; }
     Course frames;
-    const auto unrecorded = static_cast<FrameNumber>(frames_ahead(job_->replay->machine().timing) + 1);
+    const auto unrecorded = static_cast<FrameNumber>(frames_ahead(job_->replay->machine().timing)) + 1;
     for (FrameNumber number = progress.ran; number <= progress.ran + unrecorded; ++number) {
         const Frame* frame = number > 0 ? replay.frame(number) : nullptr;
         if (number > progress.ran && frame == nullptr) { break; }

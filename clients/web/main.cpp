@@ -81,7 +81,9 @@ std::expected<void, std::string> publish(const Options& options, const std::stri
         std::cout << heading << '\n' << links << std::flush;
         return {};
     }
-    std::cout << heading << "; this address with them is in " << options.page_file << '\n' << address << std::endl;
+    std::cout << heading << "; this address with them is in " << options.page_file << '\n'
+              << address << '\n'
+              << std::flush;
     std::error_code none;
     std::filesystem::remove(options.page_file, none);
     return web::make_private_file(options.page_file, links);

@@ -45,7 +45,7 @@ std::expected<Tokens, std::string> read_file(const std::filesystem::path& file) 
 }
 
 std::expected<Tokens, std::string> make_file(const std::filesystem::path& file) {
-    const Tokens tokens{.view = new_token(), .operate = new_token()};
+    Tokens tokens{.view = new_token(), .operate = new_token()};
     if (tokens.view.empty() || tokens.operate.empty()) { return std::unexpected("this host gives no random numbers"); }
     const auto made = make_private_file(file, "operate " + tokens.operate + "\nview " + tokens.view + "\n");
     if (!made) { return std::unexpected(made.error() + "; name another place: --token-file FILE"); }

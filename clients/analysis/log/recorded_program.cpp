@@ -47,7 +47,7 @@ RecordedProgram::RecordedProgram(Program program) : head_(program.head()), end_m
 std::expected<std::shared_ptr<const RecordedProgram>, std::string> RecordedProgram::open(const ProgramPlaces& places) {
     auto log = LogReader::open(places.log);
     if (!log) { return std::unexpected(log.error()); }
-    const std::shared_ptr<RecordedProgram> program(new RecordedProgram(std::move(*log)));
+    std::shared_ptr<RecordedProgram> program(new RecordedProgram(std::move(*log)));
     if (const auto scanned = program->scan(places.offsets); scanned) { return program; }
     auto whole = program_in_one_piece(*program->log_, places.offsets);
     if (!whole) { return std::unexpected(whole.error()); }

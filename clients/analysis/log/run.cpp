@@ -61,7 +61,7 @@ std::expected<Run, std::string> to_run(const run_t& message) {
 }
 
 std::string name_of(const Run& run) {
-    const std::string frame = fmt::format("{} {}", run.tail ? "tail of frame" : "frame", run.frame);
+    std::string frame = fmt::format("{} {}", run.tail ? "tail of frame" : "frame", run.frame);
     if (run.epoch != 0) { return frame; }
     return fmt::format("run {}, {} of the axis's own move", run.sequence, frame);
 }

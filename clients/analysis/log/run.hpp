@@ -27,9 +27,9 @@ struct Run {
     std::int64_t stop_count = 0;  // at its end
     std::int64_t zero_count = 0;  // machine coordinates = device count - zero_count
     // Commanded times are machine time; all other times are device time.
-    Ticks ahead{};                         // machine time minus device time, at the start
-    std::vector<Ticks> commanded_ticks{};  // of each piece; a split last piece counts as one; empty: as the pieces
-    Ticks clock_error{};                   // steps are within this, plus two ticks, of the commanded time
+    Ticks ahead{};                       // machine time minus device time, at the start
+    std::vector<Ticks> commanded_ticks;  // of each piece; a split last piece counts as one; empty: as the pieces
+    Ticks clock_error{};                 // steps are within this, plus two ticks, of the commanded time
 
     Position to() const;  // at the end of the pieces
     Ticks ticks() const;

@@ -26,8 +26,8 @@ struct StepBatch {
     std::vector<StepEdge> steps;
     Ticks ahead_first{};  // machine time minus device time, at the first step
     Ticks ahead_last{};
-    Ticks clock_error{};               // of machine time, in both directions
-    std::vector<Tick> device_ticks{};  // device time of the steps; empty if `steps` has it
+    Ticks clock_error{};             // of machine time, in both directions
+    std::vector<Tick> device_ticks;  // device time of the steps; empty if `steps` has it
 
     /// Device time of a step. Intervals are exact only by the device's clock; across batches, machine time also
     /// contains the change of its estimate.

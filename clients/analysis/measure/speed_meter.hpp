@@ -68,7 +68,7 @@ private:
     std::size_t room_ = kKept;     // maximum size of past_ before the oldest are dropped
     std::size_t speed_first_ = 0;  // begin of the windows that end with the newest step
     std::size_t late_first_ = 0;
-    int direction_ = 0;
+    std::int8_t direction_ = 0;
     bool measured_ = false;  // a whole window of this motion
     std::optional<Sample> acceleration_;
     double peak_speed_ = 0;

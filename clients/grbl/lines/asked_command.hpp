@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <utility>
 
 #include "clients/grbl/lines/machine_port.hpp"
 
@@ -9,7 +10,8 @@ namespace lockstep::grbl {
 
 class AskedCommand {
 public:
-    AskedCommand(Command command, MachinePort& port, std::chrono::nanoseconds now) : command_(command), sent_(now) {
+    AskedCommand(Command command, MachinePort& port, std::chrono::nanoseconds now)
+        : command_(std::move(command)), sent_(now) {
         port.begin(command_);
         repeated_ = now;
     }

@@ -10,8 +10,8 @@ namespace lockstep::grbl {
 struct Code {
     int number = 0;
     std::string_view name;
-    std::string_view text;            // a sentence
-    std::string_view why_never = {};  // why lockstep-grbl never sends it; empty if it does
+    std::string_view text;       // a sentence
+    std::string_view why_never;  // why lockstep-grbl never sends it; empty if it does
 };
 
 /// In the order of their numbers: those of grbl 1.1, then Lockstep's own.

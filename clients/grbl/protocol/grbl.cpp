@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <string_view>
+#include <utility>
 
 namespace lockstep::grbl {
 namespace {
@@ -47,11 +48,8 @@ void Grbl::greet() {
 void Grbl::receive(std::string_view bytes) {
     bool is_asked = false;
     for (const unsigned char byte : bytes_.take(bytes)) {
-        if (byte != '?') {
-            do_real_time(byte);
-        } else if (!std::exchange(is_asked, true)) {  // several at once get one answer
-            do_real_time(byte);
-        }
+        if (byte == '?' && std::exchange(is_asked, true)) { continue; }  // several at once get one answer
+        do_real_time(byte);
     }
     advance();
 }

@@ -58,7 +58,7 @@ struct Answer {
     bool is_done = false;
     FaultCode why = FaultCode::None;  // reason of a refusal or a failure
     std::string text;                 // for a person
-    std::optional<Error> error = {};  // if it is not the error for the fault `why`
+    std::optional<Error> error;       // if it is not the error for the fault `why`
 };
 
 }  // namespace lockstep::grbl

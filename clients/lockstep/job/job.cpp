@@ -40,7 +40,7 @@ std::string title(const Job& job) {
 }
 
 std::string cut_short_text(const proto::RunReport& report) {
-    const std::string text = "the coordinator fell silent and another has taken over; the axes rest on the path";
+    std::string text = "the coordinator fell silent and another has taken over; the axes rest on the path";
     if (!report.has_line()) { return text; }
     return fmt::format("{0} near line {1}; the rest of the job: lockstep run FILE --from-line {1}", text,
                        report.line());

@@ -49,7 +49,7 @@ std::expected<fs::path, std::string> write_page(const IncidentOptions& options, 
         log = std::move(*found);
     }
     if (!options.html && (options.no_html || options.json)) { return fs::path(); }
-    const fs::path path = page_path(options, report);
+    fs::path path = page_path(options, report);
     const auto written = analysis::may_replace(path) ? incident::write_html(report, log ? &*log : nullptr, path)
                                                      : std::unexpected(analysis::in_the_way(path));
     if (written) { return path; }

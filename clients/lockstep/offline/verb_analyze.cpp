@@ -61,7 +61,7 @@ std::expected<std::filesystem::path, std::string> write_page(const AnalyzeOption
                                                              const analysis::Analysis& found, Output& output) {
     const bool asked = !options.html.empty();
     if (!asked && (options.no_html || options.json)) { return std::filesystem::path(); }
-    const auto path = page_path(options);
+    auto path = page_path(options);
     std::string problem;
     if (!analysis::may_replace(path)) {
         problem = analysis::in_the_way(path);

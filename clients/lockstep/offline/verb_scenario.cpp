@@ -67,7 +67,7 @@ std::optional<std::vector<Scenario>> read_all(const ScenarioOptions& options, Ou
 }
 
 std::string coloured(const proto::ScenarioReport& report, bool events) {
-    const std::string text = scenario::to_text(report, events);
+    std::string text = scenario::to_text(report, events);
     if (!wants_colour()) { return text; }
     const std::size_t end = text.find('\n');
     return painted(text.substr(0, end), report.held() ? kGood : kBad) + (end == text.npos ? "" : text.substr(end));

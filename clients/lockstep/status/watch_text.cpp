@@ -73,8 +73,8 @@ std::string axis_row(const proto::AxisStatus& axis, const SlackScale& scale, Ink
     std::array<char, 32> state{};
     std::snprintf(state.data(), state.size(), "%-10s", axis.state().c_str());
     const std::string place = axis.homed() ? fixed(axis.position_mm(), 4) : "not homed";
-    const std::string row = name.data() + padded(place, 12) + padded(fixed(axis.velocity_mm_s(), 2), 9) + "  " +
-                            painted(state.data(), colour_of(axis), ink);
+    std::string row = name.data() + padded(place, 12) + padded(fixed(axis.velocity_mm_s(), 2), 9) + "  " +
+                      painted(state.data(), colour_of(axis), ink);
     if (!axis.has_health()) { return row; }
     return row + " " + slack_bar(axis.health(), scale, ink) + padded(lateness(axis.health()), 8) +
            padded(fixed(axis.health().loop_p99_us(), 0), 8);

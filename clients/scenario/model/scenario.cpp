@@ -44,7 +44,7 @@ std::expected<MachineConfig, Diagnostics> machine_of(const Asked& asked, const T
         return std::unexpected(at_key(source, "", "no machine: set machine_file: \"FILE\", or machine { ... }"));
     }
     MachineDraft draft = machine_from_proto(asked.machine());
-    Diagnostics errors = machine_errors(draft, source, *Asked::descriptor(), "machine.");
+    const Diagnostics errors = machine_errors(draft, source, *Asked::descriptor(), "machine.");
     if (!errors.empty()) { return std::unexpected(errors); }
     return std::move(draft.machine);
 }
@@ -55,12 +55,14 @@ std::expected<Scenario, Diagnostics> parse_scenario(std::string_view text, const
                                                     std::optional<Asked::Place> place) {
     TextSource source;
     Scenario scenario{.file = file};
-    if (Diagnostics errors = source.parse(text, scenario.asked); !errors.empty()) { return std::unexpected(errors); }
+    if (const Diagnostics errors = source.parse(text, scenario.asked); !errors.empty()) {
+        return std::unexpected(errors);
+    }
     if (place) { scenario.asked.set_place(*place); }
     auto machine = machine_of(scenario.asked, source, file.parent_path());
     if (!machine) { return std::unexpected(machine.error()); }
     scenario.machine = isolated(*std::move(machine), scenario.asked.place());
-    if (Diagnostics errors = rule_errors(scenario, source); !errors.empty()) { return std::unexpected(errors); }
+    if (const Diagnostics errors = rule_errors(scenario, source); !errors.empty()) { return std::unexpected(errors); }
     return scenario;
 }
 

@@ -43,7 +43,7 @@ std::optional<Asked::Act> ActExecutor::take_due() {
     const auto now = monotonic_now();
     const auto due = std::ranges::find_if(undoing_, [&](const Undo& undo) { return undo.at <= now; });
     if (due == undoing_.end()) { return std::nullopt; }
-    const Asked::Act act = due->act;
+    Asked::Act act = due->act;
     undoing_.erase(due);
     return act;
 }

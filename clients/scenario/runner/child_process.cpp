@@ -54,7 +54,7 @@ std::expected<std::string, std::string> output_of_program(const CommandLine& wor
     const std::filesystem::path log = fmt::format("/proc/self/fd/{}", memory);
     const auto ran = run_program(words, log);
     std::ifstream file(log);
-    const std::string output{std::istreambuf_iterator<char>(file), {}};
+    std::string output{std::istreambuf_iterator<char>(file), {}};
     close(memory);
     if (!ran) { return std::unexpected(ran.error()); }
     return output;

@@ -184,7 +184,7 @@ Snapshot MachineLoop::taken() const {
     for (std::size_t i = 0; i < session_.config().axes.size(); ++i) {
         AxisSnapshot axis{.is_present = session_.axis_present(i), .state = {}, .health = healths_[i]};
         if (const auto& state = session_.axis(i)) { axis.state = Seen<AxisState>{state->state, state->time}; }
-        snapshot.axes.push_back(std::move(axis));
+        snapshot.axes.push_back(axis);
     }
     snapshot.values = session_.newest_values();
     snapshot.job = job_;

@@ -20,12 +20,12 @@ struct Problem {
     std::string code;   // stable
     std::string title;  // a short sentence
     std::string detail;
-    std::string place = {};  // a JSON pointer, a header or a parameter; empty if none
-    std::optional<Json> value = {};
-    std::string limit = {};
-    std::string remedy = {};
+    std::string place;  // a JSON pointer, a header or a parameter; empty if none
+    std::optional<Json> value;
+    std::string limit;
+    std::string remedy;
     FaultCode fault = FaultCode::None;  // of a refusal by the machine
-    Diagnostics errors = {};            // of a program
+    Diagnostics errors;                 // of a program
 };
 
 /// 409, with the fault table's cause and remedy. `text`: the coordinator's own text, with the values.

@@ -61,8 +61,8 @@ std::expected<std::string, std::string> dds_profile(const NetworkConfig& network
                           (network.peers.empty() ? by_multicast : peer_discovery(network.peers)) + "<Internal>" +
                           repair_pace(network.processes) + "</Internal>" + kReceiveBuffers +
                           (discovery == Discovery::Traced ? kTrace : "") + "</Domain></CycloneDDS>";
-    const char* added = std::getenv(kAddedProfile);
-    return added == nullptr ? profile : profile + "," + added;
+    if (const char* added = std::getenv(kAddedProfile)) { profile += std::string(",") + added; }
+    return profile;
 }
 
 std::expected<std::shared_ptr<const Domain>, std::string> Domain::make(const NetworkConfig& network, bool is_secured) {

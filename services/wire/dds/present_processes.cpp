@@ -28,9 +28,8 @@ std::optional<std::uint32_t> axis_in(std::string_view partition, std::string_vie
     if (!partition.starts_with(prefix) || !partition.substr(prefix.size()).starts_with('/')) { return std::nullopt; }
     partition.remove_prefix(prefix.size() + 1);
     std::uint32_t axis = 0;
-    const char* const end = partition.data() + partition.size();
-    const auto [rest, error] = std::from_chars(partition.data(), end, axis);
-    return error == std::errc{} && rest == end ? std::optional(axis) : std::nullopt;
+    const auto [rest, error] = std::from_chars(partition.data(), partition.data() + partition.size(), axis);
+    return error == std::errc{} && rest == partition.data() + partition.size() ? std::optional(axis) : std::nullopt;
 }
 
 /// Returns the process of a writer; nullopt if it writes neither the machine's state nor an axis's.
