@@ -20,8 +20,7 @@ endif
 .PHONY: build test demo bench package clean
 
 # $(call configure,DIRECTORY,OPTIONS): prints nothing unless it fails.
-configure = cmake -S . -B $(1) -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON \
-  -DCMAKE_UNITY_BUILD_BATCH_SIZE=16 $(2) >$(1).configure.log 2>&1 || \
+configure = cmake -S . -B $(1) -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON $(2) >$(1).configure.log 2>&1 || \
   { cat $(1).configure.log; rm -f $(1).configure.log; exit 1; }; rm -f $(1).configure.log
 
 build:
