@@ -10,7 +10,7 @@
 
 namespace lockstep {
 
-/// What a person can do about a fault or a refusal.
+/// An action of a person against a fault or a refusal.
 enum class Remedy : std::uint8_t {
     Wait,  // until the current activity has ended
     Home,

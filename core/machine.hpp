@@ -87,7 +87,7 @@ struct SecurityConfig {
     bool operator==(const SecurityConfig&) const = default;
 };
 
-/// What the machine's processes request from their host's scheduler.
+/// The requests of the machine's processes to their host's scheduler.
 struct RealTimeConfig {
     int priority = 0;       // under SCHED_FIFO, with memory locked and touched beforehand; 0: no request
     std::vector<int> cpus;  // processors that the processes may use; empty: all

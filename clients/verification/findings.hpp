@@ -16,7 +16,7 @@ inline std::string plural(std::int64_t count, const std::string& one) {
     return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
 }
 
-/// Where the log differs from what it must contain.
+/// A difference between the log and its required content.
 struct Difference {
     std::string text;                   // the difference, with the values on both sides
     std::string axis;                   // empty if it is not of a single axis

@@ -28,7 +28,7 @@ struct LeftBy {
     std::optional<std::int64_t> zero_count;  // machine coordinates = device count - zero_count; nullopt if not known
 };
 
-/// What a course has in the place of the first step that does not fit.
+/// The first step that does not fit a course, as the course has it.
 struct Misfit {
     const analysis::Run* run = nullptr;  // the run that the step should belong to; of the given courses
     std::optional<StepEdge> expected;    // nullopt if the course is over

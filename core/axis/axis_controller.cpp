@@ -45,7 +45,7 @@ void AxisController::look(const AxisInputs& inputs, AxisLoop& loop) {
     }
 }
 
-/// What the device did before belongs to no run of this process.
+/// Takes a device that was found. Runs that it made before do not count as runs of this process.
 void AxisController::find_device(const AxisInputs& inputs, AxisLoop& loop) {
     loop.out.device_changed = true;
     const FaultCode unproved = condition_.position.claim(inputs.device, inputs.device_failed);

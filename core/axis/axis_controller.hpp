@@ -34,7 +34,7 @@ public:
     std::int64_t zero_count() const { return condition_.position.zero_count(); }
 
 private:
-    // What the device did since the last loop.
+    // These process the device's actions since the last loop.
     void look(const AxisInputs& inputs, AxisLoop& loop);
     void find_device(const AxisInputs& inputs, AxisLoop& loop);
     void lose_device(AxisLoop& loop);

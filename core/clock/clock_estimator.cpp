@@ -74,7 +74,8 @@ bool ClockEstimator::agree(const Sample& one, const Sample& other) const {
     return std::abs(one.ahead - other.ahead) <= one.half + other.half + drift;
 }
 
-/// What an older sample proves has widened since. A newer one must prove at least a tick more.
+/// Compares the bounds of two samples on the clocks' difference. The older bound has grown since its exchange. Unless
+/// the newer bound is smaller than the older one was, it must be smaller than the grown one by at least a tick.
 bool ClockEstimator::proves_more(const Sample& newer, const Sample& older) const {
     const double widened = rate_error_ * (newer.own - older.own);
     return newer.half < older.half || newer.half + kStampRounding < older.half + widened;
@@ -141,7 +142,7 @@ double ClockEstimator::slope() const {
     return spread > 0 ? together / spread : 0;
 }
 
-/// What all kept samples prove together. After the newest sample the span only shifts and widens.
+/// Computes the span that all kept samples allow together. After the newest sample the span only shifts and widens.
 ClockEstimator::Span ClockEstimator::ahead_at(double own) const {
     if (own < newest_) { return proven_at(own); }
     const double since = own - newest_;

@@ -7,8 +7,8 @@
 
 namespace lockstep {
 
-/// What another clock reads near the instant at which the own clock reads `own`. If there is only one clock, all else
-/// is 0.
+/// The reading of another clock near the instant at which the own clock reads `own`. With only one clock, all members
+/// except `own` and `other` are 0.
 struct ClockView {
     Tick own;
     Tick other;             // its reading at `own`

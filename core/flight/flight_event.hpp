@@ -1,4 +1,4 @@
-// What a process notes of itself for analysis after a fault: what it received, decided and published. Events are small
+// The notes of a process for analysis after a fault: messages received, decisions, messages published. Events are small
 // values of one size, so keeping the last seconds of them costs almost nothing.
 //
 // All times are machine time. The fields that each kind fills in are listed beside it. All others are 0.

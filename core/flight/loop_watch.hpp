@@ -1,4 +1,4 @@
-// What a process notes of its own loop: each stall, and once a second how it runs.
+// The notes of a process about its own loop: each stall, and once a second the number and gaps of loops.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What one process notes of another that it receives: silence and return, restarts, vetoes and faults.
+// The notes of a process about another that it receives: silence and return, restarts, vetoes and faults.
 #pragma once
 
 #include <optional>

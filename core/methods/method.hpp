@@ -21,7 +21,7 @@ inline constexpr std::int64_t kMaxSteps = 10'000'000;
 /// The longest move, in periods of the method's clock.
 inline constexpr double kMaxClocks = 5e8;
 
-/// What to do with a move that a method cannot express: refuse it, or make the nearest it can.
+/// The treatment of a move that a method cannot express: refuse it, or make the nearest move that it can express.
 enum class Fit { Exact, Nearest };
 
 struct StepTrain {

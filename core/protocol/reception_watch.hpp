@@ -39,7 +39,7 @@ struct TopicReception {
     std::uint64_t discarded = 0;  // bytes that DDS did not deliver
 };
 
-/// What a process finds at one look. The caller remembers nothing of it.
+/// The observations of a process in one look. Each look is complete: the caller need not keep earlier ones.
 struct Reception {
     std::optional<ReopenReason> change;  // InterfaceChanged or MemoryReplaced
     bool is_peer_silent = false;         // nothing came since the last look from a peer known to be there

@@ -34,7 +34,7 @@ struct AwaitedRest {
     std::vector<std::string> axes;  // axes with running processes
 };
 
-/// What was observed while the scenario ran.
+/// The observations while the scenario ran.
 struct Observations {
     std::vector<Check> checks;  // of steps, of acts, of processes
     std::vector<proto::ScenarioHappening> events;

@@ -28,7 +28,7 @@ struct AxisSnapshot {
     std::optional<Seen<AxisHealth>> health;
 };
 
-/// What the server knows of a program that it loads.
+/// The server's knowledge of a program that it loads.
 struct ProgramFacts {
     std::uint64_t id = 0;  // 0 for a line of mdi
     std::string name;

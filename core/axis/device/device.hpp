@@ -1,5 +1,5 @@
-// What an axis controller reads from its device and orders of it, once per loop, as values. A driver (services/axis)
-// converts these to register reads and writes. sim_fpga/registers.json defines the registers.
+// The values that an axis controller exchanges with its device once per loop: the device's status, and orders to it. A
+// driver (services/axis) converts them to register reads and writes. sim_fpga/registers.json defines the registers.
 #pragma once
 
 #include <cstdint>

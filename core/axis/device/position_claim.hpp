@@ -20,7 +20,7 @@
 
 namespace lockstep {
 
-/// What a count means: the axis to which it belongs, and the configuration that converts it to a place.
+/// The meaning of a device's count: the axis to which it belongs, and the configuration that converts it to a place.
 struct PositionScale {
     std::string machine;
     std::string axis;

@@ -13,7 +13,7 @@ class OwnerLink {
 public:
     explicit OwnerLink(const ProtocolTiming& timing) : timing_(timing) {}
 
-    /// What the sender of a state is to this axis. NewOwner: it has just become the axis's owner.
+    /// The role of a state's sender for this axis. NewOwner: the axis follows it from this state on.
     enum class Sender : std::uint8_t { Other, Owner, NewOwner };
     Sender take(const MachineState& state, Slot now, bool at_rest);
 

@@ -1,4 +1,5 @@
-// What the parts of an axis share in one loop: the time, the axis's condition, its device, and the loop's outputs.
+// The data that the parts of an axis share in one loop: the time, the axis's condition, its device, and the loop's
+// outputs.
 #pragma once
 
 #include "core/axis/device/device_view.hpp"

@@ -1,4 +1,4 @@
-// What a coordinator knows of an axis: the newest state received.
+// A coordinator's knowledge of an axis: the newest state received.
 #pragma once
 
 #include <optional>

@@ -34,7 +34,7 @@ private:
         Tick renewed;
         std::optional<std::int64_t> target;  // steps; empty: it was not ordered yet
     };
-    /// What to do with an axis in this loop.
+    /// The action for an axis in this loop.
     enum class Next { Nothing, Order, Renew, Halt, Forget, Report };
 
     std::expected<Jog, Refusal> jog_of(const JogAxis& asked, const Command& command, const CoordinatorLoop& loop) const;

@@ -27,7 +27,7 @@ public:
     ProgramEvents& events() { return events_; }
     const ProgramEvents& events() const { return events_; }
 
-    /// What follows when a leg was begun or has ended.
+    /// The next activity of the job after a leg has begun or ended.
     enum class Next : std::uint8_t { Moves, Pauses, IsDone };
 
     /// Replaces the last job.

@@ -19,7 +19,7 @@
 
 namespace lockstep {
 
-/// Where an epoch came to rest.
+/// The place at which an epoch came to rest.
 struct EpochEnd {
     enum class Kind : std::uint8_t {
         Complete,      // the path is done

@@ -15,7 +15,7 @@
 
 namespace lockstep {
 
-/// Where a path ends on its program.
+/// The place of the program at which a path ends.
 struct LegEnd {
     enum class Kind : std::uint8_t { Program, Settle, Pause };
     Kind kind = Kind::Program;

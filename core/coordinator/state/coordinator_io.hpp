@@ -17,7 +17,7 @@
 
 namespace lockstep {
 
-/// What the record contains of a job: enough to repeat it.
+/// The record of a job. It suffices to repeat the job.
 struct JobEvent {
     enum class Kind : std::uint8_t { Begun, EpochBegun, Ended, Overridden };
     Kind kind = Kind::Begun;
@@ -34,7 +34,7 @@ struct JobEvent {
     AxisCounts start_counts;  // Begun
 };
 
-/// What follows when the epoch in progress has come to rest. Later enumerators have priority.
+/// The next activity after the epoch in progress has come to rest. Later enumerators have priority.
 enum class Intent : std::uint8_t { GoOn, Hold, Stop, Abort };
 
 struct EpochOutcome {
@@ -42,7 +42,7 @@ struct EpochOutcome {
     Intent intent = Intent::GoOn;
 };
 
-/// What a new owner does with the job in progress.
+/// The action of a new owner on the job in progress.
 enum class OnTakeover : std::uint8_t { Stop, Continue };
 
 /// Why a job is not continued.

@@ -1,5 +1,5 @@
-// What the parts of the coordinator share in one loop: the time, the machine, its axes and condition, and the loop's
-// outputs.
+// The data that the parts of the coordinator share in one loop: the time, the machine, its axes and condition, and the
+// loop's outputs.
 #pragma once
 
 #include <string>

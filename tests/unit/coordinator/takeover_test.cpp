@@ -1,5 +1,5 @@
-// What is left of the previous owner's job for a new owner, or why the job does not continue. `along` of a place is in
-// mm along its block.
+// A new owner continues the rest of the previous owner's job, or reports why the job does not continue. `along` of a
+// place is in mm along its block.
 #include "core/coordinator/jobs/takeover.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What one run does, all drawn from one seed: a machine, its network, its programs, and its commands.
+// The content of one run, all drawn from one seed: a machine, its network, its programs, and its commands.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace lockstep::simtest {
 
-/// What may go wrong in a run: with messages, processes and links.
+/// The faults that a run may have, of messages, processes and links.
 struct FaultKinds {
     bool delay = false;
     bool reorder = false;

@@ -1,4 +1,4 @@
-// What a program requires of the axes, computed from the program and the configuration alone.
+// The requirements of a program on the axes, computed from the program and the configuration alone.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Where on its program the machine can have been at each step of a job.
+// The places of its program at which the machine can have been at each step of a job.
 //
 // The machine goes only forward on the program's path. A place fits the counts of the axes if no axis is farther from
 // it than its stretch allows. Of all places that fit, those remain that are reached from the previous ones on the path.

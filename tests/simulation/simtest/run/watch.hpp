@@ -1,4 +1,4 @@
-// What the coordinators and the axes do and report, as seen by an observer.
+// The actions and reports of the coordinators and the axes, as seen by an observer.
 #pragma once
 
 #include <map>
