@@ -166,8 +166,8 @@ std::expected<OwnParts, Failure> prepare(const ChosenMachine& machine, const Lay
     }
     if (const std::string part = part_without_host(machine.config); !part.empty()) {
         return std::unexpected(bad_input(machine.file.string() + ": " + part +
-                                         " has no host, but other parts do; lockstep up " +
-                                         "would start it on every host: set its host"));
+                                         " has no host, but other parts do; lockstep up would start it on every host: "
+                                         "set its host"));
     }
     const auto lines = service_lines(machine.config, placed, layout, program_folder(), state);
     if (auto checked = check_programs(lines); !checked) { return std::unexpected(checked.error()); }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <poll.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 extern "C" {  // this header of glibc 2.36 lacks it
@@ -99,6 +100,11 @@ std::vector<std::string> command_line_of(pid_t pid) {
     std::vector<std::string> words;
     for (std::string word; std::getline(file, word, '\0');) { words.push_back(word); }
     return words;
+}
+
+std::string end_text(int status) {
+    return WIFEXITED(status) ? fmt::format("ended with code {}", WEXITSTATUS(status))
+                             : fmt::format("was ended by signal {}", WTERMSIG(status));
 }
 
 void signal_process(const ProcessRecord& record, int signal) { ProcessHandle(record).signal(signal); }

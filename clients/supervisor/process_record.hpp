@@ -31,6 +31,9 @@ bool is_running(const ProcessRecord& record);
 /// Its program and arguments; empty if it has ended.
 std::vector<std::string> command_line_of(pid_t pid);
 
+/// How a process ended, for its name before it: "ended with code 1". `status` is that of waitpid.
+std::string end_text(int status);
+
 /// Has no effect if the process has ended: the signal never reaches another process with the same number.
 void signal_process(const ProcessRecord& record, int signal);
 /// Sleeps until none of them runs. Returns false if the time passes first.

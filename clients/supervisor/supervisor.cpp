@@ -52,11 +52,6 @@ timespec to_timespec(nanoseconds time) { return {time.count() / 1'000'000'000, t
     _exit(kCannotExecute);
 }
 
-std::string how(int status) {
-    return WIFEXITED(status) ? fmt::format("ended with code {}", WEXITSTATUS(status))
-                             : fmt::format("was ended by signal {}", WTERMSIG(status));
-}
-
 bool is_hopeless(int status) {
     return WIFEXITED(status) && (WEXITSTATUS(status) == kCannotExecute || WEXITSTATUS(status) == kBadInput);
 }
@@ -120,12 +115,12 @@ void Supervisor::reap() {
 
 void Supervisor::ended(Service& service, int status) {
     service.process.reset();
-    const std::string what = service.line.name + " " + how(status);
+    const std::string what = service.line.name + " " + end_text(status);
     if (!is_hopeless(status)) {
         const ProcessEnd end = WIFSIGNALED(status) ? ProcessEnd::Signal : ProcessEnd::Exit;
         if (const auto delay = service.policy.after_end(monotonic_now(), end)) {
             service.start_at = monotonic_now() + *delay;
-            return log_warning(fmt::format("{}; starts again in {} ms", what, delay->count()));
+            return log_warning("{}; starts again in {} ms", what, delay->count());
         }
     }
     log_error(what + "; it is not started again: see " + state_.log_file(service.line.name).string());

@@ -1,7 +1,5 @@
 #include "services/axis/axis_notices.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <string>
 
@@ -32,8 +30,8 @@ void log_notice(const AxisNotice& notice) {
         case Kind::EpochBegun: return log_info("epoch {} begun", notice.number);
         case Kind::EpochEnded: return log_info("epoch {} ended, at rest", notice.number);
         case Kind::FrameRefused:
-            return log_event(spdlog::level::err, notice.fault,
-                             fmt::format("frame {} refused: {}", notice.number, remedy(notice.fault)));
+            return log_event(spdlog::level::err, notice.fault, "frame {} refused: {}", notice.number,
+                             remedy(notice.fault));
         case Kind::Vetoed: return log_info("frame {} and those after it are vetoed", notice.number);
         case Kind::HomingStage: return log_info("homing: {}", stage_name(notice.number));
         case Kind::Homed: return log_info("homed and parked");

@@ -191,7 +191,7 @@ private:
         const std::uint64_t refused = network_.refused();
         if (refused != refused_) {
             refused_ = refused;
-            log_warning(fmt::format("{} messages refused so far: {}", refused, network_.refusals()));
+            log_warning("{} messages refused so far: {}", refused, network_.refusals());
         }
         if (!has_device_) { report_missing_device(); }
         if (!node_.knows_time()) { log_info("waits for the coordinator's clock"); }

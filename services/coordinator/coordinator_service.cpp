@@ -1,7 +1,5 @@
 #include "services/coordinator/coordinator_service.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -198,32 +196,29 @@ private:
                                  "axis " + axis_name(notice.number) + " fell silent");
             case Kind::Claimed: return log_info("owns the machine, term {}", notice.number);
             case Kind::StoodDown:
-                return log_warning(
-                    fmt::format("gives up the machine: another coordinator owns it, term {}", notice.number));
+                return log_warning("gives up the machine: another coordinator owns it, term {}", notice.number);
             case Kind::JobCutShort:
-                return log_warning(fmt::format(
+                return log_warning(
                     "the previous coordinator's job ended early near line {0}: {1}; the axes rest; go on: lockstep run "
                     "FILE --from-line {0}",
-                    notice.number, text_of(notice.doubt)));
+                    notice.number, text_of(notice.doubt));
             case Kind::JobContinued:
                 return log_info("continues the previous coordinator's job near line {}", notice.number);
             case Kind::ProgramLate:
-                return log_warning(fmt::format(
+                return log_warning(
                     "the axes rest on the path after frame {}: no more of the program has arrived; the job continues "
                     "when it does",
-                    notice.number));
+                    notice.number);
             case Kind::ProgramCut:
-                return log_event(
-                    spdlog::level::warn, notice.fault,
-                    fmt::format("the job ended near line {0}, at the end of the blocks received; the axes rest; "
-                                "continue: lockstep run FILE --from-line {0}",
-                                notice.number));
+                return log_event(spdlog::level::warn, notice.fault,
+                                 "the job ended near line {0}, at the end of the blocks received; the axes rest; "
+                                 "continue: lockstep run FILE --from-line {0}",
+                                 notice.number);
             case Kind::EpochBegun: return log_info("epoch {} begun", notice.number);
             case Kind::Interrupted:
-                return log_event(
-                    spdlog::level::warn, notice.fault,
-                    fmt::format("the axes came to rest together after frame {}, on the path; goes on from there",
-                                notice.number));
+                return log_event(spdlog::level::warn, notice.fault,
+                                 "the axes came to rest together after frame {}, on the path; goes on from there",
+                                 notice.number);
             case Kind::Fault: {
                 const FaultText* text = find_fault(notice.fault);
                 return log_event(spdlog::level::err, notice.fault,
@@ -265,7 +260,7 @@ private:
         const std::uint64_t refused = network_.refused();
         if (refused != refused_) {
             refused_ = refused;
-            log_warning(fmt::format("{} messages refused so far: {}", refused, network_.refusals()));
+            log_warning("{} messages refused so far: {}", refused, network_.refusals());
         }
     }
 

@@ -39,16 +39,25 @@ std::uint64_t lost_log_lines();
 
 /// Logs one line. Its code is the fault's stable name, or "-" for FaultCode::None.
 void log_event(spdlog::level::level_enum level, FaultCode code, std::string_view message);
-
-inline void log_info(std::string_view message) { log_event(spdlog::level::info, FaultCode::None, message); }
 /// For use in a loop: it formats a line of usual length without allocation.
 template <typename... Args>
-requires(sizeof...(Args) > 0) void log_info(fmt::format_string<Args...> format, Args&&... args) {
+requires(sizeof...(Args) > 0) void log_event(spdlog::level::level_enum level, FaultCode code,
+                                             fmt::format_string<Args...> format, Args&&... args) {
     fmt::memory_buffer text;
     fmt::format_to(std::back_inserter(text), format, std::forward<Args>(args)...);
-    log_info(std::string_view(text.data(), text.size()));
+    log_event(level, code, std::string_view(text.data(), text.size()));
+}
+
+inline void log_info(std::string_view message) { log_event(spdlog::level::info, FaultCode::None, message); }
+template <typename... Args>
+requires(sizeof...(Args) > 0) void log_info(fmt::format_string<Args...> format, Args&&... args) {
+    log_event(spdlog::level::info, FaultCode::None, format, std::forward<Args>(args)...);
 }
 inline void log_warning(std::string_view message) { log_event(spdlog::level::warn, FaultCode::None, message); }
+template <typename... Args>
+requires(sizeof...(Args) > 0) void log_warning(fmt::format_string<Args...> format, Args&&... args) {
+    log_event(spdlog::level::warn, FaultCode::None, format, std::forward<Args>(args)...);
+}
 inline void log_error(std::string_view message) { log_event(spdlog::level::err, FaultCode::None, message); }
 
 }  // namespace lockstep

@@ -11,6 +11,7 @@
 #include "clients/session/reports.hpp"
 #include "clients/session/status_text.hpp"
 #include "clients/text/format.hpp"
+#include "clients/text/notes.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/stop_signal.hpp"
 
@@ -133,9 +134,7 @@ void await_values(Session& session, const Job& job, Output& output) {
 
 /// Warns if the machine did not run all of a program that was read while it ran, and says why.
 void report_stream(const Session& session, const Job& job, Output& output) {
-    for (const GcodeNote& note : job.stream->take_notes()) {
-        output.warn(fmt::format("line {}: {}", note.line, note.text));
-    }
+    warn_of(job.stream->take_notes(), output);
     if (const auto& trouble = job.stream->trouble()) {
         output.warn(
             fmt::format("{0}:{1}:{2}: {3}\nthe lines before it were run; correct it and go on: "

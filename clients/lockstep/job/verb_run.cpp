@@ -16,6 +16,7 @@
 #include "clients/session/program_start.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/format.hpp"
+#include "clients/text/notes.hpp"
 #include "idl/proto/report.pb.h"
 #include "services/documents/program_file.hpp"
 #include "services/files/text_file.hpp"
@@ -56,13 +57,18 @@ std::expected<ProgramFile, Failure> read(const RunOptions& options, const Machin
     if (!started) { return std::unexpected(bad_input("--started-at: " + started.error())); }
     auto file = read_program_file(options.file, machine, *started, options.switches, values);
     if (!file) { return std::unexpected(bad_file(options.file, file.error())); }
-    for (const GcodeNote& note : file->reading.notes) { output.warn(fmt::format("line {}: {}", note.line, note.text)); }
+    warn_of(file->reading.notes, output);
     return *std::move(file);
 }
 
 struct Chosen : Rest {
     gcode::ProgramValues values;
 };
+
+void print_approach(const RunOptions& options, const MachineConfig& machine, const Rest& rest, Output& output) {
+    output.print(fmt::format("from line {}:\n{}{}", options.restart.from_line,
+                             approach_text(rest.program, rest.approach), modal_text(machine, rest.modal)));
+}
 
 /// The program to run: all of it, or an approach and the rest. Prints an approach.
 std::expected<Chosen, Failure> choose(const RunOptions& options, std::string_view text, const MachineConfig& machine,
@@ -75,8 +81,7 @@ std::expected<Chosen, Failure> choose(const RunOptions& options, std::string_vie
     if (!options.is_restart()) { return Chosen{{std::move(file->reading.program), {}, {}}, std::move(values)}; }
     auto rest = rest_of(file->reading.program, text, file->setup, options.restart, machine, stands_mm);
     if (!rest) { return std::unexpected(bad_input("--from-line: " + rest.error())); }
-    output.print(fmt::format("from line {}:\n{}{}", options.restart.from_line,
-                             approach_text(rest->program, rest->approach), modal_text(machine, rest->modal)));
+    print_approach(options, machine, *rest, output);
     return Chosen{*std::move(rest), std::move(values)};
 }
 
@@ -111,8 +116,7 @@ std::expected<void, Failure> read_first(const RunOptions& options, const Machine
     if (!beginning) { return std::unexpected(bad_file(options.file, beginning.error())); }
     const auto rest = rest_of(*beginning, stream.modal(), options.restart, machine, stands_mm);
     if (!rest) { return std::unexpected(bad_input("--from-line: " + rest.error())); }
-    output.print(fmt::format("from line {}:\n{}{}", options.restart.from_line,
-                             approach_text(rest->program, rest->approach), modal_text(machine, rest->modal)));
+    print_approach(options, machine, *rest, output);
     stream.replace_first(rest->program);
     return {};
 }
@@ -146,7 +150,7 @@ ExitCode run_stream(const RunOptions& options) {
         return kExitDone;
     }
     if (const auto confirmed = confirm(options, output); !confirmed) { return output.fail(confirmed.error()); }
-    for (const GcodeNote& note : stream.take_notes()) { output.warn(fmt::format("line {}: {}", note.line, note.text)); }
+    warn_of(stream.take_notes(), output);
     const Job job{.command = CommandKind::Run,
                   .kind = "run",
                   .name = stream.head().name,

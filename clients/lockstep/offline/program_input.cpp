@@ -138,8 +138,4 @@ std::expected<PlannedFile, Failure> plan_file(const ProgramOptions& options, Out
     return static_cast<PlannedFile&&>(*std::move(input));
 }
 
-void warn(const PlannedFile& input, Output& output) {
-    for (const GcodeNote& note : input.notes) { output.warn(fmt::format("line {}: {}", note.line, note.text)); }
-}
-
 }  // namespace lockstep

@@ -55,7 +55,5 @@ std::expected<ProgramInput, Failure> read_program(const ProgramOptions& options,
 /// Plans a file of any length. Reads a long file as a stream, with progress. Errors are as with read_program().
 std::expected<PlannedFile, Failure> plan_file(const ProgramOptions& options, Output& output,
                                               const OnSetup& on_setup = {});
-/// Prints a line for each note.
-void warn(const PlannedFile& input, Output& output);
 
 }  // namespace lockstep

@@ -6,6 +6,7 @@
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/offline/plan_text.hpp"
 #include "clients/lockstep/verb.hpp"
+#include "clients/text/notes.hpp"
 #include "clients/text/output.hpp"
 
 namespace lockstep {
@@ -15,7 +16,7 @@ ExitCode check(const ProgramOptions& options) {
     Output output(options.json);
     const auto input = plan_file(options, output);
     if (!input) { return output.fail(input.error()); }
-    warn(*input, output);
+    warn_of(input->notes, output);
     output.print(options.file + ": no errors\n" + plan_text(*input));
     output.report(to_report(input->plan, input->lines));
     return kExitDone;

@@ -10,6 +10,7 @@
 #include "clients/lockstep/offline/plan_text.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/planning/plan_figures.hpp"
+#include "clients/text/notes.hpp"
 #include "clients/text/output.hpp"
 
 namespace lockstep {
@@ -35,7 +36,7 @@ std::expected<PlannedFile, Failure> plan_and_draw(const PlanOptions& options, Ou
 }
 
 ExitCode report(const PlannedFile& planned, Output& output) {
-    warn(planned, output);
+    warn_of(planned.notes, output);
     output.print(plan_text(planned));
     output.report(to_report(planned.plan, planned.lines));
     return kExitDone;

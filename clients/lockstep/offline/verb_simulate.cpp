@@ -15,6 +15,7 @@
 #include "clients/simulation/simulate.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/format.hpp"
+#include "clients/text/notes.hpp"
 #include "clients/text/output.hpp"
 #include "services/documents/program_file.hpp"
 #include "services/record/job_recorder.hpp"
@@ -78,7 +79,7 @@ using Simulate = std::function<std::expected<SimulationResult, std::string>(Reco
 
 ExitCode record_simulation(const SimulateOptions& options, const PlannedFile& input, const Simulate& run,
                            Output& output) {
-    warn(input, output);
+    warn_of(input.notes, output);
     auto log = NewLogFile::begin(options.log, options.force);
     if (!log) { return output.fail(bad_input(log.error())); }
     const StopSignal stop;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "clients/scenario/runner/child_process.hpp"
+#include "clients/supervisor/process_record.hpp"
 #include "services/runtime/clock.hpp"
 
 namespace lockstep::scenario {
@@ -20,11 +21,6 @@ using namespace std::chrono_literals;
 constexpr auto kEndPatience = 4s;            // after SIGTERM
 constexpr auto kProcessStartPatience = 20s;  // for the started program to start the process
 constexpr std::size_t kTailLines = 4;
-
-std::string how(int status) {
-    return WIFEXITED(status) ? fmt::format("ended with code {}", WEXITSTATUS(status))
-                             : fmt::format("was ended by signal {}", WTERMSIG(status));
-}
 
 /// Does not reap the process.
 bool has_ended(pid_t pid) {
@@ -163,7 +159,7 @@ void ProcessSet::reap() {
         if (process.pid == 0 || waitpid(process.pid, &status, WNOHANG) != process.pid) { continue; }
         process.pid = 0;
         if (std::exchange(process.is_killed, false)) { continue; }
-        unexpected_exits_ += (unexpected_exits_.empty() ? "" : "; ") + process.line.name + " " + how(status) +
+        unexpected_exits_ += (unexpected_exits_.empty() ? "" : "; ") + process.line.name + " " + end_text(status) +
                              ", last output:\n" + tail_of(state_.log_file(process.line.name), kTailLines);
     }
 }

@@ -58,8 +58,8 @@ std::optional<std::size_t> AxisRoster::missing(Slot now) const {
 }
 
 std::optional<std::size_t> AxisRoster::without_device() const {
-    constexpr auto kMissing = FaultCode::DeviceMissing;
-    return first_axis(views_, [](const AxisView& view) { return view.state && view.state->unproved == kMissing; });
+    return first_axis(
+        views_, [](const AxisView& view) { return view.state && view.state->unproved == FaultCode::DeviceMissing; });
 }
 
 std::optional<std::size_t> AxisRoster::not_homed() const {
