@@ -1,5 +1,5 @@
-# make demo | make test | make build | make package: each first does what it needs, and can be run again. ARCH=arm64
-# builds for boards of 64-bit ARM on another machine.
+# make demo | make test | make build | make live | make package: each first does what it needs, and can be run again.
+# ARCH=arm64 builds for boards of 64-bit ARM on another machine.
 HERE := $(shell dpkg --print-architecture)
 ARCH  = $(HERE)
 JOBS ?= $(shell nproc)
@@ -9,26 +9,34 @@ BUILD ?= build
 # thirds of the time.
 QUICK := -DBUILD_TESTING=OFF -DLOCKSTEP_SPY=OFF -DLOCKSTEP_WERROR=OFF "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"
 DEMO  ?= $(if $(wildcard $(BUILD)/CMakeCache.txt),$(BUILD),build-demo)
+# All programs, and what tests of live machines need. While these tests run, tests/run builds all other tests.
+LIVE   = core/all sim_fpga/all services/all clients/all tests/integration/all tests/benchmarks/all package_files
 TEST   = tests/run $(BUILD) $(JOBS)
 else
 BUILD ?= build-$(ARCH)
 CROSS := --toolchain deploy/$(ARCH).cmake -DCMAKE_SYSROOT=$(abspath $(BUILD))/root
 NEEDS := $(ARCH) $(BUILD)/root
+LIVE   = all
 TEST   = tests/integration/package/emulated_machine $(BUILD) build
 endif
 
-.PHONY: build test demo bench package clean
+.PHONY: configured build live test demo bench package clean
 
 # $(call configure,DIRECTORY,OPTIONS): prints nothing unless it fails.
 configure = cmake -S . -B $(1) -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON $(2) >$(1).configure.log 2>&1 || \
   { cat $(1).configure.log; rm -f $(1).configure.log; exit 1; }; rm -f $(1).configure.log
 
-build:
+configured:
 	@deploy/install-dependencies $(NEEDS)
 	@$(call configure,$(BUILD),$(CROSS))
+
+build: configured
 	@cmake --build $(BUILD) -j $(JOBS)
 
-test: build
+live: configured
+	@cmake --build $(BUILD) -j $(JOBS) --target $(LIVE)
+
+test: live
 	@$(TEST)
 
 demo:
