@@ -1,5 +1,6 @@
 // Debian's Chromium, without a screen; every error on the page's console fails the test.
 import { chromium } from "playwright-core";
+import { PATIENCE_MS } from "./waiting.mjs";
 
 const WITHOUT_GPU = ["--disable-gpu"];
 /** WebGL in software: slow, but the same pictures. */
@@ -15,6 +16,7 @@ export const DESKTOP = { viewport: { width: 1440, height: 900 } };
 /** A page with its own cookies. `complaints` collects the errors on its console, except those of the network. */
 export async function openPage(browser, address, options = DESKTOP) {
   const context = await browser.newContext({ locale: "en-GB", colorScheme: "light", ...options });
+  context.setDefaultTimeout(PATIENCE_MS);
   const page = await context.newPage();
   const complaints = [];
   page.on("pageerror", (error) => complaints.push(String(error)));
@@ -26,5 +28,5 @@ export async function openPage(browser, address, options = DESKTOP) {
 }
 
 export async function shown(page) {
-  await page.waitForSelector('html[data-shown="yes"]', { timeout: 60_000 });
+  await page.waitForSelector('html[data-shown="yes"]');
 }

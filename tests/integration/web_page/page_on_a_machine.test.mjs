@@ -5,10 +5,10 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, afterEach, before, beforeEach, describe, test } from "node:test";
 import { DESKTOP, openBrowser, openPage, shown } from "./browser.mjs";
-import { lockstep, pause, Server, startLockstep, until } from "./real_machine.mjs";
+import { lockstep, Server, startLockstep } from "./real_machine.mjs";
+import { pause, until } from "./waiting.mjs";
 
 const LONG = `G21 G90\n${"G1 X100 F1200\nG1 X20\n".repeat(40)}M2\n`;
-const WAIT = { timeout: 90_000 };
 let browser, open;
 const server = new Server();
 
@@ -38,7 +38,7 @@ async function enter(role = "operate", options = DESKTOP) {
   return opened.page;
 }
 const button = (page, name) => page.getByRole("button", { name, exact: true });
-const mode = (page, text) => page.locator(".mode", { hasText: new RegExp(`^${text}$`) }).waitFor(WAIT);
+const mode = (page, text) => page.locator(".mode", { hasText: new RegExp(`^${text}$`) }).waitFor();
 const upload = (page, name, text) => page.setInputFiles("#program-file", { name, mimeType: "text/plain", buffer: Buffer.from(text) });
 
 let programs = 0;
@@ -46,8 +46,8 @@ let programs = 0;
 async function runLong(page) {
   const name = `long-${++programs}.gcode`;
   await server.load(name, LONG);
-  await page.locator(".file-name", { hasText: name }).waitFor(WAIT);
-  await button(page, "Run").click(WAIT);
+  await page.locator(".file-name", { hasText: name }).waitFor();
+  await button(page, "Run").click();
   await mode(page, "Running");
 }
 
@@ -55,25 +55,25 @@ describe("a job", () => {
   test("runs from its upload to its end, with the time that is left", async () => {
     const page = await enter();
     await upload(page, "square.gcode", "G21 G90\nG0 X50 Y30\nG1 X90 F900\nY70\nX50\nY30\nM2\n");
-    await page.locator(".file-name", { hasText: "square.gcode" }).waitFor(WAIT);
-    await button(page, "Run").click(WAIT);
+    await page.locator(".file-name", { hasText: "square.gcode" }).waitFor();
+    await button(page, "Run").click();
     await mode(page, "Running");
-    await page.locator('.code li[aria-current="true"]').waitFor(WAIT);
+    await page.locator('.code li[aria-current="true"]').waitFor();
     const left = async () => /^(\d+):(\d\d) left$/.exec(await page.locator(".job .left").textContent());
     await until("the time that is left", async () => (await left()) !== null);
     const first = await left();
-    await page.locator(".job", { hasText: "Done" }).waitFor(WAIT);
+    await page.locator(".job", { hasText: "Done" }).waitFor();
     assert.ok(60 * first[1] + Number(first[2]) <= 60, `of a job of 12 s were left: ${first[0]}`);
     assert.equal(await page.locator(".job .left").textContent(), "");
     const { axes } = await server.becomes("idle", (state) => state.mode === "Idle");
     assert.ok(Math.abs(axes.X.position - 50) < 0.02 && Math.abs(axes.Y.position - 30) < 0.02, JSON.stringify(axes));
-    await page.locator('.axis[data-axis="X"] .position', { hasText: "50.000" }).waitFor(WAIT);
+    await page.locator('.axis[data-axis="X"] .position', { hasText: "50.000" }).waitFor();
   });
 
   test("with errors is refused, each at its line", async () => {
     const page = await enter();
     await upload(page, "bad.gcode", "G21\nG1 X9999 F100\nHALLO\n");
-    await page.getByText("bad.gcode was not loaded").waitFor(WAIT);
+    await page.getByText("bad.gcode was not loaded").waitFor();
     assert.equal(await page.locator('.code li[data-look="bad"]').count(), 2);
   });
 
@@ -88,7 +88,7 @@ describe("a job", () => {
     await mode(page, "Running");
     await server.becomes("moving", ({ axes }) => axes.X.velocity !== 0);
     await button(page, "Stop").click();
-    await page.locator(".job", { hasText: "Stopped" }).waitFor(WAIT);
+    await page.locator(".job", { hasText: "Stopped" }).waitFor();
     await mode(page, "Idle");
   });
 });
@@ -99,7 +99,7 @@ describe("the emergency stop", () => {
     await runLong(page);
     await button(page, "Emergency stop").click();
     const alarm = page.locator(".alarm.fault", { hasText: "emergency-stopped" });
-    await alarm.waitFor(WAIT); // one alarm, although each axis has the fault too
+    await alarm.waitFor(); // one alarm, although each axis has the fault too
     assert.match(await alarm.locator(".remedy").textContent(), /lockstep reset/);
     await button(page, "Reset").click();
     await mode(page, "Idle");
@@ -126,7 +126,7 @@ describe("a jog", () => {
     });
     const session = await page.context().newCDPSession(page);
     void session.send("Page.crash").catch(() => undefined);
-    await page.waitForEvent("crash", WAIT);
+    await page.waitForEvent("crash");
     const { axes } = await server.becomes("at rest", (state) => state.mode === "Idle" && state.axes.X.at_rest);
     await pause(1000);
     assert.equal((await server.state()).axes.X.position, axes.X.position);
@@ -162,14 +162,14 @@ describe("another client", () => {
     await server.becomes("free", ({ writer }) => writer === null);
     const other = startLockstep({ LOCKSTEP_WRITER: "anna" }, "run", join(folder, "long.gcode"));
     await mode(page, "Running");
-    await page.locator(".writer-banner", { hasText: "anna" }).waitFor(WAIT);
+    await page.locator(".writer-banner", { hasText: "anna" }).waitFor();
     await page.getByLabel("Feed", { exact: true }).fill("150");
-    await page.locator(".notice", { hasText: "anna" }).waitFor(WAIT);
+    await page.locator(".notice", { hasText: "anna" }).waitFor();
     assert.equal((await server.state()).override.feed_percent, 100);
     await button(page, "Hold").click();
     await mode(page, "Held");
     await page.locator(".writer-banner").getByRole("button").click();
-    await page.locator(".writer-banner").waitFor({ state: "hidden", ...WAIT });
+    await page.locator(".writer-banner").waitFor({ state: "hidden" });
     await button(page, "Resume").click();
     await mode(page, "Running");
     await button(page, "Stop").click();
@@ -183,11 +183,11 @@ describe("access", () => {
   test("a wrong token is refused with a reason, a right one enters", async () => {
     const opened = await openPage(browser, `${server.origin}/#token=wrong`);
     open.push(opened);
-    await opened.page.getByText("the token is wrong").waitFor(WAIT);
+    await opened.page.getByText("the token is wrong").waitFor();
     await opened.page.getByLabel("Token").fill(server.tokens.view);
     await button(opened.page, "Sign in").click();
     await shown(opened.page);
-    await opened.page.getByText("View only").waitFor(WAIT);
+    await opened.page.getByText("View only").waitFor();
     assert.equal(opened.page.url(), `${server.origin}/`);
   });
 });
@@ -200,7 +200,7 @@ describe("a page that stays open", () => {
     const page = await enter();
     await fresh(page);
     lockstep("down");
-    await page.locator(".banner", { hasText: "No coordinator is received" }).waitFor(WAIT);
+    await page.locator(".banner", { hasText: "No coordinator is received" }).waitFor();
     await stale(page);
     await mode(page, "Unreachable");
     assert.ok(await button(page, "Jog X plus").isDisabled());
@@ -216,7 +216,7 @@ describe("a page that stays open", () => {
     const page = await enter();
     await fresh(page);
     await server.end();
-    await page.locator(".banner", { hasText: "No connection to the server for" }).waitFor(WAIT);
+    await page.locator(".banner", { hasText: "No connection to the server for" }).waitFor();
     await stale(page);
     await server.start();
     await fresh(page);

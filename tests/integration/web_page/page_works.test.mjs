@@ -4,6 +4,7 @@ import { after, afterEach, before, beforeEach, describe, test } from "node:test"
 import { DESKTOP, openBrowser, openPage, PHONE, shown } from "./browser.mjs";
 import { StandInMachine } from "./stand_in_machine.mjs";
 import { StandInServer, TOKENS } from "./stand_in_server.mjs";
+import { until } from "./waiting.mjs";
 
 const { PAGE } = process.env; // the folder of the built page
 let browser, machine, server, address, open;
@@ -32,15 +33,8 @@ async function enter(role = "operate", options = DESKTOP) {
   return opened.page;
 }
 const button = (page, name) => page.getByRole("button", { name, exact: true });
-const mode = (page, text) => page.locator(".mode", { hasText: text }).waitFor({ timeout: 20_000 });
+const mode = (page, text) => page.locator(".mode", { hasText: text }).waitFor();
 const verbs = () => machine.commands.map(({ verb }) => verb);
-async function until(what, holds) {
-  for (let tries = 0; tries < 400; ++tries) {
-    if (await holds()) return;
-    await new Promise((resolve) => setTimeout(resolve, 50));
-  }
-  assert.fail(`never: ${what}`);
-}
 
 describe("access", () => {
   test("a wrong token is refused with a reason, a right one enters", async () => {
@@ -76,7 +70,7 @@ describe("a job", () => {
     await button(page, "Run").click();
     await mode(page, "Running");
     await page.locator('.code li[aria-current="true"]').waitFor();
-    await page.locator(".job", { hasText: "Done" }).waitFor({ timeout: 60_000 });
+    await page.locator(".job", { hasText: "Done" }).waitFor();
   });
 
   test("is refused with each wrong line", async () => {
@@ -200,12 +194,12 @@ describe("what is old", () => {
     const page = await enter();
     const { port } = server;
     await server.close();
-    await page.locator(".banner", { hasText: "No connection to the server for" }).waitFor({ timeout: 20_000 });
+    await page.locator(".banner", { hasText: "No connection to the server for" }).waitFor();
     await page.locator('.axis[data-fresh="stale"]').first().waitFor();
     assert.ok(await button(page, "Jog X plus").isDisabled());
     server = new StandInServer(machine, PAGE);
     await server.listen(port);
-    await page.locator('.axis[data-fresh="live"]').first().waitFor({ timeout: 20_000 });
+    await page.locator('.axis[data-fresh="live"]').first().waitFor();
     assert.equal(await page.locator(".banner:visible").count(), 0);
   });
 

@@ -2,16 +2,9 @@
 import assert from "node:assert/strict";
 import { spawn, spawnSync } from "node:child_process";
 import { createInterface } from "node:readline";
+import { until } from "./waiting.mjs";
 
 const { PROGRAMS } = process.env;
-const PATIENCE_MS = 90_000; // of everything that a slow host delays
-
-export const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
-
-export async function until(what, holds) {
-  for (const end = Date.now() + PATIENCE_MS; Date.now() < end; await pause(50)) if (await holds()) return;
-  assert.fail(`never: ${what}`);
-}
 
 export function lockstep(...words) {
   const ran = spawnSync(`${PROGRAMS}/lockstep`, words, { encoding: "utf8" });

@@ -3,7 +3,8 @@
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { openBrowser, openPage, PHONE, shown } from "./browser.mjs";
-import { pause, Server } from "./real_machine.mjs";
+import { Server } from "./real_machine.mjs";
+import { pause } from "./waiting.mjs";
 import { smallPng } from "./small_png.mjs";
 
 const [root, out] = process.argv.slice(2);
