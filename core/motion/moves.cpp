@@ -115,17 +115,17 @@ PathMove plan_alone(PathMove move, Displacement along, Ticks least) {
     return move;
 }
 
-Path brake_from(const Path& path, Subticks t, std::span<const AxisLimits> limits) {
-    Path rest;
+void brake_from(const Path& path, Subticks t, std::span<const AxisLimits> limits, Path& rest) {
+    rest.moves.clear();
     std::size_t i = path.move_at(t);
-    if (t >= path.moves[i].end() || path.moves[i].lead == 0) { return rest; }
+    if (t >= path.moves[i].end() || path.moves[i].lead == 0) { return; }
     double speed = path.moves[i].velocity_at(t) * path.moves[i].mm_per_lead();
     Displacement from = path.moves[i].along_at(t);
     Subticks clock;
     const bool is_falling = is_last_fall(path, i, t);
     if (is_falling || is_too_short_to_brake(path.moves[i], t)) {
         const PathMove& move = rest.moves.emplace_back(remainder_of(path.moves[i], t));
-        if (is_falling) { return rest; }
+        if (is_falling) { return; }
         clock = move.end();
         speed = move.velocity_at(clock) * move.mm_per_lead();
         from = {};
@@ -157,7 +157,6 @@ Path brake_from(const Path& path, Subticks t, std::span<const AxisLimits> limits
         rest.moves.push_back(move);
         if (halts) { break; }
     }
-    return rest;
 }
 
 }  // namespace lockstep

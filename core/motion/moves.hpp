@@ -22,9 +22,9 @@ PathMove make_move(const AxisCounts& from, const AxisCounts& to, std::span<const
 /// lasts at least `least`. A dwell lasts its time.
 PathMove plan_alone(PathMove move, Displacement along, Ticks least);
 
-/// The way to rest from time t on: the same moves, braked as hard as their limits allow. During the path's last
-/// deceleration it is the remainder of the path. If the end of a move is too near, braking begins behind it. Time 0 of
-/// the result is t. The result is empty if the path is at rest at t.
-Path brake_from(const Path& path, Subticks t, std::span<const AxisLimits> limits);
+/// Replaces `rest` by the way to rest from time t on: the same moves, braked as hard as their limits allow. During the
+/// path's last deceleration it is the remainder of the path. If the end of a move is too near, braking begins behind
+/// it. Time 0 of `rest` is t. `rest` is empty if the path is at rest at t. It keeps its memory.
+void brake_from(const Path& path, Subticks t, std::span<const AxisLimits> limits, Path& rest);
 
 }  // namespace lockstep

@@ -74,10 +74,10 @@ std::expected<const PathFrame*, PathStuck> LaiFrames::next() {
         frame.axes[i].body.clear();
         frame.axes[i].tail.clear();
     }
-    std::vector<Piece> pieces(at_.size());
+    pieces_.resize(at_.size());
     PieceSource source(path_, made_, made_ + frame.ticks, {at_.begin(), at_.size()});
-    while (source.next(pieces)) {
-        for (std::size_t i = 0; i < pieces.size(); ++i) { frame.axes[i].body.append(pieces[i]); }
+    while (source.next(pieces_)) {
+        for (std::size_t i = 0; i < pieces_.size(); ++i) { frame.axes[i].body.append(pieces_[i]); }
     }
     made_ += frame.ticks;
     last_ = frame.ticks;
@@ -100,15 +100,14 @@ void LaiFrames::note_begins() {
     }
 }
 
-PathPlace LaiFrames::fill_tail(PathFrame& frame, AxisPositions at) const {
-    const Path tail = brake_from(path_, subticks(made_), limits_);
-    if (tail.empty()) { return place_at(made_); }
-    std::vector<Piece> pieces(at.size());
-    PieceSource source(tail, Ticks{0}, tail.duration().ceil(), {at.begin(), at.size()});
-    while (source.next(pieces)) {
-        for (std::size_t i = 0; i < pieces.size(); ++i) { frame.axes[i].tail.append(pieces[i]); }
+PathPlace LaiFrames::fill_tail(PathFrame& frame, AxisPositions at) {
+    brake_from(path_, subticks(made_), limits_, tail_);
+    if (tail_.empty()) { return place_at(made_); }
+    PieceSource source(tail_, Ticks{0}, tail_.duration().ceil(), {at.begin(), at.size()});
+    while (source.next(pieces_)) {
+        for (std::size_t i = 0; i < pieces_.size(); ++i) { frame.axes[i].tail.append(pieces_[i]); }
     }
-    const PathMove& rests_in = tail.moves.back();
+    const PathMove& rests_in = tail_.moves.back();
     const auto is_it = [&](const PathMove& m) { return m.block == rests_in.block && m.part == rests_in.part; };
     const auto from = path_.moves.begin() + static_cast<std::ptrdiff_t>(path_.move_at(subticks(made_)));
     return place_of(*std::find_if(from, path_.moves.end(), is_it), rests_in.profile.phases.back().to);

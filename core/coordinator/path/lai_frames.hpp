@@ -45,7 +45,7 @@ private:
     PathPlace place_of(const PathMove& move, Displacement along) const;
     PathPlace place_at(Ticks t) const;
     void note_begins();
-    PathPlace fill_tail(PathFrame& frame, AxisPositions at) const;
+    PathPlace fill_tail(PathFrame& frame, AxisPositions at);
 
     MachineConfig machine_;
     std::shared_ptr<const ProgramBlocks> program_;
@@ -61,6 +61,8 @@ private:
     PathFrame frame_;                // the last frame
     std::vector<MoveBegin> begins_;  // moves that begin in it
     std::vector<FrameEvent> due_;    // events due in it
+    Path tail_;                      // behind it
+    std::vector<Piece> pieces_;      // of a stretch of it, one for each axis
 };
 
 }  // namespace lockstep

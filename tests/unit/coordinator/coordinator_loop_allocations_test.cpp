@@ -46,7 +46,7 @@ Program all_kinds() {
 /// A coordinator and two axes with their devices in one thread. Each runs one loop per slot.
 class RunningCoordinator : public testing::Test {
 protected:
-    RunningCoordinator() {
+    explicit RunningCoordinator(MachineConfig machine = quick_machine({"X", "Y"})) : machine_(std::move(machine)) {
         for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
             nodes_.push_back(std::make_unique<AxisNode>(AxisNode::Setup{i, machine_, 7 + i, 1}, [this, i](Tick now) {
                 return simulated_device(machine_.axes[i], machine_.tick_ns, now);
@@ -145,7 +145,7 @@ protected:
         if (HasFailure()) { ADD_FAILURE() << CountedAllocations::places(); }
     }
 
-    MachineConfig machine_ = quick_machine({"X", "Y"});
+    MachineConfig machine_;
     Tick now_{1'000'000};
     Coordinator coordinator_{machine_, 1, 1, methods::begin_steps};
     std::vector<std::unique_ptr<AxisNode>> nodes_;
@@ -178,6 +178,35 @@ TEST_F(RunningCoordinator, AllocatesNothingWhileAJobRunsIsHeldAndResumes) {
     EXPECT_GT(steps_, steps_before + 10'000) << "the axes have moved";
     EXPECT_GT(frames_, frames_before + 100);
     EXPECT_EQ(events_, events_before + 3);
+    expect_none();
+}
+
+/// A coordinator that plans moves by Lai's method.
+class RunningLai : public RunningCoordinator {
+protected:
+    RunningLai() : RunningCoordinator(machine_of_lai()) {}
+    static MachineConfig machine_of_lai() {
+        MachineConfig machine = quick_machine({"X", "Y"});
+        machine.coordination = StepMethod::Lai;
+        return machine;
+    }
+};
+
+TEST_F(RunningLai, AllocatesNothingWhileAJobMoves) {
+    begin();
+    Program program{.name = "lines", .axes = {"X", "Y"}, .start_mm = {5, 5}};
+    for (const double x : {50.0, 20.0, 80.0, 5.0}) {
+        program.blocks.push_back(
+            {static_cast<std::int32_t>(program.blocks.size() + 1), ProgramMove{{x, x}, 40, false}});
+    }
+    coordinator_.accept_program(1, std::move(program));
+    ask(CommandKind::Run, "begin of a job");
+    pass(50, "run");
+
+    const std::uint64_t steps_before = steps_;
+    counts_ = true;
+    pass(400, "run");
+    EXPECT_GT(steps_, steps_before + 5'000) << "the axes have moved";
     expect_none();
 }
 

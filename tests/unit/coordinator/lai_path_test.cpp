@@ -46,7 +46,8 @@ void expect_accepted(const Path& path, Ticks end, const std::vector<AxisLimits>&
     while (body.next(pieces)) {
         for (std::size_t i = 0; i < 2; ++i) { ASSERT_TRUE(tracks[i].body.push_back(pieces[i])); }
     }
-    const Path tail = brake_from(path, subticks(end), limits);
+    Path tail;
+    brake_from(path, subticks(end), limits, tail);
     PieceSource rest(tail, Ticks{0}, tail.duration().ceil(), at);
     while (rest.next(pieces)) {
         for (std::size_t i = 0; i < 2; ++i) { ASSERT_TRUE(tracks[i].tail.push_back(pieces[i])); }
