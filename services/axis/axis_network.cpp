@@ -41,8 +41,13 @@ void AxisReceived::clear() {
 std::expected<AxisNetwork, std::string> AxisNetwork::open(const Setup& setup) {
     auto first = open_link(setup);
     if (!first) { return std::unexpected(first.error()); }
-    return AxisNetwork(setup.axis,
+    return AxisNetwork(setup,
                        std::make_unique<Link>(setup.machine, std::move(*first), [setup] { return open_link(setup); }));
+}
+
+/// Receiving allocates no memory after a stall either, when more states wait than ever before.
+AxisNetwork::AxisNetwork(const Setup& setup, std::unique_ptr<Link> link) : axis_(setup.axis), link_(std::move(link)) {
+    received_.states.reserve(Reader<AxisState>::most_waiting(setup.machine.axes.size()));
 }
 
 const AxisReceived& AxisNetwork::receive() {
@@ -50,7 +55,7 @@ const AxisReceived& AxisNetwork::receive() {
     AxisLink* const link = link_->get();
     if (link == nullptr) { return received_; }
     AxisBus& bus = link->bus;
-    if (link->clock) { received_.exchanges = link->clock->take(); }
+    if (link->clock) { link->clock->take(received_.exchanges); }
     bus.frames.take([&](Frame&& m) { received_.frames.append() = m; });
     bus.states.take([&](AxisState&& m) {
         axes_received_ |= axis_bit(m.axis);

@@ -65,7 +65,7 @@ public:
 
 private:
     using Link = WatchedLink<AxisLink>;
-    AxisNetwork(std::uint32_t axis, std::unique_ptr<Link> link) : axis_(axis), link_(std::move(link)) {}
+    AxisNetwork(const Setup& setup, std::unique_ptr<Link> link);
     Reception look(const AxisLink& link, bool at_rest);
 
     std::uint32_t axis_;

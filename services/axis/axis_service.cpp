@@ -35,6 +35,7 @@
 #include "services/runtime/stop_signal.hpp"
 #include "services/runtime/user_signal.hpp"
 #include "services/security/service_admission.hpp"
+#include "sim_fpga/registers.hpp"
 
 namespace lockstep {
 namespace {
@@ -82,6 +83,7 @@ public:
           meter_(setup.axis, setup.identity, setup.machine.tick_ns) {
         node_.measure(meter_);
         node_.note_in(flight_);
+        recorder_.reserve(registers::kCaptureRingEntries);
     }
 
     AxisService(const AxisService&) = delete;  // the node points to members of this object

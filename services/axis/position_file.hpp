@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <mutex>
 #include <string>
 #include <utility>
 
@@ -27,29 +26,14 @@ ReadPosition read_position(const std::filesystem::path& path);
 /// If a write fails, the position in the file is out of date, and the next process refuses it.
 class PositionKeeper {
 public:
-    PositionKeeper(std::filesystem::path path, NewestFile::OnFailure on_failure) : file_(std::move(path), on_failure) {}
+    PositionKeeper(std::filesystem::path path, NumberedText::OnFailure on_failure)
+        : file_(std::move(path), position_text, on_failure) {}
 
-    /// The loop calls this. A std::function with a copy of the position would allocate memory, so the copy is a member.
-    void keep(const KeptPosition& position) {
-        {
-            const std::scoped_lock lock(mutex_);
-            newest_ = position;
-        }
-        file_.keep(position.run, [this] { return text(); });
-    }
+    /// The loop calls this. It neither waits nor allocates memory.
+    void keep(const KeptPosition& position) { file_.keep(position.run, position); }
 
 private:
-    /// The writing thread calls this. It may get a newer position than the one that keep() announced.
-    std::string text() {
-        std::unique_lock lock(mutex_);
-        const KeptPosition newest = newest_;
-        lock.unlock();
-        return position_text(newest);
-    }
-
-    std::mutex mutex_;
-    KeptPosition newest_;
-    NewestFile file_;  // declared last, so that its thread ends first
+    NewestFile<KeptPosition> file_;
 };
 
 }  // namespace lockstep

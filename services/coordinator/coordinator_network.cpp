@@ -36,8 +36,15 @@ void CoordinatorReceived::clear() {
 std::expected<CoordinatorNetwork, std::string> CoordinatorNetwork::open(const Setup& setup) {
     auto first = open_link(setup);
     if (!first) { return std::unexpected(first.error()); }
-    return CoordinatorNetwork(all_axes(setup.machine), std::make_unique<Link>(setup.machine, std::move(*first),
-                                                                              [setup] { return open_link(setup); }));
+    return CoordinatorNetwork(
+        setup.machine, std::make_unique<Link>(setup.machine, std::move(*first), [setup] { return open_link(setup); }));
+}
+
+/// Receiving allocates no memory after a stall either, when more messages wait than ever before.
+CoordinatorNetwork::CoordinatorNetwork(const MachineConfig& machine, std::unique_ptr<Link> link)
+    : axes_(all_axes(machine)), link_(std::move(link)) {
+    received_.states.reserve(Reader<AxisState>::most_waiting(machine.axes.size()));
+    received_.healths.reserve(Reader<AxisHealth>::most_waiting(machine.axes.size()));
 }
 
 const CoordinatorReceived& CoordinatorNetwork::receive() {

@@ -69,7 +69,7 @@ public:
 
 private:
     using Link = WatchedLink<CoordinatorLink>;
-    CoordinatorNetwork(AxisSet axes, std::unique_ptr<Link> link) : axes_(axes), link_(std::move(link)) {}
+    CoordinatorNetwork(const MachineConfig& machine, std::unique_ptr<Link> link);
     Reception look(const CoordinatorLink& link, Duty duty);
 
     AxisSet axes_;  // all axes of the machine

@@ -24,7 +24,7 @@ void ValuesStore::write(std::chrono::nanoseconds now) {
     if (is_on_disk() || is_tried) { return; }
     written_ = change;
     written_at_ = now;
-    file_.keep(change, [values = RevisedValues{keeper_.revision(), keeper_.values()}] { return values_text(values); });
+    file_.keep(change, {keeper_.revision(), keeper_.values()});
 }
 
 const MachineValues* ValuesStore::step(std::chrono::nanoseconds now, const Term& term) {

@@ -22,8 +22,8 @@ namespace lockstep {
 class ValuesStore {
 public:
     /// `loaded`: the content of the file.
-    ValuesStore(const std::filesystem::path& file, RevisedValues loaded, NewestFile::OnFailure on_failure)
-        : keeper_(loaded.revision, std::move(loaded.values)), file_(file, on_failure) {}
+    ValuesStore(const std::filesystem::path& file, RevisedValues loaded, NumberedText::OnFailure on_failure)
+        : keeper_(loaded.revision, std::move(loaded.values)), file_(file, values_text, on_failure) {}
 
     ValueKeeper& keeper() { return keeper_; }
     /// Passes a program's first part to ValueKeeper::accept. From a later part it takes the values that the program
@@ -44,7 +44,7 @@ private:
     void write(std::chrono::nanoseconds now);
 
     ValueKeeper keeper_;
-    NewestFile file_;                     // numbered by the keeper's count of changes
+    NewestFile<RevisedValues> file_;      // numbered by the keeper's count of changes
     std::vector<std::uint8_t> followed_;  // the owner's bytes read last
     std::uint64_t written_ = 0;           // the change given to the file last
     std::chrono::nanoseconds written_at_{};

@@ -22,6 +22,8 @@ public:
     AxisRecorder(const AxisRecorder&) = delete;  // the batcher publishes through this object
     AxisRecorder& operator=(const AxisRecorder&) = delete;
 
+    /// Makes room for that many steps in one loop, so that it does not allocate memory for fewer.
+    void reserve(std::size_t steps) { steps_.reserve(steps); }
     /// Call it for every step, in order, before loop().
     void step(StepEdge step) { steps_.push_back(step); }
     /// Call it after each loop, with the loop's outputs and the axis's zero after it. `lost_captures` is the number of

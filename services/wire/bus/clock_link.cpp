@@ -37,16 +37,19 @@ void ClockClient::run(const std::stop_token& stop) {
         if (const auto request = asker_.ask(own_clock_())) { (void)requests_.write(*request); }
         if (!arrivals_.wait_for(kClientNap)) { continue; }
         const Tick arrived = own_clock_();
-        const std::scoped_lock lock(mutex_);
         replies_.take([&](ClockReply&& reply) {
-            if (const auto exchange = asker_.receive(reply, arrived)) { exchanges_.push_back(*exchange); }
+            if (const auto exchange = asker_.receive(reply, arrived)) { new_.push_back(*exchange); }
         });
+        const std::scoped_lock lock(mutex_);
+        exchanges_.insert(exchanges_.end(), new_.begin(), new_.end());
+        new_.clear();
     }
 }
 
-std::vector<ClockExchange> ClockClient::take() {
-    const std::scoped_lock lock(mutex_);
-    return std::exchange(exchanges_, {});
+void ClockClient::take(std::vector<ClockExchange>& exchanges) {
+    exchanges.clear();
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (lock) { std::swap(exchanges, exchanges_); }
 }
 
 }  // namespace lockstep

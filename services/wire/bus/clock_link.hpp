@@ -35,16 +35,18 @@ class ClockClient {
 public:
     ClockClient(Participant& participant, ClockAsker asker, ReadClock own_clock);
 
-    /// Returns the exchanges since the last call.
-    std::vector<ClockExchange> take();
+    /// Replaces `exchanges` by those since the last call. Never waits: exchanges that the thread adds at this moment
+    /// come with the next call.
+    void take(std::vector<ClockExchange>& exchanges);
 
 private:
     void run(const std::stop_token& stop);
 
     ClockAsker asker_;
     ReadClock own_clock_;
-    std::mutex mutex_;
+    std::mutex mutex_;  // guards exchanges_; the thread holds it only while it adds to them
     std::vector<ClockExchange> exchanges_;
+    std::vector<ClockExchange> new_;  // used by the thread
     Arrivals arrivals_;
     Writer<ClockRequest> requests_;
     Reader<ClockReply> replies_;

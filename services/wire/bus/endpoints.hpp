@@ -82,6 +82,8 @@ public:
           entity_(detail::make_reader(participant, Topic<T>::kSpec, *arrival_)),
           partitions_(participant.machine()) {}
 
+    /// The most messages that can wait for take(), if so many axes send them.
+    static constexpr std::size_t most_waiting(std::size_t axes) { return axes * Topic<T>::kSpec.depth; }
     /// Calls use(T&&) for each message received since the last call, oldest first per sender. Returns their number. If
     /// `use` does not move from a message, the next one reuses its memory.
     template <typename Use>
