@@ -53,8 +53,9 @@ std::expected<void, std::string> check_own(const MachineConfig& machine, const M
 
 }  // namespace
 
-Ticks ticks_of(const MachineConfig& machine, const MoveOptions& options) {
-    return {std::llround(options.in_s.value_or(0) * machine.ticks_per_second())};
+std::optional<Ticks> ticks_of(const MachineConfig& machine, const MoveOptions& options) {
+    if (!options.in_s) { return std::nullopt; }
+    return Ticks{std::llround(*options.in_s * machine.ticks_per_second())};
 }
 
 std::expected<AxisTarget, std::string> parse_target(std::string_view word) {

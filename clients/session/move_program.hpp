@@ -33,8 +33,8 @@ struct MoveOptions {
 std::expected<Program, std::string> move_program(const MachineConfig& machine, const std::vector<double>& start_mm,
                                                  const MoveOptions& options);
 
-/// The requested duration of own moves in whole ticks; 0 if none was requested.
-Ticks ticks_of(const MachineConfig& machine, const MoveOptions& options);
+/// The requested duration of own moves in whole ticks; nullopt if none was requested.
+std::optional<Ticks> ticks_of(const MachineConfig& machine, const MoveOptions& options);
 
 /// Returns the axis's index in the configuration, ignoring case. The error lists the existing names.
 std::expected<std::size_t, std::string> find_axis(const MachineConfig& machine, std::string_view name);

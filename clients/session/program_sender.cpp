@@ -52,13 +52,14 @@ void ProgramSender::cut(const std::string& why) {
     end();
 }
 
-ProgramChunk ProgramSender::chunk(std::uint32_t index, std::vector<std::uint8_t> bytes, double share) const {
+ProgramChunk ProgramSender::chunk(std::uint32_t index, std::vector<std::uint8_t> bytes,
+                                  std::optional<double> share) const {
     const bool is_last = is_ended_ && index + 1 == taken_ + parts_.size();
     return {.client = client_,
             .sequence = first_sequence_ + index,
             .program = program_,
             .index = index,
-            .count = is_last ? index + 1 : 0,
+            .count = is_last ? std::optional(index + 1) : std::nullopt,
             .share = share,
             .bytes = std::move(bytes)};
 }
@@ -77,7 +78,7 @@ std::vector<ProgramChunk> ProgramSender::due(std::chrono::nanoseconds now) {
     }
     const bool must_ask = chunks.empty() && taken_ > 0 && !is_done() && now - asked_ >= kAskAfter;
     if (must_ask) { chunks.push_back(chunk(taken_ - 1, {}, share_)); }
-    if (must_ask) { chunks.back().count = 0; }
+    if (must_ask) { chunks.back().count.reset(); }
     if (!chunks.empty()) { asked_ = now; }
     return chunks;
 }

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/if_positive.hpp"
 #include "core/protocol/messages.hpp"
 #include "services/documents/program_document.hpp"
 
@@ -32,7 +33,7 @@ public:
     /// Sends the appended blocks now, even if the part has room for more.
     void flush();
     /// Sets how much of the program has been appended, 0 to 1, where that is known.
-    void note_share(double share) { share_ = share; }
+    void note_share(double share) { share_ = if_positive(share); }
     /// Ends the program. `after`: the machine's values that it leaves.
     void end(const std::optional<gcode::KeptValues>& after = {});
     /// Ends the sending before the program's end: the machine runs what was sent, then rests.
@@ -69,10 +70,10 @@ private:
     struct Part {
         std::vector<std::uint8_t> bytes;
         std::size_t blocks = 0;
-        double share = 0;
+        std::optional<double> share;
         std::optional<std::chrono::nanoseconds> sent;
     };
-    ProgramChunk chunk(std::uint32_t index, std::vector<std::uint8_t> bytes, double share) const;
+    ProgramChunk chunk(std::uint32_t index, std::vector<std::uint8_t> bytes, std::optional<double> share) const;
     void give_up(const Reply& reply);
 
     Identity client_;
@@ -83,7 +84,7 @@ private:
     std::uint32_t taken_ = 0;                                         // parts
     std::size_t waiting_ = 0;                                         // blocks in parts_ and open_
     std::uint64_t room_ = std::numeric_limits<std::uint64_t>::max();  // the coordinator's room after the parts taken
-    double share_ = 0;
+    std::optional<double> share_;
     bool is_begun_ = false;  // the first part is in parts_, or was
     bool is_ended_ = false;
     int lacking_ = 0;  // consecutive replies with fewer parts than taken_

@@ -40,7 +40,7 @@ void MachineRecorder::on_part(std::size_t process, Tick now, const ProgramPart& 
     if (!part.cut.empty()) { writer.add_cut(part.cut); }
     jobs_->record(now, ProgramChunk{.program = part.program,
                                     .index = part.index,
-                                    .count = part.is_last ? part.index + 1 : 0,
+                                    .count = part.is_last ? std::optional(part.index + 1) : std::nullopt,
                                     .bytes = writer.take()});
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/if_positive.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -43,7 +45,7 @@ ProgramPart ProgramFeed::next_part() {
     if (index_ == 0) { part.head = text_.head(); }
     part.blocks.reserve(kBlocks);
     while (part.blocks.size() < kBlocks && !text_.ends_before(next_)) { part.blocks.push_back(*text_.block(next_++)); }
-    part.share = text_.share_read();
+    part.share = if_positive(text_.share_read());
     if (part.blocks.size() == kBlocks) { return part; }
     part.is_last = is_over_ = true;
     if (const Diagnostics& errors = text_.errors(); !errors.empty()) {

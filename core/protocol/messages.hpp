@@ -92,13 +92,13 @@ struct AxisState {
     Tick tick;                                  // when position and velocity were read
     std::int64_t following_error_steps = 0;     // encoder minus count, since it was homed
     std::uint64_t command_done = 0;             // the newest AxisCommand carried out or refused
-    FaultCode command_fault = FaultCode::None;  // why it was refused; 0: it was carried out
+    FaultCode command_fault = FaultCode::None;  // why it was refused; None: it was carried out
     std::uint64_t config_hash = 0;              // of the configuration it runs with
     std::uint64_t refused_frames = 0;           // since start
     Ticks clock_error;                          // bound on the error of its machine time
     Term term;                                  // of the owner it follows; never lower than before
     bool hears_owner = false;                   // it received its owner within silence_slots
-    FaultCode unproved = FaultCode::None;       // why it did not know its position at its start; 0: it knows it now
+    FaultCode unproved = FaultCode::None;       // why it did not know its position at its start; None: it knows it now
     bool operator==(const AxisState&) const = default;
 };
 
@@ -130,7 +130,7 @@ struct AxisCommand {
     std::uint32_t axis = 0;
     AxisCommandKind kind = AxisCommandKind::Home;
     std::int64_t target_steps = 0;  // MoveOwn, Jog: machine coordinates
-    Ticks ticks;                    // MoveOwn: how long it lasts; 0: as fast as the axis's limits allow
+    std::optional<Ticks> ticks;     // MoveOwn: how long it lasts; nullopt: as fast as the axis's limits allow
     double speed_mm_s = 0;          // Jog: the greatest speed, above 0
     Tick until;                     // Jog: the axis begins to brake by then, unless a repetition names a later time
     bool operator==(const AxisCommand&) const = default;
@@ -184,7 +184,7 @@ struct MachineState {
     Tick tick;
     MachinePhase phase = MachinePhase::Waiting;
     FaultCode fault = FaultCode::None;
-    std::uint32_t fault_axis = 0;  // meaningful if `fault` is not 0 and names an axis
+    std::uint32_t fault_axis = 0;  // meaningful if `fault` is not None and names an axis
     Epoch epoch = 0;
     FrameNumber sent = 0;                   // the highest frame sent
     std::optional<FrameNumber> veto;        // the coordinator's own, of this epoch
@@ -192,7 +192,7 @@ struct MachineState {
     std::optional<JobOutcome> outcome;      // of that job; empty while it is in progress
     Term job_begun;                         // the term in which it began; another owner may have continued it
     std::int32_t line = 0;                  // the G-code line now in motion, or the line at which a job ended early
-    FaultCode job_fault = FaultCode::None;  // why the program of the last job ended early; 0: it did not
+    FaultCode job_fault = FaultCode::None;  // why the program of the last job ended early; None: it did not
     bool lacks_blocks = false;              // the machine waits for more of the program
     double progress = 0;                    // 0 ... 1 of the job's planned time
     double remaining_s = 0;
@@ -203,9 +203,9 @@ struct MachineState {
     std::optional<HeldLease> lease;  // the writer's; empty: every client may give commands
     // What another coordinator needs to continue the job in motion:
     JobKind job_kind = JobKind::Run;
-    std::uint64_t program = 0;      // Command::program of the job; 0: none is in motion
-    std::uint32_t events_from = 0;  // the events of the program before this block have been published
-    std::vector<FrameRest> rests;   // of the frames of the epoch that may be the last one run, in order
+    std::optional<std::uint64_t> program;  // Command::program of the job; nullopt: none is in motion
+    std::uint32_t events_from = 0;         // the events of the program before this block have been published
+    std::vector<FrameRest> rests;          // of the frames of the epoch that may be the last one run, in order
     // For people and for checks of the record. No decision depends on it:
     RecordCounts published;          // record messages published by this process
     std::uint64_t lost_records = 0;  // record messages that it could not write
@@ -251,8 +251,8 @@ enum class CommandKind : std::uint8_t {
 /// One axis of a jog.
 struct JogAxis {
     std::uint32_t axis = 0;
-    double speed_mm_s = 0;   // the greatest speed; its sign is the direction
-    double distance_mm = 0;  // the greatest distance, or 0: to the end of the travel
+    double speed_mm_s = 0;              // the greatest speed; its sign is the direction
+    std::optional<double> distance_mm;  // the greatest distance, above 0; nullopt: to the end of the travel
     bool operator==(const JogAxis&) const = default;
 };
 
@@ -262,14 +262,14 @@ struct Command {
     Identity client = 0;
     std::uint64_t sequence = 0;
     CommandKind kind = CommandKind::Stop;
-    AxisSet axes = 0;           // Home: the axes to home; none means all
-    std::uint64_t program = 0;  // Move, Run, MoveOwn: the program that was sent before in chunks
-    Ticks ticks;                // MoveOwn: how long each axis's move lasts; 0: as fast as its limits allow
-    int feed_percent = 0;       // Override; 0: unchanged
-    int rapid_percent = 0;      // Override; 0: unchanged
-    std::vector<JogAxis> jogs;  // Jog: all axes that the client jogs from now on; empty: it releases them
-    LeaseHolder writer;         // the sender; its name and host only in TakeLease
-    bool takes_over = false;    // TakeLease: even from another writer
+    AxisSet axes = 0;                  // Home: the axes to home; none means all
+    std::uint64_t program = 0;         // Move, Run, MoveOwn: the program that was sent before in chunks
+    std::optional<Ticks> ticks;        // MoveOwn: how long each axis's move lasts; nullopt: as fast as its limits allow
+    std::optional<int> feed_percent;   // Override; nullopt: unchanged
+    std::optional<int> rapid_percent;  // Override; nullopt: unchanged
+    std::vector<JogAxis> jogs;         // Jog: all axes that the client jogs from now on; empty: it releases them
+    LeaseHolder writer;                // the sender; its name and host only in TakeLease
+    bool takes_over = false;           // TakeLease: even from another writer
     bool operator==(const Command&) const = default;
 };
 
@@ -280,8 +280,8 @@ struct ProgramChunk {
     std::uint64_t sequence = 0;
     std::uint64_t program = 0;
     std::uint32_t index = 0;
-    std::uint32_t count = 0;          // how many parts there are; 0: more follow
-    double share = 0;                 // fraction of the program sent so far, with this part; 0: not known
+    std::optional<std::uint32_t> count;  // how many parts there are; nullopt: more follow
+    std::optional<double> share;  // fraction of the program sent so far, with this part, above 0; nullopt: not known
     std::vector<std::uint8_t> bytes;  // empty while more follow: this is not a part, but asks how many were taken
     std::uint64_t writer = 0;         // LeaseHolder::id of its sender
     bool operator==(const ProgramChunk&) const = default;
@@ -295,8 +295,8 @@ struct ProgramPart {
     std::uint32_t index = 0;
     bool is_question = false;  // this is not a part, but asks how many parts were taken and how many blocks are free
     bool is_last = false;
-    double share = 0;  // fraction of the program that is known with this part, 0 to 1; 0: unknown to its sender
-    ProgramHead head;  // in part 0
+    std::optional<double> share;  // ProgramChunk::share
+    ProgramHead head;             // in part 0
     std::vector<Block> blocks;
     std::string cut;  // in the last part: why the program ends early; empty: this is its end
 };

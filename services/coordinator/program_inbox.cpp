@@ -35,8 +35,8 @@ const ProgramInbox::Known* ProgramInbox::find(const ProgramChunk& chunk) const {
 }
 
 std::expected<ProgramPart, Reply> ProgramInbox::read(const ProgramChunk& chunk) {
-    if (chunk.count != 0 && chunk.index >= chunk.count) {
-        return refuse(chunk, fmt::format("chunk {} of {}: chunks are numbered from 0", chunk.index, chunk.count));
+    if (chunk.count && chunk.index >= *chunk.count) {
+        return refuse(chunk, fmt::format("chunk {} of {}: chunks are numbered from 0", chunk.index, *chunk.count));
     }
     const Known* known = find(chunk);
     if (known != nullptr && (known->is_edit || !known->accepted)) {
@@ -46,8 +46,8 @@ std::expected<ProgramPart, Reply> ProgramInbox::read(const ProgramChunk& chunk) 
                      .sequence = chunk.sequence,
                      .program = chunk.program,
                      .index = chunk.index,
-                     .is_question = chunk.bytes.empty() && chunk.count == 0,
-                     .is_last = chunk.count != 0 && chunk.index + 1 == chunk.count,
+                     .is_question = chunk.bytes.empty() && !chunk.count,
+                     .is_last = chunk.index + 1 == chunk.count,
                      .share = chunk.share};
     const bool is_unknown = known == nullptr && chunk.index > 0;  // its first chunk was not received
     if (part.is_question || is_unknown) { return part; }

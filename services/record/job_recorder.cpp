@@ -76,17 +76,18 @@ void JobRecorder::record(Tick now, const ProgramChunk& chunk) {
     program_part_t part{};
     part.program = static_cast<std::int64_t>(chunk.program);
     part.part = static_cast<std::int32_t>(chunk.index);
-    part.parts = static_cast<std::int32_t>(chunk.count);
+    part.parts = static_cast<std::int32_t>(chunk.count.value_or(0));
     part.data = chunk.bytes;
     publish(now, std::move(part));
 }
 
 /// Puts a short program into the job's message. The parts of a longer one were recorded already, or are recorded now.
 void JobRecorder::record_program(Tick now, const JobEvent& event, JobRecord& record) {
-    bool is_in_parts = std::ranges::find(in_parts_, event.program_id) != in_parts_.end();
+    const std::uint64_t id = event.program_id.value_or(0);
+    bool is_in_parts = std::ranges::find(in_parts_, id) != in_parts_.end();
     const auto program = is_in_parts ? std::nullopt : event.program->whole();
     if (program && program->blocks.size() > kBlocksInJob) {
-        record_parts(now, event.program_id, *program);
+        record_parts(now, id, *program);
         is_in_parts = true;
     }
     if (!is_in_parts) {
@@ -94,14 +95,14 @@ void JobRecorder::record_program(Tick now, const JobEvent& event, JobRecord& rec
         return;
     }
     program_part_t part{};
-    part.program = static_cast<std::int64_t>(event.program_id);
+    part.program = static_cast<std::int64_t>(id);
     part.job = static_cast<std::int64_t>(event.job);
     publish(now, std::move(part));
 }
 
 /// Records the program in parts of whole blocks. Only the last part says how many there are.
 void JobRecorder::record_parts(Tick now, std::uint64_t id, const Program& program) {
-    ProgramChunk chunk{.program = id, .index = 0, .count = 0, .bytes = {}};
+    ProgramChunk chunk{.program = id};
     ProgramPartWriter writer(program.head());
     for (const Block& block : program.blocks) {
         writer.add(block);

@@ -234,7 +234,8 @@ void VirtualMachine::carry_out(std::size_t process, const CoordinatorOutputs& ou
     for (const Reply& reply : out.replies) { post_.send(now_, process, post_.client(), reply); }
 }
 
-std::uint64_t VirtualMachine::command(CommandKind kind, AxisSet axes, std::uint64_t program, Ticks ticks) {
+std::uint64_t VirtualMachine::command(CommandKind kind, AxisSet axes, std::uint64_t program,
+                                      std::optional<Ticks> ticks) {
     return ask({.kind = kind, .axes = axes, .program = program, .ticks = ticks});
 }
 

@@ -76,7 +76,8 @@ public:
     bool advance_until(const std::function<bool()>& done, Ticks limit);
 
     /// Sends a command over the network as a client. Returns its sequence number.
-    std::uint64_t command(CommandKind kind, AxisSet axes = 0, std::uint64_t program = 0, Ticks ticks = {});
+    std::uint64_t command(CommandKind kind, AxisSet axes = 0, std::uint64_t program = 0,
+                          std::optional<Ticks> ticks = {});
     std::uint64_t turn(const Overrides& overrides);
     /// Sends the command unchanged, such as one of another client or a renewed one.
     void send(const Command& command) { post_.multicast(now_, post_.client(), command); }

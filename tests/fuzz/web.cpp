@@ -31,7 +31,8 @@ void check(const JogOrder& order, const MachineConfig& machine) {
         seen |= AxisSet{1} << jog.axis;
         const double speed = std::abs(jog.speed_mm_s);
         require(speed > 0 && speed <= machine.axes[jog.axis].max_velocity_mm_s, "a velocity is within the axis's");
-        require(jog.distance_mm >= 0 && std::isfinite(jog.distance_mm), "a distance is finite");
+        const double distance_mm = jog.distance_mm.value_or(1);
+        require(distance_mm > 0 && std::isfinite(distance_mm), "a distance is above 0 and finite");
     }
 }
 

@@ -19,7 +19,7 @@ struct Job {
     std::optional<Program> program;              // move, run, own move
     std::optional<gcode::ProgramValues> values;  // run: the machine's values that it reads and changes
     ProgramStream* stream = nullptr;             // run: a program read while it runs, instead of `program`
-    Ticks ticks = {};                            // own move: its duration; 0: as fast as allowed
+    std::optional<Ticks> ticks = {};             // own move: its duration; nullopt: as fast as allowed
     std::optional<double> planned_s;
     bool detach = false;  // return when the job has begun
     bool take = false;    // take the lease even from another writer

@@ -1,6 +1,8 @@
 // lockstep override
 #include <fmt/format.h>
 
+#include <optional>
+
 #include <CLI/CLI.hpp>
 
 #include "clients/lockstep/live_options.hpp"
@@ -17,8 +19,8 @@ namespace lockstep {
 namespace {
 
 struct OverrideOptions : LiveOptions {
-    int feed_percent = 0;
-    int rapid_percent = 0;
+    std::optional<int> feed_percent;
+    std::optional<int> rapid_percent;
 };
 
 std::string text_of(const Overrides& overrides) {
@@ -32,9 +34,9 @@ ExitCode turn(const OverrideOptions& options) {
     auto session = Session::open(*machine, Purpose::Command);
     if (!session) { return output.fail(session.error()); }
     Overrides overrides = session->state()->state.overrides;
-    if (options.feed_percent != 0) { overrides.feed_percent = options.feed_percent; }
-    if (options.rapid_percent != 0) { overrides.rapid_percent = options.rapid_percent; }
-    if (options.feed_percent != 0 || options.rapid_percent != 0) {
+    overrides.feed_percent = options.feed_percent.value_or(overrides.feed_percent);
+    overrides.rapid_percent = options.rapid_percent.value_or(overrides.rapid_percent);
+    if (options.feed_percent || options.rapid_percent) {
         const LeaseTurn turn(*session, options.take);
         if (!turn.answer()) { return output.fail(turn.answer().error()); }
         if (turn.is_refused()) { return print_refusal(*turn.answer(), output); }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "clients/session/command_effect.hpp"
+#include "core/if_positive.hpp"
 #include "services/runtime/clock.hpp"
 
 namespace lockstep::scenario {
@@ -61,8 +62,8 @@ Done ActExecutor::apply(const Asked::Act& act) {
         case Act::kCommand: return command(act.command());
         case Act::kOverride:
             return ask({.kind = CommandKind::Override,
-                        .feed_percent = act.override().feed(),
-                        .rapid_percent = act.override().rapid()});
+                        .feed_percent = if_positive(act.override().feed()),
+                        .rapid_percent = if_positive(act.override().rapid())});
         case Act::WHAT_NOT_SET: break;
     }
     return std::unexpected("the act is empty");

@@ -66,9 +66,7 @@ std::optional<Order> override_speeds(const Json& body, const MachineConfig&, std
     const auto rapid = reader.integer("rapid_percent", Overrides::kLeast, Overrides::kMost);
     if (!feed && !rapid) { reader.require("feed_percent"); }
     reader.finish();
-    return Command{.kind = CommandKind::Override,
-                   .feed_percent = static_cast<int>(feed.value_or(0)),
-                   .rapid_percent = static_cast<int>(rapid.value_or(0))};
+    return Command{.kind = CommandKind::Override, .feed_percent = feed, .rapid_percent = rapid};
 }
 
 void read_jog(const Json& json, std::size_t i, const MachineConfig& machine, JogOrder& order,
@@ -91,7 +89,7 @@ void read_jog(const Json& json, std::size_t i, const MachineConfig& machine, Jog
     if (std::ranges::any_of(order.jogs, is_same)) {
         reader.refuse(wrong_value(422, reader.place_of("axis"), *name, "each axis once"));
     }
-    order.jogs.push_back({static_cast<std::uint32_t>(axis), *velocity, distance.value_or(0)});
+    order.jogs.push_back({static_cast<std::uint32_t>(axis), *velocity, distance});
 }
 
 std::optional<Order> jog(const Json& body, const MachineConfig& machine, std::optional<Problem>& problem) {

@@ -20,7 +20,7 @@ struct LocalMove {
     std::int64_t steps = 0;  // signed
     double speed_mm_s = 0;
     Trigger trigger = Trigger::None;
-    Ticks ticks = {};  // how long it lasts; 0: as fast as the axis's limits allow
+    std::optional<Ticks> ticks = {};  // how long it lasts; nullopt: as fast as the axis's limits allow
 };
 
 /// How a local move ended.

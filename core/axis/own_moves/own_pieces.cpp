@@ -13,7 +13,7 @@ namespace {
 std::string text_in_time(const Infeasible& lack, const AxisConfig& axis, std::int64_t tick_ns,
                          const OwnMoveRequest& move) {
     const double tick_s = static_cast<double>(tick_ns) * 1e-9;
-    const std::string time = short_number(static_cast<double>(move.ticks.value) * tick_s) + " s";
+    const std::string time = short_number(static_cast<double>(move.ticks->value) * tick_s) + " s";
     return short_number(to_mm(axis, static_cast<double>(move.steps))) + " mm in " + time +
            " would break the limits of axis " + axis.name + ": it takes at least " +
            short_number(static_cast<double>(lack.least_ticks.value) * tick_s) + " s, and in " + time + " at most " +
@@ -42,7 +42,7 @@ StepMove step_move_of(const AxisConfig& axis, const OwnMoveRequest& move) {
 std::expected<OwnPieces, OwnMoveError> OwnPieces::plan(const AxisConfig& axis, std::int64_t tick_ns, StepMethod method,
                                                        const OwnMoveRequest& move, BeginSteps begin_steps) {
     if (method == StepMethod::Ranade) { return planned(axis, tick_ns, move); }
-    if (move.ticks == Ticks{}) { return stepped(axis, tick_ns, method, move, begin_steps); }
+    if (!move.ticks) { return stepped(axis, tick_ns, method, move, begin_steps); }
     return std::unexpected(NotInTime{method});
 }
 
@@ -54,9 +54,9 @@ std::expected<OwnPieces, OwnMoveError> OwnPieces::planned(const AxisConfig& axis
                             of_axis.max_deceleration};
     const Displacement way = Displacement::steps(move.steps);
     Profile profile;
-    if (move.ticks == Ticks{}) {
+    if (!move.ticks) {
         profile = plan_fastest({{}, way, limits.start_velocity, limits.start_velocity, limits});
-    } else if (auto in_time = plan_in_time(way, move.ticks, limits)) {
+    } else if (auto in_time = plan_in_time(way, *move.ticks, limits)) {
         profile = *in_time;
     } else {
         return std::unexpected(in_time.error());

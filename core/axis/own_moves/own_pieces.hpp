@@ -23,9 +23,9 @@ namespace lockstep {
 
 /// Distance, speed and duration of a move. The move is treated as forward in either direction.
 struct OwnMoveRequest {
-    std::int64_t steps = 0;  // > 0
-    double speed_mm_s = 0;   // at most
-    Ticks ticks;             // how long it lasts, exactly; 0: as fast as the limits allow
+    std::int64_t steps = 0;      // > 0
+    double speed_mm_s = 0;       // at most
+    std::optional<Ticks> ticks;  // how long it lasts, exactly; nullopt: as fast as the limits allow
 };
 
 /// A method other than Ranade's cannot plan for a given duration.

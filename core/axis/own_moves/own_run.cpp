@@ -38,7 +38,7 @@ std::optional<LocalMove> OwnRun::rest(const DeviceStatus& device) const {
     rest.steps = target_ - device.position.count();
     const bool stopped = device.stopped_by_trigger || device.stopped_by_limit;
     if (stopped || is_halted_ || rest.steps == 0) { return std::nullopt; }
-    if (device.frame > 0) { rest.ticks = {}; }
+    if (device.frame > 0) { rest.ticks.reset(); }
     return rest;
 }
 

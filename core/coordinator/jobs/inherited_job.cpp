@@ -4,10 +4,10 @@ namespace lockstep {
 
 std::optional<TakeoverDoubt> InheritedJob::doubt(const CoordinatorLoop& loop) const {
     if (on_takeover_ != OnTakeover::Continue) { return TakeoverDoubt::NotAsked; }
-    if (last_->program == 0) { return TakeoverDoubt::NotRunning; }
+    if (!last_->program) { return TakeoverDoubt::NotRunning; }
     const bool is_late = interrupted_ && *interrupted_ + rules::kHopSlots >= last_->stamp;
     if (is_late) { return TakeoverDoubt::Interrupted; }
-    if (!loop.programs.find(last_->program)) { return TakeoverDoubt::UnknownProgram; }
+    if (!loop.programs.find(*last_->program)) { return TakeoverDoubt::UnknownProgram; }
     if (last_->config_hash != config_hash_) { return TakeoverDoubt::OtherPlan; }
     return loop.axes.missing(loop.slot) ? std::optional(TakeoverDoubt::AxisInDoubt) : std::nullopt;
 }

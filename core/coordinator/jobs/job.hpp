@@ -13,7 +13,7 @@ namespace lockstep {
 struct MachineJob {
     std::uint64_t number = 0;
     JobKind kind = JobKind::Run;
-    std::uint64_t program_id = 0;  // Command::program; also 0 if no other coordinator can continue the job
+    std::optional<std::uint64_t> program_id;      // Command::program, if another coordinator can continue the job
     std::shared_ptr<const KnownProgram> program;  // null for homing
 
     /// Its axes move, each by itself, and the coordinator sends no frames.

@@ -50,7 +50,7 @@ void JobRunner::begin(JobKind kind, const Command& command, const AxisCounts& st
     const bool is_path = kind == JobKind::Run || kind == JobKind::Move;
     job_ = MachineJob{.number = count_.begin(loop.term),
                       .kind = kind,
-                      .program_id = is_path ? command.program : 0,
+                      .program_id = is_path ? std::optional(command.program) : std::nullopt,
                       .program = is_path || kind == JobKind::MoveOwn ? loop.programs.find(command.program) : nullptr};
     loop.out.jobs.push_back({.kind = JobEvent::Kind::Begun,
                              .job = job_->number,
@@ -161,15 +161,15 @@ CommandResult JobRunner::turn(const Command& command, const CoordinatorLoop& loo
     if (loop.machine.coordination == StepMethod::Lai) {
         return refuse(FaultCode::NothingToDo, "coordination LAI does not support overrides; set coordination: RANADE");
     }
-    for (const int percent : {command.feed_percent, command.rapid_percent}) {
-        if (percent == 0 || Overrides::allows(percent)) { continue; }
-        return refuse(FaultCode::BadProgram, "an override of " + std::to_string(percent) + " % is not within " +
+    for (const std::optional<int>& percent : {command.feed_percent, command.rapid_percent}) {
+        if (!percent || Overrides::allows(*percent)) { continue; }
+        return refuse(FaultCode::BadProgram, "an override of " + std::to_string(*percent) + " % is not within " +
                                                  std::to_string(Overrides::kLeast) + " to " +
                                                  std::to_string(Overrides::kMost) + " %");
     }
     Overrides overrides = path_.overrides();
-    if (command.feed_percent != 0) { overrides.feed_percent = command.feed_percent; }
-    if (command.rapid_percent != 0) { overrides.rapid_percent = command.rapid_percent; }
+    overrides.feed_percent = command.feed_percent.value_or(overrides.feed_percent);
+    overrides.rapid_percent = command.rapid_percent.value_or(overrides.rapid_percent);
     path_.turn(overrides);
     return {};
 }

@@ -167,7 +167,7 @@ void JobRunner::take_over(const std::optional<MachineState>& last, CoordinatorLo
 void JobRunner::go_on_with_inherited(CoordinatorLoop& loop) {
     if (!inherited_.exists()) { return; }
     const MachineState& last = inherited_.last();
-    const auto program = loop.programs.find(last.program);
+    const auto program = last.program ? loop.programs.find(*last.program) : nullptr;
     check(program != nullptr, "the program of an inherited job is known");
     if (!is_at_hand(last, *program)) { return; }
     const auto rest = inherited_.rest(*program, loop);

@@ -17,7 +17,7 @@ constexpr std::int64_t kForgetAfter_ns = 500'000'000;
 std::int64_t target_of(const JogAxis& asked, const AxisConfig& axis, const AxisState& state) {
     const std::int64_t here = state.position.count();
     const double travel_mm = axis.position_max_mm - axis.position_min_mm;
-    const double far_mm = asked.distance_mm > 0 ? std::min(asked.distance_mm, 2 * travel_mm) : 2 * travel_mm;
+    const double far_mm = std::min(asked.distance_mm.value_or(2 * travel_mm), 2 * travel_mm);
     const std::int64_t steps = std::max<std::int64_t>(1, to_steps(axis, far_mm));
     const std::int64_t target = asked.speed_mm_s < 0 ? here - steps : here + steps;
     if (!state.homed) { return target; }
@@ -70,7 +70,7 @@ std::expected<Jogs::Jog, Refusal> Jogs::jog_of(const JogAxis& asked, const Comma
                                                     short_number(to_mm(axis, static_cast<double>(target))) + " mm");
     }
     Jog jog{command.client, command.sequence, asked, loop.is_late ? loop.now - hold_ : loop.now, {}};
-    if (before && asked.distance_mm == 0 && before->asked == asked) { jog.target = before->target; }
+    if (before && !asked.distance_mm && before->asked == asked) { jog.target = before->target; }
     return jog;
 }
 

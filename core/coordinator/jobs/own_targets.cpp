@@ -20,13 +20,13 @@ CommandResult check_move(std::size_t axis, const OwnMoveRequest& move, const Coo
 
 /// The duration that was asked for, or that of the continuous ideal. Methods differ from the ideal only by rounding.
 double planned_seconds(const AxisConfig& axis, const OwnMoveRequest& move, const MachineConfig& machine) {
-    if (move.ticks > Ticks{}) { return static_cast<double>(move.ticks.value) / machine.ticks_per_second(); }
+    if (move.ticks) { return static_cast<double>(move.ticks->value) / machine.ticks_per_second(); }
     return Ideal(step_move_of(axis, {move.steps, move.speed_mm_s})).duration_s();
 }
 
 }  // namespace
 
-std::expected<OwnTargets, Refusal> OwnTargets::plan(const KnownProgram& program, Ticks ticks,
+std::expected<OwnTargets, Refusal> OwnTargets::plan(const KnownProgram& program, std::optional<Ticks> ticks,
                                                     const CoordinatorLoop& loop, BeginSteps begin_steps) {
     AxisCounts end = loop.axes.counts();
     const std::vector<std::size_t>& axes = program.places();

@@ -14,10 +14,10 @@ namespace lockstep {
 class OwnTargets {
 public:
     OwnTargets() = default;
-    /// The targets are where a whole program ends, independently of its path. `ticks`: how long each move lasts; 0: as
-    /// fast as the axis can. Error: a move that its axis cannot make. Each axis's move is planned here, too, so that
-    /// the client gets the reason.
-    static std::expected<OwnTargets, Refusal> plan(const KnownProgram& program, Ticks ticks,
+    /// The targets are where a whole program ends, independently of its path. `ticks`: how long each move lasts;
+    /// nullopt: as fast as the axis can. Error: a move that its axis cannot make. Each axis's move is planned here,
+    /// too, so that the client gets the reason.
+    static std::expected<OwnTargets, Refusal> plan(const KnownProgram& program, std::optional<Ticks> ticks,
                                                    const CoordinatorLoop& loop, BeginSteps begin_steps);
 
     /// The axes that move.
@@ -34,7 +34,7 @@ private:
     AxisSet axes_ = 0;
     AxisCounts from_;
     AxisCounts to_;
-    Ticks ticks_;
+    std::optional<Ticks> ticks_;
     Tick begun_;
     double planned_s_ = 0;
 };

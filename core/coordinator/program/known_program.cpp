@@ -138,8 +138,8 @@ std::optional<std::uint32_t> KnownProgram::leg_of(std::uint32_t number) const {
 /// The unknown part of the program is assumed to take as long for its share as the known part.
 double KnownProgram::seconds_from(const PathPlace& place) const {
     const double left = times_.seconds_from(place);
-    if (!is_open_ || known_share_ <= 0) { return left; }
-    return left + times_.seconds() * (1 / std::min(known_share_, 1.0) - 1);
+    if (!is_open_ || !known_share_) { return left; }
+    return left + times_.seconds() * (1 / std::min(*known_share_, 1.0) - 1);
 }
 
 }  // namespace lockstep

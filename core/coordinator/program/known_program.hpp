@@ -41,8 +41,8 @@ public:
     void end() { is_open_ = false; }
     /// No more blocks come.
     void cut(ProgramCut cut);
-    /// Takes its sender's estimate of how much of it is known; 0: the sender does not know.
-    void note_share(double known) { known_share_ = known; }
+    /// Takes its sender's estimate of how much of it is known: above 0, or nullopt if the sender does not know.
+    void note_share(std::optional<double> known) { known_share_ = known; }
     /// Blocks before this one were run. They are kept as long as there is room.
     void release_before(std::uint32_t block) const { rows_->release_before(block); }
 
@@ -91,7 +91,7 @@ private:
     std::uint32_t known_ = 0;
     std::int32_t last_line_ = 0;
     std::uint32_t events_together_ = 0;  // events since the last block that was no event
-    double known_share_ = 0;
+    std::optional<double> known_share_;
     std::vector<double> at_mm_;        // places after the last known block
     std::deque<std::uint32_t> legs_;   // the first blocks of the newest legs
     std::vector<double> taken_;        // rows of the blocks being taken

@@ -25,7 +25,7 @@ struct JobEvent {
     JobKind job_kind = JobKind::Run;
     JobOutcome outcome = JobOutcome::Done;        // Ended
     std::shared_ptr<const KnownProgram> program;  // Begun; null for homing
-    std::uint64_t program_id = 0;                 // its Command::program; in Ended, too
+    std::optional<std::uint64_t> program_id;      // Begun, Ended: MachineJob::program_id
     Epoch epoch = 0;                              // EpochBegun (frame 1 starts at `start`), Overridden
     Tick start;
     PathPlace place;          // EpochBegun: where on the program it starts

@@ -36,7 +36,9 @@ void ValueKeeper::note_left(std::uint64_t program, const gcode::KeptValues& afte
 }
 
 void ValueKeeper::take(const JobEvent& event) {
-    const std::uint64_t program = event.program_id;
+    if (event.kind == JobEvent::Kind::Begun) { running_.reset(); }
+    if (!event.program_id) { return; }
+    const std::uint64_t program = *event.program_id;
     if (event.kind == JobEvent::Kind::Begun) { running_ = Arrived{program, revision_, after(program)}; }
     if (event.kind != JobEvent::Kind::Ended) { return; }
     const auto running = std::exchange(running_, std::nullopt);

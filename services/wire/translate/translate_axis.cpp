@@ -1,3 +1,4 @@
+#include "core/if_positive.hpp"
 #include "services/wire/translate/checks.hpp"
 #include "services/wire/translate/translate.hpp"
 
@@ -83,7 +84,7 @@ lockstep_wire_AxisCommand to_wire(const AxisCommand& command) {
             .axis = command.axis,
             .kind = static_cast<lockstep_wire_AxisCommandKind>(command.kind),
             .target_steps = command.target_steps,
-            .ticks = command.ticks.value,
+            .ticks = command.ticks.value_or(Ticks{}).value,
             .speed_mm_s = command.speed_mm_s,
             .until = command.until.value};
 }
@@ -103,7 +104,7 @@ FromWire<AxisCommand> from_wire(const lockstep_wire_AxisCommand& wire) {
                        .axis = wire.axis,
                        .kind = kind,
                        .target_steps = wire.target_steps,
-                       .ticks = {wire.ticks},
+                       .ticks = if_positive(Ticks{wire.ticks}),
                        .speed_mm_s = wire.speed_mm_s,
                        .until = {wire.until}};
 }

@@ -1,6 +1,7 @@
 #include <cstring>
 #include <span>
 
+#include "core/if_positive.hpp"
 #include "services/wire/dds/cut_text.hpp"
 #include "services/wire/translate/checks.hpp"
 #include "services/wire/translate/translate.hpp"
@@ -22,9 +23,9 @@ CommandMessage to_wire(const Command& command) {
             .kind = static_cast<lockstep_wire_CommandKind>(command.kind),
             .axes = command.axes,
             .program = command.program,
-            .ticks = command.ticks.value,
-            .feed_percent = static_cast<std::uint16_t>(command.feed_percent),
-            .rapid_percent = static_cast<std::uint16_t>(command.rapid_percent),
+            .ticks = command.ticks.value_or(Ticks{}).value,
+            .feed_percent = static_cast<std::uint16_t>(command.feed_percent.value_or(0)),
+            .rapid_percent = static_cast<std::uint16_t>(command.rapid_percent.value_or(0)),
             .jogs = {},
             .writer = command.writer.id,
             .writer_name = {},
@@ -33,7 +34,8 @@ CommandMessage to_wire(const Command& command) {
     write_text(command.writer.name, wire.writer_name);
     write_text(command.writer.host, wire.writer_host);
     for (const JogAxis& jog : command.jogs) {
-        message.jog_storage.push_back({.axis = jog.axis, .speed_mm_s = jog.speed_mm_s, .distance_mm = jog.distance_mm});
+        message.jog_storage.push_back(
+            {.axis = jog.axis, .speed_mm_s = jog.speed_mm_s, .distance_mm = jog.distance_mm.value_or(0)});
     }
     const auto size = static_cast<std::uint32_t>(message.jog_storage.size());
     wire.jogs = {._maximum = size, ._length = size, ._buffer = message.jog_storage.data(), ._release = false};
@@ -53,7 +55,7 @@ FromWire<Command> from_wire(const lockstep_wire_Command& wire) {
         check.within<std::size_t>("a jog's axis", jog.axis, 0, kMaxAxes - 1);
         check.finite("a jog's speed_mm_s", jog.speed_mm_s);
         check.finite("a jog's distance_mm", jog.distance_mm);
-        jogs.push_back({jog.axis, jog.speed_mm_s, jog.distance_mm});
+        jogs.push_back({jog.axis, jog.speed_mm_s, if_positive(jog.distance_mm)});
     }
     if (!check.passed()) { return std::unexpected(check.refusal()); }
     return Command{.client = wire.client,
@@ -61,9 +63,9 @@ FromWire<Command> from_wire(const lockstep_wire_Command& wire) {
                    .kind = kind,
                    .axes = wire.axes,
                    .program = wire.program,
-                   .ticks = {wire.ticks},
-                   .feed_percent = wire.feed_percent,
-                   .rapid_percent = wire.rapid_percent,
+                   .ticks = if_positive(Ticks{wire.ticks}),
+                   .feed_percent = if_positive(wire.feed_percent),
+                   .rapid_percent = if_positive(wire.rapid_percent),
                    .jogs = std::move(jogs),
                    .writer = std::move(writer),
                    .takes_over = wire.takes_over};
@@ -75,8 +77,8 @@ lockstep_wire_ProgramChunk to_wire(const ProgramChunk& chunk) {
             .sequence_number = chunk.sequence,
             .program = chunk.program,
             .index = chunk.index,
-            .count = chunk.count,
-            .share = chunk.share,
+            .count = chunk.count.value_or(0),
+            .share = chunk.share.value_or(0),
             .writer = chunk.writer,
             .bytes = {._maximum = size,
                       ._length = size,
@@ -95,8 +97,8 @@ FromWire<ProgramChunk> from_wire(const lockstep_wire_ProgramChunk& wire) {
                         .sequence = wire.sequence_number,
                         .program = wire.program,
                         .index = wire.index,
-                        .count = wire.count,
-                        .share = wire.share,
+                        .count = if_positive(wire.count),
+                        .share = if_positive(wire.share),
                         .bytes = {wire.bytes._buffer, wire.bytes._buffer + wire.bytes._length},
                         .writer = wire.writer};
 }

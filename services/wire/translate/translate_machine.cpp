@@ -1,5 +1,6 @@
 #include <span>
 
+#include "core/if_positive.hpp"
 #include "services/wire/translate/checks.hpp"
 #include "services/wire/translate/translate.hpp"
 #include "services/wire/translate/writer_text.hpp"
@@ -99,7 +100,7 @@ void to_wire(const MachineState& state, MachineStateMessage& message) {
             .writer_host = {},
             .writer_since = state.lease ? state.lease->since.value : 0,
             .is_run = state.job_kind == JobKind::Run,
-            .program = state.program,
+            .program = state.program.value_or(0),
             .events_from = state.events_from,
             .rests = {},
             .job_messages = state.published.job_events,
@@ -155,7 +156,7 @@ std::expected<void, std::string> from_wire(const lockstep_wire_MachineState& wir
             .devices = devices,
             .lease = std::move(into.lease),
             .job_kind = wire.is_run ? JobKind::Run : JobKind::Move,
-            .program = wire.program,
+            .program = if_positive(wire.program),
             .events_from = wire.events_from,
             .rests = std::move(into.rests),
             .published = {.job_events = wire.job_messages, .program_parts = wire.program_messages},

@@ -32,7 +32,7 @@ bool answer_chunks(CoordinatorBus& bus) {
         bool all = false;
         bus.chunks.take([&](ProgramChunk&& chunk) {
             chunks[chunk.index] = chunk.bytes.size();
-            all = chunk.count != 0 && chunks.size() == chunk.count;
+            all = chunks.size() == chunk.count;
             bus.replies.write({.client = chunk.client,
                                .sequence = chunk.sequence,
                                .parts = static_cast<std::uint32_t>(chunks.size()),

@@ -117,7 +117,7 @@ TEST_F(HeldJob, NamesTheProgramWhereItBeginsAndEndsAndTheEpochWhereThatBegins) {
     ASSERT_EQ(jobs_.size(), 3u);
     for (const JobEvent& event : jobs_) {
         const bool is_epoch = event.kind == JobEvent::Kind::EpochBegun;
-        EXPECT_EQ(event.program_id, is_epoch ? 0u : 1u);
+        EXPECT_EQ(event.program_id, is_epoch ? std::nullopt : std::optional<std::uint64_t>(1));
         EXPECT_EQ(event.epoch != 0, is_epoch);
         EXPECT_EQ(event.behind, 0u) << "only overrides hold behind a frame";
     }

@@ -74,7 +74,7 @@ TEST(PathProgress, NeverFallsWhenWhatIsLeftIsPlannedAnew) {
 class OwnTargetsOfTwo : public CoordinatorParts {
 protected:
     OwnTargetsOfTwo() { receive_all(); }
-    std::expected<OwnTargets, Refusal> targets(double x_mm, double y_mm, Ticks ticks = {}) {
+    std::expected<OwnTargets, Refusal> targets(double x_mm, double y_mm, std::optional<Ticks> ticks = {}) {
         accept(1, x_mm, y_mm);
         return OwnTargets::plan(*programs.find(1), ticks, loop(), methods::begin_steps);
     }
@@ -144,7 +144,7 @@ TEST_F(Inherited, NamesWhyItIsNotGoneOnWith) {
         return job.doubt(loop());
     };
     MachineState other = last;
-    other.program = 0;
+    other.program.reset();
     EXPECT_EQ(doubt_of(other), TakeoverDoubt::NotRunning);
     other.program = 2;
     EXPECT_EQ(doubt_of(other), TakeoverDoubt::UnknownProgram);

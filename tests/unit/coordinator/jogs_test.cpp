@@ -9,7 +9,7 @@ namespace {
 class Jogged : public CoordinatorParts {
 protected:
     Jogged() { receive_all(); }
-    static Command pressed(std::uint64_t sequence, double distance_mm = 0) {
+    static Command pressed(std::uint64_t sequence, std::optional<double> distance_mm = {}) {
         return {.client = 1,
                 .sequence = sequence,
                 .kind = CommandKind::Jog,

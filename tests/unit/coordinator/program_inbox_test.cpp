@@ -8,11 +8,14 @@
 namespace lockstep {
 namespace {
 
+constexpr auto kMoreFollow = std::nullopt;
+
 std::vector<std::uint8_t> some_program() {
     return program_bytes({.name = "job", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, ProgramMove{{10}, 5, false}}}});
 }
 
-ProgramChunk chunk(std::uint32_t index, std::uint32_t count, std::vector<std::uint8_t> bytes, Identity client = 1) {
+ProgramChunk chunk(std::uint32_t index, std::optional<std::uint32_t> count, std::vector<std::uint8_t> bytes,
+                   Identity client = 1) {
     return {.client = client,
             .sequence = 100 + index,
             .program = 7,
@@ -33,21 +36,21 @@ TEST(ProgramInbox, ReadsTheHeadAndTheBlocksOfAWholeProgram) {
 
 TEST(ProgramInbox, ReadsLaterPartsThatNameNoAxes) {
     ProgramInbox inbox;
-    ASSERT_TRUE(inbox.read(chunk(0, 0, some_program())));
+    ASSERT_TRUE(inbox.read(chunk(0, kMoreFollow, some_program())));
     const auto bytes = program_bytes({.name = "", .axes = {}, .start_mm = {}, .blocks = {{2, ProgramMove{{20}, 5}}}});
-    const auto part = inbox.read(chunk(1, 0, bytes));
+    const auto part = inbox.read(chunk(1, kMoreFollow, bytes));
     ASSERT_TRUE(part) << part.error().text;
     EXPECT_FALSE(part->is_last);
     ASSERT_EQ(part->blocks.size(), 1u);
     EXPECT_EQ(part->blocks[0].line, 2);
     const auto wide = program_bytes({.name = "", .axes = {}, .start_mm = {}, .blocks = {{3, ProgramMove{{1, 2}, 5}}}});
-    EXPECT_FALSE(inbox.read(chunk(2, 0, wide))) << "two places for one axis";
+    EXPECT_FALSE(inbox.read(chunk(2, kMoreFollow, wide))) << "two places for one axis";
 }
 
 TEST(ProgramInbox, AChunkWithoutBytesIsAQuestion) {
     ProgramInbox inbox;
-    ASSERT_TRUE(inbox.read(chunk(0, 0, some_program())));
-    const auto part = inbox.read(chunk(0, 0, {}));
+    ASSERT_TRUE(inbox.read(chunk(0, kMoreFollow, some_program())));
+    const auto part = inbox.read(chunk(0, kMoreFollow, {}));
     ASSERT_TRUE(part);
     EXPECT_TRUE(part->is_question);
 }
@@ -71,7 +74,7 @@ TEST(ProgramInbox, ARefusedProgramStaysRefused) {
     ProgramInbox inbox(
         [](const ProgramChunk&, const ProgramDocument&) { return CommandResult(refuse(FaultCode::WriterHeld, "no")); });
     for (int n = 0; n < 2; ++n) {
-        const auto refused = inbox.read(chunk(0, 0, some_program()));
+        const auto refused = inbox.read(chunk(0, kMoreFollow, some_program()));
         EXPECT_EQ(refused.error().text, "no");
         EXPECT_EQ(refused.error().fault, FaultCode::WriterHeld);
     }

@@ -189,7 +189,7 @@ TEST_F(Sender, JogsAndCancels) {
     ASSERT_EQ(requests[0].jogs.size(), 2u);
     EXPECT_NEAR(requests[0].jogs[0].speed_mm_s, 6, 1e-9);
     EXPECT_NEAR(requests[0].jogs[1].speed_mm_s, 8, 1e-9);
-    EXPECT_NEAR(requests[0].jogs[1].distance_mm, 4, 1e-9);
+    EXPECT_NEAR(requests[0].jogs[1].distance_mm.value(), 4, 1e-9);
     grbl.answer(requests[0].number, {.is_done = true});
     change(MachinePhase::Jogging);
     EXPECT_THAT(lines(), ElementsAre("ok"));
@@ -239,7 +239,7 @@ TEST_F(Sender, JogsInWorkCoordinatesInchesAndAtMostAtFullSpeed) {
     grbl.see(view);
     (void)send("$J=G20 X1 F10000\n");
     ASSERT_THAT(asked(), ElementsAre(Kind::Jog));
-    EXPECT_NEAR(requests[0].jogs[0].distance_mm, 115.4, 1e-9);
+    EXPECT_NEAR(requests[0].jogs[0].distance_mm.value(), 115.4, 1e-9);
     EXPECT_NEAR(requests[0].jogs[0].speed_mm_s, 50, 1e-9);
     EXPECT_THAT(send("$G\n"), ElementsAre()) << "the jog is not answered yet";
     grbl.answer(requests[0].number, {.is_done = true});

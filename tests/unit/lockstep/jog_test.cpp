@@ -25,7 +25,7 @@ TEST(JogWords, NameAxesAndDirections) {
     const auto jogs = jog_axes(machine_to_jog(), {.words = {"X+", "z-"}, .distance_mm = 3});
     ASSERT_TRUE(jogs) << jogs.error();
     EXPECT_EQ(*jogs, (std::vector<JogAxis>{{0, 10, 3}, {2, -4, 3}}));
-    EXPECT_EQ(jog_axes(machine_to_jog(), {.words = {"Y-"}, .speed_mm_s = 50})->front(), (JogAxis{1, -50, 0}));
+    EXPECT_EQ(jog_axes(machine_to_jog(), {.words = {"Y-"}, .speed_mm_s = 50})->front(), (JogAxis{1, -50}));
 }
 
 TEST(JogWords, ThatMakeNoSenseAreRefusedWithTheReason) {
@@ -46,7 +46,7 @@ TEST(JogWords, EndAtTheDistanceOrTheEndOfTheTravel) {
     const AxisConfig axis = machine_to_jog().axes[0];
     EXPECT_EQ(jog_target(axis, {0, 10, 2.5}, 700), 950);
     EXPECT_EQ(jog_target(axis, {0, -10, 2.5}, 100), 0);
-    EXPECT_EQ(jog_target(axis, {0, 10, 0}, 700), 10'000);
+    EXPECT_EQ(jog_target(axis, {0, 10}, 700), 10'000);
     EXPECT_EQ(jog_target(axis, {0, 10, 1e300}, 700), 10'000);
 }
 
@@ -69,7 +69,7 @@ TEST_F(TypedKeys, OfSeveralAxesJogThemTogetherAndOppositeOnesReplaceEachOther) {
     keys.take("\x1b[C\x1b[Bu", 1s);
     EXPECT_EQ(keys.jogs(1s), (std::vector<JogAxis>{{0, 10, 0}, {1, -10, 0}, {3, 10, 0}}));
     keys.take("\x1b[D", 1s);
-    EXPECT_EQ(keys.jogs(1s).front(), (JogAxis{0, -10, 0}));
+    EXPECT_EQ(keys.jogs(1s).front(), (JogAxis{0, -10}));
 }
 
 TEST_F(TypedKeys, ComeInPartsAndInBothForms) {

@@ -33,7 +33,7 @@ TEST_F(Sender, ThePartsInOrderAreTheProgram) {
     append(5000);
     sender.end();
     std::vector<std::uint8_t> bytes;
-    std::uint32_t count = 0;
+    std::optional<std::uint32_t> count;
     std::uint32_t parts = 0;
     while (!sender.is_done()) {
         for (const ProgramChunk& chunk : due(0ns)) {
@@ -58,7 +58,7 @@ TEST_F(Sender, BeginsBeforeTheProgramIsKnown) {
     sender.flush();
     const auto chunks = due(0ns);
     ASSERT_EQ(chunks.size(), 1u);
-    EXPECT_EQ(chunks[0].count, 0u);
+    EXPECT_FALSE(chunks[0].count);
     EXPECT_FALSE(chunks[0].bytes.empty());
 }
 

@@ -112,7 +112,7 @@ void own_move_that_stops(Walker& m) {
 /// A client holds the key of a jog until the command is sent, and then sends nothing more.
 void jogging(Walker& m) {
     m.home();
-    ASSERT_EQ(m.jog(7, 0, 0.4).status, ReplyStatus::Accepted);
+    ASSERT_EQ(m.jog(7, std::nullopt, 0.4).status, ReplyStatus::Accepted);
     EXPECT_EQ(m.vm.state()->phase, MachinePhase::Jogging);
 }
 
@@ -124,7 +124,7 @@ void jogging_that_stops(Walker& m) {
 void limit_hit_in_a_jog(Walker& m) {
     jogging(m);
     m.vm.device(kX).plant().push(9'000);
-    (void)m.jog(7, 0, 0.1);
+    (void)m.jog(7, std::nullopt, 0.1);
     expect_phase(m, MachinePhase::Fault);
 }
 

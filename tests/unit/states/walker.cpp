@@ -38,7 +38,7 @@ Reply Walker::go(CommandKind kind, double x_mm, double y_mm, double feed_mm_s, b
     return ask(kind, 0, programs_);
 }
 
-Reply Walker::jog(Identity client, double distance_mm, double seconds) {
+Reply Walker::jog(Identity client, std::optional<double> distance_mm, double seconds) {
     Jogger jogger(vm, client);
     jogger.press({{.axis = 0, .speed_mm_s = 20, .distance_mm = distance_mm}});
     const Tick end = vm.now() + Ticks{static_cast<std::int64_t>(seconds * 1e6)};

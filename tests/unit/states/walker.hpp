@@ -36,7 +36,7 @@ public:
     Reply go(CommandKind kind, double x_mm, double y_mm, double feed_mm_s, bool pauses = false);
     void inject(VirtualFault fault, double seconds);
     /// Jogs X by a client that renews the jog for `seconds` or until it ends.
-    Reply jog(Identity client, double distance_mm, double seconds);
+    Reply jog(Identity client, std::optional<double> distance_mm, double seconds);
     /// The program that Question::Program::Unknown names arrives with the next repair.
     void delay_program() { is_program_delayed_ = true; }
     /// Sends the command and waits for its effect. Fails if no answer comes in time, a refusal offers no remedy, or an

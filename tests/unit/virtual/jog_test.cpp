@@ -296,7 +296,9 @@ TEST_P(RandomJogs, LeaveTheAxesAtRestWithinTravelAndEveryStepWithinLimits) {
     const auto pick = [&](int most) { return static_cast<int>(random() % static_cast<unsigned>(most)); };
     const auto jog_axis = [&](std::uint32_t axis) {
         const double speed = (1 + pick(100)) * (pick(2) == 0 ? 1 : -1);
-        return JogAxis{.axis = axis, .speed_mm_s = speed, .distance_mm = pick(3) == 0 ? 0.01 * (1 + pick(3000)) : 0};
+        JogAxis jog{.axis = axis, .speed_mm_s = speed};
+        if (pick(3) == 0) { jog.distance_mm = 0.01 * (1 + pick(3000)); }
+        return jog;
     };
     home_all();
     for (int i = 0; i < 60; ++i) {

@@ -49,14 +49,14 @@ protected:
         vm.observe(log);
     }
 
-    Reply own(std::vector<double> target_mm, Ticks ticks = {}) {
+    Reply own(std::vector<double> target_mm, std::optional<Ticks> ticks = {}) {
         std::vector<double> start;
         for (const std::int64_t count : counts()) { start.push_back(static_cast<double>(count) / 100); }
         log.clear();
         vm.give_program(++programs_, program_of({std::move(target_mm)}, 0, start));
         return ask(CommandKind::MoveOwn, 0, programs_, ticks);
     }
-    void expect_done(std::vector<double> target_mm, Ticks ticks = {}) {
+    void expect_done(std::vector<double> target_mm, std::optional<Ticks> ticks = {}) {
         const Reply reply = own(std::move(target_mm), ticks);
         ASSERT_EQ(reply.status, ReplyStatus::Accepted) << reply.text;
         ASSERT_TRUE(reaches(MachinePhase::Idle, 60)) << describe();

@@ -64,7 +64,7 @@ protected:
     void wait(double seconds) {
         (void)vm.advance_until([] { return false; }, Ticks{static_cast<std::int64_t>(seconds * 1e6)});
     }
-    Reply ask(CommandKind kind, AxisSet axes = 0, std::uint64_t program = 0, Ticks ticks = {}) {
+    Reply ask(CommandKind kind, AxisSet axes = 0, std::uint64_t program = 0, std::optional<Ticks> ticks = {}) {
         const auto sequence = vm.command(kind, axes, program, ticks);
         const auto answered = [&] { return vm.reply_to(sequence) != nullptr; };
         for (int tries = 0; tries < 4 && !vm.advance_until(answered, Ticks{250'000}); ++tries) { vm.repeat_command(); }

@@ -24,7 +24,7 @@ AxisState RandomMessages::axis_state() {
             .stamp = far(),
             .epoch = bits(),
             .held = bits(),
-            .veto = veto(),
+            .veto = maybe(bits()),
             .ran = bits(),
             .at_rest = coin(),
             .homed = coin(),
@@ -54,7 +54,7 @@ AxisHealth RandomMessages::axis_health() {
             .least_free_segments = static_cast<std::uint32_t>(bits()),
             .least_free_captures = static_cast<std::uint32_t>(bits()),
             .loop = {{far()}, {far()}, {far()}},
-            .setpoint_age = coin() ? std::optional(Ticks{far()}) : std::nullopt,
+            .setpoint_age = maybe(Ticks{far()}),
             .clock_error = {far()},
             .refused = {bits(), bits(), bits(), bits(), bits(), bits(), bits()}};
 }
@@ -65,7 +65,7 @@ AxisCommand RandomMessages::axis_command() {
             .axis = index(kMaxAxes),
             .kind = static_cast<AxisCommandKind>(index(6)),
             .target_steps = far(),
-            .ticks = {between(0, INT32_MAX)},
+            .ticks = maybe(Ticks{between(1, INT32_MAX)}),
             .speed_mm_s = static_cast<double>(between(0, 1'000'000)) / 7,
             .until = {far()}};
 }
@@ -120,9 +120,9 @@ MachineState RandomMessages::machine_state() {
             .fault_axis = index(kMaxAxes),
             .epoch = bits(),
             .sent = bits(),
-            .veto = veto(),
+            .veto = maybe(bits()),
             .job = bits(),
-            .outcome = index(2) == 0 ? std::nullopt : std::optional(static_cast<JobOutcome>(index(3))),
+            .outcome = maybe(static_cast<JobOutcome>(index(3))),
             .job_begun = term(),
             .line = static_cast<std::int32_t>(between(0, INT32_MAX)),
             .job_fault = fault(),
@@ -133,9 +133,9 @@ MachineState RandomMessages::machine_state() {
             .axes_present = bits(),
             .config_hash = bits(),
             .devices = devices(),
-            .lease = coin() ? std::optional(HeldLease{writer(), {far()}}) : std::nullopt,
+            .lease = maybe(HeldLease{writer(), {far()}}),
             .job_kind = coin() ? JobKind::Run : JobKind::Move,
-            .program = bits(),
+            .program = maybe(bits()),
             .events_from = static_cast<std::uint32_t>(bits()),
             .rests = rests(),
             .published = {.job_events = bits(), .program_parts = bits()},
@@ -153,7 +153,7 @@ std::vector<JogAxis> RandomMessages::jogs() {
     std::vector<JogAxis> jogs(index(64 + 1));
     for (JogAxis& jog : jogs) {
         jog = {index(kMaxAxes), static_cast<double>(between(-1'000'000, 1'000'000)) / 7,
-               static_cast<double>(between(0, 1'000'000)) / 7};
+               maybe(static_cast<double>(between(1, 1'000'000)) / 7)};
     }
     return jogs;
 }
@@ -164,9 +164,9 @@ Command RandomMessages::command() {
             .kind = static_cast<CommandKind>(index(13)),
             .axes = bits(),
             .program = bits(),
-            .ticks = {between(0, INT32_MAX)},
-            .feed_percent = static_cast<int>(between(0, UINT16_MAX)),
-            .rapid_percent = static_cast<int>(between(0, UINT16_MAX)),
+            .ticks = maybe(Ticks{between(1, INT32_MAX)}),
+            .feed_percent = maybe(static_cast<int>(between(1, UINT16_MAX))),
+            .rapid_percent = maybe(static_cast<int>(between(1, UINT16_MAX))),
             .jogs = jogs(),
             .writer = writer(),
             .takes_over = coin()};
@@ -174,9 +174,13 @@ Command RandomMessages::command() {
 
 ProgramChunk RandomMessages::chunk() {
     const std::uint32_t count = 1 + index(4096);
-    ProgramChunk chunk{.client = bits(), .sequence = bits(), .program = bits(), .index = index(count), .count = count};
+    ProgramChunk chunk{.client = bits(),
+                       .sequence = bits(),
+                       .program = bits(),
+                       .index = index(count),
+                       .count = maybe(count),
+                       .share = maybe(static_cast<double>(1 + index(1000)) / 1000)};
     chunk.writer = bits();
-    chunk.share = static_cast<double>(index(1000)) / 1000;
     chunk.bytes.resize(index(32768 + 1));
     for (auto& byte : chunk.bytes) { byte = static_cast<std::uint8_t>(bits()); }
     return chunk;

@@ -45,7 +45,10 @@ private:
     Extremes extremes() { return {bits(), {far()}, {far()}}; }
     bool coin() { return bits() % 2 == 1; }
     Position position() { return Position::from_count(far(), bits()); }
-    std::optional<FrameNumber> veto() { return coin() ? std::optional(bits()) : std::nullopt; }
+    template <typename T>
+    std::optional<T> maybe(const T& value) {
+        return coin() ? std::optional(value) : std::nullopt;
+    }
     Piece piece() { return {{between(0, INT32_MAX)}, {rate()}, {rate()}}; }
 
     std::mt19937_64 random_;
