@@ -4,12 +4,12 @@
 
 namespace lockstep {
 
-std::expected<Program, std::int32_t> program_from(const Program& program, std::int32_t line,
-                                                  std::vector<double> at_mm) {
+std::expected<Program, std::optional<std::int32_t>> program_from(const Program& program, std::int32_t line,
+                                                                 std::vector<double> at_mm) {
     const auto first = std::find_if(program.blocks.begin(), program.blocks.end(),
                                     [&](const Block& block) { return block.line >= line; });
     if (first == program.blocks.end()) {
-        return std::unexpected(program.blocks.empty() ? 0 : program.blocks.back().line);
+        return std::unexpected(program.blocks.empty() ? std::nullopt : program.blocks.back().line);
     }
     std::vector<double> begins_mm = program.start_mm;
     for (auto block = program.blocks.begin(); block != first; ++block) {
@@ -20,5 +20,7 @@ std::expected<Program, std::int32_t> program_from(const Program& program, std::i
     rest.blocks.insert(rest.blocks.end(), first, program.blocks.end());
     return rest;
 }
+
+std::string line_label(std::optional<std::int32_t> line) { return line ? "line " + std::to_string(*line) + ": " : ""; }
 
 }  // namespace lockstep

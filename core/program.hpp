@@ -87,7 +87,7 @@ struct ProgramEvent {
 };
 
 struct Block {
-    std::int32_t line = 0;  // in the G-code file, from 1; 0 if it has none
+    std::optional<std::int32_t> line;  // in the G-code file, from 1
     std::variant<ProgramMove, Dwell, Pause, Settle, ProgramEvent> action;
 };
 
@@ -109,7 +109,11 @@ struct Program {
 
 /// Returns the part of a program from the first block at or after `line`, for axes that stand at `at_mm`. Unless the
 /// axes are already where that block begins, a straight rapid move to there comes first. If no such block exists, the
-/// error is the line of the last block (0: no blocks).
-std::expected<Program, std::int32_t> program_from(const Program& program, std::int32_t line, std::vector<double> at_mm);
+/// error is the line of the last block; nullopt if there are no blocks.
+std::expected<Program, std::optional<std::int32_t>> program_from(const Program& program, std::int32_t line,
+                                                                 std::vector<double> at_mm);
+
+/// Returns "line 7: ", or an empty text without a line.
+std::string line_label(std::optional<std::int32_t> line);
 
 }  // namespace lockstep

@@ -4,6 +4,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/coordinator/path/program_plan.hpp"
@@ -36,7 +37,7 @@ private:
 
 /// A move of the program, or a dwell.
 struct PlannedMove {
-    std::int32_t line = 0;
+    std::optional<std::int32_t> line;
     std::uint32_t block = 0;
     double length_mm = 0;  // 0 for a dwell
     Ticks begin;           // the move lasts until the next one begins

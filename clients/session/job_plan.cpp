@@ -28,7 +28,7 @@ std::expected<double, Failure> planned_seconds(const Session& session, const Pro
     const auto plan = plan_blocks(machine, head, std::move(blocks), planning);
     if (plan) { return plan->duration_s; }
     return std::unexpected(
-        bad_file(head.name, {{plan.error().line, plan.error().line > 0 ? 1 : 0, plan.error().text}}));
+        bad_file(head.name, {{plan.error().line.value_or(0), plan.error().line ? 1 : 0, plan.error().text}}));
 }
 
 std::expected<double, Failure> planned_seconds(const Session& session, const Program& program,

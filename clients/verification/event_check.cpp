@@ -21,7 +21,7 @@ std::string place_of(std::int32_t line, std::int64_t block) { return fmt::format
 
 std::string place_of(const program_event_t& event) { return place_of(event.line, event.block); }
 
-std::string place_of(const PathEvent& event) { return place_of(event.line, event.block); }
+std::string place_of(const PathEvent& event) { return place_of(event.line.value_or(0), event.block); }
 
 }  // namespace
 
@@ -81,10 +81,10 @@ void EventCheck::skip_repeats() {
 bool EventCheck::is_the_same(const program_event_t& recorded, const PathEvent& planned) {
     const ProgramEvent& event = planned.event;
     const bool is_same = recorded.kind == name_of(event.kind) && recorded.index == event.index &&
-                         recorded.value == event.value && recorded.line == planned.line;
+                         recorded.value == event.value && recorded.line == planned.line.value_or(0);
     return is_same || differ(fmt::format("the event of {} is recorded as {} of line {}; its program has {}",
                                          place_of(planned), text_of(recorded), recorded.line, text_of(event)),
-                             planned.line, {}, Tick{recorded.tick});
+                             planned.line.value_or(0), {}, Tick{recorded.tick});
 }
 
 /// An event with a place in motion may be published at rest only if the axes came to rest before its tick by the
@@ -126,7 +126,7 @@ bool EventCheck::lacks(const PathEvent& planned) {
     const program_event_t* there = next();
     const bool is_other = there != nullptr && there->of_program != 0;
     return differ(event + " is not in the log" + (is_other ? ", which has that of " + place_of(*there) : ""),
-                  planned.line, {}, is_other ? std::optional(Tick{there->tick}) : std::nullopt);
+                  planned.line.value_or(0), {}, is_other ? std::optional(Tick{there->tick}) : std::nullopt);
 }
 
 void EventCheck::note(const PathEvent& event) {

@@ -34,10 +34,11 @@ public:
     /// The first block of the next motion; the axes rest before it. At the program's end, the number of blocks.
     std::uint32_t moves_from() const;
 
+    /// The line of a block; 0: none.
     std::int32_t line_of(std::uint32_t block) const { return line_of(program_->block(block)); }
 
 private:
-    static std::int32_t line_of(const Block* block) { return block != nullptr ? block->line : 0; }
+    static std::int32_t line_of(const Block* block) { return block != nullptr ? block->line.value_or(0) : 0; }
     JobReplay(const MachineConfig& machine, SharedProgram program, std::vector<Leg> legs);
 
     MachineConfig machine_;

@@ -136,7 +136,7 @@ void CoordinatorFlight::note_state(Tick now, const MachineState& state) {
               .fault = state.fault,
               .epoch = state.epoch,
               .frame = state.sent,
-              .count = state.line});
+              .count = state.line.value_or(0)});
 }
 
 }  // namespace lockstep

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/machine.hpp"
@@ -22,10 +23,10 @@ inline AxisPositions positions_of(const AxisCounts& counts) {
 
 /// One straight move of all axes from one whole place to another, or a dwell (nothing moves).
 struct PathMove {
-    std::int32_t line = 0;    // of the program
-    std::uint32_t block = 0;  // of the program
-    std::uint32_t part = 0;   // of the block, if it is planned in several
-    AxisCounts from;          // steps
+    std::optional<std::int32_t> line;  // of the program
+    std::uint32_t block = 0;           // of the program
+    std::uint32_t part = 0;            // of the block, if it is planned in several
+    AxisCounts from;                   // steps
     AxisCounts to;
     std::int64_t lead = 0;  // steps of the axis that has the most; 0: a dwell
     double length_mm = 0;

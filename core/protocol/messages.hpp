@@ -191,7 +191,7 @@ struct MachineState {
     std::uint64_t job = 0;                  // number of the newest job, done or in progress
     std::optional<JobOutcome> outcome;      // of that job; empty while it is in progress
     Term job_begun;                         // the term in which it began; another owner may have continued it
-    std::int32_t line = 0;                  // the G-code line now in motion, or the line at which a job ended early
+    std::optional<std::int32_t> line;       // the G-code line now in motion, or the line at which a job ended early
     FaultCode job_fault = FaultCode::None;  // why the program of the last job ended early; None: it did not
     bool lacks_blocks = false;              // the machine waits for more of the program
     double progress = 0;                    // 0 ... 1 of the job's planned time
@@ -218,12 +218,12 @@ struct PublishedEvent {
     Term term;
     std::uint64_t sequence = 0;  // rises within a term, without gaps
     std::uint64_t job = 0;
-    Epoch epoch = 0;            // 0: no axis moved since the job began
-    Tick tick;                  // when the motion reached its place; at rest: when it was published
-    bool at_rest = false;       // its place is where the axes came to rest, or they passed it on the way there
-    bool is_of_program = true;  // false: the job ended early, and the coordinator switched the device off
-    std::uint32_t block = 0;    // of the program
-    std::int32_t line = 0;      // of the G-code file; 0: none
+    Epoch epoch = 0;                   // 0: no axis moved since the job began
+    Tick tick;                         // when the motion reached its place; at rest: when it was published
+    bool at_rest = false;              // its place is where the axes came to rest, or they passed it on the way there
+    bool is_of_program = true;         // false: the job ended early, and the coordinator switched the device off
+    std::uint32_t block = 0;           // of the program
+    std::optional<std::int32_t> line;  // of the G-code file
     ProgramEvent event;
     bool operator==(const PublishedEvent&) const = default;
 };

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/if_positive.hpp"
 #include "core/machine.hpp"
 #include "core/number_text.hpp"
 #include "services/documents/names.hpp"
@@ -123,7 +124,7 @@ std::optional<ArcShape> read_arc(const proto::ProgramMove& move) {
 }
 
 Block read_block(const proto::Block& message) {
-    Block block{.line = message.line(), .action = Pause{}};
+    Block block{.line = if_positive(message.line()), .action = Pause{}};
     if (message.has_move()) {
         const proto::ProgramMove& move = message.move();
         block.action = ProgramMove{.target_mm = {move.target_mm().begin(), move.target_mm().end()},

@@ -52,7 +52,7 @@ proto::Program program_to_proto(const Program& program) {
 }
 
 void block_to_proto(const Block& block, proto::Block& message) {
-    if (block.line > 0) { message.set_line(block.line); }
+    if (block.line) { message.set_line(*block.line); }
     std::visit(ActionWriter{message}, block.action);
 }
 

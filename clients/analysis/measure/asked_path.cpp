@@ -58,7 +58,7 @@ std::expected<AskedPath, std::string> AskedPath::of(const MachineConfig& machine
 void AskedPath::add_first(const LegPlan& leg) {
     const PlannedMove& move = leg.moves.front();
     const auto number = static_cast<std::uint32_t>(lines_.size());
-    lines_.push_back(move.line);
+    lines_.push_back(move.line.value_or(0));
     if (counts_.empty()) {
         for (std::size_t axis = 0; axis < axes(); ++axis) { counts_.push_back(leg.from(0, axis)); }
     }

@@ -36,7 +36,7 @@ public:
                                                     const std::shared_ptr<const ProgramBlocks>& blocks);
 
     std::size_t size() const { return lines_.size(); }
-    /// The program's line with this move.
+    /// The program's line with this move; 0: none. A program may have millions of moves.
     std::int32_t line(std::size_t move) const { return lines_[move]; }
     /// The axis with the most steps.
     std::size_t lead(std::size_t move) const { return leads_[move]; }

@@ -58,7 +58,7 @@ void LineRunner::pass_program(const MachineState& state, nanoseconds now) {
             return append_later();
         case LineProgram::Outcome::Goes: break;
     }
-    if (program_->is_job_of(state) && state.line > 0) { answer_done(queue_.pass_to(state.line)); }
+    if (program_->is_job_of(state) && state.line) { answer_done(queue_.pass_to(*state.line)); }
     if (program_->is_open() && must_end(state, now)) { program_->end(); }
 }
 
@@ -145,7 +145,7 @@ void LineRunner::report(const MachineState& state, MachineView& view) const {
     view.lines = queue_.size() + (next_ ? 1 : 0);
     view.is_held = is_hold_wanted_;
     view.is_stopping = stopping_since_.has_value();
-    if (program_ && program_->is_job_of(state)) { view.line = queue_.sender_line(state.line); }
+    if (program_ && program_->is_job_of(state) && state.line) { view.line = queue_.sender_line(*state.line); }
 }
 
 }  // namespace lockstep::grbl

@@ -25,9 +25,9 @@ struct MachineView {
     bool is_received = false;  // the coordinator and every axis are received; else the other fields are meaningless
     MachinePhase phase = MachinePhase::Waiting;
     FaultCode fault = FaultCode::None;
-    std::vector<AxisPlace> axes;  // in the configuration's order
-    double feed_mm_min = 0;       // of all axes together, now
-    std::int32_t line = 0;        // of the program in motion, or the N word of the sender's line; else 0
+    std::vector<AxisPlace> axes;       // in the configuration's order
+    double feed_mm_min = 0;            // of all axes together, now
+    std::optional<std::int32_t> line;  // of the program in motion, or the N word of the sender's line
     Overrides overrides;
     ProgramDevices devices;
     gcode::KeptValues values;

@@ -89,7 +89,7 @@ std::string StatusReport::text(const MachineView& view, State state, const std::
     if ((options.mask & 2) != 0) {
         text += fmt::format("|Bf:{},{}", kPlannerLines - std::min(kPlannerLines, view.lines), room);
     }
-    if (view.line > 0 && state == State::Run) { text += fmt::format("|Ln:{}", view.line); }
+    if (view.line && state == State::Run) { text += fmt::format("|Ln:{}", *view.line); }
     text += "|FS:" + number(options.inches ? view.feed_mm_min / kInch_mm : view.feed_mm_min, 0) + "," +
             number(view.devices.spindle_rpm, 0);
     const std::string accessories = accessories_of(view.devices);

@@ -9,8 +9,7 @@ namespace lockstep {
 namespace {
 
 std::string line_of(const PublishedEvent& event) {
-    const std::string place = event.line > 0 ? fmt::format("line {}: ", event.line) : "";
-    return place + event_text(event.event) + (event.is_of_program ? "" : ", at the job's end");
+    return line_label(event.line) + event_text(event.event) + (event.is_of_program ? "" : ", at the job's end");
 }
 
 /// The number of events missing between the two; 0 if they are of different coordinators.

@@ -171,10 +171,9 @@ ExitCode end(Session& session, const Job& job, JobResult result, JobWatch& watch
     const MachineState& state = session.state()->state;
     if (result == JobResult::Stopped && state.job_fault != FaultCode::None) {
         *report.mutable_fault() = fault_report(state.job_fault, "");
-        report.set_line(state.line);
+        report.set_line(state.line.value_or(0));
     }
-    const std::int32_t line = state.line;
-    if (result == JobResult::CutShort && line > 0) { report.set_line(line); }
+    if (result == JobResult::CutShort && state.line) { report.set_line(*state.line); }
     add_final_positions(session, report);
     watch.print_events();
     if (result == JobResult::Done) { await_values(session, job, output); }

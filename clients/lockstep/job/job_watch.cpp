@@ -98,17 +98,16 @@ void JobWatch::print_lost_lease() {
 }
 
 void JobWatch::print_phase(const MachineState& state) {
-    if (state.line > 0) { line_ = state.line; }
+    if (state.line) { line_ = state.line; }
+    const std::string at_line = line_ ? fmt::format(" at line {}", *line_) : "";
     if (state.term != runs_it_ && state.phase != MachinePhase::Waiting) {
         runs_it_ = state.term;
-        output_.print("another coordinator has taken over and goes on with the job" +
-                      (line_ > 0 ? fmt::format(" at line {}", line_) : ""));
+        output_.print("another coordinator has taken over and goes on with the job" + at_line);
     }
     const bool rests = state.phase == MachinePhase::Holding || state.phase == MachinePhase::Paused;
     if (rests && state.phase != printed_) {
         const std::string how = state.phase == MachinePhase::Paused ? "paused" : "held";
-        const std::string where = line_ > 0 ? fmt::format(" at line {}", line_) : "";
-        output_.print(how + where + ": go on with lockstep resume, or end it with lockstep stop");
+        output_.print(how + at_line + ": go on with lockstep resume, or end it with lockstep stop");
     }
     printed_ = state.phase;
     if (!rests) { print_progress(); }

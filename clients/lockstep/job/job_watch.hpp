@@ -52,7 +52,7 @@ private:
     bool hold_sent_ = false;
     bool stop_sent_ = false;
     std::optional<std::chrono::nanoseconds> rest_asked_;  // when the latest of both was sent
-    std::int32_t line_ = 0;                               // the last line in motion
+    std::optional<std::int32_t> line_;                    // the last line in motion
     std::optional<MachinePhase> printed_;
 };
 

@@ -33,7 +33,7 @@ std::expected<Rest, std::string> rest_of(const Program& program, ModalState moda
     auto left = program_from(program, options.from_line, begins_mm);
     if (!left) {
         return std::unexpected(fmt::format("nothing is left from line {}; the last motion is in line {}",
-                                           options.from_line, left.error()));
+                                           options.from_line, left.error().value_or(0)));
     }
     auto moves = find_approach(options, machine, program, stands_mm, begins_mm);
     if (!moves) { return std::unexpected(moves.error()); }

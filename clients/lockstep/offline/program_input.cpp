@@ -49,7 +49,7 @@ std::expected<ReadingSetup, Failure> reading_setup(const ProgramOptions& options
 }
 
 Failure not_planned(const std::string& file, const PlanError& error) {
-    return bad_file(file, {{.line = error.line, .message = error.text}});
+    return bad_file(file, {{.line = error.line.value_or(0), .message = error.text}});
 }
 
 /// Shows progress for each percent of the file.

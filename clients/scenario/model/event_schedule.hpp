@@ -14,7 +14,7 @@ namespace lockstep::scenario {
 struct Moment {
     double since_begun_s = 0;  // since the job began
     MachinePhase phase = MachinePhase::Waiting;
-    std::int32_t line = 0;                     // of the G-code in motion
+    std::optional<std::int32_t> line;          // of the G-code in motion
     std::vector<std::optional<double>> at_mm;  // of each axis; nullopt if no state was received
 };
 

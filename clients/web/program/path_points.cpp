@@ -69,11 +69,11 @@ std::vector<PathPoint> path_points(const Program& program) {
         const std::size_t place = program.axes[i].size() == 1 ? std::string_view("XYZ").find(program.axes[i]) : 3;
         if (place < axes.size()) { axes[place] = i; }
     }
-    const auto point = [&](const std::vector<double>& mm, std::int32_t line, bool is_rapid) {
+    const auto point = [&](const std::vector<double>& mm, std::optional<std::int32_t> line, bool is_rapid) {
         const auto value = [&](std::size_t i) { return axes[i] ? static_cast<float>(mm[*axes[i]]) : 0.0F; };
-        return PathPoint{value(0), value(1), value(2), static_cast<std::uint32_t>(std::max(line, 0)), is_rapid};
+        return PathPoint{value(0), value(1), value(2), static_cast<std::uint32_t>(line.value_or(0)), is_rapid};
     };
-    std::vector<PathPoint> points{point(program.start_mm, 0, true)};
+    std::vector<PathPoint> points{point(program.start_mm, {}, true)};
     points.reserve(program.blocks.size() + 1);
     std::vector<double> at = program.start_mm;
     for (const Block& block : program.blocks) {

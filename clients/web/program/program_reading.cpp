@@ -66,7 +66,7 @@ std::shared_ptr<const ProgramFacts> facts_of(std::string_view text, const std::s
                                              const GcodeReading& reading) {
     auto facts = std::make_shared<ProgramFacts>(
         ProgramFacts{.id = id, .name = name, .bytes = text.size(), .lines = lines_of(text)});
-    for (const Block& block : reading.program.blocks) { facts->block_lines.push_back(block.line); }
+    for (const Block& block : reading.program.blocks) { facts->block_lines.push_back(block.line.value_or(0)); }
     facts->rises = std::ranges::is_sorted(facts->block_lines);
     for (const GcodeNote& note : reading.notes) {
         if (facts->notes.size() < kMostNotes) { facts->notes.push_back({note.line, note.text}); }

@@ -34,7 +34,7 @@ struct ProgramFacts {
     std::string name;
     std::size_t bytes = 0;
     std::size_t lines = 0;
-    std::vector<std::int32_t> block_lines;  // the line of each block
+    std::vector<std::int32_t> block_lines;  // the line of each block; 0: none
     bool rises = true;                      // block_lines never falls: the program repeats nothing
     struct Note {
         std::int32_t line = 0;

@@ -33,13 +33,13 @@ json outcome_json(const std::optional<JobOutcome>& outcome) {
     return *outcome == JobOutcome::Done ? "Done" : *outcome == JobOutcome::Stopped ? "Stopped" : "Failed";
 }
 
-json line_json(std::int32_t line) { return line > 0 ? json(line) : json(); }
+json line_json(std::optional<std::int32_t> line) { return line ? json(*line) : json(); }
 
 /// The number of blocks on lines before the one in motion; null if lines do not distinguish blocks.
 json blocks_done(const ProgramFacts& program, const MachineState& state) {
     if (state.outcome == JobOutcome::Done) { return program.block_lines.size(); }
-    if (!program.rises || state.line <= 0) { return {}; }
-    return std::ranges::lower_bound(program.block_lines, state.line) - program.block_lines.begin();
+    if (!program.rises || !state.line) { return {}; }
+    return std::ranges::lower_bound(program.block_lines, *state.line) - program.block_lines.begin();
 }
 
 bool is_measured(const MachineState& state) {

@@ -31,7 +31,7 @@ public:
     }
     void end(JobOutcome outcome) { outcome_ = outcome; }
     /// The job ended early at this line: by a takeover, or because its program ended early.
-    void cut(std::int32_t line, FaultCode why = FaultCode::None) {
+    void cut(std::optional<std::int32_t> line, FaultCode why = FaultCode::None) {
         cut_job_ = number_;
         cut_line_ = line;
         fault_ = why;
@@ -48,7 +48,7 @@ public:
     std::uint64_t number() const { return number_; }
     const Term& begun_in() const { return begun_in_; }
     const std::optional<JobOutcome>& outcome() const { return outcome_; }
-    std::int32_t line() const { return number_ == cut_job_ ? cut_line_ : 0; }
+    std::optional<std::int32_t> line() const { return number_ == cut_job_ ? cut_line_ : std::nullopt; }
     FaultCode fault() const { return fault_; }
 
 private:
@@ -56,7 +56,7 @@ private:
     Term begun_in_;
     std::optional<JobOutcome> outcome_;  // of the last job that ended
     std::uint64_t cut_job_ = 0;
-    std::int32_t cut_line_ = 0;
+    std::optional<std::int32_t> cut_line_;
     FaultCode fault_ = FaultCode::None;  // why the program of the last job ended early
 };
 

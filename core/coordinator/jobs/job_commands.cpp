@@ -24,9 +24,7 @@ std::expected<std::shared_ptr<const KnownProgram>, Refusal> program_of(const Com
 
 /// Checks that the program begins where the axes stand and has not been cut.
 CommandResult check_program(const KnownProgram& program, const ProgramPlanner& planner, const CoordinatorLoop& loop) {
-    if (const auto& cut = program.cut()) {
-        return refuse(cut->why, (cut->line > 0 ? "line " + std::to_string(cut->line) + ": " : "") + cut->text);
-    }
+    if (const auto& cut = program.cut()) { return refuse(cut->why, line_label(cut->line) + cut->text); }
     const auto fits = planner.check_start(program.head(), program.places(), loop.axes.counts());
     return fits ? CommandResult{} : refuse(fits.error().fault, fits.error().text);
 }
@@ -39,7 +37,7 @@ CommandResult check_lai_moves(const KnownProgram& program, const ProgramPlanner&
         const Block& block = check_found(program.block(number), "a program that is planned as a whole is known");
         const auto move = planner.move_of(block, number, program.places(), at);
         if (move) { continue; }
-        return refuse(move.error().fault, "line " + std::to_string(move.error().line) + ": " + move.error().text);
+        return refuse(move.error().fault, line_label(move.error().line) + move.error().text);
     }
     return {};
 }

@@ -6,6 +6,12 @@
 #include "core/check.hpp"
 
 namespace lockstep {
+namespace {
+
+/// The number of a notice; 0 without a line.
+std::uint64_t number_of(std::optional<std::int32_t> line) { return static_cast<std::uint64_t>(line.value_or(0)); }
+
+}  // namespace
 
 void JobRunner::advance(CoordinatorLoop& loop) {
     if (path_.is_moving()) { return advance_path(loop); }
@@ -119,10 +125,10 @@ void JobRunner::follow(PathJob::Next next, CoordinatorLoop& loop) {
 void JobRunner::end_program(CoordinatorLoop& loop) {
     const auto& cut = job_->program->cut();
     if (!cut) { return end(JobOutcome::Done, loop); }
-    const std::int32_t line = job_->program->last_line();
+    const std::optional<std::int32_t> line = job_->program->last_line();
     end(JobOutcome::Stopped, loop);
     count_.cut(line, cut->why);
-    loop.notice({CoordinatorNotice::Kind::ProgramCut, cut->why, static_cast<std::uint64_t>(line)});
+    loop.notice({CoordinatorNotice::Kind::ProgramCut, cut->why, number_of(line)});
 }
 
 void JobRunner::end(JobOutcome outcome, CoordinatorLoop& loop) {
@@ -172,7 +178,7 @@ void JobRunner::go_on_with_inherited(CoordinatorLoop& loop) {
     if (!is_at_hand(last, *program)) { return; }
     const auto rest = inherited_.rest(*program, loop);
     if (!rest) { return cut_inherited(rest.error(), loop); }
-    loop.notice({CoordinatorNotice::Kind::JobContinued, FaultCode::None, static_cast<std::uint64_t>(last.line)});
+    loop.notice({CoordinatorNotice::Kind::JobContinued, FaultCode::None, number_of(last.line)});
     job_ = MachineJob{.number = count_.number(), .kind = last.job_kind, .program_id = last.program, .program = program};
     path_.load(*job_, *rest, last.progress, last.events_from);
     inherited_.end();
@@ -184,8 +190,7 @@ void JobRunner::cut_inherited(TakeoverDoubt doubt, CoordinatorLoop& loop) {
     count_.cut(inherited_.last().line);
     inherited_.end();
     path_.events().switch_off(count_.number(), loop);
-    loop.notice(
-        {CoordinatorNotice::Kind::JobCutShort, FaultCode::None, static_cast<std::uint64_t>(count_.line()), doubt});
+    loop.notice({CoordinatorNotice::Kind::JobCutShort, FaultCode::None, number_of(count_.line()), doubt});
 }
 
 void JobRunner::drop(CoordinatorLoop& loop) {

@@ -70,7 +70,7 @@ public:
     /// For another coordinator that may continue the job.
     void report_rests(MachineState& state, const AxisRoster& axes) const;
     /// The line of the program at which the job is.
-    std::int32_t line(Tick now) const { return runner_.source()->line_of(runner_.place_at(now).block); }
+    std::optional<std::int32_t> line(Tick now) const { return runner_.source()->line_of(runner_.place_at(now).block); }
 
 private:
     bool pass_leg(const LegEnd& end);

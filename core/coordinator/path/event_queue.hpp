@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,7 +20,7 @@ namespace lockstep {
 
 struct PathEvent {
     std::uint32_t block = 0;
-    std::int32_t line = 0;
+    std::optional<std::int32_t> line;
     ProgramEvent event;
     bool operator==(const PathEvent&) const = default;
 };

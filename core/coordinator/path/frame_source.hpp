@@ -66,7 +66,7 @@ public:
     /// The events before a block that were read and not forgotten.
     virtual std::span<const PathEvent> events_before(std::uint32_t /*block*/) const { return {}; }
     /// The line of a block in which one of the last frames is.
-    virtual std::int32_t line_of(std::uint32_t block) const = 0;
+    virtual std::optional<std::int32_t> line_of(std::uint32_t block) const = 0;
     /// An estimate of how long the program takes from a place of the path on, without overrides.
     virtual double seconds_from(const PathPlace& place) const = 0;
 };

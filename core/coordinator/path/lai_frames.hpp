@@ -28,7 +28,7 @@ public:
     std::span<const FrameEvent> events() const override { return due_; }
     void begin_events_from(std::uint32_t block) override { events_.begin_from(block); }
     std::span<const PathEvent> events_before(std::uint32_t block) const override { return events_.before(block); }
-    std::int32_t line_of(std::uint32_t block) const override {
+    std::optional<std::int32_t> line_of(std::uint32_t block) const override {
         return check_found(program_->block(block), "a block of a path that runs is known").line;
     }
     double seconds_from(const PathPlace& place) const override;

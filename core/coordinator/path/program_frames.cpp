@@ -128,11 +128,11 @@ void ProgramFrames::forget_lines(const PathFrame& frame) {
     while (next_ - lines_.size() < begins_.front()) { lines_.pop_front(); }
 }
 
-std::int32_t ProgramFrames::line_of(std::uint32_t block) const {
+std::optional<std::int32_t> ProgramFrames::line_of(std::uint32_t block) const {
     const std::size_t first = next_ - lines_.size();
     if (block < next_ && block >= first) { return lines_[block - first]; }
     const Block* const there = program_->block(block);  // the leg's first block, before it was read
-    return there == nullptr ? 0 : there->line;
+    return there == nullptr ? std::nullopt : there->line;
 }
 
 bool ProgramFrames::turn(const Overrides& overrides) {

@@ -29,7 +29,7 @@ public:
     std::span<const FrameEvent> events() const override { return due_; }
     void begin_events_from(std::uint32_t block) override { events_.begin_from(block); }
     std::span<const PathEvent> events_before(std::uint32_t block) const override { return events_.before(block); }
-    std::int32_t line_of(std::uint32_t block) const override;
+    std::optional<std::int32_t> line_of(std::uint32_t block) const override;
     double seconds_from(const PathPlace& place) const override { return program_->seconds_from(place); }
 
     static constexpr std::size_t kBlocksAtOnce = 200;   // a fraction of a millisecond of work
@@ -52,10 +52,10 @@ private:
     bool has_moved_ = false;  // a move of the leg was read
     bool is_finished_ = false;
     LegEnd::Kind end_ = LegEnd::Kind::Program;
-    bool is_starved_ = false;              // the next block was not at hand
-    AxisCounts to_;                        // where the last block read leads to, whole steps
-    SlidingVector<std::int32_t> lines_;    // lines of the blocks before the next one
-    SlidingVector<std::uint32_t> begins_;  // the blocks in which the last frames begin
+    bool is_starved_ = false;                           // the next block was not at hand
+    AxisCounts to_;                                     // where the last block read leads to, whole steps
+    SlidingVector<std::optional<std::int32_t>> lines_;  // lines of the blocks before the next one
+    SlidingVector<std::uint32_t> begins_;               // the blocks in which the last frames begin
     EventQueue events_;
     std::vector<FrameEvent> due_;  // events in the last frame
     AxisVector at_;                // where the last block read leads to

@@ -23,7 +23,7 @@ std::string number(double value) {
     return text;
 }
 
-PlanError outside_travel(const AxisConfig& axis, double mm, std::int32_t line) {
+PlanError outside_travel(const AxisConfig& axis, double mm, std::optional<std::int32_t> line) {
     const std::string unit = " " + std::string(unit_of(axis.name));
     return {FaultCode::OutsideTravel, line,
             axis.name + " " + number(mm) + unit + " is outside its travel, " + number(axis.position_min_mm) + " to " +
@@ -52,7 +52,7 @@ std::expected<std::vector<std::size_t>, PlanError> ProgramPlanner::axes_of(
         std::size_t place = 0;
         while (place < machine_.axes.size() && machine_.axes[place].name != name) { ++place; }
         if (place == machine_.axes.size()) {
-            return std::unexpected(PlanError{FaultCode::BadProgram, 0,
+            return std::unexpected(PlanError{FaultCode::BadProgram, std::nullopt,
                                              "the program moves axis " + name + ", which this machine does not have"});
         }
         places.push_back(place);
@@ -61,7 +61,8 @@ std::expected<std::vector<std::size_t>, PlanError> ProgramPlanner::axes_of(
 }
 
 std::expected<AxisCounts, PlanError> ProgramPlanner::target(const ProgramMove& move, std::span<const std::size_t> axes,
-                                                            const AxisCounts& from, std::int32_t line) const {
+                                                            const AxisCounts& from,
+                                                            std::optional<std::int32_t> line) const {
     AxisCounts to = from;
     for (std::size_t i = 0; i < axes.size(); ++i) {
         const AxisConfig& axis = machine_.axes[axes[i]];
@@ -83,7 +84,8 @@ bool ProgramPlanner::is_within_travel(std::size_t axis, double mm) const {
 }
 
 std::expected<void, PlanError> ProgramPlanner::check_arc(const ProgramMove& move, const std::vector<std::size_t>& axes,
-                                                         std::span<const double> from_mm, std::int32_t line) const {
+                                                         std::span<const double> from_mm,
+                                                         std::optional<std::int32_t> line) const {
     if (machine_.coordination == StepMethod::Lai) {
         return std::unexpected(
             PlanError{FaultCode::BadProgram, line, "coordination LAI moves straight only; cut the arc into chords"});
@@ -114,7 +116,7 @@ std::expected<void, PlanError> ProgramPlanner::check_start(const ProgramHead& pr
         const AxisConfig& axis = machine_.axes[i];
         const std::string unit = " " + std::string(unit_of(axis.name));
         if (start[i] >= limits_[i].min_steps && start[i] <= limits_[i].max_steps) { continue; }
-        return std::unexpected(PlanError{FaultCode::OutsideTravel, 0,
+        return std::unexpected(PlanError{FaultCode::OutsideTravel, std::nullopt,
                                          "axis " + axis.name + " stands at " +
                                              number(to_mm(axis, static_cast<double>(start[i]))) + unit +
                                              ", outside its travel, " + number(axis.position_min_mm) + " to " +
@@ -124,7 +126,7 @@ std::expected<void, PlanError> ProgramPlanner::check_start(const ProgramHead& pr
         const AxisConfig& axis = machine_.axes[axes[i]];
         const std::string unit = " " + std::string(unit_of(axis.name));
         if (to_steps(axis, program.start_mm[i]) == start[axes[i]]) { continue; }
-        return std::unexpected(PlanError{FaultCode::StartMismatch, 0,
+        return std::unexpected(PlanError{FaultCode::StartMismatch, std::nullopt,
                                          "the program starts at " + axis.name + " " + number(program.start_mm[i]) +
                                              unit + ", the axis is at " +
                                              number(to_mm(axis, static_cast<double>(start[axes[i]]))) + unit});
@@ -158,7 +160,8 @@ std::expected<std::vector<Leg>, PlanError> ProgramPlanner::plan(const ProgramHea
     for (; !blocks.ends_before(b); ++b) {
         const Block* block = blocks.block(b);
         if (block == nullptr) {
-            return std::unexpected(PlanError{FaultCode::BadProgram, 0, "a part of the program cannot be read"});
+            return std::unexpected(
+                PlanError{FaultCode::BadProgram, std::nullopt, "a part of the program cannot be read"});
         }
         const auto move = move_of(*block, b, axes, at);
         if (!move) { return std::unexpected(move.error()); }

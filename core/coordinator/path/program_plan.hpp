@@ -27,7 +27,7 @@ struct Leg {
 
 struct PlanError {
     FaultCode fault = FaultCode::BadProgram;
-    std::int32_t line = 0;
+    std::optional<std::int32_t> line;
     std::string text;  // the value, the limit and the remedy
 };
 
@@ -75,10 +75,10 @@ public:
                                                const AxisCounts& start) const;
     /// The end of a move. Error: it is outside the travel, or too far to count.
     std::expected<AxisCounts, PlanError> target(const ProgramMove& move, std::span<const std::size_t> axes,
-                                                const AxisCounts& from, std::int32_t line) const;
+                                                const AxisCounts& from, std::optional<std::int32_t> line) const;
     /// Error: the arc has no radius, does not close, leaves the travel, or is for LAI, which has no arcs.
     std::expected<void, PlanError> check_arc(const ProgramMove& move, const std::vector<std::size_t>& axes,
-                                             std::span<const double> from_mm, std::int32_t line) const;
+                                             std::span<const double> from_mm, std::optional<std::int32_t> line) const;
     /// Whether a block of a program with these `axes` (axes_of) moves an axis or dwells. Sets `at` to the block's end.
     bool moves(const Block& block, std::span<const std::size_t> axes, AxisCounts& at) const;
     /// Returns the block's move or dwell from `at`, of a program with these `axes` (axes_of), and sets `at` to its end.

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "core/if_positive.hpp"
 #include "core/machine.hpp"
 
 namespace lockstep {
@@ -89,7 +90,7 @@ void read_move(Kind kind, std::span<const double> row, ProgramMove& move) {
     arc.turns = static_cast<std::int32_t>(details.take(kMaxTurns + 1));
 }
 
-Block other_block(Kind kind, std::int32_t line, std::span<const double> row) {
+Block other_block(Kind kind, std::optional<std::int32_t> line, std::span<const double> row) {
     switch (kind) {
         case Kind::Dwell: return {line, Dwell{row[1]}};
         case Kind::Pause: return {line, Pause{}};
@@ -103,7 +104,7 @@ Block other_block(Kind kind, std::int32_t line, std::span<const double> row) {
 
 void append_row(const Block& block, std::span<const double> place_mm, std::vector<double>& rows) {
     const Row row = std::visit(RowMaker{}, block.action);
-    rows.push_back(static_cast<double>(kRowKinds * block.line + static_cast<std::int64_t>(row.kind)));
+    rows.push_back(static_cast<double>(kRowKinds * block.line.value_or(0) + static_cast<std::int64_t>(row.kind)));
     rows.insert(rows.end(), {row.amount, static_cast<double>(row.details), row.other, row.centre[0], row.centre[1]});
     rows.insert(rows.end(), place_mm.begin(), place_mm.end());
 }
@@ -111,7 +112,7 @@ void append_row(const Block& block, std::span<const double> place_mm, std::vecto
 const Block& RowReader::read(std::span<const double> row) {
     Packed head{static_cast<std::int64_t>(row[0])};
     const auto kind = static_cast<Kind>(head.take(kRowKinds));
-    const auto line = static_cast<std::int32_t>(head.value);
+    const auto line = if_positive(static_cast<std::int32_t>(head.value));
     if (kind != Kind::Move && kind != Kind::Rapid && kind != Kind::Arc) {
         return other_ = other_block(kind, line, row);
     }

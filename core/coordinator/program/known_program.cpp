@@ -11,7 +11,7 @@ namespace lockstep {
 std::expected<KnownProgram, ProgramCut> KnownProgram::begin(const MachineConfig& machine, ProgramHead head,
                                                             std::unique_ptr<RowStore> rows) {
     auto axes = ProgramPlanner(machine).axes_of(head.axes);
-    if (!axes) { return std::unexpected(ProgramCut{axes.error().fault, 0, axes.error().text}); }
+    if (!axes) { return std::unexpected(ProgramCut{axes.error().fault, std::nullopt, axes.error().text}); }
     return KnownProgram(machine, std::move(head), *std::move(axes), std::move(rows));
 }
 
@@ -93,7 +93,7 @@ std::expected<void, ProgramCut> KnownProgram::take_all(std::span<const Block> bl
         if (const auto* move = std::get_if<ProgramMove>(&block.action)) { from = move->target_mm; }
     }
     taken_.clear();
-    const std::int32_t line_before = last_line_;
+    const std::optional<std::int32_t> line_before = last_line_;
     for (const Block& block : blocks) { take(block); }
     if (const auto kept = rows_->append(taken_); !kept) {
         last_line_ = line_before;

@@ -22,8 +22,8 @@ namespace lockstep {
 /// Why a program ends early. No more of it comes.
 struct ProgramCut {
     FaultCode why = FaultCode::BadProgram;
-    std::int32_t line = 0;  // the line of the error; 0: none
-    std::string text;       // the value, the limit and the remedy
+    std::optional<std::int32_t> line;  // the line of the error
+    std::string text;                  // the value, the limit and the remedy
 };
 
 class KnownProgram final : public ProgramBlocks {
@@ -56,8 +56,8 @@ public:
     std::uint32_t known() const { return known_; }
     /// How many more blocks it can take now.
     std::uint64_t free() const { return rows_->free_rows(); }
-    /// The line of the last known block; 0: there is none.
-    std::int32_t last_line() const { return last_line_; }
+    /// The line of the last known block.
+    std::optional<std::int32_t> last_line() const { return last_line_; }
 
     const Block* block(std::uint32_t number) const override;
     bool ends_before(std::uint32_t number) const override { return !is_open_ && number >= known_; }
@@ -89,7 +89,7 @@ private:
     bool is_open_ = true;
     std::optional<ProgramCut> cut_;
     std::uint32_t known_ = 0;
-    std::int32_t last_line_ = 0;
+    std::optional<std::int32_t> last_line_;
     std::uint32_t events_together_ = 0;  // events since the last block that was no event
     std::optional<double> known_share_;
     std::vector<double> at_mm_;        // places after the last known block

@@ -9,7 +9,7 @@ namespace {
 void refuse(Reply& reply, const ProgramCut& cut) {
     reply.status = ReplyStatus::Refused;
     reply.fault = cut.why;
-    reply.text = (cut.line > 0 ? "line " + std::to_string(cut.line) + ": " : "") + cut.text;
+    reply.text = line_label(cut.line) + cut.text;
 }
 
 }  // namespace
@@ -66,7 +66,8 @@ ProgramStore::Taken ProgramStore::take(const ProgramPart& part, Slot now) {
         entry->client = part.client;
     }
     if (entry == nullptr || entry->client != part.client) {
-        refuse(reply, {FaultCode::UnknownProgram, 0, "the program's beginning has not arrived here; send it again"});
+        refuse(reply, {FaultCode::UnknownProgram, std::nullopt,
+                       "the program's beginning has not arrived here; send it again"});
         return {reply};
     }
     entry->received = now;
@@ -94,7 +95,7 @@ void ProgramStore::take_next(Entry& entry, const ProgramPart& part) {
     program.note_share(part.share);
     if (!part.is_last) { return; }
     if (part.cut.empty()) { return program.end(); }
-    program.cut({FaultCode::ProgramCutShort, 0, part.cut});
+    program.cut({FaultCode::ProgramCutShort, std::nullopt, part.cut});
 }
 
 void ProgramStore::tend(Slot now, Slot missed) {
@@ -105,7 +106,7 @@ void ProgramStore::tend(Slot now, Slot missed) {
         const bool is_open = entry.program && entry.program->is_open();
         if (!is_open || now - entry.received <= patience) { continue; }
         entry.program->cut(
-            {FaultCode::SenderSilent, 0,
+            {FaultCode::SenderSilent, std::nullopt,
              "nothing was received from the program's sender for " + std::to_string(std::lround(kSenderSilence_s)) +
                  " s; the machine runs what it has and rests; then: lockstep run FILE --from-line LINE"});
     }

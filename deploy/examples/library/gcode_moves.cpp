@@ -25,8 +25,8 @@ int main() {
     }
     for (const Block& block : program->blocks) {
         if (const auto* move = std::get_if<ProgramMove>(&block.action)) {
-            std::printf("line %d: to X%.4f Y%.4f at %.1f mm/s\n", block.line, move->target_mm[0], move->target_mm[1],
-                        move->feed_mm_s);
+            std::printf("line %d: to X%.4f Y%.4f at %.1f mm/s\n", block.line.value_or(0), move->target_mm[0],
+                        move->target_mm[1], move->feed_mm_s);
         }
     }
 }

@@ -170,7 +170,7 @@ program_event_t to_lcm(const EventRecord& record, Tick now, std::int64_t tick_ns
     out.at_rest = event.at_rest ? 1 : 0;
     out.of_program = event.is_of_program ? 1 : 0;
     out.block = event.block;
-    out.line = event.line;
+    out.line = event.line.value_or(0);
     out.kind = name_of(event.event.kind);
     out.index = event.event.index;
     out.value = event.event.value;

@@ -1,3 +1,4 @@
+#include "core/if_positive.hpp"
 #include "services/wire/translate/checks.hpp"
 #include "services/wire/translate/translate.hpp"
 
@@ -15,7 +16,7 @@ lockstep_wire_ProgramEvent to_wire(const PublishedEvent& event) {
             .at_rest = event.at_rest,
             .is_of_program = event.is_of_program,
             .block = event.block,
-            .line = event.line,
+            .line = event.line.value_or(0),
             .kind = static_cast<lockstep_wire_EventKind>(event.event.kind),
             .index = event.event.index,
             .value = event.event.value};
@@ -36,7 +37,7 @@ FromWire<PublishedEvent> from_wire(const lockstep_wire_ProgramEvent& wire) {
                           .at_rest = wire.at_rest,
                           .is_of_program = wire.is_of_program,
                           .block = wire.block,
-                          .line = wire.line,
+                          .line = if_positive(wire.line),
                           .event = {.kind = kind, .index = wire.index, .value = wire.value}};
 }
 

@@ -43,7 +43,7 @@ std::size_t count_moves(const Program& program) {
 }
 
 std::string refused(const NamedProgram& named, const PlanError& error) {
-    return named.name + ":" + std::to_string(error.line) + ": " + error.text;
+    return named.name + ": " + line_label(error.line) + error.text;
 }
 
 std::string time_row(const Row& row) {

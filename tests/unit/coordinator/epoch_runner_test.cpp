@@ -202,7 +202,7 @@ public:
     const std::vector<MoveBegin>& begins() const override { return frames_->begins(); }
     bool turn(const Overrides& overrides) override { return frames_->turn(overrides); }
     LegEnd end() const override { return frames_->end(); }
-    std::int32_t line_of(std::uint32_t block) const override { return frames_->line_of(block); }
+    std::optional<std::int32_t> line_of(std::uint32_t block) const override { return frames_->line_of(block); }
     double seconds_from(const PathPlace& place) const override { return frames_->seconds_from(place); }
 
 private:

@@ -8,6 +8,8 @@
 namespace lockstep {
 namespace {
 
+using Lines = std::vector<std::optional<std::int32_t>>;
+
 class EventsOfALeg : public testing::Test {
 protected:
     /// Adds events before the moves of blocks 2 and 5.
@@ -16,7 +18,7 @@ protected:
         queue.add({.block = 4, .line = 14});
     }
     /// The lines of the events that are due in a frame in which the moves of these blocks begin.
-    std::vector<std::int32_t> due(std::initializer_list<std::uint32_t> blocks, bool is_last = false) {
+    Lines due(std::initializer_list<std::uint32_t> blocks, bool is_last = false) {
         std::vector<MoveBegin> begins;
         for (const std::uint32_t block : blocks) { begins.push_back({block, 10}); }
         PathFrame frame;
@@ -24,14 +26,12 @@ protected:
         frame.last = is_last;
         std::vector<FrameEvent> events;
         queue.take_due(frame, begins, events);
-        std::vector<std::int32_t> lines;
+        Lines lines;
         for (const FrameEvent& event : events) { lines.push_back(event.event.line); }
         return lines;
     }
     EventQueue queue;
 };
-
-using Lines = std::vector<std::int32_t>;
 
 TEST_F(EventsOfALeg, AreDueOnceWhereTheMoveBehindThemBegins) {
     EXPECT_EQ(due({0}), Lines{});

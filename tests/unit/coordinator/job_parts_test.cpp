@@ -20,7 +20,7 @@ TEST(JobCount, ReportsTheLineOnlyOfTheJobThatATakeoverEnded) {
     EXPECT_EQ(log.line(), 17);
     EXPECT_EQ(log.outcome(), JobOutcome::Stopped);
     EXPECT_EQ(log.begin({6, 1}), 2u);
-    EXPECT_EQ(log.line(), 0);
+    EXPECT_FALSE(log.line());
     EXPECT_EQ(log.begun_in(), (Term{6, 1}));
 }
 

@@ -175,7 +175,7 @@ TEST_F(RestOfJob, IsInDoubtIfAnAxisIsNotWhereTheFirstFrameEnds) {
 /// Joining of moves and rounding to whole steps take an axis up to three steps from the program.
 TEST_F(RestOfJob, GoesOnThreeStepsFromThePlaceOfTheProgramAndNoFarther) {
     for (AxisConfig& axis : machine.axes) { axis.steps_per_mm = 64; }  // steps are exact in mm
-    program.blocks.insert(program.blocks.begin(), {0, Dwell{1}});
+    program.blocks.insert(program.blocks.begin(), {.action = Dwell{1}});
     for (const int off : {3, 4}) {
         const std::vector<Position> positions{Position::steps(640 + off), Position::steps(1280)};
         for (std::size_t i = 0; i < 2; ++i) { axes[i].state->position = positions[i]; }

@@ -32,7 +32,7 @@ Program example() {
             .start_mm = {0, 1.0 / 3},
             .blocks = {{1, ProgramMove{{10, 20}, 0, true}},
                        {2, ProgramMove{{0.1, 1e-9}, 12.5, false}},
-                       {0, Dwell{0.25}},
+                       {{}, Dwell{0.25}},
                        {4, Pause{}},
                        {5, an_arc()},
                        {6, ProgramEvent{ProgramEvent::Kind::AnalogOutput, 3, -0.5}}}};

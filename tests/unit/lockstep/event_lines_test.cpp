@@ -13,7 +13,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using Kind = ProgramEvent::Kind;
 
-PublishedEvent flood_on(std::uint64_t number, std::int32_t line, std::uint64_t job = 5) {
+PublishedEvent flood_on(std::uint64_t number, std::optional<std::int32_t> line, std::uint64_t job = 5) {
     return {.term = {.number = 2, .coordinator = 7},
             .sequence = number,
             .job = job,
@@ -38,7 +38,7 @@ TEST(EventText, NamesEachKindInPlainWords) {
 
 TEST(EventLines, AreOneForEachEventOfTheJob) {
     EventLines lines(5);
-    EXPECT_THAT(lines.of(std::vector{flood_on(1, 12), flood_on(2, 0)}), ElementsAre("line 12: flood on", "flood on"));
+    EXPECT_THAT(lines.of(std::vector{flood_on(1, 12), flood_on(2, {})}), ElementsAre("line 12: flood on", "flood on"));
     EXPECT_THAT(lines.of(std::vector{flood_on(3, 14)}), ElementsAre("line 14: flood on"));
     EXPECT_THAT(lines.of({}), IsEmpty());
 }
@@ -49,7 +49,7 @@ TEST(EventLines, LeaveOutOtherJobs) {
 }
 
 TEST(EventLines, NameWhatTheCoordinatorSwitchedOffAtTheJobsEnd) {
-    PublishedEvent off = flood_on(1, 0);
+    PublishedEvent off = flood_on(1, {});
     off.is_of_program = false;
     off.event.kind = Kind::CoolantOff;
     EXPECT_THAT(EventLines(5).of(std::vector{off}), ElementsAre("coolant off, at the job's end"));

@@ -37,7 +37,7 @@ TEST(Messages, OfAMachineThatNobodyFilledInSayNothing) {
     EXPECT_EQ(machine.epoch, 0u);
     EXPECT_EQ(machine.sent, 0u);
     EXPECT_EQ(machine.job, 0u);
-    EXPECT_EQ(machine.line, 0);
+    EXPECT_FALSE(machine.line);
     EXPECT_EQ(machine.job_fault, FaultCode::None);
     EXPECT_FALSE(machine.lacks_blocks);
     EXPECT_EQ(machine.progress, 0);
@@ -72,7 +72,7 @@ TEST(Messages, OfAnEventThatNobodyFilledInSayThatAProgramAskedForItAndNoMore) {
     EXPECT_FALSE(event.at_rest);
     EXPECT_TRUE(event.is_of_program);
     EXPECT_EQ(event.block, 0u);
-    EXPECT_EQ(event.line, 0) << "of no line";
+    EXPECT_FALSE(event.line);
 }
 
 TEST(Messages, OfAClientAndToItThatNobodyFilledInAskForNothing) {

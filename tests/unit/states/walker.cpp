@@ -33,7 +33,7 @@ Reply Walker::go(CommandKind kind, double x_mm, double y_mm, double feed_mm_s, b
     std::vector<double> start;
     for (const std::int64_t count : counts()) { start.push_back(static_cast<double>(count) / 100); }
     Program program = program_of({{x_mm, y_mm}}, feed_mm_s, start);
-    if (pauses) { program.blocks.insert(program.blocks.begin(), Block{0, Pause{}}); }
+    if (pauses) { program.blocks.insert(program.blocks.begin(), Block{.action = Pause{}}); }
     vm.give_program(++programs_, program);
     return ask(kind, 0, programs_);
 }

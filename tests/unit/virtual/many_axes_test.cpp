@@ -19,7 +19,7 @@ protected:
     Program all_to(double mm) const {
         Program program{.name = "test", .axes = {}, .start_mm = std::vector<double>(kMaxAxes, 5)};
         for (const AxisConfig& axis : vm.machine().axes) { program.axes.push_back(axis.name); }
-        program.blocks.push_back({0, ProgramMove{std::vector<double>(kMaxAxes, mm), 0, true}});
+        program.blocks.push_back({.action = ProgramMove{std::vector<double>(kMaxAxes, mm), 0, true}});
         return program;
     }
 };

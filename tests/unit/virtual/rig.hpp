@@ -34,7 +34,7 @@ inline Program program_of(const std::vector<std::vector<double>>& targets, doubl
                           std::vector<double> start = {5, 5}) {
     Program program{.name = "test", .axes = {"X", "Y"}, .start_mm = std::move(start)};
     for (const auto& target : targets) {
-        program.blocks.push_back({0, ProgramMove{target, feed_mm_s, feed_mm_s == 0}});
+        program.blocks.push_back({.action = ProgramMove{target, feed_mm_s, feed_mm_s == 0}});
     }
     return program;
 }

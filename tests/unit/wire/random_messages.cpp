@@ -105,7 +105,7 @@ PublishedEvent RandomMessages::event() {
             .at_rest = coin(),
             .is_of_program = coin(),
             .block = static_cast<std::uint32_t>(bits()),
-            .line = static_cast<std::int32_t>(between(0, INT32_MAX)),
+            .line = maybe(static_cast<std::int32_t>(between(1, INT32_MAX))),
             .event = {.kind = static_cast<ProgramEvent::Kind>(index(ProgramEvent::kKinds)),
                       .index = static_cast<std::int32_t>(between(0, kMaxEventIndex)),
                       .value = static_cast<double>(between(-1'000'000, 1'000'000)) / 7}};
@@ -124,7 +124,7 @@ MachineState RandomMessages::machine_state() {
             .job = bits(),
             .outcome = maybe(static_cast<JobOutcome>(index(3))),
             .job_begun = term(),
-            .line = static_cast<std::int32_t>(between(0, INT32_MAX)),
+            .line = maybe(static_cast<std::int32_t>(between(1, INT32_MAX))),
             .job_fault = fault(),
             .lacks_blocks = coin(),
             .progress = static_cast<double>(between(0, 1000)) / 1000,

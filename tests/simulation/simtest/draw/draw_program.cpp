@@ -149,7 +149,7 @@ private:
         move.tolerance_mm = mode_ == PathMode::Blend ? tolerance_mm_ : 0;
         move.is_feed_fixed = is_feed_fixed_;
     }
-    void events(std::int32_t line) {
+    void events(std::optional<std::int32_t> line) {
         for (std::int64_t n = draw_.whole(1, 3); n > 0; --n) {
             ProgramEvent event{.kind = static_cast<ProgramEvent::Kind>(draw_.index(ProgramEvent::kKinds))};
             event.index = static_cast<std::int32_t>(draw_.index(5));
