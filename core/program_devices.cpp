@@ -1,5 +1,7 @@
 #include "core/program_devices.hpp"
 
+#include "core/if_positive.hpp"
+
 namespace lockstep {
 
 void ProgramDevices::apply(const ProgramEvent& event) {
@@ -22,7 +24,7 @@ void ProgramDevices::apply(const ProgramEvent& event) {
         case Kind::OutputOn: outputs |= output; return;
         case Kind::OutputOff: outputs &= ~output; return;
         case Kind::AnalogOutput: return;
-        case Kind::Tool: tool = event.index; return;
+        case Kind::Tool: tool = if_positive(event.index); return;
     }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/program.hpp"
@@ -15,8 +16,8 @@ struct ProgramDevices {
     double spindle_rpm = 0;  // commanded; meaningful while it turns
     bool mist = false;
     bool flood = false;
-    std::int32_t tool = 0;      // in the spindle; 0: none known
-    std::uint64_t outputs = 0;  // bit n: output n is on; outputs above 63 are not stored
+    std::optional<std::int32_t> tool;  // in the spindle; nullopt: none, or not known
+    std::uint64_t outputs = 0;         // bit n: output n is on; outputs above 63 are not stored
     bool operator==(const ProgramDevices&) const = default;
 
     void apply(const ProgramEvent& event);

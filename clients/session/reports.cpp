@@ -81,7 +81,7 @@ std::optional<proto::DevicesReport> devices_report(const ProgramDevices& devices
     }
     report.set_mist(devices.mist);
     report.set_flood(devices.flood);
-    if (devices.tool != 0) { report.set_tool(devices.tool); }
+    if (devices.tool) { report.set_tool(*devices.tool); }
     for (const std::uint32_t output : devices.outputs_on()) { report.add_outputs(output); }
     return report;
 }

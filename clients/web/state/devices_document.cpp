@@ -22,7 +22,7 @@ nlohmann::json devices_document(const ProgramDevices& devices) {
              {{"direction", direction_name(devices.spindle)}, {"rpm", turns ? rounded(devices.spindle_rpm, 1) : 0.0}}},
             {"mist", devices.mist},
             {"flood", devices.flood},
-            {"tool", devices.tool != 0 ? nlohmann::json(devices.tool) : nlohmann::json()},
+            {"tool", devices.tool ? nlohmann::json(*devices.tool) : nlohmann::json()},
             {"outputs", devices.outputs_on()}};
 }
 

@@ -33,7 +33,7 @@ ProgramDevices devices_from_wire(const lockstep_wire_MachineState& wire, Checks&
             .spindle_rpm = wire.spindle_rpm,
             .mist = wire.mist,
             .flood = wire.flood,
-            .tool = wire.tool,
+            .tool = if_positive(wire.tool),
             .outputs = wire.outputs};
 }
 
@@ -92,7 +92,7 @@ void to_wire(const MachineState& state, MachineStateMessage& message) {
             .spindle_rpm = state.devices.spindle_rpm,
             .mist = state.devices.mist,
             .flood = state.devices.flood,
-            .tool = state.devices.tool,
+            .tool = state.devices.tool.value_or(0),
             .outputs = state.devices.outputs,
             .has_writer = state.lease.has_value(),
             .writer = state.lease ? state.lease->writer.id : 0,

@@ -92,7 +92,7 @@ ProgramDevices RandomMessages::devices() {
             .spindle_rpm = static_cast<double>(between(0, 1'000'000)) / 7,
             .mist = coin(),
             .flood = coin(),
-            .tool = static_cast<std::int32_t>(between(0, INT32_MAX)),
+            .tool = maybe(static_cast<std::int32_t>(between(1, INT32_MAX))),
             .outputs = bits()};
 }
 
