@@ -183,9 +183,9 @@ void Coordinator::answer(const Command& command, CoordinatorLoop& loop) {
 bool Coordinator::answer_about_lease(const Command& command, CoordinatorLoop& loop) {
     if (!is_about_lease(command.kind)) { return false; }
     CommandResult result;
-    const std::uint64_t before = lease_.writer();
+    const std::optional<std::uint64_t> before = lease_.writer();
     if (command.kind == CommandKind::TakeLease) { result = lease_.take(command, loop.now, loop.slot); }
-    const bool is_taken_over = before != 0 && lease_.writer() != before;
+    const bool is_taken_over = before && lease_.writer() != before;
     if (is_taken_over && jobs_.is_jogging()) { (void)jobs_.interrupt(Intent::Stop, loop); }
     if (command.kind == CommandKind::GiveLease) { lease_.give(command.client); }
     loop.out.replies.push_back(reply_to(command, result, 0));

@@ -46,7 +46,8 @@ CommandResult WriterLease::check_loser(const Command& command) const {
 
 void WriterLease::pass_to(const LeaseHolder& writer, Tick now) {
     for (const Member& member : members_) {
-        losers_.note(member.client, {member.sequence, name_of(writer) + " has taken the machine over"});
+        if (!member.client) { continue; }
+        losers_.note(*member.client, {member.sequence, name_of(writer) + " has taken the machine over"});
     }
     held_ = HeldLease{writer, now};
     members_.clear();
@@ -55,7 +56,7 @@ void WriterLease::pass_to(const LeaseHolder& writer, Tick now) {
 /// A new client replaces the one received longest ago.
 void WriterLease::note(const Command& command, Slot slot) {
     const Identity client = command.client;
-    std::erase_if(members_, [&](const Member& member) { return member.client == client || member.client == 0; });
+    std::erase_if(members_, [&](const Member& member) { return member.client == client || !member.client; });
     if (members_.size() == kMostMembers) { members_.erase(members_.begin()); }
     members_.push_back({client, slot, command.sequence});
 }
@@ -89,7 +90,7 @@ void WriterLease::tend(Slot slot, Slot missed) {
 void WriterLease::adopt(const std::optional<HeldLease>& lease, Slot slot) {
     held_ = lease;
     members_.clear();
-    if (held_) { members_.push_back({0, slot, 0}); }
+    if (held_) { members_.push_back({std::nullopt, slot, 0}); }
 }
 
 }  // namespace lockstep

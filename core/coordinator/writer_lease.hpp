@@ -38,12 +38,12 @@ public:
     void drop() { adopt({}, 0); }
 
     const std::optional<HeldLease>& held() const { return held_; }
-    /// LeaseHolder::id of the writer; 0: there is no writer.
-    std::uint64_t writer() const { return held_ ? held_->writer.id : 0; }
+    /// LeaseHolder::id of the writer.
+    std::optional<std::uint64_t> writer() const { return held_ ? std::optional(held_->writer.id) : std::nullopt; }
 
 private:
     struct Member {
-        Identity client = 0;  // 0: a client that was not received yet, after a takeover
+        std::optional<Identity> client;  // nullopt: not received yet, after a takeover
         Slot received = 0;
         std::uint64_t sequence = 0;  // of its request
     };

@@ -38,7 +38,7 @@ protected:
 
 TEST_F(Lease, EveryClientMayGiveCommandsWhileThereIsNoWriter) {
     EXPECT_EQ(holder(), "nobody");
-    EXPECT_EQ(lease.writer(), 0u);
+    EXPECT_FALSE(lease.writer());
     EXPECT_EQ(check(anna(), CommandKind::Home), FaultCode::None);
     EXPECT_EQ(check({}, CommandKind::Run), FaultCode::None) << "also one that names no writer";
 }
