@@ -73,7 +73,7 @@ Ticks least_move(const MachineConfig& machine) {
 }
 
 PathMove make_move(const AxisCounts& from, const AxisCounts& to, std::span<const AxisLimits> limits,
-                   std::span<const double> steps_per_mm, double feed_mm_per_tick) {
+                   std::span<const double> steps_per_mm, std::optional<double> feed_mm_per_tick) {
     PathMove move{.from = from, .to = to, .feed_mm_per_tick = feed_mm_per_tick};
     double square = 0;
     for (std::size_t i = 0; i < limits.size(); ++i) {

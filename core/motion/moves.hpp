@@ -13,10 +13,10 @@ namespace lockstep {
 /// The shortest duration of a move. It bounds the number of pieces of a machine's frames.
 Ticks least_move(const MachineConfig& machine);
 
-/// A move from one place to another with its limits along the path, before any profile. `feed_mm_per_tick` 0 means as
-/// fast as the axes allow. The move's lead is 0 if nothing moves.
+/// A move from one place to another with its limits along the path, before any profile. `feed_mm_per_tick`: nullopt
+/// means as fast as the axes allow. The move's lead is 0 if nothing moves.
 PathMove make_move(const AxisCounts& from, const AxisCounts& to, std::span<const AxisLimits> limits,
-                   std::span<const double> steps_per_mm, double feed_mm_per_tick);
+                   std::span<const double> steps_per_mm, std::optional<double> feed_mm_per_tick);
 
 /// Plans the move from rest to rest, or its part behind `along`, in whole ticks, at speeds at which the whole move
 /// lasts at least `least`. A dwell lasts its time.

@@ -14,7 +14,7 @@ Position PathMove::axis_at(std::size_t i, Displacement s) const {
 }
 
 double PathMove::asked_velocity() const {
-    return feed_mm_per_tick > 0 ? std::min(feed_mm_per_tick / mm_per_lead(), own.max_velocity) : own.max_velocity;
+    return feed_mm_per_tick ? std::min(*feed_mm_per_tick / mm_per_lead(), own.max_velocity) : own.max_velocity;
 }
 
 std::size_t Path::move_at(Subticks t) const {

@@ -30,11 +30,11 @@ struct PathMove {
     AxisCounts to;
     std::int64_t lead = 0;  // steps of the axis that has the most; 0: a dwell
     double length_mm = 0;
-    double feed_mm_per_tick = 0;  // requested; 0: as fast as the axes allow
-    PathLimits own;               // of the lead axis; they keep every axis within its limits
-    PathLimits limits;            // the same, reduced by feed and frames; planning sets it
-    Ticks dwell;                  // if lead is 0
-    Subticks start;               // after the path's start
+    std::optional<double> feed_mm_per_tick;  // requested; nullopt: as fast as the axes allow
+    PathLimits own;                          // of the lead axis; they keep every axis within its limits
+    PathLimits limits;                       // the same, reduced by feed and frames; planning sets it
+    Ticks dwell;                             // if lead is 0
+    Subticks start;                          // after the path's start
     Profile profile;
 
     Subticks end() const { return start + profile.duration(); }

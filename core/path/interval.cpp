@@ -68,9 +68,8 @@ double IntervalBounds::least_after(double w0) const {
 
 /// Overrides scale the feed. In rapid moves they scale the speeds that the axes allow, and never exceed these.
 double IntervalBounds::cap(const Overrides& overrides) const {
-    const bool has_feed = piece_.shape.feed_mm_per_tick > 0;
-    if (!has_feed) { return limit(std::min(1.0, overrides.rapid())); }
-    const double feed = piece_.shape.feed_mm_per_tick * (piece_.shape.is_feed_fixed ? 1 : overrides.feed());
+    if (!piece_.shape.feed_mm_per_tick) { return limit(std::min(1.0, overrides.rapid())); }
+    const double feed = *piece_.shape.feed_mm_per_tick * (piece_.shape.is_feed_fixed ? 1 : overrides.feed());
     return std::min(feed * feed, limit());
 }
 

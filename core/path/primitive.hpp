@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/program.hpp"
@@ -10,7 +11,7 @@ namespace lockstep {
 
 /// The settings of one move.
 struct MoveSettings {
-    double feed_mm_per_tick = 0;  // along the path; 0: as fast as the axes allow
+    std::optional<double> feed_mm_per_tick;  // along the path; nullopt: as fast as the axes allow
     PathMode mode = PathMode::Blend;
     double tolerance_mm = 0;     // Blend: the greatest deviation of an axis, steps included; at least one step
     bool is_feed_fixed = false;  // the feed override has no effect

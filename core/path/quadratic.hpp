@@ -6,20 +6,22 @@
 // square of a small angle).
 #pragma once
 
+#include <optional>
+
 #include "core/path/axis_vector.hpp"
 #include "core/units.hpp"
 
 namespace lockstep {
 
 struct Quadratic {
-    AxisVector from;              // steps
-    AxisVector slope;             // of the chord, steps per mm
-    AxisVector bend;              // steps per mm^2; curvature times scale
-    double length = 0;            // mm; 0: a rest
-    double feed_mm_per_tick = 0;  // 0: as fast as the axes allow
-    bool is_feed_fixed = false;   // the feed override has no effect
-    bool is_straight = true;      // bend is 0
-    Ticks rest;                   // duration if length is 0
+    AxisVector from;                         // steps
+    AxisVector slope;                        // of the chord, steps per mm
+    AxisVector bend;                         // steps per mm^2; curvature times scale
+    double length = 0;                       // mm; 0: a rest
+    std::optional<double> feed_mm_per_tick;  // nullopt: as fast as the axes allow
+    bool is_feed_fixed = false;              // the feed override has no effect
+    bool is_straight = true;                 // bend is 0
+    Ticks rest;                              // duration if length is 0
 
     double place(std::size_t i, double u) const {
         return from.begin()[i] + (slope.begin()[i] + bend.begin()[i] * (u - length) / 2) * u;

@@ -100,7 +100,8 @@ void ProgramFrames::read_move(const ProgramMove& move, std::uint32_t number) {
         at_[axes_[i]] = move.target_mm[i] * steps_per_mm_[axes_[i]];
         to_[axes_[i]] = std::llround(at_[axes_[i]]);
     }
-    const MoveSettings settings{.feed_mm_per_tick = move.rapid ? 0 : move.feed_mm_s * tick_s_,
+    const std::optional<double> feed = move.rapid ? std::nullopt : std::optional(move.feed_mm_s * tick_s_);
+    const MoveSettings settings{.feed_mm_per_tick = feed,
                                 .mode = move.mode,
                                 .tolerance_mm = move.tolerance_mm,
                                 .is_feed_fixed = move.is_feed_fixed};

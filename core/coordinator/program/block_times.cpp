@@ -19,11 +19,11 @@ BlockTimes::BlockTimes(const MachineConfig& machine) : direction_(machine.axes.s
     }
 }
 
-void BlockTimes::add_move(std::span<const double> way_mm, double feed_mm_s) {
+void BlockTimes::add_move(std::span<const double> way_mm, std::optional<double> feed_mm_s) {
     double square = 0;
     for (const double way : way_mm) { square += way * way; }
     Way way{.length_mm = std::sqrt(square),
-            .speed_mm_s = feed_mm_s > 0 ? feed_mm_s : kMaxFeed_mm_s,
+            .speed_mm_s = feed_mm_s.value_or(kMaxFeed_mm_s),
             .acceleration_mm_s2 = kMaxFeed_mm_s};
     if (way.length_mm <= 0) { return add(0, 0); }
     std::vector<double> direction(way_mm.begin(), way_mm.end());
@@ -39,12 +39,12 @@ void BlockTimes::add_move(std::span<const double> way_mm, double feed_mm_s) {
 
 /// The arc is assumed as fast as its curvature and the slower axis of its plane allow everywhere.
 void BlockTimes::add_arc(const ArcPath& arc, std::pair<std::size_t, std::size_t> plane, std::span<const double> way_mm,
-                         double feed_mm_s) {
+                         std::optional<double> feed_mm_s) {
     const auto [first, second] = plane;
     check(first < way_mm.size() && second < way_mm.size(), "an arc is in the plane of two axes");
     const double length = arc.length_mm();
     const double in_plane = arc.plane_length_mm() / length;
-    Way way{.length_mm = length, .speed_mm_s = feed_mm_s > 0 ? feed_mm_s : kMaxFeed_mm_s, .acceleration_mm_s2 = 0};
+    Way way{.length_mm = length, .speed_mm_s = feed_mm_s.value_or(kMaxFeed_mm_s), .acceleration_mm_s2 = 0};
     way.acceleration_mm_s2 = std::min(acceleration_mm_s2_[first], acceleration_mm_s2_[second]);
     const double radius = std::min(arc.radius_begin(), arc.radius_end());
     way.speed_mm_s = std::min({way.speed_mm_s, max_velocity_mm_s_[first] / in_plane,

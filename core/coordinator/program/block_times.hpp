@@ -3,6 +3,7 @@
 // block, bounded memory.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,11 +19,11 @@ public:
     explicit BlockTimes(const MachineConfig& machine);
 
     // Called block by block, in order.
-    /// `way_mm`: the distance of each axis. `feed_mm_s` 0: as fast as the axes allow.
-    void add_move(std::span<const double> way_mm, double feed_mm_s);
+    /// `way_mm`: the distance of each axis. Without a `feed_mm_s` it is as fast as the axes allow.
+    void add_move(std::span<const double> way_mm, std::optional<double> feed_mm_s);
     /// `plane`: the machine's axes of the arc's plane. `way_mm`: the distance of each axis, from end to end.
     void add_arc(const ArcPath& arc, std::pair<std::size_t, std::size_t> plane, std::span<const double> way_mm,
-                 double feed_mm_s);
+                 std::optional<double> feed_mm_s);
     void add_dwell(double seconds);
     /// The machine comes to rest. Call it after the last block, too.
     void add_rest();

@@ -53,11 +53,12 @@ void KnownProgram::take(const Block& block) {
     if (const auto* move = std::get_if<ProgramMove>(&block.action)) {
         std::vector<double> way(zero_.size());
         for (std::size_t i = 0; i < axes_.size(); ++i) { way[axes_[i]] = move->target_mm[i] - at_mm_[i]; }
+        const std::optional<double> feed_mm_s = move->rapid ? std::nullopt : std::optional(move->feed_mm_s);
         if (move->arc) {
             const ArcPath arc(*move->arc, at_mm_, move->target_mm);
-            times_.add_arc(arc, {axes_[move->arc->first], axes_[move->arc->second]}, way, move->feed_mm_s);
+            times_.add_arc(arc, {axes_[move->arc->first], axes_[move->arc->second]}, way, feed_mm_s);
         } else {
-            times_.add_move(way, move->rapid ? 0 : move->feed_mm_s);
+            times_.add_move(way, feed_mm_s);
         }
         at_mm_ = move->target_mm;
     } else if (const auto* dwell = std::get_if<Dwell>(&block.action)) {

@@ -45,7 +45,8 @@ PathMove random_move(Random& random, const Machine& m) {
         for (std::size_t i = 0; i < m.limits.size(); ++i) {
             if (random() % 4 != 0) { to[i] += std::llround(unit(random) * size_mm * m.steps_per_mm[i]); }
         }
-        const double feed = random() % 3 == 0 ? 0 : log_uniform(random, 1e-5, 2e-4);
+        std::optional<double> feed;
+        if (random() % 3 != 0) { feed = log_uniform(random, 1e-5, 2e-4); }
         const PathMove move = make_move(from, to, m.limits, m.steps_per_mm, feed);
         if (move.lead != 0) { return move; }
     }

@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "core/if_positive.hpp"
 #include "core/path/path_planner.hpp"
 
 namespace lockstep {
@@ -96,7 +97,9 @@ inline std::vector<Place> chords_of(const TestMove& move, const Place& from) {
 struct TestProgram {
     std::vector<TestMove> moves;
 
-    void add(Place to, double feed_mm_s) { moves.push_back({std::move(to), {.feed_mm_per_tick = feed_mm_s * 1e-6}}); }
+    void add(Place to, double feed_mm_s) {
+        moves.push_back({std::move(to), {.feed_mm_per_tick = if_positive(feed_mm_s * 1e-6)}});
+    }
     /// The places of the program from the start on, in steps.
     std::vector<Place> polyline(const PathSetup& setup) const {
         std::vector<Place> places{Place(setup.axes(), 0)};

@@ -70,7 +70,7 @@ TEST(PathTurn, NeverExceedsWhatTheAxesAllow) {
     const PathSetup setup = setup_of(mill());
     PathSession session(setup, {{.made = 2, .turn = Overrides{.feed_percent = 200, .rapid_percent = 200}}});
     TestProgram program = line(400, 4, 100);
-    program.moves[2].settings.feed_mm_per_tick = 0;
+    program.moves[2].settings.feed_mm_per_tick.reset();
     session.run(program, at_any_frame);
     expect_within_limits(setup, only_run(session));
 }

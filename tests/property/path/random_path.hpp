@@ -36,7 +36,7 @@ inline TestProgram random_program(Random& random, std::size_t axes, bool winds) 
         MoveSettings& settings = program.moves.back().settings;
         if (random() % 40 == 0) { settings.mode = PathMode::ExactStop; }
         if (random() % 20 == 0) { settings.mode = PathMode::ExactPath; }
-        if (random() % 100 == 0) { settings.feed_mm_per_tick = 0; }
+        if (random() % 100 == 0) { settings.feed_mm_per_tick.reset(); }
     }
     return program;
 }

@@ -30,7 +30,7 @@ Path path_through(const std::vector<AxisCounts>& places, LaiFollowing following 
                   const std::vector<AxisLimits>& limits = kLimits) {
     std::vector<PathMove> moves;
     for (std::size_t i = 1; i < places.size(); ++i) {
-        moves.push_back(make_move(places[i - 1], places[i], limits, kScale, 0));
+        moves.push_back(make_move(places[i - 1], places[i], limits, kScale, std::nullopt));
         moves.back().block = static_cast<std::uint32_t>(i);
     }
     return plan_lai_path(moves, {}, limits, kScale, kTick_ns, kLeastMove, following);
@@ -96,7 +96,7 @@ TEST(LaiPath, ALongMoveGoesAsFastAsWholePulsesAllow) {
 
 TEST(LaiPath, AShortAxisKeepsItsGreatestVelocityWithItsRoundedPulses) {
     const std::vector<AxisLimits> limits{axis_of(5000, 60'000), axis_of(2500, 60'000)};  // 32.5 and 16.25 per period
-    const PathMove move = make_move({0, 0}, {4000, 3600}, limits, kScale, 0);
+    const PathMove move = make_move({0, 0}, {4000, 3600}, limits, kScale, std::nullopt);
     const Path path = plan_lai_path({move}, {}, limits, kScale, kTick_ns, kLeastMove);
     for (const PathMove& period : path.moves) {
         EXPECT_LE(period.to[1] - period.from[1], 16);
