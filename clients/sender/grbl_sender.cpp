@@ -29,6 +29,10 @@ std::string text_of(const std::string& answer, std::span<const grbl::Code> codes
     return text + (message.empty() ? "" : " The controller: " + message);
 }
 
+std::optional<std::int64_t> number_of(const Line* line) {
+    return line == nullptr ? std::nullopt : std::optional(line->number);
+}
+
 std::string remedy_of(int error) {
     constexpr int kLocked = 9;
     return error == kLocked ? " Home ($H) or unlock ($X) the machine first." : "";
@@ -105,9 +109,8 @@ void GrblSender::do_error(const std::string& line, Time now) {
 void GrblSender::do_alarm(const std::string& line) {
     if (phase_ == Phase::Over || phase_ == Phase::Resetting) { return; }
     const int number = number_in(std::string_view(line).substr(6));
-    const Line* oldest = flow_.oldest();
     if (!trouble_) {
-        trouble_ = {.line = oldest == nullptr ? 0 : oldest->number,
+        trouble_ = {.line = number_of(flow_.oldest()),
                     .alarm = number,
                     .text = text_of(line, grbl::alarm_codes(), number, message_)};
     }
@@ -201,8 +204,7 @@ void GrblSender::stop(Trouble trouble, Time now) {
 void GrblSender::lose(const std::string& why) {
     if (phase_ == Phase::Over) { return; }
     const bool has_begun = phase_ != Phase::Greeting && phase_ != Phase::Asking;
-    const Line* oldest = flow_.oldest();
-    if (!trouble_) { trouble_ = {.line = oldest == nullptr ? 0 : oldest->number, .text = why}; }
+    if (!trouble_) { trouble_ = {.line = number_of(flow_.oldest()), .text = why}; }
     end_as(has_begun ? Outcome::Failed : Outcome::Silent);
 }
 

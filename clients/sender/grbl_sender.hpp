@@ -22,8 +22,8 @@ enum class Outcome : std::uint8_t { Goes, Done, Stopped, Failed, Silent };
 
 /// Why not all lines were run.
 struct Trouble {
-    std::int64_t line = 0;     // of the file; 0 if no line in particular
-    std::optional<int> error;  // the controller's number
+    std::optional<std::int64_t> line;  // of the file; nullopt: no line in particular
+    std::optional<int> error;          // the controller's number
     std::optional<int> alarm;
     std::string text;  // with the remedy
 };

@@ -15,7 +15,7 @@ void ServiceManager::ready(const std::string& status) const {
 }
 
 void ServiceManager::alive(std::chrono::nanoseconds now) {
-    if (period_.count() == 0 || now - notified_ < period_) { return; }
+    if (!period_ || now - notified_ < *period_) { return; }
     notified_ = now;
     (void)sd_notify(0, "WATCHDOG=1");
 }

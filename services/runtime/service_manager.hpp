@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 namespace lockstep {
@@ -17,7 +18,7 @@ public:
     void stopping() const;
 
 private:
-    std::chrono::nanoseconds period_{};  // 0 without a watchdog
+    std::optional<std::chrono::nanoseconds> period_;  // nullopt: no watchdog
     std::chrono::nanoseconds notified_{};
 };
 

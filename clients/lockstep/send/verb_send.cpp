@@ -15,6 +15,7 @@
 #include "clients/sender/grbl_sender.hpp"
 #include "clients/text/format.hpp"
 #include "clients/text/output.hpp"
+#include "core/if_positive.hpp"
 #include "idl/proto/report.pb.h"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/stop_signal.hpp"
@@ -62,7 +63,8 @@ private:
             auto line = lines_.next();
             if (!line) {
                 sender_.end();
-                return sender_.stop({.line = line.error().line, .text = line.error().message}, monotonic_now());
+                return sender_.stop({.line = if_positive(line.error().line), .text = line.error().message},
+                                    monotonic_now());
             }
             if (lines_.is_at_end()) { sender_.end(); }
             if (!*line) { return; }
@@ -100,7 +102,7 @@ proto::SendReport report_of(const SendOptions& options, const sender::GrblSender
     report.set_done(sender.outcome() == sender::Outcome::Done);
     report.set_stopped(sender.outcome() == sender::Outcome::Stopped);
     if (const auto& trouble = sender.trouble()) {
-        if (trouble->line > 0) { report.set_line(trouble->line); }
+        if (trouble->line) { report.set_line(*trouble->line); }
         if (trouble->error) { report.set_error(*trouble->error); }
         if (trouble->alarm) { report.set_alarm(*trouble->alarm); }
         report.set_text(trouble->text);
