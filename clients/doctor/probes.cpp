@@ -22,6 +22,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/if_positive.hpp"
 #include "services/runtime/clock.hpp"
 
 namespace lockstep::doctor {
@@ -106,7 +107,7 @@ ClockFacts look_at_clock() {
     std::ifstream("/sys/devices/system/clocksource/clocksource0/current_clocksource") >> facts.source;
     timex state{};
     facts.synchronised = adjtimex(&state) != TIME_ERROR;
-    facts.tai_offset_s = state.tai;
+    facts.tai_offset_s = if_positive(state.tai);
     return facts;
 }
 

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "core/if_positive.hpp"
 #include "core/protocol/frame_room.hpp"
 #include "services/documents/edit/timing_edit.hpp"
 
@@ -56,10 +57,11 @@ Finding rate_route(const NetworkConfig& network, const std::expected<void, std::
     return {Rating::Good, "multicast", received ? "LCM receives its own messages" : "a route exists", ""};
 }
 
-std::int64_t buffer_asked(const std::string& lcm_url) {
+std::optional<std::int64_t> buffer_asked(const std::string& lcm_url) {
     constexpr std::string_view kKey = "recv_buf_size=";
     const std::size_t at = lcm_url.find(kKey);
-    return at == std::string::npos ? 0 : std::strtoll(lcm_url.c_str() + at + kKey.size(), nullptr, 10);
+    if (at == std::string::npos) { return std::nullopt; }
+    return if_positive(std::strtoll(lcm_url.c_str() + at + kKey.size(), nullptr, 10));
 }
 
 Finding rate_buffer(std::int64_t asked, std::int64_t given) {
@@ -139,7 +141,7 @@ Finding rate_stalls(const ProtocolTiming& timing, const StallFacts& facts) {
 }
 
 Finding rate_clock(TimeSource source, const ClockFacts& facts) {
-    if (source == TimeSource::Ptp && !(facts.synchronised && facts.tai_offset_s != 0)) {
+    if (source == TimeSource::Ptp && !(facts.synchronised && facts.tai_offset_s)) {
         return {Rating::Bad, "clock",
                 std::string("time_source is PTP, but ") +
                     (facts.synchronised ? "CLOCK_TAI is not set" : "no service keeps this host's clock"),

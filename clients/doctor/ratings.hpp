@@ -24,8 +24,8 @@ Finding rate_interface(const NetworkConfig& network, const InterfaceFacts& facts
 Finding rate_route(const NetworkConfig& network, const std::expected<void, std::string>& route,
                    std::optional<bool> received);
 
-/// The receive buffer that an LCM URL requests, in bytes; 0 if it requests none.
-std::int64_t buffer_asked(const std::string& lcm_url);
+/// The receive buffer that an LCM URL requests, in bytes.
+std::optional<std::int64_t> buffer_asked(const std::string& lcm_url);
 /// The size of the receive buffer in bytes: `asked` by the URL, `given` by the kernel.
 Finding rate_buffer(std::int64_t asked, std::int64_t given);
 /// The size of the send buffer in bytes: `needed` for the machine's peers (peer_send_buffer), `given` by the kernel.
@@ -56,9 +56,9 @@ std::int64_t least_slot_us(const ProtocolTiming& timing);
 ProtocolTiming timing_for(const StallFacts& facts, std::int64_t least_slot_us = 0);
 
 struct ClockFacts {
-    std::string source;         // the kernel's clocksource
-    bool synchronised = false;  // by a time service, as the kernel reports
-    int tai_offset_s = 0;       // of CLOCK_TAI; 0 if not set
+    std::string source;               // the kernel's clocksource
+    bool synchronised = false;        // by a time service, as the kernel reports
+    std::optional<int> tai_offset_s;  // of CLOCK_TAI; nullopt: not set
 };
 Finding rate_clock(TimeSource source, const ClockFacts& facts);
 

@@ -54,8 +54,8 @@ void examine_network(const MachineConfig& machine, Findings& findings) {
     const auto route = check_multicast(network);
     const auto received = route ? doctor::receives_own_message(network.lcm_url) : std::nullopt;
     findings.push_back(doctor::rate_route(network, route, received));
-    const std::int64_t asked = doctor::buffer_asked(network.lcm_url);
-    if (asked > 0) { findings.push_back(doctor::rate_buffer(asked, doctor::receive_buffer_given(asked))); }
+    const auto asked = doctor::buffer_asked(network.lcm_url);
+    if (asked) { findings.push_back(doctor::rate_buffer(*asked, doctor::receive_buffer_given(*asked))); }
     findings.push_back(doctor::rate_states(machine, shared_states(machine)));
     if (network.peers.empty()) { return; }
     const std::int64_t needed = peer_send_buffer(network.peers.size());
