@@ -14,7 +14,7 @@ bool LineQueue::has_room() const {
     return lines_.size() < kMostLines && blocks_ < kMostBlocks && seconds_ < kSeconds;
 }
 
-std::int32_t LineQueue::add(const LineToRun& line, std::uint64_t request) {
+std::int32_t LineQueue::add(const LineToRun& line, std::optional<std::uint64_t> request) {
     if (lines_.empty() && last_ > kRenumber) { last_ = 0; }
     lines_.push_back({++last_, line.sender_line, line.seconds, line.blocks.size(), request});
     seconds_ += line.seconds;
@@ -26,7 +26,7 @@ std::vector<std::uint64_t> LineQueue::pass_to(std::int32_t number) {
     std::vector<std::uint64_t> requests;
     while (!lines_.empty() && lines_.front().number < number) {
         const Line& line = lines_.front();
-        if (line.request != 0) { requests.push_back(line.request); }
+        if (line.request) { requests.push_back(*line.request); }
         seconds_ -= line.seconds;
         blocks_ -= line.blocks;
         lines_.pop_front();
@@ -38,7 +38,7 @@ std::vector<std::uint64_t> LineQueue::pass_to(std::int32_t number) {
 std::vector<std::uint64_t> LineQueue::drop() {
     std::vector<std::uint64_t> requests;
     for (const Line& line : lines_) {
-        if (line.request != 0) { requests.push_back(line.request); }
+        if (line.request) { requests.push_back(*line.request); }
     }
     lines_.clear();
     seconds_ = 0;
@@ -48,7 +48,7 @@ std::vector<std::uint64_t> LineQueue::drop() {
 
 std::int32_t LineQueue::sender_line(std::int32_t number) const {
     const auto found = std::ranges::find(lines_, number, &Line::number);
-    return found == lines_.end() || found->sender_line == 0 ? number : found->sender_line;
+    return found == lines_.end() ? number : found->sender_line.value_or(number);
 }
 
 }  // namespace lockstep::grbl

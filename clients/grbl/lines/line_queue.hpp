@@ -21,8 +21,8 @@ public:
 
     bool has_room() const;
     /// Returns the line's number, which its blocks get. Numbers rise from 1. `request`: to be answered when the line
-    /// was run, or 0.
-    std::int32_t add(const LineToRun& line, std::uint64_t request);
+    /// was run.
+    std::int32_t add(const LineToRun& line, std::optional<std::uint64_t> request);
     /// Call when the machine runs this line. Removes the lines before it, and returns the requests to answer.
     std::vector<std::uint64_t> pass_to(std::int32_t number);
     /// Call when this line and all before it are done.
@@ -37,10 +37,10 @@ public:
 private:
     struct Line {
         std::int32_t number = 0;
-        std::int32_t sender_line = 0;
+        std::optional<std::int32_t> sender_line;
         double seconds = 0;
         std::size_t blocks = 0;
-        std::uint64_t request = 0;
+        std::optional<std::uint64_t> request;
     };
     std::deque<Line> lines_;
     std::int32_t last_ = 0;

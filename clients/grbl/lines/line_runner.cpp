@@ -31,13 +31,13 @@ void LineRunner::pass(const MachineState& state, bool rests, nanoseconds now) {
 void LineRunner::accept(nanoseconds now) {
     if (!next_ || !queue_.has_room()) { return; }
     Next next = *std::exchange(next_, std::nullopt);
-    const std::uint64_t behind = next.line.is_answered_behind ? next.request : 0;
+    const auto behind = next.line.is_answered_behind ? std::optional(next.request) : std::nullopt;
     const std::int32_t number = queue_.add(next.line, behind);
     for (Block& block : next.line.blocks) { block.line = number; }
     later_.push_back({std::move(next.line.from_mm), std::move(next.line.blocks), number});
     appended_ = now;
     append_later();
-    if (behind == 0) { answers_.push_back({next.request, {.is_done = true}}); }
+    if (!behind) { answers_.push_back({next.request, {.is_done = true}}); }
 }
 
 void LineRunner::append_later() {

@@ -12,6 +12,7 @@
 #include "core/arc_path.hpp"
 #include "core/gcode/interpreter.hpp"
 #include "core/gcode/program_builder.hpp"
+#include "core/if_positive.hpp"
 #include "services/documents/program_file.hpp"
 
 namespace lockstep::grbl {
@@ -48,13 +49,13 @@ bool is_without_effect(const gcode::Action& action) {
     }
 }
 
-/// The N word, after blanks and a slash; 0 without one or if it does not fit 32 bits.
-std::int32_t sender_line_of(std::string_view line) {
+/// The N word, after blanks and a slash; nullopt without one or if it does not fit 32 bits.
+std::optional<std::int32_t> sender_line_of(std::string_view line) {
     const std::size_t begin = line.find_first_not_of(" \t/");
-    if (begin == line.npos || (line[begin] != 'N' && line[begin] != 'n')) { return 0; }
+    if (begin == line.npos || (line[begin] != 'N' && line[begin] != 'n')) { return std::nullopt; }
     std::int32_t number = 0;
     const auto read = std::from_chars(line.data() + begin + 1, line.data() + line.size(), number);
-    return read.ec == std::errc{} && number > 0 ? number : 0;
+    return read.ec == std::errc{} ? if_positive(number) : std::nullopt;
 }
 
 Refused refused(const GcodeError& error) { return {error_of(error.message), error.message}; }

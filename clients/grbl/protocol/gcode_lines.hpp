@@ -23,7 +23,7 @@ struct LineEffect {
     std::vector<Block> blocks;                // moves, dwells, pauses
     std::vector<double> place_mm;             // of each axis after the blocks
     double seconds = 0;                       // approximate duration of the blocks
-    std::int32_t sender_line = 0;             // its N word, or 0
+    std::optional<std::int32_t> sender_line;  // its N word
     std::vector<std::string> notes;           // ignored words, and messages
     std::optional<gcode::KeptValues> values;  // the offsets if it changes them
     bool ends_program = false;                // M2, M30

@@ -22,10 +22,10 @@ inline constexpr std::size_t kPlannerLines = 128;
 /// A line of G-code that takes time.
 struct LineToRun {
     std::vector<Block> blocks;
-    std::vector<double> from_mm;      // of each axis, where the line begins
-    double seconds = 0;               // approximate duration
-    std::int32_t sender_line = 0;     // its N word, or 0
-    bool is_answered_behind = false;  // answered after it was run, else when it is accepted
+    std::vector<double> from_mm;              // of each axis, where the line begins
+    double seconds = 0;                       // approximate duration
+    std::optional<std::int32_t> sender_line;  // its N word
+    bool is_answered_behind = false;          // answered after it was run, else when it is accepted
 };
 
 struct Request {
