@@ -112,7 +112,7 @@ std::string with_log(const std::string& what, const std::string& process, const 
 std::optional<std::string> trouble(const MachineConfig& machine, const OwnParts& parts, const StateDirectory& state,
                                    const ProcessRecord& supervisor, const std::vector<PresentProcess>& present) {
     for (const ProcessRecord& process : state.recorded()) {
-        if (process.pid == 0 && process.name != kWeb) {
+        if (!process.pid && process.name != kWeb) {
             return with_log(process.name + " ended and is not started again", process.name, state);
         }
     }

@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 bool is_given_up(const StateDirectory& state) {
     const auto processes = state.recorded();
     const auto web = std::ranges::find(processes, kWeb, &ProcessRecord::name);
-    return web != processes.end() && web->pid == 0;
+    return web != processes.end() && !web->pid;
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ extern "C" {  // this header of glibc 2.36 lacks it
 #include <fstream>
 #include <sstream>
 
+#include "core/if_positive.hpp"
 #include "services/runtime/clock.hpp"
 
 namespace lockstep {
@@ -22,8 +23,8 @@ namespace {
 class ProcessHandle {
 public:
     explicit ProcessHandle(const ProcessRecord& record) {
-        if (record.pid <= 0) { return; }
-        file_ = pidfd_open(record.pid, 0);
+        if (!record.pid) { return; }
+        file_ = pidfd_open(*record.pid, 0);
         if (file_ >= 0 && !is_running(record)) { close(); }  // the number was reused before it was opened
     }
     ~ProcessHandle() { close(); }
@@ -50,7 +51,9 @@ private:
 std::optional<ProcessRecord> record_in(const std::string& line) {
     std::istringstream words(line);
     ProcessRecord record;
-    if (!(words >> record.name >> record.pid >> record.start) || record.pid < 0) { return std::nullopt; }
+    pid_t pid = 0;
+    if (!(words >> record.name >> pid >> record.start) || pid < 0) { return std::nullopt; }
+    record.pid = if_positive(pid);
     return record;
 }
 
@@ -59,7 +62,7 @@ std::optional<ProcessRecord> record_in(const std::string& line) {
 std::string to_text(const std::vector<ProcessRecord>& records) {
     std::ostringstream text;
     for (const ProcessRecord& record : records) {
-        text << record.name << ' ' << record.pid << ' ' << record.start << '\n';
+        text << record.name << ' ' << record.pid.value_or(0) << ' ' << record.start << '\n';
     }
     return text.str();
 }
@@ -93,7 +96,7 @@ std::optional<std::uint64_t> start_of(pid_t pid) {
     return start;
 }
 
-bool is_running(const ProcessRecord& record) { return record.pid > 0 && start_of(record.pid) == record.start; }
+bool is_running(const ProcessRecord& record) { return record.pid && start_of(*record.pid) == record.start; }
 
 std::vector<std::string> command_line_of(pid_t pid) {
     std::ifstream file(fmt::format("/proc/{}/cmdline", pid));

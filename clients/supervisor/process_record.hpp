@@ -13,13 +13,13 @@
 namespace lockstep {
 
 struct ProcessRecord {
-    std::string name;         // "supervisor", "coordinator", "axis-X", "fpga-X"
-    pid_t pid = 0;            // 0 if it ended and is not started again
-    std::uint64_t start = 0;  // clock ticks after the host's start, as in /proc
+    std::string name;          // "supervisor", "coordinator", "axis-X", "fpga-X"
+    std::optional<pid_t> pid;  // nullopt: it ended and is not started again
+    std::uint64_t start = 0;   // clock ticks after the host's start, as in /proc
     bool operator==(const ProcessRecord&) const = default;
 };
 
-/// One line per record. Reading skips invalid lines.
+/// One line per record, with number 0 for a record without one. Reading skips invalid lines.
 std::string to_text(const std::vector<ProcessRecord>& records);
 std::vector<ProcessRecord> records_from_text(std::string_view text);
 /// True if the text has no record or an invalid line.

@@ -148,7 +148,9 @@ void Supervisor::end_all() {
 
 void Supervisor::signal_all(int signal) const {
     for (const Service& service : services_) {
-        if (service.process) { kill(service.process->pid, signal); }  // children that are not reaped keep their numbers
+        if (service.process) {
+            kill(*service.process->pid, signal);
+        }  // children that are not reaped keep their numbers
     }
 }
 
@@ -160,7 +162,7 @@ bool Supervisor::reap_all(milliseconds time) {
     sigaddset(&child, SIGCHLD);
     for (;;) {
         for (Service& service : services_) {
-            if (service.process && waitpid(service.process->pid, nullptr, WNOHANG) != 0) { service.process.reset(); }
+            if (service.process && waitpid(*service.process->pid, nullptr, WNOHANG) != 0) { service.process.reset(); }
         }
         if (std::ranges::none_of(services_, running)) { return true; }
         if (monotonic_now() >= deadline) { return false; }

@@ -47,15 +47,15 @@ std::expected<ProcessSet::Process*, std::string> ProcessSet::running(const std::
     return process;
 }
 
-pid_t ProcessSet::pid_of(const Process& process) const {
+std::optional<pid_t> ProcessSet::pid_of(const Process& process) const {
     if (pid_folder_.empty()) { return process.pid; }
     const auto deadline = monotonic_now() + kProcessStartPatience;
-    while (monotonic_now() < deadline && !has_ended(process.pid)) {
+    while (monotonic_now() < deadline && !has_ended(*process.pid)) {
         pid_t pid = 0;
         if (std::ifstream(pid_file(process)) >> pid && pid > 0) { return pid; }
         std::this_thread::sleep_for(5ms);
     }
-    return 0;
+    return std::nullopt;
 }
 
 std::filesystem::path ProcessSet::pid_file(const Process& process) const {
@@ -63,7 +63,7 @@ std::filesystem::path ProcessSet::pid_file(const Process& process) const {
 }
 
 void ProcessSet::send(const Process& process, int signal) const {
-    if (const pid_t pid = pid_of(process); pid > 0) { ::kill(pid, signal); }
+    if (const auto pid = pid_of(process)) { ::kill(*pid, signal); }
 }
 
 /// SIGCONT lets a paused process handle the signal.
@@ -122,19 +122,19 @@ bool ProcessSet::is_active(const std::string& name) {
 }
 
 void ProcessSet::wait_for_end(Process& process) {
-    waitpid(process.pid, nullptr, 0);
-    process.pid = 0;
+    waitpid(*process.pid, nullptr, 0);
+    process.pid.reset();
     process.is_killed = false;
 }
 
 bool ProcessSet::end(Process& process, int signal) {
     signal_end(process, signal);
     const auto deadline = monotonic_now() + kEndPatience;
-    while (waitpid(process.pid, nullptr, WNOHANG) == 0) {
+    while (waitpid(*process.pid, nullptr, WNOHANG) == 0) {
         if (monotonic_now() > deadline) { return false; }
         std::this_thread::sleep_for(5ms);
     }
-    process.pid = 0;
+    process.pid.reset();
     return true;
 }
 
@@ -156,8 +156,8 @@ void ProcessSet::end_all() {
 void ProcessSet::reap() {
     for (Process& process : processes_) {
         int status = 0;
-        if (process.pid == 0 || waitpid(process.pid, &status, WNOHANG) != process.pid) { continue; }
-        process.pid = 0;
+        if (!process.pid || waitpid(*process.pid, &status, WNOHANG) != *process.pid) { continue; }
+        process.pid.reset();
         if (std::exchange(process.is_killed, false)) { continue; }
         unexpected_exits_ += (unexpected_exits_.empty() ? "" : "; ") + process.line.name + " " + end_text(status) +
                              ", last output:\n" + tail_of(state_.log_file(process.line.name), kTailLines);

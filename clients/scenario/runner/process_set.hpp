@@ -6,6 +6,7 @@
 
 #include <expected>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,17 +40,18 @@ public:
 private:
     struct Process {
         ServiceLine line;
-        pid_t pid = 0;  // of the started program; 0 if none
+        std::optional<pid_t> pid;  // of the started program
         bool is_paused = false;
         bool is_killed = false;  // SIGKILL was sent, and the process was not reaped yet
-        bool runs() const { return pid != 0 && !is_killed; }
+        bool runs() const { return pid && !is_killed; }
     };
 
     Process* find(const std::string& name);
     std::expected<Process*, std::string> running(const std::string& name);
     void reap();
-    /// Returns the id of the process itself, and waits for it if a launcher starts the process. 0 if it has ended.
-    pid_t pid_of(const Process& process) const;
+    /// Returns the id of the process itself, and waits for it if a launcher starts the process. nullopt if it has
+    /// ended.
+    std::optional<pid_t> pid_of(const Process& process) const;
     std::filesystem::path pid_file(const Process& process) const;
     void send(const Process& process, int signal) const;
     void signal_end(const Process& process, int signal) const;

@@ -138,7 +138,7 @@ bool OwnMachine::becomes(const std::string& phase) const {
 
 pid_t OwnMachine::process(const std::string& name) const {
     for (const ProcessRecord& record : state().running()) {
-        if (record.name == name) { return record.pid; }
+        if (record.name == name) { return *record.pid; }
     }
     return 0;
 }

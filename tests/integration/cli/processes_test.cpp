@@ -104,7 +104,7 @@ TEST_F(Processes, AreTakenDownAlsoWithoutTheirSupervisor) {
     bring_up();
     const auto processes = state().running();
     for (const ProcessRecord& each : processes) {
-        if (each.name != kSupervisor) { kill(each.pid, SIGSTOP); }  // they cannot react to their supervisor
+        if (each.name != kSupervisor) { kill(*each.pid, SIGSTOP); }  // they cannot react to their supervisor
     }
     kill(process(kSupervisor), SIGKILL);
     const Ran down = run_lockstep({"down"});

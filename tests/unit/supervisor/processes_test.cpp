@@ -18,7 +18,7 @@ using testing::Not;
 ProcessRecord this_process() { return {"test", getpid(), *start_of(getpid())}; }
 
 TEST(ProcessRecord, IsReadAsItWasWritten) {
-    const std::vector<ProcessRecord> records{{"supervisor", 12, 3456}, {"axis-X", 0, 0}};
+    const std::vector<ProcessRecord> records{{"supervisor", 12, 3456}, {"axis-X", {}, 0}};
     EXPECT_EQ(records_from_text(to_text(records)), records);
 }
 
@@ -28,7 +28,7 @@ TEST(ProcessRecord, ThatIsDamagedIsLeftOut) {
 }
 
 TEST(ProcessRecord, IsKnownToBeDamaged) {
-    EXPECT_FALSE(is_damaged(to_text({{"supervisor", 12, 3456}, {"axis-X", 0, 0}})));
+    EXPECT_FALSE(is_damaged(to_text({{"supervisor", 12, 3456}, {"axis-X", {}, 0}})));
     for (const char* text : {"", "\n", "supervisor 12 3456", "supervisor 12 3456\naxis-X\n", "\x01\xff\n"}) {
         EXPECT_TRUE(is_damaged(text)) << text;
     }
