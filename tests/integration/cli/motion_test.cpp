@@ -177,7 +177,7 @@ TEST_F(Motion, OfAxesOnTheirOwnEndsAtTheReportedPlaces) {
     EXPECT_EQ(run_lockstep({"move", "--own", "Y=-40", "--in", "0.5"}).code, 0);
     const Ran soon = run_lockstep({"move", "--own", "Y=40", "--in", "0.1"});
     EXPECT_EQ(soon.code, 1);
-    EXPECT_THAT(soon.err, HasSubstr("80 mm in 0.1 s would break the limits of axis Y: it takes at least"));
+    EXPECT_THAT(soon.err, HasSubstr("80 mm in 0.1 s would exceed the limits of axis Y: the move takes at least"));
     const Ran spielauer = run_lockstep({"move", "--own", "X=30", "--in", "1"});
     EXPECT_EQ(spielauer.code, 1);
     EXPECT_THAT(spielauer.err, HasSubstr("method spielauer"));
