@@ -86,8 +86,8 @@ std::expected<fs::path, std::string> write_incident(const FlightSnapshot& snapsh
     std::error_code error;
     fs::create_directories(source.directory, error);
     if (error) {
-        return std::unexpected("cannot make " + source.directory.string() + ": " + error.message() +
-                               "; set record { directory } to one that can be written");
+        return std::unexpected("cannot create " + source.directory.string() + ": " + error.message() +
+                               "; set record { directory } to a directory that can be written");
     }
     UnfinishedFile file(file_for(source, mark));
     auto log = LogWriter::open(file.unfinished());
