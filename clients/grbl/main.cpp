@@ -140,7 +140,7 @@ int run(const Options& options) {
     while (!stop.requested()) {
         auto session = Session::open(*machine, Purpose::Command);
         if (!session) { return output.fail(session.error()); }
-        output.print(fmt::format("machine '{}' takes grbl's protocol at {}, port {}{}", machine->config.name,
+        output.print(fmt::format("machine '{}' accepts grbl's protocol at {}, port {}{}", machine->config.name,
                                  options.address, options.port, doors.terminal ? ", and at " + options.terminal : ""));
         std::cout << std::flush;
         serve_all(doors, *machine, *session, options, stop);

@@ -138,8 +138,8 @@ Cause unknown(const Incident& incident, const Entry& symptom) {
     const std::string why = left_nothing.empty()
                                 ? "none of the files shows why"
                                 : left_nothing +
-                                      " left no file here: lockstep flight on its host reads its notes, "
-                                      "even if its process is stopped or dead";
+                                      " left no file here; lockstep flight on its host reads its notes, "
+                                      "even if its process is stopped or has ended";
     return {CauseKind::Unknown, std::nullopt, why, std::nullopt, {}};
 }
 

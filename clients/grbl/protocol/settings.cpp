@@ -51,7 +51,7 @@ int homing_mask(const MachineConfig& machine) {
 double travel_of(const AxisConfig& axis) { return axis.position_max_mm - axis.position_min_mm; }
 
 Refused out_of_range(int number, const std::string& range) {
-    return {Error::SettingOutOfRange, fmt::format("${} is {}", number, range)};
+    return {Error::SettingOutOfRange, fmt::format("${} must be {}", number, range)};
 }
 
 std::expected<KeptSettings, Refused> write_homing_mask(const MachineConfig& machine, double value) {
@@ -147,7 +147,7 @@ std::expected<KeptSettings, Refused> write_setting(const MachineConfig& machine,
     if (std::abs(std::strtod(found->value.c_str(), nullptr) - value) <= kSame) { return {}; }
     if (found->why_fixed.empty()) { return keys_for(machine, number, value); }
     return std::unexpected(
-        Refused{Error::SettingFixed, name + " is always " + found->value + " here: " + found->why_fixed});
+        Refused{Error::SettingFixed, name + " is always " + found->value + " on this machine: " + found->why_fixed});
 }
 
 }  // namespace lockstep::grbl
