@@ -160,7 +160,7 @@ int main(int argc, char** argv) {
         "run, and then spindle and coolant are switched off."};
     Options options;
     app.add_option("--machine", options.machine_file,
-                   "the machine's configuration file; else $LOCKSTEP_MACHINE, else the machine that is up on this "
+                   "the machine's configuration file; default: $LOCKSTEP_MACHINE, else the machine that is up on this "
                    "host, else /etc/lockstep/machine.textproto");
     app.add_option("--address", options.address,
                    "where to listen. There is no password: every sender that reaches this address can move the machine")

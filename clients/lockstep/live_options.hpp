@@ -32,8 +32,8 @@ void add_detach(CLI::App& verb, bool& detach);
 
 /// Help text: the effect of an interrupt on the job of such a verb.
 inline constexpr const char* kInterrupted =
-    "Ctrl-C stops the machine on its path and drops the rest; a closed terminal (SIGHUP) holds it: go on with\n"
-    "lockstep resume. With --detach, or under nohup, it goes on by itself.\n";
+    "Ctrl-C stops the machine on its path and drops the rest; a closed terminal (SIGHUP) holds it: continue with\n"
+    "lockstep resume. With --detach, or under nohup, it continues by itself.\n";
 
 /// The help's footer: examples, one per line, then the exit codes.
 std::string footer(const std::string& examples);

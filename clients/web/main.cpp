@@ -144,7 +144,7 @@ int main(int argc, char** argv) {
         "machine: nothing in motion depends on it."};
     Options options;
     app.add_option("--machine", options.machine_file,
-                   "the machine's configuration file; else $LOCKSTEP_MACHINE, else the machine that is up on this "
+                   "the machine's configuration file; default: $LOCKSTEP_MACHINE, else the machine that is up on this "
                    "host, else /etc/lockstep/machine.textproto");
     app.add_option("--address", options.address,
                    "where to listen; beyond this host only with a certificate; default: 127.0.0.1");

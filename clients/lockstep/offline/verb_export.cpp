@@ -60,10 +60,10 @@ ExitCode export_verb(const ExportOptions& options) {
     const std::filesystem::path to = place_of(options);
     std::error_code ignored;
     if (std::filesystem::exists(to, ignored) && !options.force) {
-        return output.fail(bad_input(to.string() + ": exists already; name another with --out, or add --force"));
+        return output.fail(bad_input(to.string() + ": exists already; name another file with --out, or add --force"));
     }
     if (std::filesystem::equivalent(options.log, to, ignored)) {
-        return output.fail(bad_input(to.string() + ": is the log itself; name another with --out"));
+        return output.fail(bad_input(to.string() + ": is the log itself; name another file with --out"));
     }
     std::function<void(double)> progress;
     if (output.is_terminal()) {
@@ -89,7 +89,7 @@ void add_export(CLI::App& app, Action& action) {
     verb->add_option("--format", options->format, "csv: PlotJuggler, spreadsheets; mcap: Foxglove, PlotJuggler")
         ->check(CLI::IsMember({"csv", "mcap"}))
         ->capture_default_str();
-    verb->add_option("--out", options->out, "the file to write; beside the log unless given");
+    verb->add_option("--out", options->out, "the file to write; default: beside the log");
     verb->add_flag("--force", options->force, "replace an existing file");
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     verb->footer(

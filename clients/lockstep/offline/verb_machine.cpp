@@ -49,8 +49,8 @@ void add_machine(CLI::App& app, Action& action) {
                                           "read the whole file and report everything that is wrong with it; "
                                           "needs no running machine");
     const auto options = std::make_shared<CheckOptions>();
-    part->add_option("file", options->file, "the configuration file; else the one that other verbs use");
-    part->add_flag("--json", options->json, "the configuration with every default, as JSON, instead of text");
+    part->add_option("file", options->file, "the machine's configuration file; default: the file that other verbs use");
+    part->add_flag("--json", options->json, "print the configuration with every default as JSON instead of text");
     part->footer("Exit 0: the file is valid. 2: it is not, or cannot be read.\n" +
                  footer("  lockstep machine check mill.textproto\n  lockstep machine check mill.textproto --json\n"));
     part->callback([&action, options] { action = [options] { return check(*options); }; });

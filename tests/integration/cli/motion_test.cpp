@@ -265,7 +265,7 @@ TEST_F(Motion, CeasesOnAnEmergencyStopThoughTheCoordinatorIsStuck) {
     kill(process("coordinator"), SIGCONT);
     EXPECT_EQ(ran.code, 0) << ran.out;
     EXPECT_EQ(ran.json<proto::CommandReport>().text(),
-              "no coordinator answers; stopped by themselves until a reset: X, Y");
+              "no coordinator answers; these axes have stopped by themselves until a reset: X, Y");
     EXPECT_NE(run.wait().code, 0);
     ASSERT_TRUE(becomes("Fault"));
     EXPECT_EQ(status().fault().name(), "emergency-stopped") << "not that the axes fell silent";
