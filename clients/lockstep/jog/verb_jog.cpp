@@ -38,7 +38,7 @@ void warn_of_unhomed(const Session& session, const std::vector<JogAxis>& jogs, O
         const auto& received = session.axis(jog.axis);
         if (!received || received->state.homed || !axis.unhomed_jog_mm_s) { continue; }
         output.warn("axis " + axis.name + " is not homed: it jogs at " + fixed(*axis.unhomed_jog_mm_s, 2) +
-                    " mm/s at most, and only a limit switch ends it");
+                    " mm/s at most, and only a limit switch ends the jog");
     }
 }
 

@@ -213,7 +213,7 @@ TEST_F(Motion, ContinuesFromALineAfterAStop) {
     EXPECT_THAT(dry.out, HasSubstr("lifts to X="));
     EXPECT_THAT(dry.out, HasSubstr("crosses to X=60.000 Y=-40.000"));
     EXPECT_THAT(dry.out, HasSubstr("goes down to X=60.000 Y=0.000, 40.000 mm, F9000"));
-    EXPECT_THAT(dry.out, HasSubstr("takes up G21 G90 F9000.0, no offset"));
+    EXPECT_THAT(dry.out, HasSubstr("begins with G21 G90 F9000.0, no offset"));
     const Ran unsure = run_lockstep({"run", file, "--from-line", "4", "--yes"});
     EXPECT_EQ(unsure.code, 2);
     EXPECT_THAT(unsure.err, HasSubstr("--lift Z=40")) << "both axes home together";

@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"system { name: \"G54\" origin { x: nan } }", "G54: X is nan"},
                     Wrong{"g92 { y: 1e7 }", "G92: Y is 10000000; it must be from -1000000 to 1000000"},
                     Wrong{"tool { number: 0 }", "a tool's number is 0; it must be from 1"},
-                    Wrong{"tool { number: 2 } tool { number: 2 }", "two of tool 2"},
+                    Wrong{"tool { number: 2 } tool { number: 2 }", "tool 2 is there twice"},
                     Wrong{"tool { number: 2 orientation: 10 }", "the orientation is 10; it must be from 0 to 9"},
                     Wrong{"tols { }", "tols"}));
 
