@@ -121,7 +121,7 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
     X(ProgramNotKept, 144, "program-not-kept", "the coordinator cannot keep more of the program on its disk", \
       "make room on the coordinator's disk; continue from the line that lockstep status names: lockstep run FILE --from-line LINE", {}) \
     X(ProgramCutShort, 145, "program-cut-short", "the program's sender could not read it to its end", \
-      "see the sender's message; continue from its line:  lockstep run FILE --from-line LINE", {}) \
+      "see the sender's message; continue from its line: lockstep run FILE --from-line LINE", {}) \
     X(WriterHeld, 150, "writer-held", "another writer has the machine; other clients can only watch, hold and stop it", \
       "wait until the writer gives it back; or take it over: give the command again with --take", {})
 // clang-format on

@@ -35,9 +35,12 @@ void add_detach(CLI::App& verb, bool& detach) {
                   "return with the job's number after the job has begun; the job continues by itself");
 }
 
-std::string footer(const std::string& examples) {
-    return "Examples:\n" + examples +
-           "Exit codes: 0 done, 1 failed or refused, 2 bad usage or input (nothing was done), 3 machine not reachable";
+std::string footer(const std::string& examples, const std::string& exit_codes) {
+    return "Examples:\n" + examples + "Exit codes: " + exit_codes;
+}
+
+std::string group_footer(const std::string& examples, const std::string& verb) {
+    return footer(examples) + "\nOptions: lockstep " + verb + " --help";
 }
 
 }  // namespace lockstep

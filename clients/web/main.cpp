@@ -130,7 +130,7 @@ int run(const Options& options) {
     if (!listener) { return output.fail(failed(listener.error())); }
     if (!listener->is_loopback && !tls->is_used()) {
         return output.fail(bad_input("--address " + web.address +
-                                     ": other hosts are served with TLS only; add  --certificate FILE and "
+                                     ": other hosts are served with TLS only; add --certificate FILE and "
                                      "--key FILE, or listen at 127.0.0.1 and use an SSH tunnel"));
     }
     return serve(options, web, *machine, *tls, *listener, output);

@@ -145,7 +145,7 @@ void check_web(const WebConfig& web, ProblemList& problems) {
     for (const std::string& name : web.host_names) {
         problems.require(
             is_host_name(name), "web",
-            "web.host_names has \"" + name + "\"; it must be the name of a host:  letters, digits, - and .");
+            "web.host_names has \"" + name + "\"; it must be the name of a host: letters, digits, - and .");
     }
 }
 
@@ -153,7 +153,7 @@ void check_web(const WebConfig& web, ProblemList& problems) {
 void check_hosts(const MachineConfig& machine, ProblemList& problems) {
     problems.require(machine.coordinator_host.empty() || is_host_name(machine.coordinator_host), "coordinator_host",
                      "coordinator_host is \"" + machine.coordinator_host +
-                         "\"; it must be the name of a host:  letters, digits, - and .");
+                         "\"; it must be the name of a host: letters, digits, - and .");
     problems.require(!machine.network.one_host || machine.network.peers.empty(), "network.one_host",
                      "network.one_host is true, but network.peers names other hosts; remove one of them");
     const std::vector<std::string> hosts = hosts_of(machine);

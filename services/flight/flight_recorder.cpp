@@ -32,7 +32,7 @@ std::string how_to_read(const std::filesystem::path& file) {
 
 void say_left(const LeftRings& left) {
     for (const auto& file : left.saved) {
-        log_warning("a process of this machine ended unexpectedly; its notes are in  " + how_to_read(file));
+        log_warning("a process of this machine ended unexpectedly; its notes are in " + how_to_read(file));
     }
     for (const std::string& problem : left.problems) { log_warning(problem); }
 }

@@ -240,7 +240,7 @@ void add_restart_options(CLI::App& verb, RunOptions& options) {
     straight->excludes(lift);
     verb.add_option(
         "--started-at", options.started_at,
-        "with --from-line: where the program's first run started, in mm: X=10,Y=5;  axes that are not named were "
+        "with --from-line: where the program's first run started, in mm: X=10,Y=5; axes that are not named were "
         "at their park positions");
 }
 

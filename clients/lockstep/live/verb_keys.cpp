@@ -109,11 +109,11 @@ CLI::App* add_part(CLI::App& keys, const char* name, const char* what, const std
 void add_make(CLI::App& keys, Action& action) {
     const auto options = std::make_shared<KeysOptions>();
     CLI::App* verb =
-        add_part(keys, "make", "make certificates, keys and permissions for all members of a machine", options);
+        add_part(keys, "make", "create certificates, keys and permissions for all members of a machine", options);
     verb->add_option("--days", options->days, "how many days the certificates are valid")
         ->check(CLI::Range(1, 36500))
         ->capture_default_str();
-    verb->add_flag("--force", options->force, "replace existing keys: move them aside and make new ones");
+    verb->add_flag("--force", options->force, "replace existing keys: move them aside and create new ones");
     verb->footer(
         footer("  lockstep keys make --machine mill.textproto\n"
                "  lockstep keys make --machine mill.textproto --directory /root/mill-keys --days 365\n"));
@@ -136,9 +136,9 @@ void add_keys(CLI::App& app, Action& action) {
     CLI::App* keys =
         app.add_subcommand("keys", "the keys of the machine's members (DDS Security): make, show or check them");
     keys->require_subcommand(1);
-    keys->footer("Example:\n  lockstep keys make --machine mill.textproto\n\nOptions: lockstep keys make --help");
+    keys->footer(group_footer("  lockstep keys make --machine mill.textproto\n", "keys make"));
     add_make(*keys, action);
-    add_look(*keys, action, "show", "each member's certificate: subject, fingerprint, end", true);
+    add_look(*keys, action, "show", "show each member's certificate: subject, fingerprint and end", true);
     add_look(*keys, action, "check", "check that the keys on this host are valid, private, and this machine's", false);
 }
 

@@ -50,6 +50,7 @@ void add_timing(CLI::App& app, Action& action) {
     CLI::App* verb =
         app.add_subcommand("timing", "write the fastest timing that the hosts can keep into a machine's file");
     verb->require_subcommand(1);
+    verb->footer(group_footer("  lockstep timing apply --machine mill.textproto --seconds 600\n", "timing apply"));
     CLI::App* part = verb->add_subcommand(
         "apply",
         "measure this host's stalls, and write the timing for stalls twice as long as the longest; the rest of the "
@@ -65,7 +66,7 @@ void add_timing(CLI::App& app, Action& action) {
             "--stall-ms", options->stall_ms,
             "instead of measuring: the longest stall of all hosts, as lockstep doctor --timing shows it on each")
         ->check(CLI::Range(0.0, 5'000.0));
-    part->add_flag("--json", options->json, "a report as JSON instead of text");
+    part->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     part->footer(
         footer("  lockstep timing apply --machine mill.textproto --seconds 600\n"
                "  lockstep timing apply --machine mill.textproto --stall-ms 4.5\n"));

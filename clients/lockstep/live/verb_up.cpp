@@ -172,7 +172,7 @@ void add_up(CLI::App& app, Action& action) {
     add_all_hosts(*verb, options->all)->excludes(foreground);
     verb->add_option("--wait", options->wait_s,
                      "for a machine on several hosts: also wait until all of it is ready, at most this many "
-                     "seconds;  this host's part stays up in any case")
+                     "seconds; this host's part stays up in any case")
         ->check(CLI::Range(0.0, 86'400.0));
     add_live_options(*verb, *options);
     verb->footer(

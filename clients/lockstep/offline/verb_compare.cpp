@@ -84,7 +84,7 @@ void add_compare(CLI::App& app, Action& action) {
     CLI::App* verb =
         app.add_subcommand("compare",
                            "make one move by five published methods, and report how far the steps of each are "
-                           "from the ideal times;  needs no machine");
+                           "from the ideal times; needs no machine");
     const auto options = std::make_shared<CompareOptions>();
     verb->add_option("--move", options->move, "STEPS,START,MAX,ACCEL[,DECEL] in steps, steps/s and steps/s^2")
         ->capture_default_str();

@@ -125,22 +125,16 @@ void add_merge(CLI::App& log, Action& action) {
     verb->add_flag("--force", options->force, "replace OUT if it exists");
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     verb->footer(
-        "Example:\n"
-        "  lockstep log merge whole.lcm run.lcm /var/lib/lockstep/mill/record\n"
-        "  lockstep verify whole.lcm\n\n"
-        "  lockstep log merge job3.lcm /var/lib/lockstep/mill/record --job 3\n\n"
-        "OUT has each message once, in the order of machine time. All messages are numbered: messages that are in none "
-        "of the "
-        "logs are "
-        "reported.\n"
-        "Each process records how much the others and itself have published, so messages that are missing at\n"
-        "the end are reported too, and logs that are missing altogether; or up to when the record is known to be "
-        "complete.\n"
-        "From a directory, it merges the logs that belong to the run that is named beside it, or to the newest "
-        "session.\n\n"
-        "Exit codes: 0 nothing is known to be missing, 1 written but messages are missing, 2 bad usage or a log that "
-        "cannot be read:\n"
-        "nothing is written\n");
+        "OUT has each message once, in the order of machine time. All messages are numbered, so messages that are\n"
+        "in none of the logs are reported. Each process also records how much every process has published, so\n"
+        "messages at the end and whole logs that are missing are reported too. If that cannot be known, the report\n"
+        "says up to which time the record is complete.\n"
+        "From a directory, the logs of the run that is named beside it are merged; else those of the newest "
+        "session.\n" +
+        footer("  lockstep log merge whole.lcm run.lcm /var/lib/lockstep/mill/record\n  lockstep verify whole.lcm\n"
+               "  lockstep log merge job3.lcm /var/lib/lockstep/mill/record --job 3\n",
+               "0 no message is known to be missing, 1 written, but messages are missing,\n"
+               "2 bad usage, or a log cannot be read (nothing was written)"));
     verb->callback([&action, options] { action = [options] { return log_merge(*options); }; });
 }
 
@@ -149,9 +143,7 @@ void add_merge(CLI::App& log, Action& action) {
 void add_log(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand("log", "combine logs: merge");
     verb->require_subcommand(1);
-    verb->footer(
-        "Example:\n  lockstep log merge whole.lcm run.lcm /var/lib/lockstep/mill/record\n\n"
-        "Options: lockstep log merge --help");
+    verb->footer(group_footer("  lockstep log merge whole.lcm run.lcm /var/lib/lockstep/mill/record\n", "log merge"));
     add_merge(*verb, action);
 }
 

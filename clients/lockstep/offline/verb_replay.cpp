@@ -62,14 +62,12 @@ void add_replay(CLI::App& app, Action& action) {
     verb->add_flag("--force", options->force, "replace the file of --log even if it is not a log");
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     verb->footer(
-        "A replay does not plan the program again; lockstep verify does. A replay writes the recorded frames into a "
-        "device's\n"
-        "registers, as the axis did, and so proves that they make those steps. Where pulses stopped early, by a "
-        "switch\n"
-        "or a stop, the device is stopped at the recorded step.\n"
-        "Exit 0: exact. 1: not exact, with the first difference. 2: not a log, or no run in it.\n" +
+        "A replay writes the recorded frames into the registers of a device, as the axis did, and so proves\n"
+        "that they make these steps. Where pulses stopped early, by a switch or a stop, the device is stopped\n"
+        "at the recorded step. A replay does not plan the program again; lockstep verify does.\n" +
         footer("  lockstep replay plate.lcm\n"
-               "  lockstep replay plate.lcm --log again.lcm && lockstep verify again.lcm\n"));
+               "  lockstep replay plate.lcm --log again.lcm && lockstep verify again.lcm\n",
+               "0 exact, 1 not exact, with the first difference, 2 bad usage, or no log with a run"));
     verb->callback([&action, options] { action = [options] { return replay_verb(*options); }; });
 }
 

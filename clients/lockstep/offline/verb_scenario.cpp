@@ -140,15 +140,14 @@ void add_scenario_run(CLI::App& verb, Action& action) {
     part->add_option("--junit", options->junit, "also write the results as JUnit's XML into this file");
     part->add_flag("--story", options->events, "also print what happened, with times");
     part->footer(
-        "Each runs in network, process and mount namespaces of its own, which requires root and leaves nothing "
-        "behind.\n"
-        "Examples:\n  lockstep scenario run deploy/scenarios/axis-killed.textproto\n"
-        "  lockstep scenario run deploy/scenarios/*.textproto --jobs 3 --junit scenarios.xml\n"
-        "  lockstep scenario run mine.textproto --story --keep logs\n"
-        "  lockstep scenario run deploy/scenarios/axis-killed.textproto --place CONTAINER\n"
-        "Exit codes: 0 all passed, 1 a scenario failed or could not run; 2 bad usage or a scenario that cannot be "
-        "read:\n"
-        "nothing ran");
+        "Each scenario runs in network, process and mount namespaces of its own. This requires root and leaves\n"
+        "nothing behind.\n" +
+        footer("  lockstep scenario run deploy/scenarios/axis-killed.textproto\n"
+               "  lockstep scenario run deploy/scenarios/*.textproto --jobs 3 --junit scenarios.xml\n"
+               "  lockstep scenario run mine.textproto --story --keep logs\n"
+               "  lockstep scenario run deploy/scenarios/axis-killed.textproto --place CONTAINER\n",
+               "0 all passed, 1 a scenario failed or could not run, 2 bad usage, or a scenario cannot be read\n"
+               "(nothing ran)"));
     part->callback([&action, options] { action = [options] { return run(*options); }; });
 }
 
@@ -156,9 +155,8 @@ void add_scenario_check(CLI::App& verb, Action& action) {
     const auto options = std::make_shared<ScenarioOptions>();
     CLI::App* part =
         add_part(verb, "check", "read scenarios and print what they would do, without running them", options);
-    part->footer(
-        "Examples:\n  lockstep scenario check deploy/scenarios/axis-killed.textproto\n"
-        "Exit codes: 0 they can run, 2 bad usage or a scenario that cannot be read");
+    part->footer(footer("  lockstep scenario check deploy/scenarios/axis-killed.textproto\n",
+                        "0 the scenarios can run, 2 bad usage, or a scenario cannot be read"));
     part->callback([&action, options] { action = [options] { return check(*options); }; });
 }
 
@@ -169,7 +167,8 @@ void add_scenario(CLI::App& app, Action& action) {
         "scenario",
         "run or check scripted tests of a whole machine: its actions, the faults to inject and what must be true");
     verb->require_subcommand(1);
-    verb->footer("What a scenario may contain: idl/proto/scenario.proto. Examples: deploy/scenarios/.");
+    verb->footer("idl/proto/scenario.proto describes scenarios; deploy/scenarios/ has examples.\n" +
+                 group_footer("  lockstep scenario run deploy/scenarios/axis-killed.textproto\n", "scenario run"));
     add_scenario_run(*verb, action);
     add_scenario_check(*verb, action);
 }

@@ -44,11 +44,10 @@ void add_verify(CLI::App& app, Action& action) {
     verb->footer(
         "Steps that a killed process made but did not record as runs are compared with all that the plan allows.\n"
         "Notes list what the log lacks. A log that begins late or ends early is compared as far as it goes; if it has\n"
-        "too little, the result is unknown.\n"
-        "Exit 0: exact. 1: not exact, with the first difference; or unknown, with what the log lacks. 2: not a log, "
-        "or\n"
-        "nothing in it.\n" +
-        footer("  lockstep verify plate.lcm\n  lockstep verify plate.lcm --json\n"));
+        "too little, the result is unknown.\n" +
+        footer("  lockstep verify plate.lcm\n  lockstep verify plate.lcm --json\n",
+               "0 exact, 1 not exact, with the first difference, or unknown, with what the log lacks,\n"
+               "2 bad usage, or no log with steps, runs or jobs"));
     verb->callback([&action, options] { action = [options] { return verify(*options); }; });
 }
 

@@ -24,7 +24,7 @@ std::unexpected<GcodeError> no_motion(const Context& context) {
             return context.refuse(letter, " needs a motion mode; write G0 or G1 before the first axis word");
         }
     }
-    return std::unexpected(context.line.error(0, "@ or ^ needs a motion mode;  write G0 or G1"));
+    return std::unexpected(context.line.error(0, "@ or ^ needs a motion mode; write G0 or G1"));
 }
 
 std::string_view letters_of(int motion) {
@@ -74,7 +74,7 @@ Result choose_motion(Context& context) {
 
 Result check_letters(Context& context) {
     if (context.block.code(Group::NonModal) == 40 && is_arc(context.motion)) {
-        return context.refuse(Group::NonModal, " is in the same block as an arc, and both use P;  use two lines");
+        return context.refuse(Group::NonModal, " is in the same block as an arc, and both use P; use two lines");
     }
     for (const char letter : kLettersOfCodes) {
         if (!context.block.has(letter) || is_used(context, letter)) { continue; }

@@ -59,7 +59,7 @@ Result turn_on(Context& context, int code) {
     State& state = context.state;
     if (state.modal.plane == Plane::YZ) {
         return context.refuse(Group::Compensation,
-                              " is not possible in the plane of Y and Z;  write G17 or G18 before it");
+                              " is not possible in the plane of Y and Z; write G17 or G18 before it");
     }
     if (context.is_compensated()) {
         return context.refuse(Group::Compensation,

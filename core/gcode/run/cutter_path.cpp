@@ -194,7 +194,7 @@ private:
     Result stay(CutMove& move) {
         if (cutter_.waiting.size() >= kMostWaiting) {
             return context_.refuse_motion(" is one of more than " + std::to_string(kMostWaiting) +
-                                          " blocks in sequence that do not move in the plane;  write G40 before them");
+                                          " blocks in sequence that do not move in the plane; write G40 before them");
         }
         const Point target = move.target;
         set_in_plane(axes_, move.target, cutter_.at);

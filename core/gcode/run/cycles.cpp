@@ -33,7 +33,7 @@ Result keep_word(const Context& context, char letter, std::optional<double> word
 Result check_cycle(const Context& context, PlaneAxes axes) {
     const Modal& modal = context.state.modal;
     if (context.is_compensated()) {
-        return context.refuse_motion(" is not possible while cutter compensation is on;  write G40 before it");
+        return context.refuse_motion(" is not possible while cutter compensation is on; write G40 before it");
     }
     for (const char letter : std::string_view("ABCUVW")) {
         if (context.block.has(letter)) {
@@ -182,7 +182,7 @@ Result canned_cycle(Context& context) {
     if (auto read = read_words(context, cycle); !read) { return read; }
     if (auto set = set_heights(context, cycle); !set) { return set; }
     if (context.motion == 860 && context.state.modal.spindle == Turning::Stopped) {
-        return context.refuse_motion(" stops the spindle, but the spindle does not turn;  write M3 or M4 before it");
+        return context.refuse_motion(" stops the spindle, but the spindle does not turn; write M3 or M4 before it");
     }
     CycleRun(context, cycle).run();
     return {};

@@ -41,7 +41,7 @@ Result set_plane(Context& context) {
     if (code == Block::kNoCode) { return {}; }
     const Plane plane = code == 170 ? Plane::XY : code == 180 ? Plane::ZX : Plane::YZ;
     if (context.is_compensated() && plane != context.state.modal.plane) {
-        return context.refuse(Group::Plane, " is not possible while cutter compensation is on;  write G40 before it");
+        return context.refuse(Group::Plane, " is not possible while cutter compensation is on; write G40 before it");
     }
     context.state.modal.plane = plane;
     return {};

@@ -23,7 +23,7 @@ Result check_machine_coordinates(const Context& context) {
         return context.refuse(Group::NonModal, " needs G0 or G1 in its block or before it");
     }
     if (context.state.modal.relative) {
-        return context.refuse(Group::NonModal, " uses machine coordinates, which are absolute;  write G90 before it");
+        return context.refuse(Group::NonModal, " uses machine coordinates, which are absolute; write G90 before it");
     }
     return context.refuse_compensated(Group::NonModal);
 }

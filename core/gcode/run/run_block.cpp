@@ -47,7 +47,7 @@ Result resolve_polar(Context& context) {
     if (!block.distance && !block.angle) { return {}; }
     if (block.has('X') || block.has('Y')) {
         return context.refuse(block.has('X') ? 'X' : 'Y',
-                              " is in the same block as @ or ^, which give X and Y;  write one or the other");
+                              " is in the same block as @ or ^, which give X and Y; write one or the other");
     }
     if (block.code(Group::NonModal) == 530) {
         return context.refuse(Group::NonModal, " is not possible with @ or ^; write X and Y");

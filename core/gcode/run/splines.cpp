@@ -12,7 +12,7 @@ Result check_spline(const Context& context) {
         return context.refuse_motion(" is in the plane of X and Y; write G17 before it");
     }
     if (context.is_compensated()) {
-        return context.refuse_motion(" is not possible while cutter compensation is on;  write G40 before it");
+        return context.refuse_motion(" is not possible while cutter compensation is on; write G40 before it");
     }
     if (context.state.cutter.stands) { return context.refuse_motion(kStraightAfterCompensation); }
     for (const char letter : std::string_view("ZABCUVW")) {

@@ -174,7 +174,7 @@ double Reader::function_value(Named<Function> function) {
 /// ATAN[y]/[x]: from -180 to 180 degrees.
 double Reader::arc_tangent() {
     const double y = expression();
-    if (!error_ && !take('/')) { fail(at_, "ATAN needs two arguments;  write ATAN[y]/[x]"); }
+    if (!error_ && !take('/')) { fail(at_, "ATAN needs two arguments; write ATAN[y]/[x]"); }
     const double x = error_ ? 1 : expression();
     return std::atan2(y, x) * kDegrees;
 }
@@ -182,7 +182,7 @@ double Reader::arc_tangent() {
 double Reader::exists() {
     const std::size_t begin = at_++;  // value() has seen the [
     if (!take('#') || peek() != '<') {
-        fail(begin, "EXISTS needs a named parameter;  write EXISTS[#<name>]");
+        fail(begin, "EXISTS needs a named parameter; write EXISTS[#<name>]");
         return 0;
     }
     const std::string called = name();

@@ -162,7 +162,7 @@ std::expected<std::string, Diagnostics> with_settings(std::string_view text, con
         const std::string block = fmt::format("axis[{}].", axis - machine->axes.begin());
         if (!set_key(edited, block + setting.key, setting.value)) {
             return refusal(line_of(setting) +
-                           " cannot be written: a comment is between the key and its value in  "
+                           " cannot be written: a comment is between the key and its value in "
                            "the machine's file; move it");
         }
     }

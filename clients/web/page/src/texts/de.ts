@@ -15,7 +15,7 @@ export const de: Texts = {
     stale: "Die Steuerung sendet seit {age} nichts. Alle Werte sind die zuletzt bekannten.",
     unreachable: "Es kommen keine Nachrichten einer Steuerung an. Alle Werte sind die zuletzt bekannten.",
     never: "Bisher kamen keine Nachrichten einer Steuerung an. Starte die Maschine: lockstep up",
-    configDiffers: "Die Steuerung hat eine andere Konfiguration als dieser Server:  Positionen und Grenzen können falsch sein.",
+    configDiffers: "Die Steuerung hat eine andere Konfiguration als dieser Server: Positionen und Grenzen können falsch sein.",
     standby: "Eine Ersatzsteuerung steht bereit", viewers: "{count} Betrachter", writer: "Befehle: {name}",
     writerHere: "Befehle: der Server dieser Seite", viewOnly: "Nur ansehen",
   },
