@@ -158,7 +158,7 @@ Cause cause_without_symptom(const Incident& incident) {
     for (const Process& process : incident.processes) {
         if (process.ended) { return {CauseKind::Ended, process.who, end_text(incident, process), process.last, {}}; }
     }
-    return {CauseKind::Asked, std::nullopt, "nothing was wrong: the notes were requested", std::nullopt, {}};
+    return {CauseKind::Asked, std::nullopt, "nothing was wrong; the notes were requested", std::nullopt, {}};
 }
 
 std::string noticed_text(const Incident& incident, const Entry& symptom, const Cause& cause) {

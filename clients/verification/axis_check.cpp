@@ -29,7 +29,7 @@ std::string text_of_missing(const LeftSteps& found) {
         text += "; " + plural(found.unrecorded, "step") + " before those of the next process are not in the log";
     }
     if (found.missing > 0) {
-        text += "; of their course at least " + plural(found.missing, "step") + " are not on record";
+        text += "; of their course at least " + plural(found.missing, "step") + " are not in the log";
     }
     return text;
 }

@@ -93,7 +93,7 @@ std::expected<fs::path, std::string> write_incident(const FlightSnapshot& snapsh
     auto log = LogWriter::open(file.unfinished());
     if (!log) { return std::unexpected(log.error()); }
     if (!write_events(snapshot, mark, *log)) {
-        return std::unexpected(file.path().string() + ": cannot be written completely: is the disk full?");
+        return std::unexpected(file.path().string() + ": cannot be written completely; check whether the disk is full");
     }
     if (const auto kept = file.keep(); !kept) { return std::unexpected(kept.error()); }
     remove_oldest(source);

@@ -41,7 +41,8 @@ std::expected<NewLogFile, std::string> NewLogFile::begin(const std::filesystem::
 
 std::expected<void, std::string> NewLogFile::keep() {
     if (!sink_->finish()) {
-        return std::unexpected(file_.path().string() + ": cannot be written completely: is the disk full?");
+        return std::unexpected(file_.path().string() +
+                               ": cannot be written completely; check whether the disk is full");
     }
     return file_.keep();
 }

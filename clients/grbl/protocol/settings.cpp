@@ -97,7 +97,7 @@ std::vector<Setting> settings_of(const MachineConfig& machine, const ReportOptio
     constexpr const char* kSpindle = "the machine has no spindle";
     std::vector<Setting> settings{
         {0, "10", "the device behind the axis has its own pulses"},
-        {1, "255", "motors stay on"},
+        {1, "255", "the motors stay on"},
         {2, "0", kSignals},
         {3, "0", kSignals},
         {4, "0", kSignals},
@@ -107,8 +107,8 @@ std::vector<Setting> settings_of(const MachineConfig& machine, const ReportOptio
         {11, "0.000", "corners are planned by start_velocity_mm_s of the axes"},
         {12, "0.001", "arcs are as close as a step of the axes"},
         {13, options.inches ? "1" : "0", ""},
-        {20, "1", "the travel is always watched"},
-        {21, "1", "limit switches are always watched"},
+        {20, "1", "the travel is always checked"},
+        {21, "1", "limit switches are always checked"},
         {22, "1", "an axis is always homed before programs move it"},
         {kHomingMask, std::to_string(homing_mask(machine)), ""},
         {26, "0", "a switch is touched twice instead"},

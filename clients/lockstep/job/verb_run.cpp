@@ -44,8 +44,8 @@ ExitCode report_dry_run(const Job& job, const std::vector<ApproachMove>& approac
     report.set_planned_s(*job.planned_s);
     fill_approach(*job.program, approach, report);
     output.report(report);
-    output.print(fmt::format("{}: would run {} blocks in {} from where the machine stands; nothing was sent", job.name,
-                             job.program->blocks.size(), duration_text(*job.planned_s)));
+    output.print(fmt::format("{}: would run {} blocks in {} from the machine's present position; nothing was sent",
+                             job.name, job.program->blocks.size(), duration_text(*job.planned_s)));
     return kExitDone;
 }
 
@@ -184,7 +184,7 @@ ExitCode plan_stream(const RunOptions& options) {
     report.set_outcome("dry-run");
     report.set_planned_s(*planned_s);
     output.report(report);
-    output.print(fmt::format("{}: would run {} lines in {} from where the machine stands; nothing was sent",
+    output.print(fmt::format("{}: would run {} lines in {} from the machine's present position; nothing was sent",
                              text->head().name, text->lines(), duration_text(*planned_s)));
     return kExitDone;
 }

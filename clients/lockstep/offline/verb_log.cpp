@@ -129,8 +129,7 @@ void add_merge(CLI::App& log, Action& action) {
         "in none of the logs are reported. Each process also records how much every process has published, so\n"
         "messages at the end and whole logs that are missing are reported too. If that cannot be known, the report\n"
         "says up to which time the record is complete.\n"
-        "From a directory, the logs of the run that is named beside it are merged; else those of the newest "
-        "session.\n" +
+        "From a directory, the logs of the run that is named beside it are merged, else of the newest session.\n" +
         footer("  lockstep log merge whole.lcm run.lcm /var/lib/lockstep/mill/record\n  lockstep verify whole.lcm\n"
                "  lockstep log merge job3.lcm /var/lib/lockstep/mill/record --job 3\n",
                "0 no message is known to be missing, 1 written, but messages are missing,\n"
