@@ -41,29 +41,29 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
     X(OutsideTravel, 102, "outside-travel", "a target lies outside an axis's travel", \
       "change the program, or the axis's position_min_mm / position_max_mm", {}) \
     X(LimitHit, 103, "limit-hit", "a limit switch closed", \
-      "see why the axis ran there", in_order(Remedy::Reset, Remedy::Home)) \
-    X(FrameDiscontinuous, 104, "frame-discontinuous", "a frame did not start where the axis's trajectory then is", \
-      "a coordinator and an axis disagree: see their logs", in_order(Remedy::Reset)) \
+      "find out why the axis reached the switch", in_order(Remedy::Reset, Remedy::Home)) \
+    X(FrameDiscontinuous, 104, "frame-discontinuous", "a frame did not start at the position and velocity of the axis's trajectory", \
+      "the coordinator and the axis disagree: see their logs", in_order(Remedy::Reset)) \
     X(FrameBeyondLimits, 105, "frame-beyond-limits", "a frame would break an axis's speed or acceleration limit", \
       "check that coordinator and axes run the same configuration", in_order(Remedy::Reset)) \
     X(FrameOutsideTravel, 106, "frame-outside-travel", "a frame would leave an axis's travel", \
       "check that coordinator and axes run the same configuration", in_order(Remedy::Reset)) \
-    X(AxisMissing, 107, "axis-missing", "an axis is not received", \
+    X(AxisMissing, 107, "axis-missing", "no messages are received from an axis", \
       "start its lockstep-axis, or check the network", in_order(Remedy::Again)) \
     X(AxisLost, 108, "axis-lost", "an axis fell silent while moving", \
-      "see its log, and start it if it is not running", in_order(Remedy::Reset, Remedy::Home)) \
+      "see the axis's log, and start its lockstep-axis if it is not running", in_order(Remedy::Reset, Remedy::Home)) \
     X(Busy, 109, "busy", "the machine is doing something else", \
       "", either(Remedy::Wait, Remedy::Stop)) \
     X(NothingToDo, 110, "nothing-to-do", "there is nothing to hold, resume or stop", \
       "", in_order(Remedy::Status)) \
     X(StartMismatch, 111, "start-mismatch", "the program was made for another start position", \
-      "send it again from where the machine stands", {}) \
+      "send it again from the machine's present position", {}) \
     X(BadProgram, 112, "bad-program", "the program cannot be read or planned", \
-      "see the text beside this code", {}) \
+      "see the message with this code", {}) \
     X(HomeSwitchNotFound, 113, "home-switch-not-found", "the home switch did not close within the travel", \
       "check the switch, its position and the search direction", in_order(Remedy::Reset, Remedy::Home)) \
-    X(HomeSwitchStuck, 114, "home-switch-stuck", "the home switch did not open on pulling off", \
-      "check the switch, or make pulloff_mm longer", in_order(Remedy::Reset, Remedy::Home)) \
+    X(HomeSwitchStuck, 114, "home-switch-stuck", "the home switch did not open during the pull-off", \
+      "check the switch, or increase homing.pulloff_mm", in_order(Remedy::Reset, Remedy::Home)) \
     X(ConfigMismatch, 115, "config-mismatch", "an axis runs another configuration than the coordinator", \
       "give both the same file and restart them", in_order(Remedy::Reset)) \
     X(DeviceFault, 116, "device-fault", "the device refused a segment or lost a step's time", \
@@ -78,15 +78,15 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
       "stop one of them", {}) \
     X(FollowingError, 121, "following-error", "the encoder shows that steps were lost", \
       "lower the axis's speed or acceleration", in_order(Remedy::Reset, Remedy::Home)) \
-    X(FrameLate, 122, "frame-late", "a frame came too late to be armed", \
-      "give the slots more time in the configuration if it happens often", in_order(Remedy::Reset)) \
+    X(FrameLate, 122, "frame-late", "a frame arrived too late to be armed", \
+      "if it happens often, use longer slots: lockstep doctor --timing proposes them", in_order(Remedy::Reset)) \
     X(PositionMismatch, 123, "position-mismatch", "an axis is not where its frames end", \
       "see its log", in_order(Remedy::Reset, Remedy::Home)) \
-    X(FramesDiffer, 124, "frames-differ", "the axes did not all run the same frames: one was cut off, or stood still for longer than timing.stall_slots", \
-      "lockstep analyze --incident names it; check the network, or give the slots more time: lockstep doctor --timing", in_order(Remedy::Reset, Remedy::Home)) \
-    X(ClockUncertain, 125, "clock-uncertain", "an axis's clock may be further off than timing.clock_error_limit_us", \
-      "check the network to that axis, or give the slots more time; lockstep status shows each clock's error", in_order(Remedy::Reset)) \
-    X(CoordinatorChanged, 126, "coordinator-changed", "another coordinator has taken the machine over since this command was given; the command may have begun", \
+    X(FramesDiffer, 124, "frames-differ", "the axes did not all run the same frames: one was cut off from the network, or its process stalled for longer than timing.stall_slots", \
+      "lockstep analyze --incident names the axis; check the network, or use longer slots: lockstep doctor --timing proposes them", in_order(Remedy::Reset, Remedy::Home)) \
+    X(ClockUncertain, 125, "clock-uncertain", "the error of an axis's clock may exceed timing.clock_error_limit_us", \
+      "check the network to that axis, or increase timing.slot_us; lockstep status shows the error of each clock", in_order(Remedy::Reset)) \
+    X(CoordinatorChanged, 126, "coordinator-changed", "another coordinator has taken over the machine since this command was given; the command may have begun", \
       "", in_order(Remedy::Status, Remedy::Again)) \
     X(PositionNotKept, 127, "position-not-kept", "no position of the axis has been kept", \
       "", in_order(Remedy::Home)) \
@@ -103,25 +103,25 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
     X(PositionPushed, 133, "position-pushed", "the encoder shows that the axis was moved without pulses", \
       "", in_order(Remedy::Home)) \
     X(HomeSwitchUnsteady, 134, "home-switch-unsteady", "the home switch closed at a different place at each touch", \
-      "see whether the switch sticks, bounces or slips, or the slide; or raise homing.touch_tolerance_mm", in_order(Remedy::Reset, Remedy::Home)) \
-    X(DeviceLost, 135, "device-lost", "the axis's device died or was exchanged, or its registers are not plausible", \
-      "the axis's log says which device and why; make sure that it runs", in_order(Remedy::Reset, Remedy::Home)) \
+      "check whether the switch sticks, bounces or is loose, and whether the axis slips; or increase homing.touch_tolerance_mm", in_order(Remedy::Reset, Remedy::Home)) \
+    X(DeviceLost, 135, "device-lost", "the axis's device stopped or was replaced, or its registers are not plausible", \
+      "the axis's log names the device and the reason; make sure that the device runs", in_order(Remedy::Reset, Remedy::Home)) \
     X(DeviceMissing, 136, "device-missing", "the axis waits for its device", \
       "the axis's log names the device and the reason; start the device, and the axis connects to it by itself", in_order(Remedy::Again)) \
     X(NotAtRest, 137, "not-at-rest", "an axis has not come to rest although all its frames have ended", \
       "see its log; restart its lockstep-axis if a reset does not help", in_order(Remedy::Reset, Remedy::Home)) \
     X(Held, 140, "held", "a job is held or paused", \
       "", either(Remedy::Resume, Remedy::Stop)) \
-    X(NotReady, 141, "not-ready", "not all axes follow the coordinator and are at rest yet", \
+    X(NotReady, 141, "not-ready", "some axes do not follow the coordinator yet, or are not at rest", \
       "", in_order(Remedy::Wait, Remedy::Again)) \
     X(CoordinatorSilent, 142, "coordinator-silent", "the coordinator fell silent while the axis moved by itself; the axis halted", \
-      "see the coordinator's log and the network, and start it if it is not running", in_order(Remedy::Reset, Remedy::Home)) \
+      "check the network and see the coordinator's log; start the coordinator if it is not running", in_order(Remedy::Reset, Remedy::Home)) \
     X(SenderSilent, 143, "sender-silent", "the sender of the program fell silent before the program's end", \
-      "go on from the line that lockstep status names: lockstep run FILE --from-line LINE", {}) \
+      "continue from the line that lockstep status names: lockstep run FILE --from-line LINE", {}) \
     X(ProgramNotKept, 144, "program-not-kept", "the coordinator cannot keep more of the program on its disk", \
-      "make room on the coordinator's disk; go on from the line that lockstep status names: lockstep run FILE --from-line LINE", {}) \
+      "make room on the coordinator's disk; continue from the line that lockstep status names: lockstep run FILE --from-line LINE", {}) \
     X(ProgramCutShort, 145, "program-cut-short", "the program's sender could not read it to its end", \
-      "see the sender's message; go on from its line: lockstep run FILE --from-line LINE", {}) \
+      "see the sender's message; continue from its line: lockstep run FILE --from-line LINE", {}) \
     X(WriterHeld, 150, "writer-held", "another writer has the machine; other clients can only watch, hold and stop it", \
       "wait until the writer gives it back; or take it over: give the command again with --take", {})
 // clang-format on

@@ -19,7 +19,7 @@ std::expected<void, std::string> make_directory(const std::optional<std::filesys
     if (!directory) { return {}; }
     std::error_code error;
     std::filesystem::create_directories(*directory, error);
-    if (error) { return std::unexpected(directory->string() + ": cannot be made: " + error.message()); }
+    if (error) { return std::unexpected(directory->string() + ": cannot be created: " + error.message()); }
     return {};
 }
 

@@ -40,7 +40,7 @@ void EventLog::take(const axis_position_t& message) {
 void EventLog::take(const std::string& axis, const Run& run) {
     if (run.epoch == 0) { return; }
     if (run.cut) {
-        note({.at = ceased(run), .what = "pulses ceased at once, in " + name_of(run), .axis = axis, .remedy = {}});
+        note({.at = ceased(run), .what = "pulses stopped at once, in " + name_of(run), .axis = axis, .remedy = {}});
     }
     if (!run.tail || std::exchange(latest_tail_, std::pair{run.epoch, run.frame}) == std::pair{run.epoch, run.frame}) {
         return;

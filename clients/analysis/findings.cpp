@@ -135,7 +135,7 @@ void check_events(const Analysis& analysis, Findings& found) {
     std::int64_t interruptions = 0;
     for (const JobLog& job : analysis.jobs) { interruptions += job.interruptions(); }
     if (interruptions > 0) {
-        found.push_back({Grade::Doubtful, "motion was interrupted and went on " + plural(interruptions, "time")});
+        found.push_back({Grade::Doubtful, "motion was interrupted and continued " + plural(interruptions, "time")});
     }
 }
 
@@ -209,7 +209,7 @@ void check_distance(const Analysis& analysis, Findings& found) {
     }
     if (unmeasured == 0) { return; }
     found.push_back(unknown("the distance of " + plural(unmeasured, "move") + " from the path",
-                            "steps of an axis are not in this log, or come too late in it"));
+                            "steps of an axis are missing in this log, or are too late in it"));
 }
 
 /// The finding does not cover the time before the log.
@@ -247,7 +247,7 @@ std::vector<Finding> findings(const Analysis& analysis) {
     check_times(analysis, found);
     check_distance(analysis, found);
     check_missing(analysis, found);
-    if (found.empty()) { found.push_back({Grade::Unknown, "nothing is known: the log lacks steps"}); }
+    if (found.empty()) { found.push_back({Grade::Unknown, "the log lacks steps, so no result is known"}); }
     std::ranges::stable_sort(found, std::ranges::greater{}, &Finding::grade);
     return found;
 }

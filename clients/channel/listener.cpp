@@ -43,7 +43,7 @@ std::expected<Listener, std::string> listen_at(const std::string& address, std::
     hints.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV;
     addrinfo* found = nullptr;
     if (getaddrinfo(address.c_str(), std::to_string(port).c_str(), &hints, &found) != 0) {
-        return std::unexpected("'" + address + "' is no IP address; write for example 127.0.0.1, ::1 or 0.0.0.0");
+        return std::unexpected("'" + address + "' is not an IP address; write for example 127.0.0.1, ::1 or 0.0.0.0");
     }
     const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> owned(found, freeaddrinfo);
     const int made = socket(found->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
@@ -53,7 +53,7 @@ std::expected<Listener, std::string> listen_at(const std::string& address, std::
     if (!listens) {
         const int error = errno;
         if (made >= 0) { close(made); }
-        const char* remedy = error == EADDRINUSE ? "; choose another: --port N" : "";
+        const char* remedy = error == EADDRINUSE ? "; choose another port: --port N" : "";
         return std::unexpected(place + ": " + std::strerror(error) + remedy);
     }
     return Listener{made, port_of(made), is_loopback(found->ai_addr)};

@@ -42,11 +42,12 @@ std::optional<speed_t> speed_of(int baud) {
 std::expected<Descriptor, std::string> open_serial(const std::string& path, int baud) {
     Descriptor port(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
     if (!port.is_open()) {
-        return failure(path, std::string(std::strerror(errno)) +
-                                 (errno == EACCES ? "; may this user use it? often: adduser USER dialout" : ""));
+        return failure(
+            path, std::string(std::strerror(errno)) +
+                      (errno == EACCES ? "; check that this user may use it, often with: adduser USER dialout" : ""));
     }
     termios mode{};
-    if (tcgetattr(port.get(), &mode) != 0) { return failure(path, "this is no serial line or terminal"); }
+    if (tcgetattr(port.get(), &mode) != 0) { return failure(path, "this is not a serial line or terminal"); }
     cfmakeraw(&mode);
     mode.c_cflag |= CLOCAL | CREAD;
     const speed_t speed = speed_of(baud).value_or(B115200);
@@ -80,7 +81,8 @@ std::expected<Descriptor, std::string> open_tcp(const std::string& place, std::s
         setsockopt(port.get(), IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
         return port;
     }
-    return failure(place, std::string(std::strerror(errno)) + "; does lockstep-grbl, or a controller, listen there?");
+    return failure(place,
+                   std::string(std::strerror(errno)) + "; check that lockstep-grbl or a controller listens there");
 }
 
 }  // namespace

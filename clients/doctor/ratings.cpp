@@ -43,8 +43,8 @@ Finding rate_interface(const NetworkConfig& network, const InterfaceFacts& facts
 Finding rate_route(const NetworkConfig& network, const std::expected<void, std::string>& route,
                    std::optional<bool> received) {
     if (!network.peers.empty() && !(route && received.value_or(true))) {
-        return {Rating::Good, "multicast", "there is none, and network.peers does not need it; LCM does (--no-lcm)",
-                ""};
+        return {Rating::Good, "multicast",
+                "there is no route; network.peers does not need it, but LCM does (or use --no-lcm)", ""};
     }
     if (!route) {
         return {Rating::Bad, "multicast", "the record cannot be published: " + route.error(),
@@ -52,7 +52,7 @@ Finding rate_route(const NetworkConfig& network, const std::expected<void, std::
     }
     if (received == false) {
         return {Rating::Bad, "multicast", "messages of LCM to " + network.lcm_url + " are not received",
-                "iptables -L INPUT -n; does a rule drop it?"};
+                "iptables -L INPUT -n; check whether a rule drops it"};
     }
     return {Rating::Good, "multicast", received ? "LCM receives its own messages" : "a route exists", ""};
 }
@@ -131,13 +131,14 @@ Finding rate_stalls(const ProtocolTiming& timing, const StallFacts& facts) {
     const double may_us = static_cast<double>(timing.stall_slots) * static_cast<double>(timing.slot_us);
     const ProtocolTiming better = timing_for(facts, least_slot_us(timing));
     const std::string found = fmt::format(
-        "in {} s a thread woke {} late at most, {} in one of 100; the timing allows {}", std::lround(facts.seconds),
-        milliseconds(facts.worst_us), milliseconds(facts.p99_us), milliseconds(may_us));
+        "in {} s a thread woke up at most {} late, and in 99 of 100 cases at most {}; the timing allows {}",
+        std::lround(facts.seconds), milliseconds(facts.worst_us), milliseconds(facts.p99_us), milliseconds(may_us));
     if (facts.worst_us > may_us) { return {Rating::Bad, "stalls", found, slots_text(better)}; }
     if (2 * facts.worst_us > may_us) { return {Rating::Doubtful, "stalls", found, slots_text(better)}; }
     const auto reaction = [](const ProtocolTiming& t) { return t.slot_us * (t.lease_slots() + t.frame_slots); };
     const bool slack = 2 * reaction(better) < reaction(timing);
-    return {Rating::Good, "stalls", found + (slack ? "; a hold could come sooner with " + slots_text(better) : ""), ""};
+    return {Rating::Good, "stalls", found + (slack ? "; a hold could begin sooner with " + slots_text(better) : ""),
+            ""};
 }
 
 Finding rate_clock(TimeSource source, const ClockFacts& facts) {
@@ -150,10 +151,10 @@ Finding rate_clock(TimeSource source, const ClockFacts& facts) {
     constexpr std::array<std::string_view, 5> kQuick{"tsc", "kvm-clock", "arch_sys_counter",
                                                      "hyperv_clocksource_tsc_page", ""};
     if (std::ranges::find(kQuick, facts.source) == kQuick.end()) {
-        return {Rating::Doubtful, "clock", "the kernel reads " + facts.source + ", which is slow to read",
-                "clocksource=tsc on the kernel's command line, where the processor has one"};
+        return {Rating::Doubtful, "clock", "the kernel uses the clock " + facts.source + ", which is slow to read",
+                "clocksource=tsc on the kernel's command line, if the processor has this clock"};
     }
-    return {Rating::Good, "clock", "the kernel reads " + facts.source, ""};
+    return {Rating::Good, "clock", "the kernel uses the clock " + facts.source, ""};
 }
 
 Finding rate_device(const AxisConfig& axis, const std::expected<void, std::string>& answer) {
@@ -178,14 +179,16 @@ std::string joined(const std::vector<std::string>& hosts) {
 Finding rate_one_process(const ProcessFacts& facts, std::uint64_t config_hash) {
     if (facts.hosts.size() > 1 && !facts.may_be_two) {
         return {Rating::Bad, facts.name, "runs more than once, on " + joined(facts.hosts),
-                "lockstep down, on the host where it does not belong"};
+                "on the host where it does not belong: lockstep down"};
     }
-    if (!facts.received) { return {Rating::Doubtful, facts.name, "is not received", "lockstep up, on its host"}; }
+    if (!facts.received) {
+        return {Rating::Doubtful, facts.name, "no messages are received", "on its host: lockstep up"};
+    }
     if (facts.config_hash != config_hash) {
         return {Rating::Bad, facts.name, "runs with another configuration than this file",
-                "give all hosts the same file; then lockstep down and up"};
+                "give all hosts the same machine file, then: lockstep down; lockstep up"};
     }
-    return {Rating::Good, facts.name, "is received, with this configuration", ""};
+    return {Rating::Good, facts.name, "runs with this configuration", ""};
 }
 
 }  // namespace
@@ -204,7 +207,7 @@ Finding rate_keys(const KeyFacts& facts) {
     }
     if (facts.is_out) { return {Rating::Bad, what, facts.trouble, kSee}; }
     if (!facts.trouble.empty()) { return {Rating::Doubtful, what, facts.trouble, kSee}; }
-    return {Rating::Good, what, fmt::format("are in order for {} days", facts.days_left), ""};
+    return {Rating::Good, what, fmt::format("are valid for {} days", facts.days_left), ""};
 }
 
 }  // namespace lockstep::doctor

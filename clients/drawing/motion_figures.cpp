@@ -66,9 +66,9 @@ Figure path_figure(std::string title, std::string subtitle, const Plane& plane, 
     chart.y_label = plane.y + ", " + plane.unit;
     if (!stepped.x.empty()) {
         chart.series.push_back(
-            path("as stepped", stepped, {.colour = palette::series(0), .width = 5, .opacity = 0.45}));
+            path("stepped path", stepped, {.colour = palette::series(0), .width = 5, .opacity = 0.45}));
     }
-    if (!asked.x.empty()) { chart.series.push_back(path("as asked", asked, {.width = 1.1})); }
+    if (!asked.x.empty()) { chart.series.push_back(path("commanded path", asked, {.width = 1.1})); }
     if (!first.x.empty()) { chart.marks.push_back({first.x.front(), first.y.front(), "start"}); }
     Figure figure;
     figure.title = std::move(title);

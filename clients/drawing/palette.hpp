@@ -9,7 +9,7 @@
 
 namespace lockstep::drawing::palette {
 
-inline constexpr std::string_view kInk = "#1b2733";      // text and "as asked"
+inline constexpr std::string_view kInk = "#1b2733";      // text and "commanded path"
 inline constexpr std::string_view kSoftInk = "#5b6875";  // labels of axes
 inline constexpr std::string_view kFrame = "#b8c1ca";
 inline constexpr std::string_view kGrid = "#e8ecf0";

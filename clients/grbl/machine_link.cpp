@@ -136,7 +136,7 @@ bool MachineLink::has_ended(const Open& open, Grbl& grbl) const {
         state && (state->state.job > open.job || (state->state.job == open.job && state->state.outcome));
     if (!is_over || !rests()) { return false; }
     const bool is_done = state->state.job == open.job && state->state.outcome == JobOutcome::Done;
-    grbl.answer(open.number, {is_done, state->state.fault, is_done ? "" : "homing was not brought to its end"});
+    grbl.answer(open.number, {is_done, state->state.fault, is_done ? "" : "homing did not complete"});
     return true;
 }
 

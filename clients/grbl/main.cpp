@@ -140,7 +140,7 @@ int run(const Options& options) {
     while (!stop.requested()) {
         auto session = Session::open(*machine, Purpose::Command);
         if (!session) { return output.fail(session.error()); }
-        output.print(fmt::format("machine '{}' takes grbl's protocol at {}, port {}{}", machine->config.name,
+        output.print(fmt::format("machine '{}' accepts grbl's protocol at {}, port {}{}", machine->config.name,
                                  options.address, options.port, doors.terminal ? ", and at " + options.terminal : ""));
         std::cout << std::flush;
         serve_all(doors, *machine, *session, options, stop);
@@ -156,21 +156,21 @@ int main(int argc, char** argv) {
     CLI::App app{
         "Lets a sender of grbl 1.1's protocol use a machine, over TCP or a pseudo-terminal, one sender at a time, "
         "until "
-        "SIGTERM or SIGINT. When the sender disconnects, its jog brakes, the lines that the machine has begun with are "
-        "run, and then spindle and coolant are switched off."};
+        "SIGTERM or SIGINT. When the sender disconnects, its jog brakes, the lines that have begun are run "
+        "to their end, and then spindle and coolant are switched off."};
     Options options;
     app.add_option("--machine", options.machine_file,
-                   "the machine's configuration file; else $LOCKSTEP_MACHINE, else the machine that is up on this "
+                   "the machine's configuration file; default: $LOCKSTEP_MACHINE, else the machine that is up on this "
                    "host, else /etc/lockstep/machine.textproto");
     app.add_option("--address", options.address,
                    "where to listen. There is no password: every sender that reaches this address can move the machine")
         ->capture_default_str();
     app.add_option("--port", options.port, "the TCP port")->capture_default_str();
-    app.add_option("--pty", options.terminal, "also make a pseudo-terminal, and this symbolic link to it");
+    app.add_option("--pty", options.terminal, "also create a pseudo-terminal, and this symbolic link to it");
     app.add_flag(
         "--take", options.take,
-        "a sender's lines, jogs and homing take the machine over from another writer; without it they are refused "
-        "while there is one. lockstep status names the writer");
+        "a sender's lines, jogs and homing take over the machine from another writer; without --take they are refused "
+        "while there is another writer. lockstep status names the writer");
     app.footer(
         "Examples:\n  lockstep-grbl\n  lockstep-grbl --machine mill.textproto --port 2302 --pty /tmp/grbl\n"
         "Exit codes: 0 ended as asked, 1 failed, 2 wrong usage or configuration, 3 machine not reachable");

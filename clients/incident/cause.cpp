@@ -138,8 +138,8 @@ Cause unknown(const Incident& incident, const Entry& symptom) {
     const std::string why = left_nothing.empty()
                                 ? "none of the files shows why"
                                 : left_nothing +
-                                      " left no file here: lockstep flight on its host reads its notes, "
-                                      "even if its process is stopped or dead";
+                                      " left no file here; lockstep flight on its host reads its notes, "
+                                      "even if its process is stopped or has ended";
     return {CauseKind::Unknown, std::nullopt, why, std::nullopt, {}};
 }
 
@@ -158,7 +158,7 @@ Cause cause_without_symptom(const Incident& incident) {
     for (const Process& process : incident.processes) {
         if (process.ended) { return {CauseKind::Ended, process.who, end_text(incident, process), process.last, {}}; }
     }
-    return {CauseKind::Asked, std::nullopt, "nothing was wrong: the notes were requested", std::nullopt, {}};
+    return {CauseKind::Asked, std::nullopt, "nothing was wrong; the notes were requested", std::nullopt, {}};
 }
 
 std::string noticed_text(const Incident& incident, const Entry& symptom, const Cause& cause) {

@@ -13,8 +13,8 @@ using analysis::LogPlace;
 std::string no_incident(const std::filesystem::path& path) {
     return path.string() +
            ": contains no notes of a flight recorder; an incident file is named STAMP-PROCESS-NUMBER.flight.lcm, "
-           "and is in the directory that lockstep status shows. A log of a run goes after it, or to lockstep analyze "
-           "alone";
+           "and is in the directory that lockstep status shows. Name the log of a run after the incident files, or "
+           "give it to lockstep analyze without --incident";
 }
 
 /// The machine from the process's configuration. If that cannot be read, only the data of the head.
@@ -36,7 +36,7 @@ public:
         }
         const auto message = decode_lcm<flight_event_t>(event.data);
         if (!message) { return damage(place, message.error() + " on " + std::string(event.channel)); }
-        if (!has_head_) { return damage(place, "an event before any head"); }
+        if (!has_head_) { return damage(place, "an event comes before the head"); }
         const auto noted = from_lcm(*message, file_.machine);
         if (!noted) { return damage(place, noted.error()); }
         file_.events.push_back(*noted);
@@ -49,7 +49,7 @@ private:
     void take_head(const flight_head_t& message, LogPlace place) {
         auto head = from_lcm(message);
         if (!head) { return damage(place, head.error()); }
-        if (std::exchange(has_head_, true)) { return damage(place, "a second head"); }
+        if (std::exchange(has_head_, true)) { return damage(place, "the file has a second head"); }
         file_.head = *std::move(head);
         file_.machine = machine_of(file_.head.source);
     }

@@ -19,8 +19,8 @@ std::expected<void, std::string> read_directory(const fs::path& directory, Files
     const auto found = incident_files(directory);
     if (found.empty()) {
         return std::unexpected(directory.string() +
-                               ": no incident file in it; lockstep status shows a machine's directory, and lockstep "
-                               "flight writes some");
+                               ": this directory has no incident file; lockstep status shows the machine's directory, "
+                               "and lockstep flight writes incident files");
     }
     for (const fs::path& path : found) {
         auto file = incident::read_flight_file(path);
@@ -55,8 +55,9 @@ std::expected<IncidentInput, std::string> read_incidents(const std::vector<fs::p
     const auto other = std::ranges::find_if(
         files->read, [&](const FlightFile& file) { return machine_of(file) != machine_of(first); });
     if (other != files->read.end()) {
-        return std::unexpected("files of machines " + machine_of(first) + " and " + machine_of(*other) +
-                               " together; name those of one: " + first.path.string() + " is of " + machine_of(first));
+        return std::unexpected("files of the machines " + machine_of(first) + " and " + machine_of(*other) +
+                               " are named together; name the files of one machine: " + first.path.string() +
+                               " is of " + machine_of(first));
     }
     return IncidentInput{incident::incidents_of(files->read), std::move(files->left_out)};
 }

@@ -22,21 +22,21 @@ std::string fault_text_of(FaultCode code) {
 std::string veto_text(const Incident& incident, const FlightEvent& event) {
     switch (static_cast<VetoReason>(event.detail)) {
         case VetoReason::TooLate: return "its own check was too late";
-        case VetoReason::NotHeld: return "it does not hold it";
+        case VetoReason::NotHeld: return "it does not hold the frame";
         case VetoReason::Own: return "it is in Fault or stopped";
         case VetoReason::NoCoordinator: return "it has received no recent state of the coordinator";
         case VetoReason::NoEvidence:
             return "no recent state of " + axes_named(incident.machine, static_cast<AxisSet>(event.count)) +
-                   " reports that it is held";
+                   " reports that the frame is held";
     }
-    return "for a reason that is not known";
+    return "the reason is unknown";
 }
 
 std::string homing_text(std::int64_t stage) {
     constexpr std::array<std::string_view, 6> kStages{"ended",   "searches the switch", "pulls off", "latches", "parks",
                                                       "releases"};
     const bool is_known = stage >= 0 && stage < static_cast<std::int64_t>(kStages.size());
-    return "homing: " + std::string(is_known ? kStages[static_cast<std::size_t>(stage)] : "a stage that is not known");
+    return "homing: " + std::string(is_known ? kStages[static_cast<std::size_t>(stage)] : "unknown stage");
 }
 
 std::string phase_text(const Incident& incident, const Entry& entry) {
@@ -71,9 +71,9 @@ bool is_end(const FlightEvent& event) {
 }
 
 std::string incident_text(const Incident& incident, const FlightEvent& event) {
-    if (is_end(event)) { return "notes nothing more: its process ended"; }
+    if (is_end(event)) { return "has no more notes, because its process ended"; }
     const std::string who = event.about == FlightPeer{} ? "" : ", " + peer_name(incident.machine, event.about);
-    return fmt::format("keeps its earlier notes ({}{})", name_of(static_cast<IncidentReason>(event.detail)), who);
+    return fmt::format("saves its earlier notes ({}{})", name_of(static_cast<IncidentReason>(event.detail)), who);
 }
 
 /// The text of an event about frames and epochs.
@@ -98,9 +98,9 @@ std::string coordinator_text(const Incident& incident, const FlightEvent& event)
         case Kind::AxisSeen: return who + " is present";
         case Kind::AxisGone: return who + " is absent";
         case Kind::Interrupted:
-            return fmt::format("all rest together after frame {}; it goes on from there", event.frame);
-        case Kind::Claimed: return "owns the machine from now on";
-        case Kind::StoodDown: return "gives up the machine: another owns it";
+            return fmt::format("all axes rest together after frame {}; the job continues from there", event.frame);
+        case Kind::Claimed: return "becomes the owner of the machine";
+        case Kind::StoodDown: return "gives up the machine, because another coordinator owns it";
         case Kind::JobCutShort: return fmt::format("the previous owner's job ended early near line {}", event.count);
         case Kind::JobContinued: return fmt::format("continues the previous owner's job near line {}", event.count);
         case Kind::JobBegun: return fmt::format("begins job {}", event.count);
@@ -176,9 +176,8 @@ std::string sentence(const Incident& incident, const Entry& entry) {
         case Kind::Reopened:
             return fmt::format("opens its DDS participant again: {}", text_of(static_cast<ReopenReason>(event.detail)));
         case Kind::Stalled: return fmt::format("its loop has not run for {}", duration(lasts));
-        case Kind::LoopStuck: return fmt::format("its loop has not run for {}: it ends itself", duration(lasts));
-        case Kind::Loops:
-            return fmt::format("{} loops in a second, at most {} from one to the next", event.count, duration(lasts));
+        case Kind::LoopStuck: return fmt::format("its loop has not run for {}, so it ends itself", duration(lasts));
+        case Kind::Loops: return fmt::format("{} loops in a second, at most {} apart", event.count, duration(lasts));
         case Kind::Incident: return incident_text(incident, event);
         case Kind::FrameHeld:
         case Kind::FrameRefused:

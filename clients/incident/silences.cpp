@@ -25,9 +25,9 @@ std::string cut_text(const Incident& incident, FlightPeer who, const std::vector
     const auto receives_none = std::ranges::count(silences, who, &Silence::observer);
     const auto unreceived = std::ranges::count(silences, who, &Silence::about);
     const std::string name = peer_name(incident.machine, who);
-    if (receives_none == 0) { return name + " was cut off: no process received it, though it ran"; }
-    if (unreceived == 0) { return name + " was cut off: it received no process, though all ran"; }
-    return name + " was cut off: it received no process, and no process received it, though all ran";
+    if (receives_none == 0) { return name + " was cut off: no process received its messages, although it ran"; }
+    if (unreceived == 0) { return name + " was cut off: it received no messages, although all processes ran"; }
+    return name + " was cut off: it received no messages and no process received its messages, although all ran";
 }
 
 std::string link_text(const Incident& incident, const std::vector<Silence>& silences) {
@@ -35,7 +35,7 @@ std::string link_text(const Incident& incident, const std::vector<Silence>& sile
     const bool both_ways = silences.size() > 1;
     return "the link " + std::string(both_ways ? "between " : "from ") + peer_name(incident.machine, first.about) +
            (both_ways ? " and " : " to ") + peer_name(incident.machine, first.observer) +
-           " carried nothing, though both ran";
+           " carried no messages, although both ran";
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ std::optional<CutOff> cut_off(const Incident& incident, const std::vector<Silenc
     } else if (in_all.size() == 2) {
         cut.text = link_text(incident, silences);
     } else {
-        cut.text = "several links of the network carried nothing, though the processes ran";
+        cut.text = "several links of the network carried no messages, although the processes ran";
     }
     return cut;
 }

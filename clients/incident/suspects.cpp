@@ -49,12 +49,12 @@ std::optional<Cause> explain_by_end(const Incident& incident, FlightPeer suspect
     for (const Entry& entry : incident.timeline) {
         const bool is_then = entry.tick >= at - reach(incident);
         if (!is_then || entry.event.kind != FlightKind::PeerRestarted || entry.event.about != suspect) { continue; }
-        return Cause{
-            CauseKind::Ended,
-            suspect,
-            fmt::format("the process of {} ended, and another took its place", peer_name(incident.machine, suspect)),
-            std::nullopt,
-            {}};
+        return Cause{CauseKind::Ended,
+                     suspect,
+                     fmt::format("the process of {} ended, and another process replaced it",
+                                 peer_name(incident.machine, suspect)),
+                     std::nullopt,
+                     {}};
     }
     return std::nullopt;
 }
@@ -77,13 +77,13 @@ std::optional<Cause> explain_by_standstill(const Incident& incident, FlightPeer 
     }
     if (together > 1 && 2 * together >= looked_at.size()) {
         return Cause{CauseKind::HostStalled, std::nullopt,
-                     fmt::format("{} processes stood still at the same time, for up to {}, {} among them: check "
+                     fmt::format("{} processes stalled at the same time, for up to {}, including {}; check "
                                  "their host",
                                  together, duration(incident.seconds(lasts)), axes_named(incident.machine, axes)),
                      from, lasts};
     }
     return Cause{CauseKind::Stalled, suspect,
-                 fmt::format("{} stood still: its loop did not run for {}; the machine allows {}",
+                 fmt::format("{} stalled: its loop did not run for {}; the machine allows {}",
                              peer_name(incident.machine, suspect), duration(incident.seconds(lasts)),
                              duration(incident.seconds(incident.slots(incident.machine.timing.stall_slots)))),
                  from, lasts};
@@ -96,7 +96,7 @@ std::optional<Cause> explain_by_hanging(const Incident& incident, FlightPeer sus
         if (process.who != suspect || !process.was_asked || process.last + quiet >= at) { continue; }
         return Cause{CauseKind::Hangs,
                      suspect,
-                     fmt::format("{} stands still: its loop has not run since; is its process stopped?",
+                     fmt::format("{} stalled: its loop has not run since then; check whether its process is stopped",
                                  peer_name(incident.machine, suspect)),
                      process.last,
                      {}};

@@ -9,19 +9,20 @@ namespace lockstep {
 void add_live_options(CLI::App& verb, LiveOptions& options) {
     verb.add_option(
         "--machine", options.machine_file,
-        "the machine's configuration file; else $LOCKSTEP_MACHINE, else the machine that is up on this host, else "
+        "the machine's configuration file; default: $LOCKSTEP_MACHINE, else the machine that is up on this host, else "
         "/etc/lockstep/machine.textproto");
     verb.add_flag("--json", options.json, "one JSON report on standard output instead of text");
 }
 
 void add_take(CLI::App& verb, LiveOptions& options) {
     verb.add_flag("--take", options.take,
-                  "take the machine over from the writer that lockstep status names; a job in motion goes on");
+                  "take over the machine from the writer that lockstep status names; a job in motion continues");
 }
 
 CLI::Option* add_all_hosts(CLI::App& verb, AllHosts& all) {
     CLI::Option* asked = verb.add_flag(
-        "--all", all.asked, "on every host that the machine's file names: on the others over ssh, all at once");
+        "--all", all.asked,
+        "run the command on every host that the machine's file names, on other hosts over ssh, in parallel");
     verb.add_option("--ssh", all.ssh,
                     "with --all: the command that runs a command on another host; the host's name is appended to it")
         ->needs(asked)
@@ -30,12 +31,16 @@ CLI::Option* add_all_hosts(CLI::App& verb, AllHosts& all) {
 }
 
 void add_detach(CLI::App& verb, bool& detach) {
-    verb.add_flag("--detach", detach, "return with the job's number once it has begun; it goes on by itself");
+    verb.add_flag("--detach", detach,
+                  "return with the job's number after the job has begun; the job continues by itself");
 }
 
-std::string footer(const std::string& examples) {
-    return "Examples:\n" + examples +
-           "Exit codes: 0 done, 1 failed or refused, 2 bad usage or input (nothing was done), 3 machine not reachable";
+std::string footer(const std::string& examples, const std::string& exit_codes) {
+    return "Examples:\n" + examples + "Exit codes: " + exit_codes;
+}
+
+std::string group_footer(const std::string& examples, const std::string& verb) {
+    return footer(examples) + "\nOptions: lockstep " + verb + " --help";
 }
 
 }  // namespace lockstep

@@ -32,10 +32,15 @@ void add_detach(CLI::App& verb, bool& detach);
 
 /// Help text: the effect of an interrupt on the job of such a verb.
 inline constexpr const char* kInterrupted =
-    "Ctrl-C stops the machine on its path and drops the rest; a closed terminal (SIGHUP) holds it: go on with\n"
-    "lockstep resume. With --detach, or under nohup, it goes on by itself.\n";
+    "Ctrl-C stops the machine on its path and drops the rest; a closed terminal (SIGHUP) holds it: continue with\n"
+    "lockstep resume. With --detach, or under nohup, it continues by itself.\n";
+
+inline constexpr const char* kExitCodes =
+    "0 done, 1 failed or refused, 2 bad usage or input (nothing was done), 3 machine not reachable";
 
 /// The help's footer: examples, one per line, then the exit codes.
-std::string footer(const std::string& examples);
+std::string footer(const std::string& examples, const std::string& exit_codes = kExitCodes);
+/// The footer of a verb that has verbs of its own; `verb` is one of them, with its options.
+std::string group_footer(const std::string& examples, const std::string& verb);
 
 }  // namespace lockstep

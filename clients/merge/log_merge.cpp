@@ -36,7 +36,8 @@ public:
             return {};
         }
         return Failure("no message of a record in " + options_.logs.front().string() +
-                       (options_.logs.size() > 1 ? " and the others" : "") + ": are they LCM logs of a machine?");
+                       (options_.logs.size() > 1 ? " and the others" : "") +
+                       "; check that they are LCM logs of a machine");
     }
 
     std::expected<void, std::string> run() {

@@ -79,15 +79,15 @@ std::string oddities(const Merged& merged) {
     const auto count = [](std::uint64_t number) { return plural(static_cast<std::int64_t>(number), "message"); };
     std::string text;
     if (merged.differing > 0) {
-        text += count(merged.differing) + " left out: the number of another message, but other content\n";
+        text += count(merged.differing) + " left out: they have the number of another message, but other content\n";
     }
     text += line_of("jobs", merged.missing_job_events, "events") +
             line_of("jobs", merged.missing_program_parts, "programs");
     for (const std::string& line : analysis::missing_sentences(merged.end)) { text += "  " + line + "\n"; }
     if (merged.late > 0) {
-        text += count(merged.late) + " came later than the window allows: written after newer ones\n";
+        text += count(merged.late) + " were later than the window allows, and were written after newer messages\n";
     }
-    if (merged.foreign > 0) { text += count(merged.foreign) + " of other channels, kept from each log\n"; }
+    if (merged.foreign > 0) { text += count(merged.foreign) + " of other channels, taken from each log\n"; }
     return text;
 }
 

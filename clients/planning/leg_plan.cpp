@@ -58,7 +58,7 @@ public:
             const auto frame = source_->next();
             if (!frame) {
                 return std::unexpected(PlanError{FaultCode::FrameBeyondLimits, source_->line_of(frame.error().at.block),
-                                                 "no motion from rest keeps the limits of all axes here"});
+                                                 "no motion from rest can keep the limits of all axes here"});
             }
             take(**frame);
             if (visit) { pass_moves(visit, 1); }

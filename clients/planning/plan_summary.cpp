@@ -42,7 +42,7 @@ private:
             const auto frame = source.next();
             if (!frame) {
                 return std::unexpected(PlanError{FaultCode::FrameBeyondLimits, source.line_of(frame.error().at.block),
-                                                 "no motion from rest keeps the limits of all axes here"});
+                                                 "no motion from rest can keep the limits of all axes here"});
             }
             const Ticks begin = totals_.duration();
             totals_.take(**frame, source.begins());

@@ -72,7 +72,7 @@ bool DeviceReplay::power_up(const Run& run) {
     if (hardware_ && incarnation_ == run.incarnation) { return true; }
     if (run.tail || !starts_from_rest(run)) {
         findings_.notes.push_back("axis " + axis_ + ": " + name_of(run) +
-                                  " is skipped: the motion to its start is not on record");
+                                  " is skipped, because the log lacks the motion to its start");
         return false;
     }
     hardware_ = std::make_unique<Hardware>(run.start - Ticks{1});
@@ -128,11 +128,11 @@ void DeviceReplay::play(Tick until) {
 
 void DeviceReplay::take(StepEdge made) {
     if (!findings_.going()) { return; }
-    if (expected_.empty()) { return differ("the device makes a step that is not on record", {}, made.tick); }
+    if (expected_.empty()) { return differ("the device makes a step that is not in the log", {}, made.tick); }
     const auto [step, is_recorded] = expected_.front();
     if (made != step.edge) {
-        return differ(fmt::format("the device steps at tick {} {}; on record is a step at tick {} {}", made.tick.value,
-                                  made.direction > 0 ? "forward" : "backward", step.edge.tick.value,
+        return differ(fmt::format("the device steps at tick {} {}, but the log has a step at tick {} {}",
+                                  made.tick.value, made.direction > 0 ? "forward" : "backward", step.edge.tick.value,
                                   step.edge.direction > 0 ? "forward" : "backward"),
                       step.edge.tick, made.tick);
     }
@@ -163,14 +163,15 @@ void DeviceReplay::look_at_end() {
     const auto status = hardware_->driver.read();
     if (!status) { return differ(status.error(), {}, {}); }
     if (status->bad_segment) {
-        return differ("the device refuses a frame that does not join the one before it", last.start, {});
+        return differ("the device refuses a frame that does not start at the end of the frame before it", last.start,
+                      {});
     }
     if (!expected_.empty()) {
-        return differ("the device does not make a step that is on record", expected_.front().step.edge.tick, {});
+        return differ("the device does not make a step that is in the log", expected_.front().step.edge.tick, {});
     }
     const std::int64_t stands = status->position.count() + count_at_power_up_;
     if (!status->finished || stands != last.device_stop()) {
-        differ(fmt::format("the device comes to count {}{}; on record is {}", stands,
+        differ(fmt::format("the device ends at count {}{}, but the log has {}", stands,
                            status->finished ? "" : ", in motion", last.device_stop()),
                {}, {});
     }

@@ -95,7 +95,7 @@ std::string to_text(const Findings& findings) {
         if (!findings.difference->commanded.empty()) {
             text += "  in motion: " + findings.difference->commanded + "\n";
         }
-        text += "  made before that as recorded: " + counted + "\n";
+        text += "  before that, the devices made as recorded: " + counted + "\n";
     } else {
         text = "exact: the devices made " + counted + " as recorded, tick for tick\n";
     }

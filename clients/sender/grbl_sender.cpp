@@ -143,7 +143,7 @@ void GrblSender::pass(Time now) {
             return;
         case Phase::Asking:
             if (waited > kPatience) {
-                lose("no controller of grbl's protocol answers; is it the right port and speed?");
+                lose("no controller with grbl's protocol answers; check the port and the speed");
             }
             return;
         case Phase::Streaming: return pass_streaming(now);

@@ -39,8 +39,11 @@ std::string late_text(const Session& session, CommandKind command) {
     const std::string still =
         fmt::format("the machine is still {} after {} s", name_of(session.state()->state.phase), kPatience.count());
     const std::string missing = missing_axes(session);
-    if (!missing.empty()) { return still + ": not received: " + missing + "; start it, or see its log"; }
-    return still + (command == CommandKind::Reset ? "; see: lockstep status" : "; cease all pulses: lockstep estop");
+    if (!missing.empty()) {
+        return still + "; no messages are received from " + missing + "; start the process, or see its log";
+    }
+    return still +
+           (command == CommandKind::Reset ? "; see: lockstep status" : "; to stop all pulses at once: lockstep estop");
 }
 
 }  // namespace

@@ -34,21 +34,22 @@ std::expected<void, std::string> check_feed(const MoveOptions& options) {
     if (!options.feed_mm_min) { return {}; }
     const double feed = *options.feed_mm_min;
     if (feed >= kMinFeedPerMinute && feed <= kMaxFeed_mm_s * 60) { return {}; }
-    return std::unexpected("--feed " + fixed(feed, 3) + " is not within " + fixed(kMinFeedPerMinute, 2) + " to " +
-                           fixed(kMaxFeed_mm_s * 60, 0) + " mm/min");
+    return std::unexpected("--feed " + fixed(feed, 3) + " is out of range; it must be from " +
+                           fixed(kMinFeedPerMinute, 2) + " to " + fixed(kMaxFeed_mm_s * 60, 0) + " mm/min");
 }
 
 std::expected<void, std::string> check_own(const MachineConfig& machine, const MoveOptions& options) {
     if (options.own && options.feed_mm_min) {
-        return std::unexpected(std::string("--feed is along the line of all axes; --own moves have no common line"));
+        return std::unexpected(
+            std::string("--feed is the speed along the common line of all axes; with --own there is no common line"));
     }
     if (!options.own && options.in_s) {
-        return std::unexpected(std::string("--in is for axes on their own: add --own, or give a --feed"));
+        return std::unexpected(std::string("--in is only for moves of axes on their own; add --own, or give a --feed"));
     }
     const double least_s = static_cast<double>(machine.tick_ns) * 1e-9;
     if (!options.in_s || (*options.in_s >= least_s && *options.in_s <= kMaxOwnMove_s)) { return {}; }
-    return std::unexpected("--in " + fixed(*options.in_s, 6) + " is not within " + fixed(least_s, 6) + " to " +
-                           fixed(kMaxOwnMove_s, 0) + " s");
+    return std::unexpected("--in " + fixed(*options.in_s, 6) + " is out of range; it must be from " +
+                           fixed(least_s, 6) + " to " + fixed(kMaxOwnMove_s, 0) + " s");
 }
 
 }  // namespace

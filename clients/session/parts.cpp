@@ -23,10 +23,10 @@ proto::AwaitedPart awaited(const std::string& name, const std::string& host, con
 
 /// The state of an axis that is not received by this client or not by the coordinator.
 std::string axis_state(const MachineConfig& machine, const KnownParts& known, std::size_t axis) {
-    if (has_axis(known.axes_present, axis)) { return "started, not received by the coordinator"; }
+    if (has_axis(known.axes_present, axis)) { return "started, but its messages do not reach the coordinator"; }
     if (!is_present(known.present, axis)) { return kAbsent; }
     const bool lacks_time = machine.timing.time_source == TimeSource::Network;
-    return lacks_time ? "started, waits for the coordinator's clock" : "started, not received";
+    return lacks_time ? "started, waits for the coordinator's clock" : "started, but its messages are not received";
 }
 
 }  // namespace
@@ -48,8 +48,8 @@ std::vector<proto::AwaitedPart> awaited_parts(const MachineConfig& machine, cons
     std::vector<proto::AwaitedPart> parts;
     if (!known.coordinator_present) {
         const bool is_there = is_present(known.present, std::nullopt);
-        parts.push_back(
-            awaited(part_name(machine, {}), machine.coordinator_host, is_there ? "started, not received" : kAbsent));
+        parts.push_back(awaited(part_name(machine, {}), machine.coordinator_host,
+                                is_there ? "started, but its messages are not received" : kAbsent));
     }
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         const bool is_known = !known.coordinator_present || has_axis(known.axes_present_at_coordinator, i);

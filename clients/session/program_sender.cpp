@@ -107,7 +107,7 @@ void ProgramSender::give_up(const Reply& reply) {
     refusal_->fault = FaultCode::ProgramCutShort;
     refusal_->text =
         "the coordinator that has taken over lacks a part of the program that was sent before; the machine "
-        "runs what it has and rests; then: lockstep run FILE --from-line LINE";
+        "runs the part that it has, and rests; then continue: lockstep run FILE --from-line LINE";
 }
 
 }  // namespace lockstep

@@ -18,8 +18,9 @@ std::string record_loss_text(const proto::StatusReport& status) {
     add("coordinator", status.lost_records());
     for (const proto::AxisStatus& axis : status.axes()) { add(axis.name(), axis.health().lost_records()); }
     if (text.empty()) { return text; }
-    return "record: messages that were not written or sent: " + text +
-           "; is the disk of the record full? their logs name it; lockstep log merge lists the missing messages";
+    return "record: messages that could not be written or sent: " + text +
+           "; check whether the disk of the record is full: the logs of these processes name it; lockstep log merge "
+           "lists the missing messages";
 }
 
 }  // namespace lockstep

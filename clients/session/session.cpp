@@ -95,8 +95,9 @@ std::expected<void, Failure> Session::reach_axes() {
         const auto is_known = [&] { return axis_present(i) && axes_[i]->state.stamp >= known; };
         while (!is_known() && monotonic_now() <= deadline) { receive(50ms); }
         if (!axis_present(i)) {
-            return std::unexpected(unreachable("axis " + config().axes[i].name + " of machine '" + config().name +
-                                               "' is not received; start its lockstep-axis, or see its log"));
+            return std::unexpected(unreachable("no messages are received from axis " + config().axes[i].name +
+                                               " of machine '" + config().name +
+                                               "'; start its lockstep-axis, or see its log"));
         }
     }
     return {};
@@ -223,14 +224,14 @@ Failure Session::silent() const {
     const std::string none = "no coordinator of " + place_text() + refused;
     if (const std::string& host = config().coordinator_host; !host.empty() && !same_host(host, host_name())) {
         const std::string waiting = present_axes();
-        return unreachable(none + "; it belongs on " + host + ", there: lockstep up" +
+        return unreachable(none + "; it runs on " + host + "; on that host: lockstep up" +
                            (waiting.empty() ? "" : "; axes that wait for it: " + waiting));
     }
     const std::string start = "lockstep up --machine " + machine_.file.string();
     const std::string received = received_axes();
-    if (received.empty()) { return unreachable(none + ": is it up? " + start); }
-    return unreachable(none + ", but its axes are received (" + received +
-                       "): start lockstep-coordinator, or: lockstep down, " + start);
+    if (received.empty()) { return unreachable(none + "; to start the machine: " + start); }
+    return unreachable(none + ", but messages are received from its axes (" + received +
+                       "); start lockstep-coordinator, or: lockstep down; " + start);
 }
 
 std::expected<Reply, Failure> Session::command(Command command, const StopSignal* stop) {
@@ -367,7 +368,7 @@ std::expected<void, Failure> Session::await_kept(std::uint64_t revision) {
         if (monotonic_now() > deadline) {
             return std::unexpected(
                 failed("the coordinator has not reported that the offsets and tools are on its disk; they may be lost "
-                       "when it ends: its log names the reason"));
+                       "when the coordinator ends; its log names the reason"));
         }
         receive(50ms);
     }

@@ -142,7 +142,7 @@ std::expected<SimulationResult, std::string> Simulation::run(ProgramText& progra
 
 /// `give_program` returns false if the caller cancelled.
 std::expected<SimulationResult, std::string> Simulation::home_and_run(const std::function<bool()>& give_program) {
-    const auto given_up = [] { return std::unexpected(std::string("cancelled before its end")); };
+    const auto given_up = [] { return std::unexpected(std::string("interrupted before its end")); };
     SimulationResult result;
     const Tick power_up = vm_.now();
     double computing_s = stopwatch();

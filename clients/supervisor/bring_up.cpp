@@ -37,15 +37,15 @@ void warn_of_directory(const std::string& lost, const std::filesystem::path& pat
                        Output& output) {
     const std::string why = doctor::why_not_writable(path);
     if (why.empty()) { return; }
-    output.warn(lost + ": " + path.string() + " cannot be written (" + why + "); make it this user's: install -d -o " +
-                "$(id -un) " + path.string() + "; or set " + key + " in the machine's file to another one");
+    output.warn(lost + ": " + path.string() + " cannot be written (" + why + "); give it to this user: install -d -o " +
+                "$(id -un) " + path.string() + "; or set " + key + " in the machine's file to another directory");
 }
 
 /// The services find the same problems, but report them only in their logs.
 void warn_of_directories(const MachineConfig& machine, const Placement& placed, Output& output) {
     if (machine.record.own_logs) {
-        warn_of_directory("no process here keeps its own log", own_log_directory(machine), "record { directory }",
-                          output);
+        warn_of_directory("the processes on this host write no logs of their own", own_log_directory(machine),
+                          "record { directory }", output);
     }
     if (placed.axes.empty()) { return; }
     warn_of_directory("positions are not kept", position_file(machine, placed.axes.front()).parent_path(),
@@ -70,9 +70,9 @@ std::expected<void, Failure> claim(const ChosenMachine& machine, const StateDire
     const std::string name = "machine '" + machine.config.name + "'";
     if (const auto running = state.running(); !running.empty()) {
         const auto trouble = state.record_trouble();
-        return std::unexpected(failed(
-            name + " is up already (" + names_of(running) + ")" +
-            (trouble ? ", but " + *trouble + "; end it: lockstep down" : "; see: lockstep status, lockstep down")));
+        return std::unexpected(failed(name + " is already up (" + names_of(running) + ")" +
+                                      (trouble ? ", but " + *trouble + "; end the machine: lockstep down"
+                                               : "; see: lockstep status, lockstep down")));
     }
     if (auto made = state.make(); !made) { return std::unexpected(failed(made.error())); }
     if (!state.lock()) {
@@ -126,13 +126,15 @@ Failure missing(const Session& session, const OwnParts& parts, const StateDirect
     const auto recorded = state.recorded();
     for (const ServiceLine& line : parts.lines) {
         if (are_present({line}, recorded, present)) { continue; }
-        return failed(with_log(line.name + " does not come to the network", line.name, state));
+        return failed(with_log(line.name + " does not appear on the network", line.name, state));
     }
-    if (!session.state()) { return failed(with_log("the coordinator is not received", "coordinator", state)); }
+    if (!session.state()) {
+        return failed(with_log("no messages are received from the coordinator", "coordinator", state));
+    }
     for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
         const std::string& name = session.config().axes[i].name;
         if (!has_axis(session.state()->state.axes_present, i)) {
-            return failed(with_log("axis " + name + " is not received", "axis-" + name, state));
+            return failed(with_log("no messages are received from axis " + name, "axis-" + name, state));
         }
     }
     for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
@@ -142,7 +144,7 @@ Failure missing(const Session& session, const OwnParts& parts, const StateDirect
             return failed(with_log("axis " + name + " waits for its device", "axis-" + name, state));
         }
     }
-    return failed(with_log("the machine does not become idle", "coordinator", state));
+    return failed(with_log("the machine does not become Idle", "coordinator", state));
 }
 
 /// The name of a part without a host, if the machine has several hosts; empty if every part has one.
@@ -188,7 +190,9 @@ void supervise(const StateDirectory& state, const std::vector<ServiceLine>& line
 std::expected<ProcessRecord, Failure> supervise_in_background(const StateDirectory& state,
                                                               const std::vector<ServiceLine>& lines) {
     const pid_t pid = fork();
-    if (pid < 0) { return std::unexpected(failed("cannot start the supervisor: no more processes")); }
+    if (pid < 0) {
+        return std::unexpected(failed("cannot start the supervisor, because the host allows no more processes"));
+    }
     if (pid == 0) { be_supervisor(state, lines); }
     return ProcessRecord{kSupervisor, pid, start_of(pid).value_or(0)};
 }

@@ -16,7 +16,7 @@ std::expected<std::filesystem::path, Failure> choose_file(const std::string& opt
     if (up.empty() && !installed.empty()) { return installed; }
     constexpr const char* kHow = "choose one: --machine FILE, or set LOCKSTEP_MACHINE=FILE";
     if (up.empty()) {
-        return std::unexpected(bad_input("no machine is chosen, none is up on this host, and there is no " +
+        return std::unexpected(bad_input("no machine is chosen, no machine is up on this host, and there is no " +
                                          std::string(kInstalledMachine) + "; " + kHow));
     }
     std::string names;

@@ -95,9 +95,9 @@ bool OtherHosts::finish(Output& output, std::size_t lines_where_well) {
         }
         if (is_well) { continue; }
         good = false;
-        output.warn(fmt::format("{0}: lockstep failed on this host with code {1}; does `ssh {0} lockstep status` work?",
-                                remote.host,
-                                ended && WIFEXITED(status) ? std::to_string(WEXITSTATUS(status)) : "unknown"));
+        output.warn(
+            fmt::format("{0}: lockstep failed on this host with code {1}; check that `ssh {0} lockstep status` works",
+                        remote.host, ended && WIFEXITED(status) ? std::to_string(WEXITSTATUS(status)) : "unknown"));
     }
     return good;
 }

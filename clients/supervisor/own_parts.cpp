@@ -55,10 +55,10 @@ std::optional<std::string> foreign_part(const MachineConfig& machine, const Plac
         const std::string number = fmt::format("process {}", process.pid);
         if (process.host != here) {
             return part + " runs on " + process.host + " (" + number + "), but the machine's file places it here, on " +
-                   here + "; end it there: lockstep down; and give all hosts the same file";
+                   here + "; end it on that host: lockstep down; and give all hosts the same machine file";
         }
         if (is_older(process, supervisor)) {
-            return part + " runs already (" + number + "), started by other means; end it first";
+            return part + " already runs (" + number + "), but lockstep up did not start it; end it first";
         }
     }
     return std::nullopt;

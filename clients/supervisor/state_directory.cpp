@@ -56,7 +56,7 @@ bool StateDirectory::lock() const {
 
 std::expected<void, std::string> StateDirectory::write_machine_file(const std::string& text) const {
     const auto written = replace_text_file(machine_file(), text);
-    if (!written) { return std::unexpected(written.error() + "; is there space on its disk?"); }
+    if (!written) { return std::unexpected(written.error() + "; check whether its disk is full"); }
     return {};
 }
 

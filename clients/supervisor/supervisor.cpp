@@ -95,7 +95,7 @@ void Supervisor::start(Service& service) {
     const pid_t pid = fork();
     if (pid == 0) { become(service.line, state_.log_file(service.line.name), self); }
     if (pid < 0) {
-        log_error("cannot start " + service.line.name + ": no more processes; tries again");
+        log_error("cannot start " + service.line.name + ", because the host allows no more processes; tries again");
         service.start_at = monotonic_now() + 1s;
         return;
     }

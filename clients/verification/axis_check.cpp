@@ -26,10 +26,10 @@ std::string text_of(StepEdge step, std::int64_t count) {
 std::string text_of_missing(const LeftSteps& found) {
     std::string text;
     if (found.unrecorded > 0) {
-        text += "; " + plural(found.unrecorded, "step") + " before the next process's are not on record";
+        text += "; " + plural(found.unrecorded, "step") + " before those of the next process are not in the log";
     }
     if (found.missing > 0) {
-        text += "; of their course at least " + plural(found.missing, "step") + " are not on record";
+        text += "; of their course at least " + plural(found.missing, "step") + " are not in the log";
     }
     return text;
 }
@@ -152,17 +152,17 @@ bool AxisCheck::begin_next_run() {
             fmt::format("axis {}: its device was lost after {}; from {} on another device counts, from {}", name_,
                         name_of(*last_run_), name_of(run), run.device_start()));
     } else if (jumps) {
-        differ(fmt::format("axis {}: {} starts at count {} of the device, the run before it ended at {}", name_,
+        differ(fmt::format("axis {}: {} starts at count {} of the device, but the run before it ended at {}", name_,
                            name_of(run), run.device_start(), last_run_->device_stop()),
                {}, run.start);
     } else if (!run.cut && run.to().count() != run.stop_count) {
-        differ(fmt::format("axis {}: {} is recorded to end at {}, its pieces end at {}", name_, name_of(run),
+        differ(fmt::format("axis {}: {} is recorded to end at {}, but its pieces end at {}", name_, name_of(run),
                            run.stop_count, run.to().count()),
                {}, run.start);
     } else if (run.epoch == 0 && run.frame <= 1 && !run.tail && !starts_from_rest(run)) {
         differ("axis " + name_ + ": " + name_of(run) + " does not start from rest on a whole step", {}, run.start);
     } else if (run.epoch == 0 && (run.frame > 1 || run.tail) && follows && !goes_on(*last_run_, run)) {
-        differ("axis " + name_ + ": " + name_of(run) + " does not go on from the frame before it", {}, run.start);
+        differ("axis " + name_ + ": " + name_of(run) + " does not continue the frame before it", {}, run.start);
     }
     if (findings_.going() && follower_ != nullptr) { follower_->on_run(run); }
     return findings_.going();
@@ -190,17 +190,17 @@ void AxisCheck::compare(const SeenStep& seen) {
     const std::int64_t count = maker_->count() + expected.direction;
     const std::string step = step_name();
     if (seen.edge.tick != expected.tick) {
-        return differ(fmt::format("{} is expected at tick {}, the log has it at tick {}", step, expected.tick.value,
+        return differ(fmt::format("{} is expected at tick {}, but the log has it at tick {}", step, expected.tick.value,
                                   seen.edge.tick.value),
                       expected.tick, seen.edge.tick);
     }
     if (seen.edge.direction != expected.direction) {
         return differ(step + " is expected to go " + (expected.direction > 0 ? "forward" : "backward") +
-                          ", in the log it goes the other way",
+                          ", but in the log it goes the other way",
                       expected.tick, seen.edge.tick);
     }
     if (seen.count != count) {
-        return differ(fmt::format("{} is expected to reach {}, in the log it reaches {}", step, count, seen.count),
+        return differ(fmt::format("{} is expected to reach {}, but in the log it reaches {}", step, count, seen.count),
                       expected.tick, seen.edge.tick);
     }
     compare_time(seen, step);
@@ -258,7 +258,7 @@ void AxisCheck::leave_run() {
     unrecorded_ += steps;
     if (unrecorded_ > StepBatcher::kMaxSteps) { return differ_unrecorded(unrecorded_); }
     findings_.notes.push_back(
-        fmt::format("axis {}: {} after {} are not on record, its process ended; with {} it came to {}", name_,
+        fmt::format("axis {}: {} after {} are not in the log, because its process ended; with {} it came to {}", name_,
                     plural(steps, "step"), at_tick(last_tick_, "the log's beginning"), name_of(maker_->run()),
                     maker_->run().stop_count));
     end_run();
@@ -275,7 +275,7 @@ void AxisCheck::leave_steps() {
 
 void AxisCheck::check_left(const std::vector<SeenStep>& left) {
     const std::string what =
-        fmt::format("axis {}: {} from tick {} on belong to no run on record, its process ended; ", name_,
+        fmt::format("axis {}: {} from tick {} on belong to no run in the log, because its process ended; ", name_,
                     plural(static_cast<std::int64_t>(left.size()), "step"), left.front().edge.tick.value);
     const std::vector<Course> courses = planned_(left.front().machine);
     if (courses.empty()) { return findings_.notes.push_back(what + "there is no plan to compare them with"); }
@@ -305,7 +305,7 @@ void AxisCheck::differ_from_plan(const std::string& what, const SeenStep& seen, 
 
 void AxisCheck::differ_unrecorded(std::int64_t steps) {
     differ("axis " + name_ + ": " + plural(steps, "step") + " after " + at_tick(last_tick_, "the log's beginning") +
-               " are not on record, more than its process can have held when it ended",
+               " are not in the log; its process cannot have held so many when it ended",
            last_tick_, {});
 }
 
@@ -353,7 +353,7 @@ void AxisCheck::end_of_log(LogEdges edges) {
             plural(static_cast<std::int64_t>(waiting_.size()), "step"), waiting_.front().edge.tick.value, compared));
     } else if (maker_) {
         const Tick expected = maker_->next()->tick;
-        differ(fmt::format("axis {}: the log has no more steps, though {} makes one at tick {}; {}", name_,
+        differ(fmt::format("axis {}: the log has no more steps, although {} makes one at tick {}; {}", name_,
                            name_of(maker_->run()), expected.value, compared),
                expected, {});
     } else if (!waiting_.empty()) {

@@ -112,7 +112,7 @@ ExitCode serve(const Options& options, const WebConfig& web, const ChosenMachine
     const std::string heading = "machine '" + machine.config.name +
                                 "': page addresses to operate and to view it; the tokens are also in " + file.string();
     const auto published = publish(options, address_text(web, listener), *tokens, heading);
-    if (!published) { return output.fail(failed(published.error() + "; name another: --page-file FILE")); }
+    if (!published) { return output.fail(failed(published.error() + "; name another file: --page-file FILE")); }
     while (!stop.requested()) { std::this_thread::sleep_for(50ms); }
     std::error_code none;
     if (!options.page_file.empty()) { std::filesystem::remove(options.page_file, none); }
@@ -130,7 +130,7 @@ int run(const Options& options) {
     if (!listener) { return output.fail(failed(listener.error())); }
     if (!listener->is_loopback && !tls->is_used()) {
         return output.fail(bad_input("--address " + web.address +
-                                     ": beyond this host the page is served with TLS only: add --certificate FILE and "
+                                     ": other hosts are served with TLS only; add --certificate FILE and "
                                      "--key FILE, or listen at 127.0.0.1 and use an SSH tunnel"));
     }
     return serve(options, web, *machine, *tls, *listener, output);
@@ -140,23 +140,24 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
     CLI::App app{
-        "Serves a page for a machine, and its interface of HTTP, until SIGTERM or SIGINT. One process beside the "
-        "machine: nothing in motion depends on it."};
+        "Serves a page for a machine, and the page's HTTP interface, until SIGTERM or SIGINT. No motion of the machine "
+        "depends on this process."};
     Options options;
     app.add_option("--machine", options.machine_file,
-                   "the machine's configuration file; else $LOCKSTEP_MACHINE, else the machine that is up on this "
+                   "the machine's configuration file; default: $LOCKSTEP_MACHINE, else the machine that is up on this "
                    "host, else /etc/lockstep/machine.textproto");
-    app.add_option("--address", options.address,
-                   "where to listen; beyond this host only with a certificate; default: 127.0.0.1");
+    app.add_option(
+        "--address", options.address,
+        "the address to listen at; an address that other hosts can reach needs a certificate; default: 127.0.0.1");
     app.add_option("--port", options.port, "the TCP port; 0: a free one; default: 2302");
     CLI::Option* certificate = app.add_option("--certificate", options.certificate, "serve HTTPS: the PEM file");
     CLI::Option* key = app.add_option("--key", options.key, "the certificate's key, a PEM file");
     certificate->needs(key);
     key->needs(certificate);
     app.add_option("--host-name", options.host_names,
-                   "another name under which the page may be opened, besides localhost and the address");
+                   "another host name under which the page may be opened, in addition to localhost and the address");
     app.add_option("--token-file", options.token_file,
-                   "where the tokens are, and are made if they are missing; default: beside the machine's record");
+                   "the file of the tokens, which is created if it is missing; default: beside the machine's record");
     app.add_option("--page-file", options.page_file,
                    "write the page's addresses, with their tokens, into this file that only its user can read, and not "
                    "to standard output, which may be a log; it is removed at the end");

@@ -15,7 +15,7 @@ std::expected<void, std::string> make_private_file(const std::filesystem::path& 
     const int error = errno;
     if (made >= 0) { close(made); }
     if (is_written) { return {}; }
-    return std::unexpected(file.string() + ": cannot be made: " + std::strerror(error));
+    return std::unexpected(file.string() + ": cannot be created: " + std::strerror(error));
 }
 
 }  // namespace lockstep::web

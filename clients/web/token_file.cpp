@@ -39,16 +39,18 @@ std::expected<Tokens, std::string> read_file(const std::filesystem::path& file) 
         return tokens;
     }
     return std::unexpected(fmt::format(
-        "{}: it needs two lines, 'operate TOKEN' and 'view TOKEN', with two tokens of {} characters or more; "
-        "or remove it: a new one is made",
+        "{}: the file must have two lines, 'operate TOKEN' and 'view TOKEN', with two tokens of {} characters or more; "
+        "or remove it, and a new one is created",
         file.string(), kShortestToken));
 }
 
 std::expected<Tokens, std::string> make_file(const std::filesystem::path& file) {
     Tokens tokens{.view = new_token(), .operate = new_token()};
-    if (tokens.view.empty() || tokens.operate.empty()) { return std::unexpected("this host gives no random numbers"); }
+    if (tokens.view.empty() || tokens.operate.empty()) {
+        return std::unexpected("this host provides no random numbers");
+    }
     const auto made = make_private_file(file, "operate " + tokens.operate + "\nview " + tokens.view + "\n");
-    if (!made) { return std::unexpected(made.error() + "; name another place: --token-file FILE"); }
+    if (!made) { return std::unexpected(made.error() + "; name another file: --token-file FILE"); }
     return tokens;
 }
 
@@ -62,7 +64,7 @@ std::expected<Tokens, std::string> tokens_of_file(const std::filesystem::path& f
     }
     const bool is_private = S_ISREG(status.st_mode) && (status.st_mode & (S_IRWXG | S_IRWXO)) == 0;
     if (!is_private || status.st_uid != geteuid()) {
-        return std::unexpected(file.string() + ": others than this user can read it; remove it: a new one is made");
+        return std::unexpected(file.string() + ": other users can read it; remove it, and a new one is created");
     }
     return read_file(file);
 }

@@ -47,7 +47,7 @@ CommandResult WriterLease::check_loser(const Command& command) const {
 void WriterLease::pass_to(const LeaseHolder& writer, Tick now) {
     for (const Member& member : members_) {
         if (!member.client) { continue; }
-        losers_.note(*member.client, {member.sequence, name_of(writer) + " has taken the machine over"});
+        losers_.note(*member.client, {member.sequence, name_of(writer) + " has taken over the machine"});
     }
     held_ = HeldLease{writer, now};
     members_.clear();

@@ -13,7 +13,7 @@ constexpr std::string_view kOtherLetters = "DEFHIJKLPQRST";
 std::string spaced(std::string_view letters) {
     std::string text;
     for (const char letter : letters) { text += (text.empty() ? "" : " ") + std::string(1, letter); }
-    return text.empty() ? "none that a letter calls" : text;
+    return text.empty() ? "none with a G-code letter" : text;
 }
 
 class BlockReader {
@@ -66,13 +66,13 @@ private:
             return reader_.fail(place,
                                 text + ": this machine has no axis " + letter + "; its axes are " + spaced(axes_));
         }
-        reader_.fail(place, text + " is not a word known here; known are G M N O " + spaced(kOtherLetters) +
+        reader_.fail(place, text + " is not a word of this machine; its words are G M N O " + spaced(kOtherLetters) +
                                 " and the axes " + spaced(axes_));
     }
 
     void refuse_size(std::size_t place) {
-        reader_.fail(place, word_text(line_, place) + " is out of range; numbers go to " + number_text(kMaxNumber) +
-                                " either way");
+        reader_.fail(place, word_text(line_, place) + " is out of range; a number must be from -" +
+                                number_text(kMaxNumber) + " to " + number_text(kMaxNumber));
     }
 
     void take_code(char letter, std::size_t place) {
@@ -103,7 +103,7 @@ private:
         if (const RefusedCode* refused = find_refused(letter, tenths)) {
             return reader_.fail(place, text + " " + std::string(refused->reason));
         }
-        reader_.fail(place, text + " is not a code known here; take it out, or see the list of codes");
+        reader_.fail(place, text + " is not a code of this machine; remove it, or see the list of codes");
     }
 
     void refuse_group(const Code& code, std::size_t place) {
@@ -127,7 +127,9 @@ private:
     }
 
     void take_polar(std::optional<double>& coordinate, std::size_t place) {
-        if (coordinate) { return reader_.fail(place, shown(line_.at(place)) + " stands twice in the block"); }
+        if (coordinate) {
+            return reader_.fail(place, shown(line_.at(place)) + " is twice in the block; write it once");
+        }
         coordinate = reader_.word_value(place);
         if (std::abs(*coordinate) > kMaxNumber) { refuse_size(place); }
     }
@@ -137,7 +139,8 @@ private:
         const double given = reader_.word_value(place);
         if (!reader_.error() && given != line_.checksum()) {
             reader_.fail(place, word_text(line_, place) + " is not the line's checksum, " +
-                                    std::to_string(line_.checksum()) + "; the line was damaged on its way");
+                                    std::to_string(line_.checksum()) +
+                                    "; the line was damaged in transmission; send it again");
         }
     }
 

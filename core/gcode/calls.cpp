@@ -105,8 +105,8 @@ Result Interpreter::load_later(const OWord& word) {
         called_early_.insert(word.label);
         return {};
     }
-    return error(word.place, shown_call(word.label) + " calls a subroutine that does not exist; write it" +
-                                 (setup_.find_subroutine ? ", or a file " + word.label + ".ngc" : ""));
+    return error(word.place, shown_call(word.label) + " calls a subroutine that does not exist; define it" +
+                                 (setup_.find_subroutine ? ", or add a file " + word.label + ".ngc" : ""));
 }
 
 /// Stores the subroutines of a text. Ignores errors outside them.
@@ -127,8 +127,8 @@ std::optional<GcodeError> Interpreter::keep_subroutines(const SubroutineText& so
             return true;
         }
         if (!wrong && ++kept_lines_ > setup_.limits.kept_lines) {
-            wrong =
-                line.error(0, "more than " + std::to_string(setup_.limits.kept_lines) + " lines, the limit kept_lines");
+            wrong = line.error(0, "the subroutines have more than " + std::to_string(setup_.limits.kept_lines) +
+                                      " lines, the limit kept_lines");
         }
         if (!wrong) { wrong = recorder.take(line, word, text); }
         if (wrong) { return false; }

@@ -103,10 +103,10 @@ constexpr std::array kCodes{
 };
 
 constexpr std::string_view kEncoder = "needs a spindle encoder, which this machine does not have";
-constexpr std::string_view kLathe = "is for lathes; write the moves out";
+constexpr std::string_view kLathe = "is for lathes; write its moves one by one";
 
 constexpr std::array kRefused{
-    RefusedCode{'G', 70, 70, "is for lathes; write radii"},
+    RefusedCode{'G', 70, 70, "is for lathes; write radii instead of diameters"},
     RefusedCode{'G', 171, 171, kLathe},
     RefusedCode{'G', 181, 181, kLathe},
     RefusedCode{'G', 191, 191, kLathe},
@@ -120,8 +120,8 @@ constexpr std::array kRefused{
     RefusedCode{'G', 880, 880, "waits for a person to move the tool out; write M0 and the moves"},
     RefusedCode{'G', 950, 960, kEncoder},
     RefusedCode{'M', 190, 190, kEncoder},
-    RefusedCode{'M', 980, 990, "is a call as other controllers write it; write o<name> call"},
-    RefusedCode{'M', 1000, 1990, "is a command of the user's, which are not run here"},
+    RefusedCode{'M', 980, 990, "is a call in the syntax of other controllers; write o<name> call"},
+    RefusedCode{'M', 1000, 1990, "is a command that a user defines; this machine does not run such commands"},
 };
 
 }  // namespace

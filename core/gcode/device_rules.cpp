@@ -17,14 +17,14 @@ void ProgramBuilder::note(const std::string& kind, const std::string& text) {
 bool ProgramBuilder::is_refused(WordRule rule, const char* what, const char* key) {
     if (rule == WordRule::Ignore || setup_.switches.ignore_unassigned) { return false; }
     fail(std::string(what) +
-         " is not configured on this machine; take the word out, pass --ignore-unassigned, or write unassigned { " +
-         key + ": IGNORE } in the machine's file");
+         " is not configured on this machine; remove the word, pass --ignore-unassigned, or write unassigned { " + key +
+         ": IGNORE } in the machine's file");
     return true;
 }
 
 void ProgramBuilder::device_event(WordRule rule, const char* what, const char* key, const ProgramEvent& event) {
     if (is_refused(rule, what, key)) { return; }
-    note(what, std::string(what) + " is not configured: its words are published, and switch nothing");
+    note(what, std::string(what) + " is not configured: its words are published but switch nothing");
     append(event);
 }
 

@@ -47,7 +47,7 @@ Result Interpreter::take_line(std::string_view text) {
 /// A % before the program opens it, the next one ends it.
 Result Interpreter::take_percent() {
     for (std::size_t at = 1; at < line_.text().size(); at = line_.end_of_comment(at)) {
-        if (line_.at(at) != '(') { return error(at, "a % stands alone on its line"); }
+        if (line_.at(at) != '(') { return error(at, "a % must be alone on its line"); }
     }
     if (begun_) { return finish(); }
     begun_ = true;
@@ -63,7 +63,7 @@ bool Interpreter::skip_head(const Line& line, Reader& reader) const {
     const std::size_t begin = reader.place();
     if (reader.take('N')) {
         if (!is_of_number(reader.peek())) {
-            reader.fail(begin, word_text(line, begin) + " is not a line number; it is a number from 0");
+            reader.fail(begin, word_text(line, begin) + " is not a line number; a line number must be 0 or above");
             return true;
         }
         (void)reader.word_value(begin);
@@ -95,7 +95,7 @@ Result Interpreter::assign() {
     for (const Assignment& assignment : block_.assignments) {
         const bool is_read_only = std::visit([&](const auto& parameter) { return parameters_.is_read_only(parameter); },
                                              assignment.parameter);
-        if (is_read_only) { return error(line_.text().find('#'), "the parameter can be read, but not written"); }
+        if (is_read_only) { return error(line_.text().find('#'), "this parameter can only be read"); }
         std::visit([&](const auto& parameter) { parameters_.set(parameter, assignment.value); }, assignment.parameter);
     }
     return {};

@@ -28,7 +28,7 @@ Result Interpreter::do_frames() {
 Result Interpreter::count_lines() {
     if (++repeated_lines_ <= setup_.limits.repeated_lines) { return {}; }
     return error(0, "loops and subroutines ran more than " + std::to_string(setup_.limits.repeated_lines) +
-                        " lines, the limit repeated_lines; a loop may never end");
+                        " lines, the limit repeated_lines; check that each loop ends");
 }
 
 Result Interpreter::do_kept(Frame& frame, const KeptLine& kept) {
@@ -46,7 +46,9 @@ Result Interpreter::do_kept(Frame& frame, const KeptLine& kept) {
 
 Result Interpreter::rest_is_empty(Reader& reader) const {
     while (reader.peek() == '(' && !reader.done()) { reader.skip_comment(); }
-    if (!reader.done() && !reader.error()) { reader.fail(reader.place(), "nothing may follow here; use another line"); }
+    if (!reader.done() && !reader.error()) {
+        reader.fail(reader.place(), "nothing may follow on this line; use another line");
+    }
     return reader.error() ? Result(std::unexpected(*reader.error())) : Result{};
 }
 

@@ -71,7 +71,7 @@ std::optional<GcodeError> slow_feed(const Interpreter& interpreter) {
     if (!block.has('F') || block['F'] <= 0 || block['F'] >= kMinFeedPerMinute) { return std::nullopt; }
     if (interpreter.state().modal.feed_mode != FeedMode::PerMinute) { return std::nullopt; }
     return interpreter.line().error(block.place('F'), word_text(interpreter.line(), block.place('F')) +
-                                                          " is too slow; F is per minute, from " +
+                                                          " is too slow; F is per minute and must be at least " +
                                                           number_text(kMinFeedPerMinute));
 }
 
@@ -132,8 +132,8 @@ double ProgramBuilder::within_travel(std::size_t i, double mm) {
     const double nearest = std::clamp(mm, axis.min_mm, axis.max_mm);
     if (std::abs(mm - nearest) <= kTravelTolerance_mm) { return nearest; }
     const std::string unit(unit_of(axis.name));
-    fail(i, axis.name + " to " + number_text(mm) + " " + unit + ", outside its travel of " + number_text(axis.min_mm) +
-                " to " + number_text(axis.max_mm) + " " + unit +
+    fail(i, axis.name + " to " + number_text(mm) + " " + unit + ", which is outside its travel of " +
+                number_text(axis.min_mm) + " to " + number_text(axis.max_mm) + " " + unit +
                 " (machine coordinates); change the program, or the axis's " +
                 (mm < nearest ? "position_min_mm" : "position_max_mm"));
     return mm;
@@ -239,15 +239,16 @@ double ProgramBuilder::feed_along_path(const ProgramMove& move) const {
 void ProgramBuilder::append(decltype(lockstep::Block::action) action) {
     events_together_ = std::holds_alternative<ProgramEvent>(action) ? events_together_ + 1 : 0;
     if (events_together_ == kMaxEventsTogether + 1) {
-        fail("more than " + std::to_string(kMaxEventsTogether) +
-             " words that move no axis, without a move between them; leave some out");
+        fail("the program has more than " + std::to_string(kMaxEventsTogether) +
+             " words that move no axis, without a move between them; remove some");
     }
     if (program_.blocks.size() < kMaxProgramBlocks) {
         program_.blocks.push_back({.line = line_, .action = std::move(action)});
         return;
     }
-    errors_.push_back(
-        {line_, 1, "the program has more than " + std::to_string(kMaxProgramBlocks) + " blocks; cut it in two", true});
+    errors_.push_back({line_, 1,
+                       "the program has more than " + std::to_string(kMaxProgramBlocks) + " blocks; split it in two",
+                       true});
 }
 
 }  // namespace lockstep::gcode

@@ -73,17 +73,17 @@ std::string text_of(const Unsuited& unsuited) {
     switch (unsuited.why) {
         case Why::TooFast:
             return "its steps are rounded to ticks: the maximum velocity is " + value +
-                   " steps/s and must not be above a third of a step per tick, " + limit;
+                   " steps/s, but must be at most a third of a step per tick, " + limit;
         case Why::OneAcceleration:
             return "its deceleration equals its acceleration: " + value + " steps/s^2 must equal the acceleration, " +
                    limit;
         case Why::WholePulses:
-            return "it changes its speed by whole pulses per 6.5 ms, " + limit +
-                   " steps/s^2 at least: acceleration and deceleration must not be below that, and one is " + value;
+            return "it changes its speed by whole pulses per 6.5 ms: acceleration and deceleration must be at least " +
+                   limit + " steps/s^2, but one is " + value;
         case Why::NotMade: return text_of(unsuited.error.value());
         case Why::BreaksLimits: break;
     }
-    return "in a move of " + std::to_string(unsuited.steps) + " steps its speed jumps by " + value +
+    return "in a move of " + std::to_string(unsuited.steps) + " steps its speed changes at once by " + value +
            " steps/s beyond what the acceleration allows; the start velocity allows " + limit;
 }
 

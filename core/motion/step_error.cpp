@@ -17,7 +17,7 @@ std::string text_of(const StepError& error) {
             return "with the method's clock a step takes at least " + short_number(1e6 / error.most) +
                    " us: the maximum speed must be below " + most + " steps/s";
         case TooSlow:
-            return "the move is too slow to be followed by a clock of " + short_number(error.clock_s * 1e6) +
+            return "the move is too slow for a clock of " + short_number(error.clock_s * 1e6) +
                    " us: it takes more than " + most + " s; take fewer steps";
         case PulsesPerPeriod:
             return "speeds are 1 to 255 whole pulses per " + short_number(error.clock_s * 1e3) +

@@ -23,7 +23,7 @@ std::string_view stage_name(std::uint64_t stage) {
 void log_notice(const AxisNotice& notice) {
     using Kind = AxisNotice::Kind;
     switch (notice.kind) {
-        case Kind::PositionProved: return log_info("homed: the device stands where the position was kept");
+        case Kind::PositionProved: return log_info("homed: the device is at the kept position");
         case Kind::PositionUnproved:
             return log_event(spdlog::level::info, notice.fault, "not homed: " + remedy(notice.fault));
         case Kind::OwnerAdopted: return log_info("follows the owner of term {}", notice.number);

@@ -54,8 +54,8 @@ OpenDevice opener_of(const std::string& fpga, const AxisConfig& axis, std::int64
 }
 
 void report_disk_failure(const std::string& why) {
-    log_warning("the position is not kept, a new process will not know it: " + why +
-                "; set position_directory to one that can be written");
+    log_warning("the position is not kept, so a new process of this axis must be homed: " + why +
+                "; set position_directory to a directory that can be written");
 }
 
 KeptOrNot kept_position(const MachineConfig& machine, std::size_t axis) {
@@ -293,15 +293,16 @@ int serve_axis(const AxisServiceOptions& options) {
     const AxisConfig& config = machine.axes[*axis];
     const bool simulated = (options.fpga.empty() ? config.device : options.fpga) == "sim";
     if (options.clock_error != ClockError{} && machine.timing.time_source != TimeSource::Network) {
-        std::cerr << "--clock-error: the machine's time_source is not NETWORK; nothing would correct the clock\n";
+        std::cerr << "--clock-error needs time_source: NETWORK; with the machine's time_source nothing would correct "
+                     "the clock\n";
         return kServiceBadInput;
     }
     if (options.clock_error != ClockError{} && !simulated) {
-        std::cerr << "--clock-error needs --fpga sim: lockstep-fpga keeps the right time\n";
+        std::cerr << "--clock-error needs --fpga sim, because the clock of lockstep-fpga has no error\n";
         return kServiceBadInput;
     }
     if (!options.fpga.empty() && !is_device_name(options.fpga)) {
-        std::cerr << "--fpga " << options.fpga << ": not one of sim, shm:NAME and uio:PATH\n";
+        std::cerr << "--fpga " << options.fpga << ": it must be sim, shm:NAME or uio:PATH\n";
         return kServiceBadInput;
     }
     if (auto log = open_log({"axis", config.name, options.log_file, true}); !log) {

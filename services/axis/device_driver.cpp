@@ -38,7 +38,8 @@ std::expected<std::uint64_t, std::string> entries_in(const char* ring, std::uint
                                                      std::uint64_t capacity) {
     if (head - tail <= capacity) { return head - tail; }
     return std::unexpected(std::string("device: ") + ring + " head " + hex(head) + " and tail " + hex(tail) +
-                           " are impossible: it holds " + std::to_string(capacity) + "; restart the device");
+                           " are impossible: the ring has " + std::to_string(capacity) +
+                           " entries; restart the device");
 }
 
 std::expected<std::uint64_t, std::string> segments_in(const RegisterWindow& window) {
@@ -90,10 +91,10 @@ private:
 /// Called at every read, because memory that was removed or overwritten no longer shows these values.
 std::expected<void, std::string> identify(const RegisterWindow& window, std::int64_t tick_ns) {
     const Identification words[] = {
-        {"MAGIC", kMagic, kMagicValue, "is this a Lockstep axis device, and powered up?"},
-        {"VERSION", kVersion, kVersionValue, "use device and host of the same release"},
-        {"MAP_CHECKSUM", kMapChecksum, kMapChecksumValue, "use device and host of the same release"},
-        {"TICK_NS", kTickNs, static_cast<std::uint64_t>(tick_ns), "give device and host the same tick_ns"},
+        {"MAGIC", kMagic, kMagicValue, "check that this is a Lockstep axis device and that it has power"},
+        {"VERSION", kVersion, kVersionValue, "install the same release on device and host"},
+        {"MAP_CHECKSUM", kMapChecksum, kMapChecksumValue, "install the same release on device and host"},
+        {"TICK_NS", kTickNs, static_cast<std::uint64_t>(tick_ns), "set the same tick_ns for device and host"},
     };
     for (const auto& [name, offset, expected, remedy] : words) {
         if (const std::uint64_t found = window.load(offset); found != expected) {
@@ -135,7 +136,7 @@ std::expected<DeviceStatus, std::string> DeviceDriver::stale_look() {
         return *last_look_;
     }
     return std::unexpected("device: SEQUENCE reads " + hex(window_.load(kSequence)) +
-                           ": it stopped in the middle of an update; restart it");
+                           ": the device stopped in the middle of an update; restart it");
 }
 
 DeviceStatus DeviceDriver::read_words() const {
@@ -174,7 +175,7 @@ std::expected<void, std::string> DeviceDriver::apply(const DeviceOrder& order) {
 DeviceDriver::Result DeviceDriver::apply_one(const device::BeginRun& order) {
     if (order.run == 0 || order.run == window_.load(kRunRequest)) {
         return std::unexpected("device: run " + std::to_string(order.run) +
-                               " not begun: its number must be new, and not 0; go on from what RUN reads");
+                               " did not begin: its number must be new and not 0; continue from the number in RUN");
     }
     window_.store(kArmed, 0);
     window_.store(kVeto, kNoVeto);
@@ -185,16 +186,17 @@ DeviceDriver::Result DeviceDriver::apply_one(const device::BeginRun& order) {
 
 DeviceDriver::Result DeviceDriver::apply_one(const device::LoadFrame& order) {
     const auto refuse = [&order](const std::string& why) {
-        return std::unexpected("device: frame " + std::to_string(order.number) + " not loaded: " + why);
+        return std::unexpected("device: frame " + std::to_string(order.number) + " is not loaded: " + why);
     };
     const auto loaded = segments_in(window_);
     if (!loaded) { return std::unexpected(loaded.error()); }
     const std::size_t needed = order.track.body.size() + order.track.tail.size();
     const std::size_t room = kSegmentRingEntries - *loaded;
     if (needed > room) {
-        return refuse("it has " + std::to_string(needed) + " segments, the ring has room for " + std::to_string(room));
+        return refuse("the frame has " + std::to_string(needed) + " segments, but the ring has room for " +
+                      std::to_string(room));
     }
-    if (order.track.body.empty()) { return refuse("it has no body"); }
+    if (order.track.body.empty()) { return refuse("the frame has no body"); }
     if (window_.load(kRunRequest) == 0) { return refuse("no run has been begun"); }
     FrameWriter writer(window_, order);
     for (const Piece& piece : order.track.body) {

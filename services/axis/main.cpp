@@ -13,15 +13,16 @@ int main(int argc, char** argv) {
     app.add_option("--machine", options.machine_file, "the machine's configuration file")->required();
     app.add_option("--axis", options.axis,
                    "the axis's name in that file; default: the axis that the file places on this host");
-    app.add_option("--fpga", options.fpga,
-                   "the device, instead of the file's: sim (in this process), shm:NAME (of lockstep-fpga) or uio:PATH "
-                   "(memory-mapped, such as uio:/dev/uio0)");
-    app.add_option("--log", options.log_file, "where log lines go; standard error where it is not given");
+    app.add_option(
+        "--fpga", options.fpga,
+        "the device to use instead of the file's: sim (in this process), shm:NAME (of lockstep-fpga) or uio:PATH "
+        "(memory-mapped, such as uio:/dev/uio0)");
+    app.add_option("--log", options.log_file, "the file for log lines; default: standard error");
     std::string clock_error;
     app.add_option("--clock-error", clock_error,
-                   "for tests: makes this process's clock, and the device simulated in it, wrong: "
+                   "for tests: adds errors to the clock of this process and of its simulated device: "
                    "offset=SECONDS,ppm=N,step=SECONDS@SECONDS (after the start); needs time_source: NETWORK");
-    app.add_flag("--no-lcm", no_lcm, "do not publish the record; the process still keeps its own log");
+    app.add_flag("--no-lcm", no_lcm, "do not publish the record; the process still writes its own log");
     app.footer(
         "Example: lockstep-axis --machine machine.textproto --axis X\n"
         "SIGUSR1: writes what it received, decided and published in its last seconds to an incident file\n"

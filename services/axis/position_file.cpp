@@ -19,13 +19,13 @@ ReadPosition unreadable(const std::filesystem::path& path, const std::string& wh
 
 /// Returns why the file must not be read; empty if it may be read.
 std::string refusal_of(const struct stat& file) {
-    if (!S_ISREG(file.st_mode)) { return "this is not a regular file; remove it"; }
+    if (!S_ISREG(file.st_mode)) { return "it is not a regular file; remove it"; }
     if (file.st_uid != geteuid() && file.st_uid != 0) {
         return fmt::format("it belongs to user {}; remove it", file.st_uid);
     }
-    if ((file.st_mode & (S_IWGRP | S_IWOTH)) != 0) { return "others may write it; chmod go-w, or remove it"; }
+    if ((file.st_mode & (S_IWGRP | S_IWOTH)) != 0) { return "other users may write it; run chmod go-w, or remove it"; }
     if (file.st_size > kMostBytes) {
-        return fmt::format("it has {} bytes, at most {} are read; remove it", file.st_size, kMostBytes);
+        return fmt::format("it has {} bytes, more than {}; remove it", file.st_size, kMostBytes);
     }
     return {};
 }

@@ -48,7 +48,8 @@ std::string hash_text(std::uint64_t hash) {
 }
 
 void report_unwritten_values(const std::string& why) {
-    log_error("the machine's offsets and tools are not kept: " + why + "; make room or correct the folder's rights");
+    log_error("the machine's offsets and tools are not kept: " + why +
+              "; make room on the disk, or correct the directory's permissions");
 }
 
 class CoordinatorService {
@@ -199,7 +200,8 @@ private:
                 return log_warning("gives up the machine: another coordinator owns it, term {}", notice.number);
             case Kind::JobCutShort:
                 return log_warning(
-                    "the previous coordinator's job ended early near line {0}: {1}; the axes rest; go on: lockstep run "
+                    "the previous coordinator's job ended early near line {0}: {1}; the axes rest; continue: lockstep "
+                    "run "
                     "FILE --from-line {0}",
                     notice.number, text_of(notice.doubt));
             case Kind::JobContinued:
@@ -207,7 +209,7 @@ private:
             case Kind::ProgramLate:
                 return log_warning(
                     "the axes rest on the path after frame {}: no more of the program has arrived; the job continues "
-                    "when it does",
+                    "when more arrives",
                     notice.number);
             case Kind::ProgramCut:
                 return log_event(spdlog::level::warn, notice.fault,
@@ -216,9 +218,10 @@ private:
                                  notice.number);
             case Kind::EpochBegun: return log_info("epoch {} begun", notice.number);
             case Kind::Interrupted:
-                return log_event(spdlog::level::warn, notice.fault,
-                                 "the axes came to rest together after frame {}, on the path; goes on from there",
-                                 notice.number);
+                return log_event(
+                    spdlog::level::warn, notice.fault,
+                    "the axes came to rest together after frame {}, on the path; the job continues from there",
+                    notice.number);
             case Kind::Fault: {
                 const FaultText* text = find_fault(notice.fault);
                 return log_event(spdlog::level::err, notice.fault,
@@ -248,9 +251,10 @@ private:
         for (std::size_t axis = 0; axis < machine_.axes.size(); ++axis) {
             const std::uint64_t hash = config_hashes_[axis];
             if (!has_axis(received_axes_, axis) || hash == config_hash_) { continue; }
-            log_warning("axis " + axis_name(axis) + " runs configuration " + hash_text(hash) + ", this coordinator " +
-                        hash_text(config_hash_) +
-                        ": nothing moves; give all hosts the same machine file, then lockstep down and up");
+            log_warning(
+                "axis " + axis_name(axis) + " runs configuration " + hash_text(hash) + ", this coordinator " +
+                hash_text(config_hash_) +
+                ": the machine does not move; give all hosts the same machine file, then: lockstep down; lockstep up");
         }
         received_axes_ = 0;
         if (const std::uint64_t lost = sink_->failures(); lost != lost_records_) {
@@ -360,7 +364,7 @@ int serve_coordinator(const CoordinatorServiceOptions& options) {
     const MachineConfig& machine = loaded->config;
     if (options.standby && machine.timing.time_source == TimeSource::Network) {
         std::cerr << "--standby: the machine's time_source is NETWORK, so its time is the coordinator's own clock, and "
-                     "another host's clock cannot continue it; use SHARED (one host) or PTP\n";
+                     "the clock of another host cannot continue it; use SHARED (one host) or PTP\n";
         return kServiceBadInput;
     }
     if (options.on_takeover == OnTakeover::Continue && machine.coordination == StepMethod::Lai) {
@@ -376,7 +380,7 @@ int serve_coordinator(const CoordinatorServiceOptions& options) {
     auto values = read_values(values_file(machine.name));
     if (!values) {
         log_error(to_text(values_file(machine.name).string(), values.error()) +
-                  "correct the file; or remove it, to begin without offsets and tools");
+                  "correct the file, or remove it to begin without offsets and tools");
         return kServiceBadInput;
     }
     return run(options, machine, *std::move(values));

@@ -202,7 +202,7 @@ void FileRows::take_back(const Work& work) {
         remove(page);
     } else if (!failure_) {
         failure_ = "the coordinator cannot keep the program in " + directory_.string() + ": " +
-                   std::strerror(work.error) + "; make room there";
+                   std::strerror(work.error) + "; make room on its disk";
     }
     evict();
 }

@@ -48,12 +48,14 @@ private:
     void check_name() {
         problems_.require(
             is_axis_name(axis_.name), "name",
-            fmt::format("name is \"{}\"; a letter, then letters, digits and _, at most {}", axis_.name, kMaxAxisName));
+            fmt::format("name is \"{}\"; it must be a letter, then letters, digits and _, at most {} characters",
+                        axis_.name, kMaxAxisName));
         for (std::size_t other = 0; other < index_; ++other) {
             problems_.require(
                 !same_name(axis_.name, machine_.axes[other].name), "name",
-                fmt::format("the name is taken by axis {}, {}; names must differ in more than upper and lower case",
-                            other + 1, machine_.axes[other].name));
+                fmt::format(
+                    "the name is already that of axis {}, {}; names must differ in more than upper and lower case",
+                    other + 1, machine_.axes[other].name));
         }
     }
 
@@ -67,8 +69,9 @@ private:
         problems_.require_range(key, value, -kMaxPlace_mm, kMaxPlace_mm);
     }
     void length(const std::string& key, double value) {
-        problems_.require(value > 0 && value <= kMaxPlace_mm, key,
-                          key + " is " + number_text(value) + "; it is above 0, to " + number_text(kMaxPlace_mm));
+        problems_.require(
+            value > 0 && value <= kMaxPlace_mm, key,
+            key + " is " + number_text(value) + "; it must be above 0 and at most " + number_text(kMaxPlace_mm));
     }
 
     void check_ranges() {
@@ -97,30 +100,31 @@ private:
         problems_.require_between(
             {"max_velocity_mm_s", "start_velocity_mm_s"}, axis_.max_velocity_mm_s >= axis_.start_velocity_mm_s,
             "max_velocity_mm_s is " + number_text(axis_.max_velocity_mm_s) + ", below start_velocity_mm_s " +
-                number_text(axis_.start_velocity_mm_s) + "; raise it");
+                number_text(axis_.start_velocity_mm_s) + "; increase it");
         const double fastest = kMaxStepsPerTick / (tick_s() * axis_.steps_per_mm);
         problems_.require_between({"max_velocity_mm_s", "steps_per_mm"}, axis_.max_velocity_mm_s <= fastest,
                                   "max_velocity_mm_s is " + number_text(axis_.max_velocity_mm_s) +
-                                      ", more than half a step per tick; at most " + number_text(fastest) +
-                                      ", or lower tick_ns or steps_per_mm");
+                                      ", more than half a step per tick; it must be at most " + number_text(fastest) +
+                                      ", or decrease tick_ns or steps_per_mm");
     }
 
     void check_ramp(std::string_view key, double value) {
         const std::string what = std::string(key) + " is " + number_text(value);
         const double most = kMaxStepsPerTick / (tick_s() * tick_s() * axis_.steps_per_mm);
-        problems_.require_between({key, "steps_per_mm"}, value <= most,
-                                  what + ", full speed within a tick; at most " + number_text(most));
+        problems_.require_between(
+            {key, "steps_per_mm"}, value <= most,
+            what + ", which reaches full speed within a tick; it must be at most " + number_text(most));
         const double least = axis_.max_velocity_mm_s / kMaxRampSeconds;
         problems_.require_between({key, "max_velocity_mm_s"}, value >= least,
-                                  what + "; max_velocity_mm_s would take more than " + number_text(kMaxRampSeconds) +
-                                      " s; at least " + number_text(least));
+                                  what + ", so max_velocity_mm_s would take more than " + number_text(kMaxRampSeconds) +
+                                      " s; it must be at least " + number_text(least));
     }
 
     void check_travel() {
         problems_.require_between({"position_max_mm", "position_min_mm"}, axis_.position_max_mm > axis_.position_min_mm,
                                   "position_max_mm is " + number_text(axis_.position_max_mm) +
                                       ", not above position_min_mm " + number_text(axis_.position_min_mm) +
-                                      "; raise it");
+                                      "; increase it");
         check_steps("position_min_mm", axis_.position_min_mm);
         check_steps("position_max_mm", axis_.position_max_mm);
     }
@@ -128,7 +132,7 @@ private:
     void check_steps(std::string_view key, double mm) {
         problems_.require_between({key, "steps_per_mm"}, std::abs(mm) * axis_.steps_per_mm <= kMaxSteps,
                                   std::string(key) + " is " + number_text(mm) + ", more than " +
-                                      number_text(kMaxSteps) + " steps from 0; bring it nearer");
+                                      number_text(kMaxSteps) + " steps from 0; move it closer to 0");
     }
 
     void check_homing_speeds() {
@@ -138,10 +142,10 @@ private:
         problems_.require_between(
             {"homing.search_velocity_mm_s", "start_velocity_mm_s"}, search <= axis_.start_velocity_mm_s,
             "homing.search_velocity_mm_s is " + number_text(search) + ", above start_velocity_mm_s " +
-                number_text(axis_.start_velocity_mm_s) + ": the switch stops the pulses at once; lower it");
+                number_text(axis_.start_velocity_mm_s) + ": the switch stops the pulses at once; decrease it");
         problems_.require_between({"homing.latch_velocity_mm_s", "homing.search_velocity_mm_s"}, latch <= search,
                                   "homing.latch_velocity_mm_s is " + number_text(latch) +
-                                      ", above homing.search_velocity_mm_s " + number_text(search) + "; lower it");
+                                      ", above homing.search_velocity_mm_s " + number_text(search) + "; decrease it");
     }
 
     void check_unhomed_jog() {
@@ -149,7 +153,7 @@ private:
         problems_.require_between(
             {"unhomed_jog_mm_s", "start_velocity_mm_s"}, *axis_.unhomed_jog_mm_s <= axis_.start_velocity_mm_s,
             "unhomed_jog_mm_s is " + number_text(*axis_.unhomed_jog_mm_s) + ", above start_velocity_mm_s " +
-                number_text(axis_.start_velocity_mm_s) + ": a limit switch stops the pulses at once; lower it");
+                number_text(axis_.start_velocity_mm_s) + ": a limit switch stops the pulses at once; decrease it");
     }
 
     void check_homing_places() {
@@ -162,10 +166,10 @@ private:
     }
 
     void check_within_travel(std::string_view key, double mm) {
-        problems_.require_between({key, "position_min_mm", "position_max_mm"},
-                                  mm >= axis_.position_min_mm && mm <= axis_.position_max_mm,
-                                  std::string(key) + " is " + number_text(mm) + ", outside travel; it goes from " +
-                                      number_text(axis_.position_min_mm) + " to " + number_text(axis_.position_max_mm));
+        problems_.require_between(
+            {key, "position_min_mm", "position_max_mm"}, mm >= axis_.position_min_mm && mm <= axis_.position_max_mm,
+            std::string(key) + " is " + number_text(mm) + ", outside the travel; it must be from " +
+                number_text(axis_.position_min_mm) + " to " + number_text(axis_.position_max_mm));
     }
 
     /// The switch must lie on the side homed to, and the axis must reach it before the limit switch.
@@ -176,7 +180,7 @@ private:
         const bool holds = at_min ? at > limit_min() && at <= middle : at < limit_max() && at >= middle;
         problems_.require_between(
             {"homing.switch_position_mm", "position_min_mm", "position_max_mm", "plant.travel_margin_mm"}, holds,
-            "homing.switch_position_mm is " + number_text(at) + "; it lies on the side homed to, " +
+            "homing.switch_position_mm is " + number_text(at) + "; it must be on the side that the axis homes to, " +
                 number_text(at_min ? limit_min() : middle) + " to " + number_text(at_min ? middle : limit_max()) +
                 ", and not on the limit switch");
     }
@@ -184,16 +188,17 @@ private:
     void check_pulloff(double room) {
         const double pulloff = axis_.homing.pulloff_mm;
         const std::string what = "homing.pulloff_mm is " + number_text(pulloff);
-        problems_.require_between({"homing.pulloff_mm", "steps_per_mm"}, pulloff * axis_.steps_per_mm >= 1,
-                                  what + ", less than a step; at least " + number_text(1 / axis_.steps_per_mm));
+        problems_.require_between(
+            {"homing.pulloff_mm", "steps_per_mm"}, pulloff * axis_.steps_per_mm >= 1,
+            what + ", less than a step; it must be at least " + number_text(1 / axis_.steps_per_mm));
         problems_.require_between(
             {"homing.pulloff_mm", "homing.switch_position_mm", "position_min_mm", "position_max_mm"}, pulloff < room,
-            what + ", not less than the travel from the switch, " + number_text(room) + "; lower it");
+            what + ", not less than the travel from the switch, " + number_text(room) + "; decrease it");
         const double tolerance = axis_.homing.touch_tolerance_mm;
         problems_.require_between({"homing.touch_tolerance_mm", "homing.pulloff_mm"}, tolerance < pulloff,
                                   "homing.touch_tolerance_mm is " + number_text(tolerance) +
                                       ", not less than homing.pulloff_mm " + number_text(pulloff) +
-                                      ": no two touches would differ; lower it");
+                                      ": two touches could never differ by more than that; decrease it");
     }
 
     void check_plant() {
@@ -219,9 +224,10 @@ private:
 
     void check_place() {
         problems_.require(axis_.host.empty() || is_host_name(axis_.host), "host",
-                          "host is \"" + axis_.host + "\"; the name of a host: letters, digits, - and .");
-        problems_.require(is_device_name(axis_.device), "device",
-                          "device is \"" + axis_.device + "\"; sim, shm:NAME or uio:PATH, such as uio:/dev/uio0");
+                          "host is \"" + axis_.host + "\"; it must be the name of a host: letters, digits, - and .");
+        problems_.require(
+            is_device_name(axis_.device), "device",
+            "device is \"" + axis_.device + "\"; it must be sim, shm:NAME or uio:PATH, such as uio:/dev/uio0");
     }
 
     double tick_s() const { return static_cast<double>(machine_.tick_ns) * 1e-9; }

@@ -104,7 +104,7 @@ RealTimeConfig read_real_time(const proto::RealTime& message) {
 WordRule read_rule(bool is_given, proto::WordRule rule, WordRule preset, const std::string& key, Reader& reader) {
     if (!is_given) { return preset; }
     if (!proto::WordRule_IsValid(rule)) {
-        reader.refuse(key, fmt::format("{} is {}; it is REFUSE or IGNORE", key, int{rule}));
+        reader.refuse(key, fmt::format("{} is {}; it must be REFUSE or IGNORE", key, int{rule}));
     }
     return rule == proto::IGNORE ? WordRule::Ignore : WordRule::Refuse;
 }
@@ -113,7 +113,7 @@ ToolChange read_tool_change(const proto::Unassigned& message, ToolChange preset,
     if (!message.has_tool_change()) { return preset; }
     if (!proto::ToolChange_IsValid(message.tool_change())) {
         const std::string key = "unassigned.tool_change";
-        reader.refuse(key, fmt::format("{} is {}; it is PAUSE or GO_ON", key, int{message.tool_change()}));
+        reader.refuse(key, fmt::format("{} is {}; it must be PAUSE or GO_ON", key, int{message.tool_change()}));
     }
     return message.tool_change() == proto::GO_ON ? ToolChange::GoOn : ToolChange::Pause;
 }
@@ -208,7 +208,7 @@ AxisConfig read_axis(const proto::Axis& message, Reader reader) {
     reader.require(message.has_position_min_mm(), message.position_min_mm(), axis.position_min_mm, "position_min_mm");
     reader.require(message.has_position_max_mm(), message.position_max_mm(), axis.position_max_mm, "position_max_mm");
     if (!proto::Method_IsValid(message.method())) {  // protobuf accepts any number for an enumeration
-        reader.refuse("method", fmt::format("method is {}; it is one of {}", int{message.method()}, kMethodNames));
+        reader.refuse("method", fmt::format("method is {}; it must be one of {}", int{message.method()}, kMethodNames));
     }
     axis.method = read_method(message.method());
     if (message.has_unhomed_jog_mm_s()) { axis.unhomed_jog_mm_s = message.unhomed_jog_mm_s(); }
@@ -229,7 +229,7 @@ MachineDraft machine_from_proto(const proto::Machine& message) {
     draft.machine.timing = read_timing(message.timing());
     if (!proto::TimeSource_IsValid(message.timing().time_source())) {
         Reader(draft.missing)
-            .refuse("timing.time_source", fmt::format("timing.time_source is {}; it is one of SHARED, NETWORK and PTP",
+            .refuse("timing.time_source", fmt::format("timing.time_source is {}; it must be SHARED, NETWORK or PTP",
                                                       int{message.timing().time_source()}));
     }
     draft.machine.network = read_network(message.network());

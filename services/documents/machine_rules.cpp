@@ -38,22 +38,23 @@ void check_timing(const MachineConfig& machine, ProblemList& problems) {
 void check_protocol(const ProtocolTiming& t, ProblemList& problems) {
     const auto require = [&](std::string_view key, int value, int least, const std::string& rule) {
         problems.require_between({key, "timing.stall_slots", "timing.freshness_slots"}, value >= least,
-                                 fmt::format("{} is {}; at least {} ({})", key, value, least, rule));
+                                 fmt::format("{} is {}; it must be at least {} ({})", key, value, least, rule));
     };
     const int s = t.stall_slots;
     const int m = t.freshness_slots;
     require("timing.freshness_slots", m, RULE_LEAST_FRESHNESS(s), "stall_slots + 1");
-    problems.require_between({"timing.late_check_slots", "timing.stall_slots"},
-                             t.late_check_slots >= 0 && t.late_check_slots <= s,
-                             fmt::format("timing.late_check_slots is {}; 0 to stall_slots, {}", t.late_check_slots, s));
+    problems.require_between(
+        {"timing.late_check_slots", "timing.stall_slots"}, t.late_check_slots >= 0 && t.late_check_slots <= s,
+        fmt::format("timing.late_check_slots is {}; it must be from 0 to stall_slots, {}", t.late_check_slots, s));
     require("timing.send_ahead_slots", t.send_ahead_slots, RULE_LEAST_SEND_AHEAD(t.check_slots(), m, s),
             "freshness_slots + stall_slots + late_check_slots + 8");
     const int least = t.send_ahead_slots > 0 && t.send_ahead_slots <= kMaxSlots ? least_frame_slots(t) : 1;
     problems.require_between(
         {"timing.frame_slots", "timing.send_ahead_slots"}, t.frame_slots >= least,
-        fmt::format("timing.frame_slots is {}; at least {}, so that a device has room for all frames that are "
-                    "sent {} slots ahead (send_ahead_slots)",
-                    t.frame_slots, least, t.send_ahead_slots));
+        fmt::format(
+            "timing.frame_slots is {}; it must be at least {}, so that a device has room for all frames that are "
+            "sent {} slots ahead (send_ahead_slots)",
+            t.frame_slots, least, t.send_ahead_slots));
 }
 
 /// Checks the limit of the clock error. In the setpoint protocol a hop must cover twice this error and the network's
@@ -64,9 +65,10 @@ void check_clocks(const ProtocolTiming& t, ProblemList& problems) {
     problems.require_between(
         {"timing.clock_error_limit_us", "timing.slot_us"},
         t.clock_error_limit_us >= 1 && t.clock_error_limit_us <= most,
-        fmt::format("timing.clock_error_limit_us is {}; 1 to {} (a quarter of slot_us); lengthen the slot, or "
-                    "lower it",
-                    t.clock_error_limit_us, most));
+        fmt::format(
+            "timing.clock_error_limit_us is {}; it must be from 1 to {} (a quarter of slot_us); decrease it, or "
+            "increase slot_us",
+            t.clock_error_limit_us, most));
 }
 
 bool is_interface_name(std::string_view name) {
@@ -85,11 +87,11 @@ bool is_lcm_url(std::string_view url) {
 
 void check_peers(const std::vector<std::string>& peers, ProblemList& problems) {
     problems.require(peers.size() <= kMaxPeers, "network",
-                     fmt::format("network.peers has {} hosts; at most {}", peers.size(), kMaxPeers));
+                     fmt::format("network.peers has {} hosts; it can have at most {}", peers.size(), kMaxPeers));
     for (const std::string& peer : peers) {
-        problems.require(
-            is_host_name(peer), "network",
-            "network.peers has \"" + peer + "\"; an IPv4 address or a host's name: letters, digits, - and .");
+        problems.require(is_host_name(peer), "network",
+                         "network.peers has \"" + peer +
+                             "\"; it must be an IPv4 address or a host's name: letters, digits, - and .");
     }
 }
 
@@ -98,13 +100,14 @@ void check_network(const NetworkConfig& network, ProblemList& problems) {
                      "network.interface is \"" + network.interface + "\"; name an interface, such as lo or eth0");
     problems.require_range("network.domain", network.domain, 0, kMaxDomain);
     problems.require(is_lcm_url(network.lcm_url), "network.lcm_url",
-                     "network.lcm_url is \"" + network.lcm_url + "\"; it begins with udpm://, tcpq:// or memq://");
+                     "network.lcm_url is \"" + network.lcm_url + "\"; it must begin with udpm://, tcpq:// or memq://");
     check_peers(network.peers, problems);
 }
 
 void check_directory(const std::string& key, const std::string& directory, ProblemList& problems) {
-    problems.require(directory.empty() || directory.starts_with('/'), key,
-                     key + " is \"" + directory + "\"; an absolute path, such as /var/lib/lockstep, or leave it out");
+    problems.require(
+        directory.empty() || directory.starts_with('/'), key,
+        key + " is \"" + directory + "\"; it must be an absolute path, such as /var/lib/lockstep; or remove it");
 }
 
 void check_record(const RecordConfig& record, ProblemList& problems) {
@@ -124,49 +127,54 @@ void check_real_time(const RealTimeConfig& real_time, ProblemList& problems) {
 }
 
 void check_web(const WebConfig& web, ProblemList& problems) {
-    problems.require(is_ip_address(web.address), "web.address",
-                     "web.address is \"" + web.address + "\"; an IP address, such as 127.0.0.1, ::1 or 0.0.0.0");
+    problems.require(
+        is_ip_address(web.address), "web.address",
+        "web.address is \"" + web.address + "\"; it must be an IP address, such as 127.0.0.1, ::1 or 0.0.0.0");
     problems.require_range("web.port", web.port, 1, 65535);
     check_directory("web.certificate_file", web.certificate_file, problems);
     check_directory("web.key_file", web.key_file, problems);
     const bool has_certificate = !web.certificate_file.empty();
     const std::string lacking = has_certificate ? "key_file" : "certificate_file";
-    problems.require(has_certificate == !web.key_file.empty(), "web",
-                     "web." + lacking + " is missing; HTTPS needs certificate_file and key_file, plain HTTP neither");
+    problems.require(
+        has_certificate == !web.key_file.empty(), "web",
+        "web." + lacking + " is missing; HTTPS needs certificate_file and key_file; plain HTTP needs neither");
     problems.require_between({"web.address", "web"}, has_certificate || is_loopback_address(web.address),
                              "web.address is \"" + web.address +
-                                 "\", beyond this host, where the page is served with TLS only; add certificate_file "
-                                 "and key_file, or listen at 127.0.0.1 and use an SSH tunnel");
+                                 "\", which other hosts can reach; they are served with TLS only; add certificate_file "
+                                 "and key_file, or set web.address: \"127.0.0.1\" and use an SSH tunnel");
     for (const std::string& name : web.host_names) {
-        problems.require(is_host_name(name), "web",
-                         "web.host_names has \"" + name + "\"; the name of a host: letters, digits, - and .");
+        problems.require(
+            is_host_name(name), "web",
+            "web.host_names has \"" + name + "\"; it must be the name of a host: letters, digits, - and .");
     }
 }
 
 /// Different hosts have different clocks, and cannot exchange messages over lo.
 void check_hosts(const MachineConfig& machine, ProblemList& problems) {
-    problems.require(
-        machine.coordinator_host.empty() || is_host_name(machine.coordinator_host), "coordinator_host",
-        "coordinator_host is \"" + machine.coordinator_host + "\"; the name of a host: letters, digits, - and .");
+    problems.require(machine.coordinator_host.empty() || is_host_name(machine.coordinator_host), "coordinator_host",
+                     "coordinator_host is \"" + machine.coordinator_host +
+                         "\"; it must be the name of a host: letters, digits, - and .");
     problems.require(!machine.network.one_host || machine.network.peers.empty(), "network.one_host",
-                     "network.one_host is true, but network.peers names other hosts; leave one of them out");
+                     "network.one_host is true, but network.peers names other hosts; remove one of them");
     const std::vector<std::string> hosts = hosts_of(machine);
     if (hosts.size() < 2) { return; }
     const std::string several = "the machine is on several hosts, such as " + hosts[0] + " and " + hosts[1];
     problems.require(machine.timing.time_source != TimeSource::Shared, "timing.time_source",
-                     "timing.time_source is SHARED, one host's clock, but " + several + "; NETWORK or PTP");
+                     "timing.time_source is SHARED, the clock of one host, but " + several + "; set NETWORK or PTP");
     problems.require(machine.network.interface != "lo", "network.interface",
-                     "network.interface is lo, but " + several + "; name the interface that joins them");
-    problems.require(!machine.network.one_host, "network.one_host", "network.one_host is true, but " + several);
+                     "network.interface is lo, but " + several + "; name the interface that connects them");
+    problems.require(!machine.network.one_host, "network.one_host",
+                     "network.one_host is true, but " + several + "; set it to false");
 }
 
 }  // namespace
 
 std::vector<Problem> machine_problems(const MachineConfig& machine) {
     ProblemList problems;
-    problems.require(is_machine_name(machine.name), "name",
-                     fmt::format("name is \"{}\"; a letter, then letters, digits, _ and -, at most {}", machine.name,
-                                 kMaxMachineName));
+    problems.require(
+        is_machine_name(machine.name), "name",
+        fmt::format("name is \"{}\"; it must be a letter, then letters, digits, _ and -, at most {} characters",
+                    machine.name, kMaxMachineName));
     problems.require_range("tick_ns", static_cast<double>(machine.tick_ns), 100, 1e6);
     check_timing(machine, problems);
     check_protocol(machine.timing, problems);
@@ -179,9 +187,10 @@ std::vector<Problem> machine_problems(const MachineConfig& machine) {
     check_real_time(machine.real_time, problems);
     if (machine.web) { check_web(*machine.web, problems); }
     check_hosts(machine, problems);
-    problems.require(!machine.axes.empty() && machine.axes.size() <= kMaxAxes, "",
-                     fmt::format("the machine has {} axes; write one axis {{ ... }} for each, 1 to {}",
-                                 machine.axes.size(), kMaxAxes));
+    problems.require(
+        !machine.axes.empty() && machine.axes.size() <= kMaxAxes, "",
+        fmt::format("the machine has {} axes; it must have from 1 to {}: write one axis {{ ... }} for each",
+                    machine.axes.size(), kMaxAxes));
     if (machine.coordination == StepMethod::Lai && problems.empty()) {
         const auto suits = suits_lai_path(machine);
         problems.require(suits.has_value(), "coordination", suits ? "" : text_of(suits.error()));

@@ -65,10 +65,10 @@ std::expected<std::size_t, std::string> axis_to_run(const MachineConfig& machine
     }
     if (fit.empty()) {
         return std::unexpected("places no axis on this host, " + std::string(host) + "; it has:" + places_of(machine) +
-                               "; name one by --axis, or write its host");
+                               "; name one with --axis, or set its host in the file");
     }
     return std::unexpected("places several axes on this host, " + std::string(host) + ": " + names_of(machine, fit) +
-                           "; name one by --axis");
+                           "; name one with --axis");
 }
 
 }  // namespace lockstep

@@ -25,8 +25,9 @@ public:
     }
 
     void require_range(const std::string& key, double value, double min, double max) {
-        require(value >= min && value <= max, key,
-                key + " is " + number_text(value) + "; it goes from " + number_text(min) + " to " + number_text(max));
+        require(
+            value >= min && value <= max, key,
+            key + " is " + number_text(value) + "; it must be from " + number_text(min) + " to " + number_text(max));
     }
 
     /// Checks a rule between several keys, but only if none of them has a problem yet. Reports the problem at the first

@@ -16,7 +16,9 @@ namespace {
 using Refusal = std::optional<std::string>;
 using Numbers = google::protobuf::RepeatedField<double>;
 
-std::string at_most(std::size_t value, std::size_t limit) { return fmt::format("{}; at most {}", value, limit); }
+std::string at_most(std::size_t value, std::size_t limit) {
+    return fmt::format("{}; it must be at most {}", value, limit);
+}
 
 Refusal check_axes(const proto::Program& message) {
     const auto& axes = message.axes();
@@ -24,7 +26,7 @@ Refusal check_axes(const proto::Program& message) {
     const auto count = static_cast<std::size_t>(axes.size());
     if (count > kMaxAxes) { return "the program's number of axes is " + at_most(count, kMaxAxes); }
     for (int i = 0; i < axes.size(); ++i) {
-        if (!is_axis_name(axes[i])) { return fmt::format("axis {} of the program has no axis's name", i + 1); }
+        if (!is_axis_name(axes[i])) { return fmt::format("axis {} of the program has no valid name", i + 1); }
         for (int other = 0; other < i; ++other) {
             if (same_name(axes[i], axes[other])) { return "the program names axis " + axes[i] + " twice"; }
         }
@@ -34,13 +36,13 @@ Refusal check_axes(const proto::Program& message) {
 
 Refusal check_places(const Numbers& places, const proto::Program& message, std::size_t axes) {
     if (static_cast<std::size_t>(places.size()) != axes) {
-        return fmt::format("has {} places for {} axes", places.size(), axes);
+        return fmt::format("has {} positions for {} axes", places.size(), axes);
     }
     for (int i = 0; i < places.size(); ++i) {
         if (!(std::abs(places[i]) <= kMaxPlace_mm)) {
             const std::string axis = i < message.axes_size() ? message.axes(i) : fmt::format("axis {}", i + 1);
-            return "puts " + axis + " at " + number_text(places[i]) + " mm; places go to " + number_text(kMaxPlace_mm) +
-                   " mm either way";
+            return "puts " + axis + " at " + number_text(places[i]) + " mm; it must be from -" +
+                   number_text(kMaxPlace_mm) + " to " + number_text(kMaxPlace_mm) + " mm";
         }
     }
     return {};
@@ -60,17 +62,17 @@ Refusal check_arc(const proto::ProgramMove& move, std::size_t axes) {
     const proto::ArcShape& arc = move.arc();
     if (move.rapid()) { return "an arc is rapid; it needs a feed"; }
     if (arc.first() >= axes || arc.second() >= axes || arc.first() == arc.second()) {
-        return fmt::format("the arc's plane is of axes {} and {}; they are two different ones of {}", arc.first(),
+        return fmt::format("the arc's plane has axes {} and {}; they must be two different axes of {}", arc.first(),
                            arc.second(), axes);
     }
     for (const double mm : {arc.centre_first_mm(), arc.centre_second_mm()}) {
         if (!(std::abs(mm) <= kMaxCentre_mm)) {
-            return "the arc's centre is at " + number_text(mm) + " mm; centres go to " + number_text(kMaxCentre_mm) +
-                   " mm either way";
+            return "the arc's centre is at " + number_text(mm) + " mm; it must be from -" + number_text(kMaxCentre_mm) +
+                   " to " + number_text(kMaxCentre_mm) + " mm";
         }
     }
     if (arc.turns() < 1 || arc.turns() > kMaxTurns) {
-        return fmt::format("the arc's turns are {}; they go from 1 to {}", arc.turns(), kMaxTurns);
+        return fmt::format("the arc's number of turns is {}; it must be from 1 to {}", arc.turns(), kMaxTurns);
     }
     return {};
 }
@@ -78,12 +80,12 @@ Refusal check_arc(const proto::ProgramMove& move, std::size_t axes) {
 Refusal check_move(const proto::ProgramMove& move, const proto::Program& message, std::size_t axes) {
     if (Refusal refusal = check_places(move.target_mm(), message, axes)) { return "the target " + *refusal; }
     if (!move.rapid() && !(move.feed_mm_s() > 0 && move.feed_mm_s() <= kMaxFeed_mm_s)) {
-        return "the feed is " + number_text(move.feed_mm_s()) + " mm/s; it is above 0, to " +
+        return "the feed is " + number_text(move.feed_mm_s()) + " mm/s; it must be above 0 and at most " +
                number_text(kMaxFeed_mm_s);
     }
     if (!proto::PathMode_IsValid(move.mode())) { return fmt::format("the path mode is unknown: {}", int{move.mode()}); }
     if (!(move.tolerance_mm() >= 0 && move.tolerance_mm() <= kMaxTolerance_mm)) {
-        return "the tolerance is " + number_text(move.tolerance_mm()) + " mm; it goes from 0 to " +
+        return "the tolerance is " + number_text(move.tolerance_mm()) + " mm; it must be from 0 to " +
                number_text(kMaxTolerance_mm);
     }
     return move.has_arc() ? check_arc(move, axes) : Refusal{};
@@ -94,21 +96,21 @@ Refusal check_event(const proto::ProgramEvent& event) {
         return fmt::format("the event's kind is unknown: {}", int{event.kind()});
     }
     if (event.index() < 0 || event.index() > kMaxEventIndex) {
-        return fmt::format("the event's index is {}; it goes from 0 to {}", event.index(), kMaxEventIndex);
+        return fmt::format("the event's index is {}; it must be from 0 to {}", event.index(), kMaxEventIndex);
     }
     if (!std::isfinite(event.value())) { return "the event's value is not a number"; }
     return {};
 }
 
 Refusal check_block(const proto::Block& block, const proto::Program& message, std::size_t axes) {
-    if (block.line() < 0) { return fmt::format("the line is {}; lines count from 1", block.line()); }
+    if (block.line() < 0) { return fmt::format("the line is {}; lines are numbered from 1", block.line()); }
     if (block.has_move()) { return check_move(block.move(), message, axes); }
     if (block.has_event()) { return check_event(block.event()); }
     if (block.has_dwell() && !(block.dwell().seconds() >= 0 && block.dwell().seconds() <= kMaxDwell_s)) {
-        return "the dwell is " + number_text(block.dwell().seconds()) + " s; it goes from 0 to " +
+        return "the dwell is " + number_text(block.dwell().seconds()) + " s; it must be from 0 to " +
                number_text(kMaxDwell_s);
     }
-    if (block.action_case() == proto::Block::ACTION_NOT_SET) { return "no action known here"; }
+    if (block.action_case() == proto::Block::ACTION_NOT_SET) { return "the action is missing or unknown"; }
     return {};
 }
 

@@ -23,7 +23,7 @@ Diagnostic zero_byte(std::string_view text, std::size_t at) {
     const std::size_t line_begin = before.rfind('\n') + 1;  // npos + 1 is 0
     return {.line = static_cast<int>(std::ranges::count(before, '\n')) + 1,
             .column = static_cast<int>(at - line_begin) + 1,
-            .message = "the byte 0x00: this is not text, or the file is damaged"};
+            .message = "the byte 0x00 is here: the file is not text, or is damaged"};
 }
 
 /// A file descriptor that closes itself.
@@ -60,7 +60,7 @@ bool write_durably(const std::filesystem::path& path, std::string_view text) {
 std::expected<std::string, Diagnostic> read_text_file(const std::filesystem::path& path) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) { return refusal("there is no such file, or its folder cannot be read"); }
+    if (!std::filesystem::exists(status)) { return refusal("there is no such file, or its directory cannot be read"); }
     if (std::filesystem::is_directory(status)) { return refusal("this is a directory; name a file in it"); }
     if (!std::filesystem::is_regular_file(status)) { return refusal("this is not a regular file"); }
     const auto size = std::filesystem::file_size(path, error);

@@ -29,7 +29,7 @@ void report(std::string_view promise, const std::source_location& where) {
                       promise.data(), static_cast<int>(file.size()), file.data(), static_cast<unsigned>(where.line()));
     const std::string_view note(text, std::min(static_cast<std::size_t>(length), sizeof text - 1));
     if (FlightLog* const flight = flight_of_process.load()) { flight->set_note(note); }
-    log_error(std::string(note) + "; this is a defect of Lockstep, please report it with the incident file");
+    log_error(std::string(note) + "; this is a defect of Lockstep; please report it with the incident file");
 }
 
 }  // namespace

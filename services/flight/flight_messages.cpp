@@ -86,11 +86,11 @@ flight_note_t to_lcm(const FlightSource& source, const IncidentMark& mark, const
 std::expected<FlightHead, std::string> from_lcm(const flight_head_t& message) {
     const auto reason = incident_reason(message.reason);
     if (message.version != kFlightVersion || !reason || message.tick_ns < 1) {
-        return std::unexpected(fmt::format("a head of version {}, reason \"{}\": this command reads version {}",
+        return std::unexpected(fmt::format("the head has version {}, reason \"{}\"; this command reads version {}",
                                            message.version, message.reason, kFlightVersion));
     }
     if (message.process.contains('/') || message.machine.contains('/')) {
-        return std::unexpected("a head of a process that is neither a coordinator nor an axis");
+        return std::unexpected("the head names a process that is neither a coordinator nor an axis");
     }
     FlightHead head;
     head.source = {.machine = message.machine,
@@ -107,10 +107,12 @@ std::expected<NumberedEvent, std::string> from_lcm(const flight_event_t& message
     const auto kind = flight_kind(message.what);
     const auto about = peer_in(machine, message.about);
     const FaultText* fault = find_fault(message.fault);
-    if (!kind) { return std::unexpected("an event of a kind that is not known: \"" + message.what + "\""); }
-    if (!about) { return std::unexpected("an event about \"" + message.about + "\", which the machine does not have"); }
+    if (!kind) { return std::unexpected("an event has an unknown kind: \"" + message.what + "\""); }
+    if (!about) {
+        return std::unexpected("an event names axis \"" + message.about + "\", which the machine does not have");
+    }
     if (fault == nullptr && !message.fault.empty()) {
-        return std::unexpected("an event of a fault that is not known: \"" + message.fault + "\"");
+        return std::unexpected("an event has an unknown fault: \"" + message.fault + "\"");
     }
     NumberedEvent out{.number = static_cast<std::uint64_t>(message.sequence), .event = {}};
     out.event.tick = {message.tick};

@@ -32,7 +32,7 @@ std::string how_to_read(const std::filesystem::path& file) {
 
 void say_left(const LeftRings& left) {
     for (const auto& file : left.saved) {
-        log_warning("a process of this machine ended without being asked to; its notes are in " + how_to_read(file));
+        log_warning("a process of this machine ended unexpectedly; its notes are in " + how_to_read(file));
     }
     for (const std::string& problem : left.problems) { log_warning(problem); }
 }
@@ -92,13 +92,13 @@ void FlightRecorder::serve(const std::stop_token& stop) {
 
 void FlightRecorder::write() {
     const auto snapshot = read_ring(ring_.path());
-    if (!snapshot) { return log_warning("the incident is not written: " + snapshot.error()); }
+    if (!snapshot) { return log_warning("the incident file cannot be written: " + snapshot.error()); }
     const auto incident = first_incident(snapshot->events, written_);
     if (!incident) { return; }
     written_ = snapshot->events.back().number;
     const auto reason = static_cast<IncidentReason>(incident->event.detail);
     const auto file = write_incident(*snapshot, {reason, incident->event.tick, wall_clock_us()});
-    if (!file) { return log_warning("the incident is not written: " + file.error()); }
+    if (!file) { return log_warning("the incident file cannot be written: " + file.error()); }
     log_warning("incident (" + std::string(name_of(reason)) + "): the notes of the time before it are in " +
                 how_to_read(*file));
 }

@@ -86,14 +86,14 @@ std::expected<fs::path, std::string> write_incident(const FlightSnapshot& snapsh
     std::error_code error;
     fs::create_directories(source.directory, error);
     if (error) {
-        return std::unexpected("cannot make " + source.directory.string() + ": " + error.message() +
-                               "; set record { directory } to one that can be written");
+        return std::unexpected("cannot create " + source.directory.string() + ": " + error.message() +
+                               "; set record { directory } to a directory that can be written");
     }
     UnfinishedFile file(file_for(source, mark));
     auto log = LogWriter::open(file.unfinished());
     if (!log) { return std::unexpected(log.error()); }
     if (!write_events(snapshot, mark, *log)) {
-        return std::unexpected(file.path().string() + ": cannot be written completely: is the disk full?");
+        return std::unexpected(file.path().string() + ": cannot be written completely; check whether the disk is full");
     }
     if (const auto kept = file.keep(); !kept) { return std::unexpected(kept.error()); }
     remove_oldest(source);

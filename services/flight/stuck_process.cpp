@@ -18,8 +18,8 @@ void end_stuck_process(FlightLog& flight, Tick now, std::int64_t tick_ns) {
     const Ticks stood{std::chrono::nanoseconds(kLongestLoop).count() / tick_ns};
     flight.add({.tick = now + stood, .kind = FlightKind::LoopStuck, .lasts = stood});
     log_error(fmt::format(
-        "the loop has not run for {} s: a library call does not return; this process ends itself, to be started "
-        "again",
+        "the loop has not run for {} s, because a library call does not return; this process ends itself so that "
+        "it is started again",
         kLongestLoop.count()));
     drain_log(kPatience);
     std::abort();

@@ -49,7 +49,8 @@ public:
 
     std::expected<void, std::string> advance() {
         if (!device_->is_intact()) {
-            log_error("the registers were overwritten or removed; powers up again, unhomed");
+            log_error(
+                "the registers were overwritten or removed; the device powers up again, and the axis must be homed");
             if (auto up = power_up(); !up) { return up; }
         }
         device_->advance(clock_.now());
@@ -100,7 +101,7 @@ int serve_fpga(const FpgaOptions& options) {
         if (!well) { stop.request(); }
     });
     if (!well) { return fail(well.error()); }
-    log_info("ended; the loop was late by {} us at worst", loop.worst_lateness().count() / 1000);
+    log_info("ended; the loop was at most {} us late", loop.worst_lateness().count() / 1000);
     return 0;
 }
 

@@ -8,9 +8,11 @@ int main(int argc, char** argv) {
     lockstep::FpgaOptions options;
     app.add_option("--machine", options.machine_file, "the machine's configuration file")->required();
     app.add_option("--axis", options.axis, "the axis's name in that file")->required();
-    auto* place = app.add_option_group("where", "where the registers are");
-    place->add_option("--name", options.name, "shared memory of this name, under /dev/shm: shm:NAME for the axis");
-    place->add_option("--file", options.file, "a file to map, created if missing: uio:PATH for the axis");
+    auto* place = app.add_option_group("where", "where the registers are: in shared memory or in a file");
+    place->add_option("--name", options.name,
+                      "use shared memory of this name, under /dev/shm; the axis's device is then shm:NAME");
+    place->add_option("--file", options.file,
+                      "map this file, and create it if it is missing; the axis's device is then uio:PATH");
     place->require_option(1);
     app.footer(
         "Examples:\n  lockstep-fpga --machine machine.textproto --axis X --name lockstep-x\n"

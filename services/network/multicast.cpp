@@ -49,8 +49,8 @@ std::expected<void, std::string> check_multicast(const NetworkConfig& network) {
     if (!interface) { return std::unexpected("LCM: " + interface.error() + "; " + remedy(network.interface)); }
     if (url->ttl == 0 || *interface == network.interface) { return {}; }
     return std::unexpected(
-        fmt::format("LCM: ttl {} would send {} out by {}, not by {}; {}, or set ttl=0 in the LCM URL", url->ttl,
-                    url->address, *interface, network.interface, remedy(network.interface)));
+        fmt::format("LCM: ttl {} would send to {} through interface {}, not {}; {}, or set ttl=0 in the LCM URL",
+                    url->ttl, url->address, *interface, network.interface, remedy(network.interface)));
 }
 
 std::expected<bool, std::string> ensure_loopback_multicast() {

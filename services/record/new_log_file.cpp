@@ -19,9 +19,9 @@ std::string obstacle(const std::filesystem::path& path, bool force) {
     const auto status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) { return ""; }
     if (std::filesystem::is_directory(status)) { return "it is a directory; name a file"; }
-    if (!std::filesystem::is_regular_file(status)) { return "it is not a regular file; name another"; }
+    if (!std::filesystem::is_regular_file(status)) { return "it is not a regular file; name another file"; }
     if (force || std::filesystem::file_size(path, error) == 0 || is_log(path)) { return ""; }
-    return "the file there is not a log; name another, or add --force to replace it";
+    return "the existing file is not a log; name another file, or add --force to replace it";
 }
 
 }  // namespace
@@ -41,7 +41,8 @@ std::expected<NewLogFile, std::string> NewLogFile::begin(const std::filesystem::
 
 std::expected<void, std::string> NewLogFile::keep() {
     if (!sink_->finish()) {
-        return std::unexpected(file_.path().string() + ": cannot be written completely: is the disk full?");
+        return std::unexpected(file_.path().string() +
+                               ": cannot be written completely; check whether the disk is full");
     }
     return file_.keep();
 }

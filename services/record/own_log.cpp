@@ -40,19 +40,21 @@ std::expected<std::unique_ptr<RecordSink>, std::string> open_own_log(const Machi
                            .name = axis.empty() ? "coordinator" : "axis-" + axis,
                            .limit_bytes = static_cast<std::uint64_t>(machine.record.size_limit_mb) * kBytesPerMB});
     if (!log) {
-        return std::unexpected(log.error() +
-                               "; set record { directory } to one that can be written, or record { own_logs: false }");
+        return std::unexpected(
+            log.error() +
+            "; set record { directory } to a directory that can be written, or record { own_logs: false }");
     }
     return std::make_unique<QueuedSink>(std::make_unique<RotatingLog>(std::move(*log)), loss_teller(machine, axis),
                                         mark_channel(machine.name, axis));
 }
 
 std::string lost_records_text(const MachineConfig& machine, std::uint64_t lost) {
-    const std::string failed = machine.record.own_logs
-                                   ? fmt::format("written to {} (free room there)", own_log_directory(machine).string())
-                                   : "sent (record { own_logs: true } keeps them on a disk)";
+    const std::string failed = machine.record.own_logs ? fmt::format("written to {} (make room on its disk)",
+                                                                     own_log_directory(machine).string())
+                                                       : "sent (with record { own_logs: true } a disk keeps them)";
     return fmt::format(
-        "{} messages of the record are lost so far: they could not be {} or sent; lockstep log merge lists what no log "
+        "{} messages of the record were lost since the start: they could not be {} or sent; lockstep log merge lists "
+        "those that no log "
         "contains",
         lost, failed);
 }

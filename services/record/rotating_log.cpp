@@ -68,7 +68,7 @@ fs::path claim_file(const RotatingLog::Place& place, std::uint64_t number) {
 std::expected<RotatingLog, std::string> RotatingLog::open(Place place) {
     std::error_code error;
     fs::create_directories(place.directory, error);
-    if (error) { return std::unexpected("cannot make " + place.directory.string() + ": " + error.message()); }
+    if (error) { return std::unexpected("cannot create " + place.directory.string() + ": " + error.message()); }
     RotatingLog log(std::move(place));
     auto file = log.new_file();
     if (!file) { return std::unexpected(file.error()); }

@@ -29,7 +29,7 @@ std::string RouteWatch::restore() const {
     const std::string lost = "LCM: multicast is no longer routed to " + interface_;
     if (interface_ != "lo") { return lost + "; run as root: ip route add 224.0.0.0/4 dev " + interface_; }
     const auto added = ensure_loopback_multicast();
-    return lost + "; " + (added ? "its route was added again" : added.error());
+    return lost + "; " + (added ? "this process has added the route again" : added.error());
 }
 
 /// Reports the same problem only once until the route exists again.

@@ -20,7 +20,7 @@ std::unique_ptr<RecordSink> open_record(const MachineConfig& machine, const std:
         if (log) {
             sinks.push_back(std::move(*log));
         } else {
-            log_warning("this process keeps no log of its own: " + log.error());
+            log_warning("this process writes no log of its own: " + log.error());
         }
     }
     return std::make_unique<AllSinks>(std::move(sinks));

@@ -53,8 +53,9 @@ std::expected<ClockError, std::string> parse_clock_error(std::string_view text) 
     while (!text.empty()) {
         const std::string_view part = text.substr(0, text.find(','));
         if (!read_part(part, error)) {
-            return std::unexpected("\"" + std::string(part) +
-                                   "\" is none of offset=SECONDS, ppm=N, step=SECONDS@SECONDS, up to 1e6 each");
+            return std::unexpected(
+                "\"" + std::string(part) +
+                "\" is not valid; it must be offset=SECONDS, ppm=N or step=SECONDS@SECONDS, each at most 1e6");
         }
         text.remove_prefix(std::min(part.size() + 1, text.size()));
     }

@@ -14,7 +14,7 @@ namespace lockstep {
 namespace {
 
 constexpr int kLooksAtEnd = 40;
-constexpr std::string_view kWhy = "did not end in the time given: a disk may hang; ends at once\n";
+constexpr std::string_view kWhy = "the process did not end in time; a disk may hang; it ends now without waiting\n";
 
 /// Does not use the log, because a thread that hangs may hold the log's lock.
 [[noreturn]] void end_at_once() {

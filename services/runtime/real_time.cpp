@@ -24,9 +24,9 @@ std::string ask_for_scheduler(int priority) {
         return fmt::format("scheduler FIFO, priority {}", priority);
     }
     return "scheduler normal: FIFO was refused" + cause() +
-           "; a busy host may stall this process, and one stalled for more than timing.stall_slots brings the machine "
+           "; a busy host may stall this process, and a stall longer than timing.stall_slots brings the machine "
            "to "
-           "rest; to permit it: LimitRTPRIO=99 in the unit, or --ulimit rtprio=99 --cap-add SYS_NICE for a container";
+           "rest; to allow it: LimitRTPRIO=99 in the unit, or --ulimit rtprio=99 --cap-add SYS_NICE for a container";
 }
 
 std::string ask_for_cpus(const std::vector<int>& cpus) {
@@ -62,7 +62,7 @@ std::string lock_memory() {
         return "memory locked";
     }
     return "memory not locked" + cause() +
-           "; a page that is swapped out stalls this process; to permit it: LimitMEMLOCK=infinity in the unit, or "
+           "; a page that is swapped out stalls this process; to allow it: LimitMEMLOCK=infinity in the unit, or "
            "--ulimit memlock=-1 for a container";
 }
 

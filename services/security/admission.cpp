@@ -28,19 +28,19 @@ public:
         auto text = read_text_file(path);
         if (text) { return *std::move(text); }
         wrong(path, text.error().message,
-              "copy it here from where `lockstep keys make` was run, for the user who runs this");
+              "copy it from the directory of `lockstep keys make`, and make it readable for the user of this process");
         return "";
     }
     void look_at_key_mode(const fs::path& path) {
         struct stat facts {};
         if (::stat(path.c_str(), &facts) != 0 || (facts.st_mode & kForbidden) == 0) { return; }
-        wrong(path, "others may read or change this private key", "chmod 600 " + path.string());
+        wrong(path, "other users may read or change this private key", "chmod 600 " + path.string());
     }
     /// Checks the directory's mode, because users who may write the directory may replace its files.
     void look_at_directory_mode(const fs::path& path) {
         struct stat facts {};
         if (::stat(path.c_str(), &facts) != 0 || (facts.st_mode & (S_IWOTH | S_IWGRP)) == 0) { return; }
-        wrong(path, "others may replace the files in this directory", "chmod go-w " + path.string());
+        wrong(path, "other users may replace the files in this directory", "chmod go-w " + path.string());
     }
     void look_at_dates(const fs::path& path, std::chrono::sys_seconds now) {
         if (!check_.certificate) { return; }
@@ -65,14 +65,14 @@ public:
                          const std::string& wanted) {
         require(path, content);
         if (content && !content->contains(wanted)) {
-            wrong(path, "was made for another machine, domain or order of axes than this file's", kRenew);
+            wrong(path, "was made for a machine file with another name, domain or order of axes", kRenew);
         }
     }
     MemberCheck done() { return std::move(check_); }
 
 private:
-    static constexpr const char* kRenew = "lockstep keys make --force, then give every host its files";
-    static constexpr const char* kSame = "take all files from one run of lockstep keys make";
+    static constexpr const char* kRenew = "run lockstep keys make --force, then give every host its files";
+    static constexpr const char* kSame = "use files that were all made by the same run of lockstep keys make";
 
     void wrong(const fs::path& path, const std::string& what, const std::string& remedy) {
         check_.errors.push_back("machine '" + machine_.name + "', " + member_.name + ": " + path.string() + ": " +

@@ -130,13 +130,13 @@ std::expected<Signer, std::string> make(const Subject& subject, const Signer* au
     auto parts = std::make_shared<Signer::Parts>();
     parts->key.reset(EVP_EC_gen("P-256"));
     parts->certificate.reset(X509_new());
-    if (!parts->key || !parts->certificate) { return failed("cannot make a key"); }
+    if (!parts->key || !parts->certificate) { return failed("cannot create a key"); }
     X509* certificate = parts->certificate.get();
     X509* issuer = authority == nullptr ? certificate : authority->parts().certificate.get();
     EVP_PKEY* signing = authority == nullptr ? parts->key.get() : authority->parts().key.get();
     if (!fill(certificate, subject, parts->key.get(), issuer, valid) ||
         !add_purpose(certificate, issuer, authority == nullptr) || X509_sign(certificate, signing, EVP_sha256()) == 0) {
-        return failed("cannot make a certificate");
+        return failed("cannot create a certificate");
     }
     return Signer(std::move(parts));
 }

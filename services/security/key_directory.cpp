@@ -86,7 +86,7 @@ std::expected<void, std::string> make_directory(const fs::path& path, fs::perms 
     std::error_code error;
     fs::create_directories(path, error);
     if (!error) { fs::permissions(path, permissions, error); }
-    if (error) { return std::unexpected(path.string() + ": cannot be made: " + error.message()); }
+    if (error) { return std::unexpected(path.string() + ": cannot be created: " + error.message()); }
     return {};
 }
 
@@ -103,7 +103,7 @@ std::expected<MadeKeys, std::string> put_in_place(const fs::path& fresh, const f
     if (is_occupied) {
         made.replaced = aside(directory).string();
         fs::rename(directory, made.replaced, error);
-        if (error) { return std::unexpected(directory.string() + ": cannot be put aside: " + error.message()); }
+        if (error) { return std::unexpected(directory.string() + ": cannot be moved aside: " + error.message()); }
     }
     fs::rename(fresh, directory, error);
     if (!error) { return made; }
@@ -138,7 +138,7 @@ std::expected<MadeKeys, std::string> make_keys(const MachineConfig& machine, con
     const bool is_occupied = fs::exists(directory, error) && !fs::is_empty(directory, error);
     if (is_occupied && !replace) {
         return std::unexpected(directory.string() +
-                               ": there are files here already; --force moves them aside and makes new ones; after "
+                               ": this directory already has files; --force moves them aside and makes new ones; after "
                                "that every process of the machine needs its new files");
     }
     const fs::path fresh = fmt::format("{}.unfinished-{}", directory.string(), ::getpid());

@@ -18,7 +18,7 @@ std::expected<void, std::string> ProgramParts::take(const program_part_t& part, 
     const bool is_part = part.parts >= 0 && part.parts <= kMostParts && part.part >= 0 && part.part < kMostParts &&
                          (part.parts == 0 || part.part < part.parts);
     if (!is_part || (part.data.empty() && !is_last)) {
-        return std::unexpected(std::string("an impossible part of a program"));
+        return std::unexpected(std::string("a part of a program with impossible numbers"));
     }
     Parts& parts = parts_of(part);
     const auto place = static_cast<std::size_t>(part.part);

@@ -154,8 +154,8 @@ std::vector<std::string> open_sentences(const RecordEnd& end) {
     }
     if (!unmarked.empty()) {
         lines.push_back(
-            fmt::format("whether the end is missing cannot be known of {}: no mark states how much was "
-                        "published (an earlier version recorded this, or the log is cut)",
+            fmt::format("for {} it is not known whether the end is missing: no mark states how much was "
+                        "published (an earlier version recorded the log, or the log was cut short)",
                         names_of(unmarked)));
     }
     return lines;

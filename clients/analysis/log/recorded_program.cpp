@@ -17,7 +17,7 @@ std::expected<std::vector<std::uint8_t>, std::string> part_at(LogReader& log, st
     const auto event = log.event_at(offset);
     if (!event) { return std::unexpected(event.error()); }
     if (!*event || (*event)->offset != offset || kind_of((*event)->channel) != RecordKind::ProgramPart) {
-        return std::unexpected(fmt::format("the log has no part of a program at byte {} any more", offset));
+        return std::unexpected(fmt::format("the log no longer has a part of a program at byte {}", offset));
     }
     auto part = decode_lcm<program_part_t>((*event)->data);
     if (!part) { return std::unexpected(part.error()); }

@@ -36,7 +36,7 @@ Ticks Run::ticks() const { return total_ticks(pieces); }
 std::expected<Run, std::string> to_run(const run_t& message) {
     if (!is_countable_run(message)) { return std::unexpected("a run with impossible numbers"); }
     if (message.ticks.size() > kMaxBodyPieces + 1) {
-        return std::unexpected("a run of more pieces than a frame carries");
+        return std::unexpected("a run of more pieces than a frame can carry");
     }
     if (!are_commanded(message)) { return std::unexpected("a run with an impossible commanded duration"); }
     Run run{.incarnation = message.incarnation,
@@ -55,7 +55,7 @@ std::expected<Run, std::string> to_run(const run_t& message) {
     for (const std::int64_t ticks : message.commanded_ticks) { run.commanded_ticks.push_back({ticks}); }
     for (std::size_t i = 0; i < message.ticks.size(); ++i) {
         run.pieces.push_back({{message.ticks[i]}, {message.velocity[i]}, {message.acceleration[i]}});
-        if (!executable(run.pieces.back())) { return std::unexpected("a run with a piece that no engine executes"); }
+        if (!executable(run.pieces.back())) { return std::unexpected("a run with a piece that no engine can execute"); }
     }
     return run;
 }

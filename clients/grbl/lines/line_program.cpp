@@ -68,10 +68,10 @@ LineProgram::Outcome LineProgram::begin(bool is_held, std::chrono::nanoseconds n
 }
 
 LineProgram::Outcome LineProgram::follow(const MachineState& state) {
-    if (state.job > job_) { return lose("another client's job has followed before the end of these lines"); }
+    if (state.job > job_) { return lose("another client's job began before these lines ended"); }
     if (state.job < job_ || !state.outcome) { return Outcome::Goes; }
     if (state.outcome == JobOutcome::Done) { return Outcome::Done; }
-    return lose("the lines that were accepted are dropped: the machine was stopped");
+    return lose("the machine was stopped, so the accepted lines are dropped");
 }
 
 LineProgram::Outcome LineProgram::lose(std::string why) {

@@ -10,7 +10,7 @@ Error error_of(std::string_view message) {
         {"where a word's letter is expected", Error::ExpectedLetter},
         {"has no number", Error::BadNumber},
         {"is not a number", Error::BadNumber},
-        {"without a feed", Error::NoFeed},
+        {"has no feed", Error::NoFeed},
         {" repeats ", Error::RepeatedWord},
         {": a block has one ", Error::SameModalGroup},
         {"radius", Error::BadTarget},

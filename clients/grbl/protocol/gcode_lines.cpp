@@ -173,7 +173,7 @@ std::expected<LineEffect, Refused> GcodeLines::read(std::string_view line, const
     const gcode::KeptValues left = gcode::kept_values(after, park_of(machine_));
     if (!(left == gcode::kept_values(before, park_of(machine_)))) { effect.values = left; }
     if (effect.values && !effect.blocks.empty()) {
-        return std::unexpected(Refused{Error::TwoAxisCommands, "a line that sets offsets cannot move axes too"});
+        return std::unexpected(Refused{Error::TwoAxisCommands, "a line that sets offsets cannot also move axes"});
     }
     effect.rests_before = effect.values || effect.ends_program || modal_.system != effect.modal.system ||
                           tool_offset_ != effect.tool_offset;

@@ -11,7 +11,7 @@ namespace lockstep::grbl {
 namespace {
 
 constexpr const char* kHelp = "[HLP:$$ $# $G $I $N $x=val $Nx=line $J=line $SLP $C $X $H ~ ! ? ctrl-x]";
-constexpr const char* kInForce = "in force when the machine is next brought up";
+constexpr const char* kInForce = "applies after: lockstep down; lockstep up";
 
 }  // namespace
 
@@ -31,7 +31,7 @@ void Grbl::do_system(std::string_view text) {
     if (text == "X") { return unlock(); }
     if (text == "C") { return toggle_check(); }
     if (text.starts_with("J=")) { return do_jog(text.substr(2)); }
-    if (text == "J") { return refuse(Error::BadJog, "write $J= and the axes"); }
+    if (text == "J") { return refuse(Error::BadJog, "a jog needs its axes; write them after $J="); }
     if (text.starts_with("RST=")) { return restore(text.substr(4)); }
     if (text.front() == 'H') { return do_home(text.substr(1)); }
     if (text == "SLP") {
@@ -88,7 +88,7 @@ void Grbl::do_startup_block(std::string_view text) {
         return ok();
     }
     if (text == "0=" || text == "1=") { return ok(); }
-    refuse(Error::UnknownCommand, "no blocks are run at the start");
+    refuse(Error::UnknownCommand, "this machine runs no blocks at its start");
 }
 
 void Grbl::write_setting(std::string_view text) {
@@ -115,7 +115,7 @@ void Grbl::keep_setting(int number, double value) {
     Request& request = ask(Request::Kind::KeepSettings);
     request.settings = *written;
     waits_for_ = request.number;
-    before_ok_ = fmt::format("[MSG:${} is kept; {}]", number, kInForce);
+    before_ok_ = fmt::format("[MSG:${} is stored and {}]", number, kInForce);
 }
 
 /// Prints the settings as written, and names those that are not in force yet.

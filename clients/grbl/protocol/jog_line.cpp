@@ -45,7 +45,7 @@ std::expected<void, Refused> take_code(double code, JogWords& words) {
     } else if (code == 53) {
         words.in_machine = true;
     } else {
-        return Refusal({Error::BadJog, "a jog takes G20, G21, G53, G90 and G91, and no other code"});
+        return Refusal({Error::BadJog, "a jog accepts only the codes G20, G21, G53, G90 and G91"});
     }
     return {};
 }
@@ -54,7 +54,7 @@ std::expected<void, Refused> take_word(char letter, double value, JogWords& word
     if (letter == 'G') { return take_code(value, words); }
     if (letter == 'N') { return {}; }
     if (letter != 'F' && std::string_view("XYZABCUVW").find(letter) == std::string_view::npos) {
-        return Refusal({Error::BadJog, std::string("a jog takes axes, F and G, and no ") + letter});
+        return Refusal({Error::BadJog, std::string("a jog accepts only axes, F and G, not ") + letter});
     }
     if (words.values.contains(letter)) {
         return Refusal({Error::RepeatedWord, std::string(1, letter) + " comes twice"});
@@ -68,7 +68,9 @@ std::expected<JogWords, Refused> words_of(std::string_view text) {
     const std::string line = plain(text);
     for (std::size_t at = 0; at < line.size();) {
         const char letter = line[at++];
-        if (letter < 'A' || letter > 'Z') { return Refusal({Error::ExpectedLetter, "a word begins with a letter"}); }
+        if (letter < 'A' || letter > 'Z') {
+            return Refusal({Error::ExpectedLetter, "a word must begin with a letter"});
+        }
         if (at < line.size() && line[at] == '+') { ++at; }
         double value = 0;
         const auto read = std::from_chars(line.data() + at, line.data() + line.size(), value, std::chars_format::fixed);
@@ -120,11 +122,9 @@ std::expected<std::vector<JogAxis>, Refused> read_jog(std::string_view text, con
     if (!words) { return Refusal(words.error()); }
     const auto feed = words->values.find('F');
     if (words->values.size() == (feed == words->values.end() ? 0U : 1U)) {
-        return Refusal({Error::NoAxisWords, "a jog names an axis"});
+        return Refusal({Error::NoAxisWords, "a jog needs an axis"});
     }
-    if (feed == words->values.end() || feed->second <= 0) {
-        return Refusal({Error::NoFeed, "a jog has an F of its own"});
-    }
+    if (feed == words->values.end() || feed->second <= 0) { return Refusal({Error::NoFeed, "a jog needs its own F"}); }
     const auto ways = ways_of(*words, machine, places, modes);
     if (!ways) { return Refusal(ways.error()); }
     double length = 0;

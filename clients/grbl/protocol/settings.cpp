@@ -51,7 +51,7 @@ int homing_mask(const MachineConfig& machine) {
 double travel_of(const AxisConfig& axis) { return axis.position_max_mm - axis.position_min_mm; }
 
 Refused out_of_range(int number, const std::string& range) {
-    return {Error::SettingOutOfRange, fmt::format("${} is {}", number, range)};
+    return {Error::SettingOutOfRange, fmt::format("${} must be {}", number, range)};
 }
 
 std::expected<KeptSettings, Refused> write_homing_mask(const MachineConfig& machine, double value) {
@@ -97,7 +97,7 @@ std::vector<Setting> settings_of(const MachineConfig& machine, const ReportOptio
     constexpr const char* kSpindle = "the machine has no spindle";
     std::vector<Setting> settings{
         {0, "10", "the device behind the axis has its own pulses"},
-        {1, "255", "motors stay on"},
+        {1, "255", "the motors stay on"},
         {2, "0", kSignals},
         {3, "0", kSignals},
         {4, "0", kSignals},
@@ -107,8 +107,8 @@ std::vector<Setting> settings_of(const MachineConfig& machine, const ReportOptio
         {11, "0.000", "corners are planned by start_velocity_mm_s of the axes"},
         {12, "0.001", "arcs are as close as a step of the axes"},
         {13, options.inches ? "1" : "0", ""},
-        {20, "1", "the travel is always watched"},
-        {21, "1", "limit switches are always watched"},
+        {20, "1", "the travel is always checked"},
+        {21, "1", "limit switches are always checked"},
         {22, "1", "an axis is always homed before programs move it"},
         {kHomingMask, std::to_string(homing_mask(machine)), ""},
         {26, "0", "a switch is touched twice instead"},
@@ -147,7 +147,7 @@ std::expected<KeptSettings, Refused> write_setting(const MachineConfig& machine,
     if (std::abs(std::strtod(found->value.c_str(), nullptr) - value) <= kSame) { return {}; }
     if (found->why_fixed.empty()) { return keys_for(machine, number, value); }
     return std::unexpected(
-        Refused{Error::SettingFixed, name + " is always " + found->value + " here: " + found->why_fixed});
+        Refused{Error::SettingFixed, name + " is always " + found->value + " on this machine: " + found->why_fixed});
 }
 
 }  // namespace lockstep::grbl

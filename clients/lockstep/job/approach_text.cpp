@@ -19,7 +19,8 @@ std::string approach_text(const Program& program, const std::vector<ApproachMove
 }
 
 std::string modal_text(const MachineConfig& machine, const ModalState& modal) {
-    std::string text = std::string("  takes up ") + (modal.inches ? "G20" : "G21") + (modal.relative ? " G91" : " G90");
+    std::string text =
+        std::string("  begins with ") + (modal.inches ? "G20" : "G21") + (modal.relative ? " G91" : " G90");
     text += modal.feed_mm_min ? " F" + fixed(*modal.feed_mm_min / (modal.inches ? 25.4 : 1), 1) : ", no feed yet";
     std::string offsets;
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {

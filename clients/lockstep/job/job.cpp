@@ -54,16 +54,18 @@ std::string stopped_text(const Job& job, const Session& session) {
 
 void print_end(const Session& session, const Job& job, const proto::RunReport& report, Output& output) {
     const std::string time = report.has_real_s() ? " after " + duration_text(report.real_s()) : "";
-    const std::string place = report.final_positions().empty()
-                                  ? "the positions of its axes are not known: none is received"
-                                  : "at " + places_text(report);
+    const std::string place =
+        report.final_positions().empty()
+            ? "the positions of its axes are not known, because no messages are received from them"
+            : "at " + places_text(report);
     output.print(wrapped(title(job) + ": " + report.outcome() + time + "; " + place, 80, "  "));
     if (report.has_fault()) { output.print(fault_text(report.fault())); }
     if (report.outcome() == "stopped") { output.print(stopped_text(job, session)); }
-    if (report.outcome() == "held") { output.print("go on with: lockstep resume; end the job with: lockstep stop"); }
+    if (report.outcome() == "held") { output.print("continue with: lockstep resume; end the job with: lockstep stop"); }
     if (report.outcome() == "cut-short") { output.print(wrapped(cut_short_text(report), 80, "  ")); }
     if (report.outcome() == "lost") {
-        output.print("its end is not known: another job or coordinator followed it; see: lockstep status");
+        output.print(
+            "the job's end is not known, because another job or coordinator followed it; see: lockstep status");
     }
 }
 
@@ -87,12 +89,14 @@ proto::RunReport new_report(const Job& job) {
 /// there is no room for all of it.
 std::expected<void, Failure> send_rest(Session& session, const StopSignal& stop, bool before_it_runs) {
     while (!session.sender()->is_done() && !session.sender()->refusal()) {
-        if (stop.requested()) { return std::unexpected(failed("interrupted; the machine runs what was sent of it")); }
+        if (stop.requested()) {
+            return std::unexpected(failed("interrupted; the machine runs the part that was sent"));
+        }
         if (session.is_silent()) { return std::unexpected(session.silent()); }
         if (before_it_runs && session.sender()->lacks_room()) {
             return std::unexpected(bad_input(
                 fmt::format("with coordination: LAI a program is planned as a whole, so it has at most {} blocks; "
-                            "cut it in two, or choose another coordination",
+                            "split it in two, or choose another coordination",
                             kMaxProgramBlocks)));
         }
         session.receive(100ms);
@@ -121,8 +125,8 @@ std::expected<Reply, Failure> begin(Session& session, const Job& job, const Stop
     if (reply || !stop.requested()) { return reply; }
     (void)session.command({.kind = CommandKind::Stop});
     return std::unexpected(
-        failed("interrupted before the coordinator answered: whether the job was begun is not "
-               "known, and a stop was sent; see: lockstep status"));
+        failed("interrupted before the coordinator answered: it is not known whether the job began, so "
+               "a stop was sent; see: lockstep status"));
 }
 
 /// Waits until the program's offsets and tools are on the coordinator's disk.
@@ -137,11 +141,11 @@ void report_stream(const Session& session, const Job& job, Output& output) {
     warn_of(job.stream->take_notes(), output);
     if (const auto& trouble = job.stream->trouble()) {
         output.warn(
-            fmt::format("{0}:{1}:{2}: {3}\nthe lines before it were run; correct it and go on: "
+            fmt::format("{0}:{1}:{2}: {3}\nthe lines before it were run; correct it and continue: "
                         "lockstep run FILE --from-line {1}",
                         job.name, trouble->line, trouble->column, trouble->message));
     } else if (const auto& refusal = session.sender()->refusal()) {
-        output.warn(job.name + ": the coordinator takes no more of it: " + refusal->text);
+        output.warn(job.name + ": the coordinator accepts no more of the program: " + refusal->text);
     }
 }
 
@@ -156,7 +160,7 @@ ExitCode end_begun(const Job& job, proto::RunReport& report, Output& output) {
 void follow_events(Session& session, const Job& job, Output& output) {
     if (job.command != CommandKind::Run || job.detach) { return; }
     if (const auto follows = session.follow_events(kEventPatience); !follows) {
-        output.warn(follows.error().errors.front().message + "; not all may be printed");
+        output.warn(follows.error().errors.front().message + "; some may not be printed");
     }
 }
 

@@ -61,7 +61,7 @@ Failure JobWatch::silent() const {
 Failure JobWatch::restless() const {
     return failed(
         fmt::format("the job has not ended within {} s of the stop; the machine may be in motion: lockstep status; "
-                    "to cease all pulses: lockstep estop",
+                    "to stop all pulses at once: lockstep estop",
                     kRestPatience.count()));
 }
 
@@ -87,14 +87,14 @@ std::expected<void, Failure> JobWatch::send_stop() {
     if (!reply) { return std::unexpected(reply.error()); }
     const bool has_ended = reply->fault == FaultCode::NothingToDo;
     if (reply->status == ReplyStatus::Accepted || has_ended) { return {}; }
-    return std::unexpected(
-        failed("the stop was refused: " + reply->text + "; the machine goes on; to stop it at once: lockstep estop"));
+    return std::unexpected(failed("the stop was refused: " + reply->text +
+                                  "; the machine continues; to stop all pulses at once: lockstep estop"));
 }
 
 void JobWatch::print_lost_lease() {
     if (!std::exchange(has_lease_, session_.holds_lease()) || has_lease_) { return; }
     const auto& why = session_.lease_reply();
-    if (why) { output_.print(why->text + "; the job goes on, and can be held or stopped from here"); }
+    if (why) { output_.print(why->text + "; the job continues, and can be held or stopped from here"); }
 }
 
 void JobWatch::print_phase(const MachineState& state) {
@@ -102,12 +102,12 @@ void JobWatch::print_phase(const MachineState& state) {
     const std::string at_line = line_ ? fmt::format(" at line {}", *line_) : "";
     if (state.term != runs_it_ && state.phase != MachinePhase::Waiting) {
         runs_it_ = state.term;
-        output_.print("another coordinator has taken over and goes on with the job" + at_line);
+        output_.print("another coordinator has taken over and continues the job" + at_line);
     }
     const bool rests = state.phase == MachinePhase::Holding || state.phase == MachinePhase::Paused;
     if (rests && state.phase != printed_) {
         const std::string how = state.phase == MachinePhase::Paused ? "paused" : "held";
-        output_.print(how + at_line + ": go on with lockstep resume, or end it with lockstep stop");
+        output_.print(how + at_line + ": continue with: lockstep resume; end the job with: lockstep stop");
     }
     printed_ = state.phase;
     if (!rests) { print_progress(); }

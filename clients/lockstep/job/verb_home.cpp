@@ -45,15 +45,16 @@ ExitCode home(const HomeOptions& options) {
 }  // namespace
 
 void add_home(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("home", "find the zero of all axes, or of those named, by their home switches");
+    CLI::App* verb =
+        app.add_subcommand("home", "find the zero of all axes, or of the named axes, with their home switches");
     const auto options = std::make_shared<HomeOptions>();
-    verb->add_option("axes", options->axes, "the axes' names; all where none is named");
+    verb->add_option("axes", options->axes, "the names of the axes; default: all axes");
     add_detach(*verb, options->detach);
     add_take(*verb, *options);
     add_live_options(*verb, *options);
     verb->footer(
         "Ctrl-C, a closed terminal (SIGHUP), lockstep stop and lockstep hold end homing at rest: axes without\n"
-        "their zero stay unhomed. With --detach, or under nohup, homing goes on by itself.\n" +
+        "their zero stay unhomed. With --detach, or under nohup, homing continues by itself.\n" +
         footer("  lockstep home\n  lockstep home X Y\n"));
     verb->callback([&action, options] { action = [options] { return home(*options); }; });
 }

@@ -27,14 +27,14 @@ struct Interrupt {
 };
 
 constexpr std::array kInterrupts{
-    Interrupt{"hold", CommandKind::Hold, "bring the machine to rest on its path, to be resumed",
-              "go on with: lockstep resume; end the job with: lockstep stop"},
+    Interrupt{"hold", CommandKind::Hold, "bring the machine to rest on its path, so that the job can be resumed",
+              "continue with: lockstep resume; end the job with: lockstep stop"},
     Interrupt{"resume", CommandKind::Resume, "continue a job that is held or paused", "watch it with: lockstep watch"},
-    Interrupt{"stop", CommandKind::Stop, "bring the machine to rest on its path and drop the job", ""},
+    Interrupt{"stop", CommandKind::Stop, "bring the machine to rest on its path, and drop the rest of the job", ""},
     Interrupt{"estop", CommandKind::EmergencyStop,
-              "stop all pulses at once, also without a coordinator; axes that were in motion must be homed again",
+              "stop all pulses at once, also without a coordinator; axes that were in motion must then be homed again",
               "when it is safe: lockstep reset; lockstep status shows which axes to home"},
-    Interrupt{"reset", CommandKind::Reset, "leave Fault, once its cause is gone", ""},
+    Interrupt{"reset", CommandKind::Reset, "leave Fault after its cause is removed", ""},
 };
 
 /// Whether it needs no lease, because it only makes the machine safer.
@@ -97,8 +97,8 @@ ExitCode report_axes(const Session& session, Output& output) {
     if (stopped.empty()) { return output.fail(session.silent()); }
     proto::CommandReport report;
     report.set_accepted(other.empty());
-    report.set_text("no coordinator answers; stopped by themselves until a reset: " + stopped +
-                    (other.empty() ? "" : "; not known to be stopped: " + other));
+    report.set_text("no coordinator answers; these axes have stopped by themselves until a reset: " + stopped +
+                    (other.empty() ? "" : "; these axes may not have stopped: " + other));
     output.report(report);
     output.print("estop: " + report.text() + "\nsee: lockstep status; take the machine down: lockstep down");
     return other.empty() ? kExitDone : kExitFailed;

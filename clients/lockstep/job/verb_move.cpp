@@ -68,10 +68,11 @@ void add_move(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand(
         "move", "move axes to a place in machine coordinates: together, in a straight line, or each on its own");
     const auto options = std::make_shared<MoveVerbOptions>();
-    verb->add_option("targets", options->move.targets, "AXIS=MM, e.g. X=10 Y=-3.5; axes not named stay")->required();
+    verb->add_option("targets", options->move.targets, "AXIS=MM, e.g. X=10 Y=-3.5; axes that are not named do not move")
+        ->required();
     verb->add_option("--feed", options->move.feed_mm_min,
-                     "speed along the line, mm/min; as fast as allowed where not given");
-    verb->add_flag("--relative", options->move.relative, "targets are from where each axis stands");
+                     "speed along the line, mm/min; default: as fast as the limits allow");
+    verb->add_flag("--relative", options->move.relative, "targets are distances from each axis's present position");
     verb->add_flag("--own", options->move.own,
                    "move each axis on its own, by the method in its configuration; the axes arrive at different times");
     verb->add_option("--in", options->move.in_s, "with --own: how long each axis's move lasts, s; method RANADE only");

@@ -57,11 +57,12 @@ ExitCode turn(const OverrideOptions& options) {
 }  // namespace
 
 void add_override(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand(
-        "override",
-        "change feed and rapid, in percent of the programmed values, also while a job runs: on its path, within every "
-        "limit; kept until changed again; without options, prints them. Homing and moves of axes on their own are not "
-        "touched");
+    CLI::App* verb = app.add_subcommand("override",
+                                        "change feed and rapid, in percent of the programmed values, also while a job "
+                                        "runs. The machine stays on its path "
+                                        "and within every limit. The values stay until they are changed again. Without "
+                                        "options, the command prints them. "
+                                        "Overrides do not apply to homing and to moves of axes on their own");
     const auto options = std::make_shared<OverrideOptions>();
     const CLI::Range range(Overrides::kLeast, Overrides::kMost);
     verb->add_option("--feed", options->feed_percent, "percent of the programmed feeds")->check(range);

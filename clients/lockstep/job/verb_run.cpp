@@ -44,8 +44,8 @@ ExitCode report_dry_run(const Job& job, const std::vector<ApproachMove>& approac
     report.set_planned_s(*job.planned_s);
     fill_approach(*job.program, approach, report);
     output.report(report);
-    output.print(fmt::format("{}: would run {} blocks in {} from where the machine stands; nothing was sent", job.name,
-                             job.program->blocks.size(), duration_text(*job.planned_s)));
+    output.print(fmt::format("{}: would run {} blocks in {} from the machine's present position; nothing was sent",
+                             job.name, job.program->blocks.size(), duration_text(*job.planned_s)));
     return kExitDone;
 }
 
@@ -184,7 +184,7 @@ ExitCode plan_stream(const RunOptions& options) {
     report.set_outcome("dry-run");
     report.set_planned_s(*planned_s);
     output.report(report);
-    output.print(fmt::format("{}: would run {} lines in {} from where the machine stands; nothing was sent",
+    output.print(fmt::format("{}: would run {} lines in {} from the machine's present position; nothing was sent",
                              text->head().name, text->lines(), duration_text(*planned_s)));
     return kExitDone;
 }
@@ -223,38 +223,45 @@ ExitCode run(const RunOptions& options) {
 void add_restart_options(CLI::App& verb, RunOptions& options) {
     CLI::Option* from_line =
         verb.add_option("--from-line", options.restart.from_line,
-                        "only from this line on: lifts, crosses to where it begins, goes down with the program's feed; "
-                        "shows this and asks; to see it only: --dry-run")
+                        "run only from this line on: the axes lift, move to the start of the line and go down with the "
+                        "program's feed; "
+                        "the command shows this motion and asks before it begins; --dry-run only shows it")
             ->check(CLI::Range(1, 100'000'000));
-    CLI::Option* lift = verb.add_option("--lift", options.restart.lift,
-                                        "with --from-line: the axes that leave the work first, and positions clear "
-                                        "of it, in mm, Z=40; else those with a safe_height_mm, to it; else those that "
-                                        "home first, to their park positions");
-    CLI::Option* straight = verb.add_flag("--straight", options.restart.straight,
-                                          "with --from-line: go there in one line, as fast as the axes can");
-    CLI::Option* yes = verb.add_flag("--yes", options.yes, "with --from-line: do not ask");
+    CLI::Option* lift = verb.add_option(
+        "--lift", options.restart.lift,
+        "with --from-line: the axes that leave the work first, and positions clear "
+        "of it, in mm: Z=40; default: the axes with a safe_height_mm, to this height; else the axes that "
+        "home first, to their park positions");
+    CLI::Option* straight = verb.add_flag(
+        "--straight", options.restart.straight,
+        "with --from-line: move to the start of the line in one straight line, as fast as the limits allow");
+    CLI::Option* yes = verb.add_flag("--yes", options.yes, "with --from-line: begin without asking");
     for (CLI::Option* option : {lift, straight, yes}) { option->needs(from_line); }
     straight->excludes(lift);
-    verb.add_option("--started-at", options.started_at,
-                    "with --from-line: where the program's first run started, in mm, X=10,Y=5; those not named were "
-                    "parked");
+    verb.add_option(
+        "--started-at", options.started_at,
+        "with --from-line: where the program's first run started, in mm: X=10,Y=5; axes that are not named were "
+        "at their park positions");
 }
 
 }  // namespace
 
 void add_run(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("run", "run a G-code file from where the machine stands, and wait for its end");
+    CLI::App* verb =
+        app.add_subcommand("run", "run a G-code file from the machine's present position, and wait for its end");
     const auto options = std::make_shared<RunOptions>();
-    verb->add_option("file", options->file,
-                     "the G-code file; - for standard input. Of a long one the first lines are checked before anything "
-                     "moves, and the others while it runs")
+    verb->add_option(
+            "file", options->file,
+            "the G-code file; - for standard input. Of a long file only the first lines are checked before anything "
+            "moves; the others are checked while it runs")
         ->required();
-    verb->add_flag("--dry-run", options->dry_run, "read, check and plan it for where the machine stands; move nothing");
+    verb->add_flag("--dry-run", options->dry_run,
+                   "read, check and plan it for the machine's present position; nothing moves");
     add_restart_options(*verb, *options);
     add_detach(*verb, options->detach);
-    verb->add_flag("--optional-stop", options->switches.pause_at_m1, "pause at M1 too");
+    verb->add_flag("--optional-stop", options->switches.pause_at_m1, "also pause at M1");
     verb->add_flag("--ignore-unassigned", options->switches.ignore_unassigned,
-                   "pass over words for devices that the machine does not have, instead of refusing them");
+                   "ignore words for devices that the machine does not have, instead of refusing them");
     add_take(*verb, *options);
     add_live_options(*verb, *options);
     verb->footer(kInterrupted + footer("  lockstep run plate.gcode\n  lockstep run plate.gcode --dry-run\n"

@@ -38,7 +38,7 @@ void warn_of_unhomed(const Session& session, const std::vector<JogAxis>& jogs, O
         const auto& received = session.axis(jog.axis);
         if (!received || received->state.homed || !axis.unhomed_jog_mm_s) { continue; }
         output.warn("axis " + axis.name + " is not homed: it jogs at " + fixed(*axis.unhomed_jog_mm_s, 2) +
-                    " mm/s at most, and only a limit switch ends it");
+                    " mm/s at most, and only a limit switch ends the jog");
     }
 }
 
@@ -152,16 +152,16 @@ ExitCode jog(const JogVerbOptions& options) {
 }  // namespace
 
 void add_jog(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand(
-        "jog",
-        "move axes while this command runs: by keys on a terminal, or those named, to a distance, the end of their "
-        "travel "
-        "or Ctrl-C. When it ends, however it does, the axes brake; each moves on its own, not in a line");
+    CLI::App* verb = app.add_subcommand("jog",
+                                        "move axes while this command runs: by keys on a terminal; or the named axes, "
+                                        "until a distance, the end of their "
+                                        "travel or Ctrl-C. Each axis moves on its own, not in a line. When the command "
+                                        "ends for any reason, the axes brake");
     const auto options = std::make_shared<JogVerbOptions>();
-    verb->add_option("axes", options->jog.words, "an axis and a direction: X+ Y-; none: by keys");
-    verb->add_option("--speed", options->jog.speed_mm_s, "mm/s of each axis; 10, or what the axis can do");
-    verb->add_option("--distance", options->jog.distance_mm,
-                     "mm of each axis; to the end of its travel where not given");
+    verb->add_option("axes", options->jog.words, "an axis and a direction: X+ Y-; default: the keys of the terminal");
+    verb->add_option("--speed", options->jog.speed_mm_s,
+                     "mm/s of each axis; default: 10, or the axis's maximum if that is less");
+    verb->add_option("--distance", options->jog.distance_mm, "mm of each axis; default: to the end of its travel");
     add_take(*verb, *options);
     add_live_options(*verb, *options);
     verb->footer(

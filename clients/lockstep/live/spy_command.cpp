@@ -62,17 +62,18 @@ std::expected<std::vector<std::string>, Failure> spy_command(const SpyHost& host
     const auto lacks = [](const std::string& what) { return std::unexpected(failed("lcm-spy " + what)); };
     if (host.display.empty()) {
         return lacks(
-            "opens windows, and DISPLAY names no display: run it on a desktop, or over ssh -X; "
+            "needs windows, but DISPLAY names no display: run it on a desktop, or over ssh -X; "
             "without one: lockstep watch");
     }
     if (!host.display_answers) {
-        return lacks("opens windows, and display " + host.display +
-                     " does not answer, or refuses: set DISPLAY to that of your desktop (and XAUTHORITY, as another "
+        return lacks("needs windows, but display " + host.display +
+                     " does not answer or refuses the connection: set DISPLAY to that of your desktop (and XAUTHORITY, "
+                     "as another "
                      "user), or use ssh -X; without one: lockstep watch");
     }
-    if (!host.java) { return lacks("needs Java, and PATH has none: apt-get install default-jre"); }
+    if (!host.java) { return lacks("needs Java, but PATH has none: apt-get install default-jre"); }
     if (!has_windows(*host.java)) {
-        return lacks("needs a Java with windows, and " + host.java->string() +
+        return lacks("needs a Java with windows, but " + host.java->string() +
                      " is headless: apt-get install default-jre");
     }
     for (const fs::path& jar : host.jars) {

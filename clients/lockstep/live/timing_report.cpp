@@ -45,13 +45,14 @@ proto::TimingReport timing_report(const doctor::StallFacts& facts, const Protoco
 void print_timing(const doctor::StallFacts& facts, const ProtocolTiming& proposed, const ProtocolTiming& today,
                   Output& output) {
     if (facts.seconds > 0) {
-        output.print("in " + fixed(facts.seconds, 0) + " s a thread woke " + fixed(facts.worst_us / 1000, 2) +
-                     " ms late at most, " + fixed(facts.p99_us / 1000, 2) + " ms in one of 100");
+        output.print("in " + fixed(facts.seconds, 0) + " s a thread woke up at most " +
+                     fixed(facts.worst_us / 1000, 2) + " ms late, and in 99 of 100 cases at most " +
+                     fixed(facts.p99_us / 1000, 2) + " ms");
     }
-    output.print("proposed, for stalls of twice the longest:");
+    output.print("proposed timing, for stalls twice as long as the longest:");
     output.print("  " + slots_text(proposed));
-    output.print("a hold begins after " + text_of(hold_times(proposed)) + "; with the machine's timing after " +
-                 text_of(hold_times(today)));
+    output.print("a hold begins after " + text_of(hold_times(proposed)) +
+                 "; with the machine's present timing it begins after " + text_of(hold_times(today)));
 }
 
 }  // namespace lockstep

@@ -194,11 +194,11 @@ ExitCode examine(const DoctorOptions& options) {
 }  // namespace
 
 void add_doctor(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand(
-        "doctor",
-        "check whether this host and its network are fit for a machine; prints the command that corrects each problem");
+    CLI::App* verb = app.add_subcommand("doctor",
+                                        "check whether this host and its network are suitable for a machine; prints "
+                                        "the command that corrects each problem");
     const auto options = std::make_shared<DoctorOptions>();
-    verb->add_option("--seconds", options->seconds, "how long to watch for stalls; under the usual load")
+    verb->add_option("--seconds", options->seconds, "how long to watch for stalls; run it under the usual load")
         ->check(CLI::Range(0.1, 3600.0))
         ->capture_default_str();
     verb->add_flag("--timing", options->timing, "only watch for stalls, and propose the fastest timing for them");

@@ -63,15 +63,15 @@ ExitCode report_done(const std::string& text, Output& output) {
 
 ExitCode down_here(const LiveOptions& options, Output& output) {
     const bool is_named = !options.machine_file.empty() || std::getenv("LOCKSTEP_MACHINE") != nullptr;
-    if (!is_named && machines_up().empty()) { return report_done("nothing is up", output); }
+    if (!is_named && machines_up().empty()) { return report_done("no machine is up on this host", output); }
     const auto machine = choose_machine(options.machine_file);
     if (!machine) { return output.fail(machine.error()); }
     const StateDirectory state(machine->config.name);
     const auto trouble = state.record_trouble();
     if (state.running().empty()) {
-        return report_done("nothing of machine '" + machine->config.name + "' is up", output);
+        return report_done("no process of machine '" + machine->config.name + "' is up on this host", output);
     }
-    if (trouble) { output.warn(*trouble + ": ends the processes that the host's process table shows"); }
+    if (trouble) { output.warn(*trouble + ": this command ends the processes that the host's process table shows"); }
     bring_to_rest(*machine, output);
     const TakenDown taken = take_down(state);
     if (taken.left.empty()) {
@@ -100,7 +100,7 @@ void add_down(CLI::App& app, Action& action) {
     const auto options = std::make_shared<DownOptions>();
     add_all_hosts(*verb, options->all);
     add_live_options(*verb, *options);
-    verb->footer("If nothing is up, it prints that, and exits with 0.\n" +
+    verb->footer("If no machine is up, it prints this and exits with 0.\n" +
                  footer("  lockstep down\n  lockstep down --all\n"));
     verb->callback([&action, options] { action = [options] { return down(*options); }; });
 }

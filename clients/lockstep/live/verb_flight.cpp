@@ -18,10 +18,10 @@ ExitCode flight(const LiveOptions& options) {
     if (!machine) { return output.fail(machine.error()); }
     const proto::FlightReport report = write_flight_files(machine->config);
     if (report.files().empty() && report.problems().empty()) {
-        return output.fail(
-            unreachable("no process of machine '" + machine->config.name +
-                        "' on this host keeps a flight recorder: is it up? record { flight { kept } } in "
-                        "its file switches it off"));
+        return output.fail(unreachable("no process of machine '" + machine->config.name +
+                                       "' on this host has a flight recorder; check that the machine is up, and that "
+                                       "record { flight { kept } } in "
+                                       "its file is not false"));
     }
     for (const std::string& problem : report.problems()) { output.warn(problem); }
     for (const std::string& file : report.files()) { output.print(file); }

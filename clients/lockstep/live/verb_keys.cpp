@@ -36,8 +36,8 @@ std::expected<Keys, Failure> choose_keys(const KeysOptions& options) {
     const std::string& named =
         options.directory.empty() ? machine->config.security.directory : fs::absolute(options.directory).string();
     if (!named.empty()) { return Keys{*std::move(machine), fs::path(named).lexically_normal()}; }
-    return std::unexpected(bad_input(machine->file.string() +
-                                     ": has no security { directory: ... }; write it there, or give --directory DIR"));
+    return std::unexpected(bad_input(
+        machine->file.string() + ": this file has no security { directory: ... }; add it, or give --directory DIR"));
 }
 
 void report_member(const proto::MemberKeys& member, bool with_fingerprint, Output& output) {
@@ -83,16 +83,16 @@ ExitCode make(const KeysOptions& options) {
     proto::KeysReport report = keys_report(machine, keys->directory);
     if (!made->replaced.empty()) { report.set_replaced(made->replaced); }
     output.report(report);
-    output.print(fmt::format("made keys for {} members of machine '{}' in {}", report.members_size(), machine.name,
+    output.print(fmt::format("created keys for {} members of machine '{}' in {}", report.members_size(), machine.name,
                              keys->directory.string()));
     if (!made->replaced.empty()) {
-        output.print("the previous keys are in " + made->replaced + "; delete them when the new keys work");
+        output.print("the previous keys are in " + made->replaced + "; delete them after the new keys work");
     }
     output.print(
         "each host needs identity-ca.pem, permissions-ca.pem, governance.p7s, and .pem, .key and .p7s of what runs\n"
         "there; keep ca/ off the machine: with it anybody can make members");
     if (!machine.security.enabled()) {
-        output.print("the machine's file does not ask for security yet; add to it:\n    security { directory: \"" +
+        output.print("the machine's file does not enable security yet; add to it:\n    security { directory: \"" +
                      keys->directory.string() + "\" }");
     }
     return kExitDone;
@@ -102,18 +102,18 @@ CLI::App* add_part(CLI::App& keys, const char* name, const char* what, const std
     CLI::App* verb = keys.add_subcommand(name, what);
     add_live_options(*verb, *options);
     verb->add_option("--directory", options->directory,
-                     "the directory of the keys; else the machine's security.directory");
+                     "the directory of the keys; default: the machine's security.directory");
     return verb;
 }
 
 void add_make(CLI::App& keys, Action& action) {
     const auto options = std::make_shared<KeysOptions>();
     CLI::App* verb =
-        add_part(keys, "make", "make certificates, keys and permissions for all members of a machine", options);
-    verb->add_option("--days", options->days, "how long they are valid")
+        add_part(keys, "make", "create certificates, keys and permissions for all members of a machine", options);
+    verb->add_option("--days", options->days, "how many days the certificates are valid")
         ->check(CLI::Range(1, 36500))
         ->capture_default_str();
-    verb->add_flag("--force", options->force, "replace existing keys: move them aside and make new ones");
+    verb->add_flag("--force", options->force, "replace existing keys: move them aside and create new ones");
     verb->footer(
         footer("  lockstep keys make --machine mill.textproto\n"
                "  lockstep keys make --machine mill.textproto --directory /root/mill-keys --days 365\n"));
@@ -133,11 +133,12 @@ void add_look(CLI::App& keys, Action& action, const char* name, const char* what
 }  // namespace
 
 void add_keys(CLI::App& app, Action& action) {
-    CLI::App* keys = app.add_subcommand("keys", "who may join the machine (DDS Security): make, show, check");
+    CLI::App* keys =
+        app.add_subcommand("keys", "the keys of the machine's members (DDS Security): make, show or check them");
     keys->require_subcommand(1);
-    keys->footer("Example:\n  lockstep keys make --machine mill.textproto\n\nOptions: lockstep keys make --help");
+    keys->footer(group_footer("  lockstep keys make --machine mill.textproto\n", "keys make"));
     add_make(*keys, action);
-    add_look(*keys, action, "show", "each member's certificate: subject, fingerprint, end", true);
+    add_look(*keys, action, "show", "show each member's certificate: subject, fingerprint and end", true);
     add_look(*keys, action, "check", "check that the keys on this host are valid, private, and this machine's", false);
 }
 

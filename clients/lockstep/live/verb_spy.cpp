@@ -37,8 +37,8 @@ ExitCode spy(const LiveOptions& options) {
 }  // namespace
 
 void add_spy(CLI::App& app, Action& action) {
-    CLI::App* verb =
-        app.add_subcommand("spy", "lcm-spy with the machine's types: every channel, field and curve, live");
+    CLI::App* verb = app.add_subcommand(
+        "spy", "open lcm-spy with the machine's types, which shows every channel, field and curve live");
     const auto options = std::make_shared<LiveOptions>();
     add_live_options(*verb, *options);
     verb->footer(footer("  lockstep spy\n  lockstep spy --machine mill.textproto\n"));

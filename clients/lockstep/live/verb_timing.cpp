@@ -37,7 +37,7 @@ ExitCode apply(const TimingOptions& options) {
     if (!written) { return output.fail(written.error()); }
     print_timing(facts, proposed, today, output);
     output.print("written to " + machine->file.string() + "; give all hosts of the machine the same file");
-    output.print("in force after: lockstep down; lockstep up");
+    output.print("it applies after: lockstep down; lockstep up");
     proto::TimingReport report = timing_report(facts, proposed);
     report.set_file(machine->file.string());
     output.report(report);
@@ -47,22 +47,26 @@ ExitCode apply(const TimingOptions& options) {
 }  // namespace
 
 void add_timing(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("timing", "write the fastest timing that the hosts bear into a machine's file");
+    CLI::App* verb =
+        app.add_subcommand("timing", "write the fastest timing that the hosts can keep into a machine's file");
     verb->require_subcommand(1);
+    verb->footer(group_footer("  lockstep timing apply --machine mill.textproto --seconds 600\n", "timing apply"));
     CLI::App* part = verb->add_subcommand(
         "apply",
-        "measure this host's stalls, and write the timing for twice the longest; everything else in the file "
-        "stays. Measure under the usual load; lockstep doctor --timing only shows the proposal");
+        "measure this host's stalls, and write the timing for stalls twice as long as the longest; the rest of the "
+        "file "
+        "does not change. Measure under the usual load; lockstep doctor --timing only shows the proposal");
     const auto options = std::make_shared<TimingOptions>();
-    part->add_option("--machine", options->machine_file, "the configuration file; else the one that other verbs use");
-    part->add_option("--seconds", options->seconds, "how long to watch for stalls")
+    part->add_option("--machine", options->machine_file,
+                     "the machine's configuration file; default: the file that other verbs use");
+    part->add_option("--seconds", options->seconds, "how long to watch for stalls, s")
         ->check(CLI::Range(0.1, 86'400.0))
         ->capture_default_str();
     part->add_option(
             "--stall-ms", options->stall_ms,
             "instead of measuring: the longest stall of all hosts, as lockstep doctor --timing shows it on each")
         ->check(CLI::Range(0.0, 5'000.0));
-    part->add_flag("--json", options->json, "a report as JSON instead of text");
+    part->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     part->footer(
         footer("  lockstep timing apply --machine mill.textproto --seconds 600\n"
                "  lockstep timing apply --machine mill.textproto --stall-ms 4.5\n"));

@@ -53,7 +53,7 @@ ExitCode report_up(const Session& session, const StateDirectory& state, Output& 
     const proto::StatusReport report = status_report(session);
     output.report(report);
     const bool is_spread = hosts_of(session.config()).size() > 1;
-    output.print("machine '" + report.machine() + "' is up; logs in " + state.path().string() +
+    output.print("machine '" + report.machine() + "' is up; its logs are in " + state.path().string() +
                  (is_spread ? ", on each host" : ""));
     output.print(status_text(report) + (report.has_fault() ? "" : "next: lockstep home"));
     return report.has_fault() ? kExitFailed : kExitDone;
@@ -88,7 +88,7 @@ ExitCode give_up(const ChosenMachine& machine, const StateDirectory& state, cons
     (void)take_down(state, supervisor);
     std::string& message = failure.errors.front().message;
     message += std::string(message.ends_with('\n') ? "" : "\n") + "machine '" + machine.config.name +
-               "' is not up; what was started is ended again";
+               "' is not up; the processes that were started are ended again";
     return output.fail(failure);
 }
 
@@ -146,30 +146,32 @@ ExitCode up(const UpOptions& options) {
 
 void add_up(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand(
-        "up", "start those of a machine's processes that belong on this host, and wait until they are ready");
+        "up", "start the processes of a machine that belong on this host, and wait until they are ready");
     const auto options = std::make_shared<UpOptions>();
     verb->add_option("--fpga", options->fpga,
-                     "the devices, instead of the configuration's: sim, simulated in the axes' processes; shm, in "
-                     "processes of their own")
+                     "simulated devices instead of those of the configuration: sim: in the axes' processes; shm: in "
+                     "separate processes")
         ->check(CLI::IsMember({"sim", "shm"}));
-    CLI::Option* standby = verb->add_flag(
-        "--standby", options->standby, "start a second coordinator that takes over, at rest, when the first one fails");
+    CLI::Option* standby =
+        verb->add_flag("--standby", options->standby,
+                       "start a second coordinator that takes over, with the axes at rest, when the first one fails");
     verb->add_option(
             "--on-takeover", options->on_takeover,
-            "with --standby, for a program in motion at the takeover: stop it; or continue it, if every axis rests "
-            "where the first one's frames end")
+            "with --standby: stop a program that is in motion at the takeover; or continue it, if every axis rests "
+            "where the last owner's frames end")
         ->check(CLI::IsMember({"stop", "continue"}))
         ->needs(standby)
         ->capture_default_str();
-    verb->add_flag("--web", options->web,
-                   "also serve the page, beside the coordinator, and print its address; web { } in the machine's file "
-                   "does the same, and says where");
+    verb->add_flag(
+        "--web", options->web,
+        "also serve the page on the coordinator's host, and print its address; web { } in the machine's file "
+        "does the same, and sets the address");
     CLI::Option* foreground =
         verb->add_flag("--foreground", options->foreground,
                        "supervise in this process until SIGTERM or Ctrl-C; log to standard error");
     add_all_hosts(*verb, options->all)->excludes(foreground);
     verb->add_option("--wait", options->wait_s,
-                     "for a machine on several hosts: also wait until all of it is ready, at most so many "
+                     "for a machine on several hosts: also wait until all of it is ready, at most this many "
                      "seconds; this host's part stays up in any case")
         ->check(CLI::Range(0.0, 86'400.0));
     add_live_options(*verb, *options);

@@ -10,7 +10,7 @@ std::expected<void, std::string> write_figures(const std::filesystem::path& dire
                                                const std::vector<std::pair<std::string, drawing::Figure>>& figures) {
     std::error_code error;
     std::filesystem::create_directories(directory, error);
-    if (error) { return std::unexpected(directory.string() + ": cannot be made: " + error.message()); }
+    if (error) { return std::unexpected(directory.string() + ": cannot be created: " + error.message()); }
     for (const auto& [name, figure] : figures) {
         if (auto done = write_text_file(directory / name, drawing::to_svg(figure)); !done) { return done; }
     }

@@ -100,17 +100,17 @@ std::expected<PlannedFile, Failure> plan_long_file(const ProgramOptions& options
 
 void add_program_options(CLI::App& verb, ProgramOptions& options) {
     verb.add_option("file", options.file, "the G-code file")->required();
-    verb.add_option("--machine", options.machine_file, "the machine's configuration file; else $LOCKSTEP_MACHINE");
+    verb.add_option("--machine", options.machine_file, "the machine's configuration file; default: $LOCKSTEP_MACHINE");
     verb.add_option("--values", options.values,
-                    "a file of offsets and tools; else the coordinator's on this host, if it has kept any");
+                    "a file of offsets and tools; default: those that the coordinator keeps on this host, if any");
     verb.add_flag("--ignore-unassigned", options.switches.ignore_unassigned,
-                  "pass over words for devices that the machine does not have, instead of refusing them");
+                  "ignore words for devices that the machine does not have, instead of refusing them");
     verb.add_flag("--json", options.json, "one JSON report on standard output instead of text");
 }
 
 void add_start(CLI::App& verb, ProgramOptions& options) {
     verb.add_option("--start", options.start,
-                    "the start position in mm: X=10,Y=5; axes not named are at their park positions");
+                    "the start position in mm: X=10,Y=5; axes that are not named are at their park positions");
 }
 
 std::expected<ProgramInput, Failure> read_program(const ProgramOptions& options, const OnSetup& on_setup) {

@@ -112,8 +112,8 @@ ExitCode analyze(AnalyzeOptions options) {
     }
     if (options.paths.size() > 1) {
         return Output(options.json)
-            .fail(bad_input(options.paths[1] + ": one log at a time; lockstep log merge makes one of several, and "
-                                               "--incident takes several incident files"));
+            .fail(bad_input(options.paths[1] + ": name only one log; lockstep log merge combines several logs, and "
+                                               "--incident accepts several incident files"));
     }
     options.log = options.paths.front();
     return analyze_log(options);
@@ -123,7 +123,7 @@ ExitCode analyze(AnalyzeOptions options) {
 
 void add_analyze(CLI::App& app, Action& action) {
     CLI::App* verb =
-        app.add_subcommand("analyze", "report the content of a log, and what is missing; or the cause of an incident");
+        app.add_subcommand("analyze", "report the content of a log and what it lacks; or the cause of an incident");
     const auto options = std::make_shared<AnalyzeOptions>();
     verb->add_option("log", options->paths,
                      "an LCM log, of lcm-logger or of lockstep simulate; with --incident: incident files, or their "
@@ -131,15 +131,16 @@ void add_analyze(CLI::App& app, Action& action) {
         ->required();
     CLI::Option* incident =
         verb->add_flag("--incident", options->incident,
-                       "what all processes received, decided and published around a fault, and its cause");
-    verb->add_option("--back", options->back, "with --incident: so many incidents before the newest")->needs(incident);
+                       "report what all processes received, decided and published around a fault, and its cause");
+    verb->add_option("--back", options->back, "with --incident: the incident that is this many before the newest one")
+        ->needs(incident);
     verb->add_flag("--all", options->all, "with --incident: also list routine events")->needs(incident);
-    verb->add_option("--html", options->html, "the report page to write; beside the log as LOG.html unless given");
-    verb->add_flag("--no-html", options->no_html, "write no report page; with --json none is written unless --html is");
+    verb->add_option("--html", options->html, "the report page to write; default: LOG.html beside the log");
+    verb->add_flag("--no-html", options->no_html, "write no report page; with --json only --html writes one");
     verb->add_option("--svg", options->svg_dir, "draw speed.svg, position.svg and xy.svg into this directory");
     verb->add_option("--csv", options->csv_dir, "write every step and position of each axis into this directory");
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
-    verb->add_flag("--no-color", options->no_colour, "no colours, also on a terminal");
+    verb->add_flag("--no-color", options->no_colour, "use no colours, also on a terminal");
     verb->footer(
         footer("  lockstep analyze plate.lcm                 # and plate.html\n"
                "  lockstep analyze plate.lcm --svg pictures --csv tables\n"

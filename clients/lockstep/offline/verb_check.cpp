@@ -25,10 +25,9 @@ ExitCode check(const ProgramOptions& options) {
 }  // namespace
 
 void add_check(CLI::App& app, Action& action) {
-    CLI::App* verb =
-        app.add_subcommand("check",
-                           "read a G-code file as the machine would: errors by line and column, words that "
-                           "are passed over, travel and duration; needs no running machine");
+    CLI::App* verb = app.add_subcommand("check",
+                                        "read a G-code file as the machine would: errors by line and column, ignored "
+                                        "words, travel and duration; needs no running machine");
     const auto options = std::make_shared<ProgramOptions>();
     add_program_options(*verb, *options);
     add_start(*verb, *options);

@@ -81,14 +81,15 @@ ExitCode compare_verb(const CompareOptions& options) {
 }  // namespace
 
 void add_compare(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("compare",
-                                        "make one move by five published methods, and report how far each is "
-                                        "from the ideal; needs no machine");
+    CLI::App* verb =
+        app.add_subcommand("compare",
+                           "make one move by five published methods, and report how far the steps of each are "
+                           "from the ideal times; needs no machine");
     const auto options = std::make_shared<CompareOptions>();
     verb->add_option("--move", options->move, "STEPS,START,MAX,ACCEL[,DECEL] in steps, steps/s and steps/s^2")
         ->capture_default_str();
     verb->add_option("--method", options->methods,
-                     "only this one: ranade, spielauer, lai, lam, carrica, off-line; may be repeated");
+                     "compare only this method: ranade, spielauer, lai, lam, carrica, off-line; may be repeated");
     verb->add_option("--svg", options->svg, "draw speed and step time error of each method into this file");
     verb->add_option("--lines-svg", options->lines_svg, "draw the six lines with and without the DDA into this file");
     verb->add_option("--html", options->html, "write tables and figures into this file, as one page");

@@ -42,7 +42,7 @@ void print(const proto::SettingsReport& report, Output& output) {
     output.print(report.file() + ": settings that a sender has written apply instead");
     for (const proto::SettingReport& setting : report.settings()) {
         output.print("  " + setting.axis() + "." + setting.key() + ": " + setting.value() + "; in the file " +
-                     setting.in_file() + (setting.applies() ? "" : "; in force when the machine is next brought up"));
+                     setting.in_file() + (setting.applies() ? "" : "; it applies after: lockstep down; lockstep up"));
     }
     output.print(report.folded() ? "written into the file" : "next: lockstep config --fold writes them into the file");
 }
@@ -81,13 +81,14 @@ void add_config(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand(
         "config", "show the settings that senders have written, which apply instead of the machine's file");
     const auto options = std::make_shared<ConfigOptions>();
-    verb->add_option("file", options->file, "the configuration file; else the one that other verbs use");
-    verb->add_flag("--fold", options->fold,
-                   "write them into the file, where everything else stays, comments too, and remove FILE.settings");
-    verb->add_flag("--json", options->json, "a report as JSON instead of text");
+    verb->add_option("file", options->file, "the machine's configuration file; default: the file that other verbs use");
+    verb->add_flag(
+        "--fold", options->fold,
+        "write them into the file and remove FILE.settings; the rest of the file, also its comments, does not change");
+    verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     verb->footer(
         "Senders of grbl's protocol write settings such as $110=3000 (lockstep-grbl). They are kept in FILE.settings,\n"
-        "beside the machine's file, and are in force when the machine is next brought up.\n" +
+        "beside the machine's file, and apply after: lockstep down; lockstep up.\n" +
         footer("  lockstep config\n  lockstep config mill.textproto --fold\n"));
     verb->callback([&action, options] { action = [options] { return config(*options); }; });
 }

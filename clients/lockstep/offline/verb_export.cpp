@@ -60,10 +60,10 @@ ExitCode export_verb(const ExportOptions& options) {
     const std::filesystem::path to = place_of(options);
     std::error_code ignored;
     if (std::filesystem::exists(to, ignored) && !options.force) {
-        return output.fail(bad_input(to.string() + ": exists already; name another with --out, or add --force"));
+        return output.fail(bad_input(to.string() + ": exists already; name another file with --out, or add --force"));
     }
     if (std::filesystem::equivalent(options.log, to, ignored)) {
-        return output.fail(bad_input(to.string() + ": is the log itself; name another with --out"));
+        return output.fail(bad_input(to.string() + ": is the log itself; name another file with --out"));
     }
     std::function<void(double)> progress;
     if (output.is_terminal()) {
@@ -89,17 +89,18 @@ void add_export(CLI::App& app, Action& action) {
     verb->add_option("--format", options->format, "csv: PlotJuggler, spreadsheets; mcap: Foxglove, PlotJuggler")
         ->check(CLI::IsMember({"csv", "mcap"}))
         ->capture_default_str();
-    verb->add_option("--out", options->out, "the file to write; beside the log unless given");
+    verb->add_option("--out", options->out, "the file to write; default: beside the log");
     verb->add_flag("--force", options->force, "replace an existing file");
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     verb->footer(
-        "csv: one table; time_s first, from the log's first sample on, then a column for each signal with its unit in\n"
-        "its name, as mill/X/position_mm, mill/X/velocity_mm_s, mill/X/state, mill/X/fault; empty if there was no\n"
-        "value at that time. In PlotJuggler: load the file, take time_s as time.\n"
-        "mcap: a topic for each axis and kind, as /mill/X/position; messages as JSON with the same names.\n"
-        "Every step's tick: lockstep analyze LOG --csv DIR.\n"
-        "Exit 0: written. 2: no log, nothing in it to export, or the file cannot be written.\n" +
-        footer("  lockstep export plate.lcm\n  lockstep export plate.lcm --format mcap --out plate.mcap\n"));
+        "csv: one table. Its first column is time_s, which counts from the log's first sample. Each signal has a\n"
+        "column with its unit in the name, such as mill/X/position_mm, mill/X/velocity_mm_s, mill/X/state and\n"
+        "mill/X/fault. A cell is empty if there was no value at that time. In PlotJuggler, load the file and\n"
+        "choose time_s as the time axis.\n"
+        "mcap: a topic for each axis and kind, such as /mill/X/position; its messages are JSON with the same names.\n"
+        "For the tick of every step use: lockstep analyze LOG --csv DIR\n" +
+        footer("  lockstep export plate.lcm\n  lockstep export plate.lcm --format mcap --out plate.mcap\n",
+               "0 written, 2 bad usage, no log with values to export, or the file cannot be written"));
     verb->callback([&action, options] { action = [options] { return export_verb(*options); }; });
 }
 

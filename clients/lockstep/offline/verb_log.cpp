@@ -54,9 +54,8 @@ std::expected<merge::TimeSpan, std::string> span_of(const LogMergeOptions& optio
     if (options.job) {
         const auto its = merge::span_of_job(chosen.jobs, *options.job);
         if (!its) {
-            return std::unexpected(
-                fmt::format("no log has the beginning of job {}{}", *options.job,
-                            chosen.left_out.empty() ? "" : "; --all looks for it in other sessions as well"));
+            return std::unexpected(fmt::format("no log has the beginning of job {}{}", *options.job,
+                                               chosen.left_out.empty() ? "" : "; --all also searches other sessions"));
         }
         span = *its;
     }
@@ -106,50 +105,44 @@ ExitCode log_merge(const LogMergeOptions& options) {
 }
 
 void add_merge(CLI::App& log, Action& action) {
-    CLI::App* verb =
-        log.add_subcommand("merge", "combine several logs to one complete log, and report what none of them contains");
+    CLI::App* verb = log.add_subcommand(
+        "merge", "combine several logs into one complete log, and report what none of them contains");
     const auto options = std::make_shared<LogMergeOptions>();
     verb->add_option("out", options->out, "the log to write")->required();
-    verb->add_option("in", options->in,
-                     "the logs: of lcm-logger, of axes and coordinator; a directory: all *.lcm in it")
+    verb->add_option(
+            "in", options->in,
+            "the logs of lcm-logger, of the axes and of the coordinator; for a directory, all *.lcm files in it")
         ->required();
     verb->add_option("--window", options->window_s,
-                     "seconds by which a log may be out of order; more takes more memory, up to 256 MB")
+                     "how many seconds a log may be out of order; a larger window needs more memory, up to 256 MB")
         ->check(CLI::Range(0.01, 600.0))
         ->capture_default_str();
-    verb->add_option("--since", options->since_s, "only messages from this second of machine time on");
-    verb->add_option("--job", options->job,
-                     "only this job, the newest of that number: from the end of the one before it to the next");
-    verb->add_flag("--all", options->all, "also logs of earlier sessions in a directory");
+    verb->add_option("--since", options->since_s, "merge only messages from this second of machine time on");
+    verb->add_option(
+        "--job", options->job,
+        "merge only this job, the newest with this number: from the end of the job before it to the next job");
+    verb->add_flag("--all", options->all, "also merge logs of earlier sessions in a directory");
     verb->add_flag("--force", options->force, "replace OUT if it exists");
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     verb->footer(
-        "Example:\n"
-        "  lockstep log merge whole.lcm run.lcm /var/lib/lockstep/mill/record\n"
-        "  lockstep verify whole.lcm\n\n"
-        "  lockstep log merge job3.lcm /var/lib/lockstep/mill/record --job 3\n\n"
-        "Messages come in the order of machine time, each once. All are numbered: messages that are in none of the "
-        "logs are "
-        "reported.\n"
-        "Each process records how much the others and itself have published, so messages that are missing at\n"
-        "the end are reported too, and logs that are missing altogether; or up to when the record is known to be "
-        "complete.\n"
-        "From a directory, it merges the logs that belong to the run that is named beside it, or to the newest "
-        "session.\n\n"
-        "Exit codes: 0 nothing is known to be missing, 1 written but messages are missing, 2 bad usage or a log that "
-        "cannot be read:\n"
-        "nothing is written\n");
+        "OUT has each message once, in the order of machine time. All messages are numbered, so messages that are\n"
+        "in none of the logs are reported. Each process also records how much every process has published, so\n"
+        "messages at the end and whole logs that are missing are reported too. If that cannot be known, the report\n"
+        "says up to which time the record is complete.\n"
+        "From a directory, the logs of the run that is named beside it are merged, else of the newest session.\n" +
+        footer("  lockstep log merge whole.lcm run.lcm /var/lib/lockstep/mill/record\n  lockstep verify whole.lcm\n"
+               "  lockstep log merge job3.lcm /var/lib/lockstep/mill/record --job 3\n",
+               "0 no message is known to be missing, 1 written, but messages are missing,\n"
+               "2 bad usage, or a log cannot be read (nothing was written)"));
     verb->callback([&action, options] { action = [options] { return log_merge(*options); }; });
 }
 
 }  // namespace
 
 void add_log(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("log", "work with logs: merge");
+    CLI::App* verb = app.add_subcommand("log", "combine logs: merge");
     verb->require_subcommand(1);
-    verb->footer(
-        "Example:\n  lockstep log merge whole.lcm run.lcm /var/lib/lockstep/mill/record\n\n"
-        "Options: lockstep log merge --help");
+    verb->footer(group_footer("  lockstep log merge whole.lcm run.lcm /var/lib/lockstep/mill/record\n", "log merge"));
     add_merge(*verb, action);
 }
 

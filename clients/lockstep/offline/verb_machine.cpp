@@ -45,14 +45,15 @@ ExitCode check(const CheckOptions& options) {
 void add_machine(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand("machine", "check a machine's configuration file");
     verb->require_subcommand(1);
+    verb->footer(group_footer("  lockstep machine check mill.textproto\n", "machine check"));
     CLI::App* part = verb->add_subcommand("check",
                                           "read the whole file and report everything that is wrong with it; "
                                           "needs no running machine");
     const auto options = std::make_shared<CheckOptions>();
-    part->add_option("file", options->file, "the configuration file; else the one that other verbs use");
-    part->add_flag("--json", options->json, "the configuration with every default, as JSON, instead of text");
-    part->footer("Exit 0: the file is valid. 2: it is not, or cannot be read.\n" +
-                 footer("  lockstep machine check mill.textproto\n  lockstep machine check mill.textproto --json\n"));
+    part->add_option("file", options->file, "the machine's configuration file; default: the file that other verbs use");
+    part->add_flag("--json", options->json, "print the configuration with every default as JSON instead of text");
+    part->footer(footer("  lockstep machine check mill.textproto\n  lockstep machine check mill.textproto --json\n",
+                        "0 the file is valid, 2 bad usage, or the file is not valid or cannot be read"));
     part->callback([&action, options] { action = [options] { return check(*options); }; });
 }
 

@@ -57,7 +57,7 @@ ExitCode plan(const PlanOptions& options) {
 
 void add_plan(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand("plan",
-                                        "report how long a G-code file takes and the load on each axis; "
+                                        "report how long a G-code file takes, and the load on each axis; "
                                         "needs no running machine");
     const auto options = std::make_shared<PlanOptions>();
     add_program_options(*verb, *options);

@@ -27,7 +27,7 @@ ExitCode replay_verb(const ReplayOptions& options) {
     Output output(options.json);
     std::error_code ignored;
     if (std::filesystem::equivalent(options.log, options.made, ignored)) {
-        return output.fail(bad_input(options.made + ": is the log that is replayed; name another with --log"));
+        return output.fail(bad_input(options.made + ": is the log that is replayed; name another file with --log"));
     }
     std::optional<NewLogFile> made;
     if (!options.made.empty()) {
@@ -58,16 +58,16 @@ void add_replay(CLI::App& app, Action& action) {
                                         "every step with the log, tick for tick");
     const auto options = std::make_shared<ReplayOptions>();
     verb->add_option("log", options->log, "an LCM log, of lcm-logger or of lockstep simulate")->required();
-    verb->add_option("--log", options->made, "write the replay's own log: as recorded, with the new steps");
+    verb->add_option("--log", options->made, "write a log of the replay: the recorded messages with the new steps");
     verb->add_flag("--force", options->force, "replace the file of --log even if it is not a log");
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     verb->footer(
-        "It plans nothing again: lockstep verify does that. A replay writes the recorded frames into a device's\n"
-        "registers, as the axis did, and so proves that they make those steps. Where pulses ceased early, by a switch\n"
-        "or a stop, the device is stopped at the recorded step.\n"
-        "Exit 0: exact. 1: not exact, with the first difference. 2: not a log, or no run in it.\n" +
+        "A replay writes the recorded frames into the registers of a device, as the axis did, and so proves\n"
+        "that they make these steps. Where pulses stopped early, by a switch or a stop, the device is stopped\n"
+        "at the recorded step. A replay does not plan the program again; lockstep verify does.\n" +
         footer("  lockstep replay plate.lcm\n"
-               "  lockstep replay plate.lcm --log again.lcm && lockstep verify again.lcm\n"));
+               "  lockstep replay plate.lcm --log again.lcm && lockstep verify again.lcm\n",
+               "0 exact, 1 not exact, with the first difference, 2 bad usage, or no log with a run"));
     verb->callback([&action, options] { action = [options] { return replay_verb(*options); }; });
 }
 

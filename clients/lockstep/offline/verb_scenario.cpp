@@ -75,7 +75,7 @@ std::string coloured(const proto::ScenarioReport& report, bool events) {
 
 ExitCode end(const ScenarioOptions& options, const proto::ScenarioRunReport& report, Output& output) {
     output.report(report);
-    output.print(fmt::format("{} of {} scenarios hold", report.held(), report.scenarios_size()));
+    output.print(fmt::format("{} of {} scenarios passed", report.held(), report.scenarios_size()));
     const auto written = options.junit.empty() ? std::expected<void, std::string>{}
                                                : write_text_file(options.junit, scenario::junit_xml(report));
     if (!written) { output.warn("no JUnit file: " + written.error()); }
@@ -94,7 +94,7 @@ ExitCode run(const ScenarioOptions& options) {
     runner.interrupted = [&] { return stop.requested(); };
     const auto report = scenario::run_scenarios(*scenarios, runner);
     if (!report) { return output.fail(bad_input(report.error())); }
-    if (stop.requested()) { output.warn("interrupted: the running scenarios are taken down"); }
+    if (stop.requested()) { output.warn("interrupted; the running scenarios are ended"); }
     return end(options, *report, output);
 }
 
@@ -118,9 +118,9 @@ CLI::App* add_part(CLI::App& verb, const char* name, const char* what,
                    const std::shared_ptr<ScenarioOptions>& options) {
     CLI::App* part = verb.add_subcommand(name, what);
     part->add_option("files", options->files, "scenarios, in protobuf's text format")->required();
-    part->add_option(
-            "--place", options->place,
-            "run all scenarios in this kind of place, instead of the files' own: PROCESS, NAMESPACE or CONTAINER")
+    part->add_option("--place", options->place,
+                     "run all scenarios in this kind of place instead of the place in their files: PROCESS, NAMESPACE "
+                     "or CONTAINER")
         ->check(CLI::IsMember({"PROCESS", "NAMESPACE", "CONTAINER"}));
     part->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     return part;
@@ -135,28 +135,28 @@ void add_scenario_run(CLI::App& verb, Action& action) {
     part->add_option("--image", options->image, "podman's image for containers, of deploy/Dockerfile")
         ->capture_default_str();
     part->add_option("--keep", options->keep,
-                     "keep the logs of each, and a page of it, whole.html, in a directory of its name in this one");
+                     "keep the logs and the report page whole.html of each scenario in this directory, in a "
+                     "subdirectory with its name");
     part->add_option("--junit", options->junit, "also write the results as JUnit's XML into this file");
-    part->add_flag("--story", options->events, "also report what happened when");
+    part->add_flag("--story", options->events, "also print what happened, with times");
     part->footer(
-        "Each runs in network, process and mount namespaces of its own, which requires root and leaves nothing "
-        "behind.\n"
-        "Examples:\n  lockstep scenario run deploy/scenarios/axis-killed.textproto\n"
-        "  lockstep scenario run deploy/scenarios/*.textproto --jobs 3 --junit scenarios.xml\n"
-        "  lockstep scenario run mine.textproto --story --keep logs\n"
-        "  lockstep scenario run deploy/scenarios/axis-killed.textproto --place CONTAINER\n"
-        "Exit codes: 0 all hold, 1 one does not, or could not run; 2 bad usage or a scenario that cannot be "
-        "read:\n"
-        "nothing ran");
+        "Each scenario runs in network, process and mount namespaces of its own. This requires root and leaves\n"
+        "nothing behind.\n" +
+        footer("  lockstep scenario run deploy/scenarios/axis-killed.textproto\n"
+               "  lockstep scenario run deploy/scenarios/*.textproto --jobs 3 --junit scenarios.xml\n"
+               "  lockstep scenario run mine.textproto --story --keep logs\n"
+               "  lockstep scenario run deploy/scenarios/axis-killed.textproto --place CONTAINER\n",
+               "0 all passed, 1 a scenario failed or could not run, 2 bad usage, or a scenario cannot be read\n"
+               "(nothing ran)"));
     part->callback([&action, options] { action = [options] { return run(*options); }; });
 }
 
 void add_scenario_check(CLI::App& verb, Action& action) {
     const auto options = std::make_shared<ScenarioOptions>();
-    CLI::App* part = add_part(verb, "check", "read scenarios and print what they would do; nothing runs", options);
-    part->footer(
-        "Examples:\n  lockstep scenario check deploy/scenarios/axis-killed.textproto\n"
-        "Exit codes: 0 they can run, 2 bad usage or a scenario that cannot be read");
+    CLI::App* part =
+        add_part(verb, "check", "read scenarios and print what they would do, without running them", options);
+    part->footer(footer("  lockstep scenario check deploy/scenarios/axis-killed.textproto\n",
+                        "0 the scenarios can run, 2 bad usage, or a scenario cannot be read"));
     part->callback([&action, options] { action = [options] { return check(*options); }; });
 }
 
@@ -164,9 +164,11 @@ void add_scenario_check(CLI::App& verb, Action& action) {
 
 void add_scenario(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand(
-        "scenario", "scripted tests of a whole machine: what it does, which faults occur, what must be true");
+        "scenario",
+        "run or check scripted tests of a whole machine: its actions, the faults to inject and what must be true");
     verb->require_subcommand(1);
-    verb->footer("What a scenario may contain: idl/proto/scenario.proto. Examples: deploy/scenarios/.");
+    verb->footer("idl/proto/scenario.proto describes scenarios; deploy/scenarios/ has examples.\n" +
+                 group_footer("  lockstep scenario run deploy/scenarios/axis-killed.textproto\n", "scenario run"));
     add_scenario_run(*verb, action);
     add_scenario_check(*verb, action);
 }

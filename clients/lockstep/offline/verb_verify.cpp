@@ -42,14 +42,12 @@ void add_verify(CLI::App& app, Action& action) {
     verb->add_option("log", options->log, "an LCM log, of lcm-logger or of lockstep simulate")->required();
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     verb->footer(
-        "Steps that a killed process left are compared with all that the plan allows; notes list what is not on "
-        "record.\n"
-        "A log that begins late or ends early is exact in what it has; if that does not suffice, the result is "
-        "unknown.\n"
-        "Exit 0: exact. 1: not exact, with the first difference; or unknown, with what the log lacks. 2: not a log, "
-        "or\n"
-        "nothing in it.\n" +
-        footer("  lockstep verify plate.lcm\n  lockstep verify plate.lcm --json\n"));
+        "Steps that a killed process made but did not record as runs are compared with all that the plan allows.\n"
+        "Notes list what the log lacks. A log that begins late or ends early is compared as far as it goes; if it has\n"
+        "too little, the result is unknown.\n" +
+        footer("  lockstep verify plate.lcm\n  lockstep verify plate.lcm --json\n",
+               "0 exact, 1 not exact, with the first difference, or unknown, with what the log lacks,\n"
+               "2 bad usage, or no log with steps, runs or jobs"));
     verb->callback([&action, options] { action = [options] { return verify(*options); }; });
 }
 

@@ -144,18 +144,20 @@ ExitCode send(const SendOptions& options) {
 
 void add_send(CLI::App& app, Action& action) {
     CLI::App* verb = app.add_subcommand(
-        "send", "send a file to a controller of grbl's protocol: lockstep-grbl, or any grbl 1.1 at a serial line");
+        "send", "send a file to a controller with grbl's protocol: lockstep-grbl, or any grbl 1.1 at a serial line");
     const auto options = std::make_shared<SendOptions>();
-    verb->add_option("file", options->file, "G-code and $ commands; -: standard input")->required();
+    verb->add_option("file", options->file, "a file of G-code and $ commands; - for standard input")->required();
     verb->add_option("--port", options->port, "the path of a serial line or pseudo-terminal, or HOST:PORT")->required();
     verb->add_option("--baud", options->baud, "the speed of a serial line")
         ->check([](const std::string& text) {
-            return is_baud(std::atoi(text.c_str())) ? "" : "no usual speed of a serial line, such as 115200";
+            return is_baud(std::atoi(text.c_str()))
+                       ? ""
+                       : "it is not a usual speed of a serial line; use for example 115200";
         })
         ->capture_default_str();
     verb->add_flag("--lines", options->one_by_one,
-                   "send a line when the one before is answered; else as many as the controller's buffer takes, whose "
-                   "size it reports");
+                   "send each line after the answer to the line before; default: as many lines as fit into the "
+                   "controller's buffer, whose size it reports");
     verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
     verb->footer(
         "Comments are not sent. Of a file, every line is checked before the first is sent. A line that the controller\n"

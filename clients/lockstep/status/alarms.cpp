@@ -36,16 +36,17 @@ void add_health_alarms(const proto::AxisStatus& axis, const SlackScale& scale, s
     const std::string who = "axis " + axis.name() + ": ";
     const double slack_ms = health.setpoint_slack_ms().min();
     if (health.has_setpoint_slack_ms() && slack_ms < scale.deadline_ms) {
-        alarms.push_back(who + "a setpoint came " + fixed(slack_ms, 0) + " ms before its start, and the deadline is " +
-                         fixed(scale.deadline_ms, 0) + " ms before: find out what stalls the coordinator");
+        alarms.push_back(who + "a setpoint arrived " + fixed(slack_ms, 0) +
+                         " ms before its start, but the deadline is " + fixed(scale.deadline_ms, 0) +
+                         " ms before: find out what stalls the coordinator");
     }
     const proto::Spread& late = health.step_lateness_us();
     const double furthest_us = std::max(std::abs(late.min()), std::abs(late.max()));
     if (furthest_us > health.clock_error_us() + kStepSlack_us) {
-        alarms.push_back(who + "a step was " + fixed(furthest_us, 0) + " us off its commanded time");
+        alarms.push_back(who + "a step was " + fixed(furthest_us, 0) + " us before or after its commanded time");
     }
     if (const std::string refused = refusals(health); !refused.empty()) {
-        alarms.push_back(who + "since it started: " + refused + "; see its log");
+        alarms.push_back(who + "since it started: " + refused + "; see the axis's log");
     }
 }
 
@@ -60,7 +61,7 @@ std::vector<std::string> alarms_of(const proto::StatusReport& status, const Slac
     for (const proto::AxisStatus& axis : status.axes()) {
         if (axis.has_fault()) { add(sentence(axis.fault())); }
         if (!axis.present()) {
-            add("axis " + axis.name() + " is not received: is its process running? lockstep status");
+            add("no messages are received from axis " + axis.name() + "; check that its process runs: lockstep status");
         }
     }
     if (status.has_fault() && status.has_incidents()) {

@@ -49,12 +49,13 @@ struct Word {
 std::expected<Word, std::string> read_word(const std::string& text) {
     auto target = parse_target(text);
     if (!target) {
-        return std::unexpected("'" + text + "' is no change; write a letter, = and a number: X=10 or R=30");
+        return std::unexpected("'" + text + "' is not a change; write a letter, = and a number: X=10 or R=30");
     }
     std::ranges::transform(target->axis, target->axis.begin(),
                            [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
     if (std::abs(target->mm) > kMostPlace) {
-        return std::unexpected(text + " is not within " + number_text(-kMostPlace) + " to " + number_text(kMostPlace));
+        return std::unexpected(text + " is out of range; it must be from " + number_text(-kMostPlace) + " to " +
+                               number_text(kMostPlace));
     }
     return Word{std::move(target->axis), target->mm};
 }
@@ -90,7 +91,7 @@ std::expected<int, std::string> whole(const Word& word, int most) {
 
 std::unexpected<std::string> no_offset(std::string_view name) {
     return std::unexpected("there is no offset '" + std::string(name) +
-                           "'; there are G54 to G59, G59.1, G59.2, G59.3, G92, G28 and G30");
+                           "'; write G54 to G59, G59.1, G59.2, G59.3, G92, G28 or G30");
 }
 
 std::string in_capitals(std::string_view name) {
@@ -102,7 +103,9 @@ std::string in_capitals(std::string_view name) {
 Changed set_tool_word(const MachineConfig& machine, const Word& word, gcode::Tool& tool) {
     constexpr int kMaxOrientation = 9;
     if (word.name == "D") {
-        if (word.value < 0) { return std::unexpected("D=" + number_text(word.value) + " is no diameter"); }
+        if (word.value < 0) {
+            return std::unexpected("D=" + number_text(word.value) + " is not a diameter; it must be 0 or above");
+        }
         tool.diameter = word.value;
     } else if (word.name == "P" || word.name == "Q") {
         const auto number = whole(word, word.name == "P" ? kMaxToolNumber : kMaxOrientation);
@@ -173,7 +176,8 @@ Changed touch_off(const MachineConfig& machine, const std::vector<double>& place
                   const ChangeWords& words, KeptValues& values) {
     const auto system = find_system(in_capitals(name));
     if (!system) {
-        return std::unexpected("'" + std::string(name) + "' is no coordinate system; write G54 to G59, G59.1 to G59.3");
+        return std::unexpected("'" + std::string(name) +
+                               "' is not a coordinate system; write G54 to G59, G59.1 to G59.3");
     }
     std::string line = fmt::format("G21 G10 L20 P{}", *system + 1);
     const Changed read = for_each_word(words, [&](const Word& word) -> Changed {
@@ -210,7 +214,8 @@ Changed clear_offset(std::string_view name, KeptValues& values) {
 Changed set_tool(const MachineConfig& machine, int number, const ChangeWords& words, KeptValues& values) {
     if (!values.tools.contains(number) && values.tools.size() >= gcode::kMaxTools) {
         return std::unexpected(fmt::format(
-            "there are {} tools, as many as are kept; remove one: lockstep tools remove NUMBER", gcode::kMaxTools));
+            "there are {} tools, and the coordinator keeps no more; remove one: lockstep tools remove NUMBER",
+            gcode::kMaxTools));
     }
     gcode::Tool& tool = values.tools[number];
     return for_each_word(words, [&](const Word& word) { return set_tool_word(machine, word, tool); });

@@ -16,10 +16,10 @@ struct OffsetOptions : LiveOptions {
 
 void add_set_offset(CLI::App& offsets, Action& action) {
     const auto options = std::make_shared<OffsetOptions>();
-    CLI::App* verb = offsets.add_subcommand("set", "set one; axes that are not named keep theirs");
+    CLI::App* verb = offsets.add_subcommand("set", "set one offset; axes that are not named keep theirs");
     verb->add_option("name", options->name, "G54 to G59, G59.1 to G59.3, G92, G28 or G30")->required();
     verb->add_option("words", options->words,
-                     "the origin in machine coordinates, mm or degrees: X=10 Y=20; R=30: turned by 30 degrees about Z")
+                     "the origin in machine coordinates, mm or degrees: X=10 Y=20; R=30: rotated by 30 degrees about Z")
         ->required();
     add_take(*verb, *options);
     add_live_options(*verb, *options);
@@ -37,7 +37,8 @@ void add_set_offset(CLI::App& offsets, Action& action) {
 
 void add_clear(CLI::App& offsets, Action& action) {
     const auto options = std::make_shared<OffsetOptions>();
-    CLI::App* verb = offsets.add_subcommand("clear", "to the machine's zero; G28 and G30 to the park position");
+    CLI::App* verb =
+        offsets.add_subcommand("clear", "set an offset to the machine's zero, or G28 and G30 to the park position");
     verb->add_option("name", options->name, "G54 to G59, G59.1 to G59.3, G92, G28 or G30; or all")->required();
     add_take(*verb, *options);
     add_live_options(*verb, *options);
@@ -56,8 +57,8 @@ void add_offsets(CLI::App& app, Action& action) {
     CLI::App* verb =
         app.add_subcommand("offsets",
                            "show or change what G-code programs begin with: the coordinate systems G54 to G59.3, the "
-                           "offsets of G92, the places of G28 and G30; the coordinator keeps them, and programs that "
-                           "reach their end leave them changed. Not while a job runs");
+                           "offsets of G92, the places of G28 and G30; the coordinator keeps them, and a program "
+                           "that reaches its end can change them. This is not possible while a job runs");
     const auto options = std::make_shared<OffsetOptions>();
     add_live_options(*verb, *options);
     verb->require_subcommand(0, 1);

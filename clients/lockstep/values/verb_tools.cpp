@@ -20,7 +20,7 @@ void add_number(CLI::App& verb, ToolOptions& options) {
 
 void add_set_tool(CLI::App& tools, Action& action) {
     const auto options = std::make_shared<ToolOptions>();
-    CLI::App* verb = tools.add_subcommand("set", "add a tool, or change it; words that are not given stay");
+    CLI::App* verb = tools.add_subcommand("set", "add a tool, or change it; values that are not given do not change");
     add_number(*verb, *options);
     verb->add_option("words", options->words,
                      "axes and their offsets in mm, Z=25.4: the tool's length; D=6: its diameter; P=2: its pocket; "
@@ -40,7 +40,7 @@ void add_set_tool(CLI::App& tools, Action& action) {
 
 void add_remove(CLI::App& tools, Action& action) {
     const auto options = std::make_shared<ToolOptions>();
-    CLI::App* verb = tools.add_subcommand("remove", "take a tool out of the table");
+    CLI::App* verb = tools.add_subcommand("remove", "remove a tool from the table");
     add_number(*verb, *options);
     add_take(*verb, *options);
     add_live_options(*verb, *options);
@@ -56,10 +56,11 @@ void add_remove(CLI::App& tools, Action& action) {
 }  // namespace
 
 void add_tools(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("tools",
-                                        "show or change the tool table, which the coordinator keeps: G43 takes a "
-                                        "tool's length from it, G41 and G42 its diameter, and G10 L1 changes it. Not "
-                                        "while a job runs");
+    CLI::App* verb =
+        app.add_subcommand("tools",
+                           "show or change the tool table, which the coordinator keeps: G43 takes a "
+                           "tool's length from it, G41 and G42 its diameter, and G10 L1 changes it. This is "
+                           "not possible while a job runs");
     const auto options = std::make_shared<ToolOptions>();
     add_live_options(*verb, *options);
     verb->require_subcommand(0, 1);

@@ -24,7 +24,7 @@ Changed check_homed(const Session& session, const ChangeWords& words) {
         if (!axis) { return std::unexpected(axis.error()); }
         if (session.axis(*axis)->state.homed) { continue; }
         return std::unexpected("axis " + session.config().axes[*axis].name +
-                               " is not homed, so its place is not known; home it: lockstep home");
+                               " is not homed, so its position is not known; home it: lockstep home");
     }
     return {};
 }

@@ -136,8 +136,8 @@ function pathChart(host, path) {
     series.push({ label, stroke, width, paths: wayPainter, points: { show: false }, facets: [{ scale: "x", auto: true }, { scale: "y", auto: true }] });
     data.push([way.x, way.y]);
   };
-  add(path.stepped, "as stepped", colours[0] + "88", 5);
-  add(path.asked, "as asked", css("--asked"), 1);
+  add(path.stepped, "stepped path", colours[0] + "88", 5);
+  add(path.asked, "commanded path", css("--asked"), 1);
   const chart = new uPlot({
     mode: 2, ...size(), legend: { live: false }, cursor: { drag: { x: true, y: true, uni: 20, setScale: false } },
     scales: { x: { time: false, range: even }, y: { range: even } },
@@ -165,6 +165,6 @@ function barChart(host, axes) {
       rows.push(make("tr", {}, make("td", {}, axis.name), make("td", {}, axis.classes[i]), make("td", {}, count(number)), make("td", { className: "text" }, bar)));
     });
   }
-  const heads = ["axis", "off by, us", "steps", ""].map((head) => make("th", {}, head));
+  const heads = ["axis", "step time error, us", "steps", ""].map((head) => make("th", {}, head));
   host.append(make("div", { className: "wide" }, make("table", {}, make("thead", {}, make("tr", {}, ...heads)), make("tbody", {}, ...rows))));
 }

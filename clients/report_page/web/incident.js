@@ -88,7 +88,7 @@ function lanesPlugin(shown, show) {
 }
 
 function lanesChart() {
-  const words = make("p", { className: "soft" }, "Point at a mark to read it. Red: of a fault; bars: standstills, silences, motion to rest; a cross: the process ended.");
+  const words = make("p", { className: "soft" }, "Point at a mark to read it. Red: events of a fault. Bars: stalls, silences and motion to rest. A cross: the process ended.");
   const host = make("figure");
   let all = false;
   const shown = () => report.events.filter((event) => all || event.weight !== "routine");
@@ -164,10 +164,10 @@ function noted() {
 function processes() {
   section("Processes", table([
     { head: "process", of: (process) => process.name, text: true },
-    { head: "noted from, s", of: (process) => process.first_s, show: fixed(3) },
+    { head: "notes from, s", of: (process) => process.first_s, show: fixed(3) },
     { head: "to, s", of: (process) => process.last_s, show: fixed(3) },
     { head: "ended unexpectedly", of: (process) => (process.ended ? "yes" : "no"), text: true, grade: (process) => (process.ended ? "bad" : "") },
-    { head: "clock within, \u00b5s", of: (process) => process.clock_error_us, show: fixed(1) },
+    { head: "clock error at most, \u00b5s", of: (process) => process.clock_error_us, show: fixed(1) },
     { head: "files", of: (process) => process.files.map((file) => file.split("/").pop()).join(" "), text: true, long: true },
   ], report.processes));
   if (report.notes.length > 0) { section("Notes", make("ul", {}, ...report.notes.map((note) => make("li", {}, note)))); }

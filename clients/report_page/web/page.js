@@ -49,8 +49,8 @@ function jobs() {
     { head: "overridden", of: (job) => (job.overridden ? "yes" : "no"), text: true },
     { head: "took, s", of: (job) => job.real_s, show: fixed(3) },
     { head: "interrupted", of: (job) => Number(job.interruptions), grade: (job) => (Number(job.interruptions) ? "doubtful" : "") },
-    { head: "off the path", of: (job) => job.largest_distance_mm, show: shownThousandths(unitOfJob) },
-    { head: "step time off, \u00b5s", of: (job) => job.step_time_error.max_us, show: fixed(1) },
+    { head: "path deviation", of: (job) => job.largest_distance_mm, show: shownThousandths(unitOfJob) },
+    { head: "step time error, \u00b5s", of: (job) => job.step_time_error.max_us, show: fixed(1) },
   ];
   const onRow = (job) => showTime(job.begun_s ?? whole[0], (job.begun_s ?? 0) + (job.real_s ?? whole[1]));
   section("Jobs", table(columns, rows, { first: 50, onRow }));
@@ -68,14 +68,14 @@ function moves() {
     ...stepColumns(sum("asked_steps"), sum("made_steps"), wholeGrade),
     { head: "planned, s", of: (move) => move.planned_s, show: fixed(4) },
     { head: "took, s", of: (move) => move.real_s, show: fixed(4) },
-    { head: "differs, ms", of: (move) => (move.real_s === undefined ? undefined : (move.real_s - move.planned_s) * 1000), show: fixed(3) },
+    { head: "difference, ms", of: (move) => (move.real_s === undefined ? undefined : (move.real_s - move.planned_s) * 1000), show: fixed(3) },
     { head: "peak speed", of: peak("peak_velocity_mm_s"), show: shownPeak(2, "peak_velocity_mm_s", "/s") },
     { head: "peak acceleration", of: peak("peak_acceleration_mm_s2"), show: shownPeak(0, "peak_acceleration_mm_s2", "/s\u00b2") },
-    { head: "off the line", of: (move) => move.largest_distance_mm, show: shownThousandths(unitOfMove) },
-    { head: "step time off, \u00b5s: p50", of: (move) => move.step_time_error.p50_us, show: fixed(1) },
+    { head: "path deviation", of: (move) => move.largest_distance_mm, show: shownThousandths(unitOfMove) },
+    { head: "step time error, \u00b5s: p50", of: (move) => move.step_time_error.p50_us, show: fixed(1) },
     { head: "p99", of: (move) => move.step_time_error.p99_us, show: fixed(1) },
-    { head: "most", of: (move) => move.step_time_error.max_us, show: fixed(1) },
-    { head: "axes apart, \u00b5s", of: (move) => move.skew_max_us, show: fixed(1) },
+    { head: "max", of: (move) => move.step_time_error.max_us, show: fixed(1) },
+    { head: "step skew, \u00b5s", of: (move) => move.skew_max_us, show: fixed(1) },
   ];
   const listed = report.jobs.reduce((sumOf, job) => sumOf + Number(job.move_count), 0);
   const note = all.length < listed ? `The first ${count(all.length)} of ${count(listed)}; all are in the jobs' figures.` : "";
@@ -84,7 +84,7 @@ function moves() {
     const lasts = move.real_s ?? move.planned_s;
     showTime(move.begun_s - 0.1 * lasts, move.begun_s + 1.1 * lasts);
   };
-  section("Moves", make("p", { className: "soft" }, `Peaks are the fastest axis's, from its steps. Click a head to sort, a move to show it. ${note}`),
+  section("Moves", make("p", { className: "soft" }, `Peaks are those of the fastest axis, computed from its steps. Click a heading to sort the table, or a move to show it in the charts. ${note}`),
     table(columns, all, { first: 25, onRow }));
 }
 
@@ -97,9 +97,9 @@ function axes() {
     { head: "peak speed", of: (axis) => axis.peak_velocity_mm_s, show: fixedIn(2, (axis) => unitOf(axis.name) + "/s") },
     { head: "peak acceleration", of: (axis) => axis.peak_acceleration_mm_s2, show: fixedIn(0, (axis) => unitOf(axis.name) + "/s\u00b2") },
     { head: "missing steps", of: (axis) => Number(axis.missing_steps), show: count, grade: (axis) => (Number(axis.missing_steps) ? "doubtful" : "") },
-    { head: "step time off, \u00b5s: p50", of: (axis) => axis.step_time_error.p50_us, show: fixed(1) },
+    { head: "step time error, \u00b5s: p50", of: (axis) => axis.step_time_error.p50_us, show: fixed(1) },
     { head: "p99", of: (axis) => axis.step_time_error.p99_us, show: fixed(1) },
-    { head: "most", of: (axis) => axis.step_time_error.max_us, show: fixed(1) },
+    { head: "max", of: (axis) => axis.step_time_error.max_us, show: fixed(1) },
   ];
   section("Axes", table(columns, report.axes));
   if (report.step_skew_between_axes.length === 0) { return; }
@@ -108,7 +108,7 @@ function axes() {
     { head: "steps", of: (skew) => Number(skew.steps), show: count },
     { head: "p50, \u00b5s", of: (skew) => skew.p50_us, show: fixed(1) },
     { head: "p99", of: (skew) => skew.p99_us, show: fixed(1) },
-    { head: "most", of: (skew) => skew.max_us, show: fixed(1) },
+    { head: "max", of: (skew) => skew.max_us, show: fixed(1) },
   ], report.step_skew_between_axes));
 }
 
@@ -170,7 +170,7 @@ function overTime() {
   const buttons = make("p");
   const holder = make("div");
   const part = section("Over time", make("p", { className: "soft" },
-    "Drag to zoom, double-click to see all again. Dashed: limits; shaded: steps missing from the log; red: faults and stops; grey: events of programs."), buttons, holder);
+    "Drag to zoom, double-click to see all again. Dashed lines: limits. Shaded: steps missing in the log. Red: faults and stops. Grey: events of programs."), buttons, holder);
   part.id = "time";
   const kinds = [...new Set(charts.rows.map((row) => row.kind))];
   const draw = (kind) => {
@@ -202,7 +202,7 @@ function path() {
 
 function stepTimes() {
   if (charts.step_times.length === 0) { return; }
-  barChart(section("Step times against the commanded ones"), charts.step_times);
+  barChart(section("Differences between step times and commanded times"), charts.step_times);
 }
 
 jobs();

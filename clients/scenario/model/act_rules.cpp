@@ -18,7 +18,7 @@ public:
         check_what(act);
         const bool can_be_undone = act.has_pause() || act.has_cut() || act.has_lose();
         problems_.require(can_be_undone || !act.has_for_s(), path_ + ".for_s",
-                          "for_s goes with pause, cut and lose: other acts are not undone automatically");
+                          "for_s is only for pause, cut and lose; other acts are not undone automatically");
         if (act.has_for_s()) { problems_.require_range(path_, "for_s", act.for_s(), 0, kMostActSeconds); }
     }
 
@@ -72,7 +72,7 @@ private:
             require_process(nth("lose.process", i), loss.process(i), linked());
         }
         problems_.require(loss.percent() > 0 && loss.percent() <= 100, path_ + ".lose.percent",
-                          "percent is " + number_text(loss.percent()) + "; it goes from above 0 to 100");
+                          "percent is " + number_text(loss.percent()) + "; it must be above 0 and at most 100");
     }
 
     void check_heal(const std::string& name) {

@@ -69,7 +69,7 @@ private:
         const std::string asked = end.axis() + " at " + mm_text(end.mm()) +
                                   (end.has_within_mm() ? " within " + mm_text(end.within_mm()) : " to the step");
         const proto::AxisAnalysis* axis = analysis_of(end.axis());
-        if (axis == nullptr || !axis->has_position_end_mm()) { return add(asked, "not on record", kWholeLog, false); }
+        if (axis == nullptr || !axis->has_position_end_mm()) { return add(asked, "not recorded", kWholeLog, false); }
         const double found = axis->position_end_mm();
         const auto config = std::ranges::find(machine_.axes, end.axis(), &AxisConfig::name);
         const bool held = end.has_within_mm() ? std::abs(found - end.mm()) <= end.within_mm()
@@ -80,7 +80,7 @@ private:
     void check_path() {
         const std::string asked = "every step within " + mm_text(expect_.path_within_mm()) + " of the commanded line";
         if (!evidence_.analysis) { return add(asked, evidence_.analysis.error(), kWholeLog, false); }
-        if (!evidence_.analysis->has_largest_distance_mm()) { return add(asked, "not on record", kWholeLog, false); }
+        if (!evidence_.analysis->has_largest_distance_mm()) { return add(asked, "not recorded", kWholeLog, false); }
         const double found = evidence_.analysis->largest_distance_mm();
         add(asked, mm_text(found) + " at most", kWholeLog, found <= expect_.path_within_mm());
     }
@@ -120,7 +120,8 @@ private:
             found += (found.empty() ? "" : "; ") + one.kind + ": " + one.text;
         }
         add("cause " + cause.kind() + (cause.has_process() ? " of " + cause.process() : ""),
-            found.empty() ? "no incident on record" : found, notes(), std::ranges::any_of(evidence_.causes, is_asked));
+            found.empty() ? "no incident is recorded" : found, notes(),
+            std::ranges::any_of(evidence_.causes, is_asked));
     }
 
     void check_axis(const Asked::AxisEnd& end) {

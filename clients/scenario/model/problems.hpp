@@ -35,8 +35,9 @@ public:
 
     /// `block` and `key` make the path.
     void require_range(const std::string& block, const std::string& key, double value, double min, double max) {
-        require(value >= min && value <= max, block + "." + key,
-                key + " is " + number_text(value) + "; it goes from " + number_text(min) + " to " + number_text(max));
+        require(
+            value >= min && value <= max, block + "." + key,
+            key + " is " + number_text(value) + "; it must be from " + number_text(min) + " to " + number_text(max));
     }
 
     void require_one_of(const std::string& path, const std::string& name, const std::vector<std::string>& names,

@@ -58,7 +58,9 @@ std::string to_text(const proto::ScenarioReport& report, bool events) {
         if (events) { text += "  " + fixed(happening.at_s(), 3) + " s  " + happening.what() + "\n"; }
     }
     for (const Check& check : report.checks()) { text += line_of(check); }
-    if (!report.broken().empty()) { text += "  FAILED  it could not run to its end: " + report.broken() + "\n"; }
+    if (!report.broken().empty()) {
+        text += "  FAILED  the scenario could not run to its end: " + report.broken() + "\n";
+    }
     if (!report.kept().empty()) { text += "  logs: " + report.kept() + "\n"; }
     text.pop_back();
     return text;

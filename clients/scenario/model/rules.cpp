@@ -32,9 +32,9 @@ public:
         for (int i = 0; i < asked_.wrong_clock_size(); ++i) {
             check_clock(asked_.wrong_clock(i), nth("wrong_clock", i));
         }
-        problems_.require(asked_.step_size() > 0, "", "no step: add one, such as step { home {} }");
+        problems_.require(asked_.step_size() > 0, "", "there is no step; add one, such as step { home {} }");
         problems_.require(asked_.step_size() <= kMostSteps, nth("step", kMostSteps),
-                          fmt::format("{} steps; there are {} at most", asked_.step_size(), kMostSteps));
+                          fmt::format("there are {} steps; at most {} are allowed", asked_.step_size(), kMostSteps));
         for (int i = 0; i < asked_.step_size(); ++i) { check_step(asked_.step(i), nth("step", i)); }
         check_expectations(asked_.expect());
         return problems_.take();
@@ -43,12 +43,12 @@ public:
 private:
     void check_setup() {
         problems_.require(!asked_.shows().empty(), "shows",
-                          "no shows: describe in one sentence what this scenario shows");
+                          "shows is missing; describe in one sentence what this scenario shows");
         problems_.require(asked_.standby() || !asked_.continues(), "continues",
-                          "continues goes with standby: without one, no coordinator takes over");
+                          "continues is only for a scenario with standby; without one, no coordinator takes over");
         const bool may_stand_by = !asked_.standby() || machine_.timing.time_source != TimeSource::Network;
         problems_.require(may_stand_by, "standby",
-                          "standby goes with time_source SHARED or PTP: with NETWORK the time is one coordinator's");
+                          "standby needs time_source SHARED or PTP; with NETWORK the time is that of one coordinator");
     }
 
     void check_clock(const Asked::WrongClock& clock, const std::string& path) {
@@ -56,11 +56,12 @@ private:
         const auto& clocks = asked_.wrong_clock();
         const auto of_axis = [&](const Asked::WrongClock& other) { return other.axis() == clock.axis(); };
         problems_.require(&*std::ranges::find_if(clocks, of_axis) == &clock, path + ".axis",
-                          "axis " + clock.axis() + " has a clock already; combine both blocks");
-        problems_.require(machine_.timing.time_source == TimeSource::Network, path,
-                          "a wrong clock needs clocks that differ; set timing { time_source: NETWORK } in the machine");
+                          "axis " + clock.axis() + " already has a clock; combine both blocks");
+        problems_.require(
+            machine_.timing.time_source == TimeSource::Network, path,
+            "a wrong clock needs a clock for each process; set timing { time_source: NETWORK } in the machine");
         problems_.require(!asked_.separate_devices(), path,
-                          "a wrong clock goes with devices in the axes' processes; leave out separate_devices");
+                          "a wrong clock needs devices in the axes' processes; remove separate_devices");
         problems_.require_range(path, "offset_s", clock.offset_s(), -1e6, 1e6);
         problems_.require_range(path, "ppm", clock.ppm(), -1000, 1000);
         problems_.require_range(path, "step_s", clock.step_s(), -1000, 1000);
@@ -79,9 +80,9 @@ private:
         }
         const bool is_job = !step.has_wait() && !step.has_act();
         problems_.require(is_job || step.during_size() == 0, path + ".during",
-                          "during goes with home, run and move; make it a step of its own");
-        problems_.require(is_job || !step.has_ends(), path + ".ends", "ends goes with home, run and move");
-        problems_.require(!step.has_act() || !step.has_fault(), path + ".fault", "fault goes with jobs and wait");
+                          "during is only for home, run and move; make it a separate step");
+        problems_.require(is_job || !step.has_ends(), path + ".ends", "ends is only for home, run and move");
+        problems_.require(!step.has_act() || !step.has_fault(), path + ".fault", "fault is only for jobs and wait");
         if (step.has_fault()) { require_fault(path + ".fault", step.fault()); }
         for (int i = 0; i < step.during_size(); ++i) { check_during(step, i, path + "." + nth("during", i)); }
     }
@@ -94,7 +95,7 @@ private:
     /// runs.
     void check_run(const Asked::Run& run, const std::string& path) {
         if (run.has_file() == run.has_gcode()) {
-            return problems_.add(path, "a run has one program; set file: \"FILE\" or gcode: \"G1 X10 F600\"");
+            return problems_.add(path, "a run needs one program; set file: \"FILE\" or gcode: \"G1 X10 F600\"");
         }
         const auto program = program_of(run, scenario_.folder(), machine_, parked_mm(machine_));
         if (program) { return; }
@@ -113,17 +114,17 @@ private:
 
     void check_wait(const Asked::Wait& wait, const std::string& path) {
         problems_.require(wait.has_seconds() != wait.has_phase(), path,
-                          "a wait is for one condition; set seconds: 0.5 or phase: IDLE");
+                          "a wait needs one condition; set seconds: 0.5 or phase: IDLE");
         if (wait.has_seconds()) { problems_.require_range(path, "seconds", wait.seconds(), 0, kMostSeconds); }
     }
 
     void check_during(const Asked::Step& step, int index, const std::string& path) {
         const Asked::During& during = step.during(index);
-        problems_.require(during.has_act(), path, "this injects nothing; add act { kill: \"axis-X\" }");
+        problems_.require(during.has_act(), path, "this event injects nothing; add act { kill: \"axis-X\" }");
         problems_.require(!during.has_line() || step.has_run(), path + ".line",
                           "only a run has lines; use another event, or after_s alone");
         problems_.require(!during.has_line() || during.line() >= 1, path + ".line",
-                          fmt::format("line is {}; lines are counted from 1", during.line()));
+                          fmt::format("line is {}; lines are numbered from 1", during.line()));
         if (during.has_passes()) { require_place(during.passes(), path + ".passes"); }
         if (during.has_after_s()) { problems_.require_range(path, "after_s", during.after_s(), 0, kMostSeconds); }
         if (during.has_rests_within_frames()) {
@@ -135,12 +136,13 @@ private:
     void check_expectations(const Asked::Expect& expect) {
         const std::string path = "expect";
         for (int i = 0; i < expect.final_size(); ++i) { check_final(expect.final(i), path + "." + nth("final", i)); }
-        problems_.require(!expect.has_path_within_mm() || expect.path_within_mm() > 0, "expect.path_within_mm",
-                          "path_within_mm is " + number_text(expect.path_within_mm()) +
-                              "; it is above 0: a step, 1 / steps_per_mm, is the least that can be held");
+        problems_.require(
+            !expect.has_path_within_mm() || expect.path_within_mm() > 0, "expect.path_within_mm",
+            "path_within_mm is " + number_text(expect.path_within_mm()) +
+                "; it must be above 0; the smallest distance that can be kept is a step, 1 / steps_per_mm");
         problems_.require(expect.interruptions() >= 0, "expect.interruptions",
-                          fmt::format("interruptions is {}; it is at least 0", expect.interruptions()));
-        problems_.require(expect.together_size() != 1, "expect.together[0]", "this compares axes; name two at least");
+                          fmt::format("interruptions is {}; it must be at least 0", expect.interruptions()));
+        problems_.require(expect.together_size() != 1, "expect.together[0]", "this compares axes; name at least two");
         for (int i = 0; i < expect.together_size(); ++i) {
             require_axis(nth("expect.together", i), expect.together(i));
         }
@@ -160,9 +162,9 @@ private:
         target.set_axis(end.axis());
         if (end.has_mm()) { target.set_mm(end.mm()); }
         require_place(target, path);
-        problems_.require(
-            !end.has_within_mm() || end.within_mm() > 0, path + ".within_mm",
-            "within_mm is " + number_text(end.within_mm()) + "; it is above 0: leave it out to be exact to the step");
+        problems_.require(!end.has_within_mm() || end.within_mm() > 0, path + ".within_mm",
+                          "within_mm is " + number_text(end.within_mm()) +
+                              "; it must be above 0; remove it to require the exact step");
     }
 
     void check_cause(const Asked::Cause& cause) {
@@ -184,7 +186,7 @@ private:
         require_axis(path + ".axis", target.axis());
         const auto axis = std::ranges::find(machine_.axes, target.axis(), &AxisConfig::name);
         if (axis == machine_.axes.end()) { return; }
-        problems_.require(target.has_mm(), path, "no mm: set the place, in machine coordinates");
+        problems_.require(target.has_mm(), path, "mm is missing; set the position in machine coordinates");
         if (target.has_mm()) {
             problems_.require_range(path, "mm", target.mm(), axis->position_min_mm, axis->position_max_mm);
         }

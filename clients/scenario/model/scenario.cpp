@@ -41,7 +41,8 @@ std::expected<MachineConfig, Diagnostics> machine_of(const Asked& asked, const T
     }
     if (asked.has_machine_file()) { return machine_of_file(asked, source, folder); }
     if (!asked.has_machine()) {
-        return std::unexpected(at_key(source, "", "no machine: set machine_file: \"FILE\", or machine { ... }"));
+        return std::unexpected(
+            at_key(source, "", "the machine is missing; set machine_file: \"FILE\", or machine { ... }"));
     }
     MachineDraft draft = machine_from_proto(asked.machine());
     const Diagnostics errors = machine_errors(draft, source, *Asked::descriptor(), "machine.");

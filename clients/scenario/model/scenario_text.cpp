@@ -83,7 +83,7 @@ void add_expectations(const Asked::Expect& expect, std::string& text) {
     }
     if (expect.has_cause()) { text += "  expect   its cause: " + expect.cause().kind() + "\n"; }
     if (!expect.has_exact() || expect.exact()) { text += "  expect   every step as planned\n"; }
-    if (!expect.has_complete() || expect.complete()) { text += "  expect   a record with nothing missing\n"; }
+    if (!expect.has_complete() || expect.complete()) { text += "  expect   a record without missing messages\n"; }
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ std::expected<pid_t, std::string> start_program(const CommandLine& words, const 
     posix_spawn_file_actions_destroy(&files);
     if (error == 0) { return pid; }
     return std::unexpected("cannot start " + words[0] + ": " + std::strerror(error) +
-                           "; is it installed? deploy/install-dependencies installs what is needed");
+                           "; check that it is installed: deploy/install-dependencies installs what is needed");
 }
 
 std::expected<void, std::string> run_program(const CommandLine& words, const std::filesystem::path& log) {

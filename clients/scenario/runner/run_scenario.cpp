@@ -104,7 +104,7 @@ std::expected<void, std::string> bring_up(const Scenario& scenario, ProcessSet& 
         if (const auto started = processes.start(name); !started) { return started; }
     }
     if (!executor.wait_for(Asked::IDLE)) {
-        return std::unexpected("the machine does not become Idle; last output of the coordinator:\n" +
+        return std::unexpected("the machine does not become Idle; the last output of the coordinator:\n" +
                                tail_of(state.log_file("coordinator"), 4));
     }
     if (!scenario.asked.standby()) { return {}; }

@@ -34,7 +34,9 @@ void write_all(int pipe, const std::string& text) {
 
 /// Mounts memory over the directories of the host. Returns an empty text, or why it failed.
 std::string make_own_folders() {
-    if (mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) { return why("cannot keep mounts apart"); }
+    if (mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) {
+        return why("cannot make the mounts private");
+    }
     if (mount("proc", "/proc", "proc", MS_NOSUID | MS_NODEV | MS_NOEXEC, nullptr) != 0) {
         return why("cannot mount /proc");
     }
@@ -45,7 +47,7 @@ std::string make_own_folders() {
     }
     std::error_code error;
     std::filesystem::create_directories(sandbox_folder(), error);
-    return error ? "cannot make " + sandbox_folder().string() + ": " + error.message() : "";
+    return error ? "cannot create " + sandbox_folder().string() + ": " + error.message() : "";
 }
 
 /// The first process of the sandbox: when it ends, the kernel ends all others in it.
@@ -61,7 +63,7 @@ std::string make_own_folders() {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) { _exit(0); }  // the parent died before prctl took effect
     if (unshare(CLONE_NEWNET | CLONE_NEWNS | CLONE_NEWPID) != 0) {
-        write_all(pipe, kError + why("cannot make namespaces"));
+        write_all(pipe, kError + why("cannot create namespaces"));
         _exit(0);
     }
     const pid_t first = fork();
@@ -79,7 +81,7 @@ std::filesystem::path sandbox_folder() { return "/dev/shm/scenario"; }
 
 std::expected<Sandbox, std::string> Sandbox::start(const std::function<std::string()>& run) {
     std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) { return std::unexpected(why("cannot make a pipe")); }
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) { return std::unexpected(why("cannot create a pipe")); }
     const pid_t self = getpid();
     const pid_t keeper = fork();
     if (keeper == 0) {

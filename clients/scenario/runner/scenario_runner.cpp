@@ -26,7 +26,9 @@ std::expected<int, std::string> open_folder(const fs::path& path) {
     }
     fs::create_directories(path, error);
     const int folder = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (folder < 0) { return std::unexpected(path.string() + ": cannot be made; name another directory for the logs"); }
+    if (folder < 0) {
+        return std::unexpected(path.string() + ": cannot be created; name another directory for the logs");
+    }
     return folder;
 }
 

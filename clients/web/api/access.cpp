@@ -44,7 +44,7 @@ std::string_view host_of(std::string_view text) {
 Problem foreign(const std::string& header, const std::string& value, const std::string& limit) {
     return {.status = 403,
             .code = "foreign-" + header,
-            .title = "the request comes from elsewhere",
+            .title = "the request comes from another site",
             .detail = header + " is '" + value.substr(0, 200) + "'",
             .place = header,
             .value = value.substr(0, 200),
@@ -94,7 +94,7 @@ std::expected<Role, Problem> Access::try_token(std::string_view token, std::chro
         return std::unexpected(Problem{.status = 429,
                                        .code = "too-many-tokens",
                                        .title = "too many wrong tokens",
-                                       .detail = fmt::format("{} wrong tokens came within a minute", wrong_.size()),
+                                       .detail = fmt::format("{} wrong tokens arrived within a minute", wrong_.size()),
                                        .limit = fmt::format("{} a minute", kMostWrongTokens),
                                        .remedy = "wait a minute, then use the address that lockstep-web printed"});
     }
@@ -105,7 +105,7 @@ std::expected<Role, Problem> Access::try_token(std::string_view token, std::chro
         Problem{.status = 401,
                 .code = "wrong-token",
                 .title = "the token is wrong",
-                .detail = "the token is none of this server's",
+                .detail = "the token does not belong to this server",
                 .place = "/token",
                 .remedy = "use the address that lockstep-web printed at its start, or the token in its file"});
 }

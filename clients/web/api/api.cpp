@@ -23,8 +23,8 @@ bool fits(std::string_view pattern, std::string_view path) {
 Problem not_found(const std::string& path) {
     return {.status = 404,
             .code = "unknown-path",
-            .title = "there is nothing here",
-            .detail = "there is nothing at " + path.substr(0, 200),
+            .title = "this path does not exist",
+            .detail = "there is no path " + path.substr(0, 200),
             .place = "path",
             .value = path.substr(0, 200),
             .remedy = "see openapi.yaml"};
@@ -33,8 +33,8 @@ Problem not_found(const std::string& path) {
 Problem wrong_method(const Request& request, const std::string& allowed) {
     return {.status = 405,
             .code = "wrong-method",
-            .title = "the path takes another method",
-            .detail = request.path.substr(0, 200) + " does not take " + request.method.substr(0, 20),
+            .title = "the path does not accept this method",
+            .detail = request.path.substr(0, 200) + " does not accept " + request.method.substr(0, 20),
             .place = "method",
             .value = request.method.substr(0, 20),
             .limit = allowed,
@@ -44,8 +44,8 @@ Problem wrong_method(const Request& request, const std::string& allowed) {
 Problem without_session() {
     return {.status = 401,
             .code = "no-session",
-            .title = "nobody is logged in",
-            .detail = "the request has no session and no token, or a wrong one",
+            .title = "the request is not signed in",
+            .detail = "the request has no valid session and no valid token",
             .place = "authorization",
             .limit = "Authorization: Bearer TOKEN, or the cookie of POST /api/session",
             .remedy = "open the address that lockstep-web printed at its start"};
@@ -54,22 +54,23 @@ Problem without_session() {
 Problem only_views() {
     return {.status = 403,
             .code = "view-only",
-            .title = "this token may only look",
-            .detail = "the token's role is view, and this needs operate",
+            .title = "this token may only view",
+            .detail = "the token's role is view, but this request needs operate",
             .place = "authorization",
             .value = "view",
             .limit = "operate",
-            .remedy = "use the token to operate, from the file that lockstep-web named at its start"};
+            .remedy = "use the operate token from the file that lockstep-web named at its start"};
 }
 
 Problem too_long(std::size_t limit) {
-    return {.status = 413,
-            .code = "too-long",
-            .title = "the body is too long",
-            .detail = fmt::format("the body is longer than {} bytes", limit),
-            .place = "body",
-            .limit = fmt::format("{} bytes", limit),
-            .remedy = limit == kMaxProgram_bytes ? "run a longer program with: lockstep run FILE" : "send less"};
+    return {
+        .status = 413,
+        .code = "too-long",
+        .title = "the body is too long",
+        .detail = fmt::format("the body is longer than {} bytes", limit),
+        .place = "body",
+        .limit = fmt::format("{} bytes", limit),
+        .remedy = limit == kMaxProgram_bytes ? "run a longer program with: lockstep run FILE" : "send a shorter body"};
 }
 
 bool is_changing(const Request& request) { return request.method != "GET" && request.method != "HEAD"; }

@@ -13,15 +13,15 @@ constexpr std::size_t kMostLines = 100;  // of mdi that are kept
 constexpr std::size_t kMaxKey_bytes = 64;
 
 Problem replayed(const std::string& key) {
-    return {
-        .status = 409,
-        .code = "replayed",
-        .title = "the request was sent before",
-        .detail = "a command with this Idempotency-Key came within the last ten minutes; it is not carried out again",
-        .place = "idempotency-key",
-        .value = key,
-        .limit = "a new key for each command",
-        .remedy = "read the state to see what the first one did"};
+    return {.status = 409,
+            .code = "replayed",
+            .title = "this command was already sent",
+            .detail =
+                "a command with this Idempotency-Key arrived within the last ten minutes; it is not carried out again",
+            .place = "idempotency-key",
+            .value = key,
+            .limit = "a new key for each command",
+            .remedy = "read the state for the result of the first command"};
 }
 
 Problem too_busy() {
@@ -38,7 +38,7 @@ Problem no_program() {
             .code = "no-program",
             .title = "no program is loaded",
             .detail = "there is no program to run",
-            .remedy = "load one: POST /api/program"};
+            .remedy = "load a program: POST /api/program"};
 }
 
 Problem other_program(std::uint64_t wanted, std::uint64_t loaded) {
@@ -49,7 +49,7 @@ Problem other_program(std::uint64_t wanted, std::uint64_t loaded) {
             .place = "/program",
             .value = wanted,
             .limit = std::to_string(loaded),
-            .remedy = "look at the loaded program, then run it"};
+            .remedy = "check the loaded program, then run it"};
 }
 
 }  // namespace

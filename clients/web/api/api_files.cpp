@@ -20,7 +20,7 @@ Problem nothing_loaded() {
             .code = "no-program",
             .title = "no program is loaded",
             .detail = "there is no program to show",
-            .remedy = "load one: POST /api/program"};
+            .remedy = "load a program: POST /api/program"};
 }
 
 Problem desk_is_full() {

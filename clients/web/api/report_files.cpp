@@ -57,7 +57,7 @@ std::expected<Response, Problem> ReportFiles::read(const std::string& name) cons
         return std::unexpected(Problem{.status = 404,
                                        .code = "no-such-file",
                                        .title = "there is no such file",
-                                       .detail = "'" + name.substr(0, 200) + "' is none of the machine's reports",
+                                       .detail = "'" + name.substr(0, 200) + "' is not one of the machine's reports",
                                        .place = "path",
                                        .limit = "a name in GET /api/reports",
                                        .remedy = "read the list again"});

@@ -10,15 +10,15 @@ namespace lockstep::web {
 namespace {
 
 Problem press_is_over(std::uint64_t press) {
-    return {
-        .status = 409,
-        .code = "jog-over",
-        .title = "the jog is over",
-        .detail = fmt::format("press {} was released, or was not renewed in time", press),
-        .place = "/press",
-        .value = press,
-        .limit = fmt::format("a renewal each {} ms, at the latest after {} ms", kJogRenew.count(), kJogLife.count()),
-        .remedy = "release the key and press it again"};
+    return {.status = 409,
+            .code = "jog-over",
+            .title = "the jog has ended",
+            .detail = fmt::format("press {} was released, or was not renewed in time", press),
+            .place = "/press",
+            .value = press,
+            .limit = fmt::format("a renewal every {} ms, and at the latest after {} ms", kJogRenew.count(),
+                                 kJogLife.count()),
+            .remedy = "release the key and press it again"};
 }
 
 }  // namespace

@@ -96,7 +96,9 @@ bool RunTask::poll(Session& session, nanoseconds now) {
 
 bool ValuesTask::begin(Session& session, nanoseconds now) {
     const auto before = session.newest_values();
-    if (!before) { return end(std::unexpected(unanswered("the machine's offsets and tools are not received yet"))); }
+    if (!before) {
+        return end(std::unexpected(unanswered("the coordinator has not reported the machine's offsets and tools yet")));
+    }
     const auto wanted = change_(before->values);
     if (!wanted) { return end(std::unexpected(wanted.error())); }
     if (*wanted == before->values) { return end(Accepted{}); }

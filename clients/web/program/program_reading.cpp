@@ -42,7 +42,7 @@ Problem wrong_program(const Diagnostics& errors) {
     const std::string more = errors.size() > 1 ? fmt::format(", and {} more", errors.size() - 1) : "";
     return {.status = 422,
             .code = "bad-program",
-            .title = "the program is wrong",
+            .title = "the program has errors",
             .detail = errors.empty() ? "" : to_text("line", errors.front()) + more,
             .place = "body",
             .remedy = "correct the lines and send it again",
@@ -112,7 +112,8 @@ std::expected<ReadyProgram, Problem> ready_stream(const LoadedProgram& program, 
 
 std::expected<void, Problem> check_phase(const Snapshot& snapshot) {
     if (snapshot.is_silent || !snapshot.machine) {
-        return std::unexpected(unanswered("no coordinator is received, so where the machine stands is not known"));
+        return std::unexpected(
+            unanswered("no messages are received from a coordinator, so the machine's position is not known"));
     }
     switch (snapshot.machine->value.phase) {
         case MachinePhase::Fault: return std::unexpected(refused(FaultCode::InFault, ""));
@@ -143,14 +144,16 @@ std::expected<ProgramStart, Problem> real_start(const Snapshot& snapshot, const 
         const AxisSnapshot& axis = snapshot.axes[i];
         const std::string name = "axis " + machine.axes[i].name;
         if (!axis.state || !axis.is_present) {
-            return std::unexpected(refused(FaultCode::AxisMissing, name + " is not received"));
+            return std::unexpected(refused(FaultCode::AxisMissing, "no messages are received from " + name));
         }
         if (!axis.state->value.homed) { return std::unexpected(refused(FaultCode::NotHomed, name + " is not homed")); }
-        if (!axis.state->value.at_rest) { return std::unexpected(refused(FaultCode::NotReady, name + " moves")); }
+        if (!axis.state->value.at_rest) {
+            return std::unexpected(refused(FaultCode::NotReady, name + " is in motion"));
+        }
         start.place_mm.push_back(to_mm(machine.axes[i], static_cast<double>(axis.state->value.position.count())));
     }
     if (!snapshot.values) {
-        return std::unexpected(unanswered("the machine's offsets and tools are not received yet"));
+        return std::unexpected(unanswered("the coordinator has not reported the machine's offsets and tools yet"));
     }
     start.values = *snapshot.values;
     return start;

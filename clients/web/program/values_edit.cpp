@@ -25,7 +25,7 @@ std::expected<gcode::KeptValues, Problem> edited(const TouchOrder& order, const 
     auto reading = read_gcode(line + "\nM2\n", setup);
     if (!reading) {
         return std::unexpected(
-            wrong_value(422, "/axes", line, "what G10 L20 takes: " + reading.error().front().message));
+            wrong_value(422, "/axes", line, "valid for G10 L20: " + reading.error().front().message));
     }
     return std::move(reading->values);
 }
@@ -49,7 +49,7 @@ std::expected<gcode::KeptValues, Problem> edited(const ToolOrder& order, gcode::
     if (!is_known && values.tools.size() >= gcode::kMaxTools) {
         return std::unexpected(
             wrong_value(422, "/number", order.number,
-                        fmt::format("a tool in the table, which has no room for more than {}", gcode::kMaxTools)));
+                        fmt::format("a tool in the table, because the table is full with {} tools", gcode::kMaxTools)));
     }
     gcode::Tool& tool = values.tools[order.number];
     tool.pocket = order.pocket.value_or(tool.pocket);

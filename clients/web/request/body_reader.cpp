@@ -14,7 +14,7 @@ constexpr std::size_t kMostRepeated = 300;  // bytes of a client's text in an an
 Problem not_json(const std::string& why, const std::string& limit) {
     return {.status = 400,
             .code = "bad-json",
-            .title = "the body is not what the request takes",
+            .title = "the body is not valid for this request",
             .detail = why.substr(0, kMostRepeated),
             .limit = limit,
             .remedy = "send a JSON object as openapi.yaml describes it"};
@@ -30,7 +30,7 @@ public:
         if (event == Event::key && !names_.back().insert(parsed.get<std::string>()).second && why.empty()) {
             why = "the member '" + parsed.get<std::string>() + "' is given twice";
         }
-        if (depth > kMostDepth && why.empty()) { why = "it nests too deep"; }
+        if (depth > kMostDepth && why.empty()) { why = "it is nested too deep"; }
         return true;
     }
     std::string why;
@@ -64,7 +64,7 @@ std::string between(double least, double most) {
 std::expected<Json, Problem> read_object(std::string_view text) {
     if (text.empty()) { return Json::object(); }
     const std::string depth = fmt::format("at most {} objects and lists within each other", kMostDepth);
-    if (nests_too_deep(text)) { return std::unexpected(not_json("it nests too deep", depth)); }
+    if (nests_too_deep(text)) { return std::unexpected(not_json("it is nested too deep", depth)); }
     Strict strict;
     Json json;
     try {
@@ -84,7 +84,7 @@ std::optional<Problem> refuse_other_type(const Request& request) {
     if (request.body.empty() || type.starts_with("application/json")) { return std::nullopt; }
     return Problem{.status = 415,
                    .code = "not-json",
-                   .title = "the body is no JSON",
+                   .title = "the body is not JSON",
                    .detail = "Content-Type is '" + type + "'",
                    .place = "content-type",
                    .value = type,
@@ -95,8 +95,8 @@ std::optional<Problem> refuse_other_type(const Request& request) {
 Problem wrong_value(int status, const std::string& place, const Json& value, const std::string& limit) {
     return {.status = status,
             .code = status == 422 ? "out-of-range" : "bad-value",
-            .title = status == 422 ? "a value is out of its range" : "a value is of another kind",
-            .detail = place + " is " + dumped(value).substr(0, 100) + ", and may be " + limit,
+            .title = status == 422 ? "a value is out of its range" : "a value has the wrong type",
+            .detail = place + " is " + dumped(value).substr(0, 100) + "; it must be " + limit,
             .place = place,
             .value = dumped(value).size() > 200 ? Json(dumped(value).substr(0, 200)) : value,
             .limit = limit,
@@ -123,7 +123,7 @@ void BodyReader::require(const std::string& name) {
             .title = "a value is missing",
             .detail = place_of(name) + " is missing",
             .place = place_of(name),
-            .limit = "it must be given",
+            .limit = "this value is required",
             .remedy = "add it and send it again"});
 }
 
@@ -190,7 +190,7 @@ void BodyReader::finish() {
                 .detail = place + " is not known",
                 .place = place,
                 .limit = names.empty() ? "no members" : names,
-                .remedy = "leave it out, or correct its name"});
+                .remedy = "remove it, or correct its name"});
     }
 }
 

@@ -82,12 +82,13 @@ void read_jog(const Json& json, std::size_t i, const MachineConfig& machine, Jog
     const auto distance = reader.number("distance", std::numeric_limits<double>::min(), kMostPlace);
     reader.finish();
     if (velocity == 0.0) {
-        reader.refuse(wrong_value(422, reader.place_of("velocity"), 0, "not 0; to end the jog, leave the axis out"));
+        reader.refuse(
+            wrong_value(422, reader.place_of("velocity"), 0, "a number other than 0; to end the jog, remove the axis"));
     }
     if (axis == none || !velocity) { return; }
     const auto is_same = [&](const JogAxis& one) { return one.axis == axis; };
     if (std::ranges::any_of(order.jogs, is_same)) {
-        reader.refuse(wrong_value(422, reader.place_of("axis"), *name, "each axis once"));
+        reader.refuse(wrong_value(422, reader.place_of("axis"), *name, "an axis that the list has only once"));
     }
     order.jogs.push_back({static_cast<std::uint32_t>(axis), *velocity, distance});
 }
@@ -180,7 +181,7 @@ std::optional<Order> tool(const Json& body, const MachineConfig& machine, std::o
     if (const auto pocket = reader.integer("pocket", 0, kMaxToolNumber)) { order.pocket = static_cast<int>(*pocket); }
     const bool sets = order.pocket || order.diameter || !order.offset.empty();
     if (order.removes && sets) {
-        reader.refuse(wrong_value(422, "/remove", true, "without any other value than the number"));
+        reader.refuse(wrong_value(422, "/remove", true, "false if there are other values than the number"));
     }
     reader.finish();
     return order;
@@ -212,12 +213,12 @@ Problem unknown_verb(std::string_view verb) {
     for (const std::string& name : verbs()) { names += (names.empty() ? "" : ", ") + name; }
     return {.status = 404,
             .code = "unknown-verb",
-            .title = "there is no such command",
+            .title = "this command does not exist",
             .detail = "there is no command '" + std::string(verb.substr(0, 100)) + "'",
             .place = "path",
             .value = std::string(verb.substr(0, 100)),
             .limit = names,
-            .remedy = "write one of these"};
+            .remedy = "use one of these commands"};
 }
 
 }  // namespace

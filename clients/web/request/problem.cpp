@@ -18,7 +18,7 @@ Problem refused(FaultCode fault, const std::string& text) {
             .code = std::string(name_of(fault)),
             .title = known == nullptr ? "the machine refuses the command" : std::string(known->cause),
             .detail = text.empty() && known != nullptr ? std::string(known->cause) : text,
-            .limit = is_held ? "one writer at a time; hold, stop and estop are everybody's" : "",
+            .limit = is_held ? "one writer at a time; every client may hold, stop and estop" : "",
             .remedy = is_held            ? "wait until the writer gives the machine back; or take it over: POST "
                                            "/api/commands/take"
                       : known == nullptr ? ""
@@ -31,7 +31,7 @@ Problem unanswered(const std::string& why) {
             .code = "unreachable",
             .title = "no coordinator of the machine answers",
             .detail = why,
-            .remedy = "see whether the machine is up: lockstep status"};
+            .remedy = "check whether the machine is up: lockstep status"};
 }
 
 Json problem_json(const Problem& problem) {

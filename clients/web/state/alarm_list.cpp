@@ -66,17 +66,18 @@ void add_health(const AxisHealth& health, const std::string& axis, const Machine
     const double deadline_ms = slack_deadline_ms(machine.timing);
     if (health.setpoint_slack.count > 0 && slack_ms < deadline_ms) {
         alarms.push_back(own_alarm("late-setpoints", axis,
-                                   "a setpoint came " + short_number(std::round(slack_ms)) +
-                                       " ms before its start, and the deadline is " +
+                                   "a setpoint arrived " + short_number(std::round(slack_ms)) +
+                                       " ms before its start, but the deadline is " +
                                        short_number(std::round(deadline_ms)) + " ms before",
                                    "find out what stalls the coordinator"));
     }
     const double furthest_us = std::max(std::abs(machine.microseconds(health.step_lateness.least)),
                                         std::abs(machine.microseconds(health.step_lateness.most)));
     if (furthest_us > machine.microseconds(health.clock_error) + kStepLateness_us) {
-        alarms.push_back(own_alarm("late-steps", axis,
-                                   "a step was " + short_number(std::round(furthest_us)) + " us off its commanded time",
-                                   "see the axis's log"));
+        alarms.push_back(
+            own_alarm("late-steps", axis,
+                      "a step was " + short_number(std::round(furthest_us)) + " us before or after its commanded time",
+                      "see the axis's log"));
     }
     if (const std::string text = refusals(health.refused); !text.empty()) {
         alarms.push_back(own_alarm("refusals", axis, "since it started: " + text, "see the axis's log"));
@@ -103,8 +104,8 @@ json alarm_list(const Snapshot& snapshot, const MachineConfig& machine) {
     add_faults(snapshot, machine, alarms);
     for (std::size_t i = 0; i < snapshot.axes.size() && !snapshot.is_silent; ++i) {
         if (snapshot.axes[i].is_present) { continue; }
-        alarms.push_back(own_alarm("axis-not-received", machine.axes[i].name, "the axis is not received",
-                                   "see whether its process runs: lockstep status"));
+        alarms.push_back(own_alarm("axis-not-received", machine.axes[i].name, "no messages are received from the axis",
+                                   "check that its process runs: lockstep status"));
     }
     std::uint64_t lost = snapshot.machine ? snapshot.machine->value.lost_records : 0;
     for (std::size_t i = 0; i < snapshot.axes.size(); ++i) {
@@ -116,7 +117,7 @@ json alarm_list(const Snapshot& snapshot, const MachineConfig& machine) {
     if (lost > 0) {
         alarms.push_back(own_alarm("lost-records", "",
                                    fmt::format("{} messages of the record could not be written or sent", lost),
-                                   "see the logs, and whether a disk is full"));
+                                   "see the logs, and check whether a disk is full"));
     }
     return alarms;
 }

@@ -36,11 +36,11 @@ std::optional<std::string> DeviceWatch::doubt_of(Tick own, const DeviceStatus& s
     looked_ = own;
     last_ = status;
     if (stood_ > patience_) {
-        return "its clock stands still at tick " + text(status.now) + ": its process, or its board, has stopped";
+        return "its clock stopped at tick " + text(status.now) + ": its process or its board has stopped";
     }
     if (overdue_ > patience_) {
-        return "its run " + std::to_string(run_) + " has not ended by tick " + text(status.now) +
-               ", its frames by tick " + text(ends_);
+        return "its run " + std::to_string(run_) + " has not ended at tick " + text(status.now) +
+               ", although its frames end at tick " + text(ends_);
     }
     return std::nullopt;
 }
@@ -61,13 +61,13 @@ std::optional<std::string> DeviceWatch::contradiction(const DeviceStatus& status
     const Displacement moved = status.position - last_->position;
     const Displacement most = Displacement::steps((status.now - last_->now).value) + Displacement::steps(1);
     if (moved > most || moved < -most) {
-        return "its count went from " + std::to_string(last_->position.count()) + " to " +
+        return "its count changed from " + std::to_string(last_->position.count()) + " to " +
                std::to_string(status.position.count()) + " between ticks " + text(last_->now) + " and " +
                text(status.now);
     }
     const std::uint64_t asked = run_ != 0 ? run_ : last_->run_asked;
     if (status.run_asked != asked) {
-        return "it reports that it was ordered run " + std::to_string(status.run_asked) +
+        return "it reports an order for run " + std::to_string(status.run_asked) +
                "; the last run that this axis ordered is " + std::to_string(asked);
     }
     const bool is_known = status.run == last_->run || status.run == asked;

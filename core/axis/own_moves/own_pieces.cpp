@@ -15,9 +15,9 @@ std::string text_in_time(const Infeasible& lack, const AxisConfig& axis, std::in
     const double tick_s = static_cast<double>(tick_ns) * 1e-9;
     const std::string time = short_number(static_cast<double>(move.ticks->value) * tick_s) + " s";
     return short_number(to_mm(axis, static_cast<double>(move.steps))) + " mm in " + time +
-           " would break the limits of axis " + axis.name + ": it takes at least " +
-           short_number(static_cast<double>(lack.least_ticks.value) * tick_s) + " s, and in " + time + " at most " +
-           short_number(std::max(0.0, to_mm(axis, lack.longest.as_steps()))) + " mm";
+           " would exceed the limits of axis " + axis.name + ": the move takes at least " +
+           short_number(static_cast<double>(lack.least_ticks.value) * tick_s) + " s, and the distance in " + time +
+           " is at most " + short_number(std::max(0.0, to_mm(axis, lack.longest.as_steps()))) + " mm";
 }
 
 }  // namespace
@@ -26,7 +26,7 @@ std::string text_of(const OwnMoveError& error, const AxisConfig& axis, std::int6
                     const OwnMoveRequest& move) {
     if (const auto* other = std::get_if<NotInTime>(&error)) {
         return "axis " + axis.name + " cannot move in a given time by method " + std::string(name_of(other->method)) +
-               "; leave the time out, or configure RANADE";
+               "; omit the time, or configure method RANADE";
     }
     if (const auto* lack = std::get_if<Infeasible>(&error)) { return text_in_time(*lack, axis, tick_ns, move); }
     return "axis " + axis.name + ": " + text_of(std::get<StepError>(error));

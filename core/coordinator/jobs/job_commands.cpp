@@ -14,7 +14,7 @@ std::expected<std::shared_ptr<const KnownProgram>, Refusal> program_of(const Com
     if (const Reply* refusal = loop.programs.refusal_of(command.program)) {
         return refuse(refusal->fault, refusal->text);
     }
-    if (!program) { return refuse(FaultCode::UnknownProgram, "the program has not arrived"); }
+    if (!program) { return refuse(FaultCode::UnknownProgram, "the program has not arrived; send it again"); }
     if (whole && program->is_open()) {
         return refuse(FaultCode::UnknownProgram,
                       "the program has not arrived completely; this command needs the complete program");
@@ -115,7 +115,7 @@ CommandResult JobRunner::jog(const Command& command, CoordinatorLoop& loop) {
 CommandResult JobRunner::interrupt(Intent intent, CoordinatorLoop& loop) {
     if (axes_move_alone()) { return interrupt_alone(intent, loop); }
     if (loop.condition.is_held()) {
-        if (intent == Intent::Hold) { return refuse(FaultCode::Held, "it is held or paused already"); }
+        if (intent == Intent::Hold) { return refuse(FaultCode::Held, "the job is already held or paused"); }
         end(JobOutcome::Stopped, loop);
         return {};
     }
@@ -123,7 +123,7 @@ CommandResult JobRunner::interrupt(Intent intent, CoordinatorLoop& loop) {
         cut_inherited(TakeoverDoubt::Interrupted, loop);
         return {};
     }
-    if (!path_.is_moving()) { return refuse(FaultCode::NothingToDo, "nothing is in motion that could be interrupted"); }
+    if (!path_.is_moving()) { return refuse(FaultCode::NothingToDo, "no motion is in progress"); }
     if (intent == Intent::Hold && intent_ > Intent::Hold) {
         return refuse(FaultCode::Busy, "the machine is already stopping, and the job ends with the stop");
     }
@@ -147,7 +147,7 @@ CommandResult JobRunner::interrupt_alone(Intent intent, CoordinatorLoop& loop) {
 
 CommandResult JobRunner::resume(CoordinatorLoop& loop) {
     if (loop.condition.phase() == MachinePhase::Fault) { return refuse_in_fault(loop.condition.fault()); }
-    if (!loop.condition.is_held()) { return refuse(FaultCode::NothingToDo, "nothing is held or paused"); }
+    if (!loop.condition.is_held()) { return refuse(FaultCode::NothingToDo, "no job is held or paused"); }
     if (auto present = check_present(loop); !present) { return present; }
     if (auto clocks = check_clocks(loop); !clocks) { return clocks; }
     const bool is_paused = loop.condition.phase() == MachinePhase::Paused;
@@ -161,7 +161,7 @@ CommandResult JobRunner::turn(const Command& command, const CoordinatorLoop& loo
     }
     for (const std::optional<int>& percent : {command.feed_percent, command.rapid_percent}) {
         if (!percent || Overrides::allows(*percent)) { continue; }
-        return refuse(FaultCode::BadProgram, "an override of " + std::to_string(*percent) + " % is not within " +
+        return refuse(FaultCode::BadProgram, "an override of " + std::to_string(*percent) + " % is outside the range " +
                                                  std::to_string(Overrides::kLeast) + " to " +
                                                  std::to_string(Overrides::kMost) + " %");
     }

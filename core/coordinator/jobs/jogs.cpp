@@ -43,7 +43,7 @@ CommandResult check_speed(const AxisConfig& axis, double speed_mm_s) {
 CommandResult Jogs::press(const Command& command, CoordinatorLoop& loop) {
     asked_.assign(jogs_.size(), std::nullopt);
     for (const JogAxis& axis : command.jogs) {
-        if (axis.axis >= jogs_.size()) { return refuse(FaultCode::BadProgram, "no such axis"); }
+        if (axis.axis >= jogs_.size()) { return refuse(FaultCode::BadProgram, "the machine does not have this axis"); }
         auto jog = jog_of(axis, command, loop);
         if (!jog) { return std::unexpected(jog.error()); }
         asked_[axis.axis] = *jog;
@@ -66,7 +66,7 @@ std::expected<Jogs::Jog, Refusal> Jogs::jog_of(const JogAxis& asked, const Comma
     if (auto homed = check_homed(axis, state); !homed) { return std::unexpected(homed.error()); }
     if (auto speed = check_speed(axis, asked.speed_mm_s); !speed) { return std::unexpected(speed.error()); }
     if (const std::int64_t target = target_of(asked, axis, state); state.at_rest && target == state.position.count()) {
-        return refuse(FaultCode::OutsideTravel, "axis " + axis.name + " stands at the end of its travel, " +
+        return refuse(FaultCode::OutsideTravel, "axis " + axis.name + " is at the end of its travel, " +
                                                     short_number(to_mm(axis, static_cast<double>(target))) + " mm");
     }
     Jog jog{command.client, command.sequence, asked, loop.is_late ? loop.now - hold_ : loop.now, {}};

@@ -126,10 +126,10 @@ std::expected<void, TakeoverDoubt> check_place(const FrameRest& rest, const Move
 std::string_view text_of(TakeoverDoubt doubt) {
     constexpr std::array<std::string_view, 9> kTexts{
         "a takeover stops the job; with --on-takeover continue it continues the job",
-        "it was not running freely: it was held, paused, being stopped, or is not a program",
-        "a hold or stop was commanded meanwhile",
-        "its program has not arrived here",
-        "the last owner's reports of the job do not fit its program",
+        "the job was held, paused or stopping, or it is not a program",
+        "a hold or stop was commanded during the takeover",
+        "this coordinator does not have the job's program",
+        "the last owner's reports of the job do not match its program",
         "an axis is missing, was restarted, is not homed or has a fault",
         "the axes did not all run the same frames",
         "the axes ran frames for which no message of the last owner was received",

@@ -141,17 +141,17 @@ private:
 std::string text_of(const LaiLack& lack) {
     const std::string value = short_number(lack.value);
     switch (lack.why) {
-        case LaiLack::Why::Axes: return "coordination LAI is for two and more axes; the machine has one";
+        case LaiLack::Why::Axes: return "coordination LAI needs two or more axes; the machine has one";
         case LaiLack::Why::Tick:
             return "coordination LAI needs a tick_ns that divides 6500000; it is " + number_text(lack.value);
         case LaiLack::Why::FrameRoom:
-            return "coordination LAI makes a move each 6.5 ms, but frames of this length have room for one each " +
+            return "coordination LAI makes a move every 6.5 ms, but frames of this length can carry one move every " +
                    value + " ms; lower timing.frame_slots or timing.slot_us";
         case LaiLack::Why::Limit: break;
     }
     return "axis " + lack.axis + ": coordination LAI changes speed by whole pulses per 6.5 ms, so " +
            std::string(lack.key) + " must be at least " + short_number(lack.least) + "; it is " + value +
-           " (more steps_per_mm help too, or coordination: RANADE)";
+           "; or increase steps_per_mm, or use coordination: RANADE";
 }
 
 std::expected<void, LaiLack> suits_lai_path(const MachineConfig& machine) {

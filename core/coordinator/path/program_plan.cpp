@@ -70,7 +70,7 @@ std::expected<AxisCounts, PlanError> ProgramPlanner::target(const ProgramMove& m
         const std::string unit = " " + std::string(unit_of(axis.name));
         if (!(std::abs(mm * axis.steps_per_mm) < kMaxSteps)) {
             return std::unexpected(
-                PlanError{FaultCode::BadProgram, line, axis.name + " " + number(mm) + unit + " is too far"});
+                PlanError{FaultCode::BadProgram, line, axis.name + " " + number(mm) + unit + " is too far from 0"});
         }
         to[axes[i]] = to_steps(axis, mm);
         if (!is_within_travel(axes[i], mm)) { return std::unexpected(outside_travel(axis, mm, line)); }
@@ -87,8 +87,8 @@ std::expected<void, PlanError> ProgramPlanner::check_arc(const ProgramMove& move
                                                          std::span<const double> from_mm,
                                                          std::optional<std::int32_t> line) const {
     if (machine_.coordination == StepMethod::Lai) {
-        return std::unexpected(
-            PlanError{FaultCode::BadProgram, line, "coordination LAI moves straight only; cut the arc into chords"});
+        return std::unexpected(PlanError{FaultCode::BadProgram, line,
+                                         "coordination LAI moves only in straight lines; write the arc as chords"});
     }
     const ArcPath arc(*move.arc, from_mm, move.target_mm);
     if (const std::string why = why_no_arc(arc); !why.empty()) {
@@ -117,10 +117,10 @@ std::expected<void, PlanError> ProgramPlanner::check_start(const ProgramHead& pr
         const std::string unit = " " + std::string(unit_of(axis.name));
         if (start[i] >= limits_[i].min_steps && start[i] <= limits_[i].max_steps) { continue; }
         return std::unexpected(PlanError{FaultCode::OutsideTravel, std::nullopt,
-                                         "axis " + axis.name + " stands at " +
+                                         "axis " + axis.name + " is at " +
                                              number(to_mm(axis, static_cast<double>(start[i]))) + unit +
-                                             ", outside its travel, " + number(axis.position_min_mm) + " to " +
-                                             number(axis.position_max_mm) + unit + ": home it"});
+                                             ", which is outside its travel, " + number(axis.position_min_mm) + " to " +
+                                             number(axis.position_max_mm) + unit + "; home the axis"});
     }
     for (std::size_t i = 0; i < axes.size(); ++i) {
         const AxisConfig& axis = machine_.axes[axes[i]];
@@ -128,7 +128,7 @@ std::expected<void, PlanError> ProgramPlanner::check_start(const ProgramHead& pr
         if (to_steps(axis, program.start_mm[i]) == start[axes[i]]) { continue; }
         return std::unexpected(PlanError{FaultCode::StartMismatch, std::nullopt,
                                          "the program starts at " + axis.name + " " + number(program.start_mm[i]) +
-                                             unit + ", the axis is at " +
+                                             unit + ", but the axis is at " +
                                              number(to_mm(axis, static_cast<double>(start[axes[i]]))) + unit});
     }
     return {};

@@ -31,14 +31,14 @@ KnownProgram::KnownProgram(const MachineConfig& machine, ProgramHead head, std::
 std::expected<void, ProgramCut> KnownProgram::check(const Block& block, std::span<const double> from_mm) const {
     if (known_ > std::numeric_limits<std::uint32_t>::max() - kMaxProgramBlocks) {
         return std::unexpected(ProgramCut{FaultCode::BadProgram, block.line,
-                                          "the program has more than 4 thousand million blocks; cut it in two"});
+                                          "the program has more than 4 thousand million blocks; split it in two"});
     }
     const auto* move = std::get_if<ProgramMove>(&block.action);
     if (move == nullptr) { return {}; }
     if (move->target_mm.size() != axes_.size()) {
         return std::unexpected(ProgramCut{FaultCode::BadProgram, block.line,
-                                          "the target has " + std::to_string(move->target_mm.size()) + " places for " +
-                                              std::to_string(axes_.size()) + " axes"});
+                                          "the target has " + std::to_string(move->target_mm.size()) +
+                                              " positions for " + std::to_string(axes_.size()) + " axes"});
     }
     const auto to = planner_.target(*move, axes_, zero_, block.line);
     if (!to) { return std::unexpected(ProgramCut{to.error().fault, block.line, to.error().text}); }
@@ -88,8 +88,8 @@ std::expected<void, ProgramCut> KnownProgram::take_all(std::span<const Block> bl
         events = std::holds_alternative<ProgramEvent>(block.action) ? events + 1 : 0;
         if (events > kMaxEventsTogether) {
             return std::unexpected(ProgramCut{FaultCode::BadProgram, block.line,
-                                              "more than " + std::to_string(kMaxEventsTogether) +
-                                                  " events without a move between them; leave some out"});
+                                              "the program has more than " + std::to_string(kMaxEventsTogether) +
+                                                  " events without a move between them; remove some"});
         }
         if (const auto* move = std::get_if<ProgramMove>(&block.action)) { from = move->target_mm; }
     }

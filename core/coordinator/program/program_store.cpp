@@ -67,7 +67,7 @@ ProgramStore::Taken ProgramStore::take(const ProgramPart& part, Slot now) {
     }
     if (entry == nullptr || entry->client != part.client) {
         refuse(reply, {FaultCode::UnknownProgram, std::nullopt,
-                       "the program's beginning has not arrived here; send it again"});
+                       "the beginning of the program has not arrived; send it again"});
         return {reply};
     }
     entry->received = now;
@@ -105,10 +105,11 @@ void ProgramStore::tend(Slot now, Slot missed) {
         entry.received += missed;
         const bool is_open = entry.program && entry.program->is_open();
         if (!is_open || now - entry.received <= patience) { continue; }
-        entry.program->cut(
-            {FaultCode::SenderSilent, std::nullopt,
-             "nothing was received from the program's sender for " + std::to_string(std::lround(kSenderSilence_s)) +
-                 " s; the machine runs what it has and rests; then: lockstep run FILE --from-line LINE"});
+        entry.program->cut({FaultCode::SenderSilent, std::nullopt,
+                            "nothing was received from the program's sender for " +
+                                std::to_string(std::lround(kSenderSilence_s)) +
+                                " s; the machine runs the part that it has, and rests; then continue: lockstep run "
+                                "FILE --from-line LINE"});
     }
 }
 

@@ -15,13 +15,13 @@ CommandResult check_ready(const CoordinatorLoop& loop, bool in_motion) {
     if (loop.condition.is_held()) { return refuse(FaultCode::Held, "a job is held or paused"); }
     if (in_motion) { return refuse(FaultCode::Busy, "the machine is " + std::string(name_of(phase))); }
     if (phase == MachinePhase::Idle) { return {}; }
-    return refuse(FaultCode::NotReady, "not all axes follow the coordinator and are at rest yet");
+    return refuse(FaultCode::NotReady, "some axes do not follow the coordinator yet, or are not at rest");
 }
 
 CommandResult check_present(const CoordinatorLoop& loop) {
     const auto missing = loop.axes.missing(loop.slot);
     if (!missing) { return {}; }
-    return refuse(FaultCode::AxisMissing, "axis " + loop.name_of_axis(*missing) + " is not received");
+    return refuse(FaultCode::AxisMissing, "no messages are received from axis " + loop.name_of_axis(*missing));
 }
 
 CommandResult check_homed(const CoordinatorLoop& loop) {
@@ -39,11 +39,11 @@ CommandResult check_clocks(const CoordinatorLoop& loop) {
         return std::to_string(static_cast<std::int64_t>(Int128{t.value} * machine.tick_ns / 1000)) + " us";
     };
     return refuse(FaultCode::ClockUncertain,
-                  "axis " + loop.name_of_axis(*axis) + ": its clock may be " + us(loop.axes.state(*axis)->clock_error) +
-                      " off, the limit to begin is " + us(limit) + " (timing.clock_error_limit_us is " +
-                      std::to_string(machine.timing.clock_error_limit_us) +
-                      "); wait until the axis has received the coordinator for some "
-                      "seconds, check the network to it, or increase timing.slot_us");
+                  "axis " + loop.name_of_axis(*axis) + ": its clock error may be " +
+                      us(loop.axes.state(*axis)->clock_error) + ", and the limit to begin a motion is " + us(limit) +
+                      " (timing.clock_error_limit_us is " + std::to_string(machine.timing.clock_error_limit_us) +
+                      "); wait some seconds until the axis has measured the "
+                      "coordinator's clock, check the network to the axis, or increase timing.slot_us");
 }
 
 std::unexpected<Refusal> refuse_in_fault(FaultCode fault) {

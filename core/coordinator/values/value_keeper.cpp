@@ -4,7 +4,7 @@ namespace lockstep {
 
 std::string text_of(const ValuesRefusal& refusal) {
     if (refusal.why == ValuesRefusal::Why::JobInProgress) {
-        return "a job is in progress, and depends on these values; wait for its end, or: lockstep stop";
+        return "a job in progress uses these values; wait until it has ended, or: lockstep stop";
     }
     return "the machine's offsets or tools have changed since this was read: revision " + std::to_string(refusal.read) +
            ", now " + std::to_string(refusal.now) + "; give the command again";

@@ -43,26 +43,25 @@ void Recorder::clear() {
 }
 
 std::string Recorder::not_open(const OWord& word) const {
-    const std::string text = shown_word(word.keyword, word.label) + " does not fit; ";
-    if (open_.empty()) { return text + "nothing is open here"; }
+    const std::string text = shown_word(word.keyword, word.label) + " has no beginning here; ";
+    if (open_.empty()) { return text + "no O-word is open"; }
     const Open& last = open_.back();
-    return text + "open is " + shown_word(last.keyword, last.label) + " of line " +
-           std::to_string(body_.lines[last.line].number) + ", which ends with " +
-           shown_word(end_of(last.keyword), last.label);
+    return text + shown_word(last.keyword, last.label) + " of line " + std::to_string(body_.lines[last.line].number) +
+           " is open and ends with " + shown_word(end_of(last.keyword), last.label);
 }
 
 /// A label opens one thing only, except do loops, which may be opened again. Subroutines have separate labels.
 std::optional<std::string> Recorder::open(const OWord& word) {
     const bool in_subroutine = !open_.empty() && open_.front().keyword == Keyword::Sub;
     if (word.keyword == Keyword::Sub && !open_.empty()) {
-        return shown_word(word.keyword, word.label) + " inside " +
-               shown_word(open_.back().keyword, open_.back().label) + "; a subroutine stands by itself";
+        return shown_word(word.keyword, word.label) + " is inside " +
+               shown_word(open_.back().keyword, open_.back().label) + "; define the subroutine outside of it";
     }
     const std::string scope = word.keyword == Keyword::Sub ? kOfSubroutines : in_subroutine ? open_.front().label : "";
     const auto [before, is_new] = labels_.try_emplace({scope, word.label}, word.keyword);
     const bool is_do_again = word.keyword == Keyword::Do && before->second == Keyword::Do;
     if (!is_new && !is_do_again) {
-        return shown_label(word.label) + " has opened something before; write another label";
+        return shown_label(word.label) + " is the label of an earlier O-word; use another label";
     }
     if (open_.empty()) { body_.label = word.label; }
     open_.push_back(
@@ -76,7 +75,7 @@ std::optional<std::string> Recorder::branch(const OWord& word) {
         return not_open(word);
     }
     Open& open = open_.back();
-    if (open.has_else) { return shown_word(word.keyword, word.label) + " behind the else; take one away"; }
+    if (open.has_else) { return shown_word(word.keyword, word.label) + " is after the else; remove one of them"; }
     const std::size_t here = body_.lines.size() - 1;
     for (const std::size_t line : open.branches) { body_.lines[line].branch = here; }
     open.branches.clear();
@@ -109,7 +108,7 @@ std::optional<std::string> Recorder::leave(const OWord& word) {
     });
     if (found == open_.end()) {
         return shown_word(word.keyword, word.label) + " is not inside " +
-               (is_return ? "a subroutine" : "a loop of that label") + "; take it out";
+               (is_return ? "a subroutine" : "a loop of that label") + "; remove it";
     }
     const std::size_t here = body_.lines.size() - 1;
     body_.lines[here].begin = found->line;

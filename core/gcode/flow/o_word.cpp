@@ -62,8 +62,8 @@ OWord read_o_word(Reader& reader) {
         }
     }
     reader.fail(reader.place(),
-                "an O-word without its keyword; write sub, call, return, if, while, do, repeat, break, "
-                "continue, or what ends one of them");
+                "the O-word has no keyword; write sub, call, return, if, while, do, repeat, break, "
+                "continue, or the end of one of them");
     return word;
 }
 

@@ -21,7 +21,9 @@ std::string in_mm(double value) { return number_text(value) + " mm"; }
 std::expected<int, GcodeError> turns_of(const Context& context) {
     if (!context.block.has('P')) { return 1; }
     const auto turns = whole(context.block['P']);
-    if (!turns || *turns < 1) { return context.refuse('P', " is no number of turns; it is whole, from 1"); }
+    if (!turns || *turns < 1) {
+        return context.refuse('P', " is not a number of turns; it must be a whole number from 1");
+    }
     return *turns;
 }
 
@@ -35,7 +37,7 @@ std::expected<Flat, GcodeError> centre_by_radius(const Context& context, Flat fr
     }
     if (half - std::abs(radius) > kChordError_mm) {
         return context.refuse(
-            'R', " is too small to reach the end, " + in_mm(2 * half) + " away; it is at least " + in_mm(half));
+            'R', " is too small to reach the end, " + in_mm(2 * half) + " away; it must be at least " + in_mm(half));
     }
     const double height = std::sqrt(std::max(radius * radius - half * half, 0.0));
     const bool is_left = (context.motion == 30) == (radius > 0);
@@ -73,13 +75,13 @@ Result check_words(const Context& context, PlaneAxes axes) {
     const Block& block = context.block;
     const char normal = letter_of(axes.normal);
     if (block.has(normal)) {
-        return context.refuse(normal, " is across the arc's plane; choose it with G17, G18 or G19");
+        return context.refuse(normal, " is perpendicular to the arc's plane; choose the plane with G17, G18 or G19");
     }
     if (block.has('R') && block.has_any("IJK")) {
-        return context.refuse('R', " beside I, J or K; write either the radius or the centre");
+        return context.refuse('R', " is in the same block as I, J or K; write either the radius or the centre");
     }
     if (block.has('R') && !block.has(kAxisLetters[axes.first]) && !block.has(kAxisLetters[axes.second])) {
-        return context.refuse('R', " without an end in the arc's plane; write the end");
+        return context.refuse('R', " needs an end in the arc's plane; write the end");
     }
     return {};
 }

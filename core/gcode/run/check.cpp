@@ -21,10 +21,10 @@ std::unexpected<GcodeError> no_motion(const Context& context) {
     const Block& block = context.block;
     for (const char letter : kAxisLetters) {
         if (block.has(letter)) {
-            return context.refuse(letter, " but no motion mode; write G0 or G1 before the first axis word");
+            return context.refuse(letter, " needs a motion mode; write G0 or G1 before the first axis word");
         }
     }
-    return std::unexpected(context.line.error(0, "@ or ^ but no motion mode; write G0 or G1"));
+    return std::unexpected(context.line.error(0, "@ or ^ needs a motion mode; write G0 or G1"));
 }
 
 std::string_view letters_of(int motion) {
@@ -74,11 +74,11 @@ Result choose_motion(Context& context) {
 
 Result check_letters(Context& context) {
     if (context.block.code(Group::NonModal) == 40 && is_arc(context.motion)) {
-        return context.refuse(Group::NonModal, " beside an arc: both use P; use two lines");
+        return context.refuse(Group::NonModal, " is in the same block as an arc, and both use P; use two lines");
     }
     for (const char letter : kLettersOfCodes) {
         if (!context.block.has(letter) || is_used(context, letter)) { continue; }
-        return context.refuse(letter, std::string(" belongs to no code of this block; take it out, or write the code "
+        return context.refuse(letter, std::string(" belongs to no code of this block; remove it, or write the code "
                                                   "that ") +
                                           letter + " is for");
     }

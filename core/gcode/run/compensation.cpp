@@ -26,7 +26,7 @@ std::expected<Cutter, GcodeError> cutter_of_words(const Context& context) {
     if (!block.has('L')) { return cutter; }
     const auto orientation = whole(block['L']);
     if (!orientation || *orientation < 0 || *orientation >= static_cast<int>(kTips.size())) {
-        return context.refuse('L', " is not a tool's orientation; it is whole, from 0 to 9");
+        return context.refuse('L', " is not a tool's orientation; it must be a whole number from 0 to 9");
     }
     if (context.state.modal.plane != Plane::ZX) {
         return context.refuse('L', " is the orientation of a lathe tool, which cuts in the plane of G18; write G18");
@@ -39,7 +39,9 @@ std::expected<Cutter, GcodeError> cutter_of_words(const Context& context) {
 std::expected<Cutter, GcodeError> cutter_of_table(const Context& context) {
     const Block& block = context.block;
     const auto named = whole(block.find('D').value_or(0));
-    if (!named || *named < 0) { return context.refuse('D', " is not a tool's number; it is whole, from 0"); }
+    if (!named || *named < 0) {
+        return context.refuse('D', " is not a tool's number; it must be a whole number from 0");
+    }
     const State& state = context.state;
     const auto found = state.tools.find(*named == 0 ? state.tool : *named);
     if (found == state.tools.end()) {
@@ -48,7 +50,7 @@ std::expected<Cutter, GcodeError> cutter_of_table(const Context& context) {
                                        " is not in the tool table; add it, or write G41.1 and D with the diameter");
     }
     if (found->second.orientation != 0 && state.modal.plane != Plane::ZX) {
-        return context.refuse(Group::Compensation, " with a lathe tool, which cuts in the plane of G18; write G18");
+        return context.refuse(Group::Compensation, " uses a lathe tool, which cuts in the plane of G18; write G18");
     }
     return Cutter{found->second.diameter / 2, found->second.orientation};
 }
@@ -56,10 +58,12 @@ std::expected<Cutter, GcodeError> cutter_of_table(const Context& context) {
 Result turn_on(Context& context, int code) {
     State& state = context.state;
     if (state.modal.plane == Plane::YZ) {
-        return context.refuse(Group::Compensation, " is not for the plane of Y and Z; write G17 or G18 before it");
+        return context.refuse(Group::Compensation,
+                              " is not possible in the plane of Y and Z; write G17 or G18 before it");
     }
     if (context.is_compensated()) {
-        return context.refuse(Group::Compensation, " while cutter compensation is on already; write G40 before it");
+        return context.refuse(Group::Compensation,
+                              " is not possible while cutter compensation is on; write G40 before it");
     }
     const bool by_words = code == 411 || code == 421;
     const auto cutter = by_words ? cutter_of_words(context) : cutter_of_table(context);

@@ -27,7 +27,7 @@ std::unexpected<GcodeError> Context::refuse_motion(const std::string& what) cons
 
 Result Context::refuse_compensated(Group group) const {
     if (!is_compensated()) { return {}; }
-    return refuse(group, " while cutter compensation is on; write G40 before it");
+    return refuse(group, " is not possible while cutter compensation is on; write G40 before it");
 }
 
 void Context::emit(const Action& action) const {

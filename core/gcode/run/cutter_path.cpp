@@ -88,19 +88,19 @@ private:
 
     std::unexpected<GcodeError> refuse_entry(double length) const {
         return context_.refuse_motion(" is the first motion of cutter compensation and goes " + number_text(length) +
-                                      " mm in its plane; it has to be longer than the tool's radius, " +
+                                      " mm in its plane; it must be longer than the tool's radius, " +
                                       number_text(std::abs(radius_)) + " mm");
     }
 
     std::unexpected<GcodeError> refuse_arc(double radius) const {
         return context_.refuse_motion(" has a radius of " + number_text(radius) +
                                       " mm on the tool's side; the tool's radius, " + number_text(std::abs(radius_)) +
-                                      " mm, has to be less");
+                                      " mm, must be less");
     }
 
     std::unexpected<GcodeError> refuse_gouge() const {
         return context_.refuse_motion(" makes a corner that a tool of radius " + number_text(std::abs(radius_)) +
-                                      " mm cannot reach without cutting into the path; take a thinner tool, or write "
+                                      " mm cannot reach without cutting into the path; use a thinner tool, or write "
                                       "longer motions");
     }
 
@@ -194,7 +194,7 @@ private:
     Result stay(CutMove& move) {
         if (cutter_.waiting.size() >= kMostWaiting) {
             return context_.refuse_motion(" is one of more than " + std::to_string(kMostWaiting) +
-                                          " blocks that stay in one place of the plane; write G40 before them");
+                                          " blocks in sequence that do not move in the plane; write G40 before them");
         }
         const Point target = move.target;
         set_in_plane(axes_, move.target, cutter_.at);

@@ -26,24 +26,26 @@ Result keep_word(const Context& context, char letter, std::optional<double> word
     if (context.state.modal.motion != context.motion) { kept.reset(); }
     if (word) { kept = word; }
     if (kept) { return {}; }
-    return context.refuse_motion(std::string(" needs ") + letter + "; write it here or in the same cycle before");
+    return context.refuse_motion(std::string(" needs ") + letter +
+                                 "; write it here or in an earlier block of the cycle");
 }
 
 Result check_cycle(const Context& context, PlaneAxes axes) {
     const Modal& modal = context.state.modal;
     if (context.is_compensated()) {
-        return context.refuse_motion(" while cutter compensation is on; write G40 before it");
+        return context.refuse_motion(" is not possible while cutter compensation is on; write G40 before it");
     }
     for (const char letter : std::string_view("ABCUVW")) {
         if (context.block.has(letter)) {
-            return context.refuse(letter, " in a canned cycle, which moves X, Y and Z alone");
+            return context.refuse(letter, " is not possible in a canned cycle, which moves only X, Y and Z");
         }
     }
     if (modal.feed_mode == FeedMode::InverseTime) {
-        return context.refuse_motion(" with inverse time (G93); write G94 and a feed per minute before it");
+        return context.refuse_motion(
+            " is not possible in inverse time (G93); write G94 and a feed per minute before it");
     }
     if (!context.block.has('X') && !context.block.has('Y') && !context.block.has('Z')) {
-        return context.refuse_motion(std::string(" names no place; write ") + kAxisLetters[axes.first] + " or " +
+        return context.refuse_motion(std::string(" has no position; write ") + kAxisLetters[axes.first] + " or " +
                                      kAxisLetters[axes.second]);
     }
     return check_feed(context);
@@ -60,17 +62,19 @@ Result read_words(Context& context, Cycle& cycle) {
     if (auto done = keep_word(context, normal, length(normal), kept.bottom); !done) { return done; }
     if (context.motion == 820 || context.motion == 860 || context.motion == 890) {
         if (auto done = keep_word(context, 'P', block.find('P'), kept.dwell); !done) { return done; }
-        if (*kept.dwell < 0) { return context.refuse('P', " s is no dwell; it is 0 or above"); }
+        if (*kept.dwell < 0) { return context.refuse('P', " s is not a dwell; it must be 0 or above"); }
         cycle.dwell = *kept.dwell;
     }
     if (context.motion == 730 || context.motion == 830) {
         if (auto done = keep_word(context, 'Q', length('Q'), kept.peck); !done) { return done; }
-        if (*kept.peck <= 0) { return context.refuse('Q', " is no depth of a peck; it is above 0"); }
+        if (*kept.peck <= 0) { return context.refuse('Q', " is not the depth of a peck; it must be above 0"); }
         cycle.peck = *kept.peck;
     }
     if (!block.has('L')) { return {}; }
     const auto repeats = whole(block['L']);
-    if (!repeats || *repeats < 1) { return context.refuse('L', " is no number of repeats; it is whole, from 1"); }
+    if (!repeats || *repeats < 1) {
+        return context.refuse('L', " is not a number of repeats; it must be a whole number from 1");
+    }
     cycle.repeats = *repeats;
     return {};
 }
@@ -178,7 +182,7 @@ Result canned_cycle(Context& context) {
     if (auto read = read_words(context, cycle); !read) { return read; }
     if (auto set = set_heights(context, cycle); !set) { return set; }
     if (context.motion == 860 && context.state.modal.spindle == Turning::Stopped) {
-        return context.refuse_motion(" stops the spindle, but it does not turn; write M3 or M4 before it");
+        return context.refuse_motion(" stops the spindle, but the spindle does not turn; write M3 or M4 before it");
     }
     CycleRun(context, cycle).run();
     return {};

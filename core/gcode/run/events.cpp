@@ -46,7 +46,7 @@ std::expected<int, GcodeError> output_index(const Context& context, char letter)
     }
     const auto index = whole(context.block[letter]);
     if (!index || *index < 0) {
-        return context.refuse(letter, " is not an output's number; they are whole and count from 0");
+        return context.refuse(letter, " is not an output's number; it must be a whole number from 0");
     }
     return *index;
 }
@@ -54,7 +54,7 @@ std::expected<int, GcodeError> output_index(const Context& context, char letter)
 Result analog_output(const Context& context) {
     const auto index = output_index(context, 'E');
     if (!index) { return std::unexpected(index.error()); }
-    if (!context.block.has('Q')) { return context.refuse(Group::Output, " gives no value; write Q and the value"); }
+    if (!context.block.has('Q')) { return context.refuse(Group::Output, " has no value; write Q and the value"); }
     context.event(EventKind::AnalogOutput, *index, context.block['Q']);
     return {};
 }
@@ -67,11 +67,13 @@ Result wait_for_input(const Context& context) {
     const auto index = output_index(context, block.has('P') ? 'P' : 'E');
     if (!index) { return std::unexpected(index.error()); }
     const int kind = whole(block.find('L').value_or(0)).value_or(-1);
-    if (kind < 0 || kind > 4) { return context.refuse('L', " is not a wait mode; L is 0 to 4"); }
-    if (kind != 0 && block.has('E')) { return context.refuse('L', " with an analog input, which is read at once: L0"); }
+    if (kind < 0 || kind > 4) { return context.refuse('L', " is not a wait mode; L must be 0 to 4"); }
+    if (kind != 0 && block.has('E')) {
+        return context.refuse('L', " is not possible for an analog input, which is read at once; write L0");
+    }
     const double seconds = block.find('Q').value_or(0);
     if (kind != 0 && !(seconds > 0)) {
-        return context.refuse(Group::Output, " waits no time; write Q and the seconds");
+        return context.refuse(Group::Output, " has no time limit; write Q and the seconds");
     }
     context.event(EventKind::InputWait, *index, seconds);
     return {};
@@ -108,7 +110,9 @@ Result comment(Context& context) {
 Result spindle_speed(Context& context) {
     const auto speed = context.block.find('S');
     if (!speed) { return {}; }
-    if (*speed < 0) { return context.refuse('S', " is no speed; S is 0 or above, and M4 turns the other way"); }
+    if (*speed < 0) {
+        return context.refuse('S', " is not a speed; S must be 0 or above; for the other direction write M4");
+    }
     context.state.modal.spindle_speed = *speed;
     context.event(EventKind::SpindleSpeed, 0, *speed);
     return {};
@@ -186,9 +190,9 @@ Result overrides(Context& context) {
 Result dwell(Context& context) {
     if (context.block.code(Group::NonModal) != 40) { return {}; }
     const auto seconds = context.block.find('P');
-    if (!seconds) { return context.refuse(Group::NonModal, " does not say how long; write P and the seconds"); }
+    if (!seconds) { return context.refuse(Group::NonModal, " has no dwell time; write P and the seconds"); }
     if (*seconds < 0 || *seconds > kMaxDwell_s) {
-        return context.refuse('P', " s is no dwell; it goes from 0 to " + number_text(kMaxDwell_s) + " s");
+        return context.refuse('P', " s is not a dwell; it must be from 0 to " + number_text(kMaxDwell_s) + " s");
     }
     context.emit(Dwell{*seconds});
     return {};

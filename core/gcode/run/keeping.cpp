@@ -64,7 +64,7 @@ Result keep_state(Context& context) {
         case 710: context.kept = {}; break;
         case 720:
             if (!context.kept.modal) {
-                return context.refuse(Group::StateKeeping, " has no kept state to go back to; write M70 before it");
+                return context.refuse(Group::StateKeeping, " has no saved state to restore; write M70 before it");
             }
             restore(context, *context.kept.modal);
             break;

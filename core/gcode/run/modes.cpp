@@ -27,7 +27,7 @@ Result set_feed_mode(Context& context) {
 Result set_feed(Context& context) {
     const auto feed = context.block.find('F');
     if (!feed) { return {}; }
-    if (*feed < 0) { return context.refuse('F', " is no feed; F is per minute and above 0"); }
+    if (*feed < 0) { return context.refuse('F', " is not a feed; F is per minute and must be above 0"); }
     Modal& modal = context.state.modal;
     if (modal.feed_mode == FeedMode::PerMinute) {
         modal.feed_linear = context.length(*feed);
@@ -41,7 +41,7 @@ Result set_plane(Context& context) {
     if (code == Block::kNoCode) { return {}; }
     const Plane plane = code == 170 ? Plane::XY : code == 180 ? Plane::ZX : Plane::YZ;
     if (context.is_compensated() && plane != context.state.modal.plane) {
-        return context.refuse(Group::Plane, " while cutter compensation is on; write G40 before it");
+        return context.refuse(Group::Plane, " is not possible while cutter compensation is on; write G40 before it");
     }
     context.state.modal.plane = plane;
     return {};

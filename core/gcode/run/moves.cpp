@@ -23,8 +23,7 @@ Result check_machine_coordinates(const Context& context) {
         return context.refuse(Group::NonModal, " needs G0 or G1 in its block or before it");
     }
     if (context.state.modal.relative) {
-        return context.refuse(Group::NonModal,
-                              " is about machine coordinates, which are absolute; write G90 before it");
+        return context.refuse(Group::NonModal, " uses machine coordinates, which are absolute; write G90 before it");
     }
     return context.refuse_compensated(Group::NonModal);
 }
@@ -41,12 +40,11 @@ Result check_feed(const Context& context) {
     const Modal& modal = context.state.modal;
     if (modal.feed_mode == FeedMode::InverseTime) {
         if (context.block.find('F').value_or(0) > 0) { return {}; }
-        return context.refuse_motion(
-            " with inverse time (G93) but without F; write F as 1 divided by the minutes that the move takes");
+        return context.refuse_motion(" needs F in inverse time (G93); write F as 1 divided by the minutes of the move");
     }
     if (modal.feed_linear > 0) { return {}; }
-    if (context.block.has('F')) { return context.refuse('F', " is no feed; F is per minute and above 0"); }
-    auto error = context.refuse_motion(" without a feed; write F, per minute, here or before");
+    if (context.block.has('F')) { return context.refuse('F', " is not a feed; F is per minute and must be above 0"); }
+    auto error = context.refuse_motion(" has no feed; write F, per minute, here or before");
     error.error().repeats = true;
     return error;
 }

@@ -90,17 +90,17 @@ Result set_system(Context& context) {
     if (!system) { return std::unexpected(system.error()); }
     const bool by_place = whole(block['L']) == 20;
     for (const char letter : {'I', 'J'}) {
-        if (block.has(letter)) { return context.refuse(letter, " is an angle of a tool (G10 L1); take it out"); }
+        if (block.has(letter)) { return context.refuse(letter, " is an angle of a tool (G10 L1); remove it"); }
     }
-    if (by_place && block.has('R')) { return context.refuse('R', " with L20; a rotation is set with L2"); }
+    if (by_place && block.has('R')) { return context.refuse('R', " is not possible with L20; set a rotation with L2"); }
     if (by_place && context.is_compensated()) {
         return context.refuse(Group::NonModal,
-                              " L20 sets a zero by where the axes stand, which cutter compensation changes; write G40 "
+                              " L20 sets a zero from the axes' positions, which cutter compensation changes; write G40 "
                               "and a motion before it");
     }
     if (context.is_compensated() && *system == context.state.modal.system) {
         return context.refuse(Group::NonModal,
-                              " changes the offsets in use while cutter compensation is on; write G40");
+                              " changes the offsets in use while cutter compensation is on; write G40 before it");
     }
     ParameterValues& parameters = context.state.parameters;
     const int first = origin_parameter(*system);

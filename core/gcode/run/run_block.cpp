@@ -46,9 +46,12 @@ Result resolve_polar(Context& context) {
     Block& block = context.block;
     if (!block.distance && !block.angle) { return {}; }
     if (block.has('X') || block.has('Y')) {
-        return context.refuse(block.has('X') ? 'X' : 'Y', " beside @ or ^, which give X and Y; write one or the other");
+        return context.refuse(block.has('X') ? 'X' : 'Y',
+                              " is in the same block as @ or ^, which give X and Y; write one or the other");
     }
-    if (block.code(Group::NonModal) == 530) { return context.refuse(Group::NonModal, " beside @ or ^; write X and Y"); }
+    if (block.code(Group::NonModal) == 530) {
+        return context.refuse(Group::NonModal, " is not possible with @ or ^; write X and Y");
+    }
     if (context.state.modal.plane != Plane::XY) {
         return std::unexpected(context.line.error(0, "@ and ^ are in the plane of X and Y; write G17 before them"));
     }
@@ -60,7 +63,7 @@ Result resolve_polar(Context& context) {
         block.has(Group::Distance) ? block.code(Group::Distance) == 910 : context.state.modal.relative;
     if (before == 0 && relative) {
         return std::unexpected(
-            context.line.error(0, "@ or ^ in G91 at the program's zero has no direction to begin with; write G90"));
+            context.line.error(0, "@ or ^ in G91 at the program's zero has no direction; write G90"));
     }
     if (before == 0 && !block.angle) {
         return std::unexpected(context.line.error(0, "@ without ^ at the program's zero has no direction; write ^"));

@@ -12,11 +12,13 @@ Result check_spline(const Context& context) {
         return context.refuse_motion(" is in the plane of X and Y; write G17 before it");
     }
     if (context.is_compensated()) {
-        return context.refuse_motion(" while cutter compensation is on; write G40 before it");
+        return context.refuse_motion(" is not possible while cutter compensation is on; write G40 before it");
     }
     if (context.state.cutter.stands) { return context.refuse_motion(kStraightAfterCompensation); }
     for (const char letter : std::string_view("ZABCUVW")) {
-        if (context.block.has(letter)) { return context.refuse(letter, " in a spline, which moves X and Y alone"); }
+        if (context.block.has(letter)) {
+            return context.refuse(letter, " is not possible in a spline, which moves only X and Y");
+        }
     }
     return check_feed(context);
 }
@@ -100,8 +102,8 @@ Result begin_nurbs(Context& context) {
     SplineWords& words = context.state.spline;
     const auto order = context.block.has('L') ? whole(context.block['L']) : std::optional(3);
     if (!order || *order < 2 || *order > kMaxSplineOrder) {
-        return context.refuse('L',
-                              " is no order of a NURBS; it is whole, from 2 to " + std::to_string(kMaxSplineOrder));
+        return context.refuse('L', " is not the order of a NURBS; it must be a whole number from 2 to " +
+                                       std::to_string(kMaxSplineOrder));
     }
     words.nurbs = Spline{.target = {}, .order = *order, .controls = {control_at(context, here(context))}};
     words.end = context.state.program;
@@ -114,7 +116,7 @@ Result end_nurbs(Context& context) {
     Spline spline = *std::exchange(words.nurbs, std::nullopt);
     if (spline.controls.size() < static_cast<std::size_t>(spline.order)) {
         return context.refuse_motion(" ends a NURBS of " + std::to_string(spline.controls.size()) +
-                                     " points; its order wants at least " + std::to_string(spline.order));
+                                     " points; its order needs at least " + std::to_string(spline.order));
     }
     emit_spline(context, std::move(spline), words.end);
     context.motion = kNoMotion;

@@ -6,7 +6,7 @@ namespace lockstep::gcode {
 namespace {
 
 std::string no_tool(int tool) {
-    return ": tool " + std::to_string(tool) + " is not in the tool table; add it, or take the word out";
+    return ": tool " + std::to_string(tool) + " is not in the tool table; add it, or remove the word";
 }
 
 /// G43: the offset of the tool in the spindle, or of the tool that H names.
@@ -15,7 +15,9 @@ std::expected<Point, GcodeError> tool_offset(const Context& context) {
     int tool = context.state.tool;
     if (block.has('H')) {
         const auto named = whole(block['H']);
-        if (!named || *named < 0) { return context.refuse('H', " is not a tool's number; it is whole, from 0"); }
+        if (!named || *named < 0) {
+            return context.refuse('H', " is not a tool's number; it must be a whole number from 0");
+        }
         tool = *named;
     }
     if (tool == 0) { return Point{}; }
@@ -36,7 +38,7 @@ void set_words(const Context& context, Point& offset) {
 Result add_offset(Context& context) {
     const Block& block = context.block;
     if (block.has('H') && block.has_axes()) {
-        return context.refuse('H', " beside axis words; write one or the other");
+        return context.refuse('H', " is in the same block as axis words; write one or the other");
     }
     if (block.has('H')) {
         const auto added = tool_offset(context);
@@ -79,7 +81,7 @@ Result select_tool(Context& context) {
     const auto number = context.block.find('T');
     if (!number) { return {}; }
     const auto tool = whole(*number);
-    if (!tool || *tool < 0) { return context.refuse('T', " is not a tool's number; it is whole, from 0"); }
+    if (!tool || *tool < 0) { return context.refuse('T', " is not a tool's number; it must be a whole number from 0"); }
     if (!is_known(context.state, *tool)) { return context.refuse('T', no_tool(*tool)); }
     context.state.selected_tool = *tool;
     context.event(EventKind::ToolSelect, *tool);
@@ -146,7 +148,7 @@ Result set_tool(Context& context) {
     if (block.has('Q')) {
         const auto orientation = whole(block['Q']);
         if (!orientation || *orientation < 0 || *orientation > 9) {
-            return context.refuse('Q', " is not a tool's orientation; it is whole, from 0 to 9");
+            return context.refuse('Q', " is not a tool's orientation; it must be a whole number from 0 to 9");
         }
         tool.orientation = *orientation;
     }

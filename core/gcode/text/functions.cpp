@@ -72,7 +72,7 @@ int precedence(Operator op) {
 
 std::string text_of(const ArgumentError& error, std::string_view name) {
     const auto outside = [&](const char* range) {
-        return std::string(name) + " of " + number_text(error.argument) + "; its argument is " + range;
+        return std::string(name) + " of " + number_text(error.argument) + "; its argument must be " + range;
     };
     switch (error.why) {
         case Why::BeyondOne: return outside("within -1 to 1");

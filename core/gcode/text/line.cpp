@@ -25,7 +25,7 @@ constexpr std::array<CharacterKind, 256> kKinds = [] {
 
 constexpr CharacterKind kind(char c) { return kKinds[static_cast<unsigned char>(c)]; }
 
-std::string control_message(char c) { return shown(c) + " is a control byte, not text; take it out"; }
+std::string control_message(char c) { return shown(c) + " is a control byte, not text; remove it"; }
 
 }  // namespace
 
@@ -76,7 +76,7 @@ std::optional<GcodeError> Line::keep_comment(std::size_t& from) {
     for (std::size_t i = begin; i < raw_.size(); ++i) {
         const char c = raw_[i];
         if (kind(c) == CharacterKind::Control) { return raw_error(i, control_message(c)); }
-        if (c == '(' && i > begin) { return raw_error(i, "a comment inside a comment; take one ( away"); }
+        if (c == '(' && i > begin) { return raw_error(i, "a comment is inside a comment; remove one ("); }
         kept_[size_++] = c;
         if (c == ')') {
             from = i;

@@ -83,7 +83,7 @@ int Reader::parameter_number() {
     const double number = value();
     const double whole = std::round(number);
     if (std::abs(number - whole) > 1e-4 || whole < 1 || whole > kMaxParameter) {
-        fail(begin, "#" + number_text(number) + " is not a parameter; their numbers go from 1 to " +
+        fail(begin, "#" + number_text(number) + " is not a parameter; its number must be from 1 to " +
                         std::to_string(kMaxParameter));
         return 1;
     }
@@ -94,14 +94,16 @@ std::string Reader::name() {
     const std::size_t begin = at_++;
     std::string result;
     while (!done() && peek() != '>') { result += small(next()); }
-    if (!take('>')) { fail(begin, "the name is not closed; write > behind it"); }
+    if (!take('>')) { fail(begin, "the name is not closed; write > after it"); }
     if (result.empty() && !error_) { fail(begin, "the name is empty; write one between < and >"); }
     return result;
 }
 
 double Reader::parameter() {
     const std::size_t begin = at_++;
-    if (++nesting_ > kMaxNesting) { fail(begin, "parameters of parameters are nested too deep"); }
+    if (++nesting_ > kMaxNesting) {
+        fail(begin, "parameters of parameters are nested too deep; use another parameter");
+    }
     double result = 0;
     if (peek() == '<') {
         const std::string called = name();
@@ -122,7 +124,7 @@ double Reader::expression() {
         return 0;
     }
     if (++nesting_ > kMaxNesting) {
-        fail(begin, "brackets are nested deeper than " + std::to_string(kMaxNesting));
+        fail(begin, "brackets are nested deeper than " + std::to_string(kMaxNesting) + "; use a parameter");
         return 0;
     }
     const auto letter = std::exchange(letter_, std::nullopt);
@@ -172,7 +174,7 @@ double Reader::function_value(Named<Function> function) {
 /// ATAN[y]/[x]: from -180 to 180 degrees.
 double Reader::arc_tangent() {
     const double y = expression();
-    if (!error_ && !take('/')) { fail(at_, "ATAN has two arguments; write ATAN[y]/[x]"); }
+    if (!error_ && !take('/')) { fail(at_, "ATAN needs two arguments; write ATAN[y]/[x]"); }
     const double x = error_ ? 1 : expression();
     return std::atan2(y, x) * kDegrees;
 }
@@ -180,7 +182,7 @@ double Reader::arc_tangent() {
 double Reader::exists() {
     const std::size_t begin = at_++;  // value() has seen the [
     if (!take('#') || peek() != '<') {
-        fail(begin, "EXISTS is about a named parameter; write EXISTS[#<name>]");
+        fail(begin, "EXISTS needs a named parameter; write EXISTS[#<name>]");
         return 0;
     }
     const std::string called = name();

@@ -125,7 +125,9 @@ std::expected<KeptSettings, Diagnostics> settings_from_text(std::string_view tex
         if (line.empty() || line.starts_with('#')) { continue; }
         const auto setting = setting_of(line);
         if (!setting) {
-            errors.push_back({.line = number, .column = 1, .message = "'" + std::string(line) + "' is no setting"});
+            errors.push_back({.line = number,
+                              .column = 1,
+                              .message = "'" + std::string(line) + "' is not a setting; write AXIS.KEY: VALUE"});
             continue;
         }
         set(settings, *setting);
@@ -160,7 +162,7 @@ std::expected<std::string, Diagnostics> with_settings(std::string_view text, con
         const std::string block = fmt::format("axis[{}].", axis - machine->axes.begin());
         if (!set_key(edited, block + setting.key, setting.value)) {
             return refusal(line_of(setting) +
-                           " cannot be written: a comment stands between the key and its value in "
+                           " cannot be written: a comment is between the key and its value in "
                            "the machine's file; move it");
         }
     }

@@ -53,8 +53,7 @@ std::expected<std::string, Diagnostics> with_slots(std::string_view text, const 
     if (!after) { return std::unexpected(after.error()); }
     if (is_written && has_slots(after->timing, timing)) { return edited; }
     return std::unexpected(Diagnostics{
-        {.message =
-             "the timing cannot be written: a comment stands between a key of `timing` and its value; move it"}});
+        {.message = "the timing cannot be written: a comment is between a key of `timing` and its value; move it"}});
 }
 
 }  // namespace lockstep

@@ -68,7 +68,8 @@ public:
 private:
     double within(double value, double least, double most, const std::string& what) {
         if (value >= least && value <= most) { return value; }
-        refuse(what + " is " + number_text(value) + "; it is from " + number_text(least) + " to " + number_text(most));
+        refuse(what + " is " + number_text(value) + "; it must be from " + number_text(least) + " to " +
+               number_text(most));
         return least;
     }
 
@@ -82,7 +83,7 @@ void read_system(const proto::CoordinateSystem& message, KeptValues& values, Val
                              "G59.2 and G59.3");
     }
     CoordinateSystem& read = values.systems[*system];
-    if (read != CoordinateSystem{}) { return reader.refuse("there are two coordinate systems " + message.name()); }
+    if (read != CoordinateSystem{}) { return reader.refuse("coordinate system " + message.name() + " is there twice"); }
     read = {reader.place(message.origin(), message.name()),
             reader.number(message.rotation(), message.name() + ": the rotation")};
 }
@@ -97,7 +98,7 @@ void read_tool(const proto::Tool& message, KeptValues& values, ValuesReader& rea
         .front_angle = reader.number(message.front_angle(), what + ": the front angle"),
         .back_angle = reader.number(message.back_angle(), what + ": the back angle"),
         .orientation = reader.whole(message.orientation(), 0, kMaxOrientation, what + ": the orientation")};
-    if (!values.tools.try_emplace(number, tool).second) { reader.refuse("there are two of " + what); }
+    if (!values.tools.try_emplace(number, tool).second) { reader.refuse(what + " is there twice"); }
 }
 
 }  // namespace

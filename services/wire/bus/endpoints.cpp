@@ -30,7 +30,7 @@ Entity checked(Participant& participant, const TopicSpec& spec, dds_entity_t han
     Entity entity(handle);
     if (!entity.good()) {
         participant.note_failure(std::string("cannot open the DDS topic ") + spec.name + ": " + entity.why_not() +
-                                 "; where security is on, check that the permissions allow it");
+                                 "; with security, check that the permissions allow it");
     }
     return entity;
 }

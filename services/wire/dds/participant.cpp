@@ -15,7 +15,7 @@ using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 
 std::string cannot_join(const NetworkConfig& network, const Membership& membership, const Entity& participant) {
     if (!membership.credentials) { return cannot_open_domain(network, participant.why_not()); }
-    return "DDS Security does not let this process into " + domain_place(network) + " by " +
+    return "DDS Security does not allow this process to join " + domain_place(network) + " by " +
            membership.credentials->certificate.string() + ": " + participant.why_not() +
            "; see the messages of DDS before this one, and: lockstep keys check";
 }

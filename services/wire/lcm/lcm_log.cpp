@@ -124,7 +124,7 @@ std::expected<std::optional<LogEvent>, std::string> LogReader::next() {
         at_ = end;
         if (!file_.failed()) { return event; }
     }
-    if (file_.failed()) { return std::unexpected(fmt::format("reading the log failed near byte {}", at_)); }
+    if (file_.failed()) { return std::unexpected(fmt::format("the log cannot be read near byte {}", at_)); }
     return std::nullopt;
 }
 

@@ -96,7 +96,7 @@ std::expected<StateBoardWriter, std::string> StateBoardWriter::open(const fs::pa
     if (!file) { return std::unexpected(file.error()); }
     if (!lock_part(file->descriptor(), axis)) {
         return std::unexpected(
-            fmt::format("axis {} is already run by another process ({}); end that one first", axis, path.string()));
+            fmt::format("axis {} is already run by another process ({}); end that process first", axis, path.string()));
     }
     SharedMapping part(file->descriptor(), kPartBytes, PROT_READ | PROT_WRITE, MAP_POPULATE, axis * kPartBytes);
     if (part.words() == nullptr) { return cannot_share(path, "map it"); }
@@ -144,9 +144,9 @@ std::uint64_t StateBoardReader::written_by(std::uint32_t axis) {
     std::uint64_t& read = read_[axis];
     if (written == read) { return written; }
     if (shared_word(part_of(axis) + kRules).load(std::memory_order_relaxed) != kRulesHere) {
-        refusals_.add(
-            fmt::format("axis {} writes to {} in the format of another version; give all processes one version", axis,
-                        path().string()));
+        refusals_.add(fmt::format(
+            "axis {} writes to {} in the format of another version; install the same version for all processes", axis,
+            path().string()));
         read = written;
     }
     const std::uint64_t kept_from = written - std::min<std::uint64_t>(written, kStatesKept);
@@ -159,7 +159,7 @@ std::optional<AxisState> StateBoardReader::state_of(std::uint32_t axis, std::uin
     if (!read || read->number != number) { return std::nullopt; }  // overwritten meanwhile
     if (read->record.axis != axis || !has_booleans(read->record)) {
         refusals_.add(
-            fmt::format("{}: the content of the part of axis {} is not a state of that axis", path().string(), axis));
+            fmt::format("{}: the part of axis {} does not contain a state of that axis", path().string(), axis));
         return std::nullopt;
     }
     auto state = from_wire(read->record);

@@ -45,7 +45,7 @@ TEST_F(Deployment, RefusesAForeignDeviceByItsRegisters) {
     EXPECT_TRUE(eventually([&] { return tail_of(log, 50).find("waits for its device") != std::string::npos; }));
     EXPECT_THAT(tail_of(log, 50), HasSubstr("waits for its device uio:" + registers));
     EXPECT_THAT(tail_of(log, 50), HasSubstr("MAGIC reads 0x0"));
-    EXPECT_THAT(tail_of(log, 50), HasSubstr("is this a Lockstep axis device"));
+    EXPECT_THAT(tail_of(log, 50), HasSubstr("check that this is a Lockstep axis device"));
     axis.signal(SIGTERM);
     EXPECT_EQ(axis.wait().code, 0);
 }

@@ -124,7 +124,7 @@ TEST_F(Flight, AFileThatIsNoIncidentIsRefusedWithItsPlaceAndRemedy) {
     EXPECT_THAT(refused({"analyze", "--incident", foreign}), HasSubstr(foreign + ": contains no notes"));
     EXPECT_THAT(refused({"analyze", "--incident", foreign + ".gone"}), HasSubstr(foreign + ".gone"));
     EXPECT_THAT(refused({"analyze", "--incident", testing::TempDir() + "/nowhere"}), HasSubstr("nowhere"));
-    EXPECT_THAT(refused({"analyze", foreign, foreign}), HasSubstr("one log at a time"));
+    EXPECT_THAT(refused({"analyze", foreign, foreign}), HasSubstr("name only one log"));
     EXPECT_EQ(run_lockstep({"flight"}).code, 3) << "the machine is not up";
 }
 

@@ -39,7 +39,7 @@ TEST_F(LostRoute, IsAddedAgainAndTheRecordContinues) {
     EXPECT_TRUE(eventually([] { return route_interface("239.255.76.67") == "lo"; }));
     EXPECT_TRUE(is_published());
     EXPECT_NE((text_of_log("coordinator") + text_of_log("axis-X") + text_of_log("axis-Y"))
-                  .find("multicast is no longer routed to lo; its route was added again"),
+                  .find("multicast is no longer routed to lo; this process has added the route again"),
               std::string::npos);
 }
 

@@ -177,7 +177,7 @@ TEST_F(Motion, OfAxesOnTheirOwnEndsAtTheReportedPlaces) {
     EXPECT_EQ(run_lockstep({"move", "--own", "Y=-40", "--in", "0.5"}).code, 0);
     const Ran soon = run_lockstep({"move", "--own", "Y=40", "--in", "0.1"});
     EXPECT_EQ(soon.code, 1);
-    EXPECT_THAT(soon.err, HasSubstr("80 mm in 0.1 s would break the limits of axis Y: it takes at least"));
+    EXPECT_THAT(soon.err, HasSubstr("80 mm in 0.1 s would exceed the limits of axis Y: the move takes at least"));
     const Ran spielauer = run_lockstep({"move", "--own", "X=30", "--in", "1"});
     EXPECT_EQ(spielauer.code, 1);
     EXPECT_THAT(spielauer.err, HasSubstr("method spielauer"));
@@ -213,7 +213,7 @@ TEST_F(Motion, ContinuesFromALineAfterAStop) {
     EXPECT_THAT(dry.out, HasSubstr("lifts to X="));
     EXPECT_THAT(dry.out, HasSubstr("crosses to X=60.000 Y=-40.000"));
     EXPECT_THAT(dry.out, HasSubstr("goes down to X=60.000 Y=0.000, 40.000 mm, F9000"));
-    EXPECT_THAT(dry.out, HasSubstr("takes up G21 G90 F9000.0, no offset"));
+    EXPECT_THAT(dry.out, HasSubstr("begins with G21 G90 F9000.0, no offset"));
     const Ran unsure = run_lockstep({"run", file, "--from-line", "4", "--yes"});
     EXPECT_EQ(unsure.code, 2);
     EXPECT_THAT(unsure.err, HasSubstr("--lift Z=40")) << "both axes home together";
@@ -265,7 +265,7 @@ TEST_F(Motion, CeasesOnAnEmergencyStopThoughTheCoordinatorIsStuck) {
     kill(process("coordinator"), SIGCONT);
     EXPECT_EQ(ran.code, 0) << ran.out;
     EXPECT_EQ(ran.json<proto::CommandReport>().text(),
-              "no coordinator answers; stopped by themselves until a reset: X, Y");
+              "no coordinator answers; these axes have stopped by themselves until a reset: X, Y");
     EXPECT_NE(run.wait().code, 0);
     ASSERT_TRUE(becomes("Fault"));
     EXPECT_EQ(status().fault().name(), "emergency-stopped") << "not that the axes fell silent";

@@ -93,7 +93,7 @@ TEST_F(PageOfAMachine, ThatCannotBeServedLeavesTheMachineUp) {
     other.listen_at(port_);
     const Ran up = run_lockstep({"up", "--web"});
     EXPECT_EQ(up.code, 0) << up.out << up.err;
-    EXPECT_THAT(up.err, AllOf(HasSubstr("the page is not served"), HasSubstr("choose another: --port N")));
+    EXPECT_THAT(up.err, AllOf(HasSubstr("the page is not served"), HasSubstr("choose another port: --port N")));
     EXPECT_EQ(status().phase(), "Idle");
 }
 

@@ -28,7 +28,7 @@ TEST_F(Processes, AreStartedOnce) {
     bring_up();
     const Ran again = run_lockstep({"up"});
     EXPECT_EQ(again.code, 1);
-    EXPECT_THAT(again.err, HasSubstr("is up already"));
+    EXPECT_THAT(again.err, HasSubstr("is already up"));
     EXPECT_EQ(ChildProcess(beside_command("lockstep-coordinator"), {"--machine", file(), "--no-lcm"}).wait().code, 1);
     EXPECT_EQ(
         ChildProcess(beside_command("lockstep-axis"), {"--machine", file(), "--axis", "X", "--no-lcm"}).wait().code, 1);
@@ -56,7 +56,7 @@ TEST_F(Processes, ThatOthersStartedAreIgnored) {
     ASSERT_TRUE(becomes("Waiting"));
     const Ran up = run_lockstep({"up"});
     EXPECT_EQ(up.code, 1);
-    EXPECT_THAT(up.err, HasSubstr("started by other means"));
+    EXPECT_THAT(up.err, HasSubstr("lockstep up did not start it"));
     EXPECT_TRUE(state().running().empty());
 }
 
@@ -122,7 +122,7 @@ TEST_F(Processes, AreTakenDownEvenIfTheirRecordIsDamagedOrMissing) {
         const std::string wrong = record.string() + (is_gone ? " is not there" : " is damaged");
         const Ran up = run_lockstep({"up"});
         EXPECT_EQ(up.code, 1);
-        EXPECT_THAT(up.err, AllOf(HasSubstr("is up already"), HasSubstr(wrong + "; end it: lockstep down")));
+        EXPECT_THAT(up.err, AllOf(HasSubstr("is already up"), HasSubstr(wrong + "; end the machine: lockstep down")));
         const Ran down = run_lockstep({"down"});
         EXPECT_EQ(down.code, 0) << down.out << down.err;
         EXPECT_THAT(down.err, HasSubstr(wrong));
@@ -136,9 +136,9 @@ TEST_F(Processes, ThatCannotKeepTheRecordAreReported) {
     std::ofstream(state().path() / "record") << "no directory";
     const Ran up = run_lockstep({"up"});
     EXPECT_EQ(up.code, 0) << up.out << up.err;
-    EXPECT_THAT(up.err,
-                AllOf(HasSubstr("no process here keeps its own log"), HasSubstr((state().path() / "record").string()),
-                      HasSubstr("install -d"), HasSubstr("record { directory }")));
+    EXPECT_THAT(up.err, AllOf(HasSubstr("the processes on this host write no logs of their own"),
+                              HasSubstr((state().path() / "record").string()), HasSubstr("install -d"),
+                              HasSubstr("record { directory }")));
 }
 
 /// The file that Y writes its position to is replaced by a FIFO without a reader.

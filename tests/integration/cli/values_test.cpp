@@ -83,7 +83,7 @@ TEST_F(Values, AreNotChangedByAProgramThatWasStoppedNorDuringOne) {
     ASSERT_TRUE(becomes("Running"));
     const Ran meanwhile = offsets({"set", "G54", "X=1"});
     EXPECT_EQ(meanwhile.code, 1);
-    EXPECT_THAT(meanwhile.err, HasSubstr("a job is in progress"));
+    EXPECT_THAT(meanwhile.err, HasSubstr("a job in progress uses these values"));
     ASSERT_EQ(run_lockstep({"stop"}).code, 0);
     ASSERT_TRUE(becomes("Idle"));
     EXPECT_EQ(kept().system_size(), 0);
@@ -129,7 +129,7 @@ TEST_F(Values, ThatCannotBeWrittenAreReported) {
     std::filesystem::create_directories(file);
     const Ran set = offsets({"set", "G54", "X=1"});
     EXPECT_EQ(set.code, 1);
-    EXPECT_THAT(set.err, HasSubstr("they may be lost when it ends"));
+    EXPECT_THAT(set.err, HasSubstr("they may be lost when the coordinator ends"));
     EXPECT_THAT(text_of_log("coordinator"), HasSubstr("the machine's offsets and tools are not kept"));
     EXPECT_EQ(kept().system_size(), 1) << "they are used";
     std::filesystem::remove(file);

@@ -63,7 +63,7 @@ TEST_F(Writers, TheSecondOneIsRefusedAndHoldsAndTakesTheMachineOver) {
     const Ran done = job.wait();
     EXPECT_EQ(done.code, 0) << done.out << done.err;
     EXPECT_THAT(done.out, HasSubstr("bert on "));
-    EXPECT_THAT(done.out, HasSubstr(" has taken the machine over; the job goes on"));
+    EXPECT_THAT(done.out, HasSubstr(" has taken over the machine; the job continues"));
     EXPECT_EQ(run_lockstep({"move", "X=10"}).code, 0);
 }
 

@@ -39,23 +39,24 @@ constexpr std::array kRefusedByUs{
                         return r.ours.message.find("without cutting into the path") != std::string::npos &&
                                strays_from_path(r.text, r.theirs, r.ours);
                     }},
-    KnownDifference{
-        "a spline is not compensated: rs274 puts the points of G5.2 on the programmed path",
-        [](const Refusal& r) { return r.ours.message.starts_with("G5.2 while cutter compensation is on"); }},
-    KnownDifference{
-        "offsets that change with compensation on would move the path: rs274 takes G92.1 to G92.3",
-        [](const Refusal& r) { return matches(r.ours.message, "^G92\\.[123] while cutter compensation is on"); }},
+    KnownDifference{"a spline is not compensated: rs274 puts the points of G5.2 on the programmed path",
+                    [](const Refusal& r) {
+                        return r.ours.message.starts_with("G5.2 is not possible while cutter compensation is on");
+                    }},
+    KnownDifference{"offsets that change with compensation on would move the path: rs274 takes G92.1 to G92.3",
+                    [](const Refusal& r) {
+                        return matches(r.ours.message, "^G92\\.[123] is not possible while cutter compensation is on");
+                    }},
     KnownDifference{
         "the programmed place is not the tool's: rs274 takes G10 L20 with compensation on, at the tool's centre",
-        [](const Refusal& r) { return r.ours.message.starts_with("G10 L20 sets a zero by where the axes stand"); }},
+        [](const Refusal& r) { return r.ours.message.starts_with("G10 L20 sets a zero from the axes' positions"); }},
     KnownDifference{"a block has one non-modal word: rs274 takes another one beside G92.1 to G92.3",
                     [](const Refusal& r) {
                         return r.ours.message.find("one non-modal word") != std::string::npos &&
                                matches(r.line, "[Gg]92\\.[123]");
                     }},
-    KnownDifference{
-        "a spline keeps the time of G93: rs274 makes it at the feed of the motion before",
-        [](const Refusal& r) { return r.ours.message.starts_with("G5.2 with inverse time (G93) but without F"); }},
+    KnownDifference{"a spline keeps the time of G93: rs274 makes it at the feed of the motion before",
+                    [](const Refusal& r) { return r.ours.message.starts_with("G5.2 needs F in inverse time (G93)"); }},
     KnownDifference{"NURBS are in the plane of X and Y: rs274 takes them as X and Y whichever plane holds",
                     [](const Refusal& r) { return r.ours.message.starts_with("G5.2 is in the plane of X and Y"); }},
     KnownDifference{"a word stands once: rs274 takes a word of -1 for a missing one",

@@ -78,7 +78,7 @@ TEST_F(ForeignPeers, ChangedPermissionsAreRefusedAtOnce) {
     text.replace(text.find("<subscribe>"), 11, "<publish>  ");
     std::ofstream(changed / "viewer.p7s") << text;
     EXPECT_THAT(foreign_peer("-", changed, "viewer"),
-                HasSubstr("refused: DDS Security does not let this process into"));
+                HasSubstr("refused: DDS Security does not allow this process to join"));
     expect_untouched();
 }
 

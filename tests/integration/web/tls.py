@@ -33,7 +33,7 @@ def ends(machine, code, words, *options):
 
 def check_refusals(machine, certificate, key):
     for address in ("0.0.0.0", "::"):
-        ends(machine, 2, "beyond this host the page is served with TLS only", "--address", address)
+        ends(machine, 2, "other hosts are served with TLS only", "--address", address)
     ends(machine, 2, "--key", "--certificate", certificate)
     ends(machine, 2, "none.crt", "--certificate", str(machine.work / "none.crt"), "--key", key)
     ends(machine, 1, "HTTPS cannot be served", "--certificate", certificate, "--key",

@@ -200,7 +200,7 @@ describe("a page that stays open", () => {
     const page = await enter();
     await fresh(page);
     lockstep("down");
-    await page.locator(".banner", { hasText: "No coordinator is received" }).waitFor();
+    await page.locator(".banner", { hasText: "No messages are received from a coordinator" }).waitFor();
     await stale(page);
     await mode(page, "Unreachable");
     assert.ok(await button(page, "Jog X plus").isDisabled());

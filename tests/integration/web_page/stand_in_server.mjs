@@ -134,7 +134,7 @@ export class StandInServer {
   async upload(request, response) {
     const text = await bodyOf(request);
     const errors = wrongLines(text);
-    if (errors.length > 0) return this.problem(response, 422, "bad-program", "The program is wrong", { errors: errors.slice(0, 20) });
+    if (errors.length > 0) return this.problem(response, 422, "bad-program", "The program has errors", { errors: errors.slice(0, 20) });
     const name = new URL(request.url, "http://machine").searchParams.get("name") ?? "";
     this.machine.load(name, 400);
     this.publish();

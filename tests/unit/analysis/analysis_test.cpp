@@ -222,7 +222,7 @@ TEST_F(AnalysisTest, DrawsThreeWellFormedFigures) {
     for (const char* name : {"speed.svg", "position.svg", "xy.svg"}) {
         EXPECT_EQ(test::xml_problem(text_of(directory / name)), std::nullopt) << name;
     }
-    EXPECT_NE(text_of(directory / "xy.svg").find("as asked"), std::string::npos);
+    EXPECT_NE(text_of(directory / "xy.svg").find("commanded path"), std::string::npos);
 }
 
 TEST_F(AnalysisTest, DrawsPositionsWithoutAPlane) {

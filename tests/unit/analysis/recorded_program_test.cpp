@@ -111,7 +111,7 @@ TEST_F(RecordedProgramTest, OneThatCannotBeReadIsAnError) {
     wrong.offsets[3] += 5;
     const auto program = RecordedProgram::open(wrong);
     ASSERT_FALSE(program);
-    EXPECT_THAT(program.error(), HasSubstr("no part of a program at byte"));
+    EXPECT_THAT(program.error(), HasSubstr("no longer has a part of a program at byte"));
     wrong.log = "nowhere.lcm";
     EXPECT_FALSE(RecordedProgram::open(wrong));
 }

@@ -77,7 +77,7 @@ TEST_F(PositionFile, WithAnyByteChangedIsRefusedOrSaysTheSame) {
 TEST_F(PositionFile, ThatOthersMayWriteOrThatIsNoFileIsRefused) {
     write(position_text(position_after(7)));
     fs::permissions(file_, fs::perms::others_write, fs::perm_options::add);
-    EXPECT_THAT(trouble(), HasSubstr("others may write it"));
+    EXPECT_THAT(trouble(), HasSubstr("other users may write it"));
     fs::remove(file_);
     fs::create_directory(file_);
     EXPECT_THAT(trouble(), HasSubstr("not a regular file"));

@@ -275,7 +275,7 @@ TEST(ProgramPlan, StartMismatchNamesNoLine) {
     ASSERT_FALSE(legs);
     EXPECT_EQ(legs.error().fault, FaultCode::StartMismatch);
     EXPECT_FALSE(legs.error().line);
-    EXPECT_EQ(legs.error().text, "the program starts at X 0 mm, the axis is at 1 mm");
+    EXPECT_EQ(legs.error().text, "the program starts at X 0 mm, but the axis is at 1 mm");
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ TEST_F(Lease, AClientThatHasLostItToAnotherGetsItOnlyByANewRequest) {
     const auto refused = lease.take(command, Tick{slot * 1000}, slot);
     ASSERT_FALSE(refused) << "it repeats its request to keep what it has lost";
     EXPECT_EQ(refused.error().why, FaultCode::WriterHeld);
-    EXPECT_EQ(refused.error().text, "bert on office has taken the machine over");
+    EXPECT_EQ(refused.error().text, "bert on office has taken over the machine");
     EXPECT_EQ(holder(), "nobody");
     ++command.sequence;
     EXPECT_TRUE(lease.take(command, Tick{slot * 1000}, slot));

@@ -99,7 +99,7 @@ TEST(KeptSettings, AddKeysAndBlocksThatTheFileDoesNotHave) {
 TEST(KeptSettings, MustSatisfyTheRulesOfTheMachinesFile) {
     const auto fast = with_settings(kMachine, {{"X", "max_velocity_mm_s", "1e9"}});
     ASSERT_FALSE(fast);
-    EXPECT_THAT(fast.error().front().message, HasSubstr("axis X: max_velocity_mm_s is 1e+09; it goes from"));
+    EXPECT_THAT(fast.error().front().message, HasSubstr("axis X: max_velocity_mm_s is 1e+09; it must be from"));
     EXPECT_EQ(fast.error().front().line, 0);
     EXPECT_FALSE(with_settings(kMachine, {{"X", "max_velocity_mm_s", "5"}})) << "below its start velocity";
     const auto other = with_settings(kMachine, {{"Q", "max_velocity_mm_s", "50"}});
@@ -112,7 +112,7 @@ TEST(KeptSettings, AreRefusedWhereACommentStandsInTheWay) {
     text.replace(text.find(": 150"), 5, ": # 5\n 150");
     const auto split = with_settings(text, {{"X", "max_velocity_mm_s", "50"}});
     ASSERT_FALSE(split);
-    EXPECT_THAT(split.error().front().message, HasSubstr("a comment stands between"));
+    EXPECT_THAT(split.error().front().message, HasSubstr("a comment is between"));
 }
 
 class KeptSettingsFile : public testing::Test {
@@ -139,7 +139,7 @@ TEST_F(KeptSettingsFile, ThatIsWrongIsNamedInTheError) {
     std::ofstream(settings_file(file_)) << "X.steps_per_mm: 80\nnonsense\n";
     const auto wrong = load_machine(file_);
     ASSERT_FALSE(wrong);
-    EXPECT_THAT(wrong.error().front().message, HasSubstr("m.textproto.settings, line 2: 'nonsense' is no setting"));
+    EXPECT_THAT(wrong.error().front().message, HasSubstr("m.textproto.settings, line 2: 'nonsense' is not a setting"));
     ASSERT_TRUE(write_settings(settings_file(file_), {{"X", "max_velocity_mm_s", "5"}}));
     const auto slow = load_machine(file_);
     ASSERT_FALSE(slow);

@@ -51,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(Syntax, MachineRefused,
 
 INSTANTIATE_TEST_SUITE_P(Missing, MachineRefused,
                          testing::Values(Refusal{with("name: \"m\"", ""), 1, 1, "name is missing"},
-                                         Refusal{"name: \"m\"", 1, 1, "0 axes; write"},
+                                         Refusal{"name: \"m\"", 1, 1, "0 axes; it must have"},
                                          Refusal{with("  steps_per_mm: 80\n", ""), 2, 1, "steps_per_mm is missing"},
                                          Refusal{with("  position_max_mm: 200\n", ""), 2, 1,
                                                  "position_max_mm is missing"}));
@@ -90,11 +90,11 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{machine_with("network { domain: 233 }"), 11, 11, "0 to 232"},
         Refusal{machine_with("network { lcm_url: \"239.255.76.67\" }"), 11, 11, "udpm://"},
         Refusal{machine_with("network { peers: \"10.0.0.1 10.0.0.2\" }"), 11, 1, "an IPv4 address or a"},
-        Refusal{machine_with("network { one_host: true peers: \"10.0.0.1\" }"), 11, 11, "leave one of them"}));
+        Refusal{machine_with("network { one_host: true peers: \"10.0.0.1\" }"), 11, 11, "remove one of them"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Web, MachineRefused,
-    testing::Values(Refusal{machine_with("web { port: 0 }"), 11, 7, "web.port is 0; it goes from 1 to 65535"},
+    testing::Values(Refusal{machine_with("web { port: 0 }"), 11, 7, "web.port is 0; it must be from 1 to 65535"},
                     Refusal{machine_with("web { address: \"localhost\" }"), 11, 7, "an IP address, such as 127.0.0.1"},
                     Refusal{machine_with("web { address: \"0.0.0.0\" }"), 11, 7, "with TLS only; add certificate_file"},
                     Refusal{machine_with("web { address: \"::\" }"), 11, 7, "with TLS only"},
@@ -106,14 +106,14 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Hosts, MachineRefused,
-    testing::Values(Refusal{axis_with("host: \"a b\""), 10, 3, "host is \"a b\"; the name of a host"},
+    testing::Values(Refusal{axis_with("host: \"a b\""), 10, 3, "host is \"a b\"; it must be the name of a host"},
                     Refusal{axis_with("device: \"usb\""), 10, 3, "sim, shm:NAME or uio:PATH"},
                     Refusal{axis_with("device: \"uio:uio0\""), 10, 3, "such as uio:/dev/uio0"},
                     Refusal{machine_with("coordinator_host: \"-\""), 11, 1, "the name of a host"},
                     Refusal{machine_with("real_time { priority: 100 }"), 11, 13, "0 to 99"},
                     Refusal{machine_with("real_time { cpus: 0 cpus: 1024 }"), 11, 1, "has 1024"},
                     Refusal{axis_with("host: \"a\"") + "coordinator_host: \"b\" network { interface: \"eth0\" }", 1, 1,
-                            "one host's clock, but the machine is on several hosts, such as b and a"},
+                            "the clock of one host, but the machine is on several hosts, such as b and a"},
                     Refusal{axis_with("host: \"a\"") + "coordinator_host: \"b\" timing { time_source: NETWORK }", 1, 1,
                             "network.interface is lo, but"},
                     Refusal{axis_with("host: \"a\"") + "coordinator_host: \"b\" timing { time_source: NETWORK } "
@@ -123,32 +123,32 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Method, MachineRefused,
     testing::Values(Refusal{axis_with("method: STEPPER"), 11, 1, "STEPPER"},
-                    Refusal{axis_with("method: 9"), 10, 3, "method is 9; it is one of RANADE, SPIELAUER"},
+                    Refusal{axis_with("method: 9"), 10, 3, "method is 9; it must be one of RANADE, SPIELAUER"},
                     Refusal{axis_with("method: CARRICA max_decel_mm_s2: 1000"), 10, 3,
                             "80000 steps/s^2 must equal the acceleration, 120000"},
                     Refusal{axis_with("method: LAM"), 10, 3, "method is lam; in a move of"},
-                    Refusal{axis_with("method: LAI"), 10, 3, "its speed jumps by"},
-                    Refusal{axis_with("method: LAI max_decel_mm_s2: 290"), 10, 3, "23668.6 steps/s^2 at least"},
+                    Refusal{axis_with("method: LAI"), 10, 3, "its speed changes at once by"},
+                    Refusal{axis_with("method: LAI max_decel_mm_s2: 290"), 10, 3, "at least 23668.6 steps/s^2"},
                     Refusal{with("150", "500", axis_with("method: LAI")), 10, 3, "1 to 255 whole pulses"},
                     Refusal{with("\"m\"", "\"m\" tick_ns: 40000", axis_with("method: SPIELAUER")), 10, 3,
                             "a third of a step per tick"}));
 
-INSTANTIATE_TEST_SUITE_P(Axis, MachineRefused,
-                         testing::Values(Refusal{with("\"X\"", "\"1st\""), 3, 3, "a letter, then"},
-                                         Refusal{with("\"X\"", "\"X23456789012345678\""), 3, 3, "at most 16"},
-                                         Refusal{with("80", "0"), 4, 3, "steps_per_mm is 0"},
-                                         Refusal{with("80", "nan"), 4, 3, "steps_per_mm is nan"},
-                                         Refusal{with("150", "inf"), 6, 3, "max_velocity_mm_s is inf"},
-                                         Refusal{with("10\n", "-10\n"), 5, 3, "start_velocity_mm_s is -10"},
-                                         Refusal{with("150", "9"), 6, 3, "below start_velocity_mm_s 10"},
-                                         Refusal{with("150", "6251"), 6, 3, "half a step per tick; at most 6250"},
-                                         Refusal{with("1500", "0"), 7, 3, "max_accel_mm_s2 is 0"},
-                                         Refusal{with("1500", "-1"), 7, 3, "is -1"},
-                                         Refusal{with("1500", ".01"), 7, 3, "more than 600 s"},
-                                         Refusal{axis_with("max_decel_mm_s2: 0"), 10, 3, "is 0"},
-                                         Refusal{with("200", "0"), 9, 3, "not above position_min_mm 0"},
-                                         Refusal{with("200", "-5"), 9, 3, "position_max_mm is -5"},
-                                         Refusal{with("200", "2e6"), 9, 3, "-1000000 to 1000000"}));
+INSTANTIATE_TEST_SUITE_P(
+    Axis, MachineRefused,
+    testing::Values(Refusal{with("\"X\"", "\"1st\""), 3, 3, "a letter, then"},
+                    Refusal{with("\"X\"", "\"X23456789012345678\""), 3, 3, "at most 16"},
+                    Refusal{with("80", "0"), 4, 3, "steps_per_mm is 0"},
+                    Refusal{with("80", "nan"), 4, 3, "steps_per_mm is nan"},
+                    Refusal{with("150", "inf"), 6, 3, "max_velocity_mm_s is inf"},
+                    Refusal{with("10\n", "-10\n"), 5, 3, "start_velocity_mm_s is -10"},
+                    Refusal{with("150", "9"), 6, 3, "below start_velocity_mm_s 10"},
+                    Refusal{with("150", "6251"), 6, 3, "half a step per tick; it must be at most 6250"},
+                    Refusal{with("1500", "0"), 7, 3, "max_accel_mm_s2 is 0"},
+                    Refusal{with("1500", "-1"), 7, 3, "is -1"}, Refusal{with("1500", ".01"), 7, 3, "more than 600 s"},
+                    Refusal{axis_with("max_decel_mm_s2: 0"), 10, 3, "is 0"},
+                    Refusal{with("200", "0"), 9, 3, "not above position_min_mm 0"},
+                    Refusal{with("200", "-5"), 9, 3, "position_max_mm is -5"},
+                    Refusal{with("200", "2e6"), 9, 3, "-1000000 to 1000000"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Homing, MachineRefused,
@@ -164,10 +164,10 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{axis_with("homing { switch_position_mm: 101 }"), 10, 12, "-2 to 100"},
         Refusal{axis_with("homing { switch_position_mm: -2 }"), 10, 12, "not on the limit switch"},
         Refusal{axis_with("homing { toward_min: false switch_position_mm: 0 }"), 10, 30, "100 to 202"},
-        Refusal{axis_with("homing { park_mm: 201 }"), 10, 12, "outside travel; it goes from 0 to 200"},
+        Refusal{axis_with("homing { park_mm: 201 }"), 10, 12, "outside the travel; it must be from 0 to 200"},
         Refusal{axis_with("unhomed_jog_mm_s: 11"), 10, 3, "above start_velocity_mm_s 10"},
         Refusal{axis_with("unhomed_jog_mm_s: 0"), 10, 3, "is 0"},
-        Refusal{axis_with("safe_height_mm: 201"), 10, 3, "outside travel; it goes from 0 to 200"},
+        Refusal{axis_with("safe_height_mm: 201"), 10, 3, "outside the travel; it must be from 0 to 200"},
         Refusal{axis_with("plant { start_position_mm: 202 }"), 10, 11, "limit switches at -2 and 202"},
         Refusal{axis_with("plant { travel_margin_mm: 0 }"), 10, 11, "above 0"},
         Refusal{axis_with("plant { max_jump_mm_s: nan }"), 10, 11, "nan"}));
@@ -190,7 +190,7 @@ TEST(MachineErrors, NoTwoAxesHaveOneNameInAnyCapitals) {
     const Diagnostics found = errors(machine_with(with("\"X\"", "\"x\"", axis)));
     ASSERT_EQ(found.size(), 1U);
     EXPECT_EQ(found[0].line, 12);
-    EXPECT_THAT(found[0].message, HasSubstr("taken by axis 1, X"));
+    EXPECT_THAT(found[0].message, HasSubstr("already that of axis 1, X"));
 }
 
 TEST(MachineErrors, ThereAreAtMost32Axes) {
@@ -199,7 +199,7 @@ TEST(MachineErrors, ThereAreAtMost32Axes) {
     for (int i = 0; i < 65; ++i) { text += with("\"X\"", "\"X" + std::to_string(i) + "\"", axis); }
     const Diagnostics found = errors(text);
     ASSERT_EQ(found.size(), 1U);
-    EXPECT_THAT(found[0].message, HasSubstr("65 axes; write one axis { ... } for each, 1 to 64"));
+    EXPECT_THAT(found[0].message, HasSubstr("65 axes; it must have from 1 to 64: write one axis { ... } for each"));
 }
 
 }  // namespace

@@ -115,17 +115,17 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 INSTANTIATE_TEST_SUITE_P(
     Head, ProgramRefused,
     testing::Values(ProgramRefusal{"no axis", [](Program& p) { p.axes.clear(); }},
-                    ProgramRefusal{"65; at most 64", [](Program& p) { p.axes.resize(kMaxAxes + 1, "X"); }},
-                    ProgramRefusal{"axis 2 of the program has no axis's name", [](Program& p) { p.axes[1] = "*"; }},
+                    ProgramRefusal{"65; it must be at most 64", [](Program& p) { p.axes.resize(kMaxAxes + 1, "X"); }},
+                    ProgramRefusal{"axis 2 of the program has no valid name", [](Program& p) { p.axes[1] = "*"; }},
                     ProgramRefusal{"names axis x twice", [](Program& p) { p.axes[1] = "x"; }},
-                    ProgramRefusal{"256; at most 255", [](Program& p) { p.name.assign(256, 'n'); }},
-                    ProgramRefusal{"the start has 1 places for 2 axes", [](Program& p) { p.start_mm.pop_back(); }},
+                    ProgramRefusal{"256; it must be at most 255", [](Program& p) { p.name.assign(256, 'n'); }},
+                    ProgramRefusal{"the start has 1 positions for 2 axes", [](Program& p) { p.start_mm.pop_back(); }},
                     ProgramRefusal{"the start puts Y at nan", [](Program& p) { p.start_mm[1] = kNan; }}));
 
 INSTANTIATE_TEST_SUITE_P(
     Blocks, ProgramRefused,
     testing::Values(
-        ProgramRefusal{"block 1: the target has 3 places", [](Program& p) { move(p, 0).target_mm.push_back(1); }},
+        ProgramRefusal{"block 1: the target has 3 positions", [](Program& p) { move(p, 0).target_mm.push_back(1); }},
         ProgramRefusal{"block 2: the target puts X at inf", [](Program& p) { move(p, 1).target_mm[0] = 1 / 0.0; }},
         ProgramRefusal{"block 2: the target puts X at 2000000", [](Program& p) { move(p, 1).target_mm[0] = 2e6; }},
         ProgramRefusal{"block 2: the feed is 0", [](Program& p) { move(p, 1).feed_mm_s = 0; }},
@@ -137,7 +137,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(ProgramDocument, ABlockWithAnUnknownActionIsRefused) {
     const auto program = program_from_text("axes: \"X\" start_mm: 0 blocks { line: 3 }");
     ASSERT_FALSE(program.has_value());
-    EXPECT_EQ(program.error(), "block 1: no action known here");
+    EXPECT_EQ(program.error(), "block 1: the action is missing or unknown");
     EXPECT_THAT(program_from_text("axes: \"X\"\nstart: 0").error(), HasSubstr("program:2:6"));
 }
 

@@ -70,7 +70,7 @@ TEST(TimingEdit, RefusesATextThatIsNoMachineAndACommentInAKey) {
     EXPECT_FALSE(with_slots("nonsense {", kFast));
     const auto split = with_slots(machine_with("timing { slot_us: # 5\n 10000 }\n"), kFast);
     ASSERT_FALSE(split);
-    EXPECT_TRUE(split.error().front().message.contains("a comment stands between"));
+    EXPECT_TRUE(split.error().front().message.contains("a comment is between"));
 }
 
 }  // namespace

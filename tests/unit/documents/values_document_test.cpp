@@ -53,17 +53,17 @@ TEST_P(WrongValues, AreRefusedWithTheReason) {
     EXPECT_THAT(read.error().front().message, HasSubstr(GetParam().message));
 }
 
-INSTANTIATE_TEST_SUITE_P(Texts, WrongValues,
-                         testing::Values(Wrong{"system { name: \"G60\" }", "no coordinate system 'G60'"},
-                                         Wrong{"system { name: \"G54\" origin { x: 1 } } system { name: \"G54\" }",
-                                               "two coordinate systems"},
-                                         Wrong{"system { name: \"G54\" origin { x: nan } }", "G54: X is nan"},
-                                         Wrong{"g92 { y: 1e7 }", "G92: Y is 10000000; it is from -1000000 to 1000000"},
-                                         Wrong{"tool { number: 0 }", "a tool's number is 0; it is from 1"},
-                                         Wrong{"tool { number: 2 } tool { number: 2 }", "two of tool 2"},
-                                         Wrong{"tool { number: 2 orientation: 10 }",
-                                               "the orientation is 10; it is from 0 to 9"},
-                                         Wrong{"tols { }", "tols"}));
+INSTANTIATE_TEST_SUITE_P(
+    Texts, WrongValues,
+    testing::Values(Wrong{"system { name: \"G60\" }", "no coordinate system 'G60'"},
+                    Wrong{"system { name: \"G54\" origin { x: 1 } } system { name: \"G54\" }",
+                          "coordinate system G54 is there twice"},
+                    Wrong{"system { name: \"G54\" origin { x: nan } }", "G54: X is nan"},
+                    Wrong{"g92 { y: 1e7 }", "G92: Y is 10000000; it must be from -1000000 to 1000000"},
+                    Wrong{"tool { number: 0 }", "a tool's number is 0; it must be from 1"},
+                    Wrong{"tool { number: 2 } tool { number: 2 }", "tool 2 is there twice"},
+                    Wrong{"tool { number: 2 orientation: 10 }", "the orientation is 10; it must be from 0 to 9"},
+                    Wrong{"tols { }", "tols"}));
 
 }  // namespace
 }  // namespace lockstep

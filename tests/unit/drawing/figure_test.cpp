@@ -56,8 +56,8 @@ TEST(Figure, BreaksACurveAtAMissingValue) {
 }
 
 TEST(Figure, NamesEachLabelOnceInTheLegend) {
-    const Chart row{.series = {ramp("as asked", 10)}};
-    EXPECT_EQ(count(to_svg({.rows = {row, row, row}}), "as asked"), 1U);
+    const Chart row{.series = {ramp("commanded path", 10)}};
+    EXPECT_EQ(count(to_svg({.rows = {row, row, row}}), "commanded path"), 1U);
 }
 
 TEST(Figure, DrawsMomentsWithinItsRangeOncePerPixel) {

@@ -23,7 +23,7 @@ TEST(MotionFigures, HaveARowForEachAxisWithItsUnitAndLimit) {
 TEST(MotionFigures, DrawAPlannedPathWithoutASteppedOne) {
     const Figure path = path_figure("plan", "", {}, {.x = {0, 10, 10}, .y = {0, 0, 10}}, {});
     ASSERT_EQ(path.rows.at(0).series.size(), 1U);
-    EXPECT_EQ(path.rows[0].series[0].label, "as asked");
+    EXPECT_EQ(path.rows[0].series[0].label, "commanded path");
     EXPECT_TRUE(path.equal_aspect);
     EXPECT_EQ(test::xml_problem(to_svg(path)), std::nullopt);
 }

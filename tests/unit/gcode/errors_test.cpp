@@ -51,16 +51,16 @@ INSTANTIATE_TEST_SUITE_P(Numbers, GcodeRefused,
                                          Refusal{"G0 X1" + std::string(240, '0'), 1, 4, "out of range"}));
 
 INSTANTIATE_TEST_SUITE_P(Words, GcodeRefused,
-                         testing::Values(Refusal{"G6 X1 Y1", 1, 1, "G6 is not a code known here"},
+                         testing::Values(Refusal{"G6 X1 Y1", 1, 1, "G6 is not a code of this machine"},
                                          Refusal{"G0 X1\nM150", 2, 1, "M150"}, Refusal{"G1.05 X1 F1", 1, 1, "G1.05"},
                                          Refusal{"G-1", 1, 1, "G-1"}, Refusal{"$1000", 1, 1, "'$'"},
                                          Refusal{"G0 X1 A5", 1, 7, "no axis A; its axes are X Y Z"},
                                          Refusal{"G0 X1 X2", 1, 7, "X2 repeats X1"}, Refusal{"F1 F1", 1, 4, "repeats"},
-                                         Refusal{"F9 G41.1 D1\nG1 X5\nG10 L20 P2 X1", 3, 1, "by where the axes stand"},
+                                         Refusal{"F9 G41.1 D1\nG1 X5\nG10 L20 P2 X1", 3, 1, "from the axes' positions"},
                                          Refusal{"F9 G2 X1 I0.5 P1 G4", 1, 18, "both use P"},
                                          Refusal{"F9 G2 X1 I0.5\nX2 I0.5 P1 G4", 2, 12, "both use P"},
                                          Refusal{"G0 N5 X1", 1, 4, "first"},
-                                         Refusal{"N-1 G0 X1", 1, 1, "number from 0"}));
+                                         Refusal{"N-1 G0 X1", 1, 1, "must be 0 or above"}));
 
 INSTANTIATE_TEST_SUITE_P(Groups, GcodeRefused,
                          testing::Values(Refusal{"G0 G1 X1 F5", 1, 4, "G1 after G0"},
@@ -81,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(Values, GcodeRefused,
 
 INSTANTIATE_TEST_SUITE_P(
     Travel, GcodeRefused,
-    testing::Values(Refusal{"G0 X10 Y200.5", 1, 8, "to 200.5 mm, outside its travel of 0 to 200 mm"},
+    testing::Values(Refusal{"G0 X10 Y200.5", 1, 8, "to 200.5 mm, which is outside its travel of 0 to 200 mm"},
                     Refusal{"G0 Z-.1", 1, 4, "position_min_mm"}, Refusal{"G0 Z61", 1, 4, "position_max_mm"},
                     Refusal{"G20 G0 X8", 1, 8, "203.2 mm"}, Refusal{"G0 X150\nG91 X60", 2, 5, "210 mm"},
                     Refusal{"G0 X50\nG92 X0\nG0 X160", 3, 4, "X160 takes X to 210 mm"},

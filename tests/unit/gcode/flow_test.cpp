@@ -41,8 +41,8 @@ TEST(GcodeParameters, TakeTheirValueBehindTheWholeLine) {
 }
 
 TEST(GcodeParameters, OfTheMachineCannotBeWritten) {
-    EXPECT_THAT(run("#5420=1\n").error->message, HasSubstr("not written"));
-    EXPECT_THAT(run("#<_x>=1\n").error->message, HasSubstr("not written"));
+    EXPECT_THAT(run("#5420=1\n").error->message, HasSubstr("can only be read"));
+    EXPECT_THAT(run("#<_x>=1\n").error->message, HasSubstr("can only be read"));
 }
 
 TEST(GcodeFlow, BranchesTakeTheFirstThatHolds) {
@@ -98,8 +98,10 @@ TEST(GcodeFlow, SubroutineBehindItsCallMayNotBeInTheProgramsWay) {
 }
 
 TEST(GcodeFlow, OneLabelOpensOneThing) {
-    EXPECT_THAT(run("o2 if [1]\no2 endif\no2 if [1]\no2 endif\n").error->message, HasSubstr("opened something"));
-    EXPECT_THAT(run("o2 if [1]\no2 endif\no2 do\no2 while [0]\n").error->message, HasSubstr("opened something"));
+    EXPECT_THAT(run("o2 if [1]\no2 endif\no2 if [1]\no2 endif\n").error->message,
+                HasSubstr("the label of an earlier O-word"));
+    EXPECT_THAT(run("o2 if [1]\no2 endif\no2 do\no2 while [0]\n").error->message,
+                HasSubstr("the label of an earlier O-word"));
 }
 
 TEST(GcodeFlow, LabelOfADoLoopMayOpenAnother) {
@@ -121,12 +123,12 @@ TEST(GcodeFlow, RecursionAndEndlessLoopsMeetTheirLimits) {
 }
 
 TEST(GcodeFlow, OWordsThatDoNotFitAreRefusedWithTheirPlace) {
-    EXPECT_THAT(run("G0 X1\no1 endif\n").error->message, HasSubstr("nothing is open"));
+    EXPECT_THAT(run("G0 X1\no1 endif\n").error->message, HasSubstr("no O-word is open"));
     const Ran unclosed = run("G0 X1\no1 if [1]\nG0 X2\n");
     ASSERT_TRUE(unclosed.error);
     EXPECT_EQ(unclosed.error->line, 2);
     EXPECT_THAT(unclosed.error->message, HasSubstr("O1 ENDIF"));
-    EXPECT_THAT(run("o1 foo\n").error->message, HasSubstr("without its keyword"));
+    EXPECT_THAT(run("o1 foo\n").error->message, HasSubstr("has no keyword"));
     EXPECT_THAT(run("o1 if [1] G0 X1\no1 endif\n").error->message, HasSubstr("nothing may follow"));
 }
 

@@ -87,10 +87,10 @@ TEST_F(Sender, WritesSettingsThatAreInForceLater) {
     next.axes[1].max_velocity_mm_s = 25;
     grbl.see_next(next);
     grbl.answer(requests[0].number, {.is_done = true});
-    EXPECT_THAT(lines(), ElementsAre("[MSG:$111 is kept; in force when the machine is next brought up]", "ok"));
+    EXPECT_THAT(lines(), ElementsAre("[MSG:$111 is stored and applies after: lockstep down; lockstep up]", "ok"));
     const auto settings = send("$$\n");
     EXPECT_THAT(settings, testing::Contains("$111=1500.000"));
-    EXPECT_EQ(settings[settings.size() - 2], "[MSG:$111 in force when the machine is next brought up]");
+    EXPECT_EQ(settings[settings.size() - 2], "[MSG:$111 applies after: lockstep down; lockstep up]");
     EXPECT_THAT(send("$111=1500\n"), ElementsAre("ok")) << "it is kept already";
     EXPECT_THAT(asked(), ElementsAre());
 }

@@ -110,8 +110,8 @@ TEST_F(IncidentFiles, NameAProcessWithoutFileAndTheRemedy) {
     EXPECT_THAT(incident.absent, ElementsAre("coordinator", "axis Y"));
     const Evaluation evaluation = evaluate(incident);
     EXPECT_EQ(evaluation.cause.kind, CauseKind::Unknown);
-    EXPECT_THAT(evaluation.story[0], HasSubstr("axis Y left no file here: lockstep flight"));
-    EXPECT_EQ(evaluation.story[1], "axis X vetoes frame 17: no recent state of axis Y reports that it is held");
+    EXPECT_THAT(evaluation.story[0], HasSubstr("axis Y left no file here; lockstep flight"));
+    EXPECT_EQ(evaluation.story[1], "axis X vetoes frame 17: no recent state of axis Y reports that the frame is held");
 }
 
 }  // namespace

@@ -47,8 +47,7 @@ TEST_F(Flown, AnAxisThatStoodStillIsFound) {
     const Evaluation found = evaluation();
     expect(found, CauseKind::Stalled, flight_axis(kY));
     EXPECT_NEAR(vm.machine().microseconds(found.cause.lasts), 20'000, 1000);
-    EXPECT_THAT(found.story[0],
-                HasSubstr("axis Y stood still: its loop did not run for 20 ms; the machine allows 1.0 ms"));
+    EXPECT_THAT(found.story[0], HasSubstr("axis Y stalled: its loop did not run for 20 ms; the machine allows 1.0 ms"));
     EXPECT_THAT(found.story[1], HasSubstr("axis X vetoes frame"));
 }
 
@@ -98,7 +97,7 @@ TEST_F(Flown, AnAxisThatWasCutOffIsFound) {
     wait(1);
     const Evaluation found = evaluation();
     expect(found, CauseKind::CutOff, flight_axis(kY));
-    EXPECT_THAT(found.story[0], HasSubstr("it received no process, and no process received it"));
+    EXPECT_THAT(found.story[0], HasSubstr("it received no messages and no process received its messages"));
 }
 
 TEST_F(Flown, AnAxisThatNoPeerReceivedIsFound) {
@@ -107,7 +106,7 @@ TEST_F(Flown, AnAxisThatNoPeerReceivedIsFound) {
     wait(1);
     const Evaluation found = evaluation();
     expect(found, CauseKind::CutOff, flight_axis(kY));
-    EXPECT_THAT(found.story[0], HasSubstr("no process received it, though it ran"));
+    EXPECT_THAT(found.story[0], HasSubstr("no process received its messages, although it ran"));
 }
 
 TEST_F(Flown, ALinkThatWasCutIsFound) {

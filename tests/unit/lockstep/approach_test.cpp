@@ -105,8 +105,8 @@ TEST_F(Restart, RestoresTheModalStateOfTheLinesBefore) {
     const ModalState early = from(3).modal;
     EXPECT_TRUE(early.inches);
     EXPECT_TRUE(early.relative);
-    EXPECT_EQ(modal_text(machine, early), "  takes up G20 G91 F10.0, its 0 at X=-20.400");
-    EXPECT_THAT(modal_text(machine, from(6).modal), HasSubstr("takes up G21 G90 F600.0"));
+    EXPECT_EQ(modal_text(machine, early), "  begins with G20 G91 F10.0, its 0 at X=-20.400");
+    EXPECT_THAT(modal_text(machine, from(6).modal), HasSubstr("begins with G21 G90 F600.0"));
 }
 
 TEST_F(Restart, AfterTheEndIsRefused) {

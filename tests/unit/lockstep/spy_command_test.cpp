@@ -47,7 +47,7 @@ TEST_F(SpyCommand, ReportsWhatIsMissingAndTheRemedy) {
     EXPECT_THAT(refusal(), HasSubstr("run it on a desktop, or over ssh -X"));
     host_.display = ":0";
     host_.display_answers = false;
-    EXPECT_THAT(refusal(), HasSubstr("display :0 does not answer, or refuses: set DISPLAY"));
+    EXPECT_THAT(refusal(), HasSubstr("display :0 does not answer or refuses the connection: set DISPLAY"));
     host_.display_answers = true;
     host_.java.reset();
     EXPECT_THAT(refusal(), HasSubstr("apt-get install default-jre"));

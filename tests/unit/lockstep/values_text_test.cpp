@@ -107,8 +107,8 @@ TEST_P(WrongOffset, IsRefusedWithTheReason) {
 
 INSTANTIATE_TEST_SUITE_P(Words, WrongOffset,
                          testing::Values(Wrong{"G53", {"X=1"}, "no offset 'G53'"}, Wrong{"G54", {}, "nothing to set"},
-                                         Wrong{"G54", {"X"}, "'X' is no change"},
-                                         Wrong{"G54", {"X=1e9"}, "not within -1000000 to 1000000"},
+                                         Wrong{"G54", {"X"}, "'X' is not a change"},
+                                         Wrong{"G54", {"X=1e9"}, "must be from -1000000 to 1000000"},
                                          Wrong{"G54", {"A=1"}, "no axis 'A'"},
                                          Wrong{"G54", {"X2=1"}, "G-code cannot name axis X2"},
                                          Wrong{"G92", {"R=1"}, "no axis 'R'"}));

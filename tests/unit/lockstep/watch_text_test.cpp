@@ -118,11 +118,11 @@ TEST(Watch, ShowsFaultsAndRemedies) {
     status.mutable_axes(2)->set_present(false);
     const auto alarms = alarms_of(status, kScale);
     ASSERT_EQ(alarms.size(), 4U);
-    EXPECT_THAT(alarms[0], HasSubstr("axis X: limit-hit (103): a limit switch closed; see why"));
-    EXPECT_THAT(alarms[1], HasSubstr("axis Z is not received"));
+    EXPECT_THAT(alarms[0], HasSubstr("axis X: limit-hit (103): a limit switch closed; find out why"));
+    EXPECT_THAT(alarms[1], HasSubstr("no messages are received from axis Z"));
     EXPECT_THAT(alarms[2],
-                HasSubstr("axis Y: a setpoint came 93 ms before its start, and the deadline is 140 ms before"));
-    EXPECT_THAT(alarms[3], HasSubstr("axis Y: since it started: 3 frames refused; see its log"));
+                HasSubstr("axis Y: a setpoint arrived 93 ms before its start, but the deadline is 140 ms before"));
+    EXPECT_THAT(alarms[3], HasSubstr("axis Y: since it started: 3 frames refused; see the axis's log"));
     EXPECT_THAT(watch_text(status, kScale, Ink::Plain), HasSubstr("Z            not received\n"));
 }
 
@@ -141,7 +141,7 @@ TEST(Watch, ReportsAStepTimeErrorOnlyBeyondTheClockError) {
     status.mutable_axes(0)->mutable_health()->set_clock_error_us(50);
     EXPECT_THAT(alarms_of(status, kScale), IsEmpty());
     status.mutable_axes(0)->mutable_health()->set_clock_error_us(5);
-    EXPECT_THAT(alarms_of(status, kScale), ElementsAre("axis X: a step was 40 us off its commanded time"));
+    EXPECT_THAT(alarms_of(status, kScale), ElementsAre("axis X: a step was 40 us before or after its commanded time"));
 }
 
 TEST(Watch, FitsInEightyColumnsForAnyFault) {

@@ -254,7 +254,7 @@ TEST_F(Merge, AFileThatIsNotALogIsRefused) {
     std::ofstream(folder / "notes.txt") << "not a log";
     std::ofstream(folder / "empty.lcm").flush();
     const auto refused = [&](const std::vector<fs::path>& logs) { return merge_logs({.logs = logs}, kept).error(); };
-    EXPECT_THAT(refused({folder / "notes.txt", folder / "empty.lcm"}), HasSubstr("are they LCM logs"));
+    EXPECT_THAT(refused({folder / "notes.txt", folder / "empty.lcm"}), HasSubstr("check that they are LCM logs"));
     EXPECT_THAT(refused({folder / "nothing.lcm"}), HasSubstr("nothing.lcm"));
     EXPECT_TRUE(merge({folder / "empty.lcm", log("a.lcm", "X", all)}).is_complete()) << "of a process that ended early";
 }

@@ -20,8 +20,8 @@ TEST(RealTime, RequestsNothingUnlessConfigured) { EXPECT_TRUE(ask({}).empty()); 
 TEST(RealTime, ReportsTheResultForSchedulerAndMemory) {
     const auto lines = ask({.priority = 1});
     ASSERT_EQ(lines.size(), 2U);
-    EXPECT_TRUE(lines[0].starts_with("scheduler FIFO, priority 1") || lines[0].contains("to permit it: LimitRTPRIO"));
-    EXPECT_TRUE(lines[1] == "memory locked" || lines[1].contains("to permit it: LimitMEMLOCK"));
+    EXPECT_TRUE(lines[0].starts_with("scheduler FIFO, priority 1") || lines[0].contains("to allow it: LimitRTPRIO"));
+    EXPECT_TRUE(lines[1] == "memory locked" || lines[1].contains("to allow it: LimitMEMLOCK"));
 }
 
 TEST(RealTime, AProcessorThatTheHostLacksIsNamed) {

@@ -108,7 +108,7 @@ TEST(ScenarioEvaluation, CountsInterruptionsOfAllJobs) {
 
 TEST(ScenarioEvaluation, FindsCauseAmongAllIncidents) {
     Evidence evidence = good();
-    EXPECT_EQ(check("cause { kind: \"process-ended\" }", evidence).found(), "no incident on record");
+    EXPECT_EQ(check("cause { kind: \"process-ended\" }", evidence).found(), "no incident is recorded");
     evidence.causes = {{"asked", "", "requested"}, {"process-ended", "axis-Y", "axis Y ended"}};
     EXPECT_TRUE(holds("cause { kind: \"process-ended\" process: \"axis-Y\" }", evidence));
     EXPECT_FALSE(holds("cause { kind: \"process-ended\" process: \"axis-X\" }", evidence));

@@ -79,7 +79,7 @@ TEST_F(Keys, ThatOthersMayReadAreRefusedWithTheChmodThatCorrectsIt) {
 TEST_F(Keys, InADirectoryThatOthersMayWriteAreRefusedWithTheChmodThatCorrectsIt) {
     make();
     fs::permissions(keys(), fs::perms(0755));
-    EXPECT_THAT(errors_of(client_member()), IsEmpty()) << "others may read";
+    EXPECT_THAT(errors_of(client_member()), IsEmpty()) << "other users may read";
     fs::permissions(keys(), fs::perms(0777));
     EXPECT_THAT(errors_of(client_member()), ElementsAre(HasSubstr("chmod go-w " + keys().string())));
     fs::permissions(keys(), fs::perms(0700));

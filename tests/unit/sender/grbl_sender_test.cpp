@@ -149,7 +149,7 @@ TEST_F(AtController, ReportsAPortWithoutAController) {
     (void)say("login: ");
     (void)passes(11s);
     EXPECT_EQ(sender.outcome(), Outcome::Silent);
-    EXPECT_THAT(sender.trouble()->text, HasSubstr("is it the right port and speed?"));
+    EXPECT_THAT(sender.trouble()->text, HasSubstr("check the port and the speed"));
 }
 
 TEST_F(AtController, ReportsAControllerThatFallsSilentOrIsReset) {

@@ -62,8 +62,8 @@ TEST(Move, OfAxesOnTheirOwnMayTakeAGivenTime) {
     EXPECT_EQ(ticks_of(two_axes(), {.own = true, .in_s = 0.5}), Ticks{500'000});
     EXPECT_THAT(error_of({.targets = {"X=10"}, .in_s = 0.5}), HasSubstr("add --own"));
     EXPECT_THAT(error_of({.targets = {"X=10"}, .feed_mm_min = 600, .own = true}),
-                HasSubstr("--own moves have no common line"));
-    EXPECT_THAT(error_of({.targets = {"X=10"}, .own = true, .in_s = 0}), HasSubstr("--in 0.000000 is not within"));
+                HasSubstr("with --own there is no common line"));
+    EXPECT_THAT(error_of({.targets = {"X=10"}, .own = true, .in_s = 0}), HasSubstr("--in 0.000000 is out of range"));
     EXPECT_THAT(error_of({.targets = {"X=10"}, .own = true, .in_s = 601}), HasSubstr("to 600 s"));
 }
 

@@ -96,7 +96,7 @@ TEST(StatusText, ShowsAFaultWithItsCauseAndRemedyOnce) {
     *status.mutable_axes(0)->mutable_fault() = fault_report(FaultCode::LimitHit, "X");
     const std::string text = status_text(status);
     EXPECT_THAT(text, HasSubstr("fault: axis X: limit-hit (103): a limit switch closed\n"));
-    EXPECT_THAT(text, HasSubstr("to do: see why the axis ran there"));
+    EXPECT_THAT(text, HasSubstr("to do: find out why the axis reached the switch"));
     EXPECT_EQ(text.find("limit-hit"), text.rfind("limit-hit"));
 }
 

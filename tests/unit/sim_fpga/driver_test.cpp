@@ -13,7 +13,7 @@ TEST(Driver, RefusesMemoryThatIsNoDevice) {
     const std::string error = attach_error(RegisterWindow::in_process());
     EXPECT_EQ(error,
               "device: MAGIC reads 0x0000000000000000, expected 0x4C4F434B53544550; "
-              "is this a Lockstep axis device, and powered up?");
+              "check that this is a Lockstep axis device and that it has power");
 }
 
 TEST(Driver, RefusesAnotherVersionAndAnotherMap) {

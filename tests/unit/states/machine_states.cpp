@@ -399,7 +399,7 @@ const std::vector<MachineSituation>& situations() {
         {"axis lost while held", axis_lost_while_held, on_one_clock},
         {"axis lost, reset without it", reset_without_an_axis, on_one_clock},
         {"axis cut off", cut_off, on_one_clock},
-        {"axis stood still", axis_stood_still, on_one_clock},
+        {"axis stalled", axis_stood_still, on_one_clock},
         {"frame damaged in the device", frame_damaged, on_one_clock},
         {"an axis is not where its frames end", ends_elsewhere, on_one_clock},
         {"the axes ran different frames", frames_differ, on_one_clock},

@@ -47,7 +47,7 @@ TEST(AwaitedParts, AreNoneIfAllReceiveEachOther) {
 
 TEST(AwaitedParts, IncludeThoseThatOnlyTheCoordinatorDoesNotReceive) {
     EXPECT_EQ(text_of({.coordinator_present = true, .axes_present = 3, .axes_present_at_coordinator = 1}),
-              "waits for axis Y on board-c: started, not received by the coordinator\n");
+              "waits for axis Y on board-c: started, but its messages do not reach the coordinator\n");
 }
 
 /// A process that looks like an axis's, started before the rest of the test.
@@ -83,7 +83,7 @@ TEST(OwnParts, ThatRanBeforeTheSupervisorAreForeign) {
     const Axis axis;
     const std::vector<PresentProcess> present{{0, host_name(), axis.pid()}};
     const auto foreign = foreign_part(on_three_hosts(), {.axes = {0}}, {"supervisor", 1, axis.start() + 1}, present);
-    EXPECT_THAT(foreign.value_or(""), HasSubstr("axis X of machine 'mill' runs already"));
+    EXPECT_THAT(foreign.value_or(""), HasSubstr("axis X of machine 'mill' already runs"));
     EXPECT_EQ(foreign_part(on_three_hosts(), {.axes = {0}}, {"supervisor", 1, axis.start()}, present), std::nullopt)
         << "the supervisor started it";
 }

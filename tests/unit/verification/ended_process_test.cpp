@@ -134,7 +134,7 @@ TEST_F(EndedProcess, StepsRecordedByTheSuccessorAreComparedWithThePlan) {
     EXPECT_FALSE(findings.difference) << findings.difference->text;
     EXPECT_EQ(findings.steps, kSteps + 30 + 60);
     EXPECT_THAT(notes(), HasSubstr("90 steps from tick"));
-    EXPECT_THAT(notes(), HasSubstr("10 steps before the next process's are not on record"));
+    EXPECT_THAT(notes(), HasSubstr("10 steps before those of the next process are not in the log"));
 }
 
 TEST_F(EndedProcess, ReportsStepsOfAnOwnMoveThatLackTheirRun) {

@@ -185,7 +185,7 @@ TEST_F(RecordEnd, OfALogWithoutMarksCannotBeKnown) {
     AlteredLog old(original);
     std::erase_if(old.events(), [](const AlteredLog::Event& event) { return event.channel.ends_with("_MARK"); });
     look_at(old);
-    expect_open("whether the end is missing cannot be known of coordinator, axis X, axis Y");
+    expect_open("for coordinator, axis X, axis Y it is not known whether the end is missing");
 }
 
 TEST_F(RecordEnd, ALossRecordedAtALogsEndIsFound) {

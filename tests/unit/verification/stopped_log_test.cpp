@@ -21,7 +21,7 @@ TEST(StoppedLog, HasTheEmergencyStopAtEachAxissLastStep) {
     const Analysis found = analyze_log(path).value();
     int stopped = 0;
     for (const Event& event : found.happened) {
-        if (event.what.find("pulses ceased at once") == event.what.npos) { continue; }
+        if (event.what.find("pulses stopped at once") == event.what.npos) { continue; }
         for (const auto& axis : found.axes) {
             if (axis->name() == event.axis) { EXPECT_EQ(event.at, axis->statistics().last()->tick) << event.axis; }
         }

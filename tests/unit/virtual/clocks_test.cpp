@@ -164,7 +164,7 @@ TEST_F(TightLimit, NoCoordinatedMoveBeginsWithAClockErrorAboveTheLimit) {
     const Reply reply = run(program_of({{20, 20}}, 20));
     EXPECT_EQ(reply.status, ReplyStatus::Refused);
     EXPECT_EQ(reply.fault, FaultCode::ClockUncertain);
-    EXPECT_NE(reply.text.find("axis X: its clock may be"), std::string::npos) << reply.text;
+    EXPECT_NE(reply.text.find("axis X: its clock error may be"), std::string::npos) << reply.text;
     EXPECT_NE(reply.text.find("timing.clock_error_limit_us is 1)"), std::string::npos) << reply.text;
 }
 

@@ -106,7 +106,7 @@ TEST_F(Overridden, ValuesOutsideTenToTwoHundredPercentAreRefused) {
     for (const int percent : {1, 9, 201, 65'535}) {
         const Reply reply = turn({.feed_percent = percent});
         EXPECT_EQ(reply.status, ReplyStatus::Refused);
-        EXPECT_NE(reply.text.find("not within 10 to 200 %"), std::string::npos) << reply.text;
+        EXPECT_NE(reply.text.find("must be from 10 to 200 %"), std::string::npos) << reply.text;
     }
     EXPECT_EQ(turn({.feed_percent = 50, .rapid_percent = 300}).status, ReplyStatus::Refused);
     EXPECT_EQ(vm.state()->overrides, Overrides{});

@@ -204,7 +204,7 @@ TEST_F(OwnMoves, AMoveInTooShortATimeIsRefusedWithTheMinimum) {
     EXPECT_EQ(why(reply), FaultCode::BadProgram);
     // Reaching full speed and braking take 0.09 s each, with 81 mm at full speed between. Half a second leaves 0.32 s
     // for that.
-    EXPECT_NE(reply.text.find("90 mm in 0.5 s would break the limits of axis X: it takes at least 0.981"),
+    EXPECT_NE(reply.text.find("90 mm in 0.5 s would exceed the limits of axis X: the move takes at least 0.981"),
               std::string::npos)
         << reply.text;
     EXPECT_NE(reply.text.find("in 0.5 s at most 41.9"), std::string::npos) << reply.text;

@@ -46,10 +46,10 @@ TEST_F(TokenFile, IsMadeOnceAndForItsUserAlone) {
 TEST_F(TokenFile, ThatOthersCanReadIsRefused) {
     ASSERT_TRUE(tokens_of_file(file));
     std::filesystem::permissions(file, std::filesystem::perms{0640});
-    EXPECT_THAT(error(), HasSubstr("others than this user can read it"));
+    EXPECT_THAT(error(), HasSubstr("other users can read it"));
     std::filesystem::remove(file);
     std::filesystem::create_symlink(directory.path() / "elsewhere", file);
-    EXPECT_THAT(error(), HasSubstr("others than this user can read it")) << "a link may lead anywhere";
+    EXPECT_THAT(error(), HasSubstr("other users can read it")) << "a link may lead anywhere";
 }
 
 TEST_F(TokenFile, ThatIsNotInItsFormIsRefusedWithTheForm) {

@@ -170,7 +170,7 @@ TEST_F(StateBoard, RefusesStatesOfAnotherAxis) {
     StateBoardReader listener = reader();
     axis.write(state_of(1, 1));
     EXPECT_THAT(read_from(listener), IsEmpty());
-    EXPECT_THAT(listener.refusals().last, HasSubstr("the part of axis 0 is not a state of that axis"));
+    EXPECT_THAT(listener.refusals().last, HasSubstr("the part of axis 0 does not contain a state of that axis"));
 }
 
 TEST_F(StateBoard, DamagedIsRefusedOrHarmless) {

@@ -128,10 +128,10 @@ TEST_F(GrblSender, WritesSettingsThatAreInForceAfterARestart) {
     ASSERT_TRUE(eventually([&] { return ::access(terminal_.c_str(), R_OK | W_OK) == 0; }));
     auto sender = Sender::over_terminal(terminal_);
     ASSERT_TRUE(sender);
-    EXPECT_TRUE(sender->answers("$110=3000", "[MSG:$110 is kept; in force when the machine is next brought up]"));
+    EXPECT_TRUE(sender->answers("$110=3000", "[MSG:$110 is stored and applies after: lockstep down; lockstep up]"));
     EXPECT_TRUE(sender->receives("ok"));
     EXPECT_TRUE(sender->answers("$$", "$110=3000.000"));
-    EXPECT_TRUE(sender->receives("[MSG:$110 in force when the machine is next brought up]"));
+    EXPECT_TRUE(sender->receives("[MSG:$110 applies after: lockstep down; lockstep up]"));
     EXPECT_TRUE(sender->answers("$110=1", "below start_velocity_mm_s 10"));
     EXPECT_TRUE(sender->receives("error:101"));
     EXPECT_TRUE(sender->answers("$0=5", "error:100"));

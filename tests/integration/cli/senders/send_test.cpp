@@ -20,7 +20,7 @@ protected:
         bring_up();
         terminal_ = (folder() / "grbl").string();
         grbl_.emplace(LOCKSTEP_GRBL, Words{"--port", kPort, "--pty", terminal_});
-        ASSERT_TRUE(eventually([&] { return grbl_->out().contains("takes grbl's protocol"); }));
+        ASSERT_TRUE(eventually([&] { return grbl_->out().contains("accepts grbl's protocol"); }));
     }
     void TearDown() override {
         grbl_->signal(SIGTERM);

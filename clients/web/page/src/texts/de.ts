@@ -12,15 +12,15 @@ export const de: Texts = {
   },
   link: {
     lost: "Seit {age} keine Verbindung zum Server. Alle Werte sind die zuletzt bekannten.",
-    stale: "Die Steuerung schweigt seit {age}. Alle Werte sind die zuletzt bekannten.",
-    unreachable: "Keine Steuerung wird empfangen. Alle Werte sind die zuletzt bekannten.",
-    never: "Noch keine Steuerung wurde empfangen. Starte die Maschine: lockstep up",
-    configDiffers: "Die Steuerung läuft mit einer anderen Konfiguration, als dieser Server liest: Orte und Grenzen können falsch sein.",
-    standby: "Eine Ersatzsteuerung steht bereit", viewers: "{count} sehen zu", writer: "Befehle: {name}",
+    stale: "Die Steuerung sendet seit {age} nichts. Alle Werte sind die zuletzt bekannten.",
+    unreachable: "Es kommen keine Nachrichten einer Steuerung an. Alle Werte sind die zuletzt bekannten.",
+    never: "Bisher kamen keine Nachrichten einer Steuerung an. Starte die Maschine: lockstep up",
+    configDiffers: "Die Steuerung hat eine andere Konfiguration als dieser Server: Positionen und Grenzen können falsch sein.",
+    standby: "Eine Ersatzsteuerung steht bereit", viewers: "{count} Betrachter", writer: "Befehle: {name}",
     writerHere: "Befehle: der Server dieser Seite", viewOnly: "Nur ansehen",
   },
   writer: {
-    other: "Seit {time} gibt {name} auf {host} der Maschine die Befehle. Anhalten und stoppen kannst du sie.",
+    other: "Seit {time} gibt {name} auf {host} die Befehle für die Maschine. Du kannst sie anhalten und stoppen.",
     take: "Übernehmen",
   },
   mode: {
@@ -34,36 +34,36 @@ export const de: Texts = {
   commands: {
     home: "Referenz", homeAxis: "Referenzfahrt {axis}", run: "Start", hold: "Halt", resume: "Weiter", stop: "Stopp", stops: "Halt und Stopp",
     estop: "Not-Halt", reset: "Quittieren", refused: "Abgelehnt: {title}", noAnswer: "Der Server antwortet nicht.",
-    noAnswerRemedy: "Prüfe die Verbindung. Die Achsen bremsen von selbst, wenn eine Handfahrt nicht mehr erneuert wird.",
+    noAnswerRemedy: "Prüfe die Verbindung. Die Achsen einer Handfahrt bremsen von selbst, wenn die Seite sie nicht mehr erneuert.",
     remedy: "Abhilfe: {remedy}", place: "{place}: {value}", limit: "erlaubt: {limit}",
-    estopHint: "Die Pulse enden sofort. Dies ist keine Sicherheitsfunktion: die Motoren bleiben unter Spannung.",
+    estopHint: "Die Pulse enden sofort. Dies ist keine Sicherheitsfunktion, denn die Motoren bleiben unter Spannung.",
   },
   alarms: {
     title: "Meldungen", fault: "Fehler", warning: "Warnung", axis: "Achse {axis}", axes: "Achsen {axes}", ended: "Der letzte Auftrag endete vorzeitig",
   },
   axes: {
     title: "Achsen", machine: "Maschine", work: "Werkstück {system}", coordinates: "Koordinaten", homed: "Referenziert",
-    notHomed: "Nicht referenziert", missing: "Nicht empfangen", unproved: "Lage nicht bewiesen: {cause}", age: "Alter", slack: "Vorlauf", late: "Verzug",
+    notHomed: "Nicht referenziert", missing: "Nicht empfangen", unproved: "Position nicht bestätigt: {cause}", age: "Alter", slack: "Vorlauf", late: "Verzug",
     skew: "Versatz", clock: "Uhr", following: "Schleppfehler: {steps} Schritte", now: "< 1 s",
     hints: {
-      age: "Der Werte dieser Achse", slack: "So lange vor ihrem Beginn kam die letzte Vorgabe mindestens, ms",
-      late: "Schritt neben seiner befohlenen Zeit, höchstens, µs", skew: "Zwischen Schritten zweier Achsen, höchstens, µs",
-      clock: "Die Maschinenzeit weicht höchstens so weit ab, µs",
+      age: "Alter der Werte dieser Achse", slack: "Kürzeste Zeit von der Ankunft einer Vorgabe bis zu ihrem Beginn, ms",
+      late: "Größte Abweichung eines Schritts von seiner befohlenen Zeit, µs", skew: "Größter Versatz zwischen Schritten zweier Achsen, µs",
+      clock: "Größter möglicher Fehler der Maschinenzeit dieser Achse, µs",
     },
   },
   jog: {
-    title: "Handfahrt", velocity: "Tempo", distance: "Strecke", continuous: "Dauernd", keys: "Pfeiltasten, Bild auf und Bild ab, solange der Fokus hier ist",
+    title: "Handfahrt", velocity: "Tempo", distance: "Strecke", continuous: "Dauernd", keys: "Pfeiltasten, Bild auf und Bild ab verfahren die Achsen, solange der Fokus hier ist",
     move: "{axis} {sign} fahren", plus: "plus", minus: "minus",
     ended: "Die Maschine hat die Handfahrt beendet. Drücke erneut.", blocked: "Zuerst {axes} referenzieren",
   },
   path: {
     title: "Bahn", twoD: "2D", threeD: "3D", fit: "Einpassen", follow: "Dem Kopf folgen", empty: "Lade ein Programm, um seine Bahn zu sehen.",
-    label: "Bahn des Programms. Pfeiltasten verschieben oder drehen sie, Plus und Minus vergrößern, 0 passt sie ein.", segments: "{count} Strecken", ahead: "Voraus", rapid: "Eilgang",
+    label: "Bahn des Programms. Pfeiltasten verschieben oder drehen sie, Plus und Minus vergrößern, 0 passt sie in die Ansicht ein.", segments: "{count} Strecken", ahead: "Voraus", rapid: "Eilgang",
     done: "Erledigt",
   },
-  strip: { title: "Letzte {seconds} s", velocity: "Tempo", position: "Lage", unit: { velocity: "mm/s", position: "mm" } },
+  strip: { title: "Letzte {seconds} s", velocity: "Tempo", position: "Position", unit: { velocity: "mm/s", position: "mm" } },
   job: {
-    title: "Auftrag", none: "Noch kein Auftrag", left: "noch", progress: "Fortschritt", waits: "Ruht auf der Bahn, bis mehr vom Programm ankommt",
+    title: "Auftrag", none: "Noch kein Auftrag", left: "noch", progress: "Fortschritt", waits: "Die Achsen ruhen auf der Bahn, bis mehr vom Programm ankommt",
     line: "Zeile {line}", outcome: { Done: "Fertig", Stopped: "Gestoppt", Failed: "Fehlgeschlagen" },
     kind: { home: "Referenzfahrt", move: "Fahrt", run: "Programm", "own-move": "Fahrt einer Achse", jog: "Handfahrt" },
     number: "Auftrag {number}", held: "Angehalten in Zeile {line}", braking: "Bremst …",
@@ -74,9 +74,9 @@ export const de: Texts = {
   },
   overrides: { title: "Anpassung", feed: "Vorschub", rapid: "Eilgang", normal: "100 %", unit: "%" },
   program: {
-    title: "Programm", load: "Programm laden", drop: "Lege eine G-Code-Datei hier ab, oder lade sie.", checking: "Prüfe …", none: "Kein Programm ist geladen.",
+    title: "Programm", load: "Programm laden", drop: "Lege eine G-Code-Datei hier ab, oder wähle eine mit „Programm laden“.", checking: "Prüfe …", none: "Kein Programm ist geladen.",
     figures: "{lines} Zeilen, {size}", failed: "{name} wurde nicht geladen", errorAt: "Zeile {line}, Spalte {column}: {message}", error: "{message}",
-    tooLong: "{size}; höchstens {limit}", notes: "{count} Hinweise", noteAt: "Zeile {line}: {text}", follow: "Der Zeile in Ausführung folgen", text: "G-Code",
+    tooLong: "Die Datei hat {size}; erlaubt sind höchstens {limit}", notes: "{count} Hinweise", noteAt: "Zeile {line}: {text}", follow: "Der Zeile in Ausführung folgen", text: "G-Code",
 
   },
   mdi: {

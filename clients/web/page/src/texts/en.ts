@@ -11,10 +11,10 @@ export const en = {
   },
   link: {
     lost: "No connection to the server for {age}. All values are the last known.",
-    stale: "The coordinator is silent for {age}. All values are the last known.",
-    unreachable: "No coordinator is received. All values are the last known.",
-    never: "No coordinator was received yet. Start the machine: lockstep up",
-    configDiffers: "The coordinator runs another configuration than this server reads: places and limits may be wrong.",
+    stale: "The coordinator has been silent for {age}. All values are the last known.",
+    unreachable: "No messages are received from a coordinator. All values are the last known.",
+    never: "No messages have been received from a coordinator yet. Start the machine: lockstep up",
+    configDiffers: "The coordinator runs another configuration than this server reads: positions and limits may be wrong.",
     standby: "A standby coordinator is ready", viewers: "{count} viewing", writer: "Commands: {name}",
     writerHere: "Commands: this page's server", viewOnly: "View only",
   },
@@ -33,36 +33,36 @@ export const en = {
   commands: {
     home: "Home", homeAxis: "Home {axis}", run: "Run", hold: "Hold", resume: "Resume", stop: "Stop", stops: "Hold and stop",
     estop: "Emergency stop", reset: "Reset", refused: "Refused: {title}", noAnswer: "The server does not answer.",
-    noAnswerRemedy: "Check the connection. The axes brake by themselves when a jog is no longer renewed.",
+    noAnswerRemedy: "Check the connection. The axes of a jog brake by themselves when the page no longer renews it.",
     remedy: "Remedy: {remedy}", place: "{place}: {value}", limit: "allowed: {limit}",
-    estopHint: "Pulses cease at once. This is no safety function: it does not cut the power of the motors.",
+    estopHint: "Pulses stop at once. This is not a safety function, because the motors keep their power.",
   },
   alarms: {
     title: "Alarms", fault: "Fault", warning: "Warning", axis: "Axis {axis}", axes: "Axes {axes}", ended: "The last job ended early",
   },
   axes: {
     title: "Axes", machine: "Machine", work: "Work {system}", coordinates: "Coordinates", homed: "Homed",
-    notHomed: "Not homed", missing: "Not received", unproved: "Position not proved: {cause}", age: "Age", slack: "Slack", late: "Late",
+    notHomed: "Not homed", missing: "Not received", unproved: "Position not confirmed: {cause}", age: "Age", slack: "Slack", late: "Late",
     skew: "Skew", clock: "Clock", following: "Following error: {steps} steps", now: "< 1 s",
     hints: {
       age: "Age of this axis's values", slack: "Least time from a setpoint's arrival to its start, ms",
       late: "Largest deviation of a step from its commanded time, µs", skew: "Largest skew between steps of two axes, µs",
-      clock: "Largest error of machine time, µs",
+      clock: "Largest possible error of the axis's machine time, µs",
     },
   },
   jog: {
-    title: "Jog", velocity: "Speed", distance: "Distance", continuous: "Continuous", keys: "Arrow keys, Page Up and Page Down while the focus is here",
+    title: "Jog", velocity: "Speed", distance: "Distance", continuous: "Continuous", keys: "Arrow keys, Page Up and Page Down jog while the focus is here",
     move: "Jog {axis} {sign}", plus: "plus", minus: "minus",
     ended: "The machine ended the jog. Press again.", blocked: "Home {axes} first",
   },
   path: {
     title: "Path", twoD: "2D", threeD: "3D", fit: "Fit", follow: "Follow the head", empty: "Load a program to see its path.",
-    label: "Path of the program. Arrow keys move or turn it, plus and minus zoom, 0 fits it.", segments: "{count} segments", ahead: "Ahead", rapid: "Rapid",
+    label: "Path of the program. Arrow keys move or rotate it, plus and minus zoom, 0 fits it into the view.", segments: "{count} segments", ahead: "Ahead", rapid: "Rapid",
     done: "Done",
   },
   strip: { title: "Last {seconds} s", velocity: "Velocity", position: "Position", unit: { velocity: "mm/s", position: "mm" } },
   job: {
-    title: "Job", none: "No job yet", left: "left", progress: "Progress", waits: "Rests on the path until more of the program arrives",
+    title: "Job", none: "No job yet", left: "left", progress: "Progress", waits: "The axes rest on the path until more of the program arrives",
     line: "Line {line}", outcome: { Done: "Done", Stopped: "Stopped", Failed: "Failed" },
     kind: { home: "Homing", move: "Move", run: "Program", "own-move": "Single-axis move", jog: "Jog" },
     number: "Job {number}", held: "Held at line {line}", braking: "Braking …",
@@ -73,14 +73,14 @@ export const en = {
   },
   overrides: { title: "Overrides", feed: "Feed", rapid: "Rapid", normal: "100 %", unit: "%" },
   program: {
-    title: "Program", load: "Load program", drop: "Drop a G-code file here, or load it.", checking: "Checking …", none: "No program is loaded.",
+    title: "Program", load: "Load program", drop: "Drop a G-code file here, or choose one with Load program.", checking: "Checking …", none: "No program is loaded.",
     figures: "{lines} lines, {size}", failed: "{name} was not loaded", errorAt: "Line {line}, column {column}: {message}", error: "{message}",
-    tooLong: "{size}; at most {limit}", notes: "{count} notes", noteAt: "Line {line}: {text}", follow: "Follow the line in motion", text: "G-code",
+    tooLong: "The file has {size}; it can have at most {limit}", notes: "{count} notes", noteAt: "Line {line}: {text}", follow: "Follow the line in motion", text: "G-code",
 
   },
   mdi: {
-    title: "MDI", label: "One line of G-code", send: "Send", placeholder: "G0 X10 Y10", history: "Lines before", accepted: "accepted", refused: "refused",
-    keys: "Arrow up and down: lines before",
+    title: "MDI", label: "One line of G-code", send: "Send", placeholder: "G0 X10 Y10", history: "Earlier lines", accepted: "accepted", refused: "refused",
+    keys: "Arrow up and down: earlier lines",
   },
   offsets: {
     title: "Offsets", system: "System", active: "active", touch: "Set {axis} to 0 here", edit: "{system}, {axis}", rotation: "Rotation",
