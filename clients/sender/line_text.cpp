@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
-#include <initializer_list>
 
 namespace lockstep::sender {
 namespace {

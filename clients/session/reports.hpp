@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "clients/session/session.hpp"
 #include "core/faults.hpp"

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 #include "clients/scenario/model/problems.hpp"
 #include "core/protocol/names.hpp"
 

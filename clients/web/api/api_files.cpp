@@ -1,7 +1,6 @@
 // The requests for the loaded program, its path and the reports.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 
 #include "clients/web/api/api.hpp"
