@@ -18,7 +18,7 @@ timespec to_timespec(nanoseconds time) {
 
 }  // namespace
 
-void PeriodicLoop::start() { next_ = (monotonic_now() - offset_) / period_ * period_ + offset_; }
+void PeriodicLoop::start() { next_ = monotonic_now() / period_ * period_; }
 
 bool PeriodicLoop::wait_for_next(const StopSignal& stop) {
     const nanoseconds now = monotonic_now();
