@@ -167,11 +167,7 @@ Finding rate_directory(const std::string& what, const std::string& path, const s
 
 namespace {
 
-std::string joined(const std::vector<std::string>& hosts) {
-    std::string text;
-    for (const std::string& host : hosts) { text += (text.empty() ? "" : ", ") + host; }
-    return text;
-}
+std::string joined(const std::vector<std::string>& hosts) { return fmt::format("{}", fmt::join(hosts, ", ")); }
 
 Finding rate_one_process(const ProcessFacts& facts, std::uint64_t config_hash) {
     if (facts.hosts.size() > 1 && !facts.may_be_two) {

@@ -20,12 +20,7 @@ constexpr std::size_t kShortestToken = 16;
 std::string new_token() {
     std::array<unsigned char, kTokenBytes> bytes{};
     if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) { return {}; }
-    std::string token;
-    for (const unsigned char byte : bytes) {
-        token += "0123456789abcdef"[byte >> 4];
-        token += "0123456789abcdef"[byte & 15];
-    }
-    return token;
+    return fmt::format("{:02x}", fmt::join(bytes, ""));
 }
 
 std::expected<Tokens, std::string> read_file(const std::filesystem::path& file) {

@@ -1,4 +1,5 @@
 // lockstep jog
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -110,9 +111,7 @@ ExitCode jog_by_words(Session& session, const JogOptions& options, const std::ve
     const Arrival arrival(session, jogs);
     proto::RunReport report;
     report.set_kind("jog");
-    for (const std::string& word : options.words) {
-        report.set_name(report.name() + (report.name().empty() ? "" : " ") + word);
-    }
+    report.set_name(fmt::format("{}", fmt::join(options.words, " ")));
     JogLink link(session);
     link.press(jogs);
     for (const nanoseconds end = monotonic_now() + kAnswerPatience; link.reply() == nullptr;) {

@@ -44,9 +44,7 @@ std::expected<void, std::string> run_program(const CommandLine& words, const std
     int status = 0;
     waitpid(*pid, &status, 0);
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) { return {}; }
-    std::string text;
-    for (const std::string& word : words) { text += (text.empty() ? "" : " ") + word; }
-    return std::unexpected(text + ": failed; its output:\n" + tail_of(log, 3));
+    return std::unexpected(fmt::format("{}: failed; its output:\n{}", fmt::join(words, " "), tail_of(log, 3)));
 }
 
 std::expected<std::string, std::string> output_of_program(const CommandLine& words) {

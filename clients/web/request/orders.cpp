@@ -210,15 +210,13 @@ const std::vector<std::pair<std::string, Read>>& readers() {
 }
 
 Problem unknown_verb(std::string_view verb) {
-    std::string names;
-    for (const std::string& name : verbs()) { names += (names.empty() ? "" : ", ") + name; }
     return {.status = 404,
             .code = "unknown-verb",
             .title = "there is no such command",
             .detail = "there is no command '" + std::string(verb.substr(0, 100)) + "'",
             .place = "path",
             .value = std::string(verb.substr(0, 100)),
-            .limit = names,
+            .limit = fmt::format("{}", fmt::join(verbs(), ", ")),
             .remedy = "write one of these"};
 }
 
