@@ -12,12 +12,6 @@
 namespace lockstep {
 namespace {
 
-/// False for faults of the whole machine, which belong to no single axis.
-bool is_of_an_axis(FaultCode fault) {
-    return fault != FaultCode::EmergencyStopped && fault != FaultCode::FrameLate &&
-           fault != FaultCode::SecondCoordinator;
-}
-
 bool is_in_motion(MachinePhase phase) { return phase == MachinePhase::Running || phase == MachinePhase::Stopping; }
 
 proto::WriterReport writer_report(const MachineState& state, const MachineConfig& machine) {
