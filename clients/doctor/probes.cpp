@@ -22,6 +22,7 @@
 #include <thread>
 #include <vector>
 
+#include "services/files/descriptor.hpp"
 #include "services/runtime/clock.hpp"
 
 namespace lockstep::doctor {
@@ -49,13 +50,12 @@ std::string try_memory() {
 }
 
 int buffer_given(int option, std::int64_t asked) {
-    const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    const Descriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
     const int wanted = static_cast<int>(asked);
     int given = 0;
     socklen_t size = sizeof given;
-    (void)::setsockopt(socket, SOL_SOCKET, option, &wanted, sizeof wanted);
-    (void)::getsockopt(socket, SOL_SOCKET, option, &given, &size);
-    ::close(socket);
+    (void)::setsockopt(socket.get(), SOL_SOCKET, option, &wanted, sizeof wanted);
+    (void)::getsockopt(socket.get(), SOL_SOCKET, option, &given, &size);
     return given;
 }
 

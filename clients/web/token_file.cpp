@@ -8,8 +8,8 @@
 #include <array>
 #include <fstream>
 
-#include "clients/web/private_file.hpp"
 #include "services/files/directories.hpp"
+#include "services/files/text_file.hpp"
 
 namespace lockstep::web {
 namespace {
@@ -42,7 +42,7 @@ std::expected<Tokens, std::string> read_file(const std::filesystem::path& file) 
 std::expected<Tokens, std::string> make_file(const std::filesystem::path& file) {
     Tokens tokens{.view = new_token(), .operate = new_token()};
     if (tokens.view.empty() || tokens.operate.empty()) { return std::unexpected("this host gives no random numbers"); }
-    const auto made = make_private_file(file, "operate " + tokens.operate + "\nview " + tokens.view + "\n");
+    const auto made = create_text_file(file, "operate " + tokens.operate + "\nview " + tokens.view + "\n", 0600);
     if (!made) { return std::unexpected(made.error() + "; name another place: --token-file FILE"); }
     return tokens;
 }

@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "clients/supervisor/state_directory.hpp"
+#include "services/files/descriptor.hpp"
 
 namespace lockstep::scenario {
 
@@ -48,12 +49,11 @@ std::expected<void, std::string> run_program(const CommandLine& words, const std
 }
 
 std::expected<std::string, std::string> output_of_program(const CommandLine& words) {
-    const int memory = memfd_create("output", MFD_CLOEXEC);
-    const std::filesystem::path log = fmt::format("/proc/self/fd/{}", memory);
+    const Descriptor memory(memfd_create("output", MFD_CLOEXEC));
+    const std::filesystem::path log = fmt::format("/proc/self/fd/{}", memory.get());
     const auto ran = run_program(words, log);
     std::ifstream file(log);
     std::string output{std::istreambuf_iterator<char>(file), {}};
-    close(memory);
     if (!ran) { return std::unexpected(ran.error()); }
     return output;
 }
