@@ -33,7 +33,6 @@
 #include "services/runtime/real_time.hpp"
 #include "services/runtime/service_manager.hpp"
 #include "services/runtime/stop_signal.hpp"
-#include "services/runtime/user_signal.hpp"
 #include "services/security/service_admission.hpp"
 
 namespace lockstep {
