@@ -13,6 +13,7 @@
 #include "services/runtime/end_guard.hpp"
 #include "services/runtime/log.hpp"
 #include "services/runtime/periodic.hpp"
+#include "services/runtime/service_options.hpp"
 #include "sim_fpga/device.hpp"
 
 namespace lockstep {
@@ -77,11 +78,6 @@ std::expected<Board, std::string> set_up(const FpgaOptions& options) {
     return board;
 }
 
-int fail(const std::string& why) {
-    log_error(why);
-    return 1;
-}
-
 }  // namespace
 
 int serve_fpga(const FpgaOptions& options) {
@@ -92,14 +88,14 @@ int serve_fpga(const FpgaOptions& options) {
         return 1;
     }
     auto board = set_up(options);
-    if (!board) { return fail(board.error()); }
+    if (!board) { return end_with_failure(board.error()); }
     PeriodicLoop loop(kPeriod);
     std::expected<void, std::string> well;
     loop.run(stop, [&](std::chrono::nanoseconds) {
         well = board->advance();
         if (!well) { stop.request(); }
     });
-    if (!well) { return fail(well.error()); }
+    if (!well) { return end_with_failure(well.error()); }
     log_info("ended; the loop was late by {} us at worst", loop.worst_lateness().count() / 1000);
     return 0;
 }
