@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <string_view>
 
@@ -15,11 +14,7 @@
 namespace lockstep::doctor {
 namespace {
 
-std::string milliseconds(double us) {
-    char text[32];
-    std::snprintf(text, sizeof text, us < 10'000 ? "%.2f ms" : "%.0f ms", us / 1000);
-    return text;
-}
+std::string milliseconds(double us) { return fmt::format("{:.{}f} ms", us / 1000, us < 10'000 ? 2 : 0); }
 
 }  // namespace
 

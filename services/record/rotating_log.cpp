@@ -1,8 +1,9 @@
 #include "services/record/rotating_log.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <vector>
 
 #include "core/parse_number.hpp"
@@ -44,9 +45,7 @@ std::vector<NumberedFile> files_of(const RotatingLog::Place& place) {
 }
 
 std::string file_name(const std::string& name, std::uint64_t number) {
-    char digits[24];
-    std::snprintf(digits, sizeof digits, "%06llu", static_cast<unsigned long long>(number));
-    return name + "." + digits + ".lcm";
+    return fmt::format("{}.{:06}.lcm", name, number);
 }
 
 /// Claims the first free name from `number` on, because a coordinator and its standby use the same names. If no file
