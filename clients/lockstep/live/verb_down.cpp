@@ -42,8 +42,7 @@ void bring_to_rest(const ChosenMachine& machine, Output& output) {
     if (!moves()) { return; }
     output.print("stopping first ...");
     if (!session->command({.kind = CommandKind::Stop})) { return; }
-    const auto deadline = monotonic_now() + kDownPatience;
-    while (moves() && monotonic_now() < deadline) { session->receive(50ms); }
+    (void)session->receive_until(kDownPatience, [&] { return !moves(); });
     const auto until = monotonic_now() + kLastStates;
     while (monotonic_now() < until) { session->receive(until - monotonic_now()); }
 }
