@@ -95,16 +95,6 @@ ExitCode finish(Session& session, const Arrival& arrival, bool is_released, prot
     return report.outcome() == "done" || report.outcome() == "released" ? kExitDone : kExitFailed;
 }
 
-ExitCode refuse(const Reply& reply, proto::RunReport& report, Output& output) {
-    report.set_outcome("refused");
-    *report.mutable_fault() = fault_report(reply.fault, "");
-    output.report(report);
-    if (!output.json()) {
-        output.warn("jog " + report.name() + ": refused: " + reply.text + "\n" + fault_text(report.fault()));
-    }
-    return kExitFailed;
-}
-
 ExitCode jog_by_words(Session& session, const JogOptions& options, const std::vector<JogAxis>& jogs, Output& output) {
     if (auto axes = session.reach_axes(); !axes) { return output.fail(axes.error()); }
     warn_of_unhomed(session, jogs, output);
@@ -118,7 +108,9 @@ ExitCode jog_by_words(Session& session, const JogOptions& options, const std::ve
         if (monotonic_now() > end) { return output.fail(session.silent()); }
         link.pass(monotonic_now() + 5ms);
     }
-    if (link.reply()->status == ReplyStatus::Refused) { return refuse(*link.reply(), report, output); }
+    if (link.reply()->status == ReplyStatus::Refused) {
+        return print_refusal("jog " + report.name(), *link.reply(), report, output);
+    }
     report.set_job(link.reply()->job);
     const auto released = hold(session, link);
     if (!released) { return output.fail(released.error()); }
