@@ -114,7 +114,7 @@ StallFacts look_for_stalls(nanoseconds period, nanoseconds during, const std::fu
     std::vector<double> late_us;
     const nanoseconds begun = monotonic_now();
     for (nanoseconds next = begun + period; next < begun + during; next += period) {
-        const timespec wake{.tv_sec = next.count() / 1'000'000'000, .tv_nsec = next.count() % 1'000'000'000};
+        const timespec wake = to_timespec(next);
         while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake, nullptr) == EINTR) {}
         late_us.push_back(static_cast<double>((monotonic_now() - next).count()) * 1e-3);
         progress(static_cast<double>((next - begun).count()) / static_cast<double>(during.count()));

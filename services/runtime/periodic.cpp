@@ -7,16 +7,8 @@
 #include "services/runtime/clock.hpp"
 
 namespace lockstep {
-namespace {
 
 using std::chrono::nanoseconds;
-
-timespec to_timespec(nanoseconds time) {
-    constexpr std::int64_t kSecond = 1'000'000'000;
-    return {.tv_sec = time.count() / kSecond, .tv_nsec = time.count() % kSecond};
-}
-
-}  // namespace
 
 void PeriodicLoop::start() { next_ = monotonic_now() / period_ * period_; }
 
