@@ -80,7 +80,7 @@ void Api::load(Request&& request, const Answer& answer) {
         if (!program) { return answer(to_response(program.error())); }
         const Json facts = program_json(*program->facts);
         parts_.desk.load(*std::move(program));
-        answer(json_response(200, facts));
+        answer(json_response(facts));
     });
     if (!taken) { answer(to_response(desk_is_full())); }
 }
@@ -103,7 +103,7 @@ void Api::show_path(Request&& request, const Answer& answer) {
 }
 
 void Api::list_reports(Request&&, const Answer& answer) {
-    const bool taken = parts_.desk.add([this, answer] { answer(json_response(200, parts_.reports.list())); });
+    const bool taken = parts_.desk.add([this, answer] { answer(json_response(parts_.reports.list())); });
     if (!taken) { answer(to_response(desk_is_full())); }
 }
 
