@@ -14,15 +14,6 @@
 namespace lockstep {
 namespace {
 
-std::string user_data(const dds_qos_t* qos) {
-    void* data = nullptr;
-    std::size_t size = 0;
-    if (!dds_qget_userdata(qos, &data, &size) || data == nullptr) { return ""; }
-    std::string text(static_cast<const char*>(data), size);
-    dds_free(data);
-    return text;
-}
-
 /// An axis's partition is PREFIX/NUMBER.
 std::optional<std::uint32_t> axis_in(std::string_view partition, std::string_view prefix) {
     if (!partition.starts_with(prefix) || !partition.substr(prefix.size()).starts_with('/')) { return std::nullopt; }
