@@ -91,9 +91,8 @@ std::expected<Program, std::string> move_program(const MachineConfig& machine, c
             return std::unexpected(checked.error());
         }
     }
-    Program program{.name = "move", .axes = {}, .start_mm = start_mm, .blocks = {{.action = std::move(move)}}};
-    for (const AxisConfig& axis : machine.axes) { program.axes.push_back(axis.name); }
-    return program;
+    return Program{
+        .name = "move", .axes = machine.axis_names(), .start_mm = start_mm, .blocks = {{.action = std::move(move)}}};
 }
 
 }  // namespace lockstep
