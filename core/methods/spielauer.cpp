@@ -89,14 +89,6 @@ double SpielauerSteps::next_s() {
     return static_cast<double>(now_) / parameters_.timer_hz;
 }
 
-std::vector<std::int64_t> spielauer_counts(const StepMove& move, const SpielauerParameters& parameters) {
-    std::vector<std::int64_t> counts;
-    counts.reserve(static_cast<std::size_t>(move.steps));
-    SpielauerSteps steps(move, parameters);
-    while (std::ssize(counts) < move.steps) { counts.push_back(steps.next_count()); }
-    return counts;
-}
-
 StepResult spielauer(const StepMove& move, Fit fit, const SpielauerParameters& parameters) {
     return train_of(SpielauerSteps::of(move, fit, parameters), move.steps);
 }
