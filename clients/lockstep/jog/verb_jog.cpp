@@ -17,6 +17,7 @@
 #include "clients/session/status_text.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/format.hpp"
+#include "core/coordinator/jobs/jogs.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/stop_signal.hpp"
 
@@ -48,8 +49,7 @@ class Arrival {
 public:
     Arrival(const Session& session, const std::vector<JogAxis>& jogs) : jogs_(jogs) {
         for (const JogAxis& jog : jogs) {
-            const std::int64_t here = session.axis(jog.axis)->state.position.count();
-            targets_.push_back(jog_target(session.config().axes[jog.axis], jog, here));
+            targets_.push_back(jog_target(jog, session.config().axes[jog.axis], session.axis(jog.axis)->state));
         }
     }
     bool is_complete(const Session& session) const {
