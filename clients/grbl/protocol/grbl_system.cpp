@@ -135,9 +135,8 @@ void Grbl::print_parameters() {
     const auto places_of = [&](const gcode::Point& point) {
         std::vector<double> places;
         for (const AxisConfig& axis : machine_.axes) {
-            const std::size_t letter =
-                axis.name.size() == 1 ? gcode::kAxisLetters.find(axis.name[0]) : gcode::kAxisLetters.npos;
-            places.push_back(letter == gcode::kAxisLetters.npos ? 0 : point[letter]);
+            const auto letter = gcode::axis_place(axis.name);
+            places.push_back(letter ? point[*letter] : 0);
         }
         return places_text(places, options_.inches);
     };
