@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/methods/adjustments.hpp"
-#include "core/number_text.hpp"
 
 namespace lockstep::methods {
 namespace {

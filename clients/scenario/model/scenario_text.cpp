@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "clients/scenario/model/problems.hpp"
-#include "core/protocol/names.hpp"
 
 namespace lockstep::scenario {
 namespace {

@@ -2,8 +2,6 @@
 
 #include <cstdint>
 
-#include "core/machine.hpp"
-
 namespace lockstep {
 namespace {
 
