@@ -4,6 +4,12 @@
 
 namespace lockstep {
 
+std::vector<std::string> MachineConfig::axis_names() const {
+    std::vector<std::string> names;
+    for (const AxisConfig& axis : axes) { names.push_back(axis.name); }
+    return names;
+}
+
 AxisLimits limits_of(const AxisConfig& axis, std::int64_t tick_ns) {
     const double tick_s = static_cast<double>(tick_ns) * 1e-9;
     const double per_tick = axis.steps_per_mm * tick_s;

@@ -120,6 +120,7 @@ struct MachineConfig {
     std::optional<WebConfig> web;      // none: `lockstep up` starts no page
     std::vector<AxisConfig> axes;
 
+    std::vector<std::string> axis_names() const;
     constexpr double ticks_per_second() const { return 1e9 / static_cast<double>(tick_ns); }
     constexpr double microseconds(Ticks ticks) const {
         return static_cast<double>(ticks.value) * static_cast<double>(tick_ns) * 1e-3;

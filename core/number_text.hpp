@@ -5,8 +5,8 @@
 
 namespace lockstep {
 
-/// With at most nine digits, without trailing zeros.
-std::string number_text(double value);
+/// With at most `digits` digits, without trailing zeros.
+std::string number_text(double value, int digits = 9);
 /// With at most six digits, for limits and remedies in messages.
 std::string short_number(double value);
 

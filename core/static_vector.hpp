@@ -70,13 +70,7 @@ public:
     const T* begin() const { return items_.data(); }
     const T* end() const { return items_.data() + size_; }
 
-    bool operator==(const StaticVector& other) const {
-        if (size_ != other.size_) { return false; }
-        for (std::size_t i = 0; i < size_; ++i) {
-            if (!(items_[i] == other.items_[i])) { return false; }
-        }
-        return true;
-    }
+    bool operator==(const StaticVector& other) const { return std::ranges::equal(*this, other); }
 
 private:
     std::array<T, Capacity> items_;

@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "clients/analysis/analysis.hpp"
 #include "clients/analysis/log/log_read.hpp"

@@ -5,12 +5,13 @@
 #include <netdb.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <bit>
 #include <cerrno>
 #include <cstring>
 #include <memory>
+
+#include "services/files/descriptor.hpp"
 
 namespace lockstep {
 namespace {
@@ -46,17 +47,16 @@ std::expected<Listener, std::string> listen_at(const std::string& address, std::
         return std::unexpected("'" + address + "' is not an IP address; write for example 127.0.0.1, ::1 or 0.0.0.0");
     }
     const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> owned(found, freeaddrinfo);
-    const int made = socket(found->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    Descriptor made(socket(found->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
     const int on = 1;
-    const bool listens = made >= 0 && setsockopt(made, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) == 0 &&
-                         bind(made, found->ai_addr, found->ai_addrlen) == 0 && listen(made, kBacklog) == 0;
+    const bool listens = made.is_open() && setsockopt(made.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) == 0 &&
+                         bind(made.get(), found->ai_addr, found->ai_addrlen) == 0 && listen(made.get(), kBacklog) == 0;
     if (!listens) {
-        const int error = errno;
-        if (made >= 0) { close(made); }
-        const char* remedy = error == EADDRINUSE ? "; choose another port: --port N" : "";
-        return std::unexpected(place + ": " + std::strerror(error) + remedy);
+        const char* remedy = errno == EADDRINUSE ? "; choose another port: --port N" : "";
+        return std::unexpected(place + ": " + std::strerror(errno) + remedy);
     }
-    return Listener{made, port_of(made), is_loopback(found->ai_addr)};
+    const std::uint16_t bound = port_of(made.get());
+    return Listener{made.release(), bound, is_loopback(found->ai_addr)};
 }
 
 }  // namespace lockstep

@@ -4,7 +4,7 @@
 #include <expected>
 #include <string>
 
-#include "clients/channel/descriptor.hpp"
+#include "clients/channel/bytes.hpp"
 
 namespace lockstep {
 

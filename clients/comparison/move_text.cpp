@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <ranges>
 #include <vector>
 
 namespace lockstep::comparison {
@@ -16,11 +17,7 @@ bool read(std::string_view text, Number& value) {
 
 std::vector<std::string_view> split(std::string_view text) {
     std::vector<std::string_view> parts;
-    for (std::size_t comma = text.find(','); comma != text.npos; comma = text.find(',')) {
-        parts.push_back(text.substr(0, comma));
-        text.remove_prefix(comma + 1);
-    }
-    parts.push_back(text);
+    for (const auto part : std::views::split(text, ',')) { parts.emplace_back(part.begin(), part.end()); }
     return parts;
 }
 

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "core/if_positive.hpp"
+#include "services/files/descriptor.hpp"
 #include "services/runtime/clock.hpp"
 
 namespace lockstep::doctor {
@@ -50,13 +51,12 @@ std::string try_memory() {
 }
 
 int buffer_given(int option, std::int64_t asked) {
-    const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    const Descriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
     const int wanted = static_cast<int>(asked);
     int given = 0;
     socklen_t size = sizeof given;
-    (void)::setsockopt(socket, SOL_SOCKET, option, &wanted, sizeof wanted);
-    (void)::getsockopt(socket, SOL_SOCKET, option, &given, &size);
-    ::close(socket);
+    (void)::setsockopt(socket.get(), SOL_SOCKET, option, &wanted, sizeof wanted);
+    (void)::getsockopt(socket.get(), SOL_SOCKET, option, &given, &size);
     return given;
 }
 
@@ -115,7 +115,7 @@ StallFacts look_for_stalls(nanoseconds period, nanoseconds during, const std::fu
     std::vector<double> late_us;
     const nanoseconds begun = monotonic_now();
     for (nanoseconds next = begun + period; next < begun + during; next += period) {
-        const timespec wake{.tv_sec = next.count() / 1'000'000'000, .tv_nsec = next.count() % 1'000'000'000};
+        const timespec wake = to_timespec(next);
         while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake, nullptr) == EINTR) {}
         late_us.push_back(static_cast<double>((monotonic_now() - next).count()) * 1e-3);
         progress(static_cast<double>((next - begun).count()) / static_cast<double>(during.count()));

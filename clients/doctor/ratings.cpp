@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <string_view>
 
@@ -16,11 +15,7 @@
 namespace lockstep::doctor {
 namespace {
 
-std::string milliseconds(double us) {
-    char text[32];
-    std::snprintf(text, sizeof text, us < 10'000 ? "%.2f ms" : "%.0f ms", us / 1000);
-    return text;
-}
+std::string milliseconds(double us) { return fmt::format("{:.{}f} ms", us / 1000, us < 10'000 ? 2 : 0); }
 
 }  // namespace
 
@@ -170,11 +165,7 @@ Finding rate_directory(const std::string& what, const std::string& path, const s
 
 namespace {
 
-std::string joined(const std::vector<std::string>& hosts) {
-    std::string text;
-    for (const std::string& host : hosts) { text += (text.empty() ? "" : ", ") + host; }
-    return text;
-}
+std::string joined(const std::vector<std::string>& hosts) { return fmt::format("{}", fmt::join(hosts, ", ")); }
 
 Finding rate_one_process(const ProcessFacts& facts, std::uint64_t config_hash) {
     if (facts.hosts.size() > 1 && !facts.may_be_two) {

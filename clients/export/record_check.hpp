@@ -3,7 +3,6 @@
 #pragma once
 
 #include <map>
-#include <string>
 #include <utility>
 
 #include "clients/analysis/log/log_step.hpp"

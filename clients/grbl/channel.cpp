@@ -10,11 +10,8 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <utility>
-
-#include "clients/channel/listener.hpp"
 
 namespace lockstep::grbl {
 namespace {
@@ -25,16 +22,7 @@ std::unexpected<std::string> failure(const std::string& what) {
 
 }  // namespace
 
-std::expected<Descriptor, std::string> listen_at(const std::string& address, std::uint16_t port) {
-    const auto listener = lockstep::listen_at(address, port);
-    if (!listener) { return std::unexpected(listener.error()); }
-    return Descriptor(listener->socket);
-}
-
-bool has_waiting(const Descriptor& listener) {
-    pollfd waits{.fd = listener.get(), .events = POLLIN, .revents = 0};
-    return poll(&waits, 1, 0) > 0;
-}
+bool has_waiting(const Descriptor& listener) { return wait_for(listener.get(), POLLIN, 0) != 0; }
 
 std::optional<Descriptor> accept_from(const Descriptor& listener) {
     Descriptor connection(accept4(listener.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));

@@ -1,17 +1,14 @@
 // The two ways to connect a sender: TCP, and a pseudo-terminal in place of a serial line.
 #pragma once
 
-#include <cstdint>
 #include <expected>
 #include <optional>
 #include <string>
 
-#include "clients/channel/descriptor.hpp"
+#include "clients/channel/bytes.hpp"
 
 namespace lockstep::grbl {
 
-/// Listens at the address. The error says why the address cannot be used.
-std::expected<Descriptor, std::string> listen_at(const std::string& address, std::uint16_t port);
 /// Whether a connection waits.
 bool has_waiting(const Descriptor& listener);
 /// Accepts a waiting connection; nullopt if none waits.

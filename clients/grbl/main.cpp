@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "clients/channel/listener.hpp"
 #include "clients/grbl/channel.hpp"
 #include "clients/grbl/machine_link.hpp"
 #include "clients/supervisor/machine_choice.hpp"
@@ -127,9 +128,9 @@ int run(const Options& options) {
     Output output(false);
     auto machine = choose_machine(options.machine_file);
     if (!machine) { return output.fail(machine.error()); }
-    auto listener = grbl::listen_at(options.address, options.port);
+    const auto listener = listen_at(options.address, options.port);
     if (!listener) { return output.fail(failed(listener.error())); }
-    Doors doors{.listener = *std::move(listener), .terminal = {}};
+    Doors doors{.listener = Descriptor(listener->socket), .terminal = {}};
     if (!options.terminal.empty()) {
         auto opened = grbl::Terminal::open(options.terminal);
         if (!opened) { return output.fail(failed(opened.error())); }

@@ -1,16 +1,14 @@
 #include "clients/planning/plan_figures.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 
 namespace lockstep {
 namespace {
 
 std::string in_a_line(const ProgramPlan& plan) {
-    char text[160];
-    std::snprintf(text, sizeof text, "%d moves · %.2f s · %.1f mm along the path", plan.moves, plan.duration_s,
-                  plan.length_mm);
-    return text;
+    return fmt::format("{} moves · {:.2f} s · {:.1f} mm along the path", plan.moves, plan.duration_s, plan.length_mm);
 }
 
 std::size_t place_of(const MachineConfig& machine, const std::string& name, std::size_t otherwise) {

@@ -4,7 +4,6 @@
 
 #include <expected>
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include "clients/analysis/analysis.hpp"

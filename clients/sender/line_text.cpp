@@ -1,9 +1,9 @@
 #include "clients/sender/line_text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
-#include <initializer_list>
 
 namespace lockstep::sender {
 namespace {
@@ -29,9 +29,7 @@ std::string_view trimmed(std::string_view text) {
 bool is_obeyed(unsigned char byte) { return byte == '!' || byte == '?' || byte == '~' || byte == 0x18 || byte > 0x7F; }
 
 std::string name_of(unsigned char byte) {
-    char text[8];
-    std::snprintf(text, sizeof text, byte > 0x20 && byte < 0x7F ? "'%c'" : "0x%02X", byte);
-    return text;
+    return byte > 0x20 && byte < 0x7F ? fmt::format("'{:c}'", byte) : fmt::format("0x{:02X}", byte);
 }
 
 }  // namespace

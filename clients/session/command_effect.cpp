@@ -9,8 +9,6 @@
 namespace lockstep {
 namespace {
 
-using namespace std::chrono_literals;
-
 constexpr std::chrono::seconds kPatience{10};
 
 bool shows_effect(CommandKind command, MachinePhase phase) {
@@ -55,8 +53,7 @@ std::expected<MachinePhase, std::string> await_effect(Session& session, CommandK
         const auto& received = session.state();
         return received && received->time > replied + slot && shows_effect(command, received->state.phase);
     };
-    while (!is_shown() && monotonic_now() - replied < kPatience) { session.receive(50ms); }
-    if (!is_shown()) { return std::unexpected(late_text(session, command)); }
+    if (!session.receive_until(kPatience, is_shown)) { return std::unexpected(late_text(session, command)); }
     const MachineState& state = session.state()->state;
     if (command != CommandKind::Reset || state.phase != MachinePhase::Fault) { return state.phase; }
     const auto fault = fault_of(state, session.config());

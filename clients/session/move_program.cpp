@@ -1,11 +1,11 @@
 #include "clients/session/move_program.hpp"
 
-#include <charconv>
 #include <cmath>
 
 #include "clients/text/format.hpp"
 #include "core/axis_unit.hpp"
 #include "core/gcode/gcode.hpp"
+#include "core/parse_number.hpp"
 #include "services/documents/names.hpp"
 
 namespace lockstep {
@@ -15,10 +15,8 @@ constexpr double kMaxOwnMove_s = 600;
 
 std::optional<double> number(std::string_view text) {
     if (text.starts_with('+')) { text.remove_prefix(1); }
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool is_whole = error == std::errc{} && end == text.data() + text.size();
-    return is_whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
+    const auto value = parse_number<double>(text);
+    return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
 std::expected<void, std::string> check_travel(const AxisConfig& axis, double mm) {
@@ -95,9 +93,8 @@ std::expected<Program, std::string> move_program(const MachineConfig& machine, c
             return std::unexpected(checked.error());
         }
     }
-    Program program{.name = "move", .axes = {}, .start_mm = start_mm, .blocks = {{.action = std::move(move)}}};
-    for (const AxisConfig& axis : machine.axes) { program.axes.push_back(axis.name); }
-    return program;
+    return Program{
+        .name = "move", .axes = machine.axis_names(), .start_mm = start_mm, .blocks = {{.action = std::move(move)}}};
 }
 
 }  // namespace lockstep

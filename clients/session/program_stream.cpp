@@ -5,6 +5,8 @@
 #include <iterator>
 #include <utility>
 
+#include "services/documents/program_file.hpp"
+
 namespace lockstep {
 
 ProgramStream::ProgramStream(LineReader lines, const GcodeSetup& setup, std::uint64_t revision)
@@ -53,8 +55,7 @@ ProgramStream::Reading ProgramStream::read_line() {
     } else if (next->state == LineReader::State::Line) {
         take_line(next->line);
     } else if (const auto done = gcode_.finish(); !done) {
-        trouble_ =
-            Diagnostic{.line = done.error().line, .column = done.error().column, .message = done.error().message};
+        trouble_ = to_diagnostics({done.error()}).front();
     }
     is_over_ = trouble_ || gcode_.is_ended() || next->state == LineReader::State::Ends;
     return is_over_ ? Reading::Ends : Reading::Goes;
@@ -63,8 +64,7 @@ ProgramStream::Reading ProgramStream::read_line() {
 void ProgramStream::take_line(std::string_view line) {
     const auto done = gcode_.take(line, ++line_);
     if (!done) {
-        trouble_ =
-            Diagnostic{.line = done.error().line, .column = done.error().column, .message = done.error().message};
+        trouble_ = to_diagnostics({done.error()}).front();
         return;  // the line's blocks before its error are dropped
     }
     std::vector<Block> blocks = gcode_.take_blocks();

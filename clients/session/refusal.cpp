@@ -14,4 +14,12 @@ ExitCode print_refusal(const Reply& reply, Output& output) {
     return kExitFailed;
 }
 
+ExitCode print_refusal(const std::string& title, const Reply& reply, proto::RunReport& report, Output& output) {
+    report.set_outcome("refused");
+    *report.mutable_fault() = fault_report(reply.fault, "");
+    output.report(report);
+    if (!output.json()) { output.warn(title + ": refused: " + reply.text + "\n" + fault_text(report.fault())); }
+    return kExitFailed;
+}
+
 }  // namespace lockstep

@@ -12,12 +12,6 @@
 namespace lockstep {
 namespace {
 
-/// False for faults of the whole machine, which belong to no single axis.
-bool is_of_an_axis(FaultCode fault) {
-    return fault != FaultCode::EmergencyStopped && fault != FaultCode::FrameLate &&
-           fault != FaultCode::SecondCoordinator;
-}
-
 bool is_in_motion(MachinePhase phase) { return phase == MachinePhase::Running || phase == MachinePhase::Stopping; }
 
 proto::WriterReport writer_report(const MachineState& state, const MachineConfig& machine) {
@@ -86,10 +80,10 @@ std::optional<proto::DevicesReport> devices_report(const ProgramDevices& devices
     return report;
 }
 
-std::string fault_text(const proto::FaultReport& fault, std::size_t width) {
+std::string fault_text(const proto::FaultReport& fault) {
     const std::string axis = fault.has_axis() ? "axis " + fault.axis() + ": " : "";
     const std::string what = fmt::format("{}{} ({}): {}", axis, fault.name(), fault.number(), fault.cause());
-    return wrapped("fault: " + what, width, "       ") + "\n" + wrapped("to do: " + fault.remedy(), width, "       ");
+    return wrapped("fault: " + what, 80, "       ") + "\n" + wrapped("to do: " + fault.remedy(), 80, "       ");
 }
 
 proto::AxisStatus axis_status(const AxisConfig& axis, std::int64_t tick_ns, const AxisState* state, bool present) {

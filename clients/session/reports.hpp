@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "clients/session/session.hpp"
 #include "core/faults.hpp"
@@ -19,8 +18,8 @@ proto::FaultReport fault_report(FaultCode fault, const std::string& axis);
 /// The machine's fault; nullopt if there is none.
 std::optional<proto::FaultReport> fault_of(const MachineState& state, const MachineConfig& machine);
 
-/// "axis X: limit-hit (103): a limit switch closed", then the remedy on its own line; within `width` columns.
-std::string fault_text(const proto::FaultReport& fault, std::size_t width = 80);
+/// "axis X: limit-hit (103): a limit switch closed", then the remedy on its own line; within 80 columns.
+std::string fault_text(const proto::FaultReport& fault);
 
 /// The devices that programs have switched; nullopt if all are off and no tool is known.
 std::optional<proto::DevicesReport> devices_report(const ProgramDevices& devices);

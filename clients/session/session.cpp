@@ -79,11 +79,7 @@ bool Session::is_reached() {
 }
 
 std::expected<void, Failure> Session::reach(nanoseconds patience) {
-    const nanoseconds deadline = monotonic_now() + patience;
-    while (!is_reached()) {
-        if (monotonic_now() > deadline) { return std::unexpected(silent()); }
-        receive(50ms);
-    }
+    if (!receive_until(patience, [this] { return is_reached(); })) { return std::unexpected(silent()); }
     return {};
 }
 
@@ -121,14 +117,11 @@ void Session::await_healths(nanoseconds patience) {
 
 std::expected<void, Failure> Session::follow_events(nanoseconds patience) {
     if (!events_) { events_.emplace(viewer_bus().participant); }
-    const nanoseconds deadline = monotonic_now() + patience;
-    while (events_->matched() == 0 || events_->matched() < viewer_bus().machine.matched()) {
-        if (monotonic_now() > deadline) {
-            return std::unexpected(failed("events of programs are not received from every coordinator"));
-        }
-        receive(10ms);
-    }
-    return {};
+    const auto is_matched = [this] {
+        return events_->matched() > 0 && events_->matched() >= viewer_bus().machine.matched();
+    };
+    if (receive_until(patience, is_matched)) { return {}; }
+    return std::unexpected(failed("events of programs are not received from every coordinator"));
 }
 
 std::vector<PublishedEvent> Session::take_events() {
@@ -346,11 +339,7 @@ void Session::feed_and_send() {
 }
 
 std::expected<RevisedValues, Failure> Session::values() {
-    const nanoseconds deadline = monotonic_now() + kAnswerPatience;
-    while (!values_) {
-        if (monotonic_now() > deadline) { return std::unexpected(silent()); }
-        receive(50ms);
-    }
+    if (!receive_until(kAnswerPatience, [this] { return values_.has_value(); })) { return std::unexpected(silent()); }
     auto values = values_from_bytes(values_->bytes);
     if (!values) { return std::unexpected(failed("the coordinator's offsets and tools: " + values.error())); }
     return *std::move(values);
@@ -363,16 +352,10 @@ std::optional<RevisedValues> Session::newest_values() const {
 }
 
 std::expected<void, Failure> Session::await_kept(std::uint64_t revision) {
-    const nanoseconds deadline = monotonic_now() + kDiskPatience;
-    while (!is_kept(revision)) {
-        if (monotonic_now() > deadline) {
-            return std::unexpected(
-                failed("the coordinator has not reported that the offsets and tools are on its disk; they may be lost "
-                       "when the coordinator ends; its log names the reason"));
-        }
-        receive(50ms);
-    }
-    return {};
+    if (receive_until(kDiskPatience, [&] { return is_kept(revision); })) { return {}; }
+    return std::unexpected(
+        failed("the coordinator has not reported that the offsets and tools are on its disk; they may be lost "
+               "when the coordinator ends; its log names the reason"));
 }
 
 }  // namespace lockstep

@@ -19,6 +19,7 @@
 #include "core/protocol/axis_health.hpp"
 #include "core/protocol/messages.hpp"
 #include "services/documents/values/values_document.hpp"
+#include "services/runtime/clock.hpp"
 #include "services/runtime/stop_signal.hpp"
 #include "services/wire/bus/bus.hpp"
 #include "services/wire/dds/present_processes.hpp"
@@ -63,6 +64,16 @@ public:
     std::vector<PublishedEvent> take_events();
     /// Waits for messages and processes them.
     void receive(std::chrono::nanoseconds at_most);
+    /// Receives until done() returns true, at most for `patience`. Returns whether it did.
+    template <typename Done>
+    bool receive_until(std::chrono::nanoseconds patience, Done done) {
+        const std::chrono::nanoseconds deadline = monotonic_now() + patience;
+        while (!done()) {
+            if (monotonic_now() >= deadline) { return false; }
+            receive(std::chrono::milliseconds{20});
+        }
+        return true;
+    }
 
     const MachineConfig& config() const { return machine_.config; }
     /// True if the coordinator runs another configuration than the client has; its positions and limits may differ.

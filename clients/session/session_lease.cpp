@@ -36,8 +36,7 @@ void Session::give_lease(nanoseconds patience) {
     const auto command = lease_.give(++sequence_);
     if (!command) { return; }
     (void)client_bus().commands.write(*command);
-    const nanoseconds deadline = monotonic_now() + patience;
-    while (!lease_.answer() && monotonic_now() < deadline) { receive(10ms); }
+    (void)receive_until(patience, [this] { return lease_.answer().has_value(); });
 }
 
 }  // namespace lockstep

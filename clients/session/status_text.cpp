@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "clients/session/record_loss.hpp"
 #include "clients/session/reports.hpp"
@@ -36,10 +34,7 @@ std::string headline(const proto::StatusReport& status) {
 
 std::string row(const std::string& name, const std::string& position, const std::string& velocity,
                 const std::string& state, const std::string& homed) {
-    std::array<char, 160> text{};
-    std::snprintf(text.data(), text.size(), "%-16s %14s %14s   %-12s %s", name.c_str(), position.c_str(),
-                  velocity.c_str(), state.c_str(), homed.c_str());
-    return text.data() + std::string("\n");
+    return fmt::format("{:<16} {:>14} {:>14}   {:<12} {}\n", name, position, velocity, state, homed);
 }
 
 std::string axis_row(const proto::AxisStatus& axis) {
@@ -171,11 +166,9 @@ std::string devices_text(const proto::StatusReport& status) {
 
 std::string progress_bar(const proto::StatusReport& status) {
     const auto filled = static_cast<std::size_t>(std::clamp(status.progress(), 0.0, 1.0) * kBarWidth);
-    std::array<char, 16> part{};
-    std::snprintf(part.data(), part.size(), "%3d %%", percent(status));
     const std::string bar = "[" + std::string(filled, '#') + std::string(kBarWidth - filled, ' ') + "] ";
     const std::string phase = status.phase() == "Running" ? "" : "  " + status.phase();
-    return bar + part.data() + job_parts(status, "  ") + phase;
+    return bar + fmt::format("{:3} %", percent(status)) + job_parts(status, "  ") + phase;
 }
 
 std::string progress_text(const proto::StatusReport& status) {

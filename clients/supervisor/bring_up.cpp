@@ -228,9 +228,7 @@ std::expected<Session, Failure> wait_until_up(const ChosenMachine& machine, cons
 }
 
 bool await_others(Session& session, nanoseconds patience) {
-    const nanoseconds deadline = monotonic_now() + patience;
-    while (!is_whole(session) && monotonic_now() < deadline) { session.receive(100ms); }
-    return is_whole(session);
+    return session.receive_until(patience, [&] { return is_whole(session); });
 }
 
 }  // namespace lockstep

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <expected>
-#include <optional>
-#include <string>
 
 #include "clients/session/session.hpp"
 #include "clients/supervisor/machine_choice.hpp"

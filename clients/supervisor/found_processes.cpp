@@ -4,10 +4,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "clients/supervisor/service_lines.hpp"
 #include "clients/supervisor/state_directory.hpp"
+#include "core/parse_number.hpp"
 
 namespace lockstep {
 namespace {
@@ -24,10 +24,7 @@ std::vector<pid_t> all_processes() {
     std::vector<pid_t> pids;
     std::error_code error;
     for (const auto& entry : fs::directory_iterator("/proc", error)) {
-        const std::string name = entry.path().filename().string();
-        pid_t pid = 0;
-        const auto [end, wrong] = std::from_chars(name.data(), name.data() + name.size(), pid);
-        if (wrong == std::errc{} && end == name.data() + name.size()) { pids.push_back(pid); }
+        if (const auto pid = parse_number<pid_t>(entry.path().filename().string())) { pids.push_back(*pid); }
     }
     return pids;
 }

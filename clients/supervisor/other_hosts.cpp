@@ -70,13 +70,13 @@ OtherHosts::OtherHosts(const AllHosts& all, const MachineConfig& machine, const 
         const pid_t pid = fork();
         if (pid == 0) { become(words, ends[1]); }
         close(ends[1]);
-        remotes_.push_back({host, pid, ends[0]});
+        remotes_.push_back({host, pid, Descriptor(ends[0])});
     }
 }
 
 OtherHosts::~OtherHosts() {
-    for (const Remote& remote : remotes_) {
-        close(remote.output);
+    for (Remote& remote : remotes_) {
+        remote.output = Descriptor();
         if (remote.pid > 0) { waitpid(remote.pid, nullptr, 0); }
     }
 }
@@ -84,7 +84,7 @@ OtherHosts::~OtherHosts() {
 bool OtherHosts::finish(Output& output, std::size_t lines_where_well) {
     bool good = true;
     for (Remote& remote : remotes_) {
-        std::istringstream lines(all_of(remote.output));
+        std::istringstream lines(all_of(remote.output.get()));
         int status = 0;
         const bool ended = remote.pid > 0 && waitpid(remote.pid, &status, 0) == remote.pid;
         remote.pid = 0;

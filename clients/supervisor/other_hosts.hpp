@@ -7,6 +7,7 @@
 
 #include "clients/text/output.hpp"
 #include "core/machine.hpp"
+#include "services/files/descriptor.hpp"
 
 namespace lockstep {
 
@@ -32,7 +33,7 @@ private:
     struct Remote {
         std::string host;
         int pid = 0;
-        int output = -1;
+        Descriptor output;
     };
     std::vector<Remote> remotes_;
 };

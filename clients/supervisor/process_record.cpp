@@ -14,6 +14,7 @@ extern "C" {  // this header of glibc 2.36 lacks it
 #include <sstream>
 
 #include "core/if_positive.hpp"
+#include "services/files/descriptor.hpp"
 #include "services/runtime/clock.hpp"
 
 namespace lockstep {
@@ -24,28 +25,20 @@ class ProcessHandle {
 public:
     explicit ProcessHandle(const ProcessRecord& record) {
         if (!record.pid) { return; }
-        file_ = pidfd_open(*record.pid, 0);
-        if (file_ >= 0 && !is_running(record)) { close(); }  // the number was reused before it was opened
+        file_ = Descriptor(pidfd_open(*record.pid, 0));
+        if (!is_running(record)) { file_ = Descriptor(); }  // the number was reused before it was opened
     }
-    ~ProcessHandle() { close(); }
-    ProcessHandle(const ProcessHandle&) = delete;
-    ProcessHandle& operator=(const ProcessHandle&) = delete;
 
-    bool is_open() const { return file_ >= 0; }
     void signal(int number) const {
-        if (is_open()) { pidfd_send_signal(file_, number, nullptr, 0); }
+        if (file_.is_open()) { pidfd_send_signal(file_.get(), number, nullptr, 0); }
     }
     bool wait(std::chrono::milliseconds time) const {
-        pollfd ended{file_, POLLIN, 0};
-        return !is_open() || poll(&ended, 1, static_cast<int>(time.count())) > 0;
+        pollfd ended{file_.get(), POLLIN, 0};
+        return !file_.is_open() || poll(&ended, 1, static_cast<int>(time.count())) > 0;
     }
 
 private:
-    void close() {
-        if (file_ >= 0) { ::close(file_); }
-        file_ = -1;
-    }
-    int file_ = -1;
+    Descriptor file_;
 };
 
 std::optional<ProcessRecord> record_in(const std::string& line) {

@@ -32,8 +32,6 @@ sigset_t handled_signals() {
     return set;
 }
 
-timespec to_timespec(nanoseconds time) { return {time.count() / 1'000'000'000, time.count() % 1'000'000'000}; }
-
 /// Runs in the child and never returns. The log's file also gets the output from before the program opens its log.
 [[noreturn]] void become(const ServiceLine& line, const std::filesystem::path& log, pid_t parent) {
     prctl(PR_SET_PDEATHSIG, SIGTERM);

@@ -1,31 +1,20 @@
 #include "clients/text/format.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <ctime>
 
 #include "core/axis_unit.hpp"
 
 namespace lockstep {
-namespace {
-
-std::string two_parts(long whole, const char* unit, long part, const char* part_unit) {
-    std::array<char, 48> text{};
-    std::snprintf(text.data(), text.size(), "%ld %s %02ld %s", whole, unit, part, part_unit);
-    return text.data();
-}
-
-}  // namespace
 
 std::string fixed(double value, int digits) {
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "%.*f", digits, value);
-    const std::string_view zeros = "-0.";
-    const std::string_view written = text.data();
-    const bool is_minus_zero = written.starts_with('-') && written.find_first_not_of(zeros) == written.npos;
-    return std::string(is_minus_zero ? written.substr(1) : written);
+    const std::string written = fmt::format("{:.{}f}", value, digits);
+    const bool is_minus_zero = written.starts_with('-') && written.find_first_not_of("-0.") == written.npos;
+    return is_minus_zero ? written.substr(1) : written;
 }
 
 std::string axis_label(const std::string& name) { return is_rotary(name) ? name + " (deg)" : name; }
@@ -33,8 +22,8 @@ std::string axis_label(const std::string& name) { return is_rotary(name) ? name 
 std::string duration_text(double seconds) {
     if (seconds < 59.95) { return fixed(seconds, 1) + " s"; }
     const long whole = std::lround(std::min(seconds, 1e9));
-    return whole < 3600 ? two_parts(whole / 60, "min", whole % 60, "s")
-                        : two_parts(whole / 3600, "h", whole / 60 % 60, "min");
+    return whole < 3600 ? fmt::format("{} min {:02} s", whole / 60, whole % 60)
+                        : fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
 }
 
 std::string wrapped(std::string_view text, std::size_t width, const std::string& indent) {

@@ -4,6 +4,7 @@
 
 #include <iostream>
 
+#include "clients/text/format.hpp"
 #include "idl/proto/report.pb.h"
 #include "services/documents/report_json.hpp"
 #include "services/runtime/clock.hpp"
@@ -45,6 +46,11 @@ void Output::progress(const std::string& line) {
     progress_shown_ = is_terminal_;
     if (!is_terminal_) { std::cout << '\n'; }
     std::cout << std::flush;
+}
+
+std::function<void(double)> Output::percent_on_terminal(const std::string& doing) {
+    if (!is_terminal_) { return {}; }
+    return [this, doing](double done) { progress(doing + " " + fixed(done * 100, 0) + " %"); };
 }
 
 void Output::print(const std::string& line) {

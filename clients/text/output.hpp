@@ -4,6 +4,7 @@
 
 #include <google/protobuf/message.h>
 
+#include <functional>
 #include <string>
 
 #include "clients/text/failure.hpp"
@@ -18,6 +19,8 @@ public:
     bool is_terminal() const { return is_terminal_; }
     /// A progress line: redrawn in place on a terminal, printed once every few seconds elsewhere. Not with JSON.
     void progress(const std::string& line);
+    /// Returns a function that shows "verifying 12 %" on a terminal; empty elsewhere. `doing` is the first word.
+    std::function<void(double)> percent_on_terminal(const std::string& doing);
     /// A permanent line. Not with JSON.
     void print(const std::string& line);
     void warn(const std::string& line);

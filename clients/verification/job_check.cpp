@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "clients/verification/run_difference.hpp"
 #include "core/protocol/frame_room.hpp"

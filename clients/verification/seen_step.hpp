@@ -1,7 +1,6 @@
 // A step of the log, with the uncertainty of its time.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 
 #include "core/step/segment.hpp"

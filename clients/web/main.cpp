@@ -10,7 +10,6 @@
 
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/output.hpp"
-#include "clients/web/private_file.hpp"
 #include "clients/web/site.hpp"
 #include "clients/web/token_file.hpp"
 #include "services/files/directories.hpp"
@@ -86,7 +85,7 @@ std::expected<void, std::string> publish(const Options& options, const std::stri
               << std::flush;
     std::error_code none;
     std::filesystem::remove(options.page_file, none);
-    return web::make_private_file(options.page_file, links);
+    return create_text_file(options.page_file, links, 0600);
 }
 
 /// Serves until a signal asks to end.

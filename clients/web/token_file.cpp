@@ -8,8 +8,8 @@
 #include <array>
 #include <fstream>
 
-#include "clients/web/private_file.hpp"
 #include "services/files/directories.hpp"
+#include "services/files/text_file.hpp"
 
 namespace lockstep::web {
 namespace {
@@ -20,12 +20,7 @@ constexpr std::size_t kShortestToken = 16;
 std::string new_token() {
     std::array<unsigned char, kTokenBytes> bytes{};
     if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) { return {}; }
-    std::string token;
-    for (const unsigned char byte : bytes) {
-        token += "0123456789abcdef"[byte >> 4];
-        token += "0123456789abcdef"[byte & 15];
-    }
-    return token;
+    return fmt::format("{:02x}", fmt::join(bytes, ""));
 }
 
 std::expected<Tokens, std::string> read_file(const std::filesystem::path& file) {
@@ -49,7 +44,7 @@ std::expected<Tokens, std::string> make_file(const std::filesystem::path& file) 
     if (tokens.view.empty() || tokens.operate.empty()) {
         return std::unexpected("this host provides no random numbers");
     }
-    const auto made = make_private_file(file, "operate " + tokens.operate + "\nview " + tokens.view + "\n");
+    const auto made = create_text_file(file, "operate " + tokens.operate + "\nview " + tokens.view + "\n", 0600);
     if (!made) { return std::unexpected(made.error() + "; name another file: --token-file FILE"); }
     return tokens;
 }

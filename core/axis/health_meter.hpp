@@ -3,7 +3,6 @@
 
 #include <array>
 #include <optional>
-#include <vector>
 
 #include "core/axis/step_lateness.hpp"
 #include "core/protocol/axis_health.hpp"

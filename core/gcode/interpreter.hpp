@@ -4,7 +4,6 @@
 // their end has been read. All other lines are run at once, so a program may have any length.
 #pragma once
 
-#include <array>
 #include <map>
 #include <optional>
 #include <set>

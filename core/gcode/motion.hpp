@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -19,6 +20,14 @@ inline constexpr std::string_view kAxisLetters = "XYZABCUVW";
 inline constexpr std::size_t kAxes = kAxisLetters.size();
 using Point = std::array<double, kAxes>;
 using Vector = std::array<double, 3>;  // of X, Y and Z
+
+/// The index in kAxisLetters of an axis; nullopt if G-code cannot name it.
+constexpr std::optional<std::size_t> axis_place(std::string_view name) {
+    if (name.size() != 1) { return std::nullopt; }
+    const char letter = name[0] >= 'a' && name[0] <= 'z' ? static_cast<char>(name[0] - 'a' + 'A') : name[0];
+    const std::size_t place = kAxisLetters.find(letter);
+    return place == std::string_view::npos ? std::nullopt : std::optional(place);
+}
 
 constexpr bool is_turning(std::size_t axis) { return axis >= 3 && axis < 6; }
 

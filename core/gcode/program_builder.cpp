@@ -17,13 +17,6 @@ constexpr double kLeastArc_mm = 1e-5;
 constexpr int kExactPathWord = 610;  // values of Modal::path_mode
 constexpr int kExactStopWord = 611;
 
-std::optional<std::size_t> place_of_name(std::string_view name) {
-    if (name.size() != 1) { return std::nullopt; }
-    const char letter = name[0] >= 'a' && name[0] <= 'z' ? static_cast<char>(name[0] - 'a' + 'A') : name[0];
-    const std::size_t place = kAxisLetters.find(letter);
-    return place == std::string_view::npos ? std::nullopt : std::optional(place);
-}
-
 Point place_in(const GcodeSetup& setup, double GcodeAxis::*coordinate) {
     Point place{};
     const auto places = axis_places(setup);
@@ -38,7 +31,7 @@ Point place_in(const GcodeSetup& setup, double GcodeAxis::*coordinate) {
 std::vector<std::optional<std::size_t>> axis_places(const GcodeSetup& setup) {
     std::vector<std::optional<std::size_t>> places;
     places.reserve(setup.axes.size());
-    for (const GcodeAxis& axis : setup.axes) { places.push_back(place_of_name(axis.name)); }
+    for (const GcodeAxis& axis : setup.axes) { places.push_back(axis_place(axis.name)); }
     return places;
 }
 

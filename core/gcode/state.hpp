@@ -1,7 +1,6 @@
 // The state of a machine for G-code. A program begins with a state and changes it.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>

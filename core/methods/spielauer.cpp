@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/methods/adjustments.hpp"
-#include "core/number_text.hpp"
 
 namespace lockstep::methods {
 namespace {
@@ -87,14 +86,6 @@ std::int64_t SpielauerSteps::next_count() {
 double SpielauerSteps::next_s() {
     now_ += next_count();
     return static_cast<double>(now_) / parameters_.timer_hz;
-}
-
-std::vector<std::int64_t> spielauer_counts(const StepMove& move, const SpielauerParameters& parameters) {
-    std::vector<std::int64_t> counts;
-    counts.reserve(static_cast<std::size_t>(move.steps));
-    SpielauerSteps steps(move, parameters);
-    while (std::ssize(counts) < move.steps) { counts.push_back(steps.next_count()); }
-    return counts;
 }
 
 StepResult spielauer(const StepMove& move, Fit fit, const SpielauerParameters& parameters) {

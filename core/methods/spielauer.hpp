@@ -19,7 +19,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "core/methods/method.hpp"
 
@@ -71,9 +70,6 @@ private:
     double wait_ = 0;  // the last one of a ramp, before rounding
     std::int64_t now_ = 0;
 };
-
-/// The timer counts of each step, in order.
-std::vector<std::int64_t> spielauer_counts(const StepMove& move, const SpielauerParameters& parameters = {});
 
 /// Ignores the start speed: starts and ends at rest. Step k is at position k. Returns an error if it is faster than the
 /// timer.

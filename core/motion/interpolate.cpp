@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/motion/wide_math.hpp"
-
 namespace lockstep {
 namespace {
 

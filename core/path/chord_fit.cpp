@@ -1,6 +1,5 @@
 #include "core/path/chord_fit.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace lockstep {

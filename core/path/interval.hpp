@@ -13,8 +13,6 @@
 // On a straight piece the limits are the same everywhere. It is one interval that accelerates, cruises and brakes.
 #pragma once
 
-#include <span>
-
 #include "core/overrides.hpp"
 #include "core/path/path_setup.hpp"
 #include "core/path/quadratic.hpp"

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <expected>
-#include <optional>
 
 #include "core/path/arc_cutter.hpp"
 #include "core/path/chord_joiner.hpp"

@@ -1,7 +1,6 @@
 // The input of the path planner: lines, arcs and rests, in machine coordinates, with everything modal resolved.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <vector>
 

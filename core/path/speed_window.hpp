@@ -30,12 +30,9 @@ enum class TurnResult : std::uint8_t {
 
 class SpeedWindow {
 public:
-    /// The path begins at rest at `begin`, on the first piece that is added.
-    explicit SpeedWindow(const PathSetup& setup, const Overrides& overrides = {}, const PathSpot& begin = {})
-        : setup_(setup) {
-        restart(overrides, begin);
-    }
-    /// Resets it to a new window. Its memory is kept.
+    explicit SpeedWindow(const PathSetup& setup) : setup_(setup) { restart({}, {}); }
+    /// Resets it to a new window. Its memory is kept. The path begins at rest at `begin`, on the first piece that is
+    /// added.
     void restart(const Overrides& overrides, const PathSpot& begin);
 
     /// Adds a piece that begins where the last one ends. A length of 0 is a rest.

@@ -1,7 +1,6 @@
 // The messages between coordinator, axes and clients, as plain values. The services translate them to DDS.
 #pragma once
 
-#include <array>
 #include <compare>
 #include <cstdint>
 #include <optional>

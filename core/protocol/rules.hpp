@@ -45,9 +45,6 @@ inline constexpr Slot kLastCheckSlots = RULE_LAST_CHECK;
 constexpr Slot slot_of(Tick tick, Ticks slot) { return tick.value / slot.value; }
 constexpr Tick start_of(Slot number, Ticks slot) { return {number * slot.value}; }
 
-/// The slot in which an axis vetoes a frame that starts at `start` if it has not armed it.
-constexpr Slot check_slot(Slot start, const ProtocolTiming& t) { return RULE_CHECK_SLOT(start, t.check_slots()); }
-
 enum class CheckTime { Early, Due, TooLate };
 
 /// Early: a frame that starts at `start` may still wait for evidence. TooLate: the axis may neither arm nor veto it.
@@ -56,10 +53,7 @@ constexpr CheckTime check_time(Slot now, Slot start, const ProtocolTiming& t) {
     return RULE_IS_TOO_LATE(now, start) ? CheckTime::TooLate : CheckTime::Due;
 }
 
-/// The first stamp with which a state is evidence for a frame that starts at `start`.
-constexpr Slot first_evidence_slot(Slot start, const ProtocolTiming& t) {
-    return RULE_FIRST_EVIDENCE(start, t.check_slots(), t.freshness_slots);
-}
+/// Whether a state with this stamp is evidence for a frame that starts at `start`.
 constexpr bool is_evidence(Slot stamp, Slot start, const ProtocolTiming& t) {
     return RULE_IS_EVIDENCE(stamp, start, t.check_slots(), t.freshness_slots);
 }

@@ -4,8 +4,6 @@
 // again, and states may be damaged. A process counts as running after kStatesThatProve current states in a row.
 #pragma once
 
-#include <optional>
-
 #include "core/protocol/rules.hpp"
 
 namespace lockstep {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <iostream>
 #include <memory>
 
 #include "core/protocol/rival.hpp"
@@ -33,7 +32,6 @@
 #include "services/runtime/real_time.hpp"
 #include "services/runtime/service_manager.hpp"
 #include "services/runtime/stop_signal.hpp"
-#include "services/runtime/user_signal.hpp"
 #include "services/security/service_admission.hpp"
 #include "sim_fpga/registers.hpp"
 
@@ -238,11 +236,6 @@ private:
     std::string end_reason_;
 };
 
-int fail(const std::string& why) {
-    log_error(why);
-    return kServiceFailed;
-}
-
 int run(const AxisServiceOptions& options, const MachineConfig& machine, std::size_t axis) {
     StopSignal stop;
     const EndGuard guard(stop);
@@ -252,9 +245,9 @@ int run(const AxisServiceOptions& options, const MachineConfig& machine, std::si
                                 kept_position(machine, axis)};
     const std::string fpga = options.fpga.empty() ? machine.axes[axis].device : options.fpga;
     const auto admission = admit_service(machine, axis_member(machine, axis));
-    if (!admission) { return fail(admission.error()); }
+    if (!admission) { return end_with_failure(admission.error()); }
     auto network = AxisNetwork::open({machine, static_cast<std::uint32_t>(axis), setup.identity, clock, *admission});
-    if (!network) { return fail(network.error()); }
+    if (!network) { return end_with_failure(network.error()); }
     AxisService service(setup, fpga, clock, std::move(*network),
                         open_record(machine, machine.axes[axis].name, options.record));
     log_info("axis " + machine.axes[axis].name + " of machine " + machine.name + " is up, device " + fpga);
@@ -273,41 +266,31 @@ int run(const AxisServiceOptions& options, const MachineConfig& machine, std::si
     service.finish();
     log_info("ends; {} loops skipped, the latest {} us late", periodic.skipped_periods(),
              periodic.worst_lateness().count() / 1000);
-    return service.end_reason().empty() ? kServiceDone : fail(service.end_reason());
+    return service.end_reason().empty() ? kServiceDone : end_with_failure(service.end_reason());
 }
 
 }  // namespace
 
 int serve_axis(const AxisServiceOptions& options) {
     const auto loaded = load_machine(options.machine_file);
-    if (!loaded) {
-        std::cerr << to_text(options.machine_file.string(), loaded.error());
-        return kServiceBadInput;
-    }
+    if (!loaded) { return end_with_bad_input(to_text(options.machine_file.string(), loaded.error())); }
     const MachineConfig& machine = loaded->config;
     const auto axis = axis_to_run(machine, options.axis, host_name());
-    if (!axis) {
-        std::cerr << options.machine_file.string() << ": " << axis.error() << '\n';
-        return kServiceBadInput;
-    }
+    if (!axis) { return end_with_bad_input(options.machine_file.string() + ": " + axis.error()); }
     const AxisConfig& config = machine.axes[*axis];
     const bool simulated = (options.fpga.empty() ? config.device : options.fpga) == "sim";
     if (options.clock_error != ClockError{} && machine.timing.time_source != TimeSource::Network) {
-        std::cerr << "--clock-error needs time_source: NETWORK; with the machine's time_source nothing would correct "
-                     "the clock\n";
-        return kServiceBadInput;
+        return end_with_bad_input(
+            "--clock-error needs time_source: NETWORK; with the machine's time_source nothing would correct the clock");
     }
     if (options.clock_error != ClockError{} && !simulated) {
-        std::cerr << "--clock-error needs --fpga sim, because the clock of lockstep-fpga has no error\n";
-        return kServiceBadInput;
+        return end_with_bad_input("--clock-error needs --fpga sim, because the clock of lockstep-fpga has no error");
     }
     if (!options.fpga.empty() && !is_device_name(options.fpga)) {
-        std::cerr << "--fpga " << options.fpga << ": it must be sim, shm:NAME or uio:PATH\n";
-        return kServiceBadInput;
+        return end_with_bad_input("--fpga " + options.fpga + ": it must be sim, shm:NAME or uio:PATH");
     }
     if (auto log = open_log({"axis", config.name, options.log_file, true}); !log) {
-        std::cerr << log.error() << '\n';
-        return kServiceBadInput;
+        return end_with_bad_input(log.error());
     }
     if (!loaded->settings.empty()) { log_info(settings_notice(loaded->settings)); }
     return run(options, machine, *axis);

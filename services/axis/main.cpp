@@ -1,6 +1,5 @@
 // lockstep-axis: the command line.
 #include <CLI/CLI.hpp>
-#include <iostream>
 
 #include "services/axis/axis_service.hpp"
 
@@ -32,10 +31,7 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? 0 : lockstep::kServiceBadInput; }
     options.record = !no_lcm;
     const auto error = lockstep::parse_clock_error(clock_error);
-    if (!error) {
-        std::cerr << "--clock-error: " << error.error() << '\n';
-        return lockstep::kServiceBadInput;
-    }
+    if (!error) { return lockstep::end_with_bad_input("--clock-error: " + error.error()); }
     options.clock_error = *error;
     return lockstep::serve_axis(options);
 }

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <charconv>
 #include <deque>
-#include <iostream>
 #include <memory>
 
 #include "core/coordinator/coordinator.hpp"
@@ -33,19 +31,12 @@
 #include "services/runtime/real_time.hpp"
 #include "services/runtime/service_manager.hpp"
 #include "services/runtime/stop_signal.hpp"
-#include "services/runtime/user_signal.hpp"
 #include "services/security/service_admission.hpp"
 
 namespace lockstep {
 namespace {
 
 using std::chrono::nanoseconds;
-
-std::string hash_text(std::uint64_t hash) {
-    std::array<char, 16> digits{};
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), hash, 16).ptr;
-    return {digits.data(), end};
-}
 
 void report_unwritten_values(const std::string& why) {
     log_error("the machine's offsets and tools are not kept: " + why +
@@ -252,9 +243,9 @@ private:
             const std::uint64_t hash = config_hashes_[axis];
             if (!has_axis(received_axes_, axis) || hash == config_hash_) { continue; }
             log_warning(
-                "axis " + axis_name(axis) + " runs configuration " + hash_text(hash) + ", this coordinator " +
-                hash_text(config_hash_) +
-                ": the machine does not move; give all hosts the same machine file, then: lockstep down; lockstep up");
+                "axis {} runs configuration {:x}, this coordinator {:x}: the machine does not move; give all hosts the "
+                "same machine file, then: lockstep down; lockstep up",
+                axis_name(axis), hash, config_hash_);
         }
         received_axes_ = 0;
         if (const std::uint64_t lost = sink_->failures(); lost != lost_records_) {
@@ -296,11 +287,6 @@ private:
     std::uint64_t lost_records_ = 0;
 };
 
-int fail(const std::string& why) {
-    log_error(why);
-    return kServiceFailed;
-}
-
 /// Chooses where programs are stored. The LAI method plans a program as a whole, so it keeps it in memory.
 MakeRows rows_of(const MachineConfig& machine, std::int64_t limit_mb) {
     constexpr std::uint64_t kBytesPerMB = 1'000'000;
@@ -320,10 +306,10 @@ int run(const CoordinatorServiceOptions& options, const MachineConfig& machine, 
     for (const std::string& line : ask_for_real_time(machine.real_time)) { log_info(line); }
     const Member member = options.second ? standby_member() : coordinator_member();
     const auto admission = admit_service(machine, member);
-    if (!admission) { return fail(admission.error()); }
+    if (!admission) { return end_with_failure(admission.error()); }
     auto network =
         CoordinatorNetwork::open({machine, MachineClock(machine.tick_ns, machine.timing.time_source), *admission});
-    if (!network) { return fail(network.error()); }
+    if (!network) { return end_with_failure(network.error()); }
     const auto identity = static_cast<Identity>(MachineClock(machine.tick_ns, machine.timing.time_source).now().value);
     CoordinatorService service(machine, identity, std::move(*network), std::move(values),
                                open_record(machine, "", options.record),
@@ -357,24 +343,20 @@ int run(const CoordinatorServiceOptions& options, const MachineConfig& machine, 
 
 int serve_coordinator(const CoordinatorServiceOptions& options) {
     const auto loaded = load_machine(options.machine_file);
-    if (!loaded) {
-        std::cerr << to_text(options.machine_file.string(), loaded.error());
-        return kServiceBadInput;
-    }
+    if (!loaded) { return end_with_bad_input(to_text(options.machine_file.string(), loaded.error())); }
     const MachineConfig& machine = loaded->config;
     if (options.standby && machine.timing.time_source == TimeSource::Network) {
-        std::cerr << "--standby: the machine's time_source is NETWORK, so its time is the coordinator's own clock, and "
-                     "the clock of another host cannot continue it; use SHARED (one host) or PTP\n";
-        return kServiceBadInput;
+        return end_with_bad_input(
+            "--standby: the machine's time_source is NETWORK, so its time is the coordinator's own clock, and "
+            "the clock of another host cannot continue it; use SHARED (one host) or PTP");
     }
     if (options.on_takeover == OnTakeover::Continue && machine.coordination == StepMethod::Lai) {
-        std::cerr << "--on-takeover continue: coordination LAI plans a block in parts, and another "
-                     "coordinator cannot distinguish them; use stop, or coordination: RANADE\n";
-        return kServiceBadInput;
+        return end_with_bad_input(
+            "--on-takeover continue: coordination LAI plans a block in parts, and another "
+            "coordinator cannot distinguish them; use stop, or coordination: RANADE");
     }
     if (auto log = open_log({"coordinator", "", options.log_file, true}); !log) {
-        std::cerr << log.error() << '\n';
-        return kServiceBadInput;
+        return end_with_bad_input(log.error());
     }
     if (!loaded->settings.empty()) { log_info(settings_notice(loaded->settings)); }
     auto values = read_values(values_file(machine.name));

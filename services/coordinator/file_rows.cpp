@@ -72,7 +72,6 @@ FileRows::~FileRows() {
     sem_post(&news_);
     if (thread_.joinable()) { thread_.join(); }
     sem_destroy(&news_);
-    if (file_ >= 0) { close(file_); }
 }
 
 std::uint64_t FileRows::free_rows() {
@@ -230,22 +229,22 @@ std::optional<FileRows::Work> FileRows::next_work() {
 }
 
 bool FileRows::open() {
-    if (file_ < 0) { file_ = open_unnamed(directory_); }
-    return file_ >= 0;
+    if (!file_.is_open()) { file_ = Descriptor(open_unnamed(directory_)); }
+    return file_.is_open();
 }
 
 /// Writes nothing more after a failed write.
 void FileRows::carry_out(Work& work) {
     const auto bytes = std::as_writable_bytes(work.rows);
     if (work.is_write && write_error_ == 0) {
-        const bool is_written = open() && write_all(file_, bytes, offset_of(work.page));
+        const bool is_written = open() && write_all(file_.get(), bytes, offset_of(work.page));
         write_error_ = is_written ? 0 : errno;
     }
     if (work.is_write) {
         work.error = write_error_;
         return;
     }
-    const bool is_read = read_all(file_, bytes, offset_of(work.page));
+    const bool is_read = read_all(file_.get(), bytes, offset_of(work.page));
     work.error = is_read ? 0 : errno;
 }
 

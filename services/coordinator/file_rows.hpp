@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/coordinator/program/row_store.hpp"
+#include "services/files/descriptor.hpp"
 
 namespace lockstep {
 
@@ -91,7 +92,7 @@ private:
     sem_t news_;  // std::counting_semaphore of GCC 12's library can lose a wake-up (GCC bug 104928)
 
     // Of the disk thread:
-    int file_ = -1;
+    Descriptor file_;
     int write_error_ = 0;
     std::jthread thread_;  // starts when more than kUnwrittenPages / 2 pages are unwritten
 };

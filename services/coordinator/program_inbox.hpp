@@ -5,7 +5,6 @@
 #include <deque>
 #include <expected>
 #include <functional>
-#include <string>
 
 #include "core/coordinator/state/refusal.hpp"
 #include "core/protocol/messages.hpp"

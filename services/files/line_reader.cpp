@@ -24,30 +24,15 @@ std::unexpected<std::string> failure(const std::string& name) {
 
 std::expected<LineReader, std::string> LineReader::open(const std::string& path) {
     const bool is_pipe = path == "-";
-    const int file = is_pipe ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0) { return failure(path); }
-    return LineReader(file, is_pipe ? "standard input" : path);
+    Descriptor file(is_pipe ? fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0) : ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    if (!file.is_open()) { return failure(path); }
+    return LineReader(std::move(file), is_pipe ? "standard input" : path);
 }
 
-LineReader::LineReader(int file, std::string name) : file_(file), name_(std::move(name)) {
+LineReader::LineReader(Descriptor file, std::string name) : file_(std::move(file)), name_(std::move(name)) {
     struct stat status {};
-    is_file_ = fstat(file_, &status) == 0 && S_ISREG(status.st_mode);
+    is_file_ = fstat(file_.get(), &status) == 0 && S_ISREG(status.st_mode);
     bytes_ = is_file_ ? static_cast<std::uint64_t>(status.st_size) : 0;
-}
-
-LineReader::LineReader(LineReader&& other) noexcept
-    : file_(std::exchange(other.file_, -1)),
-      name_(std::move(other.name_)),
-      is_file_(other.is_file_),
-      bytes_(other.bytes_),
-      read_(other.read_),
-      buffer_(std::move(other.buffer_)),
-      at_(other.at_),
-      is_at_end_(other.is_at_end_),
-      is_begun_(other.is_begun_) {}
-
-LineReader::~LineReader() {
-    if (file_ > STDIN_FILENO) { close(file_); }
 }
 
 double LineReader::share_read() const {
@@ -57,12 +42,12 @@ double LineReader::share_read() const {
 
 /// Reads the next bytes. Returns false if none are available now.
 std::expected<bool, std::string> LineReader::fill() {
-    pollfd wait{.fd = file_, .events = POLLIN, .revents = 0};
+    pollfd wait{.fd = file_.get(), .events = POLLIN, .revents = 0};
     if (!is_file_ && poll(&wait, 1, 0) == 0) { return false; }
     buffer_.erase(0, std::exchange(at_, 0));
     const std::size_t before = buffer_.size();
     buffer_.resize(before + kAtOnce);
-    const ssize_t size = ::read(file_, buffer_.data() + before, kAtOnce);
+    const ssize_t size = ::read(file_.get(), buffer_.data() + before, kAtOnce);
     buffer_.resize(before + static_cast<std::size_t>(std::max<ssize_t>(size, 0)));
     if (size < 0 && (errno == EINTR || errno == EAGAIN)) { return false; }
     if (size < 0) { return failure(name_); }

@@ -4,10 +4,11 @@
 
 #include <cstdint>
 #include <expected>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include "services/files/descriptor.hpp"
 
 namespace lockstep {
 
@@ -15,9 +16,6 @@ class LineReader {
 public:
     /// "-" is standard input. Error: why the file cannot be opened.
     static std::expected<LineReader, std::string> open(const std::string& path);
-    LineReader(LineReader&& other) noexcept;
-    LineReader& operator=(LineReader&&) = delete;
-    ~LineReader();
 
     enum class State : std::uint8_t { Line, Waits, Ends };
     struct Next {
@@ -35,11 +33,11 @@ public:
     static constexpr std::size_t kMostLineBytes = 1 << 20;
 
 private:
-    explicit LineReader(int file, std::string name);
+    LineReader(Descriptor file, std::string name);
     std::expected<bool, std::string> fill();
     std::optional<std::string_view> cut_line();
 
-    int file_ = -1;
+    Descriptor file_;
     std::string name_;
     bool is_file_ = false;
     std::uint64_t bytes_ = 0;  // size of the file when it was opened

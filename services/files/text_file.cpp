@@ -11,6 +11,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "services/files/descriptor.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -26,33 +28,10 @@ Diagnostic zero_byte(std::string_view text, std::size_t at) {
             .message = "the byte 0x00 is here: the file is not text, or is damaged"};
 }
 
-/// A file descriptor that closes itself.
-class File {
-public:
-    File(const std::filesystem::path& path, int flags) : file_(::open(path.c_str(), flags | O_CLOEXEC, 0644)) {}
-    File(const File&) = delete;
-    File& operator=(const File&) = delete;
-    ~File() {
-        if (file_ >= 0) { ::close(file_); }
-    }
-
-    bool write(std::string_view text) const {
-        while (file_ >= 0 && !text.empty()) {
-            const auto written = ::write(file_, text.data(), text.size());
-            if (written < 0 && errno != EINTR) { return false; }
-            text.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(written, 0)));
-        }
-        return file_ >= 0;
-    }
-    bool sync() const { return file_ >= 0 && ::fsync(file_) == 0; }
-
-private:
-    int file_;
-};
-
-bool write_durably(const std::filesystem::path& path, std::string_view text) {
-    const File file(path, O_WRONLY | O_CREAT | O_TRUNC);
-    return file.write(text) && file.sync();
+/// Opens the file, writes the text and waits until it is on the disk. Returns false with the reason in errno.
+bool write_durably(const std::filesystem::path& path, int flags, mode_t mode, std::string_view text) {
+    const Descriptor file(::open(path.c_str(), flags | O_CLOEXEC, mode));
+    return write_all(file, text) && ::fsync(file.get()) == 0;
 }
 
 }  // namespace
@@ -85,10 +64,17 @@ std::expected<void, std::string> write_text_file(const std::filesystem::path& pa
     return {};
 }
 
+std::expected<void, std::string> create_text_file(const std::filesystem::path& path, std::string_view text,
+                                                  mode_t mode) {
+    if (write_durably(path, O_WRONLY | O_CREAT | O_EXCL, mode, text)) { return {}; }
+    return std::unexpected(path.string() + ": cannot be written: " + std::strerror(errno));
+}
+
 std::expected<void, std::string> replace_text_file(const std::filesystem::path& path, std::string_view text) {
     const std::filesystem::path fresh = fmt::format("{}.new-{}", path.string(), ::getpid());
-    const bool is_replaced = write_durably(fresh, text) && ::rename(fresh.c_str(), path.c_str()) == 0 &&
-                             File(path.parent_path(), O_RDONLY | O_DIRECTORY).sync();
+    const bool is_replaced = write_durably(fresh, O_WRONLY | O_CREAT | O_TRUNC, 0644, text) &&
+                             ::rename(fresh.c_str(), path.c_str()) == 0 &&
+                             write_durably(path.parent_path(), O_RDONLY | O_DIRECTORY, 0, "");
     if (is_replaced) { return {}; }
     const int why = errno;
     ::unlink(fresh.c_str());

@@ -9,6 +9,7 @@
 #include "services/runtime/clock.hpp"
 #include "services/runtime/log.hpp"
 #include "services/runtime/real_time.hpp"
+#include "services/runtime/sleep.hpp"
 
 namespace lockstep {
 namespace {
@@ -62,13 +63,6 @@ void FlightRecorder::add(const FlightEvent& event) {
     if (event.kind == FlightKind::Incident) { incidents_.fetch_add(1, std::memory_order_release); }
 }
 
-/// Returns false if the process ends.
-bool FlightRecorder::sleep(const std::stop_token& stop) {
-    std::unique_lock lock(mutex_);
-    wake_.wait_for(lock, stop, kLookEvery, [] { return false; });
-    return !stop.stop_requested();
-}
-
 void FlightRecorder::serve(const std::stop_token& stop) {
     leave_real_time();
     say_left(save_left_rings(directory_, source_.directory));
@@ -77,7 +71,7 @@ void FlightRecorder::serve(const std::stop_token& stop) {
     std::chrono::nanoseconds first{};
     std::chrono::nanoseconds last{};
     for (bool goes_on = true; goes_on;) {
-        goes_on = sleep(stop);
+        goes_on = sleep_unless(stop, kLookEvery);
         const std::chrono::nanoseconds now = monotonic_now();
         const std::uint64_t noted = incidents_.load(std::memory_order_acquire);
         if (noted != seen) { last = now; }

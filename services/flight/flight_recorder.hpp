@@ -3,9 +3,7 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
@@ -30,7 +28,6 @@ public:
 private:
     FlightRecorder(FlightRing ring, std::filesystem::path directory, FlightSource source);
     void serve(const std::stop_token& stop);
-    bool sleep(const std::stop_token& stop);
     void write();
 
     FlightRing ring_;
@@ -38,8 +35,6 @@ private:
     FlightSource source_;
     std::atomic<std::uint64_t> incidents_ = 0;  // number noted so far
     std::uint64_t written_ = 0;                 // used by the thread: number of the last event in a file
-    std::mutex mutex_;
-    std::condition_variable_any wake_;
     std::jthread thread_;
 };
 

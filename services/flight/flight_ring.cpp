@@ -71,15 +71,14 @@ std::expected<FlightRing, std::string> FlightRing::create(const fs::path& direct
     const std::size_t slots_at =
         (kSourceAt + source_bytes.size() + kFlightSlotBytes - 1) / kFlightSlotBytes * kFlightSlotBytes;
     const std::size_t bytes = slots_at + events * kFlightSlotBytes;
-    const int file = open(unfinished.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0600);
-    if (file < 0) { return cannot(unfinished, "create it"); }
+    Descriptor file(open(unfinished.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0600));
+    if (!file.is_open()) { return cannot(unfinished, "create it"); }
     // Reserves the memory now, because SIGBUS would end the process if a page were missing later.
-    errno = posix_fallocate(file, 0, static_cast<off_t>(bytes));
-    SharedMapping mapping(file, errno == 0 ? bytes : 0, PROT_READ | PROT_WRITE);
-    if (mapping.words() == nullptr || flock(file, LOCK_EX | LOCK_NB) != 0) {
+    errno = posix_fallocate(file.get(), 0, static_cast<off_t>(bytes));
+    SharedMapping mapping(file.get(), errno == 0 ? bytes : 0, PROT_READ | PROT_WRITE);
+    if (mapping.words() == nullptr || flock(file.get(), LOCK_EX | LOCK_NB) != 0) {
         const auto error = cannot(unfinished, "reserve its memory");
         unlink(unfinished.c_str());
-        close(file);
         return error;
     }
     std::memset(mapping.words(), 0, bytes);  // touches each page, so that no later store waits for one
@@ -88,21 +87,19 @@ std::expected<FlightRing, std::string> FlightRing::create(const fs::path& direct
     std::memcpy(bytes_of(mapping) + kSourceAt, source_bytes.data(), source_bytes.size());
     std::error_code error;
     fs::rename(unfinished, path, error);  // only a complete and locked ring gets its name
-    return FlightRing(path, file, std::move(mapping), slots_at, events);
+    return FlightRing(path, std::move(file), std::move(mapping), slots_at, events);
 }
 
 FlightRing::FlightRing(FlightRing&& other) noexcept
     : path_(std::move(other.path_)),
-      file_(std::exchange(other.file_, -1)),
+      file_(std::move(other.file_)),
       mapping_(std::move(other.mapping_)),
       slots_(other.slots_),
       events_(other.events_),
       number_(other.number_.load()) {}
 
 FlightRing::~FlightRing() {
-    if (file_ < 0) { return; }
-    unlink(path_.c_str());
-    close(file_);
+    if (file_.is_open()) { unlink(path_.c_str()); }
 }
 
 void FlightRing::add(const FlightEvent& event) {
@@ -116,13 +113,12 @@ void FlightRing::set_note(std::string_view text) {
 }
 
 std::expected<FlightSnapshot, std::string> read_ring(const fs::path& path) {
-    const int file = open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
-    if (file < 0) { return cannot(path, "open it"); }
+    const Descriptor file(open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW));
+    if (!file.is_open()) { return cannot(path, "open it"); }
     struct stat status {};
-    const bool has_size = fstat(file, &status) == 0 && status.st_size > 0;
+    const bool has_size = fstat(file.get(), &status) == 0 && status.st_size > 0;
     const std::size_t bytes = has_size ? std::min(static_cast<std::size_t>(status.st_size), kMaxBytes) : 1;
-    const SharedMapping mapping(file, bytes, PROT_READ | PROT_WRITE);
-    close(file);
+    const SharedMapping mapping(file.get(), bytes, PROT_READ | PROT_WRITE);
     const auto header = mapping.words() == nullptr ? std::nullopt : header_of(mapping);
     if (!header) { return std::unexpected(path.string() + ": is not a flight recorder ring of this version"); }
     auto source = decode_source({bytes_of(mapping) + kSourceAt, header->source_bytes});
@@ -149,18 +145,9 @@ std::vector<fs::path> rings_in(const fs::path& directory) {
 }
 
 std::optional<LeftRing> LeftRing::claim(const fs::path& path) {
-    const int file = open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
-    if (file < 0) { return std::nullopt; }
-    const bool is_left = flock(file, LOCK_EX | LOCK_NB) == 0 && is_still_named(path, file);
-    if (is_left) { return LeftRing(path, file); }
-    close(file);
-    return std::nullopt;
-}
-
-LeftRing::LeftRing(LeftRing&& other) noexcept : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)) {}
-
-LeftRing::~LeftRing() {
-    if (file_ >= 0) { close(file_); }
+    Descriptor file(open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW));
+    const bool is_left = flock(file.get(), LOCK_EX | LOCK_NB) == 0 && is_still_named(path, file.get());
+    return is_left ? std::optional(LeftRing(path, std::move(file))) : std::nullopt;
 }
 
 void LeftRing::remove() { unlink(path_.c_str()); }

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "services/files/descriptor.hpp"
 #include "services/flight/flight_source.hpp"
 #include "services/runtime/shared_mapping.hpp"
 
@@ -42,15 +43,16 @@ public:
 
 private:
     /// `slots_at` is the byte offset of the events.
-    FlightRing(std::filesystem::path path, int file, SharedMapping mapping, std::size_t slots_at, std::size_t events)
+    FlightRing(std::filesystem::path path, Descriptor file, SharedMapping mapping, std::size_t slots_at,
+               std::size_t events)
         : path_(std::move(path)),
-          file_(file),
+          file_(std::move(file)),
           mapping_(std::move(mapping)),
           slots_(mapping_.words() + slots_at / sizeof(std::uint64_t)),
           events_(events) {}
 
     std::filesystem::path path_;
-    int file_;  // stays open: its lock shows that the process is alive; below 0: moved from
+    Descriptor file_;  // stays open: its lock shows that the process is alive
     SharedMapping mapping_;
     std::uint64_t* slots_;
     std::size_t events_;
@@ -68,16 +70,13 @@ class LeftRing {
 public:
     /// Returns nullopt if the ring's process is alive or another process has claimed the ring.
     static std::optional<LeftRing> claim(const std::filesystem::path& path);
-    LeftRing(LeftRing&& other) noexcept;
-    LeftRing& operator=(LeftRing&&) = delete;
-    ~LeftRing();
     /// Removes the ring. Call it after saving it.
     void remove();
 
 private:
-    LeftRing(std::filesystem::path path, int file) : path_(std::move(path)), file_(file) {}
+    LeftRing(std::filesystem::path path, Descriptor file) : path_(std::move(path)), file_(std::move(file)) {}
     std::filesystem::path path_;
-    int file_;  // below 0: moved from
+    Descriptor file_;
 };
 
 }  // namespace lockstep

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <ctime>
 
 #include "services/documents/machine_file.hpp"
@@ -28,9 +27,7 @@ std::string stamp(std::int64_t wall_us) {
     gmtime_r(&seconds, &utc);
     char text[32];
     const std::size_t length = std::strftime(text, sizeof text, "%Y%m%dT%H%M%S", &utc);
-    char fraction[8];
-    std::snprintf(fraction, sizeof fraction, ".%03dZ", static_cast<int>(wall_us / 1000 % 1000));
-    return std::string(text, length) + fraction;
+    return fmt::format("{}.{:03}Z", std::string_view(text, length), wall_us / 1000 % 1000);
 }
 
 /// The name is STAMP-PROCESS-INCARNATION, so a coordinator and its standby get different names.

@@ -13,6 +13,7 @@
 #include "services/runtime/end_guard.hpp"
 #include "services/runtime/log.hpp"
 #include "services/runtime/periodic.hpp"
+#include "services/runtime/service_options.hpp"
 #include "sim_fpga/device.hpp"
 
 namespace lockstep {
@@ -78,11 +79,6 @@ std::expected<Board, std::string> set_up(const FpgaOptions& options) {
     return board;
 }
 
-int fail(const std::string& why) {
-    log_error(why);
-    return 1;
-}
-
 }  // namespace
 
 int serve_fpga(const FpgaOptions& options) {
@@ -93,14 +89,14 @@ int serve_fpga(const FpgaOptions& options) {
         return 1;
     }
     auto board = set_up(options);
-    if (!board) { return fail(board.error()); }
+    if (!board) { return end_with_failure(board.error()); }
     PeriodicLoop loop(kPeriod);
     std::expected<void, std::string> well;
     loop.run(stop, [&](std::chrono::nanoseconds) {
         well = board->advance();
         if (!well) { stop.request(); }
     });
-    if (!well) { return fail(well.error()); }
+    if (!well) { return end_with_failure(well.error()); }
     log_info("ended; the loop was at most {} us late", loop.worst_lateness().count() / 1000);
     return 0;
 }

@@ -3,20 +3,16 @@
 #include <arpa/inet.h>
 #include <fmt/format.h>
 
-#include <charconv>
+#include "core/parse_number.hpp"
 
 namespace lockstep {
 namespace {
 
 template <typename Number>
 std::expected<Number, std::string> number(std::string_view text, std::string_view what, Number most) {
-    Number value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size() || value < 0 || value > most) {
-        return std::unexpected(
-            fmt::format("the LCM URL's {} is '{}'; it must be a number from 0 to {}", what, text, most));
-    }
-    return value;
+    const auto value = parse_number<Number>(text);
+    if (value && *value >= 0 && *value <= most) { return *value; }
+    return std::unexpected(fmt::format("the LCM URL's {} is '{}'; it must be a number from 0 to {}", what, text, most));
 }
 
 bool is_multicast_address(const std::string& address) {

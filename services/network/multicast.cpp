@@ -22,10 +22,10 @@ std::string remedy(const std::string& interface) {
            (interface == "lo" ? " (and, if nothing is received: ip link set lo multicast on)" : "");
 }
 
-/// Runs `ip route VERB 224.0.0.0/4 dev lo` without a shell. Returns whether it succeeded. It does not call fork(),
+/// Runs `ip route add 224.0.0.0/4 dev lo` without a shell. Returns whether it succeeded. It does not call fork(),
 /// because copying the page tables of a running service would delay its loop.
-bool change_loopback_route(const char* verb) {
-    std::array<const char*, 7> words{"ip", "route", verb, kMulticastRange, "dev", "lo", nullptr};
+bool add_loopback_route() {
+    std::array<const char*, 7> words{"ip", "route", "add", kMulticastRange, "dev", "lo", nullptr};
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     // The caller reports the failure, so the error text of `ip` is not shown.
@@ -55,17 +55,11 @@ std::expected<void, std::string> check_multicast(const NetworkConfig& network) {
 
 std::expected<bool, std::string> ensure_loopback_multicast() {
     if (route_interface(kDefaultGroup) == "lo") { return false; }
-    if (change_loopback_route("add")) { return true; }
+    if (add_loopback_route()) { return true; }
     if (route_interface(kDefaultGroup) == "lo") {  // another process has added it meanwhile
         return false;
     }
     return std::unexpected("cannot route multicast to lo; " + remedy("lo"));
-}
-
-std::expected<void, std::string> remove_loopback_multicast() {
-    if (change_loopback_route("del")) { return {}; }
-    return std::unexpected("cannot remove the multicast route of lo; run as root: ip route del " +
-                           std::string(kMulticastRange) + " dev lo");
 }
 
 }  // namespace lockstep

@@ -19,7 +19,4 @@ std::expected<void, std::string> check_multicast(const NetworkConfig& network);
 /// true if it was added, false if it existed. Error: what failed, and the remedy.
 std::expected<bool, std::string> ensure_loopback_multicast();
 
-/// Removes the route that ensure_loopback_multicast added.
-std::expected<void, std::string> remove_loopback_multicast();
-
 }  // namespace lockstep

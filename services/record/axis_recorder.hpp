@@ -1,7 +1,6 @@
 // Records one axis: every step, its position, and the runs that it executed.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 

@@ -13,13 +13,9 @@ namespace lockstep {
 DiskRoom::DiskRoom(const std::filesystem::path& file) : file_(open(file.c_str(), O_WRONLY | O_CLOEXEC)) {}
 
 DiskRoom::~DiskRoom() {
-    if (file_ < 0) { return; }
     struct stat file {};
-    if (fstat(file_, &file) == 0) { (void)!ftruncate(file_, file.st_size); }
-    close(file_);
+    if (fstat(file_.get(), &file) == 0) { (void)!ftruncate(file_.get(), file.st_size); }
 }
-
-DiskRoom::DiskRoom(DiskRoom&& other) noexcept : file_(std::exchange(other.file_, -1)), taken_(other.taken_) {}
 
 DiskRoom& DiskRoom::operator=(DiskRoom&& other) noexcept {
     std::swap(file_, other.file_);
@@ -35,7 +31,7 @@ bool DiskRoom::reaches(std::uint64_t bytes) {
 /// Reserves space without changing the file's size.
 bool DiskRoom::take(std::uint64_t bytes) {
     const auto more = static_cast<off_t>(bytes - taken_);
-    if (fallocate(file_, FALLOC_FL_KEEP_SIZE, static_cast<off_t>(taken_), more) == 0) {
+    if (fallocate(file_.get(), FALLOC_FL_KEEP_SIZE, static_cast<off_t>(taken_), more) == 0) {
         taken_ = bytes;
         return true;
     }

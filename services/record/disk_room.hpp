@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "services/files/descriptor.hpp"
+
 namespace lockstep {
 
 class DiskRoom {
@@ -16,7 +18,7 @@ public:
     explicit DiskRoom(const std::filesystem::path& file);
     /// Releases the space that the file did not use.
     ~DiskRoom();
-    DiskRoom(DiskRoom&& other) noexcept;
+    DiskRoom(DiskRoom&& other) = default;
     DiskRoom& operator=(DiskRoom&& other) noexcept;
 
     /// Returns whether the file may grow to `bytes` and kKept more.
@@ -25,7 +27,7 @@ public:
 private:
     bool take(std::uint64_t bytes);
 
-    int file_ = -1;
+    Descriptor file_;
     std::uint64_t taken_ = 0;
 };
 

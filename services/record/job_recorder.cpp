@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <utility>
-#include <vector>
 
 #include "services/documents/machine_file.hpp"
 #include "services/documents/program_document.hpp"

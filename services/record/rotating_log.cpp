@@ -1,10 +1,12 @@
 #include "services/record/rotating_log.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
-#include <cstdio>
 #include <vector>
+
+#include "core/parse_number.hpp"
 
 namespace lockstep {
 namespace {
@@ -20,12 +22,12 @@ struct NumberedFile {
 /// Returns the number in NAME.NUMBER.lcm.
 std::optional<std::uint64_t> number_in(const std::string& file, const std::string& name) {
     constexpr std::string_view kEnd = ".lcm";
-    if (!file.starts_with(name + ".") || !file.ends_with(kEnd)) { return std::nullopt; }
-    const char* const from = file.data() + name.size() + 1;
-    const char* const to = file.data() + file.size() - kEnd.size();
-    std::uint64_t number = 0;
-    const auto [end, error] = from < to ? std::from_chars(from, to, number) : std::from_chars_result{from, {}};
-    return from < to && end == to && error == std::errc{} ? std::optional(number) : std::nullopt;
+    const std::string begin = name + ".";
+    if (file.size() < begin.size() + kEnd.size() || !file.starts_with(begin) || !file.ends_with(kEnd)) {
+        return std::nullopt;
+    }
+    return parse_number<std::uint64_t>(
+        std::string_view(file).substr(begin.size(), file.size() - begin.size() - kEnd.size()));
 }
 
 /// Returns the files of the log, oldest first.
@@ -43,9 +45,7 @@ std::vector<NumberedFile> files_of(const RotatingLog::Place& place) {
 }
 
 std::string file_name(const std::string& name, std::uint64_t number) {
-    char digits[24];
-    std::snprintf(digits, sizeof digits, "%06llu", static_cast<unsigned long long>(number));
-    return name + "." + digits + ".lcm";
+    return fmt::format("{}.{:06}.lcm", name, number);
 }
 
 /// Claims the first free name from `number` on, because a coordinator and its standby use the same names. If no file

@@ -1,8 +1,6 @@
 #include "services/record/route_watch.hpp"
 
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
 #include <utility>
 
 #include "services/network/lcm_url.hpp"
@@ -10,6 +8,7 @@
 #include "services/network/route.hpp"
 #include "services/runtime/log.hpp"
 #include "services/runtime/real_time.hpp"
+#include "services/runtime/sleep.hpp"
 
 namespace lockstep {
 namespace {
@@ -35,12 +34,8 @@ std::string RouteWatch::restore() const {
 /// Reports the same problem only once until the route exists again.
 void RouteWatch::watch(const std::stop_token& stop) const {
     leave_real_time();
-    std::mutex mutex;
-    std::condition_variable_any wake;
     std::string reported;
-    while (true) {
-        std::unique_lock lock(mutex);
-        if (wake.wait_for(lock, stop, kLookEvery, [&] { return stop.stop_requested(); })) { return; }
+    while (sleep_unless(stop, kLookEvery)) {
         const std::string text = restore();
         if (!text.empty() && text != reported) { log_warning(text); }
         reported = text;

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <ctime>
 
 #include "core/machine.hpp"
 #include "core/units.hpp"
@@ -14,6 +15,10 @@ namespace lockstep {
 
 /// Nanoseconds of CLOCK_MONOTONIC.
 std::chrono::nanoseconds monotonic_now();
+
+constexpr timespec to_timespec(std::chrono::nanoseconds time) {
+    return {.tv_sec = time.count() / 1'000'000'000, .tv_nsec = time.count() % 1'000'000'000};
+}
 
 class MachineClock {
 public:

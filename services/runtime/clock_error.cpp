@@ -1,9 +1,10 @@
 #include "services/runtime/clock_error.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
+
+#include "core/parse_number.hpp"
 
 namespace lockstep {
 namespace {
@@ -15,10 +16,8 @@ constexpr double kMost = 1e6;  // seconds or ppm
 nanoseconds nanoseconds_of(double seconds) { return nanoseconds{std::llround(seconds * 1e9)}; }
 
 std::optional<double> number(std::string_view text) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool whole = error == std::errc{} && end == text.data() + text.size();
-    return whole && std::abs(value) <= kMost ? std::optional(value) : std::nullopt;
+    const auto value = parse_number<double>(text);
+    return value && std::abs(*value) <= kMost ? value : std::nullopt;
 }
 
 /// Reads one part, such as ppm=50. Returns false if it cannot be read.

@@ -3,12 +3,10 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <condition_variable>
-#include <cstdlib>
-#include <mutex>
 #include <string_view>
 
 #include "services/runtime/service_options.hpp"
+#include "services/runtime/sleep.hpp"
 
 namespace lockstep {
 namespace {
@@ -30,11 +28,8 @@ EndGuard::EndGuard(const StopSignal& stop, std::chrono::milliseconds longest)
       thread_([this, &stop](const std::stop_token& ended) { watch(ended, stop); }) {}
 
 void EndGuard::watch(const std::stop_token& ended, const StopSignal& stop) const {
-    std::mutex mutex;
-    std::condition_variable_any wake;
     for (int looks = 0; looks < kLooksAtEnd;) {
-        std::unique_lock lock(mutex);
-        if (wake.wait_for(lock, ended, between_looks_, [&] { return ended.stop_requested(); })) { return; }
+        if (!sleep_unless(ended, between_looks_)) { return; }
         looks = stop.requested() ? looks + 1 : 0;
     }
     end_at_once();

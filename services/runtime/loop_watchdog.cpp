@@ -1,10 +1,9 @@
 #include "services/runtime/loop_watchdog.hpp"
 
-#include <condition_variable>
-#include <mutex>
 #include <utility>
 
 #include "services/runtime/real_time.hpp"
+#include "services/runtime/sleep.hpp"
 
 namespace lockstep {
 namespace {
@@ -20,12 +19,9 @@ LoopWatchdog::LoopWatchdog(std::function<void()> on_stuck, std::chrono::millisec
 
 void LoopWatchdog::watch(const std::stop_token& stop) {
     leave_real_time();
-    std::mutex mutex;
-    std::condition_variable_any wake;
     std::uint64_t seen = loops_;
     for (int looks = 0; looks < kLooks;) {
-        std::unique_lock lock(mutex);
-        if (wake.wait_for(lock, stop, between_looks_, [&] { return stop.stop_requested(); })) { return; }
+        if (!sleep_unless(stop, between_looks_)) { return; }
         const std::uint64_t loops = loops_.load(std::memory_order_relaxed);
         looks = loops == seen ? looks + 1 : 0;
         seen = loops;

@@ -7,18 +7,10 @@
 #include "services/runtime/clock.hpp"
 
 namespace lockstep {
-namespace {
 
 using std::chrono::nanoseconds;
 
-timespec to_timespec(nanoseconds time) {
-    constexpr std::int64_t kSecond = 1'000'000'000;
-    return {.tv_sec = time.count() / kSecond, .tv_nsec = time.count() % kSecond};
-}
-
-}  // namespace
-
-void PeriodicLoop::start() { next_ = (monotonic_now() - offset_) / period_ * period_ + offset_; }
+void PeriodicLoop::start() { next_ = monotonic_now() / period_ * period_; }
 
 bool PeriodicLoop::wait_for_next(const StopSignal& stop) {
     const nanoseconds now = monotonic_now();

@@ -11,9 +11,8 @@ namespace lockstep {
 
 class PeriodicLoop {
 public:
-    /// `period` is more than 0. The loop wakes `offset` after each multiple of the period.
-    explicit PeriodicLoop(std::chrono::nanoseconds period, std::chrono::nanoseconds offset = {})
-        : period_(period), offset_(offset) {}
+    /// `period` is more than 0.
+    explicit PeriodicLoop(std::chrono::nanoseconds period) : period_(period) {}
 
     /// Calls step(time) once a period until a stop is requested. `time` is the scheduled wake-up time on
     /// CLOCK_MONOTONIC.
@@ -33,7 +32,6 @@ private:
     bool wait_for_next(const StopSignal& stop);
 
     std::chrono::nanoseconds period_;
-    std::chrono::nanoseconds offset_;
     std::chrono::nanoseconds next_{};
     std::chrono::nanoseconds worst_lateness_{};
     std::uint64_t skipped_ = 0;

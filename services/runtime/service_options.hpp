@@ -4,16 +4,28 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <iostream>
 #include <optional>
 #include <string>
 
 #include "core/machine.hpp"
+#include "services/runtime/log.hpp"
 
 namespace lockstep {
 
 inline constexpr int kServiceDone = 0;
 inline constexpr int kServiceFailed = 1;
 inline constexpr int kServiceBadInput = 2;
+
+/// For wrong options or a wrong configuration, before the log is open.
+inline int end_with_bad_input(const std::string& why) {
+    std::cerr << why << (why.ends_with('\n') ? "" : "\n");
+    return kServiceBadInput;
+}
+inline int end_with_failure(const std::string& why) {
+    log_error(why);
+    return kServiceFailed;
+}
 
 struct ServiceOptions {
     std::filesystem::path machine_file;

@@ -2,9 +2,6 @@
 
 #include <sys/stat.h>
 
-#include <cerrno>
-#include <cstring>
-
 #include "services/files/text_file.hpp"
 #include "services/security/access_documents.hpp"
 #include "services/security/key_directory.hpp"

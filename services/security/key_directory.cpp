@@ -1,13 +1,8 @@
 #include "services/security/key_directory.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
-#include <cstring>
-
+#include "services/files/text_file.hpp"
 #include "services/security/access_documents.hpp"
 #include "services/security/certificates.hpp"
 
@@ -19,17 +14,6 @@ namespace fs = std::filesystem;
 constexpr mode_t kPublic = 0644;
 constexpr mode_t kPrivate = 0600;
 
-/// Creates the file with its final mode, so that others can never read a private one.
-std::expected<void, std::string> write_file(const fs::path& path, const std::string& text, mode_t mode) {
-    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-    const bool written =
-        file >= 0 && ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size()) && ::fsync(file) == 0;
-    const int why = errno;
-    if (file >= 0) { ::close(file); }
-    if (written) { return {}; }
-    return std::unexpected(path.string() + ": cannot be written: " + std::strerror(why));
-}
-
 /// Writes one file after the other, until one fails.
 class Writing {
 public:
@@ -40,7 +24,7 @@ public:
         if (!text) {
             done_ = std::unexpected(text.error());
         } else {
-            done_ = write_file(directory_ / name, *text, mode);
+            done_ = create_text_file(directory_ / name, *text, mode);
         }
     }
     const std::expected<void, std::string>& done() const { return done_; }

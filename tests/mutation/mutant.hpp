@@ -4,7 +4,6 @@
 #pragma once
 #ifdef __cplusplus
 
-#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
 

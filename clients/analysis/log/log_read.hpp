@@ -14,7 +14,6 @@
 #include <lockstep/record_mark_t.hpp>
 #include <lockstep/run_t.hpp>
 #include <lockstep/step_batch_t.hpp>
-#include <optional>
 #include <string>
 #include <string_view>
 

@@ -1,7 +1,6 @@
 // A set of the numbers 0, 1, 2, ... It is stored as ranges, because nearly all numbers are received, nearly in order.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <iterator>
 #include <map>

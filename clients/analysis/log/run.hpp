@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <expected>
 #include <lockstep/run_t.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -46,7 +46,6 @@ void StepStream::begin_incarnation(std::int64_t incarnation) {
     deliver_in_order(false);
     if (incarnation_) {
         past_incarnations_.insert(*incarnation_);
-        ++counts_.restarts;
         open_break(Break::Kind::Restart);
     }
     incarnation_ = incarnation;

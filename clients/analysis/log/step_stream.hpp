@@ -66,7 +66,6 @@ struct StreamCounts {
     std::int64_t duplicates = 0;  // repeated batches, left out
     std::int64_t late = 0;        // batches that came after they were given up as missing, left out
     std::int64_t disordered = 0;  // batches with steps before those of the previous batch, left out
-    std::int64_t restarts = 0;
 };
 
 class StepStream {

@@ -17,8 +17,6 @@ void AxisStatistics::on_batch(const StepBatch& batch) {
     for (std::size_t i = 0; i < batch.steps.size(); ++i) {
         const StepEdge edge = batch.steps[i];
         position += edge.direction;
-        lowest_ = std::min(lowest_, position);
-        highest_ = std::max(highest_, position);
         show_rest(edge.tick);
         measure(edge, batch.device_tick(i), position, measured->steps[i]);
         last_ = {edge.tick, position};
@@ -46,7 +44,7 @@ void AxisStatistics::finish() {
 
 void AxisStatistics::begin(StepEdge edge, std::int64_t position_before) {
     first_ = StepPlace{edge.tick, position_before + edge.direction};
-    start_ = lowest_ = highest_ = position_before;
+    start_ = position_before;
     stand_at(edge.tick);
 }
 

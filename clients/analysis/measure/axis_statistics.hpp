@@ -35,9 +35,7 @@ public:
     std::int64_t steps() const { return steps_; }
     const std::optional<StepPlace>& first() const { return first_; }
     const std::optional<StepPlace>& last() const { return last_; }
-    std::int64_t start_steps() const { return start_; }    // before the first step; 0 without steps
-    std::int64_t lowest_steps() const { return lowest_; }  // positions reached; 0 without steps
-    std::int64_t highest_steps() const { return highest_; }
+    std::int64_t start_steps() const { return start_; }  // before the first step; 0 without steps
     double peak_steps_per_tick() const { return meter_.peak_steps_per_tick(); }
     double peak_steps_per_tick2() const { return meter_.peak_steps_per_tick2(); }
     std::vector<Sample> speed() const { return speed_.samples(); }                // steps per tick, signed
@@ -66,8 +64,6 @@ private:
     std::optional<StepPlace> first_;
     std::optional<StepPlace> last_;
     std::int64_t start_ = 0;
-    std::int64_t lowest_ = 0;
-    std::int64_t highest_ = 0;
     Ticks clock_error_;
     std::vector<Break> breaks_;
     std::int64_t break_count_ = 0;

@@ -214,7 +214,6 @@ void JobMoves::add_details(std::size_t number, MoveLog& log) const {
         log.axes[axis].peak_steps_per_tick = made.peaks[axis].steps_per_tick;
         log.axes[axis].peak_steps_per_tick2 = made.peaks[axis].steps_per_tick2;
     }
-    log.is_dwell = std::ranges::all_of(log.axes, [](const AxisMove& axis) { return axis.asked_steps == 0; });
 }
 
 }  // namespace lockstep::analysis

@@ -40,7 +40,6 @@ struct MoveLog {
     TickHistogram late;          // of its steps, against the commanded ticks
     Ticks skew;                  // largest lateness of its steps minus the smallest
     std::vector<AxisMove> axes;  // in the machine's order
-    bool is_dwell = false;
     bool is_whole() const;
 };
 

@@ -24,8 +24,8 @@ void MoveMeter::name_lane(std::size_t lane, const std::string& axis) {
 
 void MoveMeter::begin(std::size_t number, Tick from, const MachineConfig& machine, JobMoves moves) {
     if (jobs_.size() == kJobsOpen) { end_first(); }
-    Job job{.number = number, .from = from, .axes = {}, .moves = std::move(moves), .axis_of_lane = {}};
-    for (const AxisConfig& axis : machine.axes) { job.axes.push_back(axis.name); }
+    Job job{
+        .number = number, .from = from, .axes = machine.axis_names(), .moves = std::move(moves), .axis_of_lane = {}};
     for (const Lane& lane : lanes_) { job.axis_of_lane.push_back(job.axis(lane.axis)); }
     jobs_.push_back(std::move(job));
 }

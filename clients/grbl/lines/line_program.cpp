@@ -3,19 +3,10 @@
 #include <utility>
 
 namespace lockstep::grbl {
-namespace {
-
-ProgramHead head_of(const MachineConfig& machine, std::vector<double> from_mm) {
-    ProgramHead head{.name = "lines of a sender", .axes = {}, .start_mm = std::move(from_mm)};
-    for (const AxisConfig& axis : machine.axes) { head.axes.push_back(axis.name); }
-    return head;
-}
-
-}  // namespace
 
 LineProgram::LineProgram(const MachineConfig& machine, std::vector<double> from_mm, MachinePort& port)
     : port_(port),
-      sender_(port.open(head_of(machine, std::move(from_mm)))),
+      sender_(port.open({.name = "lines of a sender", .axes = machine.axis_names(), .start_mm = std::move(from_mm)})),
       is_run_whole_(machine.coordination == StepMethod::Lai) {}
 
 LineProgram::Outcome LineProgram::pass(const MachineState& state, bool is_held, std::chrono::nanoseconds now) {

@@ -1,7 +1,5 @@
 #include "clients/grbl/lines/line_runner.hpp"
 
-#include <algorithm>
-
 namespace lockstep::grbl {
 namespace {
 

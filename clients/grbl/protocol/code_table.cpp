@@ -66,18 +66,6 @@ constexpr std::array kAlarms{
     Code{9, "Homing fail", "The switch was not found within the travel. Check switch and wiring."},
 };
 
-std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
-
-std::string csv(std::string_view what, std::span<const Code> codes) {
-    std::string text = quoted(std::string(what) + " Code in v1.1+") + "," +
-                       quoted(std::string(what) + " Message in v1.0-") + "," +
-                       quoted(std::string(what) + " Description") + "\n";
-    for (const Code& code : codes) {
-        text += quoted(std::to_string(code.number)) + "," + quoted(code.name) + "," + quoted(code.text) + "\n";
-    }
-    return text;
-}
-
 }  // namespace
 
 std::span<const Code> error_codes() { return kErrors; }
@@ -87,8 +75,5 @@ const Code* find_code(std::span<const Code> codes, int number) {
     const auto found = std::ranges::find(codes, number, &Code::number);
     return found == codes.end() ? nullptr : &*found;
 }
-
-std::string error_csv() { return csv("Error", kErrors); }
-std::string alarm_csv() { return csv("Alarm", kAlarms); }
 
 }  // namespace lockstep::grbl

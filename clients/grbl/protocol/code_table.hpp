@@ -1,8 +1,7 @@
-// grbl's numbers with their names and meanings, for messages and as the CSV files that senders load.
+// grbl's numbers with their names and meanings, for messages and for the CSV files that senders load.
 #pragma once
 
 #include <span>
-#include <string>
 #include <string_view>
 
 namespace lockstep::grbl {
@@ -20,9 +19,5 @@ std::span<const Code> alarm_codes();
 
 /// Returns null if no such number exists.
 const Code* find_code(std::span<const Code> codes, int number);
-
-/// The table as CSV, with the header line that senders expect.
-std::string error_csv();
-std::string alarm_csv();
 
 }  // namespace lockstep::grbl

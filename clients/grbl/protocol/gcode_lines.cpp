@@ -18,16 +18,10 @@
 namespace lockstep::grbl {
 namespace {
 
-/// The index in kAxisLetters of an axis; nullopt if G-code cannot name it.
-std::optional<std::size_t> letter_of(const AxisConfig& axis) {
-    const std::size_t place = axis.name.size() == 1 ? gcode::kAxisLetters.find(axis.name[0]) : gcode::kAxisLetters.npos;
-    return place == gcode::kAxisLetters.npos ? std::nullopt : std::optional(place);
-}
-
 gcode::Point park_of(const MachineConfig& machine) {
     gcode::Point park{};
     for (const AxisConfig& axis : machine.axes) {
-        if (const auto letter = letter_of(axis)) { park[*letter] = axis.homing.park_mm; }
+        if (const auto letter = gcode::axis_place(axis.name)) { park[*letter] = axis.homing.park_mm; }
     }
     return park;
 }
@@ -118,7 +112,7 @@ gcode::State GcodeLines::state_at(const std::vector<double>& place_mm, const gco
     gcode::State state;
     state.modal = modal_;
     for (std::size_t i = 0; i < machine_.axes.size() && i < place_mm.size(); ++i) {
-        if (const auto letter = letter_of(machine_.axes[i])) { state.machine[*letter] = place_mm[i]; }
+        if (const auto letter = gcode::axis_place(machine_.axes[i].name)) { state.machine[*letter] = place_mm[i]; }
     }
     gcode::set_kept_values(state, values, park_of(machine_));
     gcode::begin(state);
@@ -213,7 +207,7 @@ std::vector<double> GcodeLines::offset_mm(const gcode::KeptValues& values) const
     const gcode::Point zero = gcode::to_machine(state_at({}, values).offsets, {});
     std::vector<double> offset;
     for (const AxisConfig& axis : machine_.axes) {
-        const auto letter = letter_of(axis);
+        const auto letter = gcode::axis_place(axis.name);
         offset.push_back(letter ? zero[*letter] : 0);
     }
     return offset;

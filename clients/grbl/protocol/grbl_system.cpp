@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "clients/grbl/protocol/grbl.hpp"
+#include "core/parse_number.hpp"
 
 namespace lockstep::grbl {
 namespace {
@@ -94,17 +95,15 @@ void Grbl::do_startup_block(std::string_view text) {
 void Grbl::write_setting(std::string_view text) {
     const std::size_t sign = text.find('=');
     if (sign == std::string_view::npos) { return refuse(Error::UnknownCommand); }
-    const std::string_view key = text.substr(0, sign);
-    int number = 0;
-    const auto read = std::from_chars(key.data(), key.data() + key.size(), number);
-    if (read.ec != std::errc{} || read.ptr != key.data() + key.size()) { return refuse(Error::UnknownCommand); }
+    const auto number = parse_number<int>(text.substr(0, sign));
+    if (!number) { return refuse(Error::UnknownCommand); }
     const std::string_view word = text.substr(sign + 1);
     double value = 0;
     const auto parsed = std::from_chars(word.data(), word.data() + word.size(), value, std::chars_format::fixed);
     if (parsed.ec != std::errc{} || parsed.ptr != word.data() + word.size() || !std::isfinite(value)) {
         return refuse(Error::BadNumber);
     }
-    keep_setting(number, value);
+    keep_setting(*number, value);
 }
 
 void Grbl::keep_setting(int number, double value) {
@@ -136,9 +135,8 @@ void Grbl::print_parameters() {
     const auto places_of = [&](const gcode::Point& point) {
         std::vector<double> places;
         for (const AxisConfig& axis : machine_.axes) {
-            const std::size_t letter =
-                axis.name.size() == 1 ? gcode::kAxisLetters.find(axis.name[0]) : gcode::kAxisLetters.npos;
-            places.push_back(letter == gcode::kAxisLetters.npos ? 0 : point[letter]);
+            const auto letter = gcode::axis_place(axis.name);
+            places.push_back(letter ? point[*letter] : 0);
         }
         return places_text(places, options_.inches);
     };

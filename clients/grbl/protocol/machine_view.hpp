@@ -1,8 +1,8 @@
 // The part of the machine's state that senders of grbl's protocol can read.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "core/faults.hpp"
@@ -36,18 +36,8 @@ struct MachineView {
     bool is_held = false;      // they wait for a resume, and the machine has not begun them
     bool is_stopping = false;  // they were dropped, and the machine may not be at rest yet
 
-    bool is_at_rest() const {
-        for (const AxisPlace& axis : axes) {
-            if (!axis.at_rest) { return false; }
-        }
-        return true;
-    }
-    bool is_homed() const {
-        for (const AxisPlace& axis : axes) {
-            if (!axis.homed) { return false; }
-        }
-        return true;
-    }
+    bool is_at_rest() const { return std::ranges::all_of(axes, &AxisPlace::at_rest); }
+    bool is_homed() const { return std::ranges::all_of(axes, &AxisPlace::homed); }
 };
 
 /// `axes`: the newest state of each axis; null if none was received. The caller sets the other fields of the view.

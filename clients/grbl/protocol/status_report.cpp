@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 
 #include "clients/grbl/protocol/number.hpp"
 #include "clients/grbl/protocol/request.hpp"

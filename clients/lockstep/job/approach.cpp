@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
-#include "clients/session/move_program.hpp"
+#include "clients/session/program_start.hpp"
 
 namespace lockstep {
 namespace {
@@ -12,19 +11,10 @@ namespace {
 using Point = std::vector<double>;
 
 std::expected<std::vector<Lift>, std::string> lifts_named(const MachineConfig& machine, const std::string& option) {
+    const auto places = places_named(machine, option);
+    if (!places) { return std::unexpected(places.error()); }
     std::vector<Lift> lifts;
-    std::istringstream words(option);
-    for (std::string word; std::getline(words, word, ',');) {
-        const auto target = parse_target(word);
-        if (!target) { return std::unexpected(target.error()); }
-        const auto axis = find_axis(machine, target->axis);
-        if (!axis) { return std::unexpected(axis.error()); }
-        const AxisConfig& config = machine.axes[*axis];
-        if (target->mm < config.position_min_mm || target->mm > config.position_max_mm) {
-            return std::unexpected(word + " is outside the axis's travel; name a place within it");
-        }
-        lifts.push_back({*axis, target->mm, true});
-    }
+    for (const auto& [axis, mm] : *places) { lifts.push_back({axis, mm, true}); }
     return lifts;
 }
 

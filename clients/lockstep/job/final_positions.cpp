@@ -20,8 +20,9 @@ void add_final_positions(Session& session, proto::RunReport& report) {
         const auto rests = [&] {
             return session.axis(i) && session.axis(i)->time > end && session.axis(i)->state.at_rest;
         };
-        while (!rests() && monotonic_now() - end < kFinalStatePatience) { session.receive(10ms); }
-        if (rests()) { *report.add_final_positions() = place_of(machine.axes[i], session.axis(i)->state); }
+        if (session.receive_until(end + kFinalStatePatience - monotonic_now(), rests)) {
+            *report.add_final_positions() = place_of(machine.axes[i], session.axis(i)->state);
+        }
     }
 }
 

@@ -1,24 +1,19 @@
 // A flag that SIGHUP and SIGPIPE set: the terminal was closed, or nobody reads the output any more.
 #pragma once
 
-#include <csignal>
+#include "services/runtime/stop_signal.hpp"
 
 namespace lockstep {
 
-/// Only one object may exist at a time. A SIGHUP that is already ignored, as under nohup, stays ignored. The destructor
-/// restores the previous handlers.
-class HangUp {
+/// A SIGHUP that is already ignored, as under nohup, stays ignored.
+class HangUp : public SignalFlag<SIGHUP, SIGPIPE> {
 public:
-    HangUp();
-    ~HangUp();
-    HangUp(const HangUp&) = delete;
-    HangUp& operator=(const HangUp&) = delete;
-
-    bool came() const;
-
-private:
-    struct sigaction hang_up_before_ {};
-    struct sigaction pipe_before_ {};
+    HangUp() : SignalFlag(0) {
+        if (before_[0].sa_handler != SIG_IGN) { return; }
+        sigaction(SIGHUP, &before_[0], nullptr);
+        is_set_ = false;
+    }
+    bool came() const { return is_set_.load(std::memory_order_relaxed); }
 };
 
 }  // namespace lockstep

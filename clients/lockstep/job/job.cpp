@@ -8,6 +8,7 @@
 #include "clients/lockstep/job/job_watch.hpp"
 #include "clients/session/control/lease_turn.hpp"
 #include "clients/session/record_loss.hpp"
+#include "clients/session/refusal.hpp"
 #include "clients/session/reports.hpp"
 #include "clients/session/status_text.hpp"
 #include "clients/text/format.hpp"
@@ -67,14 +68,6 @@ void print_end(const Session& session, const Job& job, const proto::RunReport& r
         output.print(
             "the job's end is not known, because another job or coordinator followed it; see: lockstep status");
     }
-}
-
-ExitCode refused(const Job& job, const Reply& reply, proto::RunReport& report, Output& output) {
-    report.set_outcome("refused");
-    *report.mutable_fault() = fault_report(reply.fault, "");
-    output.report(report);
-    if (!output.json()) { output.warn(title(job) + ": refused: " + reply.text + "\n" + fault_text(report.fault())); }
-    return kExitFailed;
 }
 
 proto::RunReport new_report(const Job& job) {
@@ -196,11 +189,11 @@ ExitCode run_job(Session& session, const Job& job, Output& output) {
     const std::uint64_t lost = lost_records(status_report(session));
     const LeaseTurn turn(session, job.take, &stop);
     if (!turn.answer()) { return output.fail(turn.answer().error()); }
-    if (turn.is_refused()) { return refused(job, *turn.answer(), report, output); }
+    if (turn.is_refused()) { return print_refusal(title(job), *turn.answer(), report, output); }
     follow_events(session, job, output);
     const auto reply = begin(session, job, stop);
     if (!reply) { return output.fail(reply.error()); }
-    if (reply->status == ReplyStatus::Refused) { return refused(job, *reply, report, output); }
+    if (reply->status == ReplyStatus::Refused) { return print_refusal(title(job), *reply, report, output); }
     report.set_job(reply->job);
     if (job.detach && job.stream != nullptr) {
         if (const auto sent = send_rest(session, stop, false); !sent) { return output.fail(sent.error()); }

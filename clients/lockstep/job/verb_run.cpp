@@ -36,17 +36,36 @@ struct RunOptions : LiveOptions {
     bool is_restart() const { return restart.from_line > 0; }
 };
 
-ExitCode report_dry_run(const Job& job, const std::vector<ApproachMove>& approach, Output& output) {
-    proto::RunReport report;
-    report.set_kind(job.kind);
-    report.set_name(job.name);
+/// `amount` is "12 blocks" or "12 lines".
+ExitCode report_dry_run(const std::string& name, const std::string& amount, double planned_s, proto::RunReport report,
+                        Output& output) {
+    report.set_kind("run");
+    report.set_name(name);
     report.set_outcome("dry-run");
-    report.set_planned_s(*job.planned_s);
-    fill_approach(*job.program, approach, report);
+    report.set_planned_s(planned_s);
     output.report(report);
-    output.print(fmt::format("{}: would run {} blocks in {} from the machine's present position; nothing was sent",
-                             job.name, job.program->blocks.size(), duration_text(*job.planned_s)));
+    output.print(fmt::format("{}: would run {} in {} from the machine's present position; nothing was sent", name,
+                             amount, duration_text(planned_s)));
     return kExitDone;
+}
+
+/// The machine before a program: where its axes stand, and its offsets and tools.
+struct Start {
+    Session session;
+    std::vector<double> stands_mm;
+    RevisedValues values;
+};
+
+std::expected<Start, Failure> reach_start(const RunOptions& options) {
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return std::unexpected(machine.error()); }
+    auto session = Session::open(*machine, Purpose::Command);
+    if (!session) { return std::unexpected(session.error()); }
+    auto stands_mm = start_places(*session);
+    if (!stands_mm) { return std::unexpected(stands_mm.error()); }
+    auto values = session->values();
+    if (!values) { return std::unexpected(values.error()); }
+    return Start{*std::move(session), *std::move(stands_mm), *std::move(values)};
 }
 
 /// Reads the whole program for the machine's position, or with --from-line for the position at its first run.
@@ -128,21 +147,16 @@ ExitCode run_stream(const RunOptions& options) {
     }
     auto lines = LineReader::open(options.file);
     if (!lines) { return output.fail(bad_file(options.file, {{.message = lines.error()}})); }
-    const auto machine = choose_machine(options.machine_file);
-    if (!machine) { return output.fail(machine.error()); }
-    auto session = Session::open(*machine, Purpose::Command);
-    if (!session) { return output.fail(session.error()); }
-    const auto start_mm = start_places(*session);
-    if (!start_mm) { return output.fail(start_mm.error()); }
-    const auto values = session->values();
-    if (!values) { return output.fail(values.error()); }
-    const auto started_mm = options.is_restart() ? places_at_start(machine->config, options.started_at) : *start_mm;
+    auto start = reach_start(options);
+    if (!start) { return output.fail(start.error()); }
+    const MachineConfig& machine = start->session.config();
+    const auto started_mm = options.is_restart() ? places_at_start(machine, options.started_at) : start->stands_mm;
     if (!started_mm) { return output.fail(bad_input("--started-at: " + started_mm.error())); }
     const std::string name = options.file == "-" ? "standard input" : options.file;
     ProgramStream stream(*std::move(lines),
-                         program_setup(name, machine->config, *started_mm, options.switches, values->values),
-                         values->revision);
-    if (auto read = read_first(options, machine->config, *start_mm, stream, output); !read) {
+                         program_setup(name, machine, *started_mm, options.switches, start->values.values),
+                         start->values.revision);
+    if (auto read = read_first(options, machine, start->stands_mm, stream, output); !read) {
         return output.fail(read.error());
     }
     if (options.dry_run) {
@@ -157,7 +171,7 @@ ExitCode run_stream(const RunOptions& options) {
                   .stream = &stream,
                   .detach = options.detach,
                   .take = options.take};
-    return run_job(*session, job, output);
+    return run_job(start->session, job, output);
 }
 
 /// Plans a long file while reading it.
@@ -165,28 +179,15 @@ ExitCode plan_stream(const RunOptions& options) {
     Output output(options.json);
     auto lines = LineReader::open(options.file);
     if (!lines) { return output.fail(bad_file(options.file, {{.message = lines.error()}})); }
-    const auto machine = choose_machine(options.machine_file);
-    if (!machine) { return output.fail(machine.error()); }
-    auto session = Session::open(*machine, Purpose::Command);
-    if (!session) { return output.fail(session.error()); }
-    const auto start_mm = start_places(*session);
-    if (!start_mm) { return output.fail(start_mm.error()); }
-    const auto values = session->values();
-    if (!values) { return output.fail(values.error()); }
+    const auto start = reach_start(options);
+    if (!start) { return output.fail(start.error()); }
     const auto text = std::make_shared<ProgramText>(
-        *std::move(lines), program_setup(options.file, machine->config, *start_mm, options.switches, values->values));
-    const auto planned_s = planned_seconds(*session, text->head(), text, *start_mm);
+        *std::move(lines),
+        program_setup(options.file, start->session.config(), start->stands_mm, options.switches, start->values.values));
+    const auto planned_s = planned_seconds(start->session, text->head(), text, start->stands_mm);
     if (!text->errors().empty()) { return output.fail(bad_file(options.file, text->errors())); }
     if (!planned_s) { return output.fail(bad_file(options.file, planned_s.error().errors)); }
-    proto::RunReport report;
-    report.set_kind("run");
-    report.set_name(text->head().name);
-    report.set_outcome("dry-run");
-    report.set_planned_s(*planned_s);
-    output.report(report);
-    output.print(fmt::format("{}: would run {} lines in {} from the machine's present position; nothing was sent",
-                             text->head().name, text->lines(), duration_text(*planned_s)));
-    return kExitDone;
+    return report_dry_run(text->head().name, fmt::format("{} lines", text->lines()), *planned_s, {}, output);
 }
 
 ExitCode run(const RunOptions& options) {
@@ -195,18 +196,18 @@ ExitCode run(const RunOptions& options) {
     Output output(options.json);
     const auto text = read_text_file(options.file);
     if (!text) { return output.fail(bad_file(options.file, {text.error()})); }
-    const auto machine = choose_machine(options.machine_file);
-    if (!machine) { return output.fail(machine.error()); }
-    auto session = Session::open(*machine, Purpose::Command);
-    if (!session) { return output.fail(session.error()); }
-    const auto start_mm = start_places(*session);
-    if (!start_mm) { return output.fail(start_mm.error()); }
-    const auto values = session->values();
-    if (!values) { return output.fail(values.error()); }
-    auto chosen = choose(options, *text, machine->config, *start_mm, *values, output);
+    auto start = reach_start(options);
+    if (!start) { return output.fail(start.error()); }
+    auto chosen = choose(options, *text, start->session.config(), start->stands_mm, start->values, output);
     if (!chosen) { return output.fail(chosen.error()); }
-    const auto planned_s = planned_seconds(*session, chosen->program, *start_mm);
+    const auto planned_s = planned_seconds(start->session, chosen->program, start->stands_mm);
     if (!planned_s) { return output.fail(bad_file(options.file, planned_s.error().errors)); }
+    if (options.dry_run) {
+        proto::RunReport report;
+        fill_approach(chosen->program, chosen->approach, report);
+        return report_dry_run(chosen->program.name, fmt::format("{} blocks", chosen->program.blocks.size()), *planned_s,
+                              std::move(report), output);
+    }
     const Job job{.command = CommandKind::Run,
                   .kind = "run",
                   .name = chosen->program.name,
@@ -215,9 +216,8 @@ ExitCode run(const RunOptions& options) {
                   .planned_s = *planned_s,
                   .detach = options.detach,
                   .take = options.take};
-    if (options.dry_run) { return report_dry_run(job, chosen->approach, output); }
     if (const auto confirmed = confirm(options, output); !confirmed) { return output.fail(confirmed.error()); }
-    return run_job(*session, job, output);
+    return run_job(start->session, job, output);
 }
 
 void add_restart_options(CLI::App& verb, RunOptions& options) {

@@ -51,13 +51,4 @@ std::expected<std::vector<JogAxis>, std::string> jog_axes(const MachineConfig& m
     return jogs;
 }
 
-std::int64_t jog_target(const AxisConfig& axis, const JogAxis& jog, std::int64_t here) {
-    const std::int64_t min = to_steps(axis, axis.position_min_mm);
-    const std::int64_t max = to_steps(axis, axis.position_max_mm);
-    if (!jog.distance_mm) { return jog.speed_mm_s < 0 ? min : max; }
-    const std::int64_t steps =
-        to_steps(axis, std::min(*jog.distance_mm, 2 * (axis.position_max_mm - axis.position_min_mm)));
-    return std::clamp(jog.speed_mm_s < 0 ? here - steps : here + steps, min, max);
-}
-
 }  // namespace lockstep

@@ -23,7 +23,4 @@ double usual_jog_speed(const AxisConfig& axis);
 /// Fails if a word, a speed or a distance is not valid for the machine.
 std::expected<std::vector<JogAxis>, std::string> jog_axes(const MachineConfig& machine, const JogOptions& options);
 
-/// The position, in steps, where the jog of a homed axis at `here` ends by itself.
-std::int64_t jog_target(const AxisConfig& axis, const JogAxis& jog, std::int64_t here);
-
 }  // namespace lockstep

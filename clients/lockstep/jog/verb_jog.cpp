@@ -1,4 +1,5 @@
 // lockstep jog
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -16,6 +17,7 @@
 #include "clients/session/status_text.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/format.hpp"
+#include "core/coordinator/jobs/jogs.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/stop_signal.hpp"
 
@@ -47,8 +49,7 @@ class Arrival {
 public:
     Arrival(const Session& session, const std::vector<JogAxis>& jogs) : jogs_(jogs) {
         for (const JogAxis& jog : jogs) {
-            const std::int64_t here = session.axis(jog.axis)->state.position.count();
-            targets_.push_back(jog_target(session.config().axes[jog.axis], jog, here));
+            targets_.push_back(jog_target(jog, session.config().axes[jog.axis], session.axis(jog.axis)->state));
         }
     }
     bool is_complete(const Session& session) const {
@@ -94,32 +95,22 @@ ExitCode finish(Session& session, const Arrival& arrival, bool is_released, prot
     return report.outcome() == "done" || report.outcome() == "released" ? kExitDone : kExitFailed;
 }
 
-ExitCode refuse(const Reply& reply, proto::RunReport& report, Output& output) {
-    report.set_outcome("refused");
-    *report.mutable_fault() = fault_report(reply.fault, "");
-    output.report(report);
-    if (!output.json()) {
-        output.warn("jog " + report.name() + ": refused: " + reply.text + "\n" + fault_text(report.fault()));
-    }
-    return kExitFailed;
-}
-
 ExitCode jog_by_words(Session& session, const JogOptions& options, const std::vector<JogAxis>& jogs, Output& output) {
     if (auto axes = session.reach_axes(); !axes) { return output.fail(axes.error()); }
     warn_of_unhomed(session, jogs, output);
     const Arrival arrival(session, jogs);
     proto::RunReport report;
     report.set_kind("jog");
-    for (const std::string& word : options.words) {
-        report.set_name(report.name() + (report.name().empty() ? "" : " ") + word);
-    }
+    report.set_name(fmt::format("{}", fmt::join(options.words, " ")));
     JogLink link(session);
     link.press(jogs);
     for (const nanoseconds end = monotonic_now() + kAnswerPatience; link.reply() == nullptr;) {
         if (monotonic_now() > end) { return output.fail(session.silent()); }
         link.pass(monotonic_now() + 5ms);
     }
-    if (link.reply()->status == ReplyStatus::Refused) { return refuse(*link.reply(), report, output); }
+    if (link.reply()->status == ReplyStatus::Refused) {
+        return print_refusal("jog " + report.name(), *link.reply(), report, output);
+    }
     report.set_job(link.reply()->job);
     const auto released = hold(session, link);
     if (!released) { return output.fail(released.error()); }

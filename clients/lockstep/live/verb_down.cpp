@@ -1,4 +1,6 @@
 // lockstep down
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include <CLI/CLI.hpp>
@@ -40,16 +42,9 @@ void bring_to_rest(const ChosenMachine& machine, Output& output) {
     if (!moves()) { return; }
     output.print("stopping first ...");
     if (!session->command({.kind = CommandKind::Stop})) { return; }
-    const auto deadline = monotonic_now() + kDownPatience;
-    while (moves() && monotonic_now() < deadline) { session->receive(50ms); }
+    (void)session->receive_until(kDownPatience, [&] { return !moves(); });
     const auto until = monotonic_now() + kLastStates;
     while (monotonic_now() < until) { session->receive(until - monotonic_now()); }
-}
-
-std::string listed(const std::vector<std::string>& names) {
-    std::string text;
-    for (const std::string& name : names) { text += (text.empty() ? "" : ", ") + name; }
-    return text;
 }
 
 ExitCode report_done(const std::string& text, Output& output) {
@@ -75,10 +70,11 @@ ExitCode down_here(const LiveOptions& options, Output& output) {
     bring_to_rest(*machine, output);
     const TakenDown taken = take_down(state);
     if (taken.left.empty()) {
-        return report_done("machine '" + machine->config.name + "' is down; ended " + listed(taken.ended), output);
+        return report_done(
+            fmt::format("machine '{}' is down; ended {}", machine->config.name, fmt::join(taken.ended, ", ")), output);
     }
-    return output.fail(failed("could not end " + listed(taken.left) + " of machine '" + machine->config.name +
-                              "'; see " + state.path().string() + "/processes"));
+    return output.fail(failed(fmt::format("could not end {} of machine '{}'; see {}/processes",
+                                          fmt::join(taken.left, ", "), machine->config.name, state.path().string())));
 }
 
 ExitCode down(const DownOptions& options) {

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "clients/incident/incident_input.hpp"
 #include "clients/incident/incident_report.hpp"
 #include "clients/lockstep/offline/incident_text.hpp"

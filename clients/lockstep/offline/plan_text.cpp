@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <cstdio>
-
 #include "clients/text/format.hpp"
 #include "core/axis_unit.hpp"
 
@@ -20,11 +17,9 @@ std::string places(const PlannedFile& input) {
 }
 
 std::string row(const AxisPlan& axis) {
-    std::array<char, 160> text{};
-    std::snprintf(text.data(), text.size(), "\n%-16s %4s %12lld %10.2f %10.0f %10.2f %11.3f %11.3f", axis.name.c_str(),
-                  std::string(unit_of(axis.name)).c_str(), static_cast<long long>(axis.steps), axis.peak_velocity_mm_s,
-                  axis.peak_acceleration_mm_s2, axis.peak_jump_mm_s, axis.min_mm, axis.max_mm);
-    return text.data();
+    return fmt::format("\n{:<16} {:>4} {:>12} {:>10.2f} {:>10.0f} {:>10.2f} {:>11.3f} {:>11.3f}", axis.name,
+                       unit_of(axis.name), axis.steps, axis.peak_velocity_mm_s, axis.peak_acceleration_mm_s2,
+                       axis.peak_jump_mm_s, axis.min_mm, axis.max_mm);
 }
 
 }  // namespace
@@ -36,10 +31,8 @@ std::string plan_text(const PlannedFile& input) {
     if (plan.pauses > 0) { text += fmt::format(", and what its {} pauses take", plan.pauses); }
     text += "\n  length    " + fixed(plan.length_mm, 3) + " mm along the path\n";
     text += fmt::format("  moves     {}, of {} lines\n\n", plan.moves, input.lines);
-    std::array<char, 160> head{};
-    std::snprintf(head.data(), head.size(), "%-16s %4s %12s %10s %10s %10s %11s %11s", "axis", "unit", "steps",
-                  "peak /s", "peak /s²", "jump /s", "from", "to");
-    text += head.data();
+    text += fmt::format("{:<16} {:>4} {:>12} {:>10} {:>10} {:>10} {:>11} {:>11}", "axis", "unit", "steps", "peak /s",
+                        "peak /s²", "jump /s", "from", "to");
     for (const AxisPlan& axis : plan.axes) { text += row(axis); }
     return text;
 }

@@ -14,7 +14,6 @@
 #include "clients/lockstep/verb.hpp"
 #include "clients/report_page/report_page.hpp"
 #include "clients/text/colour.hpp"
-#include "clients/text/format.hpp"
 #include "clients/text/output.hpp"
 
 namespace lockstep {
@@ -83,9 +82,7 @@ ExitCode analyze_log(const AnalyzeOptions& options) {
     analysis::AnalysisOptions what;
     if (!options.svg_dir.empty()) { what.svg_dir = options.svg_dir; }
     if (!options.csv_dir.empty()) { what.csv_dir = options.csv_dir; }
-    if (output.is_terminal()) {
-        what.progress = [&](double done) { output.progress("reading " + fixed(done * 100, 0) + " %"); };
-    }
+    what.progress = output.percent_on_terminal("reading");
     const auto found = analysis::analyze_log(options.log, what);
     if (!found) { return output.fail(bad_input(found.error())); }
     std::string text = analysis::summary(*found);

@@ -43,20 +43,14 @@ std::expected<std::vector<methods::Method>, std::string> chosen(const std::vecto
     return found;
 }
 
-std::expected<void, std::string> write_file(const std::string& path, const std::string& text) {
-    return path.empty() ? std::expected<void, std::string>{} : write_text_file(path, text);
-}
-
 std::expected<void, std::string> write_files(const CompareOptions& options, const comparison::Comparison& result) {
-    if (!options.svg.empty()) {
-        if (auto done = write_file(options.svg, drawing::to_svg(comparison_figure(result))); !done) { return done; }
+    std::expected<void, std::string> done;
+    if (!options.svg.empty()) { done = write_text_file(options.svg, drawing::to_svg(comparison_figure(result))); }
+    if (done && !options.lines_svg.empty()) {
+        done = write_text_file(options.lines_svg, drawing::to_svg(comparison::lines_figure()));
     }
-    if (!options.lines_svg.empty()) {
-        if (auto done = write_file(options.lines_svg, drawing::to_svg(comparison::lines_figure())); !done) {
-            return done;
-        }
-    }
-    return options.html.empty() ? std::expected<void, std::string>{} : write_file(options.html, to_html(result));
+    if (done && !options.html.empty()) { done = write_text_file(options.html, to_html(result)); }
+    return done;
 }
 
 ExitCode compare_verb(const CompareOptions& options) {

@@ -9,7 +9,6 @@
 #include "clients/export/export.hpp"
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
-#include "clients/text/format.hpp"
 #include "clients/text/output.hpp"
 #include "idl/proto/report.pb.h"
 
@@ -65,12 +64,8 @@ ExitCode export_verb(const ExportOptions& options) {
     if (std::filesystem::equivalent(options.log, to, ignored)) {
         return output.fail(bad_input(to.string() + ": is the log itself; name another file with --out"));
     }
-    std::function<void(double)> progress;
-    if (output.is_terminal()) {
-        progress = [&](double done) { output.progress("exporting " + fixed(done * 100, 0) + " %"); };
-    }
-    const auto exported =
-        exporting::export_log(options.log, to, options.format == "csv" ? Format::Csv : Format::Mcap, progress);
+    const auto exported = exporting::export_log(options.log, to, options.format == "csv" ? Format::Csv : Format::Mcap,
+                                                output.percent_on_terminal("exporting"));
     if (!exported) { return output.fail(bad_input(exported.error())); }
     output.print(fmt::format("{}: {} samples; the record is {}", to.string(), exported->samples,
                              analysis::to_text(exported->record)));

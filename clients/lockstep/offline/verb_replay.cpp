@@ -9,7 +9,6 @@
 #include "clients/lockstep/offline/result_text.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/replay/replay.hpp"
-#include "clients/text/format.hpp"
 #include "clients/text/output.hpp"
 #include "services/record/new_log_file.hpp"
 
@@ -35,11 +34,8 @@ ExitCode replay_verb(const ReplayOptions& options) {
         if (!begun) { return output.fail(bad_input(begun.error())); }
         made.emplace(std::move(*begun));
     }
-    std::function<void(double)> progress;
-    if (output.is_terminal()) {
-        progress = [&](double done) { output.progress("replaying " + fixed(done * 100, 0) + " %"); };
-    }
-    const auto findings = replay::replay_log(options.log, made ? &made->sink() : nullptr, progress);
+    const auto findings =
+        replay::replay_log(options.log, made ? &made->sink() : nullptr, output.percent_on_terminal("replaying"));
     if (!findings) { return output.fail(bad_input(findings.error())); }
     if (made) {
         if (const auto kept = made->keep(); !kept) { return output.fail(failed(kept.error())); }

@@ -83,14 +83,12 @@ ExitCode record_simulation(const SimulateOptions& options, const PlannedFile& in
     auto log = NewLogFile::begin(options.log, options.force);
     if (!log) { return output.fail(bad_input(log.error())); }
     const StopSignal stop;
-    const auto result = run(log->sink(), {.progress =
-                                              [&](double done) {
-                                                  if (output.is_terminal()) {
-                                                      output.progress("simulating " + fixed(done * 100, 0) + " %");
-                                                  }
-                                                  return !stop.requested();
-                                              },
-                                          .stopwatch = seconds_now});
+    const auto show = output.percent_on_terminal("simulating");
+    const auto progress = [&](double done) {
+        if (show) { show(done); }
+        return !stop.requested();
+    };
+    const auto result = run(log->sink(), {.progress = progress, .stopwatch = seconds_now});
     if (!result) { return output.fail(failed(result.error() + "; no log was written")); }
     if (auto kept = log->keep(); !kept) { return output.fail(failed(kept.error())); }
     output.print(in_words(options, input, *result));

@@ -6,7 +6,6 @@
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/offline/result_text.hpp"
 #include "clients/lockstep/verb.hpp"
-#include "clients/text/format.hpp"
 #include "clients/text/output.hpp"
 #include "clients/verification/verification.hpp"
 
@@ -20,11 +19,7 @@ struct VerifyOptions {
 
 ExitCode verify(const VerifyOptions& options) {
     Output output(options.json);
-    std::function<void(double)> progress;
-    if (output.is_terminal()) {
-        progress = [&](double done) { output.progress("comparing " + fixed(done * 100, 0) + " %"); };
-    }
-    const auto findings = verification::verify_log(options.log, progress);
+    const auto findings = verification::verify_log(options.log, output.percent_on_terminal("comparing"));
     if (!findings) { return output.fail(bad_input(findings.error())); }
     const bool exact = findings->is_exact();
     output.print(result_text(verification::to_text(*findings), exact));

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "clients/lockstep/status/alarms.hpp"
 #include "clients/session/status_text.hpp"
@@ -23,11 +21,7 @@ std::string painted(const std::string& text, std::string_view colour, Ink ink) {
     return ink == Ink::Plain ? text : lockstep::painted(text, colour);
 }
 
-std::string padded(const std::string& text, int width) {
-    std::array<char, 128> out{};
-    std::snprintf(out.data(), out.size(), "%*s", width, text.c_str());
-    return out.data();
-}
+std::string padded(const std::string& text, int width) { return fmt::format("{:>{}}", text, width); }
 
 std::string cut(const std::string& text, std::size_t width) {
     return text.size() <= width ? text : text.substr(0, width - 1) + "~";
@@ -67,14 +61,12 @@ std::string_view colour_of(const proto::AxisStatus& axis) {
 }
 
 std::string axis_row(const proto::AxisStatus& axis, const SlackScale& scale, Ink ink) {
-    std::array<char, 128> name{};
-    std::snprintf(name.data(), name.size(), "%-10s", cut(axis_label(axis.name()), 10).c_str());
-    if (!axis.present()) { return name.data() + painted("   not received", kBad, ink); }
-    std::array<char, 32> state{};
-    std::snprintf(state.data(), state.size(), "%-10s", axis.state().c_str());
+    const std::string name = fmt::format("{:<10}", cut(axis_label(axis.name()), 10));
+    if (!axis.present()) { return name + painted("   not received", kBad, ink); }
+    const std::string state = fmt::format("{:<10}", axis.state());
     const std::string place = axis.homed() ? fixed(axis.position_mm(), 4) : "not homed";
-    std::string row = name.data() + padded(place, 12) + padded(fixed(axis.velocity_mm_s(), 2), 9) + "  " +
-                      painted(state.data(), colour_of(axis), ink);
+    std::string row = name + padded(place, 12) + padded(fixed(axis.velocity_mm_s(), 2), 9) + "  " +
+                      painted(state, colour_of(axis), ink);
     if (!axis.has_health()) { return row; }
     return row + " " + slack_bar(axis.health(), scale, ink) + padded(lateness(axis.health()), 8) +
            padded(fixed(axis.health().loop_p99_us(), 0), 8);

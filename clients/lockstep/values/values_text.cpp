@@ -22,16 +22,12 @@ constexpr double kMostPlace = 1e6;  // mm or degrees, in both directions
 constexpr std::size_t kNameWidth = 7;
 constexpr int kMaxToolNumber = 99'999;
 
-/// The index in kAxisLetters of an axis; nullopt if G-code cannot name it.
-std::optional<std::size_t> letter_of(const std::string& axis) {
-    const std::size_t place = axis.size() == 1 ? gcode::kAxisLetters.find(axis[0]) : gcode::kAxisLetters.npos;
-    return place == gcode::kAxisLetters.npos ? std::nullopt : std::optional(place);
-}
-
 std::string places_text(const MachineConfig& machine, const Point& place) {
     std::string text;
     for (const AxisConfig& axis : machine.axes) {
-        if (const auto letter = letter_of(axis.name)) { text += "  " + axis.name + " " + number_text(place[*letter]); }
+        if (const auto letter = gcode::axis_place(axis.name)) {
+            text += "  " + axis.name + " " + number_text(place[*letter]);
+        }
     }
     return text;
 }
@@ -63,7 +59,7 @@ std::expected<Word, std::string> read_word(const std::string& text) {
 Changed set_axis(const MachineConfig& machine, const Word& word, Point& place) {
     const auto axis = find_axis(machine, word.name);
     if (!axis) { return std::unexpected(axis.error()); }
-    const auto letter = letter_of(machine.axes[*axis].name);
+    const auto letter = gcode::axis_place(machine.axes[*axis].name);
     if (!letter) { return std::unexpected("G-code cannot name axis " + word.name + ", so it has no offset"); }
     place[*letter] = word.value;
     return {};
@@ -164,7 +160,7 @@ Changed set_offset(const MachineConfig& machine, std::string_view name, const Ch
     if (home != nullptr && !*home) {
         *home = Point{};
         for (const AxisConfig& axis : machine.axes) {
-            if (const auto letter = letter_of(axis.name)) { (**home)[*letter] = axis.homing.park_mm; }
+            if (const auto letter = gcode::axis_place(axis.name)) { (**home)[*letter] = axis.homing.park_mm; }
         }
     }
     if (home == nullptr) { values.g92_applies = true; }

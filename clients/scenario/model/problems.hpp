@@ -1,9 +1,10 @@
 // Collects the errors of a scenario file, each with the place of its key in the text.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
-#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -14,11 +15,7 @@
 namespace lockstep::scenario {
 
 /// "X, Y, Z"
-inline std::string listed(const std::vector<std::string>& words) {
-    std::string text;
-    for (const std::string& word : words) { text += (text.empty() ? "" : ", ") + word; }
-    return text;
-}
+inline std::string listed(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
 
 class Problems {
 public:

@@ -23,9 +23,8 @@ public:
           asked_(scenario.asked),
           machine_(scenario.machine),
           processes_(processes_of(asked_, machine_)),
-          problems_(source) {
-        for (const AxisConfig& axis : machine_.axes) { axes_.push_back(axis.name); }
-    }
+          axes_(machine_.axis_names()),
+          problems_(source) {}
 
     Diagnostics errors() {
         check_setup();

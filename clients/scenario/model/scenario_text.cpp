@@ -2,10 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 #include "clients/scenario/model/problems.hpp"
-#include "core/protocol/names.hpp"
 
 namespace lockstep::scenario {
 namespace {

@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "clients/supervisor/state_directory.hpp"
+#include "services/files/descriptor.hpp"
 
 namespace lockstep::scenario {
 
@@ -44,18 +45,15 @@ std::expected<void, std::string> run_program(const CommandLine& words, const std
     int status = 0;
     waitpid(*pid, &status, 0);
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) { return {}; }
-    std::string text;
-    for (const std::string& word : words) { text += (text.empty() ? "" : " ") + word; }
-    return std::unexpected(text + ": failed; its output:\n" + tail_of(log, 3));
+    return std::unexpected(fmt::format("{}: failed; its output:\n{}", fmt::join(words, " "), tail_of(log, 3)));
 }
 
 std::expected<std::string, std::string> output_of_program(const CommandLine& words) {
-    const int memory = memfd_create("output", MFD_CLOEXEC);
-    const std::filesystem::path log = fmt::format("/proc/self/fd/{}", memory);
+    const Descriptor memory(memfd_create("output", MFD_CLOEXEC));
+    const std::filesystem::path log = fmt::format("/proc/self/fd/{}", memory.get());
     const auto ran = run_program(words, log);
     std::ifstream file(log);
     std::string output{std::istreambuf_iterator<char>(file), {}};
-    close(memory);
     if (!ran) { return std::unexpected(ran.error()); }
     return output;
 }

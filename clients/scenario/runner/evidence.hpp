@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 #include "clients/scenario/model/facts.hpp"
 #include "core/machine.hpp"

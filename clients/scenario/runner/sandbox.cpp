@@ -23,15 +23,6 @@ std::string why(const std::string& what) {
     return what + ": " + std::strerror(errno) + "; a scenario runs in namespaces of its own, which only root can make";
 }
 
-void write_all(int pipe, const std::string& text) {
-    for (std::size_t done = 0; done < text.size();) {
-        const ssize_t n = write(pipe, text.data() + done, text.size() - done);
-        if (n < 0 && errno == EINTR) { continue; }
-        if (n <= 0) { return; }
-        done += static_cast<std::size_t>(n);
-    }
-}
-
 /// Mounts memory over the directories of the host. Returns an empty text, or why it failed.
 std::string make_own_folders() {
     if (mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) {
@@ -51,25 +42,25 @@ std::string make_own_folders() {
 }
 
 /// The first process of the sandbox: when it ends, the kernel ends all others in it.
-[[noreturn]] void run_inside(const std::function<std::string()>& run, int pipe) {
+[[noreturn]] void run_inside(const std::function<std::string()>& run, const Descriptor& pipe) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     const std::string obstacle = make_own_folders();
-    write_all(pipe, obstacle.empty() ? kResult + run() : kError + obstacle);
+    (void)write_all(pipe, obstacle.empty() ? kResult + run() : kError + obstacle);
     _exit(0);
 }
 
 /// The process outside, which waits for the first one inside.
-[[noreturn]] void run_keeper(const std::function<std::string()>& run, int pipe, pid_t parent) {
+[[noreturn]] void run_keeper(const std::function<std::string()>& run, Descriptor pipe, pid_t parent) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) { _exit(0); }  // the parent died before prctl took effect
     if (unshare(CLONE_NEWNET | CLONE_NEWNS | CLONE_NEWPID) != 0) {
-        write_all(pipe, kError + why("cannot create namespaces"));
+        (void)write_all(pipe, kError + why("cannot create namespaces"));
         _exit(0);
     }
     const pid_t first = fork();
     if (first == 0) { run_inside(run, pipe); }
-    if (first < 0) { write_all(pipe, kError + why("cannot start a process")); }
-    close(pipe);
+    if (first < 0) { (void)write_all(pipe, kError + why("cannot start a process")); }
+    pipe = Descriptor();
     int status = 0;
     waitpid(first, &status, 0);
     _exit(0);
@@ -82,38 +73,29 @@ std::filesystem::path sandbox_folder() { return "/dev/shm/scenario"; }
 std::expected<Sandbox, std::string> Sandbox::start(const std::function<std::string()>& run) {
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0) { return std::unexpected(why("cannot create a pipe")); }
+    Descriptor output(ends[0]);
+    Descriptor input(ends[1]);
     const pid_t self = getpid();
     const pid_t keeper = fork();
     if (keeper == 0) {
-        close(ends[0]);
-        run_keeper(run, ends[1], self);
+        output = Descriptor();
+        run_keeper(run, std::move(input), self);
     }
-    close(ends[1]);
-    if (keeper < 0) {
-        close(ends[0]);
-        return std::unexpected(why("cannot start a process"));
-    }
-    return Sandbox(keeper, ends[0]);
+    if (keeper < 0) { return std::unexpected(why("cannot start a process")); }
+    return Sandbox(keeper, std::move(output));
 }
-
-Sandbox::Sandbox(Sandbox&& other) noexcept
-    : keeper_(std::exchange(other.keeper_, 0)),
-      pipe_(std::exchange(other.pipe_, -1)),
-      output_(std::move(other.output_)),
-      ended_(other.ended_) {}
 
 /// Waits until the last process of the sandbox has closed the pipe's other end.
 Sandbox::~Sandbox() {
-    if (pipe_ < 0) { return; }
+    if (!pipe_.is_open()) { return; }
     kill(keeper_, SIGKILL);
     while (!read_output()) {}
     waitpid(keeper_, nullptr, 0);
-    close(pipe_);
 }
 
 bool Sandbox::read_output() {
     std::array<char, 4096> buffer{};
-    const ssize_t n = ended_ ? 0 : read(pipe_, buffer.data(), buffer.size());
+    const ssize_t n = ended_ ? 0 : read(pipe_.get(), buffer.data(), buffer.size());
     if (n > 0) { output_.append(buffer.data(), static_cast<std::size_t>(n)); }
     ended_ = n == 0 || (n < 0 && errno != EINTR);
     return ended_;

@@ -9,6 +9,8 @@
 #include <functional>
 #include <string>
 
+#include "services/files/descriptor.hpp"
+
 namespace lockstep::scenario {
 
 /// A directory in memory inside the sandbox. The kernel removes it with the sandbox.
@@ -20,24 +22,22 @@ public:
     /// error says why no sandbox can be made, with the remedy.
     static std::expected<Sandbox, std::string> start(const std::function<std::string()>& run);
 
-    Sandbox(Sandbox&& other) noexcept;
-    Sandbox& operator=(Sandbox&&) = delete;
-    Sandbox(const Sandbox&) = delete;
+    Sandbox(Sandbox&&) = default;
     /// Ends the sandbox if it still runs.
     ~Sandbox();
 
     /// Becomes readable when there is output.
-    int readable() const { return pipe_; }
+    int readable() const { return pipe_.get(); }
     /// Reads the available output. Returns true when the sandbox has ended and its result is complete.
     bool read_output();
     /// Call it when the sandbox has ended. The error says why there is no result.
     std::expected<std::string, std::string> result() const;
 
 private:
-    Sandbox(pid_t keeper, int pipe) : keeper_(keeper), pipe_(pipe) {}
+    Sandbox(pid_t keeper, Descriptor pipe) : keeper_(keeper), pipe_(std::move(pipe)) {}
 
     pid_t keeper_;  // the process outside; the sandbox ends with it
-    int pipe_;
+    Descriptor pipe_;
     std::string output_;
     bool ended_ = false;
 };

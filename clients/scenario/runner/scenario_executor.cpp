@@ -40,12 +40,6 @@ CommandKind command_of(const Step& step) {
     return step.has_home() ? CommandKind::Home : step.has_run() ? CommandKind::Run : CommandKind::Move;
 }
 
-std::vector<std::string> axis_names(const MachineConfig& machine) {
-    std::vector<std::string> names;
-    for (const AxisConfig& axis : machine.axes) { names.push_back(axis.name); }
-    return names;
-}
-
 std::string text_of(const Failure& failure) { return to_text(failure.file, failure.errors); }
 
 }  // namespace
@@ -119,7 +113,7 @@ void ScenarioExecutor::execute_job(const Step& step) {
     note(text_of(step));
     const Term asked = session_.state() ? session_.state()->state.term : Term{};
     const auto reply = begin(step);
-    EventSchedule schedule(step, axis_names(scenario_.machine));
+    EventSchedule schedule(step, scenario_.machine.axis_names());
     if (!reply) {
         observed_.broken = title(step) + ": " + reply.error();
         return;

@@ -2,8 +2,6 @@
 // and notes what it observes for the evaluation.
 #pragma once
 
-#include <functional>
-
 #include "clients/scenario/model/event_schedule.hpp"
 #include "clients/scenario/model/facts.hpp"
 #include "clients/scenario/runner/act_executor.hpp"

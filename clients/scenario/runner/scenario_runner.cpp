@@ -10,6 +10,7 @@
 #include "clients/scenario/runner/control_groups.hpp"
 #include "clients/scenario/runner/run_scenario.hpp"
 #include "clients/scenario/runner/sandbox.hpp"
+#include "services/files/descriptor.hpp"
 
 namespace lockstep::scenario {
 namespace {
@@ -37,7 +38,6 @@ public:
     ScenarioRunner(const std::vector<Scenario>& scenarios, const RunnerOptions& options)
         : scenarios_(scenarios), options_(options), reports_(scenarios.size()) {}
     ~ScenarioRunner() {
-        for (const int folder : folders_) { close(folder); }
         sandboxes_.clear();
         if (containers_) { remove_control_groups(); }
     }
@@ -64,7 +64,7 @@ private:
             if (!options_.keep) { break; }
             const auto folder = open_folder(*options_.keep / scenario.name());
             if (!folder) { return std::unexpected(folder.error()); }
-            folders_.push_back(*folder);
+            folders_.emplace_back(*folder);
         }
         return {};
     }
@@ -81,7 +81,7 @@ private:
     std::expected<void, std::string> start_some() {
         while (next_ < scenarios_.size() && sandboxes_.size() < static_cast<std::size_t>(options_.at_a_time)) {
             const Scenario& scenario = scenarios_[next_];
-            const int folder = options_.keep ? folders_[next_] : -1;
+            const int folder = options_.keep ? folders_[next_].get() : -1;
             auto sandbox =
                 Sandbox::start([&] { return run_scenario(scenario, containers_, folder).SerializeAsString(); });
             if (!sandbox) { return std::unexpected(sandbox.error()); }
@@ -138,7 +138,7 @@ private:
     const std::vector<Scenario>& scenarios_;
     const RunnerOptions& options_;
     std::vector<proto::ScenarioReport> reports_;
-    std::vector<int> folders_;  // of the scenarios, open
+    std::vector<Descriptor> folders_;  // of the scenarios, open
     std::optional<Containers> containers_;
     std::map<std::size_t, Sandbox> sandboxes_;  // by the scenario's index
     std::vector<std::size_t> ended_;

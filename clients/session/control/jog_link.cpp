@@ -1,7 +1,5 @@
 #include "clients/session/control/jog_link.hpp"
 
-#include <algorithm>
-
 #include "services/runtime/clock.hpp"
 
 namespace lockstep {

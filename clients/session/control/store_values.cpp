@@ -1,16 +1,13 @@
 #include "clients/session/control/store_values.hpp"
 
 namespace lockstep {
-namespace {
 
-/// A program that has nothing to run.
 Program edit_of(const MachineConfig& machine) {
-    Program program{.name = "edit", .axes = {}, .start_mm = std::vector<double>(machine.axes.size()), .blocks = {}};
-    for (const AxisConfig& axis : machine.axes) { program.axes.push_back(axis.name); }
-    return program;
+    return {.name = "edit",
+            .axes = machine.axis_names(),
+            .start_mm = std::vector<double>(machine.axes.size()),
+            .blocks = {}};
 }
-
-}  // namespace
 
 std::expected<void, Failure> store_values(Session& session, RevisedValues& values, const gcode::KeptValues& wanted) {
     if (wanted == values.values) { return {}; }

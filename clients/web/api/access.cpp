@@ -13,12 +13,7 @@ namespace {
 std::string hash_of(const std::string& text) {
     std::array<unsigned char, SHA256_DIGEST_LENGTH> digest{};
     (void)SHA256(reinterpret_cast<const unsigned char*>(text.data()), text.size(), digest.data());
-    std::string hex;
-    for (const unsigned char byte : digest) {
-        hex += "0123456789abcdef"[byte >> 4];
-        hex += "0123456789abcdef"[byte & 15];
-    }
-    return hex;
+    return fmt::format("{:02x}", fmt::join(digest, ""));
 }
 
 /// Takes a time that does not depend on where they differ.
@@ -67,9 +62,7 @@ std::optional<Problem> Access::refuse_foreign(const Request& request) const {
     const std::string* host = request.header("host");
     const std::string given = host == nullptr ? "" : *host;
     if (std::ranges::find(rules_.hosts, host_of(given)) == rules_.hosts.end()) {
-        std::string hosts;
-        for (const std::string& name : rules_.hosts) { hosts += (hosts.empty() ? "" : ", ") + name; }
-        return foreign("host", given, hosts);
+        return foreign("host", given, fmt::format("{}", fmt::join(rules_.hosts, ", ")));
     }
     const std::string* origin = request.header("origin");
     const std::string own = (rules_.is_tls ? "https://" : "http://") + given;

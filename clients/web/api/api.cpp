@@ -167,13 +167,13 @@ void Api::open_session(Request&& request, const Answer& answer) {
     if (problem) { return answer(to_response(*problem)); }
     const auto role = access_.try_token(token, monotonic_now());
     if (!role) { return answer(to_response(role.error())); }
-    Response response = json_response(200, {{"role", name_of(*role)}});
+    Response response = json_response({{"role", name_of(*role)}});
     response.headers.emplace_back("Set-Cookie", access_.cookie_for(*role));
     answer(std::move(response));
 }
 
 void Api::show_session(Request&& request, const Answer& answer) {
-    answer(json_response(200, {{"role", name_of(*access_.role_of(request))}}));
+    answer(json_response({{"role", name_of(*access_.role_of(request))}}));
 }
 
 void Api::close_session(Request&&, const Answer& answer) {
@@ -181,13 +181,13 @@ void Api::close_session(Request&&, const Answer& answer) {
 }
 
 void Api::show_machine(Request&&, const Answer& answer) {
-    answer(json_response(200, machine_document(parts_.machine, parts_.version)));
+    answer(json_response(machine_document(parts_.machine, parts_.version)));
 }
 
 void Api::show_state(Request&&, const Answer& answer) {
     const auto loaded = parts_.desk.loaded();
-    answer(json_response(200, state_document(*parts_.port.snapshot(), parts_.machine,
-                                             loaded ? loaded->facts.get() : nullptr, viewers_)));
+    answer(json_response(
+        state_document(*parts_.port.snapshot(), parts_.machine, loaded ? loaded->facts.get() : nullptr, viewers_)));
 }
 
 void Api::publish(const Snapshot& snapshot) {
@@ -224,7 +224,7 @@ void Api::show_mdi(Request&&, const Answer& answer) {
     Json lines = Json::array();
     const std::lock_guard lock(lines_mutex_);
     for (const auto& [line, accepted] : lines_) { lines.push_back({{"line", line}, {"accepted", accepted}}); }
-    answer(json_response(200, {{"lines", lines}}));
+    answer(json_response({{"lines", lines}}));
 }
 
 }  // namespace lockstep::web

@@ -66,7 +66,7 @@ void Api::take_command(Request&& request, const Answer& answer) {
         if (!replays_.use(*key, monotonic_now())) { return answer(to_response(replayed(*key))); }
     }
     carry_out(*order, [answer](Outcome&& outcome) {
-        answer(outcome ? json_response(200, accepted_json(*outcome)) : to_response(outcome.error()));
+        answer(outcome ? json_response(accepted_json(*outcome)) : to_response(outcome.error()));
     });
 }
 

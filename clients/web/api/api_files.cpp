@@ -1,14 +1,12 @@
 // The requests for the loaded program, its path and the reports.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <charconv>
-
 #include "clients/web/api/api.hpp"
 #include "clients/web/request/body_reader.hpp"
 #include "clients/web/state/limits.hpp"
 #include "clients/web/state/state_document.hpp"
 #include "core/number_text.hpp"
+#include "core/parse_number.hpp"
 
 namespace lockstep::web {
 namespace {
@@ -41,10 +39,8 @@ std::expected<std::size_t, Problem> most_points(const Request& request) {
     const auto found = request.query.find("points");
     if (found == request.query.end()) { return kMaxPathPoints; }
     const std::string& text = found->second;
-    std::size_t points = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), points);
-    const bool is_number = error == std::errc{} && end == text.data() + text.size();
-    if (is_number && points >= 2 && points <= kMaxPathPoints) { return points; }
+    const auto points = parse_number<std::size_t>(text);
+    if (points && *points >= 2 && *points <= kMaxPathPoints) { return *points; }
     return std::unexpected(
         wrong_value(400, "points", text.substr(0, 100), fmt::format("a whole number from 2 to {}", kMaxPathPoints)));
 }
@@ -84,7 +80,7 @@ void Api::load(Request&& request, const Answer& answer) {
         if (!program) { return answer(to_response(program.error())); }
         const Json facts = program_json(*program->facts);
         parts_.desk.load(*std::move(program));
-        answer(json_response(200, facts));
+        answer(json_response(facts));
     });
     if (!taken) { answer(to_response(desk_is_full())); }
 }
@@ -107,7 +103,7 @@ void Api::show_path(Request&& request, const Answer& answer) {
 }
 
 void Api::list_reports(Request&&, const Answer& answer) {
-    const bool taken = parts_.desk.add([this, answer] { answer(json_response(200, parts_.reports.list())); });
+    const bool taken = parts_.desk.add([this, answer] { answer(json_response(parts_.reports.list())); });
     if (!taken) { answer(to_response(desk_is_full())); }
 }
 

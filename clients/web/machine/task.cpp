@@ -1,5 +1,6 @@
 #include "clients/web/machine/task.hpp"
 
+#include "clients/session/control/store_values.hpp"
 #include "core/protocol/needs_lease.hpp"
 
 namespace lockstep::web {
@@ -14,21 +15,14 @@ constexpr nanoseconds kDiskPatience = 15s;
 constexpr nanoseconds kRepeatAfter = 250ms;
 constexpr nanoseconds kRepeatStopAfter = 20ms;  // for an emergency stop
 
+Problem refused_by(const Reply& reply) { return refused(reply.fault, reply.text); }
+
 Outcome outcome_of(const Reply& reply) {
-    if (reply.status == ReplyStatus::Refused) { return std::unexpected(refused(reply.fault, reply.text)); }
+    if (reply.status == ReplyStatus::Refused) { return std::unexpected(refused_by(reply)); }
     return Accepted{.job = reply.job == 0 ? std::nullopt : std::optional(reply.job)};
 }
 
 bool begins_job(CommandKind kind) { return kind == CommandKind::Home || kind == CommandKind::Run; }
-
-/// A program that has nothing to run.
-ProgramHead head_of_edit(const MachineConfig& machine) {
-    ProgramHead head{.name = "edit", .axes = {}, .start_mm = std::vector<double>(machine.axes.size())};
-    for (const AxisConfig& axis : machine.axes) { head.axes.push_back(axis.name); }
-    return head;
-}
-
-Problem refused_program(const Reply& reply) { return refused(reply.fault, reply.text); }
 
 }  // namespace
 
@@ -80,7 +74,7 @@ bool RunTask::poll(Session& session, nanoseconds now) {
         return false;
     }
     const ProgramSender& sender = *session.sender();
-    if (sender.refusal()) { return end(std::unexpected(refused_program(*sender.refusal()))); }
+    if (sender.refusal()) { return end(std::unexpected(refused_by(*sender.refusal()))); }
     const bool is_planned_whole = session.config().coordination == StepMethod::Lai;
     if (is_planned_whole ? sender.is_done() : sender.parts_taken() > 0) {
         const auto done = [this](Outcome&& outcome) {
@@ -103,7 +97,7 @@ bool ValuesTask::begin(Session& session, nanoseconds now) {
     if (!wanted) { return end(std::unexpected(wanted.error())); }
     if (*wanted == before->values) { return end(Accepted{}); }
     const gcode::ProgramValues edit{.revision = before->revision, .after = *wanted, .at_once = true};
-    (void)session.begin_stream(head_of_edit(session.config()), edit, [](ProgramSender& sender) { sender.end(); });
+    (void)session.begin_stream(edit_of(session.config()).head(), edit, [](ProgramSender& sender) { sender.end(); });
     revision_ = before->revision + 1;
     sent_ = now;
     return false;
@@ -112,7 +106,7 @@ bool ValuesTask::begin(Session& session, nanoseconds now) {
 bool ValuesTask::poll(Session& session, nanoseconds now) {
     if (!sent_) { return begin(session, now); }
     const ProgramSender& sender = *session.sender();
-    if (sender.refusal()) { return end(std::unexpected(refused_program(*sender.refusal()))); }
+    if (sender.refusal()) { return end(std::unexpected(refused_by(*sender.refusal()))); }
     if (sender.is_done() && session.is_kept(revision_)) { return end(Accepted{}); }
     if (now - *sent_ <= (sender.is_done() ? kDiskPatience : kPatience)) { return false; }
     return end(std::unexpected(unanswered(

@@ -1,7 +1,5 @@
 #include "clients/web/machine/writer_turn.hpp"
 
-#include <utility>
-
 namespace lockstep::web {
 
 /// A refusal holds for one loop: a later command asks for the lease again.

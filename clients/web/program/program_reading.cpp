@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <sys/mman.h>
-#include <unistd.h>
 
 #include <algorithm>
 
@@ -86,18 +85,9 @@ Session::Feed feed_of(Program&& program) {
 
 /// Reads the text from a file in memory, which ends with its last reader.
 std::expected<LineReader, std::string> lines_of_text(const std::string& text) {
-    const int file = memfd_create("lockstep-program", MFD_CLOEXEC);
-    std::size_t written = 0;
-    while (file >= 0 && written < text.size()) {
-        const ssize_t bytes = write(file, text.data() + written, text.size() - written);
-        if (bytes <= 0) { break; }
-        written += static_cast<std::size_t>(bytes);
-    }
-    auto lines = file >= 0 && written == text.size()
-                     ? LineReader::open(fmt::format("/proc/self/fd/{}", file))
-                     : std::expected<LineReader, std::string>(std::unexpected("no memory is left for the program"));
-    if (file >= 0) { close(file); }
-    return lines;
+    const Descriptor file(memfd_create("lockstep-program", MFD_CLOEXEC));
+    if (!write_all(file, text)) { return std::unexpected("no memory is left for the program"); }
+    return LineReader::open(fmt::format("/proc/self/fd/{}", file.get()));
 }
 
 std::expected<ReadyProgram, Problem> ready_stream(const LoadedProgram& program, const GcodeSetup& setup,

@@ -181,15 +181,13 @@ const Json* BodyReader::object(const std::string& name) {
 void BodyReader::finish() {
     for (const auto& [name, value] : object_.items()) {
         if (known_.contains(name)) { continue; }
-        std::string names;
-        for (const std::string& known : known_) { names += (names.empty() ? "" : ", ") + known; }
         const std::string place = place_of(name.substr(0, kMostRepeated));
         refuse({.status = 400,
                 .code = "unknown-member",
                 .title = "a member is not known",
                 .detail = place + " is not known",
                 .place = place,
-                .limit = names.empty() ? "no members" : names,
+                .limit = known_.empty() ? "no members" : fmt::format("{}", fmt::join(known_, ", ")),
                 .remedy = "remove it, or correct its name"});
     }
 }

@@ -25,9 +25,8 @@ std::optional<std::size_t> axis_of(const std::string& name, const std::string& p
     const auto found =
         std::ranges::find_if(machine.axes, [&](const AxisConfig& one) { return same_name(one.name, name); });
     if (found != machine.axes.end()) { return static_cast<std::size_t>(found - machine.axes.begin()); }
-    std::string names;
-    for (const AxisConfig& one : machine.axes) { names += (names.empty() ? "" : ", ") + one.name; }
-    reader.refuse(wrong_value(422, place, name, "one of the machine's axes: " + names));
+    const std::string known = fmt::format("one of the machine's axes: {}", fmt::join(machine.axis_names(), ", "));
+    reader.refuse(wrong_value(422, place, name, known));
     return std::nullopt;
 }
 
@@ -209,15 +208,13 @@ const std::vector<std::pair<std::string, Read>>& readers() {
 }
 
 Problem unknown_verb(std::string_view verb) {
-    std::string names;
-    for (const std::string& name : verbs()) { names += (names.empty() ? "" : ", ") + name; }
     return {.status = 404,
             .code = "unknown-verb",
             .title = "this command does not exist",
             .detail = "there is no command '" + std::string(verb.substr(0, 100)) + "'",
             .place = "path",
             .value = std::string(verb.substr(0, 100)),
-            .limit = names,
+            .limit = fmt::format("{}", fmt::join(verbs(), ", ")),
             .remedy = "use one of these commands"};
 }
 

@@ -58,8 +58,8 @@ Response to_response(const Problem& problem) {
             .headers = {{"Content-Type", "application/problem+json"}}};
 }
 
-Response json_response(int status, const Json& body) {
-    return {.status = status, .body = dumped(body) + "\n", .headers = {{"Content-Type", "application/json"}}};
+Response json_response(const Json& body) {
+    return {.body = dumped(body) + "\n", .headers = {{"Content-Type", "application/json"}}};
 }
 
 }  // namespace lockstep::web

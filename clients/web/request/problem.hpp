@@ -35,6 +35,6 @@ Problem unanswered(const std::string& why);
 
 Json problem_json(const Problem& problem);
 Response to_response(const Problem& problem);
-Response json_response(int status, const Json& body);
+Response json_response(const Json& body);
 
 }  // namespace lockstep::web

@@ -12,11 +12,6 @@ namespace {
 
 using nlohmann::json;
 
-bool is_of_an_axis(FaultCode fault) {
-    return fault != FaultCode::EmergencyStopped && fault != FaultCode::FrameLate &&
-           fault != FaultCode::SecondCoordinator;
-}
-
 json as_alarm(json fault, const char* severity) {
     fault["severity"] = severity;
     return fault;

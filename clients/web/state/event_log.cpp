@@ -2,10 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-
 #include "clients/web/http/json_text.hpp"
 #include "clients/web/state/merge_patch.hpp"
+#include "core/parse_number.hpp"
 
 namespace lockstep::web {
 
@@ -27,12 +26,10 @@ void EventLog::publish(const nlohmann::json& state) {
 EventLog::Place EventLog::place_after(std::string_view id) const {
     const std::lock_guard lock(mutex_);
     const std::string begin = run_ + "-";
-    std::uint64_t number = 0;
-    const std::string_view digits = id.starts_with(begin) ? id.substr(begin.size()) : std::string_view{};
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    const bool is_number = !digits.empty() && error == std::errc{} && end == digits.data() + digits.size();
-    const bool is_kept = number <= newest_ && newest_ - number <= deltas_.size();
-    return is_number && is_kept ? Place(number + 1) : std::nullopt;
+    if (!id.starts_with(begin)) { return std::nullopt; }
+    const auto number = parse_number<std::uint64_t>(id.substr(begin.size()));
+    const bool is_kept = number && *number <= newest_ && newest_ - *number <= deltas_.size();
+    return is_kept ? Place(*number + 1) : std::nullopt;
 }
 
 bool EventLog::is_behind(const Place& place) const {

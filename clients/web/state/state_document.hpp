@@ -1,8 +1,6 @@
 // The machine's state as the schema State of openapi.yaml. Pure.
 #pragma once
 
-#include <memory>
-
 #include <nlohmann/json.hpp>
 
 #include "clients/web/state/snapshot.hpp"

@@ -1,8 +1,6 @@
 #include "core/axis/device/device_watch.hpp"
 
 #include <algorithm>
-#include <cstdlib>
-#include <type_traits>
 
 #include "core/protocol/rules.hpp"
 

@@ -11,7 +11,6 @@
 
 #include <cstdint>
 #include <expected>
-#include <optional>
 #include <string>
 
 #include "core/axis/device/device.hpp"

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "core/axis/device/device.hpp"
 #include "core/faults.hpp"

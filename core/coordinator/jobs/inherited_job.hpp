@@ -2,7 +2,6 @@
 #pragma once
 
 #include <expected>
-#include <memory>
 #include <optional>
 
 #include "core/coordinator/jobs/takeover.hpp"

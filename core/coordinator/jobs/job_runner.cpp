@@ -1,8 +1,5 @@
 #include "core/coordinator/jobs/job_runner.hpp"
 
-#include <algorithm>
-#include <utility>
-
 #include "core/check.hpp"
 
 namespace lockstep {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "core/number_text.hpp"
 
@@ -12,17 +11,6 @@ namespace {
 // A client that has not renewed its jog for this long counts as gone. After a shorter stall its axes are at rest, and
 // its renewals move them on.
 constexpr std::int64_t kForgetAfter_ns = 500'000'000;
-
-/// The target in the direction and distance asked for. An unhomed axis does not know the ends of its travel.
-std::int64_t target_of(const JogAxis& asked, const AxisConfig& axis, const AxisState& state) {
-    const std::int64_t here = state.position.count();
-    const double travel_mm = axis.position_max_mm - axis.position_min_mm;
-    const double far_mm = std::min(asked.distance_mm.value_or(2 * travel_mm), 2 * travel_mm);
-    const std::int64_t steps = std::max<std::int64_t>(1, to_steps(axis, far_mm));
-    const std::int64_t target = asked.speed_mm_s < 0 ? here - steps : here + steps;
-    if (!state.homed) { return target; }
-    return std::clamp(target, to_steps(axis, axis.position_min_mm), to_steps(axis, axis.position_max_mm));
-}
 
 CommandResult check_homed(const AxisConfig& axis, const AxisState& state) {
     if (state.homed || axis.unhomed_jog_mm_s) { return {}; }
@@ -39,6 +27,16 @@ CommandResult check_speed(const AxisConfig& axis, double speed_mm_s) {
 }
 
 }  // namespace
+
+std::int64_t jog_target(const JogAxis& asked, const AxisConfig& axis, const AxisState& state) {
+    const std::int64_t here = state.position.count();
+    const double travel_mm = axis.position_max_mm - axis.position_min_mm;
+    const double far_mm = std::min(asked.distance_mm.value_or(2 * travel_mm), 2 * travel_mm);
+    const std::int64_t steps = std::max<std::int64_t>(1, to_steps(axis, far_mm));
+    const std::int64_t target = asked.speed_mm_s < 0 ? here - steps : here + steps;
+    if (!state.homed) { return target; }
+    return std::clamp(target, to_steps(axis, axis.position_min_mm), to_steps(axis, axis.position_max_mm));
+}
 
 CommandResult Jogs::press(const Command& command, CoordinatorLoop& loop) {
     asked_.assign(jogs_.size(), std::nullopt);
@@ -65,7 +63,7 @@ std::expected<Jogs::Jog, Refusal> Jogs::jog_of(const JogAxis& asked, const Comma
     const AxisState& state = *loop.axes.state(asked.axis);
     if (auto homed = check_homed(axis, state); !homed) { return std::unexpected(homed.error()); }
     if (auto speed = check_speed(axis, asked.speed_mm_s); !speed) { return std::unexpected(speed.error()); }
-    if (const std::int64_t target = target_of(asked, axis, state); state.at_rest && target == state.position.count()) {
+    if (const std::int64_t target = jog_target(asked, axis, state); state.at_rest && target == state.position.count()) {
         return refuse(FaultCode::OutsideTravel, "axis " + axis.name + " is at the end of its travel, " +
                                                     short_number(to_mm(axis, static_cast<double>(target))) + " mm");
     }
@@ -127,7 +125,7 @@ Jogs::Next Jogs::next_at_rest(std::size_t axis, const CoordinatorLoop& loop) con
 
 void Jogs::order(std::size_t axis, CoordinatorLoop& loop) {
     Jog& jog = *jogs_[axis];
-    if (!jog.target) { jog.target = target_of(jog.asked, loop.machine.axes[axis], *loop.axes.state(axis)); }
+    if (!jog.target) { jog.target = jog_target(jog.asked, loop.machine.axes[axis], *loop.axes.state(axis)); }
     AxisCommand& order = loop.order(axis, AxisCommandKind::Jog);
     order.target_steps = *jog.target;
     order.speed_mm_s = std::abs(jog.asked.speed_mm_s);

@@ -10,6 +10,10 @@
 
 namespace lockstep {
 
+/// The position, in steps, where a jog ends by itself: after its distance, at most at the end of the travel. An unhomed
+/// axis does not know the ends of its travel.
+std::int64_t jog_target(const JogAxis& asked, const AxisConfig& axis, const AxisState& state);
+
 class Jogs {
 public:
     explicit Jogs(const MachineConfig& machine) : hold_(machine.jog_hold_ticks()), jogs_(machine.axes.size()) {}

@@ -1,8 +1,6 @@
 // Axes that move to their places, each by itself: where they start, where they go, and their progress.
 #pragma once
 
-#include <optional>
-
 #include "core/axis_set.hpp"
 #include "core/coordinator/axes/axis_roster.hpp"
 #include "core/coordinator/path/program_plan.hpp"

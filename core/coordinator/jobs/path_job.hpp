@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "core/coordinator/jobs/job.hpp"
 #include "core/coordinator/jobs/path_progress.hpp"

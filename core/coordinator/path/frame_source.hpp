@@ -3,7 +3,6 @@
 
 #include <expected>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 

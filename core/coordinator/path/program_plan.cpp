@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "core/arc_path.hpp"
 #include "core/axis_unit.hpp"
@@ -17,11 +16,7 @@ namespace {
 
 constexpr double kMaxSteps = 0x1p40;
 
-std::string number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", value);
-    return text;
-}
+std::string number(double value) { return number_text(value, 4); }
 
 PlanError outside_travel(const AxisConfig& axis, double mm, std::optional<std::int32_t> line) {
     const std::string unit = " " + std::string(unit_of(axis.name));

@@ -3,7 +3,6 @@
 #include <cstdint>
 
 #include "core/if_positive.hpp"
-#include "core/machine.hpp"
 
 namespace lockstep {
 namespace {

@@ -6,8 +6,6 @@
 #include <list>
 #include <memory>
 #include <optional>
-#include <span>
-#include <vector>
 
 #include "core/coordinator/program/known_program.hpp"
 #include "core/protocol/messages.hpp"

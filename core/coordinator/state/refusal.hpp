@@ -2,7 +2,6 @@
 #pragma once
 
 #include <expected>
-#include <optional>
 #include <string>
 
 #include "core/coordinator/state/coordinator_loop.hpp"

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "core/gcode/run/steps.hpp"
-#include "core/number_text.hpp"
 
 namespace lockstep::gcode {
 namespace {

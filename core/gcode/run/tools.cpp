@@ -1,6 +1,5 @@
 // Tools: T, M6, M61, the tool table (G10 L1 L10 L11) and tool length offsets (G43 G49).
 #include "core/gcode/run/steps.hpp"
-#include "core/number_text.hpp"
 
 namespace lockstep::gcode {
 namespace {

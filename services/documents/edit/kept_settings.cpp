@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
+#include "core/parse_number.hpp"
 #include "services/documents/edit/key_edit.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/files/text_file.hpp"
@@ -46,9 +46,8 @@ std::string_view trimmed(std::string_view text) {
 
 bool is_value(std::string_view key, std::string_view text) {
     if (key == kSwitch) { return text == "true" || text == "false"; }
-    double value = 0;
-    const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
-    return read.ec == std::errc{} && read.ptr == text.data() + text.size() && std::isfinite(value);
+    const auto value = parse_number<double>(text);
+    return value && std::isfinite(*value);
 }
 
 std::optional<KeptSetting> setting_of(std::string_view line) {

@@ -1,7 +1,6 @@
 // Translates between the values that outlive programs and their Protobuf message.
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <optional>
 

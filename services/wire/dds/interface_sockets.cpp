@@ -3,9 +3,10 @@
 #include <sys/socket.h>
 
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <filesystem>
+
+#include "core/parse_number.hpp"
 
 namespace lockstep {
 namespace {
@@ -26,10 +27,8 @@ Descriptors udp_sockets() {
     Descriptors sockets;
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", error)) {
-        const std::string name = entry.path().filename().string();
-        int descriptor = -1;
-        std::from_chars(name.data(), name.data() + name.size(), descriptor);
-        if (is_udp(descriptor)) { sockets.insert(descriptor); }
+        const auto descriptor = parse_number<int>(entry.path().filename().string());
+        if (descriptor && is_udp(*descriptor)) { sockets.insert(*descriptor); }
     }
     return sockets;
 }

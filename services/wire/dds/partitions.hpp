@@ -1,5 +1,6 @@
 // Partitions of DDS. The machine's name in a partition separates machines in one domain, and the protocol's number
 // separates incompatible versions. Each axis writes in its own partition, so that permissions can distinguish the axes.
+// Also reads what the peers announce in their settings.
 #pragma once
 
 #include <cstdint>
@@ -35,6 +36,16 @@ inline std::string only_partition(const dds_qos_t* qos) {
     for (std::uint32_t i = 0; i < count; ++i) { dds_free(names[i]); }
     dds_free(static_cast<void*>(names));
     return name;
+}
+
+/// Returns the text that a participant, writer or reader with these settings announces; empty if there is none.
+inline std::string user_data(const dds_qos_t* qos) {
+    void* data = nullptr;
+    std::size_t size = 0;
+    if (!dds_qget_userdata(qos, &data, &size) || data == nullptr) { return ""; }
+    std::string text(static_cast<const char*>(data), size);
+    dds_free(data);
+    return text;
 }
 
 }  // namespace lockstep

@@ -4,9 +4,9 @@
 #include <unistd.h>
 
 #include <array>
-#include <charconv>
 #include <sstream>
 
+#include "core/parse_number.hpp"
 #include "services/network/host_name.hpp"
 #include "services/wire/dds/partitions.hpp"
 #include "services/wire/dds/topics.hpp"
@@ -14,22 +14,10 @@
 namespace lockstep {
 namespace {
 
-std::string user_data(const dds_qos_t* qos) {
-    void* data = nullptr;
-    std::size_t size = 0;
-    if (!dds_qget_userdata(qos, &data, &size) || data == nullptr) { return ""; }
-    std::string text(static_cast<const char*>(data), size);
-    dds_free(data);
-    return text;
-}
-
 /// An axis's partition is PREFIX/NUMBER.
 std::optional<std::uint32_t> axis_in(std::string_view partition, std::string_view prefix) {
     if (!partition.starts_with(prefix) || !partition.substr(prefix.size()).starts_with('/')) { return std::nullopt; }
-    partition.remove_prefix(prefix.size() + 1);
-    std::uint32_t axis = 0;
-    const auto [rest, error] = std::from_chars(partition.data(), partition.data() + partition.size(), axis);
-    return error == std::errc{} && rest == partition.data() + partition.size() ? std::optional(axis) : std::nullopt;
+    return parse_number<std::uint32_t>(partition.substr(prefix.size() + 1));
 }
 
 /// Returns the process of a writer; nullopt if it writes neither the machine's state nor an axis's.

@@ -9,20 +9,12 @@
 #include <mutex>
 
 #include "services/wire/dds/dds_log.hpp"
+#include "services/wire/dds/partitions.hpp"
 
 namespace lockstep {
 namespace {
 
 constexpr std::string_view kMark = "lockstep ";
-
-std::string card_of(const dds_builtintopic_participant_t& participant) {
-    void* data = nullptr;
-    std::size_t size = 0;
-    if (!dds_qget_userdata(participant.qos, &data, &size) || data == nullptr) { return ""; }
-    std::string card(static_cast<const char*>(data), size);
-    dds_free(data);
-    return card;
-}
 
 /// DDS calls it on one of its threads.
 void on_participants(dds_entity_t reader, void* machine) {
@@ -31,7 +23,7 @@ void on_participants(dds_entity_t reader, void* machine) {
     while (dds_take(reader, samples.data(), &info, 1, 1) == 1) {
         const bool alive = info.valid_data && info.instance_state == DDS_IST_ALIVE;
         const auto* participant = static_cast<const dds_builtintopic_participant_t*>(samples[0]);
-        const std::string card = alive ? card_of(*participant) : "";
+        const std::string card = alive ? user_data(participant->qos) : "";
         if (const auto text = other_version(card, *static_cast<const std::string*>(machine))) {
             add_dds_message(*text);
         }

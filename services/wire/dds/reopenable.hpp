@@ -4,15 +4,15 @@
 
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <expected>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <stop_token>
 #include <string>
 #include <thread>
 #include <utility>
+
+#include "services/runtime/sleep.hpp"
 
 namespace lockstep {
 
@@ -58,8 +58,7 @@ private:
                 return;
             }
             on_failure_(opened.error());
-            std::unique_lock lock(mutex_);
-            (void)wake_.wait_for(lock, stop, kBetweenTries, [] { return false; });
+            (void)sleep_unless(stop, kBetweenTries);
         }
     }
 
@@ -68,8 +67,6 @@ private:
     OnFailure on_failure_;
     std::unique_ptr<Link> next_;  // used only by the thread until is_open_
     std::atomic<bool> is_open_ = false;
-    std::mutex mutex_;
-    std::condition_variable_any wake_;
     std::jthread thread_;  // declared last, so that it ends first
 };
 

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "services/runtime/real_time.hpp"
+#include "services/runtime/sleep.hpp"
 #include "services/wire/dds/topics.hpp"
 
 namespace lockstep {
@@ -31,7 +32,7 @@ SentKeys::SentKeys(dds_entity_t participant, dds_entity_t subscriber)
 void SentKeys::serve(const std::stop_token& stop) {
     leave_real_time();
     std::size_t departed = 0;
-    while (sleep(stop, kPeriod)) {
+    while (sleep_unless(stop, kPeriod)) {
         departed += departures();
         if (departed < kDepartures) { continue; }
         departed = 0;
@@ -54,13 +55,7 @@ std::size_t SentKeys::departures() {
 void SentKeys::exchange_again(const std::stop_token& stop) {
     const Entity from_axes(dds_create_reader(subscriber_, axes_.handle(), nullptr, nullptr));
     const Entity from_coordinators(dds_create_reader(subscriber_, coordinators_.handle(), nullptr, nullptr));
-    (void)sleep(stop, kExchange);
-}
-
-bool SentKeys::sleep(const std::stop_token& stop, std::chrono::seconds time) {
-    std::unique_lock lock(mutex_);
-    (void)woken_.wait_for(lock, stop, time, [] { return false; });
-    return !stop.stop_requested();
+    (void)sleep_unless(stop, kExchange);
 }
 
 }  // namespace lockstep

@@ -9,9 +9,7 @@
 
 #include <dds/dds.h>
 
-#include <condition_variable>
 #include <cstddef>
-#include <mutex>
 #include <thread>
 
 #include "services/wire/dds/entity.hpp"
@@ -27,15 +25,11 @@ private:
     void serve(const std::stop_token& stop);
     std::size_t departures();
     void exchange_again(const std::stop_token& stop);
-    /// Returns false if the thread must stop.
-    bool sleep(const std::stop_token& stop, std::chrono::seconds time);
 
     dds_entity_t subscriber_;
     Entity axes_;  // topics that every process may read; every service writes one of the two
     Entity coordinators_;
     Entity participants_;  // reports participants that join and leave
-    std::mutex mutex_;
-    std::condition_variable_any woken_;
     std::jthread thread_;  // declared last, so that it ends first
 };
 

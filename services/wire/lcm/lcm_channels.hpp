@@ -8,7 +8,7 @@
 namespace lockstep {
 
 /// LOCKSTEP_<MACHINE>_<AXIS>_..., upper-cased; characters other than letters and digits become '_', since LCM
-/// subscribes by regular expression. LCM truncates names to kMaxChannelName bytes, so the machine's and axis's names
+/// subscribes by regular expression. LCM truncates names to 63 bytes, so the machine's and axis's names
 /// must be short enough.
 struct AxisChannels {
     std::string steps;
@@ -16,8 +16,6 @@ struct AxisChannels {
     std::string run;
     std::string health;
 };
-
-inline constexpr std::size_t kMaxChannelName = 63;
 
 AxisChannels channels_of(std::string_view machine, std::string_view axis);
 std::string job_channel(std::string_view machine);

@@ -69,26 +69,21 @@ bool lock_part(int file, std::uint32_t axis) {
 std::expected<StateBoardFile, std::string> StateBoardFile::open(const fs::path& path) {
     if (const auto made = make_own_directory(path.parent_path()); !made) { return std::unexpected(made.error()); }
     while (true) {
-        const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
-        if (file < 0) { return cannot_share(path, "open it"); }
-        StateBoardFile opened(path, file);
-        if (flock(file, LOCK_SH) != 0) { return cannot_share(path, "lock it"); }
-        if (!is_still_named(path, file)) { continue; }
+        Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600));
+        if (!file.is_open()) { return cannot_share(path, "open it"); }
+        StateBoardFile opened(path, std::move(file));
+        if (flock(opened.descriptor(), LOCK_SH) != 0) { return cannot_share(path, "lock it"); }
+        if (!opened.is_current()) { continue; }
         // Reserves the memory now, because SIGBUS would end the process if a page were missing later.
-        errno = posix_fallocate(file, 0, kBytes);
+        errno = posix_fallocate(opened.descriptor(), 0, kBytes);
         if (errno != 0) { return cannot_share(path, "reserve its 4 MB of memory"); }
         return opened;
     }
 }
 
-StateBoardFile::StateBoardFile(StateBoardFile&& other) noexcept
-    : path_(std::move(other.path_)), file_(std::exchange(other.file_, -1)) {}
-
 StateBoardFile::~StateBoardFile() {
-    if (file_ < 0) { return; }
-    const bool is_last = flock(file_, LOCK_EX | LOCK_NB) == 0;
-    if (is_last && is_still_named(path_, file_)) { unlink(path_.c_str()); }
-    close(file_);
+    const bool is_last = flock(file_.get(), LOCK_EX | LOCK_NB) == 0;
+    if (is_last && is_current()) { unlink(path_.c_str()); }
 }
 
 std::expected<StateBoardWriter, std::string> StateBoardWriter::open(const fs::path& path, std::uint32_t axis) {

@@ -19,6 +19,7 @@
 #include "core/protocol/messages.hpp"
 #include "core/protocol/peer_evidence.hpp"
 #include "idl/dds/axis.h"
+#include "services/files/descriptor.hpp"
 #include "services/files/named_file.hpp"
 #include "services/runtime/numbered_slot.hpp"
 #include "services/runtime/shared_mapping.hpp"
@@ -30,20 +31,19 @@ namespace lockstep {
 class StateBoardFile {
 public:
     static std::expected<StateBoardFile, std::string> open(const std::filesystem::path& path);
-    StateBoardFile(StateBoardFile&& other) noexcept;
-    StateBoardFile& operator=(StateBoardFile&&) = delete;
+    StateBoardFile(StateBoardFile&&) = default;
     ~StateBoardFile();
 
     /// Returns false if the file was removed or replaced.
-    bool is_current() const { return is_still_named(path_, file_); }
+    bool is_current() const { return is_still_named(path_, file_.get()); }
 
-    int descriptor() const { return file_; }
+    int descriptor() const { return file_.get(); }
     const std::filesystem::path& path() const { return path_; }
 
 private:
-    StateBoardFile(std::filesystem::path path, int file) : path_(std::move(path)), file_(file) {}
+    StateBoardFile(std::filesystem::path path, Descriptor file) : path_(std::move(path)), file_(std::move(file)) {}
     std::filesystem::path path_;
-    int file_;  // below 0: moved from
+    Descriptor file_;
 };
 
 class StateBoardWriter {

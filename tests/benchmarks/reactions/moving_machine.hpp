@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <functional>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "services/virtual/virtual_machine.hpp"

@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "core/step/engine.hpp"
-#include "core/step/skip_engine.hpp"
 #include "core/step/tick_engine.hpp"
 #include "tests/benchmarks/step/austin.hpp"
 #include "tests/benchmarks/step/measure.hpp"
 #include "tests/benchmarks/step/moves.hpp"
+#include "tests/property/step/skip_engine.hpp"
 
 namespace lockstep::bench {
 namespace {

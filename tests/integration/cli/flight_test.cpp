@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <signal.h>
 
-#include <fstream>
 #include <set>
 #include <thread>
 

@@ -2,8 +2,6 @@
 #include <gmock/gmock.h>
 #include <signal.h>
 
-#include <cmath>
-
 #include "idl/proto/values.pb.h"
 #include "tests/integration/cli/own_machine.hpp"
 #include "tests/integration/wire/eventually.hpp"

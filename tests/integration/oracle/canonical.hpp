@@ -1,7 +1,6 @@
 // The effects of a program as a list of calls, by which two interpreters can be compared.
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <regex>
-#include <string_view>
 
 #include "tests/integration/oracle/gouge.hpp"
 

@@ -1,8 +1,6 @@
 // Processes of incompatible versions report it, with both versions, and move nothing together.
 #include <gmock/gmock.h>
 
-#include <fstream>
-
 #include "services/documents/machine_file.hpp"
 #include "services/wire/dds/protocol_version.hpp"
 #include "tests/integration/cli/own_machine.hpp"

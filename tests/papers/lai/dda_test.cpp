@@ -2,7 +2,6 @@
 // Design": the DDA of Fig. 3, its pulses of Fig. 12, and the six lines of Figs. 14 (without it) and 15 (with it).
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <utility>
 
 #include "core/methods/lai.hpp"

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "core/step/engine.hpp"
-#include "core/step/skip_engine.hpp"
 #include "core/step/tick_engine.hpp"
+#include "tests/property/step/skip_engine.hpp"
 
 namespace lockstep {
 namespace {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <vector>
 
 #include "core/methods/spielauer.hpp"
 #include "core/motion/ideal.hpp"
@@ -13,6 +14,13 @@ namespace lockstep::methods {
 namespace {
 
 constexpr StepMove kLong{4'000, 0, 1'000, 1'000, 1'000};
+
+/// The timer's counts of each step, in order.
+std::vector<std::int64_t> spielauer_counts(const StepMove& move, const SpielauerParameters& parameters = {}) {
+    std::vector<std::int64_t> counts(static_cast<std::size_t>(move.steps));
+    std::ranges::generate(counts, [steps = SpielauerSteps(move, parameters)]() mutable { return steps.next_count(); });
+    return counts;
+}
 
 TEST(SpielauerPlanning, FourThousandStepsAreATrapezoidOf500And3000And500) {
     EXPECT_EQ(plan_spielauer(kLong), (SpielauerPlan{.rising = 500, .cruising = 3'000, .falling = 500, .peak = 1'000}));

@@ -10,7 +10,6 @@
 #include <numbers>
 #include <optional>
 #include <random>
-#include <span>
 #include <vector>
 
 #include "core/if_positive.hpp"

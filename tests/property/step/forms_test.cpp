@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "core/step/engine.hpp"
-#include "core/step/skip_engine.hpp"
 #include "core/step/tick_engine.hpp"
 #include "tests/property/step/print_segment.hpp"
 #include "tests/property/step/random_segment.hpp"
+#include "tests/property/step/skip_engine.hpp"
 
 namespace lockstep {
 namespace {

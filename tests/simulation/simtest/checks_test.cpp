@@ -1,7 +1,6 @@
 // The checks detect errors: each test falsifies a correct recording in one place.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "tests/simulation/simtest/check/checks.hpp"

@@ -4,8 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "clients/analysis/log/log_read.hpp"
 #include "services/documents/program_document.hpp"
 #include "services/wire/lcm/lcm_channels.hpp"

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <fstream>
 
 #include "services/axis/position_document.hpp"
 #include "services/files/text_file.hpp"

@@ -19,10 +19,8 @@ constexpr Slot kStart = 100;  // the start of frame k
 
 TEST(Rules, TheCheckIsFourSlotsAndTheLateOnesBeforeTheStart) {
     EXPECT_EQ(kTiming.check_slots(), 4);
-    EXPECT_EQ(rules::check_slot(kStart, kTiming), 96);
-    ProtocolTiming late = kTiming;
-    late.late_check_slots = 1;
-    EXPECT_EQ(rules::check_slot(kStart, late), 95);
+    EXPECT_EQ(rules::check_time(95, kStart, kTiming), rules::CheckTime::Early);
+    EXPECT_EQ(rules::check_time(96, kStart, kTiming), rules::CheckTime::Due);
 }
 
 TEST(Rules, ACheckIsMadeUntilFourSlotsBeforeTheStart) {
@@ -36,7 +34,6 @@ TEST(Rules, ACheckIsMadeUntilFourSlotsBeforeTheStart) {
 
 TEST(Rules, EvidenceIsStampedNoEarlierThanTheLease) {
     EXPECT_EQ(kTiming.lease_slots(), 7);
-    EXPECT_EQ(rules::first_evidence_slot(kStart, kTiming), 93);
     for (Slot stamp = 80; stamp < 110; ++stamp) {
         EXPECT_EQ(rules::is_evidence(stamp, kStart, kTiming), stamp >= 93) << stamp;
     }

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <fstream>
 #include <map>
-#include <numbers>
 
 #include "clients/simulation/simulate.hpp"
 #include "services/documents/program_file.hpp"

@@ -32,6 +32,20 @@ protected:
     Jogs jogs{machine};
 };
 
+TEST(JogTarget, IsTheDistanceOrTheEndOfTheTravel) {
+    const AxisConfig axis{.name = "X", .steps_per_mm = 100, .position_min_mm = 0, .position_max_mm = 100};
+    const auto target = [&](double speed_mm_s, std::optional<double> distance_mm, std::int64_t here,
+                            bool homed = true) {
+        return jog_target({0, speed_mm_s, distance_mm}, axis, {.homed = homed, .position = Position::steps(here)});
+    };
+    EXPECT_EQ(target(10, 2.5, 700), 950);
+    EXPECT_EQ(target(-10, 2.5, 100), 0);
+    EXPECT_EQ(target(10, {}, 700), 10'000);
+    EXPECT_EQ(target(10, 1e300, 700), 10'000);
+    EXPECT_EQ(target(10, 0.001, 700), 701) << "a jog moves by a step at least";
+    EXPECT_EQ(target(-10, 2.5, 100, false), -150) << "only a homed axis knows the ends of its travel";
+}
+
 TEST_F(Jogged, AnAxisIsOrderedAtOnceAndForAsLongAsAJogHolds) {
     press(pressed(1));
     ASSERT_EQ(out.axis_commands.size(), 1u);

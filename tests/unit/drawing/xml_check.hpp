@@ -1,7 +1,6 @@
 // Checks that the elements of an XML document nest and its text is escaped.
 #pragma once
 
-#include <cctype>
 #include <optional>
 #include <string>
 #include <string_view>

@@ -42,14 +42,6 @@ TEST(JogWords, ThatMakeNoSenseAreRefusedWithTheReason) {
     EXPECT_NE(refusal({.words = {"X+"}, .distance_mm = -1}).find("above 0"), std::string::npos);
 }
 
-TEST(JogWords, EndAtTheDistanceOrTheEndOfTheTravel) {
-    const AxisConfig axis = machine_to_jog().axes[0];
-    EXPECT_EQ(jog_target(axis, {0, 10, 2.5}, 700), 950);
-    EXPECT_EQ(jog_target(axis, {0, -10, 2.5}, 100), 0);
-    EXPECT_EQ(jog_target(axis, {0, 10}, 700), 10'000);
-    EXPECT_EQ(jog_target(axis, {0, 10, 1e300}, 700), 10'000);
-}
-
 class TypedKeys : public testing::Test {
 protected:
     MachineConfig machine = machine_to_jog();

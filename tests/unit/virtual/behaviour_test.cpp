@@ -1,5 +1,4 @@
 // The machine's behaviour on commands, and on faults.
-#include <cmath>
 
 #include "core/methods/paper_steps.hpp"
 #include "tests/unit/virtual/rig.hpp"

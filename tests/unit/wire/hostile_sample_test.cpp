@@ -1,7 +1,6 @@
 // An invalid sample is refused, and the invalid field is named.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstring>
 #include <functional>
 #include <limits>

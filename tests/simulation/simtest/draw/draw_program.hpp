@@ -2,8 +2,6 @@
 // short polylines, dwells and pauses.
 #pragma once
 
-#include <vector>
-
 #include "core/machine.hpp"
 #include "core/program.hpp"
 #include "tests/simulation/simtest/draw/draw.hpp"

@@ -1,7 +1,5 @@
 #include "tests/simulation/simtest/draw/draw_takeover.hpp"
 
-#include <algorithm>
-
 #include "core/protocol/rules.hpp"
 
 namespace lockstep::simtest {

@@ -1,7 +1,6 @@
 #include "tests/simulation/simtest/run/play_job.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace lockstep::simtest {
 namespace {

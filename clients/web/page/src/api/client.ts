@@ -38,8 +38,6 @@ export const mdiLines = () => json<{ lines: { line: string; accepted: boolean }[
 export const command = (verb: string, body: object = {}, signal?: AbortSignal) =>
   json<Accepted>(`/api/commands/${verb}`, post(body, signal));
 
-export const signOut = () => request("/api/session", { method: "DELETE" });
-
 export const loadProgram = (name: string, content: Blob) =>
   json<LoadedProgram>(`/api/program?name=${encodeURIComponent(name)}`, {
     method: "POST", headers: { "Content-Type": "text/plain" }, body: content,

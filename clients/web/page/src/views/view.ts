@@ -15,6 +15,3 @@ export interface View {
   readonly element: HTMLElement;
   show(model: Model): void;
 }
-
-/** The modes in which axes may move. */
-export const MOVING = new Set(["Homing", "Running", "Holding", "Stopping", "Jogging"]);

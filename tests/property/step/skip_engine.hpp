@@ -1,7 +1,6 @@
 // The skip-ahead form of the step engine: from step to step in closed form, at any speed.
 //
-// StepEngine (engine.hpp) uses the same method for slow stretches. This form is for few steps that are many ticks
-// apart, and for checks of the other forms.
+// StepEngine (core/step/engine.hpp) uses the same method for slow stretches. This form checks the other forms.
 #pragma once
 
 #include <cstdint>

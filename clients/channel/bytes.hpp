@@ -5,22 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "services/files/descriptor.hpp"
+
 namespace lockstep {
-
-/// Owns a file descriptor; the destructor closes it.
-class Descriptor {
-public:
-    explicit Descriptor(int fd = -1) : fd_(fd) {}
-    Descriptor(Descriptor&& other) noexcept : fd_(other.release()) {}
-    Descriptor& operator=(Descriptor&& other) noexcept;
-    ~Descriptor();
-    int get() const { return fd_; }
-    bool is_open() const { return fd_ >= 0; }
-    int release();
-
-private:
-    int fd_;
-};
 
 /// Returns the bytes that arrive within the time; empty if none arrive, nullopt if the other side has closed the
 /// connection.

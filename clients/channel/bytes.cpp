@@ -1,10 +1,9 @@
-#include "clients/channel/descriptor.hpp"
+#include "clients/channel/bytes.hpp"
 
 #include <poll.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <utility>
 
 namespace lockstep {
 namespace {
@@ -12,20 +11,6 @@ namespace {
 constexpr int kReadPatience_ms = 500;  // while the other side reads nothing
 
 }  // namespace
-
-Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
-    if (this != &other) {
-        if (fd_ >= 0) { close(fd_); }
-        fd_ = other.release();
-    }
-    return *this;
-}
-
-Descriptor::~Descriptor() {
-    if (fd_ >= 0) { close(fd_); }
-}
-
-int Descriptor::release() { return std::exchange(fd_, -1); }
 
 short wait_for(int fd, short events, int within_ms) {
     pollfd entry{.fd = fd, .events = events, .revents = 0};
