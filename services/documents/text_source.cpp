@@ -5,6 +5,7 @@
 #include <google/protobuf/stubs/logging.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace lockstep {
 namespace {

@@ -3,6 +3,7 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <string_view>
 
 #include "services/runtime/service_options.hpp"

@@ -1,6 +1,7 @@
 #include "services/security/key_directory.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "services/files/text_file.hpp"
 #include "services/security/access_documents.hpp"
