@@ -65,7 +65,7 @@ int report_usage(const CLI::App& app, const CLI::ParseError& error, const std::s
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{"Lockstep moves stepper axes that live in separate processes as if one chip drove them all.",
+    CLI::App app{"Lockstep moves stepper axes that run in separate processes as if one chip drove them all.",
                  "lockstep"};
     app.set_version_flag("--version", "lockstep " LOCKSTEP_VERSION);
     app.require_subcommand(1);

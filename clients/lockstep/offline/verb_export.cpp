@@ -95,7 +95,7 @@ void add_export(CLI::App& app, Action& action) {
         "mcap: a topic for each axis and kind, such as /mill/X/position; its messages are JSON with the same names.\n"
         "For the tick of every step use: lockstep analyze LOG --csv DIR\n" +
         footer("  lockstep export plate.lcm\n  lockstep export plate.lcm --format mcap --out plate.mcap\n",
-               "0 written, 2 bad usage, no log with values to export, or the file cannot be written"));
+               "0 written; 2 bad usage, no log with values to export, or the file cannot be written"));
     verb->callback([&action, options] { action = [options] { return export_verb(*options); }; });
 }
 

@@ -132,7 +132,7 @@ void add_merge(CLI::App& log, Action& action) {
         "From a directory, the logs of the run that is named beside it are merged, else of the newest session.\n" +
         footer("  lockstep log merge whole.lcm run.lcm /var/lib/lockstep/mill/record\n  lockstep verify whole.lcm\n"
                "  lockstep log merge job3.lcm /var/lib/lockstep/mill/record --job 3\n",
-               "0 no message is known to be missing, 1 written, but messages are missing,\n"
+               "0 no message is known to be missing; 1 written, but messages are missing;\n"
                "2 bad usage, or a log cannot be read (nothing was written)"));
     verb->callback([&action, options] { action = [options] { return log_merge(*options); }; });
 }

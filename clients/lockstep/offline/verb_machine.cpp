@@ -53,7 +53,7 @@ void add_machine(CLI::App& app, Action& action) {
     part->add_option("file", options->file, "the machine's configuration file; default: the file that other verbs use");
     part->add_flag("--json", options->json, "print the configuration with every default as JSON instead of text");
     part->footer(footer("  lockstep machine check mill.textproto\n  lockstep machine check mill.textproto --json\n",
-                        "0 the file is valid, 2 bad usage, or the file is not valid or cannot be read"));
+                        "0 the file is valid; 2 bad usage, or the file is not valid or cannot be read"));
     part->callback([&action, options] { action = [options] { return check(*options); }; });
 }
 

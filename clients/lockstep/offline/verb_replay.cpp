@@ -63,7 +63,7 @@ void add_replay(CLI::App& app, Action& action) {
         "at the recorded step. A replay does not plan the program again; lockstep verify does.\n" +
         footer("  lockstep replay plate.lcm\n"
                "  lockstep replay plate.lcm --log again.lcm && lockstep verify again.lcm\n",
-               "0 exact, 1 not exact, with the first difference, 2 bad usage, or no log with a run"));
+               "0 exact; 1 not exact: the report has the first difference; 2 bad usage, or no log with a run"));
     verb->callback([&action, options] { action = [options] { return replay_verb(*options); }; });
 }
 

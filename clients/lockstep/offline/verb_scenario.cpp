@@ -146,7 +146,7 @@ void add_scenario_run(CLI::App& verb, Action& action) {
                "  lockstep scenario run deploy/scenarios/*.textproto --jobs 3 --junit scenarios.xml\n"
                "  lockstep scenario run mine.textproto --story --keep logs\n"
                "  lockstep scenario run deploy/scenarios/axis-killed.textproto --place CONTAINER\n",
-               "0 all passed, 1 a scenario failed or could not run, 2 bad usage, or a scenario cannot be read\n"
+               "0 all passed; 1 a scenario failed or could not run; 2 bad usage, or a scenario cannot be read\n"
                "(nothing ran)"));
     part->callback([&action, options] { action = [options] { return run(*options); }; });
 }
@@ -156,7 +156,7 @@ void add_scenario_check(CLI::App& verb, Action& action) {
     CLI::App* part =
         add_part(verb, "check", "read scenarios and print what they would do, without running them", options);
     part->footer(footer("  lockstep scenario check deploy/scenarios/axis-killed.textproto\n",
-                        "0 the scenarios can run, 2 bad usage, or a scenario cannot be read"));
+                        "0 the scenarios can run; 2 bad usage, or a scenario cannot be read"));
     part->callback([&action, options] { action = [options] { return check(*options); }; });
 }
 

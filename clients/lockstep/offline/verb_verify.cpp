@@ -41,7 +41,7 @@ void add_verify(CLI::App& app, Action& action) {
         "Notes list what the log lacks. A log that begins late or ends early is compared as far as it goes; if it has\n"
         "too little, the result is unknown.\n" +
         footer("  lockstep verify plate.lcm\n  lockstep verify plate.lcm --json\n",
-               "0 exact, 1 not exact, with the first difference, or unknown, with what the log lacks,\n"
+               "0 exact; 1 not exact or unknown: the report has the first difference, or what the log lacks;\n"
                "2 bad usage, or no log with steps, runs or jobs"));
     verb->callback([&action, options] { action = [options] { return verify(*options); }; });
 }

@@ -161,9 +161,9 @@ CommandResult JobRunner::turn(const Command& command, const CoordinatorLoop& loo
     }
     for (const std::optional<int>& percent : {command.feed_percent, command.rapid_percent}) {
         if (!percent || Overrides::allows(*percent)) { continue; }
-        return refuse(FaultCode::BadProgram, "an override of " + std::to_string(*percent) + " % is outside the range " +
-                                                 std::to_string(Overrides::kLeast) + " to " +
-                                                 std::to_string(Overrides::kMost) + " %");
+        return refuse(FaultCode::BadProgram,
+                      "an override of " + std::to_string(*percent) + " % is out of range; it must be from " +
+                          std::to_string(Overrides::kLeast) + " to " + std::to_string(Overrides::kMost) + " %");
     }
     Overrides overrides = path_.overrides();
     overrides.feed_percent = command.feed_percent.value_or(overrides.feed_percent);
