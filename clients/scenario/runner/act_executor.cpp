@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "clients/session/command_effect.hpp"
-#include "core/if_positive.hpp"
 #include "services/runtime/clock.hpp"
 
 namespace lockstep::scenario {
@@ -60,10 +59,12 @@ Done ActExecutor::apply(const Asked::Act& act) {
         case Act::kLose: return lose(act.lose());
         case Act::kHeal: return act.heal() == "all" ? network_.heal_all() : network_.heal(act.heal());
         case Act::kCommand: return command(act.command());
-        case Act::kOverride:
+        case Act::kOverride: {
+            const auto& turn = act.override();
             return ask({.kind = CommandKind::Override,
-                        .feed_percent = if_positive(act.override().feed()),
-                        .rapid_percent = if_positive(act.override().rapid())});
+                        .feed_percent = turn.has_feed() ? std::optional(turn.feed()) : std::nullopt,
+                        .rapid_percent = turn.has_rapid() ? std::optional(turn.rapid()) : std::nullopt});
+        }
         case Act::WHAT_NOT_SET: break;
     }
     return std::unexpected("the act is empty");
