@@ -82,7 +82,7 @@ TEST_F(PositionFile, ThatOthersMayWriteOrThatIsNoFileIsRefused) {
     EXPECT_THAT(trouble(), HasSubstr("not a regular file"));
     fs::remove(file_);
     write(position_text(position_after(7)) + std::string(5000, '#'));
-    EXPECT_THAT(trouble(), HasSubstr("at most 4096"));
+    EXPECT_THAT(trouble(), HasSubstr("more than 4096"));
 }
 
 TEST_F(PositionFile, HoldsTheNewestWhenTheKeeperHasEnded) {

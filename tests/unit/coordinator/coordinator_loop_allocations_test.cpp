@@ -201,12 +201,14 @@ TEST_F(RunningLai, AllocatesNothingWhileAJobMoves) {
     }
     coordinator_.accept_program(1, std::move(program));
     ask(CommandKind::Run, "begin of a job");
-    pass(50, "run");
+    ASSERT_TRUE(reaches(MachinePhase::Idle, "run"));
+    ask(CommandKind::Run, "begin of a job");
+    pass(500, "run");
 
     const std::uint64_t steps_before = steps_;
     counts_ = true;
-    pass(400, "run");
-    EXPECT_GT(steps_, steps_before + 5'000) << "the axes have moved";
+    ASSERT_TRUE(reaches(MachinePhase::Idle, "run"));
+    EXPECT_GT(steps_, steps_before + 10'000) << "the axes have moved";
     expect_none();
 }
 

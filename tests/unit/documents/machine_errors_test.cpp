@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{machine_with("timing { jog_hold_ms: 501 }"), 11, 10, "20 to 500"},
         Refusal{machine_with("timing { late_check_slots: 11 send_ahead_slots: 40 }"), 11, 10, "0 to stall_slots, 10"},
         Refusal{machine_with("timing { time_source: NETWORK clock_error_limit_us: 2501 }"), 11, 31,
-                "is 2501; 1 to 2500 (a quarter of slot_us)"},
+                "is 2501; it must be from 1 to 2500 (a quarter of slot_us)"},
         Refusal{machine_with("timing { time_source: PTP clock_error_limit_us: 0 }"), 11, 27, "1 to 2500"},
         Refusal{machine_with("timing { time_source: LOCAL }"), 11, 29, "LOCAL"},
         Refusal{machine_with("record { directory: \"logs\" }"), 11, 10, "an absolute path"},

@@ -50,7 +50,7 @@ protected:
 
 TEST_F(TypedKeys, JogForAHundredAndFiftyMilliseconds) {
     keys.take("\x1b[C", 1s);
-    EXPECT_EQ(keys.jogs(1s), (std::vector<JogAxis>{{0, 10, 0}}));
+    EXPECT_EQ(keys.jogs(1s), (std::vector<JogAxis>{{0, 10}}));
     EXPECT_FALSE(keys.jogs(1s + 150ms).empty());
     EXPECT_TRUE(keys.jogs(1s + 151ms).empty());
     keys.take("\x1b[C", 1s + 140ms);
@@ -59,7 +59,7 @@ TEST_F(TypedKeys, JogForAHundredAndFiftyMilliseconds) {
 
 TEST_F(TypedKeys, OfSeveralAxesJogThemTogetherAndOppositeOnesReplaceEachOther) {
     keys.take("\x1b[C\x1b[Bu", 1s);
-    EXPECT_EQ(keys.jogs(1s), (std::vector<JogAxis>{{0, 10, 0}, {1, -10, 0}, {3, 10, 0}}));
+    EXPECT_EQ(keys.jogs(1s), (std::vector<JogAxis>{{0, 10}, {1, -10}, {3, 10}}));
     keys.take("\x1b[D", 1s);
     EXPECT_EQ(keys.jogs(1s).front(), (JogAxis{0, -10}));
 }
@@ -69,9 +69,9 @@ TEST_F(TypedKeys, ComeInPartsAndInBothForms) {
     keys.take("[", 1s);
     EXPECT_TRUE(keys.jogs(1s).empty());
     keys.take("5~", 1s);
-    EXPECT_EQ(keys.jogs(1s), (std::vector<JogAxis>{{2, 4, 0}}));
+    EXPECT_EQ(keys.jogs(1s), (std::vector<JogAxis>{{2, 4}}));
     keys.take(" \x1bOA", 1s);
-    EXPECT_EQ(keys.jogs(1s), (std::vector<JogAxis>{{1, 10, 0}}));
+    EXPECT_EQ(keys.jogs(1s), (std::vector<JogAxis>{{1, 10}}));
 }
 
 TEST_F(TypedKeys, ChangeTheSpeedAndReleaseWhatIsHeld) {

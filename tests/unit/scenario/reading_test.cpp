@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"UnknownKey", whole("explode: true"), {"8:8", "explode"}},
         Bad{"KeyTwice", whole("shows: \"again\""), {"8:", "shows"}},
         Bad{"WrongKind", whole("standby: \"perhaps\""), {"8:10", "perhaps"}},
-        Bad{"NoMachine", "shows: \"x\"\nstep { home {} }", {"1:1", "no machine", "machine_file"}},
+        Bad{"NoMachine", "shows: \"x\"\nstep { home {} }", {"1:1", "the machine is missing", "machine_file"}},
         Bad{"TwoMachines", whole("machine_file: \"x\""), {"8:1", "keep one"}},
         Bad{"MachineThatIsNotThere", "machine_file: \"none\" shows: \"x\"", {"1:1", "/tmp/none"}},
         Bad{"MachineThatCannotBe",

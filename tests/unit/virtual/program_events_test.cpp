@@ -114,7 +114,9 @@ TEST_F(Events, HappenAtTheTickAtWhichTheirNextMoveBegins) {
         EXPECT_EQ(at_line(6).tick, at_line(5).tick);
         EXPECT_LT(at_line(6).tick.value, x[2000]);
         EXPECT_GE(at_line(8).tick.value, x.back());
-        for (const PublishedEvent& event : published.events) { EXPECT_FALSE(event.at_rest) << "line " << event.line.value_or(0); }
+        for (const PublishedEvent& event : published.events) {
+            EXPECT_FALSE(event.at_rest) << "line " << event.line.value_or(0);
+        }
         EXPECT_EQ(vm.state()->devices, (ProgramDevices{.outputs = 8}));
     }
 }
