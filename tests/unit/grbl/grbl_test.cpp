@@ -72,7 +72,8 @@ TEST_F(Sender, ReadsTheMachinesSettingsAndThoseOfItsConnection) {
                                                  "$100=100.000", "$112=3000.000", "$121=500.000", "$130=200.000"}));
     EXPECT_EQ(settings.back(), "ok");
     EXPECT_THAT(send("$110=3000\n"), ElementsAre("ok")) << "as it is";
-    EXPECT_THAT(send("$32=1\n"), ElementsAre("[MSG:$32 is always 0 on this machine: the machine has no spindle]", "error:100"));
+    EXPECT_THAT(send("$32=1\n"),
+                ElementsAre("[MSG:$32 is always 0 on this machine: the machine has no spindle]", "error:100"));
     EXPECT_THAT(send("$99=1\n$10=x\n$10=\n$=1\n$110=-5\n"),
                 ElementsAre("[MSG:there is no $99]", "error:3", "error:2", "error:2", "error:3", "error:4"));
     EXPECT_THAT(send("$23=8\n"), ElementsAre("[MSG:$23 must be a whole number from 0 to 7]", "error:101"));
