@@ -97,7 +97,7 @@ TEST_F(Deployment, TheDoctorNamesProblemsAndTheirRemedies) {
     EXPECT_FALSE(report.well());
     EXPECT_THAT(about(report, "device of X").found(), HasSubstr("/dev/uio77: cannot open it"));
     EXPECT_EQ(about(report, "axis Y").verdict(), "bad");
-    EXPECT_THAT(about(report, "axis Y").remedy(), HasSubstr("the same file"));
+    EXPECT_THAT(about(report, "axis Y").remedy(), HasSubstr("the same machine file"));
 
     machine.network.interface = "nowhere0";
     const std::string elsewhere = write("elsewhere.textproto", machine_text(machine));
