@@ -48,6 +48,11 @@ struct ProgramMove {
     PathMode mode = PathMode::Blend;
     double tolerance_mm = 0;     // for Blend: of each axis, steps included; at least one step
     bool is_feed_fixed = false;  // the feed override has no effect (M49)
+
+    /// The requested feed in mm for each `period_s`; nullopt: as fast as the axes allow.
+    std::optional<double> feed_for(double period_s) const {
+        return rapid || feed_mm_s <= 0 ? std::nullopt : std::optional(feed_mm_s * period_s);
+    }
 };
 
 struct Dwell {

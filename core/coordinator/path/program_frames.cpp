@@ -100,8 +100,7 @@ void ProgramFrames::read_move(const ProgramMove& move, std::uint32_t number) {
         at_[axes_[i]] = move.target_mm[i] * steps_per_mm_[axes_[i]];
         to_[axes_[i]] = std::llround(at_[axes_[i]]);
     }
-    const std::optional<double> feed = move.rapid ? std::nullopt : std::optional(move.feed_mm_s * tick_s_);
-    const MoveSettings settings{.feed_mm_per_tick = feed,
+    const MoveSettings settings{.feed_mm_per_tick = move.feed_for(tick_s_),
                                 .mode = move.mode,
                                 .tolerance_mm = move.tolerance_mm,
                                 .is_feed_fixed = move.is_feed_fixed};

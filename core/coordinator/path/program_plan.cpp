@@ -131,8 +131,7 @@ std::expected<void, PlanError> ProgramPlanner::check_start(const ProgramHead& pr
 
 PathMove ProgramPlanner::path_move(const ProgramMove& linear, const AxisCounts& from, const AxisCounts& to) const {
     const double tick_s = static_cast<double>(machine_.tick_ns) * 1e-9;
-    const std::optional<double> feed = linear.rapid ? std::nullopt : std::optional(linear.feed_mm_s * tick_s);
-    return make_move(from, to, limits_, steps_per_mm_, feed);
+    return make_move(from, to, limits_, steps_per_mm_, linear.feed_for(tick_s));
 }
 
 /// An arc has a length even if its ends are the same.

@@ -53,7 +53,7 @@ void KnownProgram::take(const Block& block) {
     if (const auto* move = std::get_if<ProgramMove>(&block.action)) {
         std::vector<double> way(zero_.size());
         for (std::size_t i = 0; i < axes_.size(); ++i) { way[axes_[i]] = move->target_mm[i] - at_mm_[i]; }
-        const std::optional<double> feed_mm_s = move->rapid ? std::nullopt : std::optional(move->feed_mm_s);
+        const std::optional<double> feed_mm_s = move->feed_for(1);
         if (move->arc) {
             const ArcPath arc(*move->arc, at_mm_, move->target_mm);
             times_.add_arc(arc, {axes_[move->arc->first], axes_[move->arc->second]}, way, feed_mm_s);

@@ -118,7 +118,7 @@ TEST_F(Values, OfADamagedFileAreRefusedWithTheRemedy) {
     std::ofstream(file) << "revision: 1\nsystem { name: \"G5";
     const Ran up = run_lockstep({"up"});
     EXPECT_NE(up.code, 0);
-    EXPECT_THAT(up.out + up.err, AllOf(HasSubstr("values.textproto:2:"), HasSubstr("or remove it, to begin without")));
+    EXPECT_THAT(up.out + up.err, AllOf(HasSubstr("values.textproto:2:"), HasSubstr("or remove it to begin without")));
     std::filesystem::remove(file);
     bring_up();
     EXPECT_EQ(kept().system_size(), 0);
