@@ -440,7 +440,8 @@ std::string JobCheck::commanded(const Run& run, Tick tick) const {
         if (epoch == run.epoch) { text = label + ", "; }
     }
     if (epoch_ && epoch_->replay.epoch() == run.epoch) {
-        text += fmt::format("line {}, ", job_->replay->line_of(epoch_->replay.block_at(tick + run.ahead)));
+        const std::int32_t line = job_->replay->line_of(epoch_->replay.block_at(tick + run.ahead));
+        if (line != 0) { text += fmt::format("line {}, ", line); }
     }
     return text + fmt::format("epoch {}, {}", run.epoch, name_of(run));
 }
