@@ -207,7 +207,7 @@ TEST_F(OwnMoves, AMoveInTooShortATimeIsRefusedWithTheMinimum) {
     EXPECT_NE(reply.text.find("90 mm in 0.5 s would exceed the limits of axis X: the move takes at least 0.981"),
               std::string::npos)
         << reply.text;
-    EXPECT_NE(reply.text.find("in 0.5 s at most 41.9"), std::string::npos) << reply.text;
+    EXPECT_NE(reply.text.find("in 0.5 s is at most 41.9"), std::string::npos) << reply.text;
     EXPECT_EQ(counts()[0], 500);
 }
 
