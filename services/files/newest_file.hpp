@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "services/files/newest_value.hpp"
 
@@ -49,8 +50,8 @@ public:
         thread_.join();
     }
 
-    void keep(std::uint64_t number, const T& value) {
-        newest_.put({number, value});
+    void keep(std::uint64_t number, T value) {
+        newest_.put({number, std::move(value)});
         wake();
     }
     /// The number of the value on the disk; 0 if none was written.

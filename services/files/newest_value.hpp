@@ -4,6 +4,7 @@
 
 #include <array>
 #include <atomic>
+#include <utility>
 
 namespace lockstep {
 
@@ -11,8 +12,8 @@ template <typename T>
 class NewestValue {
 public:
     /// For the thread that has the values. Replaces a value that was not taken.
-    void put(const T& value) {
-        places_[written_] = value;
+    void put(T value) {
+        places_[written_] = std::move(value);
         written_ = between_.exchange(written_ | kIsNew, std::memory_order_acq_rel) & kPlace;
     }
 
