@@ -190,6 +190,14 @@ describe("access", () => {
     await opened.page.getByText("View only").waitFor();
     assert.equal(opened.page.url(), `${server.origin}/`);
   });
+
+  test("ends by signing out", async () => {
+    const page = await enter();
+    await button(page, "Sign out").click();
+    await page.getByLabel("Token").waitFor();
+    await page.reload();
+    await page.getByLabel("Token").waitFor();
+  });
 });
 
 describe("a page that stays open", () => {

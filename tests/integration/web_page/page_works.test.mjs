@@ -52,6 +52,14 @@ describe("access", () => {
     assert.equal(page.url(), `${address}/`);
   });
 
+  test("ends by signing out", async () => {
+    const page = await enter("view");
+    await button(page, "Sign out").click();
+    await page.getByLabel("Token").waitFor();
+    await page.reload();
+    await page.getByLabel("Token").waitFor();
+  });
+
   test("who may only view has no controls", async () => {
     const page = await enter("view");
     await page.getByText("View only").waitFor();

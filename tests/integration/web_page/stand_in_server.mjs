@@ -86,6 +86,7 @@ export class StandInServer {
 
   async api(request, response, pathname, role) {
     const { machine } = this;
+    if (pathname === "/api/session" && request.method === "DELETE") return this.signOut(response);
     if (pathname === "/api/session") return this.json(response, { role });
     if (pathname === "/api/machine") return this.json(response, MACHINE);
     if (pathname === "/api/state") return this.json(response, machine.state);
@@ -117,6 +118,10 @@ export class StandInServer {
     const role = Object.keys(TOKENS).find((name) => TOKENS[name] === token);
     if (role === undefined) return this.problem(response, 401, "wrong-token", "The token is wrong", { remedy: "take it from the address that lockstep-web printed" });
     this.json(response, { role }, 200, { "Set-Cookie": `session=${role}; HttpOnly; SameSite=Strict; Path=/` });
+  }
+
+  signOut(response) {
+    response.writeHead(204, { "Set-Cookie": "session=; HttpOnly; SameSite=Strict; Path=/; Max-Age=0" }).end();
   }
 
   events(response) {

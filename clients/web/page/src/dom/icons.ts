@@ -17,6 +17,7 @@ export const ICONS = {
   warning: "M12 2 23 21H1ZM11 9v6h2V9ZM11 16.5v2h2v-2Z",
   close: "m6.4 5 12.6 12.6-1.4 1.4L5 6.4ZM17.6 5 19 6.4 6.4 19 5 17.6Z",
   theme: "M12 2a10 10 0 1 0 0 20 10 10 0 0 0 0-20ZM12 4v16a8 8 0 0 1 0-16Z",
+  leave: "M3 3h9v2H5v14h7v2H3ZM15.6 7 21 12l-5.4 5-1.3-1.5 2.7-2.5H9v-2h8l-2.7-2.5Z",
   keyboard: "M2 6h20v12H2ZM5 9v2h2V9ZM9 9v2h2V9ZM13 9v2h2V9ZM17 9v2h2V9ZM7 13v2h10v-2Z",
   follow: "M11 2h2v4h-2ZM11 18h2v4h-2ZM2 11h4v2H2ZM18 11h4v2h-4ZM12 8a4 4 0 1 0 0 8 4 4 0 0 0 0-8Z",
 } as const;

@@ -7,7 +7,7 @@ export const de: Texts = {
     theme: "Dunkel oder hell", language: "English", keys: "Tasten", close: "Schließen", dismiss: "Ausblenden", loading: "Verbinde …",
   },
   signIn: {
-    token: "Schlüssel", submit: "Anmelden",
+    token: "Schlüssel", submit: "Anmelden", leave: "Abmelden",
     hint: "Öffne die Adresse, die lockstep-web beim Start ausgegeben hat, oder gib ihren Schlüssel ein.",
   },
   link: {

@@ -6,7 +6,7 @@ export const en = {
     theme: "Dark or light", language: "Deutsch", keys: "Keys", close: "Close", dismiss: "Dismiss", loading: "Connecting …",
   },
   signIn: {
-    token: "Token", submit: "Sign in",
+    token: "Token", submit: "Sign in", leave: "Sign out",
     hint: "Open the address that lockstep-web printed at its start, or enter its token.",
   },
   link: {

@@ -20,14 +20,15 @@ export class Header implements View {
   private readonly standby = h("span", { class: "soft" });
   private readonly viewers = h("span", { class: "soft viewers" });
 
-  constructor(openKeys: () => void, safety: HTMLElement) {
+  constructor(openKeys: () => void, leave: () => void, safety: HTMLElement) {
     const tool = (text: string, drawing: string, press: () => void) =>
       h("button", { type: "button", class: "plain tool", title: text, "aria-label": text, on: { click: press } }, icon(drawing));
     this.element = h("header", {},
       h("div", { class: "identity" }, this.name, this.mode),
       h("div", { class: "people" }, this.standby, this.writer, this.viewers),
       h("div", { class: "tools" }, tool(t.page.keys, ICONS.keyboard, openKeys), tool(t.page.theme, ICONS.theme, switchTheme),
-        h("button", { type: "button", class: "plain", on: { click: switchLanguage } }, t.page.language)),
+        h("button", { type: "button", class: "plain", on: { click: switchLanguage } }, t.page.language),
+        tool(t.signIn.leave, ICONS.leave, leave)),
       safety);
   }
 

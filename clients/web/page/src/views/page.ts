@@ -22,6 +22,7 @@ import { SafetyBar } from "./safety_bar";
 import { Strip } from "./strip";
 import { Tabs } from "./tabs";
 import { ToolsTab } from "./tools_tab";
+import { leave } from "./sign_in";
 import type { Model, View } from "./view";
 import { WriterBanner } from "./writer_banner";
 
@@ -35,7 +36,7 @@ export class Page {
     this.give = giver(report);
     const keys = keysDialog();
     const safety = new SafetyBar(this.give);
-    const header = new Header(() => keys.showModal(), safety.element);
+    const header = new Header(() => keys.showModal(), () => void leave(report), safety.element);
     const [banner, writer, alarms] = [new LinkBanner(), new WriterBanner(this.give), new Alarms()];
     const [axes, jog] = [new Axes(machine, this.give), new JogPad(machine, stream, report)];
     const [path, strip] = [new PathView(machine), new Strip(machine)];

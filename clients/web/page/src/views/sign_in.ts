@@ -1,8 +1,9 @@
-// Signs in with the token in the address's fragment, which a browser never sends, or asks for a token.
-import { session, signIn } from "../api/client";
+// Signs in with the token in the address's fragment, which a browser never sends, or asks for a token. Signs out.
+import { session, signIn, signOut } from "../api/client";
 import type { Problem, Role } from "../api/contract";
 import { h, setText } from "../dom/element";
 import { t } from "../texts";
+import type { Report } from "./command_button";
 
 /** Removes the token from the address, so that no history and no screenshot shows it. */
 export function takeToken(): string | undefined {
@@ -39,4 +40,11 @@ export function askForToken(place: HTMLElement, problem: Problem | undefined): P
     place.replaceChildren(form);
     input.focus();
   });
+}
+
+/** Ends the session and asks for a token, or reports why not. */
+export async function leave(report: Report): Promise<void> {
+  const answer = await signOut();
+  if (!answer.ok) return report(answer);
+  location.reload();
 }
