@@ -33,7 +33,7 @@ void fill(proto::StatusReport& report, const MachineState& state, const MachineC
     report.set_rapid_override_percent(state.overrides.rapid_percent);
     if (state.job_fault != FaultCode::None) {
         *report.mutable_ended_early() = fault_report(state.job_fault, "");
-        report.set_line(state.line.value_or(0));
+        if (state.line) { report.set_line(*state.line); }
     }
     if (state.lease) { *report.mutable_writer() = writer_report(state, machine); }
     if (auto devices = devices_report(state.devices)) { *report.mutable_devices() = *std::move(devices); }

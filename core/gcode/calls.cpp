@@ -29,7 +29,7 @@ Result Interpreter::call(Reader& reader, const OWord& word) {
     }
     if (calls_ >= setup_.limits.call_depth) {
         return error(word.place, shown_call(word.label) + " is nested deeper than " +
-                                     std::to_string(setup_.limits.call_depth) + " calls, the limit call_depth");
+                                     std::to_string(setup_.limits.call_depth) + " calls; check that it ends before it calls itself again");
     }
     ++calls_;
     has_returned_ = false;
@@ -128,7 +128,7 @@ std::optional<GcodeError> Interpreter::keep_subroutines(const SubroutineText& so
         }
         if (!wrong && ++kept_lines_ > setup_.limits.kept_lines) {
             wrong = line.error(0, "the subroutines have more than " + std::to_string(setup_.limits.kept_lines) +
-                                      " lines, the limit kept_lines");
+                                      " lines; divide the program");
         }
         if (!wrong) { wrong = recorder.take(line, word, text); }
         if (wrong) { return false; }

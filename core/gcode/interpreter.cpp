@@ -111,7 +111,7 @@ Result Interpreter::keep(const OWord& word, std::string_view text) {
     if (++kept_lines_ > setup_.limits.kept_lines) {
         recorder_.clear();
         return error(0, "loops and subroutines have more than " + std::to_string(setup_.limits.kept_lines) +
-                            " lines, the limit kept_lines");
+                            " lines; divide the program");
     }
     if (auto wrong = recorder_.take(line_, word, text)) { return std::unexpected(*std::move(wrong)); }
     return recorder_.active() ? Result{} : close_body();

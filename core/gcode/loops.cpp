@@ -28,7 +28,7 @@ Result Interpreter::do_frames() {
 Result Interpreter::count_lines() {
     if (++repeated_lines_ <= setup_.limits.repeated_lines) { return {}; }
     return error(0, "loops and subroutines ran more than " + std::to_string(setup_.limits.repeated_lines) +
-                        " lines, the limit repeated_lines; check that each loop ends");
+                        " lines; check that each loop ends");
 }
 
 Result Interpreter::do_kept(Frame& frame, const KeptLine& kept) {

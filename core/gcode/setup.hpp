@@ -10,7 +10,7 @@
 
 namespace lockstep::gcode {
 
-/// A program that exceeds one of these is refused, with the limit's name.
+/// A program that exceeds one of these is refused.
 struct Limits {
     int call_depth = 10;                       // of subroutines that call each other
     std::int64_t repeated_lines = 10'000'000;  // lines run in loops and subroutines, all together

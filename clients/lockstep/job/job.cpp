@@ -168,7 +168,7 @@ ExitCode end(Session& session, const Job& job, JobResult result, JobWatch& watch
     const MachineState& state = session.state()->state;
     if (result == JobResult::Stopped && state.job_fault != FaultCode::None) {
         *report.mutable_fault() = fault_report(state.job_fault, "");
-        report.set_line(state.line.value_or(0));
+        if (state.line) { report.set_line(*state.line); }
     }
     if (result == JobResult::CutShort && state.line) { report.set_line(*state.line); }
     add_final_positions(session, report);

@@ -114,12 +114,12 @@ TEST(GcodeFlow, SubroutinesHaveLabelsOfTheirOwn) {
 }
 
 TEST(GcodeFlow, RecursionAndEndlessLoopsMeetTheirLimits) {
-    EXPECT_THAT(run("o1 sub\no1 call\no1 endsub\no1 call\n").error->message, HasSubstr("call_depth"));
+    EXPECT_THAT(run("o1 sub\no1 call\no1 endsub\no1 call\n").error->message, HasSubstr("deeper than 10 calls"));
     gcode::Setup setup;
     setup.limits.repeated_lines = 1000;
-    EXPECT_THAT(run("o1 while [1]\no1 endwhile\n", setup).error->message, HasSubstr("repeated_lines"));
+    EXPECT_THAT(run("o1 while [1]\no1 endwhile\n", setup).error->message, HasSubstr("check that each loop ends"));
     setup.limits.kept_lines = 2;
-    EXPECT_THAT(run("o1 sub\nG0\nG0\no1 endsub\n", setup).error->message, HasSubstr("kept_lines"));
+    EXPECT_THAT(run("o1 sub\nG0\nG0\no1 endsub\n", setup).error->message, HasSubstr("divide the program"));
 }
 
 TEST(GcodeFlow, OWordsThatDoNotFitAreRefusedWithTheirPlace) {
