@@ -29,7 +29,8 @@ Result Interpreter::call(Reader& reader, const OWord& word) {
     }
     if (calls_ >= setup_.limits.call_depth) {
         return error(word.place, shown_call(word.label) + " is nested deeper than " +
-                                     std::to_string(setup_.limits.call_depth) + " calls; check that it ends before it calls itself again");
+                                     std::to_string(setup_.limits.call_depth) +
+                                     " calls; check that it ends before it calls itself again");
     }
     ++calls_;
     has_returned_ = false;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "core/axis_set.hpp"
 #include "core/if_positive.hpp"
 
 namespace lockstep {
