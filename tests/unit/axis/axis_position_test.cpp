@@ -47,12 +47,15 @@ TEST_F(StandingAxis, IsKeptOnceAfterEachRun) {
 TEST_F(StandingAxis, KeptByTheProcessBeforeHomesTheAxis) {
     (void)device.begin_run();
     show(at_rest());
-    position.set_zero(40, at_rest());
+    DeviceStatus status = at_rest();
+    status.encoder_count = 7;
+    position.set_zero(40, status);
     AxisPosition next(scale_of(machine(), 0), *position.keep(device));
-    EXPECT_EQ(next.claim(at_rest(), true), FaultCode::DeviceFault);
-    EXPECT_EQ(next.claim(at_rest(), false), FaultCode::None);
+    EXPECT_EQ(next.claim(status, true), FaultCode::DeviceFault);
+    EXPECT_EQ(next.claim(status, false), FaultCode::None);
     EXPECT_TRUE(next.homed());
     EXPECT_EQ(next.zero_count(), 40);
+    EXPECT_EQ(next.following_error(status), 0);
     EXPECT_FALSE(next.keep(device)) << "nothing has moved since";
 }
 

@@ -19,14 +19,14 @@ protected:
         own.move({.sequence = sequence, .kind = AxisCommandKind::MoveOwn, .target_steps = target}, !own.is_running(),
                  l);
     }
-    void order_jog(std::int64_t target) {
+    void order_jog(std::int64_t target, Ticks lasts = {200'000}) {
         AxisLoop l = loop();
         condition.orders.begin(++sequence);
         own.jog({.sequence = sequence,
                  .kind = AxisCommandKind::Jog,
                  .target_steps = target,
                  .speed_mm_s = 20,
-                 .until = now + Ticks{200'000}},
+                 .until = now + lasts},
                 !own.is_running(), l);
     }
     void end_run(DeviceStatus status) {
@@ -109,6 +109,12 @@ TEST_F(OwnMoving, AJogGoesOnBeforeItsFirstRenewal) {
     AxisLoop l = loop();
     own.feed(l);
     EXPECT_GE(ordered<device::LoadFrame>(), 1);
+}
+
+TEST_F(OwnMoving, EndsAJogThatRunsOutBeforeItsMotionCouldBegin) {
+    order_jog(3000, {1'000});
+    EXPECT_FALSE(own.is_running());
+    EXPECT_EQ(condition.orders.done(), 1u);
 }
 
 TEST_F(OwnMoving, EndsTheOrderOfAJogToWhereItStands) {

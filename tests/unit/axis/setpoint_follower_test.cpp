@@ -63,6 +63,22 @@ protected:
     }
 };
 
+/// Frame 1, which is also the last, at rest.
+Frame last_of(std::int64_t ticks) {
+    Frame f = frame(1, kHome, kSlow, true);
+    f.ticks = {ticks};
+    for (AxisTrack& track : f.axes) {
+        track.body = {};
+        if (ticks > 0) { (void)track.body.push_back({f.ticks, {0}, {0}}); }
+    }
+    return f;
+}
+
+TEST_F(Follower, TakesAFrameOfOneTickAndNoneWithout) {
+    EXPECT_EQ(follower.offer(last_of(0), kHome), FaultCode::BadProgram);
+    EXPECT_EQ(follower.offer(last_of(1), kHome), FaultCode::None);
+}
+
 TEST_F(Follower, ArmsAsSoonAsAllHold) {
     EXPECT_EQ(follower.offer(frame(1, kHome), kHome), FaultCode::None);
     EXPECT_EQ(follower.held(), 1u);

@@ -159,6 +159,14 @@ TEST_F(Inherited, NamesWhyItIsNotGoneOnWith) {
     EXPECT_FALSE(job.exists());
 }
 
+TEST_F(CoordinatorParts, AJobThatIsContinuedRemembersWhichEventsWerePublished) {
+    PathJob path(machine);
+    path.load(MachineJob{.number = 3}, JobRest{.done = LegEnd{}}, 0.25, 7);
+    EXPECT_EQ(path.events().from(), 7u);
+    path.load(MachineJob{.number = 4}, AxisCounts{});
+    EXPECT_EQ(path.events().from(), 0u);
+}
+
 /// A hold before the first frame was requested, so it says nothing about the path.
 TEST_F(CoordinatorParts, APathIsGivenUpAfterInterruptionsWithoutAFrameAndNotAfterHolds) {
     PathJob path(machine);

@@ -199,6 +199,8 @@ MachineConfig machine_of(double start_mm_s, double accel_mm_s2) {
 
 TEST(LaiPath, AMachineThatCannotChangeSpeedByWholePulsesIsRefused) {
     EXPECT_TRUE(suits_lai_path(machine_of(5, 800)).has_value());
+    EXPECT_TRUE(suits_lai_path(machine_of(2 / 80. / 6.5e-3, 2 / 80. / 6.5e-3 / 6.5e-3)).has_value())
+        << "exactly enough";
     EXPECT_NE(text_of(suits_lai_path(machine_of(3, 800)).error()).find("start_velocity_mm_s must be at least 3.84615"),
               std::string::npos);
     EXPECT_NE(text_of(suits_lai_path(machine_of(5, 500)).error()).find("max_accel_mm_s2 must be at least 591.716"),

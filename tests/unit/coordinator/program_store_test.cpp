@@ -35,6 +35,17 @@ TEST_F(ProgramInParts, IsTakenPartByPart) {
     EXPECT_EQ(programs.find(7)->known(), 2u);
 }
 
+TEST_F(ProgramInParts, StaysWhileItIsInUseAndNewerOnesReplaceTheOthers) {
+    const Program program{.name = "job", .axes = {"X", "Y"}, .start_mm = {0, 0}, .blocks = {to(10, 1)}};
+    programs.accept(1, program);
+    programs.accept(2, program);
+    const std::shared_ptr<const KnownProgram> in_use = programs.find(1);
+    for (std::uint64_t id = 3; id < 3 + ProgramStore::kProgramsKept; ++id) { programs.accept(id, program); }
+    EXPECT_EQ(programs.find(1), in_use);
+    EXPECT_EQ(programs.find(2), nullptr);
+    EXPECT_NE(programs.find(4), nullptr);
+}
+
 TEST_F(ProgramInParts, OfWhichTheBeginningIsMissingIsNotTaken) {
     const auto taken = programs.take(part(1, {to(20, 2)}), 100);
     EXPECT_FALSE(taken.is_new);
