@@ -16,7 +16,7 @@ Message late;       /* what the stalled process was about to send */
 byte clock_ahead[N], clock_behind[N];
 #define CLOCK(i) (slot + clock_ahead[i] - clock_behind[i])
 inline set_clocks() {
-    if :: i = 0 :: i = 1 :: N == 3 -> i = 2 fi;
+    if :: i = 0 :: i = 1 :: N > 2 -> i = 2 fi;
     if :: clock_ahead[i] = 1 :: clock_behind[i] = 1 fi;
     i = 0
 }
@@ -33,16 +33,16 @@ inline set_clocks() { skip }
 #define APART ((3 + E + FRAME - 1) / FRAME)
 #endif
 #define BESIDE(a, b) ((a) <= (b) + APART && (b) <= (a) + APART)
-#if N == 2
-#define OTHERS_RUN_THE_SAME 1
-#define ALL_BESIDE BESIDE(axis[0].ran, axis[1].ran)
-#define ALL_RUN(frames) (axis[0].ran == (frames) && axis[1].ran == (frames))
-#else
-#define OTHERS_RUN_THE_SAME (axis[1].ran == axis[2].ran)
-#define ALL_BESIDE \
-    (BESIDE(axis[0].ran, axis[1].ran) && BESIDE(axis[0].ran, axis[2].ran) && BESIDE(axis[1].ran, axis[2].ran))
-#define ALL_RUN(frames) (axis[0].ran == (frames) && axis[1].ran == (frames) && axis[2].ran == (frames))
-#endif
+#define OTHERS_RUN_THE_SAME_2 1
+#define OTHERS_RUN_THE_SAME_3 (axis[1].ran == axis[2].ran)
+#define OTHERS_RUN_THE_SAME_4 (OTHERS_RUN_THE_SAME_3 && axis[1].ran == axis[3].ran)
+#define OTHERS_RUN_THE_SAME OF_N(OTHERS_RUN_THE_SAME)
+#define ALL_RUN(frames) (axis[0].ran == (frames) && axis[1].ran == (frames) && OTHERS_RUN_THE_SAME)
+#define BESIDE_AXES(a, b) BESIDE(axis[a].ran, axis[b].ran)
+#define ALL_BESIDE_2 BESIDE_AXES(0, 1)
+#define ALL_BESIDE_3 (ALL_BESIDE_2 && BESIDE_AXES(0, 2) && BESIDE_AXES(1, 2))
+#define ALL_BESIDE_4 (ALL_BESIDE_3 && BESIDE_AXES(0, 3) && BESIDE_AXES(1, 3) && BESIDE_AXES(2, 3))
+#define ALL_BESIDE OF_N(ALL_BESIDE)
 /* No frame runs that the coordinator has vetoed. */
 #define STOPPED (axis[1].ran < coordinator_veto)
 #define P (ALL_RUN(axis[0].ran) && STOPPED)

@@ -3,7 +3,7 @@
 
 usage: ctest --test-dir build -L model && tests/model/make_table.py build
 
-With cmake -DLOCKSTEP_LONG_MODEL=ON the tests include the longer searches of three axes. The numbers of searches that
+With cmake -DLOCKSTEP_LONG_MODEL=ON the tests include the longest searches. The numbers of searches that
 are not in the log stay as they are.
 """
 import pathlib
@@ -47,6 +47,7 @@ COLUMNS = {
     "frames_of_1_3axes": "3 axes, f = 1",
     "frames_of_1_and_s_2_3axes": "3 axes, f = 1, s = 2",
     "late_checks_3axes": "3 axes, f = 3, e = 1",
+    "and_stop_4axes": "4 axes, f = 2",
 }
 BEGIN, END = "<!-- states: begin -->\n", "<!-- states: end -->"
 

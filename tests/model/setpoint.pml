@@ -27,6 +27,11 @@
 #define DELAY RULE_HOP
 #endif
 
+/* What is said of each axis by name: OF_N(NAME) is NAME_2, NAME_3 or NAME_4. */
+#define JOINED(name, n) name##_##n
+#define NUMBERED(name, n) JOINED(name, n)
+#define OF_N(name) NUMBERED(name, N)
+
 #include "tests/model/ablations.pml"
 
 /* The shortest times that the configuration allows, unless other times are defined. */
@@ -186,11 +191,10 @@ inline receive_all() {
 #else
 #define COORDINATOR_HOLDS(k) HOLDS(N, k)
 #endif
-#if N == 2
-#define ALL_HOLD(k) (HOLDS(0, k) && HOLDS(1, k) && COORDINATOR_HOLDS(k))
-#else
-#define ALL_HOLD(k) (HOLDS(0, k) && HOLDS(1, k) && HOLDS(2, k) && COORDINATOR_HOLDS(k))
-#endif
+#define THESE_HOLD_2(k) (HOLDS(0, k) && HOLDS(1, k))
+#define THESE_HOLD_3(k) (THESE_HOLD_2(k) && HOLDS(2, k))
+#define THESE_HOLD_4(k) (THESE_HOLD_3(k) && HOLDS(3, k))
+#define ALL_HOLD(k) (OF_N(THESE_HOLD)(k) && COORDINATOR_HOLDS(k))
 #ifdef WITHOUT_EARLY_ARMING
 #define MAY_ARM(k) (!RULE_IS_EARLY(CLOCK(i), START(k), V) && RULE_MAY_ARM(k, axis[i].held, axis[i].veto, ALL_HOLD(k)))
 #else
@@ -367,14 +371,17 @@ inline begin() {
     i = 0
 }
 
+/* A slot is N + 2 steps: the coordinator, each axis, the devices. No process reads what another one sends in the same
+ * slot, so the order has no effect. Each step is one choice of messages, and the search merges equal states after it. */
 init {
     atomic { begin(); set_clocks() }
     do
-    :: slot < END ->
+    :: atomic { slot < END -> meet_fault(); coordinator_sends(); i = 0; j = 0; k = 0 }
+        do
+        :: atomic { i < N -> axis_steps(); j = 0; k = 0; i++ }
+        :: atomic { i == N -> break }
+        od;
         atomic {
-            meet_fault();
-            coordinator_sends();
-            for (i : 0 .. N - 1) { axis_steps() }
             for (i : 0 .. N - 1) { device_steps() }
             print_slot();
             next_slot()
