@@ -110,6 +110,7 @@ TEST(DeviceTime, IsRightAgainAfterTheClockWasSetBackWhileTheDeviceStoodStill) {
     };
     for (int i = 0; i < 2000; ++i) { look(false); }
     ASSERT_LE(std::abs((time.now() - now).value), time.error().value);
+    EXPECT_LE(std::abs((time.in_machine_time({.now = shown}).now - now).value), time.error().value);
     own_ahead = own_ahead - Ticks{7'251'060};
     EXPECT_FALSE(look(false));
     for (int i = 0; i < 28; ++i) { EXPECT_TRUE(look(true)) << "its axis is not silent"; }
