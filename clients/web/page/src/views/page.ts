@@ -19,10 +19,10 @@ import { PathView } from "./path_view";
 import { ProgramTab } from "./program_tab";
 import { ReportsTab } from "./reports_tab";
 import { SafetyBar } from "./safety_bar";
+import { leave } from "./sign_in";
 import { Strip } from "./strip";
 import { Tabs } from "./tabs";
 import { ToolsTab } from "./tools_tab";
-import { leave } from "./sign_in";
 import type { Model, View } from "./view";
 import { WriterBanner } from "./writer_banner";
 
