@@ -3,8 +3,8 @@
 
 usage: ctest --test-dir build -L model && tests/model/make_table.py build
 
-With cmake -DLOCKSTEP_LONG_MODEL=ON the tests include the longest searches. The numbers of searches that
-are not in the log stay as they are.
+With cmake -DLOCKSTEP_LONG_MODEL=ON the tests include the longest searches. The numbers of searches that are not in the
+log stay as they are.
 """
 import pathlib
 import re
