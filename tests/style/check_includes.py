@@ -2,6 +2,7 @@
 """Finds files that use a type or a constant of the project and include its header neither directly nor through another
 header. `make build` compiles several files as one, which hides this; the preset debug compiles each file alone.
 Usage: check_includes.py ROOT"""
+import collections
 import pathlib
 import re
 import sys
@@ -42,11 +43,11 @@ def main():
                        for one in re.findall(r'^#include "([^"]+)"', text, re.M)] for name, text in texts.items()}
     code = {name: without_text(text) for name, text in texts.items()}
     words = {name: set(NAME.findall(text)) for name, text in code.items()}
-    headers = {}
+    headers = collections.defaultdict(set)
     for name in texts:
         if name.endswith(".hpp"):
             for found in DECLARATION.finditer(code[name]):
-                headers.setdefault(next(filter(None, found.groups())), set()).add(name)
+                headers[next(filter(None, found.groups()))].add(name)
     missing = []
     for name in sorted(texts):
         known = included_by(name, includes) - {name}
@@ -55,7 +56,7 @@ def main():
         named = words[name] - set().union(*(words.get(one, set()) for one in known))
         declared = re.findall(r"\b(?:class|struct|enum|typename|using) (\w+)|\b(k\w+)[\[\]\w]*(?: = |\{)", code[name])
         for word in sorted(named - {one for pair in declared for one in pair}):
-            if len(headers.get(word, ())) == 1 and not headers[word] & {name}:
+            if len(headers[word]) == 1 and name not in headers[word]:
                 missing.append(f'{name}: {word}: include "{next(iter(headers[word]))}"')
     for line in missing:
         print(line)
