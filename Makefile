@@ -9,15 +9,18 @@ BUILD ?= build
 # thirds of the time.
 QUICK := -DBUILD_TESTING=OFF -DLOCKSTEP_SPY=OFF -DLOCKSTEP_WERROR=OFF "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"
 DEMO  ?= $(if $(wildcard $(BUILD)/CMakeCache.txt),$(BUILD),build-demo)
+FIRST   = $(BUILD)/CMakeCache.txt
+OPTIONS = -DBUILD_TESTING=ON -DLOCKSTEP_SPY=ON
+PRODUCT = core/all sim_fpga/all services/all clients/all
 # All programs, and what tests of live machines need. While these tests run, tests/run builds all other tests.
-LIVE   = core/all sim_fpga/all services/all clients/all tests/integration/all tests/benchmarks/all package_files
-TEST   = tests/run $(BUILD) $(JOBS)
+LIVE    = $(PRODUCT) tests/integration/all tests/benchmarks/all package_files
+TEST    = tests/run $(BUILD) $(JOBS)
 else
 BUILD ?= build-$(ARCH)
-CROSS := --toolchain deploy/$(ARCH).cmake -DCMAKE_SYSROOT=$(abspath $(BUILD))/root
-NEEDS := $(ARCH) $(BUILD)/root
-LIVE   = all
-TEST   = tests/integration/package/emulated_machine $(BUILD) build
+NEEDS  := $(ARCH) $(BUILD)/root
+OPTIONS = --toolchain deploy/$(ARCH).cmake -DCMAKE_SYSROOT=$(abspath $(BUILD))/root
+LIVE    = all
+TEST    = tests/integration/package/emulated_machine $(BUILD) build
 endif
 
 .PHONY: configured build live test demo bench package clean
@@ -26,9 +29,16 @@ endif
 configure = cmake -S . -B $(1) -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON $(2) >$(1).configure.log 2>&1 || \
   { cat $(1).configure.log; rm -f $(1).configure.log; exit 1; }; rm -f $(1).configure.log
 
-configured:
+configured: $(FIRST)
 	@deploy/install-dependencies $(NEEDS)
-	@$(call configure,$(BUILD),$(CROSS))
+	@$(call configure,$(BUILD),$(OPTIONS))
+
+# On a fresh machine the packages that only tests need are installed while the compiler works on the product.
+$(FIRST):
+	@deploy/install-dependencies build
+	@$(call configure,$(BUILD),-DBUILD_TESTING=OFF -DLOCKSTEP_SPY=OFF)
+	@deploy/install-dependencies & installing=$$!; cmake --build $(BUILD) -j $(JOBS) --target $(PRODUCT); \
+	  built=$$?; wait $$installing && exit $$built
 
 build: configured
 	@cmake --build $(BUILD) -j $(JOBS)

@@ -250,13 +250,32 @@ inline double distance(const Place& p, const Place& a, const Place& b) {
     return at((low + high) / 2);
 }
 
+/// Whether the segment a to b has a point within `most` of p in every axis. Each axis leaves an interval of the
+/// segment.
+inline bool is_near(const Place& p, const Place& a, const Place& b, double most) {
+    double first = 0;
+    double last = 1;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        const double length = b[i] - a[i];
+        if (length == 0) {
+            if (std::abs(p[i] - a[i]) > most) { return false; }
+            continue;
+        }
+        const double middle = (p[i] - a[i]) / length;
+        const double half = most / std::abs(length);
+        first = std::max(first, middle - half);
+        last = std::min(last, middle + half);
+    }
+    return first <= last;
+}
+
 /// Returns the first point that does not follow the path in order within `most` steps of every axis, or nullopt. Each
 /// point takes the earliest possible segment, which leaves the most of the path to the points behind it.
 inline std::optional<std::size_t> first_astray(const std::vector<Place>& points, const std::vector<Place>& path,
                                                double most) {
     std::size_t at = 0;
     for (std::size_t p = 0; p < points.size(); ++p) {
-        while (at + 1 < path.size() && distance(points[p], path[at], path[at + 1]) > most) { ++at; }
+        while (at + 1 < path.size() && !is_near(points[p], path[at], path[at + 1], most)) { ++at; }
         if (at + 1 == path.size()) { return p; }
     }
     return std::nullopt;
