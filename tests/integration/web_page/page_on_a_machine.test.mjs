@@ -38,7 +38,14 @@ async function enter(role = "operate", options = DESKTOP) {
   return opened.page;
 }
 const button = (page, name) => page.getByRole("button", { name, exact: true });
-const mode = (page, text) => page.locator(".mode", { hasText: new RegExp(`^${text}$`) }).waitFor();
+const mode = (page, text) =>
+  page
+    .locator(".mode", { hasText: new RegExp(`^${text}$`) })
+    .waitFor()
+    .catch(async () => {
+      const shownMode = await page.locator(".mode").textContent();
+      assert.fail(`not "${text}": the page shows "${shownMode}", the machine is ${JSON.stringify(await server.state())}`);
+    });
 const upload = (page, name, text) => page.setInputFiles("#program-file", { name, mimeType: "text/plain", buffer: Buffer.from(text) });
 
 let programs = 0;
