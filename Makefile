@@ -5,9 +5,10 @@ ARCH  = $(HERE)
 JOBS ?= $(shell nproc)
 ifeq ($(ARCH),$(HERE))
 BUILD ?= build
+UNTESTED := -DBUILD_TESTING=OFF -DLOCKSTEP_SPY=OFF
 # The demonstration uses the programs of an existing build, otherwise it builds only these. With -O1 that takes two
 # thirds of the time.
-QUICK := -DBUILD_TESTING=OFF -DLOCKSTEP_SPY=OFF -DLOCKSTEP_WERROR=OFF "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"
+QUICK := $(UNTESTED) -DLOCKSTEP_WERROR=OFF "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"
 DEMO  ?= $(if $(wildcard $(BUILD)/CMakeCache.txt),$(BUILD),build-demo)
 FIRST   = $(BUILD)/CMakeCache.txt
 OPTIONS = -DBUILD_TESTING=ON -DLOCKSTEP_SPY=ON
@@ -36,7 +37,7 @@ configured: $(FIRST)
 # On a fresh machine the packages that only tests need are installed while the compiler works on the product.
 $(FIRST):
 	@deploy/install-dependencies build
-	@$(call configure,$(BUILD),-DBUILD_TESTING=OFF -DLOCKSTEP_SPY=OFF)
+	@$(call configure,$(BUILD),$(UNTESTED))
 	@deploy/install-dependencies & installing=$$!; cmake --build $(BUILD) -j $(JOBS) --target $(PRODUCT); \
 	  built=$$?; wait $$installing && exit $$built
 

@@ -35,7 +35,7 @@ double furthest(const std::vector<Place>& places, const std::vector<Place>& path
     double most = 0;
     std::size_t at = 0;
     for (const Place& place : places) {
-        while (at + 2 < path.size() && distance(place, path[at], path[at + 1]) > 0.1) { ++at; }
+        while (at + 2 < path.size() && !is_near(place, path[at], path[at + 1], 0.1)) { ++at; }
         most = std::max(most, distance(place, path[at], path[at + 1]));
     }
     return most;
