@@ -4,7 +4,7 @@ import { EventParser } from "./event_parser";
 import { LiveState } from "./live_state";
 
 const PROBE_AFTER_MS = 500;
-const DEAD_AFTER_MS = 12_000; // the server sends a comment after 5 s
+const DEAD_AFTER_MS = 12_000; // the server sends its first event at once, and a comment after 5 s without events
 const RETRY_MS = [250, 500, 1000, 2000, 3000];
 
 export interface StreamListener {
@@ -75,7 +75,7 @@ export class StateStream {
   /** A state that does not change causes no events, so the answer to a small request proves the connection. */
   private async watch(): Promise<void> {
     const now = performance.now();
-    if (this.connected && now - this.received_ms > DEAD_AFTER_MS) this.aborted?.abort();
+    if (now - this.received_ms > DEAD_AFTER_MS) this.aborted?.abort();
     if (!this.connected || this.probing || now - this.contact_ms < PROBE_AFTER_MS) return;
     this.probing = true;
     const answer = await session();
