@@ -254,8 +254,4 @@ std::vector<Finding> findings(const Analysis& analysis) {
 
 Grade worst_grade(const std::vector<Finding>& findings) { return findings.front().grade; }
 
-std::string headline(const std::vector<Finding>& findings) {
-    return std::string(name_of(worst_grade(findings))) + ": " + findings.front().text;
-}
-
 }  // namespace lockstep::analysis

@@ -30,7 +30,4 @@ std::vector<Finding> findings(const Analysis& analysis);
 /// The most serious grade.
 Grade worst_grade(const std::vector<Finding>& findings);
 
-/// The worst grade and its first finding in a line: "good: nothing is missing, ...".
-std::string headline(const std::vector<Finding>& findings);
-
 }  // namespace lockstep::analysis

@@ -97,13 +97,4 @@ void Trace::thin_out() {
     error_ += tolerance_;
 }
 
-double position_at(const std::vector<Knot>& knots, Tick tick, std::size_t& place) {
-    while (place + 1 < knots.size() && knots[place + 1].tick <= tick) { ++place; }
-    const Knot& before = knots[place];
-    if (place + 1 == knots.size() || tick <= before.tick || !knots[place + 1].joined) { return before.position_steps; }
-    const Knot& after = knots[place + 1];
-    const double share = ticks_between(before.tick, tick) / ticks_between(before.tick, after.tick);
-    return before.position_steps + share * (after.position_steps - before.position_steps);
-}
-
 }  // namespace lockstep::analysis

@@ -57,8 +57,4 @@ private:
     std::int64_t position_ = 0;
 };
 
-/// The position at an instant, in steps, interpolated between knots; outside them, the position of the nearest knot.
-/// The search begins at `place`, for rising instants; start at 0. `knots` must not be empty.
-double position_at(const std::vector<Knot>& knots, Tick tick, std::size_t& place);
-
 }  // namespace lockstep::analysis

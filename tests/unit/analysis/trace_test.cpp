@@ -21,6 +21,18 @@ Trace trace_of(const std::vector<StepEdge>& steps, std::size_t max_knots = Trace
     return trace;
 }
 
+/// The position at an instant, in steps, interpolated between knots; outside them, the position of the nearest knot.
+/// The search begins at `place`, for rising instants; start at 0. `knots` must not be empty.
+double position_at(const std::vector<Knot>& knots, Tick tick, std::size_t& place) {
+    while (place + 1 < knots.size() && knots[place + 1].tick <= tick) { ++place; }
+    const Knot& before = knots[place];
+    if (place + 1 == knots.size() || tick <= before.tick || !knots[place + 1].joined) { return before.position_steps; }
+    const Knot& after = knots[place + 1];
+    const double share =
+        static_cast<double>(tick.value - before.tick.value) / static_cast<double>(after.tick.value - before.tick.value);
+    return before.position_steps + share * (after.position_steps - before.position_steps);
+}
+
 /// The greatest distance of the trace from the middle of a step at the step's tick, in steps.
 double error_of(const Trace& trace, const std::vector<StepEdge>& steps) {
     double worst = 0;
