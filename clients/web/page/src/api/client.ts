@@ -31,7 +31,7 @@ function post(body: unknown, signal?: AbortSignal): RequestInit {
 
 export const signIn = (token: string) => json<{ role: Role }>("/api/session", post({ token }));
 export const signOut = () => request("/api/session", { method: "DELETE" });
-export const session = () => json<{ role: Role }>("/api/session");
+export const session = (signal?: AbortSignal) => json<{ role: Role }>("/api/session", signal ? { signal } : {});
 export const machine = () => json<Machine>("/api/machine");
 export const reports = () => json<{ files: ReportFile[] }>("/api/reports");
 export const mdiLines = () => json<{ lines: { line: string; accepted: boolean }[] }>("/api/mdi");

@@ -4,6 +4,7 @@ import { EventParser } from "./event_parser";
 import { LiveState } from "./live_state";
 
 const PROBE_AFTER_MS = 500;
+const PROBE_ENDS_AFTER_MS = 3000;
 const DEAD_AFTER_MS = 12_000; // the server sends its first event at once, and a comment after 5 s without events
 const RETRY_MS = [250, 500, 1000, 2000, 3000];
 
@@ -72,14 +73,21 @@ export class StateStream {
     }
   }
 
-  /** A state that does not change causes no events, so the answer to a small request proves the connection. */
   private async watch(): Promise<void> {
     const now = performance.now();
     if (now - this.received_ms > DEAD_AFTER_MS) this.aborted?.abort();
     if (!this.connected || this.probing || now - this.contact_ms < PROBE_AFTER_MS) return;
     this.probing = true;
-    const answer = await session();
+    await this.probe();
     this.probing = false;
+  }
+
+  /** A state that does not change causes no events, so the answer to a small request proves the connection. */
+  private async probe(): Promise<void> {
+    const request = new AbortController();
+    const timer = setTimeout(() => request.abort(), PROBE_ENDS_AFTER_MS);
+    const answer = await session(request.signal);
+    clearTimeout(timer);
     if (answer.ok) this.contact_ms = performance.now();
     else if (answer.problem.status === 401) this.aborted?.abort();
   }
