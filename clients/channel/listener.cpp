@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <netdb.h>
 #include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <sys/socket.h>
 
 #include <bit>
@@ -17,6 +18,9 @@ namespace lockstep {
 namespace {
 
 constexpr int kBacklog = 128;
+constexpr int kHostPatience_ms = 10'000;
+constexpr int kProbeAfter_s = 4;
+constexpr int kProbeAgainAfter_s = 2;
 
 bool is_loopback(const sockaddr* address) {
     if (address->sa_family == AF_INET) {
@@ -35,6 +39,18 @@ std::uint16_t port_of(int socket) {
                          : std::bit_cast<sockaddr_in6*>(&bound)->sin6_port);
 }
 
+bool set(int socket, int level, int option, int value) {
+    return setsockopt(socket, level, option, &value, sizeof value) == 0;
+}
+
+/// Ends a connection whose other host is gone without a word, for example because its cable is unplugged: probes it
+/// when it is silent, and limits the wait for the acknowledgement of what was sent.
+bool ends_without_other_host(int socket) {
+    return set(socket, SOL_SOCKET, SO_KEEPALIVE, 1) && set(socket, IPPROTO_TCP, TCP_KEEPIDLE, kProbeAfter_s) &&
+           set(socket, IPPROTO_TCP, TCP_KEEPINTVL, kProbeAgainAfter_s) &&
+           set(socket, IPPROTO_TCP, TCP_USER_TIMEOUT, kHostPatience_ms);
+}
+
 }  // namespace
 
 std::expected<Listener, std::string> listen_at(const std::string& address, std::uint16_t port) {
@@ -48,8 +64,8 @@ std::expected<Listener, std::string> listen_at(const std::string& address, std::
     }
     const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> owned(found, freeaddrinfo);
     Descriptor made(socket(found->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-    const int on = 1;
-    const bool listens = made.is_open() && setsockopt(made.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) == 0 &&
+    const bool listens = made.is_open() && set(made.get(), SOL_SOCKET, SO_REUSEADDR, 1) &&
+                         ends_without_other_host(made.get()) &&  // connections inherit it
                          bind(made.get(), found->ai_addr, found->ai_addrlen) == 0 && listen(made.get(), kBacklog) == 0;
     if (!listens) {
         const char* remedy = errno == EADDRINUSE ? "; choose another port: --port N" : "";

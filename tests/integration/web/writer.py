@@ -4,6 +4,7 @@ has it, takes it over when it is told to, and gives it back.
 
 Usage: writer.py ROOT PROGRAMS
 """
+import os
 import subprocess
 import sys
 import time
@@ -43,6 +44,20 @@ def check_watched(client):
     client.await_state(is_mine)
     events.close()
     client.await_state(is_free)
+
+
+def check_unplugged(client):
+    """A page whose host is gone without a word no longer keeps the machine."""
+    if os.geteuid() != 0:
+        return
+    events = Events(client)
+    expect(client.command("override", {"feed_percent": 100}).status == 200, "no override")
+    client.await_state(is_mine)
+    port = str(events.socket.getsockname()[1])
+    for end in ("--sport", "--dport"):
+        subprocess.run(["iptables", "-A", "INPUT", "-p", "tcp", end, port, "-j", "DROP"], check=True)
+    client.await_state(is_free)
+    events.close()
 
 
 def check_other_writer(machine, client):
@@ -99,6 +114,7 @@ def main():
     with served() as (machine, client):
         check_first_command(client)
         check_watched(client)
+        check_unplugged(client)
         check_other_writer(machine, client)
         check_taken_while_jogging(machine, client)
         check_end(machine, client)

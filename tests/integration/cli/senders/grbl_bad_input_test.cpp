@@ -1,5 +1,6 @@
 // Senders that break the protocol while the machine moves. The motion is as planned, and the next sender is served.
 #include <chrono>
+#include <cstdlib>
 #include <iostream>
 #include <thread>
 
@@ -101,6 +102,29 @@ TEST_F(BrokenSender, ThatDiesHasTheSpindleSwitchedOffBehindItsMotion) {
     }
     rests_at(20);
     EXPECT_TRUE(eventually([&] { return !status().has_devices(); }));
+}
+
+/// Drops every packet from and to a sender, as if its cable were unplugged.
+void unplug(const Sender& sender) {
+    for (const char* end : {"--sport", "--dport"}) {
+        const std::string rule = "iptables -A INPUT -p tcp " + std::string(end) + " " + std::to_string(sender.port());
+        ASSERT_EQ(std::system((rule + " -j DROP").c_str()), 0);
+    }
+}
+
+TEST_F(BrokenSender, WhoseHostIsGoneLeavesTheMachineToTheNext) {
+    if (geteuid() != 0) { GTEST_SKIP() << "to drop packets needs root"; }
+    Sender lost = ready();
+    ASSERT_TRUE(lost.answers("G1 X25 F3000", "ok"));
+    rests_at(25);
+    unplug(lost);
+    std::optional<Sender> next = Sender::over_tcp();
+    ASSERT_TRUE(next && !next->is_served());
+    ASSERT_TRUE(eventually([&] {
+        next.emplace(*Sender::over_tcp());
+        return next->is_served();
+    }));
+    goes_on(*next, 35);
 }
 
 TEST_F(BrokenSender, OfGarbageIsServedAgainAfterAReset) {

@@ -42,6 +42,13 @@ public:
         if (fd_ >= 0) { close(fd_); }
     }
 
+    /// The TCP port of this end.
+    std::uint16_t port() const {
+        sockaddr_in place{};
+        socklen_t size = sizeof place;
+        EXPECT_EQ(getsockname(fd_, reinterpret_cast<sockaddr*>(&place), &size), 0);
+        return ntohs(place.sin_port);
+    }
     void send(const std::string& bytes) {
         for (std::size_t done = 0; done < bytes.size();) {
             const ssize_t count = write(fd_, bytes.data() + done, bytes.size() - done);
@@ -63,6 +70,16 @@ public:
             if (at != std::string::npos) { text_.erase(0, at + what.size()); }
             return at != std::string::npos;
         });
+    }
+    /// Waits until it is greeted; false if the machine serves another sender.
+    bool is_served() {
+        bool is_greeted = false;
+        EXPECT_TRUE(eventually([&] {
+            read_all();
+            is_greeted = text_.contains("Grbl 1.1h");
+            return is_greeted || text_.contains("another sender is connected");
+        }));
+        return is_greeted;
     }
     bool answers(const std::string& line, const std::string& what) {
         send(line + "\n");
