@@ -17,7 +17,8 @@ def look(html, folder, width, *flags):
     page.write_text(html.replace("</body>", PROBE + "</body>"))
     shown = subprocess.run(
         ["chromium-headless-shell", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr",
-         f"--window-size={width},900", "--virtual-time-budget=3000", f"--user-data-dir={folder}/profile", *flags, "--dump-dom", f"file://{page}"],
+         f"--window-size={width},900", "--virtual-time-budget=3000", f"--user-data-dir={folder}/profile", *flags,
+         "--dump-dom", f"file://{page}"],
         capture_output=True, text=True, timeout=100, check=True)
     # Errors of the page, not of the browser's own pages.
     complaints = [line for line in shown.stderr.splitlines() if "CONSOLE" in line and "source: chrome:" not in line]

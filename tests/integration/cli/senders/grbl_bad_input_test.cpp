@@ -106,9 +106,9 @@ TEST_F(BrokenSender, ThatDiesHasTheSpindleSwitchedOffBehindItsMotion) {
 
 /// Drops every packet from and to a sender, as if its cable were unplugged.
 void unplug(const Sender& sender) {
-    for (const char* end : {"--sport", "--dport"}) {
-        const std::string rule = "iptables -A INPUT -p tcp " + std::string(end) + " " + std::to_string(sender.port());
-        ASSERT_EQ(std::system((rule + " -j DROP").c_str()), 0);
+    for (const std::string end : {"--sport ", "--dport "}) {
+        const std::string packets = "-p tcp " + end + std::to_string(sender.port());
+        ASSERT_EQ(std::system(("iptables -A INPUT " + packets + " -j DROP").c_str()), 0);
     }
 }
 
