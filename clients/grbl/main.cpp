@@ -4,13 +4,12 @@
 #include <csignal>
 #include <iostream>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/channel/listener.hpp"
 #include "clients/grbl/channel.hpp"
 #include "clients/grbl/machine_link.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/output.hpp"
+#include "services/arguments/argument_parser.hpp"
 #include "services/network/host_name.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/stop_signal.hpp"
@@ -154,29 +153,30 @@ int run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{
+    ArgumentParser parser(
         "Lets a sender of grbl 1.1's protocol use a machine, over TCP or a pseudo-terminal, one sender at a time, "
         "until "
         "SIGTERM or SIGINT. When the sender disconnects, its jog brakes, the lines that have begun are run "
-        "to their end, and then spindle and coolant are switched off."};
+        "to their end, and then spindle and coolant are switched off.");
     Options options;
-    app.add_option("--machine", options.machine_file,
-                   "the machine's configuration file; default: $LOCKSTEP_MACHINE, else the machine that is up on this "
-                   "host, else /etc/lockstep/machine.textproto");
-    app.add_option("--address", options.address,
-                   "where to listen. There is no password: every sender that reaches this address can move the machine")
-        ->capture_default_str();
-    app.add_option("--port", options.port, "the TCP port")->capture_default_str();
-    app.add_option("--pty", options.terminal, "also create a pseudo-terminal, and this symbolic link to it");
-    app.add_flag(
+    parser.add_option(
+        "--machine", options.machine_file,
+        "the machine's configuration file; default: $LOCKSTEP_MACHINE, else the machine that is up on this "
+        "host, else /etc/lockstep/machine.textproto");
+    parser
+        .add_option(
+            "--address", options.address,
+            "where to listen. There is no password: every sender that reaches this address can move the machine")
+        .with_default();
+    parser.add_option("--port", options.port, "the TCP port").with_default();
+    parser.add_option("--pty", options.terminal, "also create a pseudo-terminal, and this symbolic link to it");
+    parser.add_flag(
         "--take", options.take,
         "a sender's lines, jogs and homing take over the machine from another writer; without --take they are refused "
         "while there is another writer. lockstep status names the writer");
-    app.footer(
+    parser.footer(
         "Examples:\n  lockstep-grbl\n  lockstep-grbl --machine mill.textproto --port 2302 --pty /tmp/grbl\n"
         "Exit codes: 0 ended as asked, 1 failed, 2 wrong usage or configuration, 3 machine not reachable");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? kExitDone : kExitBadInput; }
-    return run(options);
+    parser.action([&] { return run(options); });
+    return parser.run(argc, argv);
 }

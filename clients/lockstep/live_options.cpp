@@ -1,12 +1,10 @@
 #include "clients/lockstep/live_options.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include "clients/supervisor/other_hosts.hpp"
 
 namespace lockstep {
 
-void add_live_options(CLI::App& verb, LiveOptions& options) {
+void add_live_options(Verb verb, LiveOptions& options) {
     verb.add_option(
         "--machine", options.machine_file,
         "the machine's configuration file; default: $LOCKSTEP_MACHINE, else the machine that is up on this host, else "
@@ -14,23 +12,23 @@ void add_live_options(CLI::App& verb, LiveOptions& options) {
     verb.add_flag("--json", options.json, "one JSON report on standard output instead of text");
 }
 
-void add_take(CLI::App& verb, LiveOptions& options) {
+void add_take(Verb verb, LiveOptions& options) {
     verb.add_flag("--take", options.take,
                   "take over the machine from the writer that lockstep status names; a job in motion continues");
 }
 
-CLI::Option* add_all_hosts(CLI::App& verb, AllHosts& all) {
-    CLI::Option* asked = verb.add_flag(
+Argument add_all_hosts(Verb verb, AllHosts& all) {
+    const Argument asked = verb.add_flag(
         "--all", all.asked,
         "run the command on every host that the machine's file names, on other hosts over ssh, in parallel");
     verb.add_option("--ssh", all.ssh,
                     "with --all: the command that runs a command on another host; the host's name is appended to it")
-        ->needs(asked)
-        ->capture_default_str();
+        .needs(asked)
+        .with_default();
     return asked;
 }
 
-void add_detach(CLI::App& verb, bool& detach) {
+void add_detach(Verb verb, bool& detach) {
     verb.add_flag("--detach", detach,
                   "return with the job's number after the job has begun; the job continues by itself");
 }

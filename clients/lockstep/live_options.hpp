@@ -3,10 +3,7 @@
 
 #include <string>
 
-namespace CLI {
-class App;
-class Option;
-}  // namespace CLI
+#include "services/arguments/argument_parser.hpp"
 
 namespace lockstep {
 
@@ -19,16 +16,16 @@ struct LiveOptions {
     bool take = false;  // for verbs with add_take()
 };
 
-void add_live_options(CLI::App& verb, LiveOptions& options);
+void add_live_options(Verb verb, LiveOptions& options);
 
 /// Adds --take, for a verb that moves or changes the machine.
-void add_take(CLI::App& verb, LiveOptions& options);
+void add_take(Verb verb, LiveOptions& options);
 
 /// Adds --all and --ssh.
-CLI::Option* add_all_hosts(CLI::App& verb, AllHosts& all);
+Argument add_all_hosts(Verb verb, AllHosts& all);
 
 /// Adds --detach, for a verb that otherwise waits for the end of its job.
-void add_detach(CLI::App& verb, bool& detach);
+void add_detach(Verb verb, bool& detach);
 
 /// Help text: the effect of an interrupt on the job of such a verb.
 inline constexpr const char* kInterrupted =

@@ -6,12 +6,11 @@
 #include <thread>
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
-
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/output.hpp"
 #include "clients/web/site.hpp"
 #include "clients/web/token_file.hpp"
+#include "services/arguments/argument_parser.hpp"
 #include "services/files/directories.hpp"
 #include "services/files/text_file.hpp"
 #include "services/network/host_name.hpp"
@@ -138,37 +137,38 @@ int run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{
+    ArgumentParser parser(
         "Serves a page for a machine, and the page's HTTP interface, until SIGTERM or SIGINT. No motion of the machine "
-        "depends on this process."};
+        "depends on this process.");
     Options options;
-    app.add_option("--machine", options.machine_file,
-                   "the machine's configuration file; default: $LOCKSTEP_MACHINE, else the machine that is up on this "
-                   "host, else /etc/lockstep/machine.textproto");
-    app.add_option(
+    parser.add_option(
+        "--machine", options.machine_file,
+        "the machine's configuration file; default: $LOCKSTEP_MACHINE, else the machine that is up on this "
+        "host, else /etc/lockstep/machine.textproto");
+    parser.add_option(
         "--address", options.address,
         "the address to listen at; an address that other hosts can reach needs a certificate; default: 127.0.0.1");
-    app.add_option("--port", options.port, "the TCP port; 0: a free one; default: 2302");
-    CLI::Option* certificate = app.add_option("--certificate", options.certificate, "serve HTTPS: the PEM file");
-    CLI::Option* key = app.add_option("--key", options.key, "the certificate's key, a PEM file");
-    certificate->needs(key);
-    key->needs(certificate);
-    app.add_option("--host-name", options.host_names,
-                   "another host name under which the page may be opened, in addition to localhost and the address");
-    app.add_option("--token-file", options.token_file,
-                   "the file of the tokens, which is created if it is missing; default: beside the machine's record");
-    app.add_option("--page-file", options.page_file,
-                   "write the page's addresses, with their tokens, into this file that only its user can read, and not "
-                   "to standard output, which may be a log; it is removed at the end");
-    app.add_option("--reports", options.reports,
-                   "the directory of report pages to show; default: beside the machine's record");
-    app.footer(
+    parser.add_option("--port", options.port, "the TCP port; 0: a free one; default: 2302");
+    const Argument certificate = parser.add_option("--certificate", options.certificate, "serve HTTPS: the PEM file");
+    const Argument key = parser.add_option("--key", options.key, "the certificate's key, a PEM file");
+    certificate.needs(key);
+    key.needs(certificate);
+    parser.add_option("--host-name", options.host_names,
+                      "another host name under which the page may be opened, in addition to localhost and the address");
+    parser.add_option(
+        "--token-file", options.token_file,
+        "the file of the tokens, which is created if it is missing; default: beside the machine's record");
+    parser.add_option(
+        "--page-file", options.page_file,
+        "write the page's addresses, with their tokens, into this file that only its user can read, and not "
+        "to standard output, which may be a log; it is removed at the end");
+    parser.add_option("--reports", options.reports,
+                      "the directory of report pages to show; default: beside the machine's record");
+    parser.footer(
         "Address, port, certificate and names of hosts are those of web { } in the machine's file, unless they are "
         "given here.\nExamples:\n  lockstep-web\n  lockstep-web --machine mill.textproto --port 8080\n"
         "  lockstep-web --address 0.0.0.0 --certificate mill.crt --key mill.key --host-name mill.example\n"
         "Exit codes: 0 ended as asked, 1 failed, 2 wrong usage or configuration, 3 machine not reachable");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? kExitDone : kExitBadInput; }
-    return run(options);
+    parser.action([&] { return run(options); });
+    return parser.run(argc, argv);
 }

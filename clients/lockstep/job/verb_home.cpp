@@ -1,6 +1,4 @@
 // lockstep home
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/job/job.hpp"
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
@@ -44,19 +42,19 @@ ExitCode home(const HomeOptions& options) {
 
 }  // namespace
 
-void add_home(CLI::App& app, Action& action) {
-    CLI::App* verb =
-        app.add_subcommand("home", "find the zero of all axes, or of the named axes, with their home switches");
+void add_home(Verb command) {
+    const Verb verb =
+        command.add_verb("home", "find the zero of all axes, or of the named axes, with their home switches");
     const auto options = std::make_shared<HomeOptions>();
-    verb->add_option("axes", options->axes, "the names of the axes; default: all axes");
-    add_detach(*verb, options->detach);
-    add_take(*verb, *options);
-    add_live_options(*verb, *options);
-    verb->footer(
+    verb.add_option("axes", options->axes, "the names of the axes; default: all axes");
+    add_detach(verb, options->detach);
+    add_take(verb, *options);
+    add_live_options(verb, *options);
+    verb.footer(
         "Ctrl-C, a closed terminal (SIGHUP), lockstep stop and lockstep hold end homing at rest: axes without\n"
         "their zero stay unhomed. With --detach, or under nohup, homing continues by itself.\n" +
         footer("  lockstep home\n  lockstep home X Y\n"));
-    verb->callback([&action, options] { action = [options] { return home(*options); }; });
+    verb.action([options] { return home(*options); });
 }
 
 }  // namespace lockstep

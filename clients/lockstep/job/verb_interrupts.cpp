@@ -1,8 +1,6 @@
 // lockstep hold, resume, stop, estop, reset
 #include <array>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/session/command_effect.hpp"
@@ -117,18 +115,16 @@ ExitCode stop_at_once(const LiveOptions& options, const Interrupt& interrupt) {
 
 }  // namespace
 
-void add_interrupts(CLI::App& app, Action& action) {
+void add_interrupts(Verb command) {
     for (const Interrupt& interrupt : kInterrupts) {
-        CLI::App* verb = app.add_subcommand(interrupt.name, interrupt.what);
+        const Verb verb = command.add_verb(interrupt.name, interrupt.what);
         const auto options = std::make_shared<LiveOptions>();
-        if (!is_everybodys(interrupt)) { add_take(*verb, *options); }
-        add_live_options(*verb, *options);
-        verb->footer(footer(std::string("  lockstep ") + interrupt.name + "\n"));
-        verb->callback([&action, &interrupt, options] {
-            action = [&interrupt, options] {
-                const bool at_once = interrupt.command == CommandKind::EmergencyStop;
-                return at_once ? stop_at_once(*options, interrupt) : interrupt_machine(*options, interrupt);
-            };
+        if (!is_everybodys(interrupt)) { add_take(verb, *options); }
+        add_live_options(verb, *options);
+        verb.footer(footer(std::string("  lockstep ") + interrupt.name + "\n"));
+        verb.action([&interrupt, options] {
+            const bool at_once = interrupt.command == CommandKind::EmergencyStop;
+            return at_once ? stop_at_once(*options, interrupt) : interrupt_machine(*options, interrupt);
         });
     }
 }

@@ -1,6 +1,4 @@
 // lockstep move
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/job/job.hpp"
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
@@ -64,25 +62,25 @@ ExitCode move(const MoveVerbOptions& options) {
 
 }  // namespace
 
-void add_move(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand(
+void add_move(Verb command) {
+    const Verb verb = command.add_verb(
         "move", "move axes to a place in machine coordinates: together, in a straight line, or each on its own");
     const auto options = std::make_shared<MoveVerbOptions>();
-    verb->add_option("targets", options->move.targets, "AXIS=MM, e.g. X=10 Y=-3.5; axes that are not named do not move")
-        ->required();
-    verb->add_option("--feed", options->move.feed_mm_min,
-                     "speed along the line, mm/min; default: as fast as the limits allow");
-    verb->add_flag("--relative", options->move.relative, "targets are distances from each axis's present position");
-    verb->add_flag("--own", options->move.own,
-                   "move each axis on its own, by the method in its configuration; the axes arrive at different times");
-    verb->add_option("--in", options->move.in_s, "with --own: how long each axis's move lasts, s; method RANADE only");
-    add_detach(*verb, options->detach);
-    add_take(*verb, *options);
-    add_live_options(*verb, *options);
-    verb->footer(kInterrupted + footer("  lockstep move X=10 Y=20\n  lockstep move X=10 Y=20 --feed 600\n"
-                                       "  lockstep move Z=-2.5 --relative\n  lockstep move --own X=20 Y=5\n"
-                                       "  lockstep move --own X=20 --in 0.5\n"));
-    verb->callback([&action, options] { action = [options] { return move(*options); }; });
+    verb.add_option("targets", options->move.targets, "AXIS=MM, e.g. X=10 Y=-3.5; axes that are not named do not move")
+        .required();
+    verb.add_option("--feed", options->move.feed_mm_min,
+                    "speed along the line, mm/min; default: as fast as the limits allow");
+    verb.add_flag("--relative", options->move.relative, "targets are distances from each axis's present position");
+    verb.add_flag("--own", options->move.own,
+                  "move each axis on its own, by the method in its configuration; the axes arrive at different times");
+    verb.add_option("--in", options->move.in_s, "with --own: how long each axis's move lasts, s; method RANADE only");
+    add_detach(verb, options->detach);
+    add_take(verb, *options);
+    add_live_options(verb, *options);
+    verb.footer(kInterrupted + footer("  lockstep move X=10 Y=20\n  lockstep move X=10 Y=20 --feed 600\n"
+                                      "  lockstep move Z=-2.5 --relative\n  lockstep move --own X=20 Y=5\n"
+                                      "  lockstep move --own X=20 --in 0.5\n"));
+    verb.action([options] { return move(*options); });
 }
 
 }  // namespace lockstep

@@ -3,8 +3,6 @@
 
 #include <optional>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/session/control/lease_turn.hpp"
@@ -56,23 +54,23 @@ ExitCode turn(const OverrideOptions& options) {
 
 }  // namespace
 
-void add_override(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("override",
-                                        "change feed and rapid, in percent of the programmed values, also while a job "
-                                        "runs. The machine stays on its path "
-                                        "and within every limit. The values stay until they are changed again. Without "
-                                        "options, the command prints them. "
-                                        "Overrides do not apply to homing and to moves of axes on their own");
+void add_override(Verb command) {
+    const Verb verb = command.add_verb("override",
+                                       "change feed and rapid, in percent of the programmed values, also while a job "
+                                       "runs. The machine stays on its path "
+                                       "and within every limit. The values stay until they are changed again. Without "
+                                       "options, the command prints them. "
+                                       "Overrides do not apply to homing and to moves of axes on their own");
     const auto options = std::make_shared<OverrideOptions>();
-    const CLI::Range range(Overrides::kLeast, Overrides::kMost);
-    verb->add_option("--feed", options->feed_percent, "percent of the programmed feeds")->check(range);
-    verb->add_option("--rapid", options->rapid_percent,
-                     "percent of the rapid that the axes allow; above 100 has the effect of 100")
-        ->check(range);
-    add_take(*verb, *options);
-    add_live_options(*verb, *options);
-    verb->footer(footer("  lockstep override --feed 60\n  lockstep override --feed 100 --rapid 25\n"));
-    verb->callback([&action, options] { action = [options] { return turn(*options); }; });
+    verb.add_option("--feed", options->feed_percent, "percent of the programmed feeds")
+        .in_range(Overrides::kLeast, Overrides::kMost);
+    verb.add_option("--rapid", options->rapid_percent,
+                    "percent of the rapid that the axes allow; above 100 has the effect of 100")
+        .in_range(Overrides::kLeast, Overrides::kMost);
+    add_take(verb, *options);
+    add_live_options(verb, *options);
+    verb.footer(footer("  lockstep override --feed 60\n  lockstep override --feed 100 --rapid 25\n"));
+    verb.action([options] { return turn(*options); });
 }
 
 }  // namespace lockstep

@@ -4,8 +4,6 @@
 
 #include <iostream>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/job/approach_text.hpp"
 #include "clients/lockstep/job/job.hpp"
 #include "clients/lockstep/job/restart.hpp"
@@ -69,9 +67,9 @@ std::expected<Start, Failure> reach_start(const RunOptions& options) {
 }
 
 /// Reads the whole program for the machine's position, or with --from-line for the position at its first run.
-std::expected<ProgramFile, Failure> read(const RunOptions& options, const MachineConfig& machine,
-                                         const std::vector<double>& stands_mm, const gcode::KeptValues& values,
-                                         Output& output) {
+std::expected<ProgramFile, Failure> read_file(const RunOptions& options, const MachineConfig& machine,
+                                              const std::vector<double>& stands_mm, const gcode::KeptValues& values,
+                                              Output& output) {
     const auto started = options.is_restart() ? places_at_start(machine, options.started_at) : stands_mm;
     if (!started) { return std::unexpected(bad_input("--started-at: " + started.error())); }
     auto file = read_program_file(options.file, machine, *started, options.switches, values);
@@ -93,7 +91,7 @@ void print_approach(const RunOptions& options, const MachineConfig& machine, con
 std::expected<Chosen, Failure> choose(const RunOptions& options, std::string_view text, const MachineConfig& machine,
                                       const std::vector<double>& stands_mm, const RevisedValues& before,
                                       Output& output) {
-    auto file = read(options, machine, stands_mm, before.values, output);
+    auto file = read_file(options, machine, stands_mm, before.values, output);
     if (!file) { return std::unexpected(file.error()); }
     gcode::ProgramValues values{.revision = before.revision, .after = {}};
     if (file->reading.values != before.values) { values.after = std::move(file->reading.values); }
@@ -220,24 +218,24 @@ ExitCode run(const RunOptions& options) {
     return run_job(start->session, job, output);
 }
 
-void add_restart_options(CLI::App& verb, RunOptions& options) {
-    CLI::Option* from_line =
+void add_restart_options(Verb verb, RunOptions& options) {
+    const Argument from_line =
         verb.add_option("--from-line", options.restart.from_line,
                         "run only from this line on: the axes lift, move to the start of the line and go down with the "
                         "program's feed; "
                         "the command shows this motion and asks before it begins; --dry-run only shows it")
-            ->check(CLI::Range(1, 100'000'000));
-    CLI::Option* lift = verb.add_option(
+            .in_range(1, 100'000'000);
+    const Argument lift = verb.add_option(
         "--lift", options.restart.lift,
         "with --from-line: the axes that leave the work first, and positions clear "
         "of it, in mm: Z=40; default: the axes with a safe_height_mm, to this height; else the axes that "
         "home first, to their park positions");
-    CLI::Option* straight = verb.add_flag(
+    const Argument straight = verb.add_flag(
         "--straight", options.restart.straight,
         "with --from-line: move to the start of the line in one straight line, as fast as the limits allow");
-    CLI::Option* yes = verb.add_flag("--yes", options.yes, "with --from-line: begin without asking");
-    for (CLI::Option* option : {lift, straight, yes}) { option->needs(from_line); }
-    straight->excludes(lift);
+    const Argument yes = verb.add_flag("--yes", options.yes, "with --from-line: begin without asking");
+    for (const Argument option : {lift, straight, yes}) { option.needs(from_line); }
+    straight.excludes(lift);
     verb.add_option(
         "--started-at", options.started_at,
         "with --from-line: where the program's first run started, in mm: X=10,Y=5; axes that are not named were "
@@ -246,30 +244,30 @@ void add_restart_options(CLI::App& verb, RunOptions& options) {
 
 }  // namespace
 
-void add_run(CLI::App& app, Action& action) {
-    CLI::App* verb =
-        app.add_subcommand("run", "run a G-code file from the machine's present position, and wait for its end");
+void add_run(Verb command) {
+    const Verb verb =
+        command.add_verb("run", "run a G-code file from the machine's present position, and wait for its end");
     const auto options = std::make_shared<RunOptions>();
-    verb->add_option(
+    verb.add_option(
             "file", options->file,
             "the G-code file; - for standard input. Of a long file only the first lines are checked before anything "
             "moves; the others are checked while it runs")
-        ->required();
-    verb->add_flag("--dry-run", options->dry_run,
-                   "read, check and plan it for the machine's present position; nothing moves");
-    add_restart_options(*verb, *options);
-    add_detach(*verb, options->detach);
-    verb->add_flag("--optional-stop", options->switches.pause_at_m1, "also pause at M1");
-    verb->add_flag("--ignore-unassigned", options->switches.ignore_unassigned,
-                   "ignore words for devices that the machine does not have, instead of refusing them");
-    add_take(*verb, *options);
-    add_live_options(*verb, *options);
-    verb->footer(kInterrupted + footer("  lockstep run plate.gcode\n  lockstep run plate.gcode --dry-run\n"
-                                       "  lockstep run plate.gcode --from-line 120 --dry-run\n"
-                                       "  lockstep run plate.gcode --from-line 120 --lift Z=40 --yes\n"
-                                       "  lockstep run plate.gcode --detach\n  generate-moves | lockstep run -\n  "
-                                       "lockstep run plate.gcode --json > report.json\n"));
-    verb->callback([&action, options] { action = [options] { return run(*options); }; });
+        .required();
+    verb.add_flag("--dry-run", options->dry_run,
+                  "read, check and plan it for the machine's present position; nothing moves");
+    add_restart_options(verb, *options);
+    add_detach(verb, options->detach);
+    verb.add_flag("--optional-stop", options->switches.pause_at_m1, "also pause at M1");
+    verb.add_flag("--ignore-unassigned", options->switches.ignore_unassigned,
+                  "ignore words for devices that the machine does not have, instead of refusing them");
+    add_take(verb, *options);
+    add_live_options(verb, *options);
+    verb.footer(kInterrupted + footer("  lockstep run plate.gcode\n  lockstep run plate.gcode --dry-run\n"
+                                      "  lockstep run plate.gcode --from-line 120 --dry-run\n"
+                                      "  lockstep run plate.gcode --from-line 120 --lift Z=40 --yes\n"
+                                      "  lockstep run plate.gcode --detach\n  generate-moves | lockstep run -\n  "
+                                      "lockstep run plate.gcode --json > report.json\n"));
+    verb.action([options] { return run(*options); });
 }
 
 }  // namespace lockstep

@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/job/final_positions.hpp"
 #include "clients/lockstep/job/hang_up.hpp"
 #include "clients/lockstep/jog/jog_screen.hpp"
@@ -142,23 +140,23 @@ ExitCode jog(const JogVerbOptions& options) {
 
 }  // namespace
 
-void add_jog(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("jog",
-                                        "move axes while this command runs: by keys on a terminal; or the named axes, "
-                                        "until a distance, the end of their "
-                                        "travel or Ctrl-C. Each axis moves on its own, not in a line. When the command "
-                                        "ends for any reason, the axes brake");
+void add_jog(Verb command) {
+    const Verb verb = command.add_verb("jog",
+                                       "move axes while this command runs: by keys on a terminal; or the named axes, "
+                                       "until a distance, the end of their "
+                                       "travel or Ctrl-C. Each axis moves on its own, not in a line. When the command "
+                                       "ends for any reason, the axes brake");
     const auto options = std::make_shared<JogVerbOptions>();
-    verb->add_option("axes", options->jog.words, "an axis and a direction: X+ Y-; default: the keys of the terminal");
-    verb->add_option("--speed", options->jog.speed_mm_s,
-                     "mm/s of each axis; default: 10, or the axis's maximum if that is less");
-    verb->add_option("--distance", options->jog.distance_mm, "mm of each axis; default: to the end of its travel");
-    add_take(*verb, *options);
-    add_live_options(*verb, *options);
-    verb->footer(
+    verb.add_option("axes", options->jog.words, "an axis and a direction: X+ Y-; default: the keys of the terminal");
+    verb.add_option("--speed", options->jog.speed_mm_s,
+                    "mm/s of each axis; default: 10, or the axis's maximum if that is less");
+    verb.add_option("--distance", options->jog.distance_mm, "mm of each axis; default: to the end of its travel");
+    add_take(verb, *options);
+    add_live_options(verb, *options);
+    verb.footer(
         footer("  lockstep jog\n  lockstep jog X+\n  lockstep jog X+ Y- --speed 25\n"
                "  lockstep jog Z- --speed 2 --distance 0.5\n"));
-    verb->callback([&action, options] { action = [options] { return jog(*options); }; });
+    verb.action([options] { return jog(*options); });
 }
 
 }  // namespace lockstep

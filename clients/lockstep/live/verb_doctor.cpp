@@ -2,8 +2,6 @@
 #include <algorithm>
 #include <set>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/doctor/probes.hpp"
 #include "clients/lockstep/live/keys_report.hpp"
 #include "clients/lockstep/live/timing_report.hpp"
@@ -193,20 +191,20 @@ ExitCode examine(const DoctorOptions& options) {
 
 }  // namespace
 
-void add_doctor(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("doctor",
-                                        "check whether this host and its network are suitable for a machine; prints "
-                                        "the command that corrects each problem");
+void add_doctor(Verb command) {
+    const Verb verb = command.add_verb("doctor",
+                                       "check whether this host and its network are suitable for a machine; prints "
+                                       "the command that corrects each problem");
     const auto options = std::make_shared<DoctorOptions>();
-    verb->add_option("--seconds", options->seconds, "how long to watch for stalls; run it under the usual load")
-        ->check(CLI::Range(0.1, 3600.0))
-        ->capture_default_str();
-    verb->add_flag("--timing", options->timing, "only watch for stalls, and propose the fastest timing for them");
-    add_live_options(*verb, *options);
-    verb->footer(
+    verb.add_option("--seconds", options->seconds, "how long to watch for stalls; run it under the usual load")
+        .in_range(0.1, 3600.0)
+        .with_default();
+    verb.add_flag("--timing", options->timing, "only watch for stalls, and propose the fastest timing for them");
+    add_live_options(verb, *options);
+    verb.footer(
         footer("  lockstep doctor --machine mill.textproto\n  lockstep doctor --seconds 600 --json\n  lockstep doctor "
                "--timing --seconds 600\n"));
-    verb->callback([&action, options] { action = [options] { return examine(*options); }; });
+    verb.action([options] { return examine(*options); });
 }
 
 }  // namespace lockstep

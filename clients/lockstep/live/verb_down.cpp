@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/session/session.hpp"
@@ -90,15 +88,15 @@ ExitCode down(const DownOptions& options) {
 
 }  // namespace
 
-void add_down(CLI::App& app, Action& action) {
-    CLI::App* verb =
-        app.add_subcommand("down", "stop the machine on its path if it moves, then end its processes on this host");
+void add_down(Verb command) {
+    const Verb verb =
+        command.add_verb("down", "stop the machine on its path if it moves, then end its processes on this host");
     const auto options = std::make_shared<DownOptions>();
-    add_all_hosts(*verb, options->all);
-    add_live_options(*verb, *options);
-    verb->footer("If no machine is up, it prints this and exits with 0.\n" +
-                 footer("  lockstep down\n  lockstep down --all\n"));
-    verb->callback([&action, options] { action = [options] { return down(*options); }; });
+    add_all_hosts(verb, options->all);
+    add_live_options(verb, *options);
+    verb.footer("If no machine is up, it prints this and exits with 0.\n" +
+                footer("  lockstep down\n  lockstep down --all\n"));
+    verb.action([options] { return down(*options); });
 }
 
 }  // namespace lockstep

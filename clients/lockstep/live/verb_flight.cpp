@@ -1,8 +1,6 @@
 // lockstep flight
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/supervisor/flight_files.hpp"
@@ -32,16 +30,16 @@ ExitCode flight(const LiveOptions& options) {
 
 }  // namespace
 
-void add_flight(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand(
+void add_flight(Verb command) {
+    const Verb verb = command.add_verb(
         "flight", "write to files what each process on this host last received, decided and published");
     const auto options = std::make_shared<LiveOptions>();
-    add_live_options(*verb, *options);
-    verb->footer(
+    add_live_options(verb, *options);
+    verb.footer(
         "At a fault each process writes this by itself; this works at any time, also for processes that are stopped,\n"
         "hang, or have died.\n" +
         footer("  lockstep flight\n  lockstep analyze --incident /var/lib/lockstep/mill/record/incidents\n"));
-    verb->callback([&action, options] { action = [options] { return flight(*options); }; });
+    verb.action([options] { return flight(*options); });
 }
 
 }  // namespace lockstep

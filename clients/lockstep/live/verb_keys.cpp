@@ -5,8 +5,6 @@
 #include <filesystem>
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/live/keys_report.hpp"
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
@@ -98,48 +96,45 @@ ExitCode make(const KeysOptions& options) {
     return kExitDone;
 }
 
-CLI::App* add_part(CLI::App& keys, const char* name, const char* what, const std::shared_ptr<KeysOptions>& options) {
-    CLI::App* verb = keys.add_subcommand(name, what);
-    add_live_options(*verb, *options);
-    verb->add_option("--directory", options->directory,
-                     "the directory of the keys; default: the machine's security.directory");
+Verb add_part(Verb keys, const char* name, const char* what, const std::shared_ptr<KeysOptions>& options) {
+    const Verb verb = keys.add_verb(name, what);
+    add_live_options(verb, *options);
+    verb.add_option("--directory", options->directory,
+                    "the directory of the keys; default: the machine's security.directory");
     return verb;
 }
 
-void add_make(CLI::App& keys, Action& action) {
+void add_make(Verb keys) {
     const auto options = std::make_shared<KeysOptions>();
-    CLI::App* verb =
+    const Verb verb =
         add_part(keys, "make", "create certificates, keys and permissions for all members of a machine", options);
-    verb->add_option("--days", options->days, "how many days the certificates are valid")
-        ->check(CLI::Range(1, 36500))
-        ->capture_default_str();
-    verb->add_flag("--force", options->force, "replace existing keys: move them aside and create new ones");
-    verb->footer(
+    verb.add_option("--days", options->days, "how many days the certificates are valid")
+        .in_range(1, 36500)
+        .with_default();
+    verb.add_flag("--force", options->force, "replace existing keys: move them aside and create new ones");
+    verb.footer(
         footer("  lockstep keys make --machine mill.textproto\n"
                "  lockstep keys make --machine mill.textproto --directory /root/mill-keys --days 365\n"));
-    verb->callback([&action, options] { action = [options] { return make(*options); }; });
+    verb.action([options] { return make(*options); });
 }
 
-void add_look(CLI::App& keys, Action& action, const char* name, const char* what, bool with_fingerprint) {
+void add_look(Verb keys, const char* name, const char* what, bool with_fingerprint) {
     const auto options = std::make_shared<KeysOptions>();
-    CLI::App* verb = add_part(keys, name, what, options);
-    verb->footer(footer(std::string("  lockstep keys ") + name + "\n  lockstep keys " + name +
-                        " --json | jq '.members[] | [.name, .until]'\n"));
-    verb->callback([&action, options, with_fingerprint] {
-        action = [options, with_fingerprint] { return look(*options, with_fingerprint); };
-    });
+    const Verb verb = add_part(keys, name, what, options);
+    verb.footer(footer(std::string("  lockstep keys ") + name + "\n  lockstep keys " + name +
+                       " --json | jq '.members[] | [.name, .until]'\n"));
+    verb.action([options, with_fingerprint] { return look(*options, with_fingerprint); });
 }
 
 }  // namespace
 
-void add_keys(CLI::App& app, Action& action) {
-    CLI::App* keys =
-        app.add_subcommand("keys", "the keys of the machine's members (DDS Security): make, show or check them");
-    keys->require_subcommand(1);
-    keys->footer(group_footer("  lockstep keys make --machine mill.textproto\n", "keys make"));
-    add_make(*keys, action);
-    add_look(*keys, action, "show", "show each member's certificate: subject, fingerprint and end", true);
-    add_look(*keys, action, "check", "check that the keys on this host are valid, private, and this machine's", false);
+void add_keys(Verb command) {
+    const Verb keys =
+        command.add_verb("keys", "the keys of the machine's members (DDS Security): make, show or check them");
+    keys.footer(group_footer("  lockstep keys make --machine mill.textproto\n", "keys make"));
+    add_make(keys);
+    add_look(keys, "show", "show each member's certificate: subject, fingerprint and end", true);
+    add_look(keys, "check", "check that the keys on this host are valid, private, and this machine's", false);
 }
 
 }  // namespace lockstep

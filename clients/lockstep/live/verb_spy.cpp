@@ -4,8 +4,6 @@
 #include <cerrno>
 #include <cstring>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/live/spy_command.hpp"
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
@@ -36,13 +34,13 @@ ExitCode spy(const LiveOptions& options) {
 
 }  // namespace
 
-void add_spy(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand(
+void add_spy(Verb command) {
+    const Verb verb = command.add_verb(
         "spy", "open lcm-spy with the machine's types, which shows every channel, field and curve live");
     const auto options = std::make_shared<LiveOptions>();
-    add_live_options(*verb, *options);
-    verb->footer(footer("  lockstep spy\n  lockstep spy --machine mill.textproto\n"));
-    verb->callback([&action, options] { action = [options] { return spy(*options); }; });
+    add_live_options(verb, *options);
+    verb.footer(footer("  lockstep spy\n  lockstep spy --machine mill.textproto\n"));
+    verb.action([options] { return spy(*options); });
 }
 
 }  // namespace lockstep

@@ -2,8 +2,6 @@
 #include <memory>
 #include <optional>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/live/timing_report.hpp"
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
@@ -46,31 +44,30 @@ ExitCode apply(const TimingOptions& options) {
 
 }  // namespace
 
-void add_timing(CLI::App& app, Action& action) {
-    CLI::App* verb =
-        app.add_subcommand("timing", "write the fastest timing that the hosts can keep into a machine's file");
-    verb->require_subcommand(1);
-    verb->footer(group_footer("  lockstep timing apply --machine mill.textproto --seconds 600\n", "timing apply"));
-    CLI::App* part = verb->add_subcommand(
+void add_timing(Verb command) {
+    const Verb verb =
+        command.add_verb("timing", "write the fastest timing that the hosts can keep into a machine's file");
+    verb.footer(group_footer("  lockstep timing apply --machine mill.textproto --seconds 600\n", "timing apply"));
+    const Verb part = verb.add_verb(
         "apply",
         "measure this host's stalls, and write the timing for stalls twice as long as the longest; the rest of the "
         "file "
         "does not change. Measure under the usual load; lockstep doctor --timing only shows the proposal");
     const auto options = std::make_shared<TimingOptions>();
-    part->add_option("--machine", options->machine_file,
-                     "the machine's configuration file; default: the file that other verbs use");
-    part->add_option("--seconds", options->seconds, "how long to watch for stalls, s")
-        ->check(CLI::Range(0.1, 86'400.0))
-        ->capture_default_str();
-    part->add_option(
+    part.add_option("--machine", options->machine_file,
+                    "the machine's configuration file; default: the file that other verbs use");
+    part.add_option("--seconds", options->seconds, "how long to watch for stalls, s")
+        .in_range(0.1, 86'400.0)
+        .with_default();
+    part.add_option(
             "--stall-ms", options->stall_ms,
             "instead of measuring: the longest stall of all hosts, as lockstep doctor --timing shows it on each")
-        ->check(CLI::Range(0.0, 5'000.0));
-    part->add_flag("--json", options->json, "one JSON report on standard output instead of text");
-    part->footer(
+        .in_range(0.0, 5'000.0);
+    part.add_flag("--json", options->json, "one JSON report on standard output instead of text");
+    part.footer(
         footer("  lockstep timing apply --machine mill.textproto --seconds 600\n"
                "  lockstep timing apply --machine mill.textproto --stall-ms 4.5\n"));
-    part->callback([&action, options] { action = [options] { return apply(*options); }; });
+    part.action([options] { return apply(*options); });
 }
 
 }  // namespace lockstep

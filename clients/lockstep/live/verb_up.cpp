@@ -4,8 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/session/parts.hpp"
@@ -144,38 +142,37 @@ ExitCode up(const UpOptions& options) {
 
 }  // namespace
 
-void add_up(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand(
+void add_up(Verb command) {
+    const Verb verb = command.add_verb(
         "up", "start the processes of a machine that belong on this host, and wait until they are ready");
     const auto options = std::make_shared<UpOptions>();
-    verb->add_option("--fpga", options->fpga,
-                     "simulated devices instead of those of the configuration: sim: in the axes' processes; shm: in "
-                     "separate processes")
-        ->check(CLI::IsMember({"sim", "shm"}));
-    CLI::Option* standby =
-        verb->add_flag("--standby", options->standby,
-                       "start a second coordinator that takes over, with the axes at rest, when the first one fails");
-    verb->add_option(
+    verb.add_option("--fpga", options->fpga,
+                    "simulated devices instead of those of the configuration: sim: in the axes' processes; shm: in "
+                    "separate processes")
+        .one_of({"sim", "shm"});
+    const Argument standby =
+        verb.add_flag("--standby", options->standby,
+                      "start a second coordinator that takes over, with the axes at rest, when the first one fails");
+    verb.add_option(
             "--on-takeover", options->on_takeover,
             "with --standby: stop a program that is in motion at the takeover; or continue it, if every axis rests "
             "where the last owner's frames end")
-        ->check(CLI::IsMember({"stop", "continue"}))
-        ->needs(standby)
-        ->capture_default_str();
-    verb->add_flag(
-        "--web", options->web,
-        "also serve the page on the coordinator's host, and print its address; web { } in the machine's file "
-        "does the same, and sets the address");
-    CLI::Option* foreground =
-        verb->add_flag("--foreground", options->foreground,
-                       "supervise in this process until SIGTERM or Ctrl-C; log to standard error");
-    add_all_hosts(*verb, options->all)->excludes(foreground);
-    verb->add_option("--wait", options->wait_s,
-                     "for a machine on several hosts: also wait until all of it is ready, at most this many "
-                     "seconds; this host's part stays up in any case")
-        ->check(CLI::Range(0.0, 86'400.0));
-    add_live_options(*verb, *options);
-    verb->footer(
+        .one_of({"stop", "continue"})
+        .needs(standby)
+        .with_default();
+    verb.add_flag("--web", options->web,
+                  "also serve the page on the coordinator's host, and print its address; web { } in the machine's file "
+                  "does the same, and sets the address");
+    const Argument foreground =
+        verb.add_flag("--foreground", options->foreground,
+                      "supervise in this process until SIGTERM or Ctrl-C; log to standard error");
+    add_all_hosts(verb, options->all).excludes(foreground);
+    verb.add_option("--wait", options->wait_s,
+                    "for a machine on several hosts: also wait until all of it is ready, at most this many "
+                    "seconds; this host's part stays up in any case")
+        .in_range(0.0, 86'400.0);
+    add_live_options(verb, *options);
+    verb.footer(
         "For a machine on several hosts, run it on each, in any order and at any time: it starts the parts that "
         "belong\n"
         "there, prints what the machine still waits for, and ends when this host's part is up.\n"
@@ -184,7 +181,7 @@ void add_up(CLI::App& app, Action& action) {
         footer("  lockstep up --machine mill.textproto\n  lockstep up --machine mill.textproto --fpga shm\n"
                "  lockstep up --machine mill.textproto --standby --on-takeover continue\n"
                "  lockstep up --web\n  lockstep up --wait 60\n  lockstep up --all --ssh 'ssh -i key'\n"));
-    verb->callback([&action, options] { action = [options] { return up(*options); }; });
+    verb.action([options] { return up(*options); });
 }
 
 }  // namespace lockstep

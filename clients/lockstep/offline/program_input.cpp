@@ -6,8 +6,6 @@
 #include <memory>
 #include <utility>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/planning/program_text.hpp"
 #include "clients/session/program_start.hpp"
 #include "clients/supervisor/machine_choice.hpp"
@@ -98,8 +96,8 @@ std::expected<PlannedFile, Failure> plan_long_file(const ProgramOptions& options
 
 }  // namespace
 
-void add_program_options(CLI::App& verb, ProgramOptions& options) {
-    verb.add_option("file", options.file, "the G-code file")->required();
+void add_program_options(Verb verb, ProgramOptions& options) {
+    verb.add_option("file", options.file, "the G-code file").required();
     verb.add_option("--machine", options.machine_file, "the machine's configuration file; default: $LOCKSTEP_MACHINE");
     verb.add_option("--values", options.values,
                     "a file of offsets and tools; default: those that the coordinator keeps on this host, if any");
@@ -108,7 +106,7 @@ void add_program_options(CLI::App& verb, ProgramOptions& options) {
     verb.add_flag("--json", options.json, "one JSON report on standard output instead of text");
 }
 
-void add_start(CLI::App& verb, ProgramOptions& options) {
+void add_start(Verb verb, ProgramOptions& options) {
     verb.add_option("--start", options.start,
                     "the start position in mm: X=10,Y=5; axes that are not named are at their park positions");
 }

@@ -12,10 +12,7 @@
 #include "core/gcode/gcode.hpp"
 #include "core/machine.hpp"
 #include "core/program.hpp"
-
-namespace CLI {
-class App;
-}
+#include "services/arguments/argument_parser.hpp"
 
 namespace lockstep {
 
@@ -29,8 +26,8 @@ struct ProgramOptions {
     bool json = false;
 };
 
-void add_program_options(CLI::App& verb, ProgramOptions& options);
-void add_start(CLI::App& verb, ProgramOptions& options);
+void add_program_options(Verb verb, ProgramOptions& options);
+void add_start(Verb verb, ProgramOptions& options);
 
 /// A plan and its input.
 struct PlannedFile {

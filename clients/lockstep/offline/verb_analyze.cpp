@@ -4,8 +4,6 @@
 #include <memory>
 #include <sstream>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/analysis/analysis.hpp"
 #include "clients/analysis/analysis_text.hpp"
 #include "clients/analysis/report.hpp"
@@ -118,34 +116,34 @@ ExitCode analyze(AnalyzeOptions options) {
 
 }  // namespace
 
-void add_analyze(CLI::App& app, Action& action) {
-    CLI::App* verb =
-        app.add_subcommand("analyze", "report the content of a log and what it lacks; or the cause of an incident");
+void add_analyze(Verb command) {
+    const Verb verb =
+        command.add_verb("analyze", "report the content of a log and what it lacks; or the cause of an incident");
     const auto options = std::make_shared<AnalyzeOptions>();
-    verb->add_option("log", options->paths,
-                     "an LCM log, of lcm-logger or of lockstep simulate; with --incident: incident files, or their "
-                     "directory, and optionally the log of the run")
-        ->required();
-    CLI::Option* incident =
-        verb->add_flag("--incident", options->incident,
-                       "report what all processes received, decided and published around a fault, and its cause");
-    verb->add_option("--back", options->back, "with --incident: the incident that is this many before the newest one")
-        ->needs(incident);
-    verb->add_flag("--all", options->all, "with --incident: also list routine events")->needs(incident);
-    verb->add_option("--html", options->html, "the report page to write; default: LOG.html beside the log");
-    verb->add_flag("--no-html", options->no_html, "write no report page; with --json only --html writes one");
-    verb->add_option("--svg", options->svg_dir, "draw speed.svg, position.svg and xy.svg into this directory");
-    verb->add_option("--csv", options->csv_dir, "write every step and position of each axis into this directory");
-    verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
-    verb->add_flag("--no-color", options->no_colour, "use no colours, also on a terminal");
-    verb->footer(
+    verb.add_option("log", options->paths,
+                    "an LCM log, of lcm-logger or of lockstep simulate; with --incident: incident files, or their "
+                    "directory, and optionally the log of the run")
+        .required();
+    const Argument incident =
+        verb.add_flag("--incident", options->incident,
+                      "report what all processes received, decided and published around a fault, and its cause");
+    verb.add_option("--back", options->back, "with --incident: the incident that is this many before the newest one")
+        .needs(incident);
+    verb.add_flag("--all", options->all, "with --incident: also list routine events").needs(incident);
+    verb.add_option("--html", options->html, "the report page to write; default: LOG.html beside the log");
+    verb.add_flag("--no-html", options->no_html, "write no report page; with --json only --html writes one");
+    verb.add_option("--svg", options->svg_dir, "draw speed.svg, position.svg and xy.svg into this directory");
+    verb.add_option("--csv", options->csv_dir, "write every step and position of each axis into this directory");
+    verb.add_flag("--json", options->json, "one JSON report on standard output instead of text");
+    verb.add_flag("--no-color", options->no_colour, "use no colours, also on a terminal");
+    verb.footer(
         footer("  lockstep analyze plate.lcm                 # and plate.html\n"
                "  lockstep analyze plate.lcm --svg pictures --csv tables\n"
                "  lockstep analyze plate.lcm --json          # verdict: good, doubtful, unknown or bad\n"
                "  lockstep analyze --incident /var/lib/lockstep/mill/record/incidents plate.lcm\n\n"
                "A log that is damaged, cut short or partly of another version is read as far as possible and\n"
                "exits 0: unreadable parts are listed by their bytes. 2: nothing in it could be read.\n"));
-    verb->callback([&action, options] { action = [options] { return analyze(*options); }; });
+    verb.action([options] { return analyze(*options); });
 }
 
 }  // namespace lockstep

@@ -1,8 +1,6 @@
 // lockstep check
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/offline/plan_text.hpp"
 #include "clients/lockstep/verb.hpp"
@@ -24,15 +22,15 @@ ExitCode check(const ProgramOptions& options) {
 
 }  // namespace
 
-void add_check(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("check",
-                                        "read a G-code file as the machine would: errors by line and column, ignored "
-                                        "words, travel and duration; needs no running machine");
+void add_check(Verb command) {
+    const Verb verb = command.add_verb("check",
+                                       "read a G-code file as the machine would: errors by line and column, ignored "
+                                       "words, travel and duration; needs no running machine");
     const auto options = std::make_shared<ProgramOptions>();
-    add_program_options(*verb, *options);
-    add_start(*verb, *options);
-    verb->footer(footer("  lockstep check plate.gcode --machine mill.textproto\n"));
-    verb->callback([&action, options] { action = [options] { return check(*options); }; });
+    add_program_options(verb, *options);
+    add_start(verb, *options);
+    verb.footer(footer("  lockstep check plate.gcode --machine mill.textproto\n"));
+    verb.action([options] { return check(*options); });
 }
 
 }  // namespace lockstep

@@ -2,8 +2,6 @@
 #include <iostream>
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/comparison/comparison.hpp"
 #include "clients/comparison/comparison_text.hpp"
 #include "clients/comparison/figures.hpp"
@@ -74,26 +72,26 @@ ExitCode compare_verb(const CompareOptions& options) {
 
 }  // namespace
 
-void add_compare(CLI::App& app, Action& action) {
-    CLI::App* verb =
-        app.add_subcommand("compare",
-                           "make one move by five published methods, and report how far the steps of each are "
-                           "from the ideal times; needs no machine");
+void add_compare(Verb command) {
+    const Verb verb =
+        command.add_verb("compare",
+                         "make one move by five published methods, and report how far the steps of each are "
+                         "from the ideal times; needs no machine");
     const auto options = std::make_shared<CompareOptions>();
-    verb->add_option("--move", options->move, "STEPS,START,MAX,ACCEL[,DECEL] in steps, steps/s and steps/s^2")
-        ->capture_default_str();
-    verb->add_option("--method", options->methods,
-                     "compare only this method: ranade, spielauer, lai, lam, carrica, off-line; may be repeated");
-    verb->add_option("--svg", options->svg, "draw speed and step time error of each method into this file");
-    verb->add_option("--lines-svg", options->lines_svg, "draw the six lines with and without the DDA into this file");
-    verb->add_option("--html", options->html, "write tables and figures into this file, as one page");
-    CLI::Option* csv =
-        verb->add_flag("--csv", options->csv, "every step on standard output: method,step,time_s,error_us");
-    verb->add_flag("--json", options->json, "one JSON report on standard output instead of text")->excludes(csv);
-    verb->footer("A method that cannot express the move makes the nearest one it can, and reports the change.\n" +
-                 footer("  lockstep compare\n  lockstep compare --move 4000,0,1000,1000 --svg compare.svg\n"
-                        "  lockstep compare --method ranade --method carrica --csv > steps.csv\n"));
-    verb->callback([&action, options] { action = [options] { return compare_verb(*options); }; });
+    verb.add_option("--move", options->move, "STEPS,START,MAX,ACCEL[,DECEL] in steps, steps/s and steps/s^2")
+        .with_default();
+    verb.add_option("--method", options->methods,
+                    "compare only this method: ranade, spielauer, lai, lam, carrica, off-line; may be repeated");
+    verb.add_option("--svg", options->svg, "draw speed and step time error of each method into this file");
+    verb.add_option("--lines-svg", options->lines_svg, "draw the six lines with and without the DDA into this file");
+    verb.add_option("--html", options->html, "write tables and figures into this file, as one page");
+    const Argument csv =
+        verb.add_flag("--csv", options->csv, "every step on standard output: method,step,time_s,error_us");
+    verb.add_flag("--json", options->json, "one JSON report on standard output instead of text").excludes(csv);
+    verb.footer("A method that cannot express the move makes the nearest one it can, and reports the change.\n" +
+                footer("  lockstep compare\n  lockstep compare --move 4000,0,1000,1000 --svg compare.svg\n"
+                       "  lockstep compare --method ranade --method carrica --csv > steps.csv\n"));
+    verb.action([options] { return compare_verb(*options); });
 }
 
 }  // namespace lockstep

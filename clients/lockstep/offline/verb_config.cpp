@@ -2,8 +2,6 @@
 #include <algorithm>
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/supervisor/edit_machine.hpp"
@@ -77,20 +75,20 @@ ExitCode config(const ConfigOptions& options) {
 
 }  // namespace
 
-void add_config(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand(
+void add_config(Verb command) {
+    const Verb verb = command.add_verb(
         "config", "show the settings that senders have written, which apply instead of the machine's file");
     const auto options = std::make_shared<ConfigOptions>();
-    verb->add_option("file", options->file, "the machine's configuration file; default: the file that other verbs use");
-    verb->add_flag(
+    verb.add_option("file", options->file, "the machine's configuration file; default: the file that other verbs use");
+    verb.add_flag(
         "--fold", options->fold,
         "write them into the file and remove FILE.settings; the rest of the file, also its comments, does not change");
-    verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
-    verb->footer(
+    verb.add_flag("--json", options->json, "one JSON report on standard output instead of text");
+    verb.footer(
         "Senders of grbl's protocol write settings such as $110=3000 (lockstep-grbl). They are kept in FILE.settings,\n"
         "beside the machine's file, and apply after: lockstep down; lockstep up.\n" +
         footer("  lockstep config\n  lockstep config mill.textproto --fold\n"));
-    verb->callback([&action, options] { action = [options] { return config(*options); }; });
+    verb.action([options] { return config(*options); });
 }
 
 }  // namespace lockstep

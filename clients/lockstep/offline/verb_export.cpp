@@ -4,8 +4,6 @@
 #include <filesystem>
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/export/export.hpp"
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
@@ -76,18 +74,18 @@ ExitCode export_verb(const ExportOptions& options) {
 
 }  // namespace
 
-void add_export(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand(
+void add_export(Verb command) {
+    const Verb verb = command.add_verb(
         "export", "write a log's positions, states, health and jobs in a format of PlotJuggler and Foxglove");
     const auto options = std::make_shared<ExportOptions>();
-    verb->add_option("log", options->log, "an LCM log, of lcm-logger or of lockstep simulate")->required();
-    verb->add_option("--format", options->format, "csv: PlotJuggler, spreadsheets; mcap: Foxglove, PlotJuggler")
-        ->check(CLI::IsMember({"csv", "mcap"}))
-        ->capture_default_str();
-    verb->add_option("--out", options->out, "the file to write; default: beside the log");
-    verb->add_flag("--force", options->force, "replace an existing file");
-    verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
-    verb->footer(
+    verb.add_option("log", options->log, "an LCM log, of lcm-logger or of lockstep simulate").required();
+    verb.add_option("--format", options->format, "csv: PlotJuggler, spreadsheets; mcap: Foxglove, PlotJuggler")
+        .one_of({"csv", "mcap"})
+        .with_default();
+    verb.add_option("--out", options->out, "the file to write; default: beside the log");
+    verb.add_flag("--force", options->force, "replace an existing file");
+    verb.add_flag("--json", options->json, "one JSON report on standard output instead of text");
+    verb.footer(
         "csv: one table. Its first column is time_s, which counts from the log's first sample. Each signal has a\n"
         "column with its unit in the name, such as mill/X/position_mm, mill/X/velocity_mm_s, mill/X/state and\n"
         "mill/X/fault. A cell is empty if there was no value at that time. In PlotJuggler, load the file and\n"
@@ -96,7 +94,7 @@ void add_export(CLI::App& app, Action& action) {
         "For the tick of every step use: lockstep analyze LOG --csv DIR\n" +
         footer("  lockstep export plate.lcm\n  lockstep export plate.lcm --format mcap --out plate.mcap\n",
                "0 written; 2 bad usage, no log with values to export, or the file cannot be written"));
-    verb->callback([&action, options] { action = [options] { return export_verb(*options); }; });
+    verb.action([options] { return export_verb(*options); });
 }
 
 }  // namespace lockstep

@@ -8,8 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/merge/named_logs.hpp"
@@ -104,27 +102,27 @@ ExitCode log_merge(const LogMergeOptions& options) {
     return merge_into(options, what, std::move(*chosen), output);
 }
 
-void add_merge(CLI::App& log, Action& action) {
-    CLI::App* verb = log.add_subcommand(
-        "merge", "combine several logs into one complete log, and report what none of them contains");
+void add_merge(Verb log) {
+    const Verb verb =
+        log.add_verb("merge", "combine several logs into one complete log, and report what none of them contains");
     const auto options = std::make_shared<LogMergeOptions>();
-    verb->add_option("out", options->out, "the log to write")->required();
-    verb->add_option(
+    verb.add_option("out", options->out, "the log to write").required();
+    verb.add_option(
             "in", options->in,
             "the logs of lcm-logger, of the axes and of the coordinator; for a directory, all *.lcm files in it")
-        ->required();
-    verb->add_option("--window", options->window_s,
-                     "how many seconds a log may be out of order; a larger window needs more memory, up to 256 MB")
-        ->check(CLI::Range(0.01, 600.0))
-        ->capture_default_str();
-    verb->add_option("--since", options->since_s, "merge only messages from this second of machine time on");
-    verb->add_option(
+        .required();
+    verb.add_option("--window", options->window_s,
+                    "how many seconds a log may be out of order; a larger window needs more memory, up to 256 MB")
+        .in_range(0.01, 600.0)
+        .with_default();
+    verb.add_option("--since", options->since_s, "merge only messages from this second of machine time on");
+    verb.add_option(
         "--job", options->job,
         "merge only this job, the newest with this number: from the end of the job before it to the next job");
-    verb->add_flag("--all", options->all, "also merge logs of earlier sessions in a directory");
-    verb->add_flag("--force", options->force, "replace OUT if it exists");
-    verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
-    verb->footer(
+    verb.add_flag("--all", options->all, "also merge logs of earlier sessions in a directory");
+    verb.add_flag("--force", options->force, "replace OUT if it exists");
+    verb.add_flag("--json", options->json, "one JSON report on standard output instead of text");
+    verb.footer(
         "OUT has each message once, in the order of machine time. All messages are numbered, so messages that are\n"
         "in none of the logs are reported. Each process also records how much every process has published, so\n"
         "messages at the end and whole logs that are missing are reported too. If that cannot be known, the report\n"
@@ -134,16 +132,15 @@ void add_merge(CLI::App& log, Action& action) {
                "  lockstep log merge job3.lcm /var/lib/lockstep/mill/record --job 3\n",
                "0 no message is known to be missing; 1 written, but messages are missing;\n"
                "2 bad usage, or a log cannot be read (nothing was written)"));
-    verb->callback([&action, options] { action = [options] { return log_merge(*options); }; });
+    verb.action([options] { return log_merge(*options); });
 }
 
 }  // namespace
 
-void add_log(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("log", "combine logs: merge");
-    verb->require_subcommand(1);
-    verb->footer(group_footer("  lockstep log merge whole.lcm run.lcm /var/lib/lockstep/mill/record\n", "log merge"));
-    add_merge(*verb, action);
+void add_log(Verb command) {
+    const Verb verb = command.add_verb("log", "combine logs: merge");
+    verb.footer(group_footer("  lockstep log merge whole.lcm run.lcm /var/lib/lockstep/mill/record\n", "log merge"));
+    add_merge(verb);
 }
 
 }  // namespace lockstep

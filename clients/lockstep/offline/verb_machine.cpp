@@ -3,8 +3,6 @@
 
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/supervisor/machine_choice.hpp"
@@ -42,19 +40,18 @@ ExitCode check(const CheckOptions& options) {
 
 }  // namespace
 
-void add_machine(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("machine", "check a machine's configuration file");
-    verb->require_subcommand(1);
-    verb->footer(group_footer("  lockstep machine check mill.textproto\n", "machine check"));
-    CLI::App* part = verb->add_subcommand("check",
-                                          "read the whole file and report everything that is wrong with it; "
-                                          "needs no running machine");
+void add_machine(Verb command) {
+    const Verb verb = command.add_verb("machine", "check a machine's configuration file");
+    verb.footer(group_footer("  lockstep machine check mill.textproto\n", "machine check"));
+    const Verb part = verb.add_verb("check",
+                                    "read the whole file and report everything that is wrong with it; "
+                                    "needs no running machine");
     const auto options = std::make_shared<CheckOptions>();
-    part->add_option("file", options->file, "the machine's configuration file; default: the file that other verbs use");
-    part->add_flag("--json", options->json, "print the configuration with every default as JSON instead of text");
-    part->footer(footer("  lockstep machine check mill.textproto\n  lockstep machine check mill.textproto --json\n",
-                        "0 the file is valid; 2 bad usage, or the file is not valid or cannot be read"));
-    part->callback([&action, options] { action = [options] { return check(*options); }; });
+    part.add_option("file", options->file, "the machine's configuration file; default: the file that other verbs use");
+    part.add_flag("--json", options->json, "print the configuration with every default as JSON instead of text");
+    part.footer(footer("  lockstep machine check mill.textproto\n  lockstep machine check mill.textproto --json\n",
+                       "0 the file is valid; 2 bad usage, or the file is not valid or cannot be read"));
+    part.action([options] { return check(*options); });
 }
 
 }  // namespace lockstep

@@ -2,8 +2,6 @@
 #include <memory>
 #include <optional>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/offline/figure_files.hpp"
 #include "clients/lockstep/offline/moves_csv.hpp"
@@ -55,22 +53,22 @@ ExitCode plan(const PlanOptions& options) {
 
 }  // namespace
 
-void add_plan(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("plan",
-                                        "report how long a G-code file takes, and the load on each axis; "
-                                        "needs no running machine");
+void add_plan(Verb command) {
+    const Verb verb = command.add_verb("plan",
+                                       "report how long a G-code file takes, and the load on each axis; "
+                                       "needs no running machine");
     const auto options = std::make_shared<PlanOptions>();
-    add_program_options(*verb, *options);
-    add_start(*verb, *options);
-    verb->add_option("--svg", options->svg_dir, "draw xy.svg and speed.svg into this directory");
-    verb->add_option("--moves", options->moves,
-                     "write every motion into this CSV file, arcs as arcs: line, kind, the end by axes in machine "
-                     "coordinates, feed, centre");
-    verb->footer(
+    add_program_options(verb, *options);
+    add_start(verb, *options);
+    verb.add_option("--svg", options->svg_dir, "draw xy.svg and speed.svg into this directory");
+    verb.add_option("--moves", options->moves,
+                    "write every motion into this CSV file, arcs as arcs: line, kind, the end by axes in machine "
+                    "coordinates, feed, centre");
+    verb.footer(
         footer("  lockstep plan plate.gcode --machine mill.textproto\n"
                "  lockstep plan plate.gcode --machine mill.textproto --start X=10,Y=5 --svg pictures\n"
                "  lockstep plan plate.gcode --moves moves.csv\n"));
-    verb->callback([&action, options] { action = [options] { return plan(*options); }; });
+    verb.action([options] { return plan(*options); });
 }
 
 }  // namespace lockstep

@@ -3,8 +3,6 @@
 #include <memory>
 #include <optional>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/offline/result_text.hpp"
 #include "clients/lockstep/verb.hpp"
@@ -48,23 +46,23 @@ ExitCode replay_verb(const ReplayOptions& options) {
 
 }  // namespace
 
-void add_replay(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("replay",
-                                        "run the recorded frames of a log on simulated devices, and compare "
-                                        "every step with the log, tick for tick");
+void add_replay(Verb command) {
+    const Verb verb = command.add_verb("replay",
+                                       "run the recorded frames of a log on simulated devices, and compare "
+                                       "every step with the log, tick for tick");
     const auto options = std::make_shared<ReplayOptions>();
-    verb->add_option("log", options->log, "an LCM log, of lcm-logger or of lockstep simulate")->required();
-    verb->add_option("--log", options->made, "write a log of the replay: the recorded messages with the new steps");
-    verb->add_flag("--force", options->force, "replace the file of --log even if it is not a log");
-    verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
-    verb->footer(
+    verb.add_option("log", options->log, "an LCM log, of lcm-logger or of lockstep simulate").required();
+    verb.add_option("--log", options->made, "write a log of the replay: the recorded messages with the new steps");
+    verb.add_flag("--force", options->force, "replace the file of --log even if it is not a log");
+    verb.add_flag("--json", options->json, "one JSON report on standard output instead of text");
+    verb.footer(
         "A replay writes the recorded frames into the registers of a device, as the axis did, and so proves\n"
         "that they make these steps. Where pulses stopped early, by a switch or a stop, the device is stopped\n"
         "at the recorded step. A replay does not plan the program again; lockstep verify does.\n" +
         footer("  lockstep replay plate.lcm\n"
                "  lockstep replay plate.lcm --log again.lcm && lockstep verify again.lcm\n",
                "0 exact; 1 not exact: the report has the first difference; 2 bad usage, or no log with a run"));
-    verb->callback([&action, options] { action = [options] { return replay_verb(*options); }; });
+    verb.action([options] { return replay_verb(*options); });
 }
 
 }  // namespace lockstep

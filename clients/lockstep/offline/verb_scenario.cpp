@@ -3,8 +3,6 @@
 
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/scenario/model/report.hpp"
@@ -114,32 +112,30 @@ ExitCode check(const ScenarioOptions& options) {
     return kExitDone;
 }
 
-CLI::App* add_part(CLI::App& verb, const char* name, const char* what,
-                   const std::shared_ptr<ScenarioOptions>& options) {
-    CLI::App* part = verb.add_subcommand(name, what);
-    part->add_option("files", options->files, "scenarios, in protobuf's text format")->required();
-    part->add_option("--place", options->place,
-                     "run all scenarios in this kind of place instead of the place in their files: PROCESS, NAMESPACE "
-                     "or CONTAINER")
-        ->check(CLI::IsMember({"PROCESS", "NAMESPACE", "CONTAINER"}));
-    part->add_flag("--json", options->json, "one JSON report on standard output instead of text");
+Verb add_part(Verb verb, const char* name, const char* what, const std::shared_ptr<ScenarioOptions>& options) {
+    const Verb part = verb.add_verb(name, what);
+    part.add_option("files", options->files, "scenarios, in protobuf's text format").required();
+    part.add_option("--place", options->place,
+                    "run all scenarios in this kind of place instead of the place in their files: PROCESS, NAMESPACE "
+                    "or CONTAINER")
+        .one_of({"PROCESS", "NAMESPACE", "CONTAINER"});
+    part.add_flag("--json", options->json, "one JSON report on standard output instead of text");
     return part;
 }
 
-void add_scenario_run(CLI::App& verb, Action& action) {
+void add_scenario_run(Verb verb) {
     const auto options = std::make_shared<ScenarioOptions>();
-    CLI::App* part = add_part(verb, "run", "run scenarios on machines of real processes, and evaluate them", options);
-    part->add_option("--jobs", options->at_a_time, "the number of scenarios that run at the same time")
-        ->check(CLI::Range(1, 16))
-        ->capture_default_str();
-    part->add_option("--image", options->image, "podman's image for containers, of deploy/Dockerfile")
-        ->capture_default_str();
-    part->add_option("--keep", options->keep,
-                     "keep the logs and the report page whole.html of each scenario in this directory, in a "
-                     "subdirectory with its name");
-    part->add_option("--junit", options->junit, "also write the results as JUnit's XML into this file");
-    part->add_flag("--story", options->events, "also print what happened, with times");
-    part->footer(
+    const Verb part = add_part(verb, "run", "run scenarios on machines of real processes, and evaluate them", options);
+    part.add_option("--jobs", options->at_a_time, "the number of scenarios that run at the same time")
+        .in_range(1, 16)
+        .with_default();
+    part.add_option("--image", options->image, "podman's image for containers, of deploy/Dockerfile").with_default();
+    part.add_option("--keep", options->keep,
+                    "keep the logs and the report page whole.html of each scenario in this directory, in a "
+                    "subdirectory with its name");
+    part.add_option("--junit", options->junit, "also write the results as JUnit's XML into this file");
+    part.add_flag("--story", options->events, "also print what happened, with times");
+    part.footer(
         "Each scenario runs in network, process and mount namespaces of its own. This requires root and leaves\n"
         "nothing behind.\n" +
         footer("  lockstep scenario run deploy/scenarios/axis-killed.textproto\n"
@@ -148,29 +144,28 @@ void add_scenario_run(CLI::App& verb, Action& action) {
                "  lockstep scenario run deploy/scenarios/axis-killed.textproto --place CONTAINER\n",
                "0 all passed; 1 a scenario failed or could not run; 2 bad usage, or a scenario cannot be read\n"
                "(nothing ran)"));
-    part->callback([&action, options] { action = [options] { return run(*options); }; });
+    part.action([options] { return run(*options); });
 }
 
-void add_scenario_check(CLI::App& verb, Action& action) {
+void add_scenario_check(Verb verb) {
     const auto options = std::make_shared<ScenarioOptions>();
-    CLI::App* part =
+    const Verb part =
         add_part(verb, "check", "read scenarios and print what they would do, without running them", options);
-    part->footer(footer("  lockstep scenario check deploy/scenarios/axis-killed.textproto\n",
-                        "0 the scenarios can run; 2 bad usage, or a scenario cannot be read"));
-    part->callback([&action, options] { action = [options] { return check(*options); }; });
+    part.footer(footer("  lockstep scenario check deploy/scenarios/axis-killed.textproto\n",
+                       "0 the scenarios can run; 2 bad usage, or a scenario cannot be read"));
+    part.action([options] { return check(*options); });
 }
 
 }  // namespace
 
-void add_scenario(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand(
+void add_scenario(Verb command) {
+    const Verb verb = command.add_verb(
         "scenario",
         "run or check scripted tests of a whole machine: its actions, the faults to inject and what must be true");
-    verb->require_subcommand(1);
-    verb->footer("idl/proto/scenario.proto describes scenarios; deploy/scenarios/ has examples.\n" +
-                 group_footer("  lockstep scenario run deploy/scenarios/axis-killed.textproto\n", "scenario run"));
-    add_scenario_run(*verb, action);
-    add_scenario_check(*verb, action);
+    verb.footer("idl/proto/scenario.proto describes scenarios; deploy/scenarios/ has examples.\n" +
+                group_footer("  lockstep scenario run deploy/scenarios/axis-killed.textproto\n", "scenario run"));
+    add_scenario_run(verb);
+    add_scenario_check(verb);
 }
 
 }  // namespace lockstep

@@ -5,8 +5,6 @@
 #include <functional>
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/offline/program_input.hpp"
 #include "clients/lockstep/verb.hpp"
@@ -131,24 +129,21 @@ bool is_streamed(const SimulateOptions& options) {
 
 }  // namespace
 
-void add_simulate(CLI::App& app, Action& action) {
-    CLI::App* verb =
-        app.add_subcommand("simulate",
-                           "home a simulated machine, run a G-code file on it without its pauses, and write the same "
-                           "log as a live run");
+void add_simulate(Verb command) {
+    const Verb verb =
+        command.add_verb("simulate",
+                         "home a simulated machine, run a G-code file on it without its pauses, and write the same "
+                         "log as a live run");
     const auto options = std::make_shared<SimulateOptions>();
-    add_program_options(*verb, *options);
-    verb->add_option("--log", options->log, "the LCM log to write; a log of that name is replaced")->required();
-    verb->add_flag("--force", options->force, "replace the file even if it is not a log");
-    verb->add_flag("--speed-report", options->speed_report, "report how fast each stage was simulated");
-    verb->footer(
+    add_program_options(verb, *options);
+    verb.add_option("--log", options->log, "the LCM log to write; a log of that name is replaced").required();
+    verb.add_flag("--force", options->force, "replace the file even if it is not a log");
+    verb.add_flag("--speed-report", options->speed_report, "report how fast each stage was simulated");
+    verb.footer(
         footer("  lockstep simulate plate.gcode --machine mill.textproto --log plate.lcm\n"
                "  lockstep verify plate.lcm\n"));
-    verb->callback([&action, options] {
-        action = [options] {
-            return is_streamed(*options) ? simulate_long_file(*options) : simulate_short_file(*options);
-        };
-    });
+    verb.action(
+        [options] { return is_streamed(*options) ? simulate_long_file(*options) : simulate_short_file(*options); });
 }
 
 }  // namespace lockstep

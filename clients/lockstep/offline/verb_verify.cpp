@@ -1,8 +1,6 @@
 // lockstep verify
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/offline/result_text.hpp"
 #include "clients/lockstep/verb.hpp"
@@ -29,21 +27,21 @@ ExitCode verify(const VerifyOptions& options) {
 
 }  // namespace
 
-void add_verify(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("verify",
-                                        "compare every step in a log with the steps that its programs give, tick "
-                                        "for tick");
+void add_verify(Verb command) {
+    const Verb verb = command.add_verb("verify",
+                                       "compare every step in a log with the steps that its programs give, tick "
+                                       "for tick");
     const auto options = std::make_shared<VerifyOptions>();
-    verb->add_option("log", options->log, "an LCM log, of lcm-logger or of lockstep simulate")->required();
-    verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
-    verb->footer(
+    verb.add_option("log", options->log, "an LCM log, of lcm-logger or of lockstep simulate").required();
+    verb.add_flag("--json", options->json, "one JSON report on standard output instead of text");
+    verb.footer(
         "Steps that a killed process made but did not record as runs are compared with all that the plan allows.\n"
         "Notes list what the log lacks. A log that begins late or ends early is compared as far as it goes; if it has\n"
         "too little, the result is unknown.\n" +
         footer("  lockstep verify plate.lcm\n  lockstep verify plate.lcm --json\n",
                "0 exact; 1 not exact or unknown: the report has the first difference, or what the log lacks;\n"
                "2 bad usage, or no log with steps, runs or jobs"));
-    verb->callback([&action, options] { action = [options] { return verify(*options); }; });
+    verb.action([options] { return verify(*options); });
 }
 
 }  // namespace lockstep

@@ -6,8 +6,6 @@
 #include <csignal>
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/channel/open_port.hpp"
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/send/file_lines.hpp"
@@ -142,31 +140,31 @@ ExitCode send(const SendOptions& options) {
 
 }  // namespace
 
-void add_send(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand(
+void add_send(Verb command) {
+    const Verb verb = command.add_verb(
         "send", "send a file to a controller with grbl's protocol: lockstep-grbl, or any grbl 1.1 at a serial line");
     const auto options = std::make_shared<SendOptions>();
-    verb->add_option("file", options->file, "a file of G-code and $ commands; - for standard input")->required();
-    verb->add_option("--port", options->port, "the path of a serial line or pseudo-terminal, or HOST:PORT")->required();
-    verb->add_option("--baud", options->baud, "the speed of a serial line")
-        ->check([](const std::string& text) {
+    verb.add_option("file", options->file, "a file of G-code and $ commands; - for standard input").required();
+    verb.add_option("--port", options->port, "the path of a serial line or pseudo-terminal, or HOST:PORT").required();
+    verb.add_option("--baud", options->baud, "the speed of a serial line")
+        .checked_by([](const std::string& text) {
             return is_baud(std::atoi(text.c_str()))
                        ? ""
                        : "it is not a usual speed of a serial line; use for example 115200";
         })
-        ->capture_default_str();
-    verb->add_flag("--lines", options->one_by_one,
-                   "send each line after the answer to the line before; default: as many lines as fit into the "
-                   "controller's buffer, whose size it reports");
-    verb->add_flag("--json", options->json, "one JSON report on standard output instead of text");
-    verb->footer(
+        .with_default();
+    verb.add_flag("--lines", options->one_by_one,
+                  "send each line after the answer to the line before; default: as many lines as fit into the "
+                  "controller's buffer, whose size it reports");
+    verb.add_flag("--json", options->json, "one JSON report on standard output instead of text");
+    verb.footer(
         "Comments are not sent. Of a file, every line is checked before the first is sent. A line that the controller\n"
         "refuses, and Ctrl-C, stop the machine: a hold, and at rest a reset. On a terminal, Enter resumes after M0.\n"
         "Examples:\n  lockstep send job.gcode --port 127.0.0.1:2301\n"
         "  lockstep send job.gcode --port /dev/ttyACM0 --lines --json\n"
         "Exit codes: 0 all lines were run, 1 a line was refused, an alarm, or stopped, 2 bad usage or input (nothing\n"
         "was sent), 3 the port cannot be opened, or no controller answers");
-    verb->callback([&action, options] { action = [options] { return send(*options); }; });
+    verb.action([options] { return send(*options); });
 }
 
 }  // namespace lockstep

@@ -1,8 +1,6 @@
 // lockstep status
 #include <iostream>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/session/parts.hpp"
@@ -38,12 +36,12 @@ ExitCode status(const LiveOptions& options) {
 
 }  // namespace
 
-void add_status(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand("status", "the machine's state and the positions of its axes");
+void add_status(Verb command) {
+    const Verb verb = command.add_verb("status", "the machine's state and the positions of its axes");
     const auto options = std::make_shared<LiveOptions>();
-    add_live_options(*verb, *options);
-    verb->footer(footer("  lockstep status\n  lockstep status --json | jq .phase\n"));
-    verb->callback([&action, options] { action = [options] { return status(*options); }; });
+    add_live_options(verb, *options);
+    verb.footer(footer("  lockstep status\n  lockstep status --json | jq .phase\n"));
+    verb.action([options] { return status(*options); });
 }
 
 }  // namespace lockstep

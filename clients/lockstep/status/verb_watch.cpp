@@ -1,6 +1,4 @@
 // lockstep watch
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/status/screen.hpp"
 #include "clients/lockstep/status/watch_text.hpp"
@@ -75,15 +73,15 @@ ExitCode watch(const LiveOptions& options) {
 
 }  // namespace
 
-void add_watch(CLI::App& app, Action& action) {
-    CLI::App* verb =
-        app.add_subcommand("watch", "the machine's status, ten times a second; without a terminal, a line a second");
+void add_watch(Verb command) {
+    const Verb verb =
+        command.add_verb("watch", "the machine's status, ten times a second; without a terminal, a line a second");
     const auto options = std::make_shared<LiveOptions>();
-    add_live_options(*verb, *options);
-    verb->footer(
+    add_live_options(verb, *options);
+    verb.footer(
         footer("  lockstep watch\n  lockstep watch | tee watched.txt\n"
                "  lockstep watch --json | jq -c '.axes[] | [.name, .health.setpoint_slack_ms.min]'\n"));
-    verb->callback([&action, options] { action = [options] { return watch(*options); }; });
+    verb.action([options] { return watch(*options); });
 }
 
 }  // namespace lockstep

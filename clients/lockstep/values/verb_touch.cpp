@@ -1,8 +1,6 @@
 // lockstep touch
 #include <memory>
 
-#include <CLI/CLI.hpp>
-
 #include "clients/lockstep/values/change_values.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/session/job_plan.hpp"
@@ -38,23 +36,20 @@ Changed touch(Session& session, const TouchOptions& options, gcode::KeptValues& 
 
 }  // namespace
 
-void add_touch(CLI::App& app, Action& action) {
-    CLI::App* verb = app.add_subcommand(
+void add_touch(Verb command) {
+    const Verb verb = command.add_verb(
         "touch",
         "set the work zero: give the axes' present positions new coordinates in a coordinate system, as G10 L20 does");
     const auto options = std::make_shared<TouchOptions>();
-    verb->add_option("words", options->words, "X=0 Z=-0.1; axes that are not named keep their zero")->required();
-    verb->add_option("--system", options->system, "G54 to G59, G59.1 to G59.3; programs begin with G54")
-        ->capture_default_str();
-    add_take(*verb, *options);
-    add_live_options(*verb, *options);
-    verb->footer(footer("  lockstep touch X=0 Y=0\n  lockstep touch Z=0.1 --system G55\n"));
-    verb->callback([&action, options] {
-        action = [options] {
-            return change_values_here(*options, offsets_text, [options](Session& session, auto& values) {
-                return touch(session, *options, values);
-            });
-        };
+    verb.add_option("words", options->words, "X=0 Z=-0.1; axes that are not named keep their zero").required();
+    verb.add_option("--system", options->system, "G54 to G59, G59.1 to G59.3; programs begin with G54").with_default();
+    add_take(verb, *options);
+    add_live_options(verb, *options);
+    verb.footer(footer("  lockstep touch X=0 Y=0\n  lockstep touch Z=0.1 --system G55\n"));
+    verb.action([options] {
+        return change_values_here(*options, offsets_text, [options](Session& session, auto& values) {
+            return touch(session, *options, values);
+        });
     });
 }
 

@@ -4,8 +4,7 @@
 #include <iostream>
 #include <iterator>
 
-#include <CLI/CLI.hpp>
-
+#include "services/arguments/argument_parser.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/files/text_file.hpp"
 #include "tests/benchmarks/planners/document_block.hpp"
@@ -74,15 +73,17 @@ Done run(const Options& options) {
 }  // namespace lockstep::planners
 
 int main(int argc, char** argv) {
-    CLI::App app("Times of jobs as Lockstep, Klipper and grbl plan them");
+    lockstep::ArgumentParser parser("Times of jobs as Lockstep, Klipper and grbl plan them");
     lockstep::planners::Options options;
-    app.add_option("--machine", options.machine, "its configuration file")->required();
-    app.add_option("--jobs", options.jobs, "the folder with the job set")->required();
-    app.add_option("--document", options.document, "compare the tables with those in this document");
-    app.add_flag("--write", options.writes, "write them there instead");
-    app.add_flag("--cost", options.measures_cost, "print how long planning takes instead");
-    CLI11_PARSE(app, argc, argv);
-    const auto done = lockstep::planners::run(options);
-    if (!done) { std::cerr << "lockstep-planner-times: " << done.error() << "\n"; }
-    return done ? 0 : 1;
+    parser.add_option("--machine", options.machine, "its configuration file").required();
+    parser.add_option("--jobs", options.jobs, "the folder with the job set").required();
+    parser.add_option("--document", options.document, "compare the tables with those in this document");
+    parser.add_flag("--write", options.writes, "write them there instead");
+    parser.add_flag("--cost", options.measures_cost, "print how long planning takes instead");
+    parser.action([&] {
+        const auto done = lockstep::planners::run(options);
+        if (!done) { std::cerr << "lockstep-planner-times: " << done.error() << "\n"; }
+        return done ? 0 : 1;
+    });
+    return parser.run(argc, argv);
 }

@@ -1,10 +1,10 @@
 // The recording part of one axis process, in real time: a generator instead of a device makes steps at a constant
 // rate. They pass through the recorder to LCM and to the axis's own log. Prints the number of steps made.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <iostream>
 
+#include "services/arguments/argument_parser.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/record/axis_recorder.hpp"
 #include "services/record/sinks.hpp"
@@ -73,23 +73,25 @@ int run(const Load& load, const MachineConfig& machine, std::size_t axis) {
 }  // namespace lockstep
 
 int main(int argc, char** argv) {
-    CLI::App app{"Records one axis that makes steps at a constant rate, in real time."};
+    lockstep::ArgumentParser parser("Records one axis that makes steps at a constant rate, in real time.");
     lockstep::Load load;
-    app.add_option("--machine", load.machine_file, "the machine's configuration file")->required();
-    app.add_option("--axis", load.axis, "the axis's name in that file")->required();
-    app.add_option("--rate", load.rate, "steps/s")->check(CLI::Range(1, 500'000))->capture_default_str();
-    app.add_option("--seconds", load.seconds, "how long")->check(CLI::Range(0.01, 3600.0))->capture_default_str();
-    CLI11_PARSE(app, argc, argv);
-    const auto machine = lockstep::load_machine_file(load.machine_file);
-    if (!machine) {
-        std::cerr << lockstep::to_text(load.machine_file, machine.error());
-        return 2;
-    }
-    const auto named =
-        std::ranges::find(machine->axes, load.axis, [](const lockstep::AxisConfig& axis) { return axis.name; });
-    if (named == machine->axes.end()) {
-        std::cerr << load.machine_file << ": has no axis " << load.axis << '\n';
-        return 2;
-    }
-    return lockstep::run(load, *machine, static_cast<std::size_t>(named - machine->axes.begin()));
+    parser.add_option("--machine", load.machine_file, "the machine's configuration file").required();
+    parser.add_option("--axis", load.axis, "the axis's name in that file").required();
+    parser.add_option("--rate", load.rate, "steps/s").in_range(1, 500'000).with_default();
+    parser.add_option("--seconds", load.seconds, "how long").in_range(0.01, 3600.0).with_default();
+    parser.action([&] {
+        const auto machine = lockstep::load_machine_file(load.machine_file);
+        if (!machine) {
+            std::cerr << lockstep::to_text(load.machine_file, machine.error());
+            return 2;
+        }
+        const auto named =
+            std::ranges::find(machine->axes, load.axis, [](const lockstep::AxisConfig& axis) { return axis.name; });
+        if (named == machine->axes.end()) {
+            std::cerr << load.machine_file << ": has no axis " << load.axis << '\n';
+            return 2;
+        }
+        return lockstep::run(load, *machine, static_cast<std::size_t>(named - machine->axes.begin()));
+    });
+    return parser.run(argc, argv);
 }

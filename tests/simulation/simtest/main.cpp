@@ -1,10 +1,10 @@
 // lockstep-simtest: whole machines in virtual time, drawn from seeds; every step is checked.
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
 #include <string>
 #include <vector>
 
+#include "services/arguments/argument_parser.hpp"
 #include "tests/simulation/simtest/run/report.hpp"
 
 namespace {
@@ -72,29 +72,34 @@ Tally run_all(const Options& options) {
 
 int main(int argc, char** argv) {
     Options options;
-    CLI::App app{"Runs random machines, programs, networks and interrupts in virtual time and checks every step."};
-    app.add_option("--seed", options.seed, "the first seed");
-    app.add_option("--runs", options.runs, "the number of runs, with consecutive seeds");
-    app.add_option("--axes", options.machine.axes, "axes of every machine; without it 1 to 6, drawn")
-        ->check(CLI::Range(1, 32));
-    app.add_flag("--long-searches", options.machine.long_searches,
-                 "include machines that search their switches for minutes: about twice the time");
-    app.add_option("--faults", options.faults,
-                   "none, all (half of the kinds in each run), or a list of the kinds below")
-        ->delimiter(',')
-        ->check(CLI::IsMember(names_of_faults()));
-    app.footer(kKinds);
-    app.add_option("--coverage", options.coverage, "write the coverage of the runs to this file, as JSON");
-    app.add_flag("--json", options.json, "print the figures as JSON");
-    app.add_flag("--trace", options.trace, "print a line for each event of a run");
-    app.add_flag("--verbose", options.verbose, "print a line for every run");
-    CLI11_PARSE(app, argc, argv);
-    std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // a failed run is printed at once, also into a file
-    const Tally tally = run_all(options);
-    print_tally(tally, options);
-    if (!options.coverage.empty() && !save_coverage(tally.coverage, options.coverage)) {
-        std::fprintf(stderr, "%s: cannot be written; name a file in a folder that exists\n", options.coverage.c_str());
-        return 2;
-    }
-    return tally.failed == 0 ? 0 : 1;
+    lockstep::ArgumentParser parser(
+        "Runs random machines, programs, networks and interrupts in virtual time and checks every step.");
+    parser.add_option("--seed", options.seed, "the first seed");
+    parser.add_option("--runs", options.runs, "the number of runs, with consecutive seeds");
+    parser.add_option("--axes", options.machine.axes, "axes of every machine; without it 1 to 6, drawn")
+        .in_range(1, 32);
+    parser.add_flag("--long-searches", options.machine.long_searches,
+                    "include machines that search their switches for minutes: about twice the time");
+    parser
+        .add_option("--faults", options.faults,
+                    "none, all (half of the kinds in each run), or a list of the kinds below")
+        .separated_by_commas()
+        .one_of(names_of_faults());
+    parser.footer(kKinds);
+    parser.add_option("--coverage", options.coverage, "write the coverage of the runs to this file, as JSON");
+    parser.add_flag("--json", options.json, "print the figures as JSON");
+    parser.add_flag("--trace", options.trace, "print a line for each event of a run");
+    parser.add_flag("--verbose", options.verbose, "print a line for every run");
+    parser.action([&] {
+        std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // a failed run is printed at once, also into a file
+        const Tally tally = run_all(options);
+        print_tally(tally, options);
+        if (!options.coverage.empty() && !save_coverage(tally.coverage, options.coverage)) {
+            std::fprintf(stderr, "%s: cannot be written; name a file in a folder that exists\n",
+                         options.coverage.c_str());
+            return 2;
+        }
+        return tally.failed == 0 ? 0 : 1;
+    });
+    return parser.run(argc, argv);
 }

@@ -1,0 +1,90 @@
+// The command line of a program: its options, its verbs and its help. CLI11 reads it. CLI11 is all headers, which take
+// the compiler longer than most programs do, so only argument_parser.cpp includes them.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace lockstep {
+
+/// A word of the command line: an option with a value, a flag, or a word at a fixed position. Copies of an Argument are
+/// the same argument. Every function returns its argument, so that calls can be chained.
+class Argument {
+public:
+    explicit Argument(CLI::Option& option) : option_(&option) {}
+
+    Argument required() const;
+    /// Shows the variable's present value in the help as the default.
+    Argument with_default() const;
+    Argument in_range(int least, int most) const;
+    Argument in_range(double least, double most) const;
+    Argument one_of(const std::vector<std::string>& words) const;
+    /// `error_of` returns what is wrong with a word; nothing if it is right.
+    Argument checked_by(const std::function<std::string(const std::string& word)>& error_of) const;
+    /// A list may also have commas between its words.
+    Argument separated_by_commas() const;
+    Argument needs(Argument other) const;
+    Argument excludes(Argument other) const;
+
+private:
+    CLI::Option* option_;
+};
+
+struct ParserState;
+
+/// What can follow a program's name or a verb's name: arguments, or a verb. Copies of a Verb are the same verb. The
+/// variables of arguments must live until the action ends.
+class Verb {
+public:
+    Verb add_verb(const std::string& name, const std::string& help) const;
+    /// Adds options of which exactly one must be given.
+    Verb add_choice(const std::string& name, const std::string& help) const;
+    /// `name`: "--name" for an option, "name" for a word at a fixed position. Value: see the end of
+    /// argument_parser.cpp.
+    template <class Value>
+    Argument add_option(const std::string& name, Value& value, const std::string& help) const;
+    Argument add_flag(const std::string& name, bool& value, const std::string& help) const;
+    /// The text at the end of the help.
+    void footer(const std::string& text) const;
+    /// What the program does if this is the last verb of the command line, and the exit code that it returns. A verb
+    /// that has verbs but no action must be followed by one of them.
+    void action(std::function<int()> run) const;
+
+protected:
+    Verb(CLI::App& app, ParserState& state) : app_(&app), state_(&state) {}
+
+    CLI::App* app_;
+    ParserState* state_;
+};
+
+class ArgumentParser : public Verb {
+public:
+    static constexpr int kWrongUsage = 2;  // exit code
+
+    /// `name`: the program's name in its help; by default as it was called.
+    explicit ArgumentParser(const std::string& description, const std::string& name = "");
+    ~ArgumentParser();
+    ArgumentParser(ArgumentParser&&) = delete;
+
+    /// Adds --version.
+    void version(const std::string& text) const;
+    /// Reads the command line and runs the action of its last verb. Returns the action's exit code, 0 after --help and
+    /// --version, or kWrongUsage with the error on standard error.
+    int run(int argc, const char* const* argv);
+    /// The same; `on_error` reports an error, which names the help to read, and returns the exit code.
+    int run(int argc, const char* const* argv, const std::function<int(const std::string& error)>& on_error);
+
+private:
+    explicit ArgumentParser(std::unique_ptr<ParserState> state);
+
+    std::unique_ptr<ParserState> owned_;
+};
+
+}  // namespace lockstep
