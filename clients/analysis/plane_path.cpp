@@ -22,12 +22,12 @@ std::optional<double> scale_of(const Analysis& analysis, const std::string& name
 
 /// Joins the ways to one path with a break between them, and divides the lengths along each axis by its scale.
 drawing::PlanePath joined(const std::vector<std::vector<drawing::Point>>& ways, double scale_x, double scale_y) {
-    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
     drawing::PlanePath path;
     for (const auto& way : ways) {
         if (!path.x.empty()) {
-            path.x.push_back(kNone);
-            path.y.push_back(kNone);
+            path.x.push_back(kGap);
+            path.y.push_back(kGap);
         }
         for (const drawing::Point& point : way) {
             path.x.push_back(point.x / scale_x);

@@ -8,7 +8,7 @@
 namespace lockstep {
 namespace {
 
-using Point = std::vector<double>;
+using Place = std::vector<double>;
 
 std::expected<std::vector<Lift>, std::string> lifts_named(const MachineConfig& machine, const std::string& option) {
     const auto places = places_named(machine, option);
@@ -33,7 +33,7 @@ double clear_place(const AxisConfig& axis, const Lift& lift, double at_mm, doubl
     return axis.homing.toward_min ? std::min({place, at_mm, to_mm}) : std::max({place, at_mm, to_mm});
 }
 
-double distance(const Point& from, const Point& to) {
+double distance(const Place& from, const Place& to) {
     double squares = 0;
     for (std::size_t i = 0; i < from.size(); ++i) { squares += (to[i] - from[i]) * (to[i] - from[i]); }
     return std::sqrt(squares);
@@ -65,7 +65,7 @@ std::expected<std::vector<Lift>, std::string> lifts_of(const MachineConfig& mach
 }
 
 std::vector<double> place_before(const Program& program, std::int32_t line) {
-    Point place = program.start_mm;
+    Place place = program.start_mm;
     for (const Block& block : program.blocks) {
         if (block.line >= line) { break; }
         if (const auto* move = std::get_if<ProgramMove>(&block.action)) { place = move->target_mm; }
@@ -83,16 +83,16 @@ double feed_before(const Program& program, std::int32_t line) {
     return feed_mm_s;
 }
 
-std::vector<ApproachMove> straight_approach(const Point& at_mm, const Point& to_mm) {
+std::vector<ApproachMove> straight_approach(const Place& at_mm, const Place& to_mm) {
     return {{"goes straight", {.target_mm = to_mm, .rapid = true}, distance(at_mm, to_mm)}};
 }
 
-std::vector<ApproachMove> approach(const MachineConfig& machine, const std::vector<Lift>& lifts, const Point& at_mm,
-                                   const Point& to_mm, double feed_mm_s) {
+std::vector<ApproachMove> approach(const MachineConfig& machine, const std::vector<Lift>& lifts, const Place& at_mm,
+                                   const Place& to_mm, double feed_mm_s) {
     std::vector<ApproachMove> moves;
     if (at_mm == to_mm) { return moves; }
-    Point lifted = at_mm;
-    Point crossed = to_mm;
+    Place lifted = at_mm;
+    Place crossed = to_mm;
     double feed = feed_mm_s > 0 ? feed_mm_s : kMaxFeed_mm_s;
     for (const Lift& lift : lifts) {
         const AxisConfig& axis = machine.axes[lift.axis];
@@ -100,7 +100,7 @@ std::vector<ApproachMove> approach(const MachineConfig& machine, const std::vect
         crossed[lift.axis] = lifted[lift.axis];
         if (feed_mm_s == 0) { feed = std::min(feed, axis.start_velocity_mm_s); }
     }
-    const auto go = [&](const char* what, const Point& from, const Point& to, bool rapid) {
+    const auto go = [&](const char* what, const Place& from, const Place& to, bool rapid) {
         if (to == from) { return; }
         moves.push_back({what, {.target_mm = to, .feed_mm_s = rapid ? 0 : feed, .rapid = rapid}, distance(from, to)});
     };

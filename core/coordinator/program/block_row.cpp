@@ -8,7 +8,7 @@
 namespace lockstep {
 namespace {
 
-enum class Kind : std::uint8_t { Move, Rapid, Arc, Dwell, Pause, Settle, Event };
+enum class RowKind : std::uint8_t { Move, Rapid, Arc, Dwell, Pause, Settle, Event };
 
 // Several whole numbers are packed into one, which is exact up to 2^53.
 constexpr std::int64_t kRowKinds = 8;
@@ -42,7 +42,7 @@ std::int64_t details_of(const ProgramMove& move) {
 }
 
 struct Row {
-    Kind kind = Kind::Pause;
+    RowKind kind = RowKind::Pause;
     double amount = 0;
     std::int64_t details = 0;
     double other = 0;
@@ -51,9 +51,9 @@ struct Row {
 
 struct RowMaker {
     Row operator()(const ProgramMove& move) const {
-        Row row{.kind = move.arc     ? Kind::Arc
-                        : move.rapid ? Kind::Rapid
-                                     : Kind::Move,
+        Row row{.kind = move.arc     ? RowKind::Arc
+                        : move.rapid ? RowKind::Rapid
+                                     : RowKind::Move,
                 .amount = move.feed_mm_s,
                 .details = details_of(move),
                 .other = move.tolerance_mm};
@@ -61,28 +61,28 @@ struct RowMaker {
         if (move.arc) { row.centre[1] = move.arc->centre_second_mm; }
         return row;
     }
-    Row operator()(const Dwell& dwell) const { return {.kind = Kind::Dwell, .amount = dwell.seconds}; }
-    Row operator()(const Pause&) const { return {.kind = Kind::Pause}; }
-    Row operator()(const Settle&) const { return {.kind = Kind::Settle}; }
+    Row operator()(const Dwell& dwell) const { return {.kind = RowKind::Dwell, .amount = dwell.seconds}; }
+    Row operator()(const Pause&) const { return {.kind = RowKind::Pause}; }
+    Row operator()(const Settle&) const { return {.kind = RowKind::Settle}; }
     Row operator()(const ProgramEvent& event) const {
-        return {.kind = Kind::Event,
+        return {.kind = RowKind::Event,
                 .amount = event.value,
                 .details = static_cast<std::int64_t>(event.kind),
                 .other = static_cast<double>(event.index)};
     }
 };
 
-void read_move(Kind kind, std::span<const double> row, ProgramMove& move) {
+void read_move(RowKind kind, std::span<const double> row, ProgramMove& move) {
     const std::span<const double> place = place_of_row(row);
     Packed details{static_cast<std::int64_t>(row[2])};
     move.target_mm.assign(place.begin(), place.end());
     move.feed_mm_s = row[1];
-    move.rapid = kind == Kind::Rapid;
+    move.rapid = kind == RowKind::Rapid;
     move.is_feed_fixed = details.take(2) != 0;
     move.mode = static_cast<PathMode>(details.take(kModes));
     move.tolerance_mm = row[3];
     move.arc.reset();
-    if (kind != Kind::Arc) { return; }
+    if (kind != RowKind::Arc) { return; }
     ArcShape& arc = move.arc.emplace(ArcShape{.centre_first_mm = row[4], .centre_second_mm = row[5]});
     arc.is_clockwise = details.take(2) != 0;
     arc.second = static_cast<std::size_t>(details.take(kAxesMost));
@@ -90,11 +90,11 @@ void read_move(Kind kind, std::span<const double> row, ProgramMove& move) {
     arc.turns = static_cast<std::int32_t>(details.take(kMaxTurns + 1));
 }
 
-Block other_block(Kind kind, std::optional<std::int32_t> line, std::span<const double> row) {
+Block other_block(RowKind kind, std::optional<std::int32_t> line, std::span<const double> row) {
     switch (kind) {
-        case Kind::Dwell: return {line, Dwell{row[1]}};
-        case Kind::Pause: return {line, Pause{}};
-        case Kind::Settle: return {line, Settle{}};
+        case RowKind::Dwell: return {line, Dwell{row[1]}};
+        case RowKind::Pause: return {line, Pause{}};
+        case RowKind::Settle: return {line, Settle{}};
         default: break;
     }
     return {line, ProgramEvent{static_cast<ProgramEvent::Kind>(row[2]), static_cast<std::int32_t>(row[3]), row[1]}};
@@ -111,9 +111,9 @@ void append_row(const Block& block, std::span<const double> place_mm, std::vecto
 
 const Block& RowReader::read(std::span<const double> row) {
     Packed head{static_cast<std::int64_t>(row[0])};
-    const auto kind = static_cast<Kind>(head.take(kRowKinds));
+    const auto kind = static_cast<RowKind>(head.take(kRowKinds));
     const auto line = if_positive(static_cast<std::int32_t>(head.value));
-    if (kind != Kind::Move && kind != Kind::Rapid && kind != Kind::Arc) {
+    if (kind != RowKind::Move && kind != RowKind::Rapid && kind != RowKind::Arc) {
         return other_ = other_block(kind, line, row);
     }
     move_.line = line;

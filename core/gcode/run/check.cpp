@@ -11,8 +11,8 @@ constexpr std::string_view kLettersOfCodes = "DEHIJKLPQR";
 
 /// G10 G28 G30 G52 G92 use the block's axis words, so a motion of the block cannot use them.
 bool uses_axes(int non_modal) {
-    constexpr std::array kCodes{100, 280, 300, 520, 920};
-    return std::ranges::find(kCodes, non_modal) != kCodes.end();
+    constexpr std::array kWithAxes{100, 280, 300, 520, 920};
+    return std::ranges::find(kWithAxes, non_modal) != kWithAxes.end();
 }
 
 bool is_arc(int motion) { return motion == 20 || motion == 30; }
