@@ -4,12 +4,16 @@
 
 namespace lockstep {
 
+Argument add_json(Verb verb, bool& json) {
+    return verb.add_flag("--json", json, "one JSON report on standard output instead of text");
+}
+
 void add_live_options(Verb verb, LiveOptions& options) {
     verb.add_option(
         "--machine", options.machine_file,
         "the machine's configuration file; default: $LOCKSTEP_MACHINE, else the machine that is up on this host, else "
         "/etc/lockstep/machine.textproto");
-    verb.add_flag("--json", options.json, "one JSON report on standard output instead of text");
+    add_json(verb, options.json);
 }
 
 void add_take(Verb verb, LiveOptions& options) {

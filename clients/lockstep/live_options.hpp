@@ -16,6 +16,9 @@ struct LiveOptions {
     bool take = false;  // for verbs with add_take()
 };
 
+/// Adds --json.
+Argument add_json(Verb verb, bool& json);
+
 void add_live_options(Verb verb, LiveOptions& options);
 
 /// Adds --take, for a verb that moves or changes the machine.

@@ -63,7 +63,7 @@ void add_timing(Verb command) {
             "--stall-ms", options->stall_ms,
             "instead of measuring: the longest stall of all hosts, as lockstep doctor --timing shows it on each")
         .in_range(0.0, 5'000.0);
-    part.add_flag("--json", options->json, "one JSON report on standard output instead of text");
+    add_json(part, options->json);
     part.footer(
         footer("  lockstep timing apply --machine mill.textproto --seconds 600\n"
                "  lockstep timing apply --machine mill.textproto --stall-ms 4.5\n"));

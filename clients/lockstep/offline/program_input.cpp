@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "clients/lockstep/live_options.hpp"
 #include "clients/planning/program_text.hpp"
 #include "clients/session/program_start.hpp"
 #include "clients/supervisor/machine_choice.hpp"
@@ -103,7 +104,7 @@ void add_program_options(Verb verb, ProgramOptions& options) {
                     "a file of offsets and tools; default: those that the coordinator keeps on this host, if any");
     verb.add_flag("--ignore-unassigned", options.switches.ignore_unassigned,
                   "ignore words for devices that the machine does not have, instead of refusing them");
-    verb.add_flag("--json", options.json, "one JSON report on standard output instead of text");
+    add_json(verb, options.json);
 }
 
 void add_start(Verb verb, ProgramOptions& options) {

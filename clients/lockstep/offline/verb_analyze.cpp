@@ -134,7 +134,7 @@ void add_analyze(Verb command) {
     verb.add_flag("--no-html", options->no_html, "write no report page; with --json only --html writes one");
     verb.add_option("--svg", options->svg_dir, "draw speed.svg, position.svg and xy.svg into this directory");
     verb.add_option("--csv", options->csv_dir, "write every step and position of each axis into this directory");
-    verb.add_flag("--json", options->json, "one JSON report on standard output instead of text");
+    add_json(verb, options->json);
     verb.add_flag("--no-color", options->no_colour, "use no colours, also on a terminal");
     verb.footer(
         footer("  lockstep analyze plate.lcm                 # and plate.html\n"

@@ -87,7 +87,7 @@ void add_compare(Verb command) {
     verb.add_option("--html", options->html, "write tables and figures into this file, as one page");
     const Argument csv =
         verb.add_flag("--csv", options->csv, "every step on standard output: method,step,time_s,error_us");
-    verb.add_flag("--json", options->json, "one JSON report on standard output instead of text").excludes(csv);
+    add_json(verb, options->json).excludes(csv);
     verb.footer("A method that cannot express the move makes the nearest one it can, and reports the change.\n" +
                 footer("  lockstep compare\n  lockstep compare --move 4000,0,1000,1000 --svg compare.svg\n"
                        "  lockstep compare --method ranade --method carrica --csv > steps.csv\n"));

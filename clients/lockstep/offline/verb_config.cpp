@@ -83,7 +83,7 @@ void add_config(Verb command) {
     verb.add_flag(
         "--fold", options->fold,
         "write them into the file and remove FILE.settings; the rest of the file, also its comments, does not change");
-    verb.add_flag("--json", options->json, "one JSON report on standard output instead of text");
+    add_json(verb, options->json);
     verb.footer(
         "Senders of grbl's protocol write settings such as $110=3000 (lockstep-grbl). They are kept in FILE.settings,\n"
         "beside the machine's file, and apply after: lockstep down; lockstep up.\n" +

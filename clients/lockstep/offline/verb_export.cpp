@@ -84,7 +84,7 @@ void add_export(Verb command) {
         .with_default();
     verb.add_option("--out", options->out, "the file to write; default: beside the log");
     verb.add_flag("--force", options->force, "replace an existing file");
-    verb.add_flag("--json", options->json, "one JSON report on standard output instead of text");
+    add_json(verb, options->json);
     verb.footer(
         "csv: one table. Its first column is time_s, which counts from the log's first sample. Each signal has a\n"
         "column with its unit in the name, such as mill/X/position_mm, mill/X/velocity_mm_s, mill/X/state and\n"

@@ -121,7 +121,7 @@ void add_merge(Verb log) {
         "merge only this job, the newest with this number: from the end of the job before it to the next job");
     verb.add_flag("--all", options->all, "also merge logs of earlier sessions in a directory");
     verb.add_flag("--force", options->force, "replace OUT if it exists");
-    verb.add_flag("--json", options->json, "one JSON report on standard output instead of text");
+    add_json(verb, options->json);
     verb.footer(
         "OUT has each message once, in the order of machine time. All messages are numbered, so messages that are\n"
         "in none of the logs are reported. Each process also records how much every process has published, so\n"

@@ -54,7 +54,7 @@ void add_replay(Verb command) {
     verb.add_option("log", options->log, "an LCM log, of lcm-logger or of lockstep simulate").required();
     verb.add_option("--log", options->made, "write a log of the replay: the recorded messages with the new steps");
     verb.add_flag("--force", options->force, "replace the file of --log even if it is not a log");
-    verb.add_flag("--json", options->json, "one JSON report on standard output instead of text");
+    add_json(verb, options->json);
     verb.footer(
         "A replay writes the recorded frames into the registers of a device, as the axis did, and so proves\n"
         "that they make these steps. Where pulses stopped early, by a switch or a stop, the device is stopped\n"

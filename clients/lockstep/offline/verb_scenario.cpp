@@ -119,7 +119,7 @@ Verb add_part(Verb verb, const char* name, const char* what, const std::shared_p
                     "run all scenarios in this kind of place instead of the place in their files: PROCESS, NAMESPACE "
                     "or CONTAINER")
         .one_of({"PROCESS", "NAMESPACE", "CONTAINER"});
-    part.add_flag("--json", options->json, "one JSON report on standard output instead of text");
+    add_json(part, options->json);
     return part;
 }
 

@@ -33,7 +33,7 @@ void add_verify(Verb command) {
                                        "for tick");
     const auto options = std::make_shared<VerifyOptions>();
     verb.add_option("log", options->log, "an LCM log, of lcm-logger or of lockstep simulate").required();
-    verb.add_flag("--json", options->json, "one JSON report on standard output instead of text");
+    add_json(verb, options->json);
     verb.footer(
         "Steps that a killed process made but did not record as runs are compared with all that the plan allows.\n"
         "Notes list what the log lacks. A log that begins late or ends early is compared as far as it goes; if it has\n"

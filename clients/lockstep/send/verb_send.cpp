@@ -156,7 +156,7 @@ void add_send(Verb command) {
     verb.add_flag("--lines", options->one_by_one,
                   "send each line after the answer to the line before; default: as many lines as fit into the "
                   "controller's buffer, whose size it reports");
-    verb.add_flag("--json", options->json, "one JSON report on standard output instead of text");
+    add_json(verb, options->json);
     verb.footer(
         "Comments are not sent. Of a file, every line is checked before the first is sent. A line that the controller\n"
         "refuses, and Ctrl-C, stop the machine: a hold, and at rest a reset. On a terminal, Enter resumes after M0.\n"
