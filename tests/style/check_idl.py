@@ -3,8 +3,9 @@
 
 Usage: check_idl.py ROOT [--record]
 
-A fingerprint ignores comments, white space, and for what protobuf optimises its code. The check exits with 1 if a fingerprint or the protocol's number differs
-from the record, and prints what to decide (idl/README.md has the rules). --record writes the file again.
+A fingerprint ignores comments, white space, and for what protobuf optimises its code. The check exits with 1 if a
+fingerprint or the protocol's number differs from the record, and prints what to decide (idl/README.md has the rules).
+--record writes the file again.
 """
 import argparse
 import hashlib
