@@ -159,10 +159,7 @@ int main(int argc, char** argv) {
         "SIGTERM or SIGINT. When the sender disconnects, its jog brakes, the lines that have begun are run "
         "to their end, and then spindle and coolant are switched off.");
     Options options;
-    parser.add_option(
-        "--machine", options.machine_file,
-        "the machine's configuration file; default: $LOCKSTEP_MACHINE, else the machine that is up on this "
-        "host, else /etc/lockstep/machine.textproto");
+    parser.add_option("--machine", options.machine_file, kMachineHelp);
     parser
         .add_option(
             "--address", options.address,

@@ -1,5 +1,6 @@
 #include "clients/lockstep/live_options.hpp"
 
+#include "clients/supervisor/machine_choice.hpp"
 #include "clients/supervisor/other_hosts.hpp"
 
 namespace lockstep {
@@ -9,10 +10,7 @@ Argument add_json(Verb verb, bool& json) {
 }
 
 void add_live_options(Verb verb, LiveOptions& options) {
-    verb.add_option(
-        "--machine", options.machine_file,
-        "the machine's configuration file; default: $LOCKSTEP_MACHINE, else the machine that is up on this host, else "
-        "/etc/lockstep/machine.textproto");
+    verb.add_option("--machine", options.machine_file, kMachineHelp);
     add_json(verb, options.json);
 }
 

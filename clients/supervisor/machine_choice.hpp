@@ -15,6 +15,11 @@ namespace lockstep {
 /// The path of an installed machine's file; systemd's units read it too.
 inline constexpr const char* kInstalledMachine = "/etc/lockstep/machine.textproto";
 
+/// The help of --machine, for programs that call choose_machine().
+inline constexpr const char* kMachineHelp =
+    "the machine's configuration file; default: $LOCKSTEP_MACHINE, else the machine that is up on this host, else "
+    "/etc/lockstep/machine.textproto";
+
 /// Chooses the file from the candidates. Pure. `up`: configuration files of the machines that are up. `installed`:
 /// empty if none is. If no file or several files qualify, the error says how to choose.
 std::expected<std::filesystem::path, Failure> choose_file(const std::string& option, const char* environment,

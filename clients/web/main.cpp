@@ -6,6 +6,7 @@
 #include <thread>
 
 #include <fmt/format.h>
+
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/output.hpp"
 #include "clients/web/site.hpp"
@@ -141,10 +142,7 @@ int main(int argc, char** argv) {
         "Serves a page for a machine, and the page's HTTP interface, until SIGTERM or SIGINT. No motion of the machine "
         "depends on this process.");
     Options options;
-    parser.add_option(
-        "--machine", options.machine_file,
-        "the machine's configuration file; default: $LOCKSTEP_MACHINE, else the machine that is up on this "
-        "host, else /etc/lockstep/machine.textproto");
+    parser.add_option("--machine", options.machine_file, kMachineHelp);
     parser.add_option(
         "--address", options.address,
         "the address to listen at; an address that other hosts can reach needs a certificate; default: 127.0.0.1");

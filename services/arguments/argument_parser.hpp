@@ -1,5 +1,5 @@
-// The command line of a program: its options, its verbs and its help. CLI11 reads it. CLI11 is all headers, which take
-// the compiler longer than most programs do, so only argument_parser.cpp includes them.
+// The command line of a program: its options, its verbs and its help. The library CLI11 reads it. CLI11 is all headers.
+// They take longer to compile than most programs, so only argument_parser.cpp includes them.
 #pragma once
 
 #include <functional>
@@ -39,8 +39,9 @@ private:
 
 struct ParserState;
 
-/// What can follow a program's name or a verb's name: arguments, or a verb. Copies of a Verb are the same verb. The
-/// variables of arguments must live until the action ends.
+/// A verb of the command line, such as `run` in `lockstep run FILE`. It has arguments, an action, and verbs of its own.
+/// The program itself is one, too. Copies of a Verb are the same verb. The variables that receive the values of its
+/// arguments must live until the action ends.
 class Verb {
 public:
     Verb add_verb(const std::string& name, const std::string& help) const;
@@ -53,8 +54,8 @@ public:
     Argument add_flag(const std::string& name, bool& value, const std::string& help) const;
     /// The text at the end of the help.
     void footer(const std::string& text) const;
-    /// What the program does if this is the last verb of the command line, and the exit code that it returns. A verb
-    /// that has verbs but no action must be followed by one of them.
+    /// Sets the function that runs if this is the last verb of the command line. It returns the program's exit code.
+    /// Without an action, one of the verb's own verbs must follow; a verb that has none needs an action.
     void action(std::function<int()> run) const;
 
 protected:
@@ -78,7 +79,7 @@ public:
     /// Reads the command line and runs the action of its last verb. Returns the action's exit code, 0 after --help and
     /// --version, or kWrongUsage with the error on standard error.
     int run(int argc, const char* const* argv);
-    /// The same; `on_error` reports an error, which names the help to read, and returns the exit code.
+    /// The same, except that `on_error` reports an error and returns the exit code. The error names the help to read.
     int run(int argc, const char* const* argv, const std::function<int(const std::string& error)>& on_error);
 
 private:

@@ -1,5 +1,6 @@
 #include "services/arguments/argument_parser.hpp"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -93,6 +94,14 @@ TEST_F(ArgumentParserTest, RefusesAWrongCommandLineAndNamesTheHelpToRead) {
     EXPECT_THAT(error_of({"move", "X=1", "--mode", "exact"}), HasSubstr("--mode requires --slow"));
     EXPECT_EQ(error_of({"mvoe", "X=1"}), "there is no verb 'mvoe'; see: mill --help");
     EXPECT_THAT(error_of({"--fast"}), HasSubstr("see: mill --help"));
+}
+
+TEST_F(ArgumentParserTest, PrintsAnErrorToStandardErrorUnlessTheProgramReportsIt) {
+    const std::vector<const char*> words{"mill", "mvoe"};
+    ::testing::internal::CaptureStderr();
+    EXPECT_EQ(parser_.run(static_cast<int>(words.size()), words.data()), ArgumentParser::kWrongUsage);
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(), "there is no verb 'mvoe'; see: mill --help\n");
+    EXPECT_EQ(ran_, kNothingRan);
 }
 
 TEST_F(ArgumentParserTest, RequiresAVerbWhereThereIsNoAction) {
