@@ -7,7 +7,6 @@
 
 #include "core/protocol/names.hpp"
 #include "core/protocol/reception_watch.hpp"
-#include "services/record/job_recorder.hpp"
 
 namespace lockstep::incident {
 namespace {
@@ -105,9 +104,7 @@ std::string coordinator_text(const Incident& incident, const FlightEvent& event)
         case Kind::JobContinued: return fmt::format("continues the previous owner's job near line {}", event.count);
         case Kind::JobBegun: return fmt::format("begins job {}", event.count);
         case Kind::JobEnded:
-            return fmt::format(
-                "job {} ends: {}", event.count,
-                event.detail <= 2 ? lockstep::name_of(static_cast<JobOutcome>(event.detail)) : "unknown");
+            return fmt::format("job {} ends: {}", event.count, name_of(static_cast<JobOutcome>(event.detail)));
         default: return fmt::format("orders {} to {}", who, name_of(static_cast<AxisCommandKind>(event.detail)));
     }
 }

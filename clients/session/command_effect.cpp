@@ -4,6 +4,7 @@
 
 #include "clients/session/reports.hpp"
 #include "clients/text/format.hpp"
+#include "core/protocol/names.hpp"
 #include "services/runtime/clock.hpp"
 
 namespace lockstep {

@@ -6,6 +6,7 @@
 
 #include "clients/session/health_report.hpp"
 #include "clients/text/format.hpp"
+#include "core/protocol/names.hpp"
 #include "services/flight/incident_file.hpp"
 #include "services/runtime/clock.hpp"
 

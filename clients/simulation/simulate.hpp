@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "clients/planning/program_text.hpp"
-#include "core/coordinator/coordinator.hpp"
 #include "core/faults.hpp"
 #include "core/machine.hpp"
 #include "core/program.hpp"

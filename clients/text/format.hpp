@@ -5,9 +5,6 @@
 #include <string>
 #include <string_view>
 
-#include "core/protocol/names.hpp"
-#include "services/record/job_recorder.hpp"  // for the names of job outcomes
-
 namespace lockstep {
 
 /// With `digits` digits after the point.

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/coordinator/coordinator.hpp"
+#include "core/coordinator/state/coordinator_io.hpp"
 #include "core/flight/loop_watch.hpp"
 #include "core/flight/peer_watch.hpp"
 

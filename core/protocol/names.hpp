@@ -1,4 +1,4 @@
-// Names of the protocol's phases and commands. A value outside the enumeration, as from a damaged file, is "unknown".
+// Names of the protocol's phases, commands and jobs. A value outside the enumeration, as from a damaged file, is "unknown".
 #pragma once
 
 #include <array>
@@ -37,6 +37,16 @@ constexpr std::string_view name_of(CommandKind kind) {
 
 constexpr std::string_view name_of(AxisCommandKind kind) {
     return detail::pick_name(std::array<std::string_view, 6>{"home", "reset", "stop now", "move", "halt", "jog"}, kind);
+}
+
+/// As records and reports name them.
+constexpr std::string_view name_of(JobKind kind) {
+    return detail::pick_name(std::array<std::string_view, 5>{"home", "move", "run", "own-move", "jog"}, kind);
+}
+
+/// As records and reports name them.
+constexpr std::string_view name_of(JobOutcome outcome) {
+    return detail::pick_name(std::array<std::string_view, 3>{"done", "stopped", "failed"}, outcome);
 }
 
 }  // namespace lockstep

@@ -4,22 +4,13 @@
 #include <array>
 #include <utility>
 
+#include "core/protocol/names.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/documents/program_document.hpp"
 #include "services/wire/lcm/lcm_channels.hpp"
 #include "services/wire/lcm/translate_lcm.hpp"
 
 namespace lockstep {
-
-std::string_view name_of(JobKind kind) {
-    constexpr std::array<std::string_view, 5> kNames{"home", "move", "run", "own-move", "jog"};
-    return kNames[static_cast<std::size_t>(kind)];
-}
-
-std::string_view name_of(JobOutcome outcome) {
-    constexpr std::array<std::string_view, 3> kNames{"done", "stopped", "failed"};
-    return kNames[static_cast<std::size_t>(outcome)];
-}
 
 JobRecorder::JobRecorder(const MachineConfig& machine, Identity coordinator, RecordSink& sink)
     : machine_(machine),

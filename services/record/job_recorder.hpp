@@ -5,7 +5,7 @@
 #include <lockstep/program_part_t.hpp>
 #include <string>
 
-#include "core/coordinator/coordinator.hpp"
+#include "core/coordinator/state/coordinator_io.hpp"
 #include "core/protocol/axis_health.hpp"
 #include "services/record/record_marker.hpp"
 #include "services/record/record_sink.hpp"
@@ -49,9 +49,5 @@ private:
     RecordCounts published_;
     RecordMarker marker_;
 };
-
-/// The names in the record and the reports: "home", "move", "run", "own-move", "jog"; "done", "stopped", "failed".
-std::string_view name_of(JobKind kind);
-std::string_view name_of(JobOutcome outcome);
 
 }  // namespace lockstep

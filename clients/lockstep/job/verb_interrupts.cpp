@@ -12,6 +12,7 @@
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/format.hpp"
 #include "clients/text/output.hpp"
+#include "core/protocol/names.hpp"
 #include "idl/proto/report.pb.h"
 
 namespace lockstep {

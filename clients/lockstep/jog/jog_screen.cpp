@@ -5,6 +5,7 @@
 #include "clients/lockstep/status/screen.hpp"
 #include "clients/session/control/jog_link.hpp"
 #include "clients/text/format.hpp"
+#include "core/protocol/names.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/stop_signal.hpp"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/axis/state/fsm.hpp"
+#include "core/protocol/names.hpp"
 
 namespace lockstep {
 namespace {

@@ -1,5 +1,6 @@
 // The table of the six states and Fault, walked completely: every state with every event.
 #include "core/axis/state/fsm.hpp"
+#include "core/protocol/names.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/protocol/names.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/documents/program_file.hpp"
 
