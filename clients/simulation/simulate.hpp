@@ -15,6 +15,7 @@
 #include "core/faults.hpp"
 #include "core/machine.hpp"
 #include "core/program.hpp"
+#include "core/protocol/messages.hpp"
 #include "services/record/record_sink.hpp"
 
 namespace lockstep {

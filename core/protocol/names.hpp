@@ -1,4 +1,5 @@
-// Names of the protocol's phases, commands and jobs. A value outside the enumeration, as from a damaged file, is "unknown".
+// Names of the phases, commands and jobs of the protocol. A value outside the enumeration, as from a damaged file, is
+// "unknown".
 #pragma once
 
 #include <array>
