@@ -6,8 +6,8 @@ JOBS ?= $(shell nproc)
 ifeq ($(ARCH),$(HERE))
 BUILD ?= build
 UNTESTED := -DBUILD_TESTING=OFF -DLOCKSTEP_SPY=OFF
-# The demonstration uses the programs of an existing build, otherwise it builds only these, as fast as possible: with -O1
-# and without the compiler's cache.
+# The demonstration uses the programs of an existing build, otherwise it builds only these, which takes less time with
+# -O1. It needs no compiler's cache, so one package less.
 QUICK := $(UNTESTED) -DCCACHE= -DLOCKSTEP_WERROR=OFF "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"
 DEMO  ?= $(if $(wildcard $(BUILD)/CMakeCache.txt),$(BUILD),build-demo)
 FIRST   = $(BUILD)/CMakeCache.txt
