@@ -7,8 +7,8 @@ ifeq ($(ARCH),$(HERE))
 BUILD ?= build
 UNTESTED := -DBUILD_TESTING=OFF -DLOCKSTEP_SPY=OFF
 # The demonstration uses the programs of an existing build, otherwise it builds only these, which takes less time with
-# -O1. It needs no compiler's cache, so one package less.
-QUICK := $(UNTESTED) -DCCACHE= -DLOCKSTEP_WERROR=OFF "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"
+# -O1, and with -O0 for code that is not time-critical. It needs no compiler's cache, so one package less.
+QUICK := $(UNTESTED) -DCCACHE= -DSOON=-O0 -DLOCKSTEP_WERROR=OFF "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"
 DEMO  ?= $(if $(wildcard $(BUILD)/CMakeCache.txt),$(BUILD),build-demo)
 FIRST   = $(BUILD)/CMakeCache.txt
 OPTIONS = -DBUILD_TESTING=ON -DLOCKSTEP_SPY=ON
