@@ -1,11 +1,12 @@
 // The table of the six states and Fault, walked completely: every state with every event.
 #include "core/axis/state/fsm.hpp"
-#include "core/protocol/names.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <set>
+
+#include "core/protocol/names.hpp"
 
 namespace lockstep {
 namespace {
