@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <span>
 
 #include "tests/property/path/random_path.hpp"
 
@@ -15,10 +16,9 @@ struct SessionEvent {
     std::size_t unrun = 0;
 };
 
-/// The frames that were run, and the tail behind the last of them, as a run that ends at rest.
-inline PathRun run_to_rest(const PathRun& made, std::size_t ran) {
-    PathRun run{.frames = {}, .from = made.from};
-    run.frames.assign(made.frames.begin(), made.frames.begin() + static_cast<std::ptrdiff_t>(ran));
+/// The frames that were run from a place, and the tail behind the last of them, as a run that ends at rest.
+inline PathRun run_to_rest(std::span<const PathFrame> ran, std::vector<Position> from) {
+    PathRun run{.frames = {ran.begin(), ran.end()}, .from = std::move(from)};
     PathFrame tail{.ticks = total_ticks(run.frames.back().axes[0].tail), .axes = run.frames.back().axes};
     for (AxisTrack& track : tail.axes) {
         for (const Piece& piece : track.body) { track.from = track.from + piece.covered(); }
@@ -29,6 +29,10 @@ inline PathRun run_to_rest(const PathRun& made, std::size_t ran) {
     if (tail.ticks > Ticks{}) { run.frames.push_back(tail); }
     run.frames.back().last = true;
     return run;
+}
+
+inline PathRun run_to_rest(const PathRun& made, std::size_t ran) {
+    return run_to_rest(std::span(made.frames).first(ran), made.from);
 }
 
 inline std::vector<Position> end_of(const PathRun& run) {
@@ -43,8 +47,8 @@ inline std::vector<Position> end_of(const PathRun& run) {
 class PathSession {
 public:
     PathSession(const PathSetup& setup, std::deque<SessionEvent> events) : planner_(setup), events_(std::move(events)) {
-        made_.from.resize(setup.axes());
-        planner_.begin(made_.from);
+        from_.resize(setup.axes());
+        planner_.begin(from_);
     }
 
     /// Plans the program. Takes frames behind move k if `drains(k)` is true.
@@ -56,7 +60,8 @@ public:
         planner_.finish();
         ASSERT_NO_FATAL_FAILURE(drain());
         ASSERT_TRUE(planner_.is_done());
-        if (!made_.frames.empty()) { runs_.push_back(made_); }
+        const std::span made = since_rest();
+        if (!made.empty()) { runs_.push_back({.frames = {made.begin(), made.end()}, .from = from_}); }
     }
 
     /// The runs between two rests. Each begins where the previous one ends.
@@ -76,8 +81,7 @@ private:
             auto frame = planner_.next();
             ASSERT_TRUE(frame) << "stuck in block " << frame.error().at.block;
             if (!*frame) { return; }
-            frames_.push_back(**frame);
-            made_.frames.push_back(std::move(**frame));
+            frames_.push_back(std::move(**frame));
         }
     }
 
@@ -93,24 +97,28 @@ private:
     }
 
     void interrupt(std::size_t unrun) {
-        const std::size_t ran = made_.frames.size() - std::min(unrun, made_.frames.size());
-        if (ran > 0 && made_.frames[ran - 1].last) { return; }
-        if (ran > 0) {
-            runs_.push_back(run_to_rest(made_, ran));
-            place_ = made_.frames[ran - 1].rest;
-            made_.from = end_of(runs_.back());
+        const std::span made = since_rest();
+        const std::span ran = made.first(made.size() - std::min(unrun, made.size()));
+        if (!ran.empty() && ran.back().last) { return; }
+        if (!ran.empty()) {
+            runs_.push_back(run_to_rest(ran, from_));
+            place_ = ran.back().rest;
+            from_ = end_of(runs_.back());
         }
-        made_.frames.clear();
-        planner_.resume(place_, made_.from);
+        rest_ = frames_.size();
+        planner_.resume(place_, from_);
     }
+
+    std::span<const PathFrame> since_rest() const { return std::span(frames_).subspan(rest_); }
 
     PathPlanner planner_;
     std::deque<SessionEvent> events_;
     std::deque<SessionEvent> happened_;
-    PathRun made_;  // since the machine rested
+    std::vector<PathFrame> frames_;
+    std::size_t rest_ = 0;  // the frames that were made when the machine rested
+    std::vector<Position> from_;
     PathPlace place_;
     std::vector<PathRun> runs_;
-    std::vector<PathFrame> frames_;
 };
 
 /// Interruptions and overrides at random frames. Events are further apart if frames are short.

@@ -46,7 +46,7 @@ TEST_P(RandomSession, FollowsTheWholeProgramAndEndsExactly) {
 }
 
 /// Expects the same frames in the same order.
-void expect_equal(const std::vector<PathFrame>& a, const std::vector<PathFrame>& b) {
+void expect_equal(std::span<const PathFrame> a, std::span<const PathFrame> b) {
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t k = 0; k < a.size(); ++k) {
         ASSERT_EQ(a[k].ticks, b[k].ticks) << "frame " << k;
@@ -75,7 +75,6 @@ TEST_P(RandomSession, IsResumedByAnotherPlannerInTheSameWay) {
     for (std::size_t ran = 1; ran + 1 < run.frames.size(); ran += every) {
         PathSession session(case_.setup, {{.made = ran + 1, .turn = {}, .unrun = 1}});
         ASSERT_NO_FATAL_FAILURE(session.run(case_.program, never));
-        const std::vector<PathFrame>& frames = session.frames();
 
         PathPlanner other(case_.setup);
         other.begin(std::vector<Position>(case_.setup.axes()));
@@ -88,7 +87,7 @@ TEST_P(RandomSession, IsResumedByAnotherPlannerInTheSameWay) {
         }
         other.finish();
         ASSERT_NO_FATAL_FAILURE(drain(other, rest));
-        expect_equal({frames.begin() + static_cast<std::ptrdiff_t>(ran + 1), frames.end()}, rest.frames);
+        expect_equal(std::span(session.frames()).subspan(ran + 1), rest.frames);
     }
 }
 
