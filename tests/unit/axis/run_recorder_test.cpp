@@ -19,7 +19,7 @@ HeldFrame frame(FrameNumber number) {
 class Recorder : public testing::Test {
 protected:
     Recorder() {
-        for (const FrameNumber k : {1, 2, 3}) { frames.push_back(frame(k)); }
+        for (FrameNumber k = 1; k <= 3; ++k) { frames.push_back(frame(k)); }
     }
     const ReusedVector<ExecutedTrack>& record(const DeviceStatus& device) {
         tracks.clear();

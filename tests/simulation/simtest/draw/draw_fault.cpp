@@ -8,7 +8,7 @@
 namespace lockstep::simtest {
 namespace {
 
-using Kind = VirtualFault::Kind;
+using FaultKind = VirtualFault::Kind;
 
 Ticks ticks_of(double slots, const MachineConfig& machine) {
     return {
@@ -42,7 +42,7 @@ void draw_cut(Draw& draw, VirtualFault& fault, std::size_t processes) {
 /// Sets a clock by one slot to ten seconds. (An error below a round trip looks like delay.) The error ends when two
 /// exchanges have shown it.
 VirtualFault clock_set(Draw& draw, const MachineConfig& machine) {
-    VirtualFault fault{.kind = Kind::SetClock, .process = draw.index(machine.axes.size())};
+    VirtualFault fault{.kind = FaultKind::SetClock, .process = draw.index(machine.axes.size())};
     const double by_s =
         (draw.chance(0.5) ? 1 : -1) * draw.magnitude(1e-6 * static_cast<double>(machine.timing.slot_us), 10);
     fault.set_by = {static_cast<std::int64_t>(by_s * machine.ticks_per_second())};
@@ -52,20 +52,20 @@ VirtualFault clock_set(Draw& draw, const MachineConfig& machine) {
 
 std::optional<VirtualFault> draw_event(Draw& draw, const MachineConfig& machine, const FaultKinds& faults) {
     std::vector<VirtualFault> kinds;
-    if (faults.freeze) { kinds.push_back({.kind = Kind::Freeze}); }
-    if (faults.crash) { kinds.push_back({.kind = Kind::Crash}); }
-    if (faults.partition) { kinds.push_back({.kind = Kind::Cut}); }
-    if (faults.stall) { kinds.push_back({.kind = Kind::Freeze, .in_loop = true}); }
-    if (faults.clock) { kinds.push_back({.kind = Kind::SetClock}); }
+    if (faults.freeze) { kinds.push_back({.kind = FaultKind::Freeze}); }
+    if (faults.crash) { kinds.push_back({.kind = FaultKind::Crash}); }
+    if (faults.partition) { kinds.push_back({.kind = FaultKind::Cut}); }
+    if (faults.stall) { kinds.push_back({.kind = FaultKind::Freeze, .in_loop = true}); }
+    if (faults.clock) { kinds.push_back({.kind = FaultKind::SetClock}); }
     if (kinds.empty() || draw.chance(0.1)) { return std::nullopt; }
     const std::size_t processes = machine.axes.size() + 1;
     VirtualFault fault = kinds[draw.index(kinds.size())];
-    if (fault.kind == Kind::SetClock) { return clock_set(draw, machine); }
+    if (fault.kind == FaultKind::SetClock) { return clock_set(draw, machine); }
     fault.process = draw.chance(0.35) ? machine.axes.size() : draw.index(processes);
-    const double slots =
-        fault.kind == Kind::Freeze ? draw_freeze_slots(draw, machine.timing) : draw_outage_slots(draw, machine.timing);
+    const double slots = fault.kind == FaultKind::Freeze ? draw_freeze_slots(draw, machine.timing)
+                                                         : draw_outage_slots(draw, machine.timing);
     fault.lasts = ticks_of(slots, machine);
-    if (fault.kind == Kind::Cut) { draw_cut(draw, fault, processes); }
+    if (fault.kind == FaultKind::Cut) { draw_cut(draw, fault, processes); }
     return fault;
 }
 
@@ -80,7 +80,7 @@ std::optional<PlannedFault> draw_fault(Draw& draw, const MachineConfig& machine,
     planned.edge = static_cast<PlannedFault::Edge>(draw.index(PlannedFault::kFrameEdges));
     planned.slots = draw.chance(0.7) ? draw.real(-2, 2) : draw.real(0, machine.timing.frame_slots);
     // In this one slot of a frame a cut separates a process after the others got its message, before it gets theirs.
-    const bool cut_off = event->kind == Kind::Cut && !event->peer && event->outgoing && event->incoming;
+    const bool cut_off = event->kind == FaultKind::Cut && !event->peer && event->outgoing && event->incoming;
     if (cut_off && draw.chance(0.5)) {
         planned.edge = PlannedFault::Edge::Evidence;
         planned.slots = draw.real(0, 1);

@@ -6,7 +6,7 @@
 namespace lockstep::simtest {
 namespace {
 
-using Kind = VirtualFault::Kind;
+using FaultKind = VirtualFault::Kind;
 
 /// More than the rounding of a step, at most a twentieth of the travel.
 std::int64_t draw_push(Draw& draw, const AxisConfig& axis) {
@@ -15,10 +15,10 @@ std::int64_t draw_push(Draw& draw, const AxisConfig& axis) {
     return draw.chance(0.5) ? steps : -steps;
 }
 
-VirtualFault draw_of(Draw& draw, const MachineConfig& machine, Kind kind, double lasts_slots) {
+VirtualFault draw_of(Draw& draw, const MachineConfig& machine, FaultKind kind, double lasts_slots) {
     VirtualFault fault{.kind = kind, .process = draw.index(machine.axes.size()), .lasts = {1}};
-    if (kind == Kind::Push) { fault.push_steps = draw_push(draw, machine.axes[fault.process]); }
-    if (kind != Kind::Stick) { return fault; }
+    if (kind == FaultKind::Push) { fault.push_steps = draw_push(draw, machine.axes[fault.process]); }
+    if (kind != FaultKind::Stick) { return fault; }
     fault.contact = draw.chance(0.5) ? &PlantInputs::limit_min : &PlantInputs::limit_max;
     const double slots = std::max(1.0, lasts_slots);
     fault.lasts = {static_cast<std::int64_t>(slots * static_cast<double>(machine.slot_ticks().value))};
@@ -26,11 +26,11 @@ VirtualFault draw_of(Draw& draw, const MachineConfig& machine, Kind kind, double
 }
 
 VirtualFault draw_loss(Draw& draw, const MachineConfig& machine) {
-    const Kind kind =
-        draw.any_of({Kind::KillDevice, Kind::KillDevice, Kind::StopDevice, Kind::StopDevice, Kind::Overwrite});
+    const FaultKind kind = draw.any_of({FaultKind::KillDevice, FaultKind::KillDevice, FaultKind::StopDevice,
+                                        FaultKind::StopDevice, FaultKind::Overwrite});
     VirtualFault fault{.kind = kind, .process = draw.index(machine.axes.size())};
     const auto silence = static_cast<double>(rules::silence_slots(machine.timing));
-    const bool is_short = kind == Kind::StopDevice && draw.chance(0.4);
+    const bool is_short = kind == FaultKind::StopDevice && draw.chance(0.4);
     const double slots = is_short ? draw.real(0.1, silence / 2) : silence * draw.magnitude(1.5, 20);
     fault.lasts = {std::max<std::int64_t>(1, std::llround(slots * static_cast<double>(machine.slot_ticks().value)))};
     fault.garbage = draw.chance(0.5);
@@ -44,13 +44,14 @@ double slots_of(double seconds, const MachineConfig& machine) {
 }  // namespace
 
 PlannedFault draw_plant_fault(Draw& draw, const MachineConfig& machine) {
-    const Kind kind = draw.any_of({Kind::Stick, Kind::Stick, Kind::Stick, Kind::Push, Kind::Push, Kind::DamageFrame});
+    const FaultKind kind = draw.any_of({FaultKind::Stick, FaultKind::Stick, FaultKind::Stick, FaultKind::Push,
+                                        FaultKind::Push, FaultKind::DamageFrame});
     PlannedFault planned{.fault = draw_of(draw, machine, kind, draw.magnitude(1, 10.0 * machine.timing.frame_slots))};
-    if (kind == Kind::Stick && draw.chance(0.1)) { planned.fault.contact = &PlantInputs::home; }
+    if (kind == FaultKind::Stick && draw.chance(0.1)) { planned.fault.contact = &PlantInputs::home; }
     planned.frame = draw.chance(0.3) ? 1 : 1 + static_cast<FrameNumber>(draw.magnitude(1, 60));
     planned.edge = static_cast<PlannedFault::Edge>(draw.index(PlannedFault::kFrameEdges));
     planned.slots = draw.chance(0.5) ? draw.real(-2, 2) : draw.real(0, machine.timing.frame_slots);
-    if (kind != Kind::Stick || !draw.chance(0.25)) { return planned; }
+    if (kind != FaultKind::Stick || !draw.chance(0.25)) { return planned; }
     // The switch is closed before the axis makes its first step.
     planned.frame = 1;
     planned.edge = PlannedFault::Edge::FirstSend;
@@ -75,9 +76,9 @@ PlannedFault draw_device_fault_of_homing(Draw& draw, const MachineConfig& machin
 
 /// The home switch may be stuck closed, or open.
 PlannedFault draw_plant_fault_of_homing(Draw& draw, const MachineConfig& machine) {
-    const Kind kind = draw.any_of({Kind::Stick, Kind::Stick, Kind::Stick, Kind::Push});
+    const FaultKind kind = draw.any_of({FaultKind::Stick, FaultKind::Stick, FaultKind::Stick, FaultKind::Push});
     PlannedFault planned{.fault = draw_of(draw, machine, kind, slots_of(draw.magnitude(0.01, 10), machine))};
-    if (kind == Kind::Stick && draw.chance(0.6)) {
+    if (kind == FaultKind::Stick && draw.chance(0.6)) {
         planned.fault.contact = &PlantInputs::home;
         planned.fault.closed = draw.chance(0.5);
     }

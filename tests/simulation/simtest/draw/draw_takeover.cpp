@@ -5,8 +5,8 @@
 namespace lockstep::simtest {
 namespace {
 
-using Kind = VirtualFault::Kind;
-using Edge = PlannedFault::Edge;
+using FaultKind = VirtualFault::Kind;
+using FaultEdge = PlannedFault::Edge;
 using Victim = PlannedFault::Victim;
 
 class TakeoverDraw {
@@ -51,10 +51,10 @@ private:
     void add(std::vector<PlannedFault>& planned, Victim victim) {
         PlannedFault one{.victim = victim};
         one.fault.process = draw_.index(axes());  // used if an axis is the victim
-        one.fault.kind = draw_.any_of({Kind::Freeze, Kind::Freeze, Kind::Crash, Kind::Cut});
-        one.fault.in_loop = one.fault.kind == Kind::Freeze && draw_.chance(0.5);
+        one.fault.kind = draw_.any_of({FaultKind::Freeze, FaultKind::Freeze, FaultKind::Crash, FaultKind::Cut});
+        one.fault.in_loop = one.fault.kind == FaultKind::Freeze && draw_.chance(0.5);
         one.fault.lasts = draw_length();
-        if (one.fault.kind == Kind::Cut) { draw_ways(one.fault); }
+        if (one.fault.kind == FaultKind::Cut) { draw_ways(one.fault); }
         planned.push_back(one);
     }
 
@@ -65,21 +65,22 @@ private:
     }
 
     void place_after_the_one_before(PlannedFault& planned) {
-        planned.edge = draw_.any_of({Edge::Before, Edge::Claim, Edge::FirstFollows, Edge::LastFollows, Edge::Rest});
+        planned.edge = draw_.any_of(
+            {FaultEdge::Before, FaultEdge::Claim, FaultEdge::FirstFollows, FaultEdge::LastFollows, FaultEdge::Rest});
         planned.slots = draw_.chance(0.7) ? draw_.real(0, 4) : draw_.real(0, silence_);
-        if (planned.edge == Edge::Before && draw_.chance(0.7)) { planned.slots = silence_ + draw_.real(-4, 8); }
+        if (planned.edge == FaultEdge::Before && draw_.chance(0.7)) { planned.slots = silence_ + draw_.real(-4, 8); }
     }
 
     /// A cut separates its victim from all others, or the two coordinators, or the victim and some axes.
     void spread_cuts(std::vector<PlannedFault>& planned) {
         for (std::size_t n = 0; n < planned.size(); ++n) {
-            if (planned[n].fault.kind != Kind::Cut || draw_.chance(0.4)) { continue; }
+            if (planned[n].fault.kind != FaultKind::Cut || draw_.chance(0.4)) { continue; }
             const std::vector<std::size_t> peers = draw_peers();
             planned[n].fault.peer = peers.front();
             for (std::size_t i = 1; i < peers.size(); ++i) {
                 PlannedFault same = planned[n];
                 same.fault.peer = peers[i];
-                same.edge = Edge::Before;
+                same.edge = FaultEdge::Before;
                 same.slots = 0;
                 planned.insert(planned.begin() + static_cast<std::ptrdiff_t>(++n), same);
             }
@@ -108,7 +109,7 @@ std::vector<PlannedFault> draw_takeover(Draw& draw, const MachineConfig& machine
     PlannedFault& first = planned.front();
     first.epoch = draw.chance(0.8) ? 0 : 1;
     first.frame = draw.chance(0.5) ? 1 + draw.index(3) : 1 + static_cast<FrameNumber>(draw.magnitude(1, 60));
-    first.edge = static_cast<Edge>(draw.index(PlannedFault::kFrameEdges));
+    first.edge = static_cast<FaultEdge>(draw.index(PlannedFault::kFrameEdges));
     first.slots = draw.chance(0.7) ? draw.real(-2, 2) : draw.real(0, machine.timing.frame_slots);
     return planned;
 }
@@ -120,13 +121,13 @@ std::vector<PlannedFault> draw_takeover_of_homing(Draw& draw, const MachineConfi
 }
 
 void draw_late_network(Draw& draw, const MachineConfig& machine, std::vector<PlannedFault>& planned) {
-    if (planned.empty() || planned.front().fault.kind != Kind::Freeze || !draw.chance(0.3)) { return; }
+    if (planned.empty() || planned.front().fault.kind != FaultKind::Freeze || !draw.chance(0.3)) { return; }
     const auto slots = static_cast<double>(rules::silence_slots(machine.timing)) + draw.real(-4, 4);
     const Ticks behind{static_cast<std::int64_t>(slots * static_cast<double>(machine.slot_ticks().value))};
     PlannedFault cut = planned.front();
-    cut.edge = Edge::Before;
+    cut.edge = FaultEdge::Before;
     cut.slots = 0;
-    cut.fault.kind = Kind::Cut;
+    cut.fault.kind = FaultKind::Cut;
     cut.fault.in_loop = false;
     cut.fault.lasts += behind;
     planned.insert(planned.begin() + 1, cut);
