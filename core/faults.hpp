@@ -150,9 +150,10 @@ const FaultText* find_fault(std::string_view name);
 /// Text for a person: what to check by hand, then the commands.
 std::string remedy_text(const FaultText& fault);
 
-/// False for faults of the whole machine, which belong to no single axis.
+/// False for None, and for faults of the whole machine, which belong to no single axis.
 constexpr bool is_of_an_axis(FaultCode code) {
-    return code != FaultCode::EmergencyStopped && code != FaultCode::FrameLate && code != FaultCode::SecondCoordinator;
+    return code != FaultCode::None && code != FaultCode::EmergencyStopped && code != FaultCode::FrameLate &&
+           code != FaultCode::SecondCoordinator;
 }
 
 /// The stable name, such as "not-homed"; "none" for None, "unknown" for numbers outside the table.

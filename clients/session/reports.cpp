@@ -61,9 +61,8 @@ proto::FaultReport fault_report(FaultCode fault, const std::string& axis) {
 
 std::optional<proto::FaultReport> fault_of(const MachineState& state, const MachineConfig& machine) {
     if (state.fault == FaultCode::None) { return std::nullopt; }
-    const auto fault = state.fault;
-    const bool has_axis = is_of_an_axis(fault) && state.fault_axis < machine.axes.size();
-    return fault_report(fault, has_axis ? machine.axes[state.fault_axis].name : "");
+    const bool has_axis = state.fault_axis && *state.fault_axis < machine.axes.size();
+    return fault_report(state.fault, has_axis ? machine.axes[*state.fault_axis].name : "");
 }
 
 std::optional<proto::DevicesReport> devices_report(const ProgramDevices& devices) {

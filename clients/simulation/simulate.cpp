@@ -109,7 +109,7 @@ SimulationResult Simulation::finish(SimulationResult result) {
     recorder_.finish();
     if (const auto& state = vm_.state(); state && state->fault != FaultCode::None) {
         result.fault = state->fault;
-        if (is_of_an_axis(state->fault)) { result.fault_axis = state->fault_axis; }
+        result.fault_axis = state->fault_axis;
     } else if (feed_ && state && state->job_fault != FaultCode::None) {
         result.fault = state->job_fault;
     }

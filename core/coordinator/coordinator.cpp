@@ -252,7 +252,7 @@ void Coordinator::report(CoordinatorLoop& loop) const {
              .tick = loop.now,
              .phase = condition_.phase(),
              .fault = condition_.fault(),
-             .fault_axis = static_cast<std::uint32_t>(condition_.fault_axis()),
+             .fault_axis = condition_.fault_axis(),
              .axes_present = axes_.present(loop.slot),
              .config_hash = config_hash_,
              .lease = std::move(state.lease),

@@ -183,7 +183,7 @@ struct MachineState {
     Tick tick;
     MachinePhase phase = MachinePhase::Waiting;
     FaultCode fault = FaultCode::None;
-    std::uint32_t fault_axis = 0;  // meaningful if `fault` is not None and names an axis
+    std::optional<std::uint32_t> fault_axis;  // if `fault` is of an axis
     Epoch epoch = 0;
     FrameNumber sent = 0;                   // the highest frame sent
     std::optional<FrameNumber> veto;        // the coordinator's own, of this epoch

@@ -32,9 +32,9 @@ void add_once(json& alarms, json alarm) {
 void add_faults(const Snapshot& snapshot, const MachineConfig& machine, json& alarms) {
     if (snapshot.machine && snapshot.machine->value.fault != FaultCode::None) {
         const MachineState& state = snapshot.machine->value;
-        const auto fault = state.fault;
-        const bool has_axis = is_of_an_axis(fault) && state.fault_axis < machine.axes.size();
-        add_once(alarms, as_alarm(fault_json(fault, has_axis ? machine.axes[state.fault_axis].name : ""), "fault"));
+        const bool has_axis = state.fault_axis && *state.fault_axis < machine.axes.size();
+        const std::string axis = has_axis ? machine.axes[*state.fault_axis].name : "";
+        add_once(alarms, as_alarm(fault_json(state.fault, axis), "fault"));
     }
     for (std::size_t i = 0; i < snapshot.axes.size(); ++i) {
         const auto& axis = snapshot.axes[i].state;

@@ -1,6 +1,7 @@
 // The machine's phase, and the fault that it reports.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/coordinator/state/coordinator_io.hpp"
@@ -12,9 +13,12 @@ namespace lockstep {
 class MachineCondition {
 public:
     MachinePhase phase() const { return phase_; }
-    /// The first fault since the last reset, and the axis that it names.
+    /// The first fault since the last reset.
     FaultCode fault() const { return fault_; }
-    std::size_t fault_axis() const { return fault_axis_; }
+    /// The axis of the fault, if it is of an axis.
+    std::optional<std::uint32_t> fault_axis() const {
+        return is_of_an_axis(fault_) ? std::optional(static_cast<std::uint32_t>(fault_axis_)) : std::nullopt;
+    }
     bool is_held() const { return phase_ == MachinePhase::Holding || phase_ == MachinePhase::Paused; }
 
     void enter(MachinePhase phase, std::vector<CoordinatorNotice>& notices) {

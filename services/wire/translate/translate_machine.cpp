@@ -69,7 +69,7 @@ void to_wire(const MachineState& state, MachineStateMessage& message) {
             .tick = state.tick.value,
             .phase = static_cast<lockstep_wire_MachinePhase>(state.phase),
             .fault = static_cast<std::uint16_t>(state.fault),
-            .fault_axis = state.fault_axis,
+            .fault_axis = state.fault_axis.value_or(0),
             .epoch = state.epoch,
             .sent = state.sent,
             .has_veto = state.veto.has_value(),
@@ -133,12 +133,13 @@ std::expected<void, std::string> from_wire(const lockstep_wire_MachineState& wir
     const std::string_view writer_name = read_text("writer_name", wire.writer_name, check);
     const std::string_view writer_host = read_text("writer_host", wire.writer_host, check);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
+    const auto fault = static_cast<FaultCode>(wire.fault);
     into = {.term = {wire.term, wire.coordinator},
             .stamp = wire.stamp,
             .tick = {wire.tick},
             .phase = phase,
-            .fault = static_cast<FaultCode>(wire.fault),
-            .fault_axis = wire.fault_axis,
+            .fault = fault,
+            .fault_axis = is_of_an_axis(fault) ? std::optional(wire.fault_axis) : std::nullopt,
             .epoch = wire.epoch,
             .sent = wire.sent,
             .veto = wire.has_veto ? std::optional(wire.veto) : std::nullopt,

@@ -97,6 +97,14 @@ TEST_F(Readiness, RefusesCoordinatedMovesByAnUncertainClockWithTheLimit) {
     EXPECT_NE(result.error().text.find("axis X"), std::string::npos);
 }
 
+TEST(MachineCondition, NamesNoAxisForAFaultOfTheWholeMachine) {
+    MachineCondition condition;
+    std::vector<CoordinatorNotice> notices;
+    EXPECT_EQ(condition.fault_axis(), std::nullopt);
+    EXPECT_TRUE(condition.latch(FaultCode::FrameLate, 1, notices));
+    EXPECT_EQ(condition.fault_axis(), std::nullopt);
+}
+
 TEST(MachineCondition, KeepsTheFirstFault) {
     MachineCondition condition;
     std::vector<CoordinatorNotice> notices;

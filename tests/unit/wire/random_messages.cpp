@@ -112,12 +112,13 @@ PublishedEvent RandomMessages::event() {
 }
 
 MachineState RandomMessages::machine_state() {
+    const FaultCode machine_fault = fault();
     return {.term = term(),
             .stamp = far(),
             .tick = {far()},
             .phase = static_cast<MachinePhase>(index(10)),
-            .fault = fault(),
-            .fault_axis = index(kMaxAxes),
+            .fault = machine_fault,
+            .fault_axis = is_of_an_axis(machine_fault) ? std::optional(index(kMaxAxes)) : std::nullopt,
             .epoch = bits(),
             .sent = bits(),
             .veto = maybe(bits()),
