@@ -56,9 +56,17 @@ public:
         tcgetattr(master_, &mode);
         return (mode.c_lflag & ECHO) != 0;
     }
+    /// Its exit code, or its signal, negative. Reads, because a command waits while nobody reads its output.
     int wait() {
         int status = 0;
-        waitpid(pid_, &status, 0);
+        const auto ends = [&] {
+            text();
+            return waitpid(pid_, &status, WNOHANG) == pid_;
+        };
+        if (!eventually(ends)) {
+            ADD_FAILURE() << "it does not end; its output is: " << text_;
+            return -1;
+        }
         pid_ = 0;
         return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     }
