@@ -27,5 +27,5 @@ function(short_fuzz target)
   list(JOIN ARG_SEEDS "," seeds)
   add_test(NAME fuzz.${target} COMMAND ${program} -seed_inputs=${seeds} -seed=1 -runs=${ARG_RUNS} -max_len=4096 -timeout=60
            WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
-  set_tests_properties(fuzz.${target} PROPERTIES LABELS fuzz)
+  set_tests_properties(fuzz.${target} PROPERTIES LABELS fuzz COST ${LONG_COST})
 endfunction()
