@@ -56,7 +56,7 @@ std::string note_of(const Session& session, const JogLink& link) {
 
 }  // namespace
 
-/// If a loop comes late, the keys that it reads were typed long ago, so they count as released.
+/// If a loop comes late, the keys that it reads were typed long ago, so those of axes count as released; q still quits.
 ExitCode jog_by_keys(Session& session, Output&) {
     const StopSignal stop;
     const HangUp hang_up;
@@ -68,7 +68,8 @@ ExitCode jog_by_keys(Session& session, Output&) {
     for (nanoseconds last = monotonic_now(); !stop.requested() && !hang_up.came() && !keys.must_quit();) {
         const nanoseconds now = monotonic_now();
         const std::string typed = screen.typed();
-        now - last > JogKeys::kHold ? keys.release_all() : keys.take(typed, now);
+        keys.take(typed, now);
+        if (now - last > JogKeys::kHold) { keys.release_all(); }
         last = now;
         link.press(keys.jogs(now));
         if (const std::string newest = note_of(session, link); link.is_pressed() || !newest.empty()) { note = newest; }

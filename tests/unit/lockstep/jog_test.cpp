@@ -85,6 +85,14 @@ TEST_F(TypedKeys, ChangeTheSpeedAndReleaseWhatIsHeld) {
     EXPECT_EQ(keys.speed_mm_s(0), 50);
 }
 
+/// The screen does this when its loop comes late.
+TEST_F(TypedKeys, ThatAreReleasedAtOnceDoNotJogButQuit) {
+    keys.take("\x1b[Cq", 1s);
+    keys.release_all();
+    EXPECT_TRUE(keys.jogs(1s).empty());
+    EXPECT_TRUE(keys.must_quit());
+}
+
 TEST_F(TypedKeys, OfNoMeaningDoNothing) {
     std::string all;
     for (int byte = 0; byte < 256; ++byte) {
