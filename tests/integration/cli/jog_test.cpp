@@ -94,6 +94,16 @@ TEST_F(JogOfARealMachine, ByKeysMovesWhileTheKeyIsRepeated) {
     EXPECT_TRUE(terminal.echoes());
 }
 
+TEST_F(JogOfARealMachine, ByKeysQuitsAfterAStallAndDoesNotMoveByOldKeys) {
+    using namespace std::chrono_literals;
+    Terminal terminal("jog");
+    ASSERT_TRUE(terminal.shows("left, right"));
+    const std::int64_t before = steps_of_x();
+    terminal.type_while_stopped("\x1b[Cq", 500ms);
+    EXPECT_EQ(terminal.wait(), 0);
+    EXPECT_EQ(steps_of_x(), before);
+}
+
 TEST_F(JogOfARealMachine, IsRefusedWithTheReason) {
     EXPECT_EQ(run_lockstep({"jog"}).code, 2) << "keys need a terminal";
     EXPECT_EQ(run_lockstep({"jog", "X"}).code, 2);

@@ -9,7 +9,9 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <string>
+#include <thread>
 
 #include "tests/integration/wire/eventually.hpp"
 
@@ -50,6 +52,13 @@ public:
     }
     void type(const std::string& keys) {
         ASSERT_EQ(write(master_, keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
+    }
+    /// Stops the command for a time that it cannot notice, and types meanwhile.
+    void type_while_stopped(const std::string& keys, std::chrono::milliseconds time) {
+        kill(pid_, SIGSTOP);
+        type(keys);
+        std::this_thread::sleep_for(time);
+        kill(pid_, SIGCONT);
     }
     bool echoes() const {
         termios mode{};
