@@ -8,8 +8,6 @@
 namespace lockstep::simtest {
 namespace {
 
-using FaultKind = VirtualFault::Kind;
-
 Ticks ticks_of(double slots, const MachineConfig& machine) {
     return {
         std::max<std::int64_t>(1, static_cast<std::int64_t>(slots * static_cast<double>(machine.slot_ticks().value)))};

@@ -6,8 +6,6 @@
 namespace lockstep::simtest {
 namespace {
 
-using FaultKind = VirtualFault::Kind;
-
 /// More than the rounding of a step, at most a twentieth of the travel.
 std::int64_t draw_push(Draw& draw, const AxisConfig& axis) {
     const double travel = (axis.position_max_mm - axis.position_min_mm) * axis.steps_per_mm;

@@ -5,7 +5,6 @@
 namespace lockstep::simtest {
 namespace {
 
-using FaultKind = VirtualFault::Kind;
 using FaultEdge = PlannedFault::Edge;
 using Victim = PlannedFault::Victim;
 

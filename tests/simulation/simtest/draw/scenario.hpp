@@ -78,6 +78,8 @@ struct WrongCommand {
     FaultCode refusal = FaultCode::NothingToDo;
 };
 
+using FaultKind = VirtualFault::Kind;
+
 /// A fault of a process or a link, placed by the current action of the protocol.
 struct PlannedFault {
     /// An edge of a frame of the job (in homing: of its beginning). Or an edge after the previous planned fault:
