@@ -71,7 +71,7 @@ TEST_P(RandomSession, DependsOnTheFramesOfItsEventsAndNotOnWhenMovesArrive) {
 /// A coordinator that takes over does this. It knows only the program, the place and the positions.
 TEST_P(RandomSession, IsResumedByAnotherPlannerInTheSameWay) {
     const PathRun run = run_path(case_.setup, case_.program);
-    const std::size_t every = std::max<std::size_t>(1, run.frames.size() / 5);
+    const std::size_t every = std::max<std::size_t>(1, run.frames.size() / 3);
     for (std::size_t ran = 1; ran + 1 < run.frames.size(); ran += every) {
         PathSession session(case_.setup, {{.made = ran + 1, .turn = {}, .unrun = 1}});
         ASSERT_NO_FATAL_FAILURE(session.run(case_.program, never));
