@@ -6,8 +6,11 @@ import enum
 import re
 from dataclasses import dataclass, field
 
-from clang import cindex
-from clang.cindex import CursorKind, TypeKind
+try:
+    from clang import cindex
+    from clang.cindex import CursorKind, TypeKind
+except ModuleNotFoundError:
+    raise SystemExit("Debian's Python needs clang: apt-get install python3-clang-19 libclang-19-dev") from None
 
 ARGUMENTS = ["-x", "c++", "-std=c++23", "-fsyntax-only"]
 

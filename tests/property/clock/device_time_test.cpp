@@ -143,7 +143,7 @@ TEST(DeviceTime, TheEndOfALongTailIsWithinTheReportedError) {
     }
 }
 
-TEST(DeviceTime, OfClocksThatGoAlikeTheRateIsNone) {
+TEST(DeviceTime, OfClocksThatGoAlikeTheRateIsNoneAndTheyPassTheSameTime) {
     MachineConfig machine;
     machine.timing.time_source = TimeSource::Network;
     machine.axes = {screw()};
@@ -153,6 +153,10 @@ TEST(DeviceTime, OfClocksThatGoAlikeTheRateIsNone) {
         (void)time.look(now, {.now = now + Ticks{12'345}}, true);
     }
     EXPECT_NEAR(time.device_clock().rate, 0, 2 * ClockEstimator::kMaxRate);
+    const auto machine_at = [&](Ticks after) {
+        return time.in_machine_time({.now = Tick{1'000'000 + 12'345} + after}).now;
+    };
+    EXPECT_NEAR(static_cast<double>((machine_at(Ticks{300}) - machine_at(Ticks{})).value), 300, 1);
 }
 
 TEST(DeviceTime, AShortFrameIsNotAcceleratedToCorrectALongOne) {

@@ -14,6 +14,10 @@ protected:
 TEST_F(StandingAxis, IsUnknownUntilTheZeroIsSet) {
     EXPECT_EQ(position.claim(at_rest(), false), FaultCode::PositionNotKept);
     EXPECT_FALSE(position.homed());
+    EXPECT_EQ(position.in_machine(Position::steps(100)), Position::steps(100)) << "the device's own counts";
+    DeviceStatus status = at_rest();
+    status.encoder_count = 7;
+    EXPECT_EQ(position.following_error(status), 7) << "all since the device was switched on";
     position.set_zero(40, at_rest());
     EXPECT_TRUE(position.homed());
     EXPECT_EQ(position.in_machine(Position::steps(100)), Position::steps(60));

@@ -90,6 +90,22 @@ TEST_F(Jogged, AnAxisThatIsAskedForTheSameAgainGoesOn) {
     EXPECT_TRUE(was_halted()) << "for another way it stops first";
 }
 
+TEST_F(Jogged, ASpeedOfNoneOrAboveTheAxissIsRefused) {
+    const double most = machine.axes[0].max_velocity_mm_s;
+    const auto answer = [&](std::uint64_t sequence, double speed_mm_s) {
+        Command command = pressed(sequence);
+        command.jogs[0].speed_mm_s = speed_mm_s;
+        CoordinatorLoop l = loop();
+        return jogs.press(command, l);
+    };
+    EXPECT_TRUE(answer(1, most));
+    for (const double speed : {0.0, 1.001 * most, -1.001 * most}) {
+        ASSERT_FALSE(answer(2, speed)) << speed;
+        EXPECT_EQ(answer(2, speed).error().why, FaultCode::BadProgram);
+    }
+    EXPECT_TRUE(renew(pressed(1))) << "a refused command changes nothing";
+}
+
 TEST_F(Jogged, NothingIsHeldWhenAllIsReleased) {
     press(pressed(1));
     EXPECT_FALSE(jogs.none());

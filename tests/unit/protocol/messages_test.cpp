@@ -97,6 +97,10 @@ TEST(Messages, OfAClientAndToItThatNobodyFilledInAskForNothing) {
     EXPECT_FALSE(chunk.share);
     EXPECT_EQ(chunk.writer, 0u);
     const ProgramPart part;
+    EXPECT_EQ(part.client, 0u);
+    EXPECT_EQ(part.sequence, 0u);
+    EXPECT_EQ(part.program, 0u);
+    EXPECT_EQ(part.index, 0u);
     EXPECT_FALSE(part.is_question);
     EXPECT_FALSE(part.is_last);
     EXPECT_FALSE(part.share);

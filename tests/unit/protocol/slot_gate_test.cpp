@@ -15,6 +15,15 @@ TEST(SlotGate, LetsTheFirstLoopOfEachSlotThrough) {
     EXPECT_TRUE(gate.enter(8));
 }
 
+TEST(SlotGate, EntersASlotOnceAndThenTheOneAfter) {
+    SlotGate gate;
+    EXPECT_EQ(gate.next(7), 7);
+    (void)gate.enter(7);
+    EXPECT_EQ(gate.next(7), 8);
+    EXPECT_EQ(gate.next(8), 8);
+    EXPECT_EQ(gate.next(5), 8) << "a clock that was set back";
+}
+
 TEST(SlotGate, CountsSlotsWithoutALoop) {
     SlotGate gate;
     (void)gate.enter(7);
