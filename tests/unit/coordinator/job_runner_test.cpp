@@ -86,6 +86,29 @@ TEST_F(Running, AnEventOfAProgramThatMovesNothingIsOfNoEpoch) {
     EXPECT_TRUE(out.events[0].at_rest);
 }
 
+TEST_F(Running, AnInterruptionThatNobodyAskedForIsNoticedAndTheJobGoesOn) {
+    ASSERT_EQ(run(), FaultCode::None);
+    for (int i = 0; i < 6 && out.frames.empty(); ++i) { pass_slot(); }
+    ASSERT_FALSE(out.frames.empty());
+    const Epoch vetoed = out.frames[0].epoch;
+    const auto is_noticed = [this] {
+        return std::ranges::count(out.notices, CoordinatorNotice::Kind::Interrupted, &CoordinatorNotice::kind) == 1;
+    };
+    for (int i = 0; i < 50 && !is_noticed(); ++i) {
+        ++slot;
+        for (const std::uint32_t axis : {0U, 1U}) {
+            AxisState state = state_of(axis);
+            state.epoch = vetoed;
+            state.veto = 1;
+            axes.take(state, slot);
+        }
+        ask([&](auto& l) { jobs.advance(l); });
+    }
+    EXPECT_TRUE(is_noticed());
+    EXPECT_EQ(condition.phase(), MachinePhase::Running);
+    EXPECT_TRUE(jobs.is_on_path());
+}
+
 TEST_F(Running, AFaultInMotionStopsOnThePathBeforeTheMachineIsInFault) {
     ASSERT_EQ(run(), FaultCode::None);
     ask([&](auto& l) { jobs.fail(FaultCode::AxisLost, 1, l); });

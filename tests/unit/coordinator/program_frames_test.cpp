@@ -225,6 +225,8 @@ TEST_F(LaiFramesTest, AreTheSameWhenResumedTwiceAtOnePlace) {
         const auto b = up_to(again, 1000);
         ASSERT_EQ(a.size(), b.size());
         for (std::size_t k = 0; k < a.size(); ++k) { EXPECT_TRUE(are_same(a[k], b[k])) << rests << ": " << k; }
+        EXPECT_GT(rest_of(a.front())[0].as_steps(), rest[0].as_steps()) << "on from where it rested";
+        EXPECT_EQ(rest_of(a.back())[0].count(), 3200);
         EXPECT_EQ(rest_of(a.back())[1].count(), 4800);
     }
 }

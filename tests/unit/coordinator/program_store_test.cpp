@@ -35,6 +35,20 @@ TEST_F(ProgramInParts, IsTakenPartByPart) {
     EXPECT_EQ(programs.find(7)->known(), 2u);
 }
 
+TEST_F(ProgramInParts, TakesAsLongAsItsKnownShareSays) {
+    ProgramPart first = part(0, {to(10, 1), to(20, 2)});
+    EXPECT_TRUE(programs.take(first, 100).is_new);
+    const double known_s = programs.find(7)->seconds_from({0, {}});
+    ProgramPart second = part(1, {});
+    second.share = 0.25;
+    EXPECT_TRUE(programs.take(second, 101).is_new);
+    EXPECT_DOUBLE_EQ(programs.find(7)->seconds_from({0, {}}), 4 * known_s);
+    ProgramPart last = part(2, {});
+    last.is_last = true;
+    EXPECT_TRUE(programs.take(last, 102).is_new);
+    EXPECT_DOUBLE_EQ(programs.find(7)->seconds_from({0, {}}), known_s) << "nothing is unknown any more";
+}
+
 TEST_F(ProgramInParts, StaysWhileItIsInUseAndNewerOnesReplaceTheOthers) {
     const Program program{.name = "job", .axes = {"X", "Y"}, .start_mm = {0, 0}, .blocks = {to(10, 1)}};
     programs.accept(1, program);

@@ -77,6 +77,8 @@ TEST(ReceptionWatch, ReopensEverMoreSeldomForAPeerThatPerhapsDoesNotRun) {
     EXPECT_LE(process.reopened.size(), 25U);
     EXPECT_LE(process.reopened[0].first, 8.0);
     EXPECT_EQ(process.reopened[0].second, ReopenReason::PeerMissing);
+    EXPECT_NEAR(process.reopened[1].first - process.reopened[0].first, 6, 1);
+    EXPECT_NEAR(process.reopened[2].first - process.reopened[1].first, 12, 1);
     const double last = process.reopened.back().first - process.reopened[process.reopened.size() - 2].first;
     EXPECT_NEAR(last, 192, 1);
 }
