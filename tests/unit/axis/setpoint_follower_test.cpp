@@ -175,6 +175,13 @@ TEST_F(Follower, DoesNotArmWhatTheCoordinatorVetoes) {
     EXPECT_EQ(follower.veto(), 1u);
 }
 
+TEST_F(Follower, DoesNotArmWhatTheCoordinatorVetoedBeforeItsFirstFrameArrived) {
+    follower.receive(coordinator(93, 1));
+    EXPECT_EQ(follower.offer(frame(1, kHome), kHome), FaultCode::None);
+    follower.receive(peer(93, 1));
+    EXPECT_FALSE(armed_at(94, 1));
+}
+
 TEST_F(Follower, VetoesAFrameThatIsNotReceivedByItsCheck) {
     (void)follower.offer(frame(1, kHome), kHome);
     follower.receive(peer(94, 1));

@@ -74,6 +74,20 @@ TEST(EpochRunner, RepeatsTheLowestVetoItReceives) {
     EXPECT_EQ(runner.veto(), 1u);
 }
 
+TEST(EpochRunner, RepeatsOnlyTheFramesBeforeAVeto) {
+    const auto repeated = [](std::optional<FrameNumber> veto) {
+        EpochRunner runner = on_a_long_move();
+        Slot slot = 101;
+        for (; runner.sent() < 2; ++slot) { (void)runner.send(slot, says(slot, 0, {}, 0, {})); }
+        std::vector<FrameNumber> numbers;
+        for (const Frame& frame : runner.send(slot, says(slot, 0, veto, 0, {}))) { numbers.push_back(frame.number); }
+        return numbers;
+    };
+    EXPECT_EQ(repeated({}), (std::vector<FrameNumber>{2})) << "frame 1 would be late";
+    EXPECT_EQ(repeated(3), (std::vector<FrameNumber>{2}));
+    EXPECT_EQ(repeated(2), (std::vector<FrameNumber>{}));
+}
+
 /// Braking takes two seconds. The coordinator remembers the ends of far fewer frames than that.
 TEST(EpochRunner, MakesNoFramesBehindAVetoHoweverLongTheTail) {
     EpochRunner runner = on_a_long_move();
