@@ -144,17 +144,18 @@ TEST(DeviceTime, TheEndOfALongTailIsWithinTheReportedError) {
 }
 
 TEST(DeviceTime, OfClocksThatGoAlikeTheRateIsNoneAndTheyPassTheSameTime) {
+    constexpr Ticks kAhead{12'345};  // the device's clock
     MachineConfig machine;
     machine.timing.time_source = TimeSource::Network;
     machine.axes = {screw()};
     DeviceTime time(0, machine);
     for (Tick now{500}; now < Tick{1'000'000}; now += Ticks{500}) {
         time.take({now - Ticks{200}, now - Ticks{100}, now - Ticks{100}, now});
-        (void)time.look(now, {.now = now + Ticks{12'345}}, true);
+        (void)time.look(now, {.now = now + kAhead}, true);
     }
     EXPECT_NEAR(time.device_clock().rate, 0, 2 * ClockEstimator::kMaxRate);
     const auto machine_at = [&](Ticks after) {
-        return time.in_machine_time({.now = Tick{1'000'000 + 12'345} + after}).now;
+        return time.in_machine_time({.now = Tick{1'000'000} + kAhead + after}).now;
     };
     EXPECT_NEAR(static_cast<double>((machine_at(Ticks{300}) - machine_at(Ticks{})).value), 300, 1);
 }

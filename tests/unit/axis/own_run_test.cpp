@@ -14,7 +14,7 @@ namespace {
 constexpr std::int64_t kSteps = 1000;
 constexpr Ticks kLasts{2'000'000};
 
-/// A run that lasts twenty times as long as the axis needs.
+/// A run that lasts some ten times as long as the axis needs.
 OwnRun slow_run() {
     const MachineConfig machine = pair_machine();
     const AxisConfig& axis = machine.axes[0];

@@ -110,10 +110,11 @@ TEST_F(OwnTargetsOfTwo, RefuseAnAxisThatIsNotHomedAndATimeThatIsTooShort) {
 }
 
 TEST_F(OwnTargetsOfTwo, LastAsLongAsAskedOrAsTheSlowestAxisTakes) {
-    EXPECT_DOUBLE_EQ(targets(20, 40, Ticks{3'000'000})->remaining_s(loop().now, machine), 3);
-    const Tick after{loop().now + Ticks{1'000'000}};
-    EXPECT_DOUBLE_EQ(targets(20, 40, Ticks{3'000'000})->remaining_s(after, machine), 2);
-    EXPECT_EQ(targets(20, 40, Ticks{3'000'000})->remaining_s(after + Ticks{5'000'000}, machine), 0);
+    const Tick begun = loop().now;
+    const auto asked = targets(20, 40, Ticks{3'000'000});
+    EXPECT_DOUBLE_EQ(asked->remaining_s(begun, machine), 3);
+    EXPECT_DOUBLE_EQ(asked->remaining_s(begun + Ticks{1'000'000}, machine), 2);
+    EXPECT_EQ(asked->remaining_s(begun + Ticks{6'000'000}, machine), 0);
     const double fastest_s = 40.0 / 50;  // of Y, at its greatest velocity all the way
     EXPECT_NEAR(targets(20, 40)->remaining_s(loop().now, machine), fastest_s, 0.15);
     EXPECT_GT(targets(20, 40)->remaining_s(loop().now, machine), fastest_s);
