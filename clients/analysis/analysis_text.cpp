@@ -211,10 +211,13 @@ std::string axis_notes(const AxisLog& axis) {
         text += fmt::format("{}: {} missing\n", axis.name(), plural(figures, "message") + " of figures");
     }
     const StreamCounts& counts = axis.counts();
-    const std::int64_t left_out = counts.duplicates + counts.late + counts.disordered;
+    const std::int64_t left_out = counts.duplicates + counts.late;
     if (left_out > 0) {
-        text += fmt::format("{}: left out {} ({} repeated, {} too late, {} out of order)\n", axis.name(),
-                            plural(left_out, "message"), counts.duplicates, counts.late, counts.disordered);
+        text += fmt::format("{}: left out {} ({} repeated, {} too late)\n", axis.name(), plural(left_out, "message"),
+                            counts.duplicates, counts.late);
+    }
+    for (const Contradiction& what : axis.statistics().contradictions()) {
+        text += fmt::format("{}: {}; it is left out\n", axis.name(), sentence(what));
     }
     return text;
 }

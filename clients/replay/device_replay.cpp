@@ -61,6 +61,7 @@ void DeviceReplay::on_run(const Run& run) {
     if (held_) {
         load_frame(false);
         play(held_->start + held_->ticks() - Ticks{1});  // the next frame must be loaded before this one ends
+        if (findings_.going()) { look_for_refusal(); }
     } else {
         begin_motion();
     }
@@ -158,14 +159,20 @@ void DeviceReplay::end_motion() {
     tail_.reset();
 }
 
-void DeviceReplay::look_at_end() {
-    const Run& last = tail_ ? *tail_ : *held_;
+/// Names the frame that the device refused, while it is the newest.
+void DeviceReplay::look_for_refusal() {
     const auto status = hardware_->driver.read();
     if (!status) { return differ(status.error(), {}, {}); }
-    if (status->bad_segment) {
-        return differ("the device refuses a frame that does not start at the end of the frame before it", last.start,
-                      {});
-    }
+    if (!status->bad_segment) { return; }
+    differ("the device refuses a frame that does not start at the end of the frame before it",
+           (tail_ ? *tail_ : *held_).start, {});
+}
+
+void DeviceReplay::look_at_end() {
+    look_for_refusal();
+    const auto status = hardware_->driver.read();
+    if (!status || !findings_.going()) { return; }
+    const Run& last = tail_ ? *tail_ : *held_;
     if (!expected_.empty()) {
         return differ("the device does not make a step that is in the log", expected_.front().step.edge.tick, {});
     }

@@ -54,6 +54,7 @@ private:
     void play(Tick until);
     void take(StepEdge made);
     void end_motion();
+    void look_for_refusal();
     void look_at_end();
     void order(const DeviceOrder& order);
     void differ(const std::string& text, std::optional<Tick> expected, std::optional<Tick> seen);

@@ -30,6 +30,7 @@ public:
     }
     void on_event(const program_event_t& message, LogPlace /*place*/) override { pass(message); }
     void on_run(const run_t& message, LogPlace place) override {
+        ++runs_;
         pass(message);
         check_.on_run(message, place);
     }
@@ -44,6 +45,9 @@ public:
         return findings;
     }
 
+    /// In the log.
+    std::int64_t runs() const { return runs_; }
+
 private:
     void pass(const auto& message) {
         if (made_) { made_->take(message); }
@@ -56,6 +60,7 @@ private:
         });
     }
 
+    std::int64_t runs_ = 0;
     std::optional<ReplayedLog> made_;
     verification::LogCheck check_{[this](const std::string& machine, const std::string& axis, Findings& findings) {
         return make_device(machine, axis, findings);
@@ -71,17 +76,24 @@ std::expected<Findings, std::string> replay_log(const std::filesystem::path& log
     if (!events) { return std::unexpected(events.error()); }
     Findings findings = listener.finish();
     if (findings.going() && findings.runs == 0) {
-        return std::unexpected(log.string() + ": it contains no run to replay");
+        return std::unexpected(log.string() +
+                               (listener.runs() == 0
+                                    ? ": it contains no run to replay"
+                                    : ": none of its " + plural(listener.runs(), "run") +
+                                          " can be replayed: the log begins within a motion, and none begins from rest "
+                                          "in it"));
     }
     return findings;
 }
 
 proto::ReplayReport to_report(const Findings& findings, const std::string& log) {
     proto::ReplayReport report;
-    report.set_exact(!findings.difference);
+    report.set_exact(findings.verdict() == verification::Verdict::Exact);
+    report.set_verdict(std::string(name_of(findings.verdict())));
     report.set_steps_replayed(findings.steps);
     report.set_runs_replayed(findings.runs);
     if (findings.difference) { verification::fill(*findings.difference, *report.mutable_first_difference()); }
+    for (const std::string& line : findings.unknown) { report.add_unknown(line); }
     for (const std::string& note : findings.notes) { report.add_notes(note); }
     report.set_log(log);
     return report;
@@ -96,9 +108,12 @@ std::string to_text(const Findings& findings) {
             text += "  in motion: " + findings.difference->commanded + "\n";
         }
         text += "  before that, the devices made as recorded: " + counted + "\n";
+    } else if (findings.verdict() == verification::Verdict::Unknown) {
+        text = "unknown: the log is incomplete; the devices made " + counted + " as recorded\n";
     } else {
         text = "exact: the devices made " + counted + " as recorded, tick for tick\n";
     }
+    for (const std::string& line : findings.unknown) { text += "  unknown: " + line + "\n"; }
     for (const std::string& note : findings.notes) { text += "  note: " + note + "\n"; }
     return text;
 }

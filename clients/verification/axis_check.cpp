@@ -7,13 +7,14 @@
 #include <limits>
 #include <utility>
 
-#include "clients/analysis/analysis_text.hpp"
+#include "clients/analysis/log/record_end.hpp"
 #include "services/record/step_batcher.hpp"
 
 namespace lockstep::verification {
 namespace {
 
 constexpr Tick kBeginning{std::numeric_limits<std::int64_t>::min()};
+constexpr Tick kNever{std::numeric_limits<std::int64_t>::max() - 1};
 
 std::string at_tick(const std::optional<Tick>& tick, const char* otherwise) {
     return tick ? fmt::format("tick {}", tick->value) : otherwise;
@@ -55,41 +56,43 @@ void AxisCheck::runs_missing(std::int64_t from, std::int64_t end) {
     if (!findings_.going()) { return; }
     const std::string which =
         end - from == 1 ? fmt::format("run {} is", from) : fmt::format("runs {} to {} are", from, end - 1);
-    differ("axis " + name_ + ": the record of " + which + " not in the log; the steps up to " +
-               at_tick(last_tick_, "its beginning") + " are compared",
-           {}, {});
-    findings_.notes.emplace_back(analysis::kWhereTheRestIs);
+    findings_.add_missing("axis " + name_ + ": the record of " + which + " not in the log, after " +
+                          at_tick(last_tick_, "its beginning"));
+    runs_are_missing_ = true;
+}
+
+void AxisCheck::runs_contradict(const Run& other) {
+    differ(fmt::format("axis {}: run {} is in the log twice, with different content", name_, other.sequence), {},
+           other.start);
 }
 
 void AxisCheck::on_batch(const analysis::StepBatch& batch) {
     if (!findings_.going()) { return; }
     (void)birth_of(batch.incarnation);
     if (!steps_from_) { steps_from_ = batch.sequence > 0 ? batch.steps.front().tick : kBeginning; }
-    std::int64_t count = batch.position_before_steps;
-    const ClockStretch time = batch.machine_time();
-    for (const StepEdge& step : batch.steps) {
-        count += step.direction;
-        const SeenStep seen{step, count, batch.incarnation, time.at(step.tick), batch.clock_error};
-        is_before_log(seen) ? void(++before_log_steps_) : waiting_.push_back(seen);
-    }
+    waiting_.add(batch);
+    if (runs_from_) { before_log_steps_ += waiting_.drop_before(runs_from_->first, runs_from_->second); }
     settle(false);
-    if (waiting_.size() > kMaxWaiting) {
-        differ(
-            "axis " + name_ + ": no run is recorded for " + plural(static_cast<std::int64_t>(waiting_.size()), "step"),
-            {}, waiting_.front().edge.tick);
-    }
+    if (waiting_.size() <= kMaxWaiting) { return; }
+    findings_.add_unknown("axis " + name_ + ": no run is recorded for " + waiting_text());
+    runs_gap_ = {waiting_.front().incarnation, kNever};
+    drop_steps_of_missing_runs();
+}
+
+void AxisCheck::on_contradiction(const analysis::Contradiction& what) {
+    differ("axis " + name_ + ": " + sentence(what), {}, what.first);
 }
 
 void AxisCheck::on_break(const analysis::Break& what) {
     if (what.missing_batches == 0 || !findings_.going()) { return; }
     const bool is_first = !what.from && incarnations_.size() <= 1;
     if (is_first && (marked_.empty() || what.missing_batches <= marked_.begin()->second)) { return; }  // begins later
-    const StepEdge* expected = maker_ ? maker_->next() : nullptr;
-    differ("axis " + name_ + ": " + plural(what.missing_batches, "message") + " with at least " +
-               plural(std::abs(what.position_change), "step") + " missing between " +
-               at_tick(what.from, "the log's beginning") + " and " + at_tick(what.to, "the log's end"),
-           expected != nullptr ? std::optional(expected->tick) : std::nullopt, {});
-    findings_.notes.emplace_back(analysis::kWhereTheRestIs);
+    settle(false);
+    findings_.add_missing("axis " + name_ + ": " + plural(what.missing_batches, "message") + " with at least " +
+                          plural(std::abs(what.position_change), "step") + " missing between " +
+                          at_tick(what.from, "the log's beginning") + " and " + at_tick(what.to, "the log's end"));
+    const Run* run = maker_ ? &maker_->run() : last_run_ ? &*last_run_ : nullptr;
+    if (run != nullptr) { steps_gap_ = {run->incarnation, what.to.value_or(kNever)}; }
 }
 
 /// Compares as far as steps and runs were received.
@@ -97,7 +100,11 @@ void AxisCheck::settle(bool log_ended) {
     while (findings_.going()) {
         if (!maker_ && !begin_next_run()) { return; }
         pass_before_log();
-        const SeenStep* seen = waiting_.empty() ? nullptr : &waiting_.front();
+        pass_gap();
+        drop_steps_of_missing_runs();
+        if (compare_equal()) { continue; }
+        const std::optional<SeenStep> front = waiting_.empty() ? std::nullopt : std::optional(waiting_.front());
+        const SeenStep* seen = front ? &*front : nullptr;
         const bool may_be_over = seen != nullptr || log_ended;
         if (seen != nullptr && is_of_older_process(*seen)) {
             leave_steps();
@@ -106,7 +113,7 @@ void AxisCheck::settle(bool log_ended) {
         } else if (seen == nullptr) {
             return;
         } else {
-            is_of_newer_process(*seen) ? leave_run() : compare(*seen);
+            is_of_newer_process(*seen) ? leave_run() : differ_at(*seen);
         }
     }
 }
@@ -119,16 +126,10 @@ bool AxisCheck::is_before_log(const Run& run) const {
     return before_log_ && before_log_->first == run.incarnation && run.sequence <= before_log_->second;
 }
 
-/// True for a step of a run that ended before the log began, so that the run is not recorded.
-bool AxisCheck::is_before_log(const SeenStep& seen) const {
-    return runs_from_ && seen.incarnation == runs_from_->first && seen.edge.tick < runs_from_->second;
-}
-
 /// The log may lack the first runs of the first process (run_stream.hpp). Their steps belong to no recorded run.
 void AxisCheck::leave_out_before_log(const Run& first) {
     runs_from_ = {first.incarnation, first.start};
-    before_log_steps_ += static_cast<std::int64_t>(
-        std::erase_if(waiting_, [this](const SeenStep& seen) { return is_before_log(seen); }));
+    before_log_steps_ += waiting_.drop_before(first.incarnation, first.start);
 }
 
 /// Skips the first steps of a run that began before the log, because the log does not contain them.
@@ -145,7 +146,9 @@ bool AxisCheck::begin_next_run() {
     maker_.emplace(std::move(runs_.front()));
     runs_.pop_front();
     const Run& run = maker_->run();
-    const bool follows = last_run_ && last_run_->incarnation == run.incarnation;
+    const bool is_behind_gap = std::exchange(runs_are_missing_, false);
+    if (is_behind_gap) { runs_gap_ = {run.incarnation, run.start}; }
+    const bool follows = last_run_ && last_run_->incarnation == run.incarnation && !is_behind_gap;
     const bool jumps = follows && last_run_->device_stop() != run.device_start();
     if (jumps && std::exchange(device_lost_, false)) {
         findings_.notes.push_back(
@@ -185,7 +188,52 @@ bool AxisCheck::is_cut_here(const SeenStep* seen) {
     return seen == nullptr || seen->edge != *maker_->next();
 }
 
-void AxisCheck::compare(const SeenStep& seen) {
+/// Compares many steps at once, as long as they are equal. Returns false if no step is.
+bool AxisCheck::compare_equal() {
+    if (!maker_ || waiting_.empty()) { return false; }
+    const SeenBatch& batch = waiting_.batch();
+    const auto made = maker_->ready();
+    if (made.empty() || batch.incarnation() != maker_->run().incarnation || batch.count() != maker_->count()) {
+        return false;
+    }
+    const auto [expected, seen] = std::ranges::mismatch(made, batch.edges());
+    const std::size_t equal = in_time(batch, {made.begin(), expected});
+    if (equal > 0) { note_equal(equal); }
+    return equal > 0;
+}
+
+void AxisCheck::note_equal(std::size_t steps) {
+    last_tick_ = waiting_.batch().edges()[steps - 1].tick;
+    if (follower_ != nullptr) {
+        for (std::size_t i = 0; i < steps; ++i) { pass_step(true); }
+    } else {
+        maker_->pass(steps);
+        findings_.steps += static_cast<std::int64_t>(steps);
+    }
+    waiting_.pass(steps);
+    steps_ += static_cast<std::int64_t>(steps);
+    findings_.last_tick = std::max(findings_.last_tick, last_tick_);
+}
+
+/// The number of the steps, equal by the device's clock, that are also at their commanded machine times. An axis's own
+/// moves follow only the device's clock.
+std::size_t AxisCheck::in_time(const SeenBatch& batch, std::span<const StepEdge> steps) {
+    const Run& run = maker_->run();
+    if (run.epoch == 0) { return steps.size(); }
+    findings_.clock_error = std::max(findings_.clock_error, batch.clock_error() + run.clock_error);
+    if (batch.shares_time() && run.shares_time()) { return steps.size(); }
+    const Ticks most = allowed(batch.clock_error(), run.clock_error);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        const Tick tick = steps[i].tick;
+        const Ticks late = length_of(batch.machine_time(tick) - maker_->commanded_at(tick));
+        if (late > most) { return i; }
+        findings_.latest = std::max(findings_.latest, late);
+    }
+    return steps.size();
+}
+
+/// Says why the next step in the log is not the next one of its run.
+void AxisCheck::differ_at(const SeenStep& seen) {
     const StepEdge expected = *maker_->next();
     const std::int64_t count = maker_->count() + expected.direction;
     const std::string step = step_name();
@@ -203,27 +251,43 @@ void AxisCheck::compare(const SeenStep& seen) {
         return differ(fmt::format("{} is expected to reach {}, but in the log it reaches {}", step, count, seen.count),
                       expected.tick, seen.edge.tick);
     }
-    compare_time(seen, step);
-    pass_step(true);
-    waiting_.pop_front();
-    ++steps_;
-    if (follower_ == nullptr) { ++findings_.steps; }
-    last_tick_ = expected.tick;
-    if (!findings_.last_tick || *findings_.last_tick < expected.tick) { findings_.last_tick = expected.tick; }
+    const Ticks error = seen.error + maker_->run().clock_error;
+    differ(fmt::format("{} was made at machine time {}, commanded for {}; the uncertainty of its clocks was {}", step,
+                       seen.machine.value, maker_->commanded().value, plural(error.value, "tick")),
+           maker_->commanded(), seen.machine);
 }
 
-/// An axis's own moves follow only the device's clock.
-void AxisCheck::compare_time(const SeenStep& seen, const std::string& step) {
-    const Run& run = maker_->run();
-    if (run.epoch == 0) { return; }
-    const Ticks late = length_of(seen.machine - maker_->commanded());
-    findings_.latest = std::max(findings_.latest, late);
-    findings_.clock_error = std::max(findings_.clock_error, seen.error + run.clock_error);
-    if (late <= allowed(seen.error, run.clock_error)) { return; }
-    differ(fmt::format("{} was made at machine time {}, commanded for {}; the uncertainty of its clocks was {}", step,
-                       seen.machine.value, maker_->commanded().value,
-                       plural((seen.error + run.clock_error).value, "tick")),
-           maker_->commanded(), seen.machine);
+// ---- Missing messages ----------------------------------------------------------------------------------------------
+
+/// Passes the steps whose messages are missing.
+void AxisCheck::pass_gap() {
+    if (!steps_gap_ || !maker_) { return; }
+    const bool is_of_it = maker_->run().incarnation == steps_gap_->incarnation;
+    while (is_of_it && maker_->next() != nullptr && maker_->next()->tick < steps_gap_->until && !is_cut_here(nullptr)) {
+        pass_step(false);
+        ++gap_steps_;
+    }
+    const bool is_behind = is_of_it && maker_->next() != nullptr && maker_->next()->tick >= steps_gap_->until;
+    if (is_behind) { steps_gap_.reset(); }
+}
+
+/// Drops the steps of runs that are missing: they are before the next run.
+void AxisCheck::drop_steps_of_missing_runs() {
+    if (!runs_gap_) { return; }
+    gap_run_steps_ += waiting_.drop_before(runs_gap_->incarnation, runs_gap_->until + Ticks{1});
+    if (!waiting_.empty()) { runs_gap_.reset(); }
+}
+
+void AxisCheck::note_gaps() {
+    if (gap_steps_ == 0 && gap_run_steps_ == 0) { return; }
+    findings_.add_unknown(fmt::format("axis {}: {} of its runs are not in the log, and {} in the log are of runs that "
+                                      "are not; all others are compared",
+                                      name_, plural(gap_steps_, "step"), plural(gap_run_steps_, "step")));
+}
+
+std::string AxisCheck::waiting_text() const {
+    return fmt::format("{} from tick {} on", plural(static_cast<std::int64_t>(waiting_.size()), "step"),
+                       waiting_.front().edge.tick.value);
 }
 
 // ---- Processes that ended ------------------------------------------------------------------------------------------
@@ -267,7 +331,7 @@ void AxisCheck::leave_run() {
 /// The steps are recorded, but their runs are not.
 void AxisCheck::leave_steps() {
     std::vector<SeenStep> left;
-    for (; !waiting_.empty() && (!maker_ || is_of_older_process(waiting_.front())); waiting_.pop_front()) {
+    for (; !waiting_.empty() && (!maker_ || is_of_older_process(waiting_.front())); waiting_.pass(1)) {
         left.push_back(waiting_.front());
     }
     check_left(left);
@@ -324,6 +388,7 @@ void AxisCheck::finish(const HasEnded& has_ended, LogEdges edges) {
     }
     if (findings_.going() && !maker_ && !waiting_.empty() && is_left_at_end(has_ended)) { leave_steps(); }
     if (findings_.going()) { end_of_log(edges); }
+    if (findings_.going()) { note_gaps(); }
     if (findings_.going() && before_log_steps_ > 0) {
         findings_.notes.push_back(fmt::format(
             "axis {}: {} before tick {} belong to runs that ended before the log began, and are not compared", name_,
@@ -341,26 +406,23 @@ bool AxisCheck::is_left_at_end(const HasEnded& has_ended) {
 
 void AxisCheck::end_of_log(LogEdges edges) {
     const std::string compared = plural(steps_, "step") + " up to " + at_tick(last_tick_, "there") + " compared";
-    if (edges.ends_early && maker_) {
+    if (maker_ && (edges.ends_early || edges.lacks_steps)) {
         findings_.add_unknown("axis " + name_ + ": the log ends before the last steps of " + name_of(maker_->run()) +
                               "; " + compared);
     } else if (edges.begins_late && !last_run_ && !waiting_.empty()) {
         findings_.add_unknown("axis " + name_ + ": no run of it is in the log, which begins later; " +
                               plural(static_cast<std::int64_t>(waiting_.size()), "step") + " cannot be compared");
-    } else if (edges.ends_early && !waiting_.empty()) {
-        findings_.add_unknown(fmt::format(
-            "axis {}: the log ends before the record of the run that {} from tick {} on belong to; {}", name_,
-            plural(static_cast<std::int64_t>(waiting_.size()), "step"), waiting_.front().edge.tick.value, compared));
+    } else if (!waiting_.empty() && (edges.ends_early || edges.lacks_runs)) {
+        findings_.add_unknown(fmt::format("axis {}: the log ends before the record of the run that {} belong to; {}",
+                                          name_, waiting_text(), compared));
     } else if (maker_) {
         const Tick expected = maker_->next()->tick;
         differ(fmt::format("axis {}: the log has no more steps, although {} makes one at tick {}; {}", name_,
                            name_of(maker_->run()), expected.value, compared),
                expected, {});
     } else if (!waiting_.empty()) {
-        differ(fmt::format("axis {}: {} from tick {} on belong to no run in the log; {}", name_,
-                           plural(static_cast<std::int64_t>(waiting_.size()), "step"), waiting_.front().edge.tick.value,
-                           compared),
-               {}, waiting_.front().edge.tick);
+        differ(fmt::format("axis {}: {} belong to no run in the log; {}", name_, waiting_text(), compared), {},
+               waiting_.front().edge.tick);
     }
 }
 

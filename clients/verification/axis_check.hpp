@@ -2,6 +2,8 @@
 // must exist. In the device's clock each step must be at its exact tick. If the device has its own clock, each step of
 // a frame must also be at the commanded machine time, within the clocks' uncertainty.
 //
+// Where messages are missing, the comparison goes on behind them; what they contained is unknown.
+//
 // A process that ended unexpectedly may have left its last runs or steps unrecorded. The steps that it left are
 // compared with the plan, if there is one, and reported in a note.
 #pragma once
@@ -11,6 +13,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +23,7 @@
 #include "clients/verification/findings.hpp"
 #include "clients/verification/left_steps.hpp"
 #include "clients/verification/seen_step.hpp"
+#include "clients/verification/waiting_steps.hpp"
 
 namespace lockstep::verification {
 
@@ -43,6 +47,8 @@ public:
 struct LogEdges {
     bool begins_late = false;  // its process had published before the log began
     bool ends_early = false;   // it ends so soon after the newest steps and runs that related messages may be missing
+    bool lacks_steps = false;  // by the marks, messages of steps after the last one are missing
+    bool lacks_runs = false;   // likewise runs
 };
 
 class AxisCheck final : public analysis::StepListener {
@@ -67,6 +73,8 @@ public:
     /// Runs must come in the order of their numbers.
     void take(Run run);
     void runs_missing(std::int64_t from, std::int64_t end);
+    /// The record has two different runs with this number.
+    void runs_contradict(const Run& other);
     /// The axis has reported a lost device: the next run may be on a device that counts from 0.
     void device_lost() { device_lost_ = true; }
     /// Requires all messages of steps of that process from this number on to be in the log.
@@ -78,19 +86,24 @@ public:
 
     void on_batch(const analysis::StepBatch& batch) override;
     void on_break(const analysis::Break& what) override;
+    void on_contradiction(const analysis::Contradiction& what) override;
 
 private:
     void settle(bool log_ended);
     bool begin_next_run();
     bool is_before_log(const Run& run) const;
-    bool is_before_log(const SeenStep& seen) const;
     void leave_out_before_log(const Run& first);
     void pass_before_log();
     void end_run();
     void pass_step(bool is_recorded);
     bool is_cut_here(const SeenStep* seen);
-    void compare(const SeenStep& seen);
-    void compare_time(const SeenStep& seen, const std::string& step);
+    bool compare_equal();
+    void note_equal(std::size_t steps);
+    std::size_t in_time(const SeenBatch& batch, std::span<const StepEdge> steps);
+    void differ_at(const SeenStep& seen);
+    void pass_gap();
+    void drop_steps_of_missing_runs();
+    void note_gaps();
     void end_of_log(LogEdges edges);
     bool is_left_at_end(const HasEnded& has_ended);
     std::size_t birth_of(std::int64_t incarnation);
@@ -103,6 +116,7 @@ private:
     void differ_unrecorded(std::int64_t steps);
     void differ(std::string text, std::optional<Tick> expected, std::optional<Tick> seen);
     std::string step_name() const;
+    std::string waiting_text() const;
 
     std::string name_;
     Findings& findings_;
@@ -110,12 +124,22 @@ private:
     Planned planned_;
     RunFollower* follower_ = nullptr;
     analysis::StepStream stream_{{this}};
-    std::deque<SeenStep> waiting_;
+    WaitingSteps waiting_;
     std::deque<Run> runs_;
     std::vector<std::int64_t> incarnations_;       // in the order of their first messages
     std::optional<StepMaker> maker_;               // of the run being compared
     std::optional<Run> last_run_;                  // the one before it
     bool device_lost_ = false;                     // since last_run_
+    // Where messages are missing.
+    struct Gap {
+        std::int64_t incarnation = 0;
+        Tick until;  // of the device
+    };
+    std::optional<Gap> steps_gap_;     // the steps before that are not in the log
+    std::optional<Gap> runs_gap_;      // the steps up to that are of runs that are not in the log
+    bool runs_are_missing_ = false;    // since last_run_
+    std::int64_t gap_steps_ = 0;       // of recorded runs, not in the log
+    std::int64_t gap_run_steps_ = 0;   // in the log, of runs that are not
     std::map<std::int64_t, std::int64_t> marked_;  // by process: the first message of steps that must be in the log
     // For a log that begins later than the process. Ticks are in the device's time.
     std::optional<std::pair<std::int64_t, std::int64_t>> before_log_;  // the last run before the log: process, number

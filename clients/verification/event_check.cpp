@@ -174,6 +174,7 @@ void EventCheck::check_rest(std::uint32_t must, std::uint32_t may) {
 
 void EventCheck::leave() {
     forget_job();
+    program_.reset();
     knows_devices_ = false;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "clients/analysis/log/record_end.hpp"
@@ -25,6 +26,15 @@ struct Difference {
     std::string commanded;              // the job, its line, epoch and frame there
 };
 
+enum class Verdict : std::uint8_t {
+    Exact,     // the log contains what it must, and nothing else
+    Unknown,   // messages are missing; all others agree
+    NotExact,  // the log contradicts its programs or itself
+};
+
+/// "exact", "unknown", "not exact"
+std::string_view name_of(Verdict verdict);
+
 struct Findings {
     std::int64_t steps = 0;                 // compared and equal
     std::int64_t runs = 0;                  // of jobs, equal to their plan
@@ -36,16 +46,30 @@ struct Findings {
     Ticks clock_error;                      // uncertainty of machine time; 0 if one clock drives all devices
     std::optional<Difference> difference;   // the first
     std::optional<std::string> unreadable;  // the documents of the log that cannot be decoded
-    std::vector<std::string> unknown;       // results that are unknown, since the log lacks data
+    std::vector<std::string> unknown;       // results that are unknown, since the log lacks data; the first kUnknown
+    std::uint64_t more_unknown = 0;         // beyond these
     std::vector<std::string> notes;
+    bool lacks_messages = false;  // between others
     analysis::RecordEnd end;
 
-    /// True if the log suffices for a result and contains no difference.
-    bool is_exact() const { return !difference && unknown.empty() && end.missing.empty(); }
+    static constexpr std::size_t kUnknown = 100;
+
+    /// The log suffices for a result and contains no difference.
+    bool is_exact() const { return verdict() == Verdict::Exact; }
+    Verdict verdict() const {
+        if (difference) { return Verdict::NotExact; }
+        return unknown.empty() && end.missing.empty() ? Verdict::Exact : Verdict::Unknown;
+    }
     /// Nothing more is compared after the first difference or an unreadable document.
     bool going() const { return !difference && !unreadable; }
     void add_unknown(std::string what) {
-        if (going()) { unknown.push_back(std::move(what)); }
+        if (!going()) { return; }
+        unknown.size() < kUnknown ? unknown.push_back(std::move(what)) : void(++more_unknown);
+    }
+    /// Messages are missing between others.
+    void add_missing(std::string what) {
+        add_unknown(std::move(what));
+        lacks_messages = true;
     }
     void differ(Difference found) {
         if (going()) { difference = std::move(found); }

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "clients/verification/run_difference.hpp"
-#include "core/protocol/frame_room.hpp"
 #include "services/documents/machine_file.hpp"
 
 namespace lockstep::verification {
@@ -26,52 +24,47 @@ std::size_t index_of(const MachineConfig& machine, const std::string& axis) {
     return static_cast<std::size_t>(std::ranges::find(machine.axes, axis, &AxisConfig::name) - machine.axes.begin());
 }
 
-/// Returns the planned run, in machine time. `clock_error`: the tolerance of each step.
-Run planned_run(const Frame& frame, std::size_t axis, bool tail, Ticks clock_error) {
-    const AxisTrack& track = frame.axes[axis];
-    Run run{.epoch = frame.epoch,
-            .frame = frame.number,
-            .start = frame.start,
-            .from = track.from,
-            .pieces = {},
-            .clock_error = clock_error};
-    run.pieces.assign(track.body.begin(), track.body.end());
-    if (!tail) { return run; }
-    run.tail = true;
-    run.from = run.to();
-    run.start += frame.ticks;
-    run.pieces.assign(track.tail.begin(), track.tail.end());
-    return run;
-}
-
 }  // namespace
 
 // ---- Records -----------------------------------------------------------------------------------------------------
 
 /// Late records of a stopped coordinator's job are sorted before the job that another coordinator has begun since.
-void JobCheck::take(const RecordedJob& record) {
+void JobCheck::take(const RecordedJob& record, bool is_behind_gap) {
+    resolve_doubt(is_behind_gap);
     if (begins_late_ && !first_job_ && record.event != "begun") { return; }  // of a job begun before the log
-    if (record.event == "begun" && !first_job_) {
-        first_job_ = record.job;
+    if (record.event == "begun" && !first_job_) { first_job_ = record.job; }
+    if (record.event == "epoch" && !first_epoch_) {
+        first_epoch_ = static_cast<Epoch>(record.epoch);
         leave_out_before_first_job();
     }
-    if (record.event == "epoch" && !first_epoch_) { first_epoch_ = static_cast<Epoch>(record.epoch); }
     auto behind = records_.end();
     if (is_late(record)) {
-        const auto own = std::ranges::find(records_, record.coordinator, &RecordedJob::coordinator);
-        behind = std::find_if(own == behind ? records_.begin() : own, behind, [&](const RecordedJob& r) {
+        const auto own = std::ranges::find(records_, record.coordinator, &Record::coordinator);
+        behind = std::find_if(own == behind ? records_.begin() : own, behind, [&](const Record& r) {
             return r.event == "begun" && r.coordinator != record.coordinator;
         });
     }
-    records_.insert(behind, record);
+    records_.insert(behind, Record{record, is_behind_gap});
     if (record.event == "begun") { begun_.emplace_back(record.coordinator, record.job); }
     if (begun_.size() > kLabelsKept) { begun_.pop_front(); }
-    std::deque<std::pair<std::string, Run>> waiting;
-    waiting.swap(waiting_);
-    for (const auto& [axis, run] : waiting) { take(axis, run); }
+    take_waiting();
 }
 
-void JobCheck::take(const program_event_t& event) {
+void JobCheck::take_waiting() {
+    std::deque<AxisRun> waiting;
+    waiting.swap(waiting_);
+    for (AxisRun& of : waiting) { wait(std::move(of)); }
+}
+
+/// Missing records before an event may be of the job as well as events.
+void JobCheck::take(const program_event_t& event, bool is_behind_gap) {
+    if (is_behind_gap) {
+        RecordedJob gap;
+        gap.coordinator = event.coordinator;
+        gap.job = event.job;
+        gap.event = "gap";
+        records_.push_back(Record{gap, true});
+    }
     if (begins_late_ && !first_job_ && event.job != newest_event_job_) { events_.forget_all(); }
     newest_event_job_ = event.job;
     events_.take(event);
@@ -83,15 +76,60 @@ void JobCheck::begins_late() {
 }
 
 /// A coordinator that ends or gives a job up may not have published the last events.
-void JobCheck::handle(const RecordedJob& record) {
-    if (is_outdated(record)) { return; }
+void JobCheck::handle(const Record& record) {
+    if (record.is_behind_gap) { lose_job(record); }
+    if (record.event == "gap" || is_outdated(record)) { return; }
     const bool lacks_events = record.outcome == "failed" || (job_ && job_->coordinator != record.coordinator);
     if (record.event != "begun") { note_owner(record); }
     if (record.event == "override") { return turn(record); }
-    close_epoch(lacks_events);
+    const bool goes_on = is_of_job(record) && record.event != "begun" && record.outcome != "failed";
+    close_epoch(goes_on, lacks_events);
     if (record.event == "begun") { return begin(record); }
     if (record.event == "epoch") { return begin_epoch(record); }
     end(record);
+}
+
+/// Records before this one are missing. From here on the plan of the job is not known.
+void JobCheck::lose_job(const Record& record) {
+    findings_.add_missing(fmt::format("messages of jobs are missing before {} of {}; from there on its runs are compared "
+                                      "only with their own records",
+                                      record.event == "gap" ? "an event" : "\"" + record.event + "\"",
+                                      number_of(record)));
+    lacks_records_ = true;
+    lose_epoch();
+    job_.reset();
+    if (record.event == "begun") { return; }
+    job_ = Job{.coordinator = record.coordinator,
+               .number = record.job,
+               .label = number_of(record),
+               .replay = {},
+               .is_lost = true,
+               .broken = {},
+               .broken_axis = {}};
+    events_.leave();
+}
+
+void JobCheck::resolve_doubt(bool lacks_records) {
+    if (!doubt_) { return; }
+    lacks_records ? findings_.add_missing(doubt_->text) : findings_.differ(std::move(*doubt_));
+    doubt_.reset();
+}
+
+/// The further runs of the epoch in progress are not compared with its plan.
+void JobCheck::lose_epoch() {
+    suspects_.clear();
+    if (!epoch_) { return; }
+    lost_epochs_.push_back(epoch_->epoch());
+    epoch_.reset();
+}
+
+void JobCheck::contradict(const JobRecord& other) {
+    std::visit(
+        [this](const auto& record) {
+            differ(fmt::format("message {} of jobs is in the log twice, with different content; it is of job {}",
+                               record.sequence, record.job));
+        },
+        other);
 }
 
 /// A record of a job by its coordinator, after another coordinator began a job.
@@ -117,7 +155,7 @@ void JobCheck::note_owner(const RecordedJob& record) {
     findings_.notes.push_back(job_->label + ": another coordinator has taken over and continued it");
 }
 
-void JobCheck::begin(const RecordedJob& record) {
+void JobCheck::begin(const Record& record) {
     if (job_ && job_->coordinator == record.coordinator) {
         return differ(job_->label + ": the log has no end of it, though " + number_of(record) + " begins");
     }
@@ -128,7 +166,11 @@ void JobCheck::begin(const RecordedJob& record) {
         Job{.coordinator = record.coordinator, .number = record.job, .label = number_of(record) + ", " + record.kind};
     events_.begin(record.coordinator, record.job, job_->label, nullptr);
     if (!record.has_program() || record.kind == "own-move") { return; }  // axes on their own make no epoch
-    if (!record.lacks.empty()) { return differ(job_->label + ": its program is not known: " + record.lacks); }
+    if (!record.lacks.empty()) {
+        findings_.add_missing(job_->label + ": its program is not known: " + record.lacks);
+        job_->is_lost = true;
+        return events_.leave();
+    }
     const auto machine = parse_machine(record.config);
     const auto program = record.read_program();
     if (!machine || !program) {
@@ -141,6 +183,7 @@ void JobCheck::begin(const RecordedJob& record) {
     if (!replay) { return differ(job_->label + ": it cannot be planned again: " + replay.error()); }
     job_->replay = std::move(*replay);
     events_.begin(record.coordinator, record.job, job_->label, job_->replay->program());
+    if (record.is_behind_gap) { events_.leave(); }  // events at rest may come before the job's begin
 }
 
 bool JobCheck::is_of_job(const RecordedJob& record) const {
@@ -148,6 +191,12 @@ bool JobCheck::is_of_job(const RecordedJob& record) const {
 }
 
 void JobCheck::begin_epoch(const RecordedJob& record) {
+    const auto epoch = static_cast<Epoch>(record.epoch);
+    if (is_of_job(record) && job_->is_lost) {
+        lost_epochs_.push_back(epoch);
+        if (lost_epochs_.size() > kLabelsKept) { lost_epochs_.pop_front(); }
+        return;
+    }
     if (!is_of_job(record) || !job_->replay) {
         return differ("the log has an epoch of " + number_of(record) + ", but not the beginning of that job");
     }
@@ -160,19 +209,17 @@ void JobCheck::begin_epoch(const RecordedJob& record) {
         return differ(job_->label + " continues from " + text_of(place) + "; planned: " + text_of(start->place));
     }
     events_.check_rest(start->place.block, start->place.block);
-    events_.begin_epoch(static_cast<Epoch>(record.epoch), record.coordinator);
-    std::vector<Progress> axes;
-    for (const Position at : start->at) { axes.push_back({.at = at}); }
-    const auto epoch = static_cast<Epoch>(record.epoch);
-    epoch_.emplace(EpochReplay(job_->replay->machine(), epoch, std::move(*start), overrides, {record.start_tick}),
-                   std::move(axes));
+    events_.begin_epoch(epoch, record.coordinator);
+    const AxisPositions at = start->at;
+    const MachineConfig& machine = job_->replay->machine();
+    epoch_.emplace(machine, EpochReplay(machine, epoch, std::move(*start), overrides, {record.start_tick}), at);
     labels_.emplace_back(epoch, job_->label);
     if (labels_.size() > kLabelsKept) { labels_.pop_front(); }
 }
 
 void JobCheck::turn(const RecordedJob& record) {
-    if (!epoch_ || epoch_->replay.epoch() != static_cast<Epoch>(record.epoch)) { return; }  // no axis ran a frame of it
-    if (!epoch_->replay.turn(static_cast<FrameNumber>(record.behind_frame),
+    if (!epoch_ || epoch_->epoch() != static_cast<Epoch>(record.epoch)) { return; }  // no axis ran a frame of it
+    if (!epoch_->replay().turn(static_cast<FrameNumber>(record.behind_frame),
                              {record.feed_percent, record.rapid_percent})) {
         differ(fmt::format(
             "{}: its overrides were changed after frame {}, but frames after that had been run when it was recorded",
@@ -192,6 +239,7 @@ void JobCheck::end(const RecordedJob& record) {
     if (!is_of_job(record)) {
         return differ("the log has the end of " + number_of(record) + ", but not its beginning");
     }
+    if (job_->is_lost) { return job_.reset(); }
     Job job = *std::exchange(job_, std::nullopt);
     if (!job.replay) { return events_.end(record.outcome == "done"); }
     const auto left = job.replay->next();
@@ -211,64 +259,86 @@ void JobCheck::end(const RecordedJob& record) {
 }
 
 /// Compares the epoch's end, and takes the state of the job after it.
-void JobCheck::close_epoch(bool lacks_events) {
+void JobCheck::close_epoch(bool goes_on, bool lacks_events) {
     if (!epoch_) { return; }
-    plan_next(epoch_->replay);
-    bool whole = true;
-    for (std::size_t i = 0; i < epoch_->axes.size() && whole; ++i) { whole = !breaks_off(i); }
-    if (whole) { check_epoch(lacks_events); }
+    plan_next(epoch_->replay());
+    const std::size_t axes = job_->replay->machine().axes.size();
+    std::optional<Shortfall> found = epoch_->shortfall();
+    for (std::size_t i = 0; goes_on && i < axes && found && suspect(*found); ++i) { found = epoch_->shortfall(); }
+    found ? break_off(*found) : check_epoch(lacks_events);
     epoch_.reset();
 }
 
-/// Returns true, and notes why, if the axis did not run its last frame and tail to their end.
-bool JobCheck::breaks_off(std::size_t i) {
-    const Progress& axis = epoch_->axes[i];
-    const std::string frame = fmt::format("frame {}", axis.ran);
-    if (axis.cut) {
-        break_off(i, "was stopped early in " + frame);
-        return true;
-    }
-    if (axis.ran == 0 || axis.in_tail) { return false; }
-    const Frame* last = epoch_->replay.frame(axis.ran);
-    if (last == nullptr || last->last || last->axes[i].tail.empty()) { return false; }
-    break_off(i, "has nothing in the log after " + frame + ", which is not its last");
+/// If an axis has nothing more in the log, its runs may be missing. The epoch is then taken for complete, if others ran
+/// further; the axis's next run shows whether runs are missing.
+bool JobCheck::suspect(const Shortfall& shortfall) {
+    const std::string& axis = job_->replay->machine().axes[shortfall.axis].name;
+    if (shortfall.kind != Shortfall::Kind::Silent) { return false; }
+    const FrameNumber most = epoch_->ran();
+    if (!epoch_->assume_complete(shortfall.axis)) { return false; }
+    assumed_.emplace_back(axis, epoch_->epoch());
+    if (assumed_.size() > kAssumedKept) { assumed_.pop_front(); }
+    suspects_.try_emplace(
+        axis, incarnations_[axis],
+        Difference{.text = fmt::format("axis {} {}, though {} went on to frame {}", axis, shortfall.text,
+                                            job_->label, most),
+                        .axis = axis,
+                        .tick_expected = {},
+                        .tick_seen = {},
+                        .commanded = job_->label});
     return true;
 }
 
-/// Uses the coordinator's own evaluation of where the axes came to rest.
-void JobCheck::check_epoch(bool lacks_events) {
-    std::vector<AxisEnd> ends;
-    for (const Progress& axis : epoch_->axes) { ends.push_back({axis.ran, axis.at}); }
-    const EpochEnd end = epoch_->replay.evaluate(ends);
-    switch (end.kind) {
-        case EpochEnd::Kind::FramesDiffer: return break_off(end.axis, "ran other frames than the rest");
-        case EpochEnd::Kind::Misplaced: return break_off(end.axis, "is not where its frames end");
-        case EpochEnd::Kind::Complete:
-        case EpochEnd::Kind::Interrupted: break;
+/// The axis has a further run.
+void JobCheck::resolve(const std::string& axis, const Run& run, bool is_behind_gap) {
+    incarnations_[axis] = run.incarnation;
+    auto found = suspects_.extract(axis);
+    if (!found) { return; }
+    Suspect& suspect = found.mapped();
+    const bool is_known = !is_behind_gap && suspect.incarnation == run.incarnation;
+    is_known ? findings_.differ(std::move(suspect.difference)) : findings_.add_missing(suspect.difference.text);
+}
+
+void JobCheck::resolve_at_end(const LogEnd& end) {
+    for (auto& [axis, suspect] : suspects_) {
+        const bool is_known = end.at_rest && !end.has_ended(axis) && !end.lacks_runs(axis);
+        is_known ? findings_.differ(suspect.difference) : findings_.add_missing(suspect.difference.text);
     }
+    suspects_.clear();
+}
+
+/// Takes the state of the job after an epoch that all axes ran to its end.
+void JobCheck::check_epoch(bool lacks_events) {
+    const EpochEnd end = epoch_->end();
     const bool is_whole = end.kind == EpochEnd::Kind::Complete;
-    const std::uint32_t rests_before = is_whole ? epoch_->replay.source()->end().block : end.place.block;
-    job_->replay->ended(end, epoch_->replay.source());
-    events_.check_motion(epoch_->replay.take_events(end.ran), lacks_events);
+    const std::uint32_t rests_before = is_whole ? epoch_->replay().source()->end().block : end.place.block;
+    job_->replay->ended(end, epoch_->replay().source());
+    events_.check_motion(epoch_->replay().take_events(end.ran), lacks_events);
     events_.check_rest(lacks_events ? 0 : rests_before, job_->replay->moves_from());
 }
 
-void JobCheck::break_off(std::size_t axis, const std::string& why) {
-    job_->broken_axis = job_->replay->machine().axes[axis].name;
-    job_->broken = "axis " + job_->broken_axis + " " + why;
+void JobCheck::break_off(const Shortfall& shortfall) {
+    job_->broken_axis = job_->replay->machine().axes[shortfall.axis].name;
+    job_->broken = "axis " + job_->broken_axis + " " + shortfall.text;
 }
 
-void JobCheck::finish(bool at_rest, const HasEnded& has_ended) {
+void JobCheck::finish(const LogEnd& end) {
     leave_out_before_first_job();
     if (begins_late_) { note_beginning(); }
     for (; !records_.empty() && findings_.going(); records_.pop_front()) { handle(records_.front()); }
-    if (!waiting_.empty()) {
-        const auto& [axis, run] = waiting_.front();
-        differ(fmt::format("axis {}: the log has no record of epoch {}, which it ran", axis, run.epoch), axis, &run);
+    lacks_records_ = lacks_records_ || end.lacks_records;
+    resolve_doubt(lacks_records_);
+    if (!waiting_.empty() && !unplaced_) {
+        const auto& [axis, run, is_behind_gap] = waiting_.front();
+        const std::string text =
+            fmt::format("axis {}: the log has no record of epoch {}, which it ran", axis, run.epoch);
+        unplaced_ = Difference{text, axis, {}, run.start, commanded(run, run.start)};
     }
-    if (!job_ && at_rest && !begins_late_) { events_.finish(); }
+    if (unplaced_) { lacks_records_ ? findings_.add_missing(unplaced_->text) : findings_.differ(*unplaced_); }
+    resolve_at_end(end);
+    if (!job_ && end.at_rest && !begins_late_ && !lacks_records_) { events_.finish(); }
     if (!job_ || !findings_.going()) { return; }
-    if (at_rest) { return leave_job(has_ended); }
+    if (end.at_rest) { return leave_job(end); }
     check_events_so_far();
     const auto& last = findings_.last_tick;
     findings_.add_unknown(fmt::format("the log ends before {} does; the steps up to {} are compared", job_->label,
@@ -277,10 +347,7 @@ void JobCheck::finish(bool at_rest, const HasEnded& has_ended) {
 
 /// Checks the events of the epoch in progress at the end of the log.
 void JobCheck::check_events_so_far() {
-    if (!epoch_) { return; }
-    FrameNumber ran = 0;
-    for (const Progress& axis : epoch_->axes) { ran = std::max(ran, axis.ran); }
-    events_.check_motion(epoch_->replay.take_events(ran), true);
+    if (epoch_) { events_.check_motion(epoch_->replay().take_events(epoch_->ran()), true); }
 }
 
 void JobCheck::note_beginning() {
@@ -297,16 +364,19 @@ void JobCheck::note_beginning() {
 }
 
 /// Handles a job without an end, although all axes have come to rest, or their processes have ended.
-void JobCheck::leave_job(const HasEnded& has_ended) {
-    if (job_->replay) {
-        for (std::size_t i = 0; epoch_ && i < epoch_->axes.size(); ++i) {
+void JobCheck::leave_job(const LogEnd& end) {
+    if (job_->replay && epoch_) {
+        for (std::size_t i = 0; i < job_->replay->machine().axes.size(); ++i) {
             const std::string& axis = job_->replay->machine().axes[i].name;
-            if (!breaks_off(i) || epoch_->axes[i].cut || has_ended(axis)) { continue; }
-            return differ(job_->label + " has no end in the log, and " + job_->broken, axis);
+            const auto found = epoch_->shortfall_of(i);
+            if (!found || found->kind == Shortfall::Kind::Cut || end.has_ended(axis)) { continue; }
+            break_off(*found);
+            const std::string text = job_->label + " has no end in the log, and " + job_->broken;
+            return end.lacks_runs(axis) ? findings_.add_missing(text) : differ(text, axis);
         }
-        if (epoch_) { job_->broken.clear(); }
-        close_epoch(true);
+        close_epoch(false, true);
     }
+    if (end.lacks_records) { return findings_.add_missing("the end of " + job_->label + " is not in the log"); }
     findings_.notes.push_back(job_->label + " has no end in the log" +
                               (job_->broken.empty() ? "; the axes are at rest" : ": " + job_->broken) +
                               (job_->replay ? "; what was run of it is as planned" : ""));
@@ -315,7 +385,7 @@ void JobCheck::leave_job(const HasEnded& has_ended) {
 // ---- Runs --------------------------------------------------------------------------------------------------------
 
 bool JobCheck::is_before_first_job(const Run& run) const {
-    return begins_late_ && (!first_job_ || (first_epoch_ && run.epoch < *first_epoch_));
+    return begins_late_ && first_epoch_ && run.epoch < *first_epoch_;
 }
 
 /// Counts them as runs without a plan.
@@ -326,111 +396,97 @@ void JobCheck::leave_out(std::size_t runs) {
 
 void JobCheck::leave_out_before_first_job() {
     if (!begins_late_) { return; }
-    const auto is_out = [&](const auto& waiting) { return is_before_first_job(waiting.second) || !first_epoch_; };
+    const auto is_out = [&](const AxisRun& of) { return is_before_first_job(of.run) || !first_epoch_; };
     leave_out(std::erase_if(waiting_, is_out));
 }
 
-void JobCheck::take(const std::string& axis, const Run& run) {
+void JobCheck::take(const std::string& axis, const Run& run, bool is_behind_gap) {
     if (!findings_.going()) { return; }
-    if (is_before_first_job(run)) { return leave_out(1); }
-    if (place(axis, run)) { return; }
+    resolve(axis, run, is_behind_gap);
+    if (run.epoch == 0) { return void(++findings_.local_runs); }
+    wait({axis, run, is_behind_gap});
+}
+
+/// Compares the run, or keeps it until its epoch is known.
+void JobCheck::wait(AxisRun of) {
+    if (!findings_.going()) { return; }
+    if (is_before_first_job(of.run)) { return leave_out(1); }
+    if (place(of)) { return; }
     if (waiting_.size() == kMaxWaiting && begun_.empty()) {  // each job is recorded before its runs
         begins_late_ = true;
         leave_out_before_first_job();
     }
-    if (waiting_.size() == kMaxWaiting) { return differ("axis " + axis + ": runs of an unknown epoch", axis, &run); }
-    waiting_.emplace_back(axis, run);
+    if (waiting_.size() == kMaxWaiting) {
+        const auto& [axis, run, is_behind_gap] = waiting_.front();
+        if (!unplaced_) {
+            unplaced_ = Difference{"axis " + axis + ": runs of an unknown epoch", axis, {}, run.start,
+                                   commanded(run, run.start)};
+        }
+        lost_epochs_.push_back(run.epoch);
+        leave_out(std::erase_if(waiting_, [&](const AxisRun& other) { return other.run.epoch == lost_epochs_.back(); }));
+    }
+    waiting_.push_back(std::move(of));
 }
 
 /// Returns false if the run's epoch is not known yet.
-bool JobCheck::place(const std::string& axis, const Run& run) {
-    const auto begins_it = [&](const RecordedJob& record) {
-        return record.event == "epoch" && static_cast<Epoch>(record.epoch) == run.epoch;
+bool JobCheck::place(const AxisRun& of) {
+    const auto begins_it = [&](const Record& record) {
+        return record.event == "epoch" && static_cast<Epoch>(record.epoch) == of.run.epoch;
     };
-    if (!epoch_ || epoch_->replay.epoch() != run.epoch) {
+    const auto is_lost = [&] {
+        return std::ranges::find(lost_epochs_, of.run.epoch) != lost_epochs_.end() ||
+               std::ranges::find(assumed_, std::pair{of.axis, of.run.epoch}) != assumed_.end();
+    };
+    if ((!epoch_ || epoch_->epoch() != of.run.epoch) && !is_lost()) {
         const auto found = std::ranges::find_if(records_, begins_it);
         if (found == records_.end()) { return false; }
         for (auto left = found - records_.begin() + 1; left > 0 && findings_.going(); --left) {
-            handle(records_.front());
+            const Record record = std::move(records_.front());
             records_.pop_front();
+            handle(record);
         }
-        if (!findings_.going()) { return true; }
     }
     handle_turns();
     if (!findings_.going()) { return true; }
-    const std::size_t i = index_of(job_->replay->machine(), axis);
-    if (i < epoch_->axes.size()) {
-        compare(i, axis, run);
+    if (is_lost()) {
+        leave_out(1);
     } else {
-        differ("axis " + axis + " ran a frame of a machine that has no such axis", axis, &run);
+        compare(of);
     }
     return true;
 }
 
-void JobCheck::compare(std::size_t axis, const std::string& name, const Run& run) {
-    Progress& progress = epoch_->axes[axis];
-    if (const std::string why = out_of_order(progress, run); !why.empty()) {
-        return differ("axis " + name + ": " + name_of(run) + why, name, &run);
+void JobCheck::compare(const AxisRun& of) {
+    const auto& [name, run, is_behind_gap] = of;
+    const std::size_t axis = index_of(job_->replay->machine(), name);
+    if (axis == job_->replay->machine().axes.size()) {
+        return differ("axis " + name + " ran a frame of a machine that has no such axis", name, &run);
     }
-    const Frame* frame = epoch_->replay.frame(run.frame);
-    if (frame == nullptr) { return differ("axis " + name + ": the plan has no " + name_of(run), name, &run); }
-    const Run planned = planned_run(*frame, axis, run.tail, run.clock_error);
-    const auto found = has_own_clocks() ? compare_retimed(planned, run, progress.end) : compare_runs(planned, run);
-    if (found) {
-        return findings_.differ({"axis " + name + ": " + name_of(run) + " " + found->text, name, found->tick_expected,
-                                 found->tick_seen, commanded(run, found->tick_expected.value_or(run.start))});
-    }
-    progress = {run.frame, run.tail, run.cut, run.cut ? Position::steps(run.stop_count) : run.to(),
-                run.start + run.ticks()};
-    ++findings_.runs;
-    epoch_->replay.forget_before(std::ranges::min_element(epoch_->axes, {}, &Progress::ran)->ran);
+    const auto found = epoch_->compare(axis, run, is_behind_gap);
+    if (!found) { return void(++findings_.runs); }
+    if (job_->replay->program()->failure()) { return differ("", name, &run); }
+    doubt_ = {"axis " + name + ": " + name_of(run) + found->text, name, found->tick_expected, found->tick_seen,
+              commanded(run, found->tick_expected.value_or(run.start))};
+    job_->is_lost = true;
+    lose_epoch();
 }
 
 /// Plans what each axis may run after its newest run.
 void JobCheck::plan_next(EpochReplay replay) {
-    for (std::size_t i = 0; i < epoch_->axes.size(); ++i) {
-        planned_[job_->replay->machine().axes[i].name] = courses_of(replay, i);
-    }
-}
-
-/// Each course has further frames, or none, and then the tail of the last frame, or the path's end if it has no tail.
-/// Before its process ended, an axis may have run or armed, without a record, the frame in motion and all frames that
-/// were sent ahead.
-std::vector<Course> JobCheck::courses_of(EpochReplay& replay, std::size_t axis) const {
-    const Progress& progress = epoch_->axes[axis];
-    std::vector<Course> courses;
-    if (progress.cut || progress.in_tail) { return courses; }
-    Course frames;
-    const auto unrecorded = static_cast<FrameNumber>(frames_ahead(job_->replay->machine().timing)) + 1;
-    for (FrameNumber number = progress.ran; number <= progress.ran + unrecorded; ++number) {
-        const Frame* frame = number > 0 ? replay.frame(number) : nullptr;
-        if (number > progress.ran && frame == nullptr) { break; }
-        if (number > progress.ran) { frames.push_back(planned_run(*frame, axis, false, known_within())); }
-        Course course = frames;
-        if (frame != nullptr) { course.push_back(planned_run(*frame, axis, true, known_within())); }
-        if (!course.empty()) { courses.push_back(std::move(course)); }
-    }
-    return courses;
+    const auto& axes = job_->replay->machine().axes;
+    for (std::size_t i = 0; i < axes.size(); ++i) { planned_[axes[i].name] = epoch_->courses_of(i, replay); }
 }
 
 /// A copy of the replay makes the frames ahead, because the epoch's own frames may still be planned differently.
 std::vector<Course> JobCheck::planned(const std::string& axis, Tick tick) {
     if (epoch_) {
         handle_turns();
-        plan_next(epoch_->replay);
+        plan_next(epoch_->replay());
     }
     const auto found = planned_.find(axis);
     if (found == planned_.end() || found->second.empty()) { return {}; }
     const Run& last = found->second.back().back();
     return tick < last.start + last.ticks() ? found->second : std::vector<Course>{};
-}
-
-/// Returns an empty text if the run follows the axis's previous one.
-std::string JobCheck::out_of_order(const Progress& axis, const Run& run) const {
-    const std::string after = fmt::format(" follows frame {}", axis.ran);
-    if (axis.cut || axis.in_tail) { return after + ", with which the epoch had ended"; }
-    const FrameNumber next = run.tail ? axis.ran : axis.ran + 1;
-    return run.frame == next && run.frame > 0 ? "" : after;
 }
 
 std::string JobCheck::commanded(const Run& run, Tick tick) const {
@@ -439,8 +495,8 @@ std::string JobCheck::commanded(const Run& run, Tick tick) const {
     for (const auto& [epoch, label] : labels_) {
         if (epoch == run.epoch) { text = label + ", "; }
     }
-    if (epoch_ && epoch_->replay.epoch() == run.epoch) {
-        const std::int32_t line = job_->replay->line_of(epoch_->replay.block_at(tick + run.ahead));
+    if (epoch_ && epoch_->epoch() == run.epoch) {
+        const std::int32_t line = job_->replay->line_of(epoch_->replay().block_at(tick + run.ahead));
         if (line != 0) { text += fmt::format("line {}, ", line); }
     }
     return text + fmt::format("epoch {}, {}", run.epoch, name_of(run));

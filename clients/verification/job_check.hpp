@@ -1,4 +1,7 @@
 // Compares the runs of jobs with the frames that the coordinator's planning makes of their programs, bit for bit.
+//
+// Where records of jobs are missing, the rest of that job is not compared with its plan. Where runs of an axis are
+// missing, its other runs still are.
 #pragma once
 
 #include <deque>
@@ -11,10 +14,11 @@
 
 #include "clients/analysis/log/program_parts.hpp"
 #include "clients/analysis/log/run.hpp"
-#include "clients/verification/epoch_replay.hpp"
+#include "clients/verification/epoch_check.hpp"
 #include "clients/verification/event_check.hpp"
 #include "clients/verification/findings.hpp"
 #include "clients/verification/job_replay.hpp"
+#include "clients/verification/job_stream.hpp"
 #include "clients/verification/left_steps.hpp"
 
 namespace lockstep::verification {
@@ -27,19 +31,29 @@ public:
     /// The maximum number of runs that wait for the record of their epoch, which is written before they begin.
     static constexpr std::size_t kMaxWaiting = 4096;
 
-    /// Whether an axis's process had ended by the end of the log.
-    using HasEnded = std::function<bool(const std::string& axis)>;
-
     explicit JobCheck(Findings& findings) : findings_(findings), events_(findings) {}
 
-    void take(const RecordedJob& record);
-    void take(const program_event_t& event);
+    /// Records come in the order of their numbers. `is_behind_gap`: records of the coordinator before it are missing.
+    void take(const RecordedJob& record, bool is_behind_gap);
+    void take(const program_event_t& event, bool is_behind_gap);
+    /// Two different records of the log have the same number.
+    void contradict(const JobRecord& other);
     /// The log begins later than the record. A job that began before the log is not compared with its plan.
     void begins_late();
-    /// A run of a job. The runs of each axis must come in the order of their numbers.
-    void take(const std::string& axis, const Run& run);
-    /// Call once, at the end of the log. `at_rest`: the log continues long enough after the last motion on record.
-    void finish(bool at_rest, const HasEnded& has_ended);
+    /// A run of a job, or of the axis's own move, which is not compared. The runs of each axis must come in the order of
+    /// their numbers. `is_behind_gap`: runs before it are missing from the log.
+    void take(const std::string& axis, const Run& run, bool is_behind_gap);
+
+    /// What the log may lack at its end.
+    struct LogEnd {
+        bool at_rest = false;        // it continues long enough after the last motion on record
+        bool lacks_records = false;  // by the marks, records of jobs after the last one are missing
+        /// Whether an axis's process had ended, and whether by the marks runs of the axis after its last are missing.
+        std::function<bool(const std::string& axis)> has_ended;
+        std::function<bool(const std::string& axis)> lacks_runs;
+    };
+    /// Call once, at the end of the log.
+    void finish(const LogEnd& end);
 
     /// The motion at a tick of a run: "job 2, run plate.gcode, line 57, epoch 9, frame 12".
     std::string commanded(const Run& run, Tick tick) const;
@@ -54,46 +68,46 @@ private:
         std::int64_t number = 0;
         std::string label;                // "job 2, run plate.gcode"
         std::optional<JobReplay> replay;  // none for homing and own moves
+        bool is_lost = false;             // records of it are missing, so its plan is not known
         std::string broken;               // why the runs are not the whole plan; empty if they are
         std::string broken_axis;
     };
-    struct Progress {  // of an axis in an epoch
-        FrameNumber ran = 0;
-        bool in_tail = false;
-        bool cut = false;
-        Position at;
-        std::optional<Tick> end;  // of its last run
-    };
-    struct EpochCheck {
-        EpochReplay replay;
-        std::vector<Progress> axes;
+    struct Record : RecordedJob {
+        bool is_behind_gap = false;
     };
 
-    bool has_own_clocks() const { return job_->replay->machine().timing.time_source == TimeSource::Network; }
-    /// The largest clock error with which an axis moves.
-    Ticks known_within() const { return has_own_clocks() ? job_->replay->machine().clock_error_limit() : Ticks{}; }
-    void handle(const RecordedJob& record);
+    void handle(const Record& record);
+    void lose_job(const Record& record);
     bool is_late(const RecordedJob& record) const;
     bool is_outdated(const RecordedJob& record);
     void note_owner(const RecordedJob& record);
-    void begin(const RecordedJob& record);
+    void begin(const Record& record);
     void begin_epoch(const RecordedJob& record);
     void turn(const RecordedJob& record);
     void handle_turns();
     void end(const RecordedJob& record);
-    void close_epoch(bool lacks_events = false);
+    void close_epoch(bool goes_on, bool lacks_events);
+    void lose_epoch();
+    void resolve_doubt(bool lacks_records);
+    void take_waiting();
     void check_epoch(bool lacks_events);
     void check_events_so_far();
-    void break_off(std::size_t axis, const std::string& why);
-    bool breaks_off(std::size_t axis);
+    void break_off(const Shortfall& shortfall);
+    bool suspect(const Shortfall& shortfall);
+    void resolve(const std::string& axis, const Run& run, bool is_behind_gap);
+    void resolve_at_end(const LogEnd& end);
     bool is_of_job(const RecordedJob& record) const;
 
-    bool place(const std::string& axis, const Run& run);
-    void compare(std::size_t axis, const std::string& name, const Run& run);
+    struct AxisRun {
+        std::string axis;
+        Run run;
+        bool is_behind_gap = false;
+    };
+    bool place(const AxisRun& of);
+    void compare(const AxisRun& of);
+    void wait(AxisRun of);
     void plan_next(EpochReplay replay);
-    std::vector<Course> courses_of(EpochReplay& replay, std::size_t axis) const;
-    void leave_job(const HasEnded& has_ended);
-    std::string out_of_order(const Progress& axis, const Run& run) const;
+    void leave_job(const LogEnd& end);
     bool is_before_first_job(const Run& run) const;
     void leave_out_before_first_job();
     void leave_out(std::size_t runs);
@@ -101,11 +115,12 @@ private:
     void differ(std::string text, const std::string& axis = {}, const Run* run = nullptr);
 
     static constexpr std::size_t kLabelsKept = 16;
+    static constexpr std::size_t kAssumedKept = 256;
 
     Findings& findings_;
     EventCheck events_;
-    std::deque<RecordedJob> records_;  // handled only when a run needs them: late runs of an ended epoch may come
-    std::deque<std::pair<std::string, Run>> waiting_;
+    std::deque<Record> records_;  // handled only when a run needs them: late runs of an ended epoch may come
+    std::deque<AxisRun> waiting_;
     std::deque<std::pair<std::int64_t, std::int64_t>> begun_;  // the newest jobs: coordinator and number
     bool begins_late_ = false;
     std::size_t left_out_ = 0;  // runs of jobs that began before the log
@@ -114,6 +129,20 @@ private:
     std::optional<Epoch> first_epoch_;       // the first of such a job
     std::optional<Job> job_;
     std::optional<EpochCheck> epoch_;
+    std::deque<Epoch> lost_epochs_;  // the newest whose plan is not known
+    /// A run that differs from its plan. The coordinator's next record shows whether a record before the run is missing.
+    std::optional<Difference> doubt_;
+    bool lacks_records_ = false;      // of jobs
+    std::optional<Difference> unplaced_;  // a run without a record of its epoch
+    /// An axis with nothing in the log after a frame that is not its last, in a job that went on. Its next run shows
+    /// whether runs are missing.
+    struct Suspect {
+        std::int64_t incarnation = 0;
+        Difference difference;
+    };
+    std::map<std::string, Suspect> suspects_;
+    std::deque<std::pair<std::string, Epoch>> assumed_;  // axes that were taken for complete in an epoch
+    std::map<std::string, std::int64_t> incarnations_;  // of each axis's newest run
     std::deque<std::pair<Epoch, std::string>> labels_;    // of the newest epochs
     std::map<std::string, std::vector<Course>> planned_;  // by axis: what may follow its newest run
 };

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "clients/analysis/analysis_text.hpp"
 #include "clients/analysis/log/log_step.hpp"
 #include "core/faults.hpp"
 
@@ -19,10 +18,23 @@ LogCheck::Axis::Axis(const std::string& name, Findings& findings, JobCheck* jobs
       runs(
           [this, name, &findings, jobs](Run run) {
               if (!findings.going()) { return; }
-              if (jobs != nullptr) { run.epoch == 0 ? void(++findings.local_runs) : jobs->take(name, run); }
+              if (jobs != nullptr && !std::exchange(has_run, true) && run.sequence > 0) { jobs->begins_late(); }
+              if (jobs != nullptr) { jobs->take(name, run, std::exchange(is_behind_gap, false)); }
               check.take(std::move(run));
           },
-          [this](std::int64_t from, std::int64_t end) { check.runs_missing(from, end); }) {}
+          [this](std::int64_t from, std::int64_t end) {
+              is_behind_gap = true;
+              check.runs_missing(from, end);
+          },
+          [this](const Run& other) { check.runs_contradict(other); }) {}
+
+LogCheck::Machine::Machine(Findings& findings)
+    : jobs(findings),
+      records(
+          [this](const JobRecord& record, bool is_behind_gap) {
+              std::visit([&](const auto& of) { jobs.take(of, is_behind_gap); }, record);
+          },
+          [this](const JobRecord& other) { jobs.contradict(other); }) {}
 
 void LogCheck::on_steps(const step_batch_t& message, analysis::LogPlace place) {
     Axis* to = axis(message.machine, message.axis, place);
@@ -45,7 +57,6 @@ void LogCheck::on_run(const run_t& message, analysis::LogPlace place) {
     end_.saw(RecordKind::Run, message.machine, message.axis, message.incarnation, message.sequence);
     Machine& of = machines_.find(message.machine)->second;
     of.note_motion(*to);
-    if (run->sequence > 0 && to->runs.is_empty()) { of.jobs.begins_late(); }
     if (to->began_before_log(message)) { to->check.began_before_log(*run); }
     to->runs.take(std::move(*run));
 }
@@ -83,32 +94,26 @@ void LogCheck::note_beginning(Machine& machine, std::int64_t coordinator, std::i
     machine.jobs.begins_late();
     const auto marked = machine.marked_jobs.find(coordinator);
     if (marked == machine.marked_jobs.end() || sequence <= marked->second) { return; }
-    findings_.differ({.text = fmt::format("{} messages of jobs are missing from the log before job {}",
-                                          sequence - marked->second, job),
-                      .axis = {},
-                      .tick_expected = {},
-                      .tick_seen = {},
-                      .commanded = {}});
-    findings_.notes.emplace_back(analysis::kWhereTheRestIs);
+    findings_.add_missing(fmt::format("{} messages of jobs are missing from the log before job {}",
+                                      sequence - marked->second, job));
 }
 
-/// Notes a record of a job, or of an event of its program. Returns null if it is compared with no machine.
-LogCheck::Machine* LogCheck::note_record(const auto& message, RecordKind kind, analysis::LogPlace place) {
-    if (make_follower_) { return nullptr; }
+/// Takes a record of a job, or of an event of its program.
+void LogCheck::take_record(const auto& message, RecordKind kind, analysis::LogPlace place) {
+    if (make_follower_) { return; }
     Machine* to = machine(message.machine, place);
-    if (to == nullptr) { return nullptr; }
+    if (to == nullptr) { return; }
     if (analysis::is_countable(message.utime)) { to->last.received_us = message.utime; }
     end_.saw(kind, message.machine, "", message.coordinator, message.sequence);
     note_beginning(*to, message.coordinator, message.sequence, message.job);
-    to->job_numbers.add(message.coordinator, message.sequence);
-    return to;
+    to->records.take(message);
 }
 
 void LogCheck::on_event(const program_event_t& message, analysis::LogPlace place) {
     if (!analysis::is_countable(message.tick) || !analysis::is_message_number(message.sequence)) {
         return on_damage(place, "an event with impossible numbers");
     }
-    if (Machine* to = note_record(message, RecordKind::Event, place)) { to->jobs.take(message); }
+    take_record(message, RecordKind::Event, place);
 }
 
 void LogCheck::on_position(const axis_position_t& message, analysis::LogPlace place) {
@@ -124,6 +129,7 @@ void LogCheck::on_position(const axis_position_t& message, analysis::LogPlace pl
     const auto found = of->second.axes.find(message.axis);
     if (found == of->second.axes.end()) { return; }
     of->second.note_message(*found->second, message.incarnation, message.utime);
+    of->second.records.pass(message.utime);
     found->second->last.is_moving = message.velocity_steps_per_s != 0;
     if (message.fault == static_cast<std::int32_t>(FaultCode::DeviceLost)) { found->second->check.device_lost(); }
 }
@@ -136,7 +142,7 @@ void LogCheck::on_job(const analysis::RecordedJob& message, analysis::LogPlace p
     if (!Overrides::allows(message.feed_percent) || !Overrides::allows(message.rapid_percent)) {
         return on_damage(place, "a job with overrides that are out of range");
     }
-    if (Machine* to = note_record(message, RecordKind::Job, place)) { to->jobs.take(message); }
+    take_record(message, RecordKind::Job, place);
 }
 
 void LogCheck::on_damage(analysis::LogPlace place, std::string what) {
@@ -207,26 +213,26 @@ bool LogCheck::Machine::has_ended(const std::string& axis) const {
     return known == axes.end() || last.has_ended(known->second->last);
 }
 
-void LogCheck::Machine::finish() {
-    for (auto& [name, axis] : axes) { axis->runs.finish(); }
-    jobs.finish(are_at_rest(), [this](const std::string& axis) { return has_ended(axis); });
-    for (auto& [name, axis] : axes) {
-        axis->check.finish([&](std::int64_t incarnation) { return last.has_ended(axis->last, incarnation); },
-                           {.begins_late = axis->is_late, .ends_early = axis->last.is_cut()});
+void LogCheck::Machine::finish(const std::string& name, const analysis::RecordEnd& end) {
+    for (auto& [axis, of] : axes) { of->runs.finish(); }
+    records.finish();
+    jobs.finish({.at_rest = are_at_rest(),
+                 .lacks_records = end.lacks(RecordKind::Job, name, ""),
+                 .has_ended = [this](const std::string& axis) { return has_ended(axis); },
+                 .lacks_runs = [&](const std::string& axis) { return end.lacks(RecordKind::Run, name, axis); }});
+    for (auto& [axis, of] : axes) {
+        of->check.finish([&](std::int64_t incarnation) { return last.has_ended(of->last, incarnation); },
+                         {.begins_late = of->is_late,
+                          .ends_early = of->last.is_cut(),
+                          .lacks_steps = end.lacks(RecordKind::Steps, name, axis),
+                          .lacks_runs = end.lacks(RecordKind::Run, name, axis)});
     }
 }
 
 Findings LogCheck::finish() {
-    for (auto& [name, machine] : machines_) {
-        machine.finish();
-        if (const std::int64_t missing = machine.job_numbers.missing_within(); missing > 0) {
-            findings_.notes.push_back(
-                fmt::format("messages of jobs that are missing from the log: {}; they may cause a difference "
-                            "(`lockstep log merge` with the coordinator's own log)",
-                            missing));
-        }
-    }
-    if (!make_follower_) { findings_.end = end_.finish(); }
+    const analysis::RecordEnd end = end_.finish();
+    for (auto& [name, machine] : machines_) { machine.finish(name, end); }
+    if (!make_follower_) { findings_.end = end; }
     for (std::string& line : analysis::open_sentences(findings_.end)) { findings_.notes.push_back(std::move(line)); }
     if (damages_ > kDamagesNoted) {
         findings_.notes.push_back(fmt::format("and {} more damaged places", damages_ - kDamagesNoted));
@@ -236,7 +242,7 @@ Findings LogCheck::finish() {
             fmt::format("{} runs of axes on their own (homing, own moves) were compared only with their records",
                         findings_.local_runs));
     }
-    if (findings_.clock_error > Ticks{}) {
+    if (findings_.clock_error > Ticks{} && findings_.verdict() == Verdict::Exact) {
         findings_.notes.push_back(
             fmt::format("the axes knew machine time within {} ticks: every step is at its exact tick by its device's "
                         "clock, and by machine time within {} ticks of the tick planned",

@@ -56,25 +56,27 @@ private:
         std::optional<std::int64_t> first_us;  // when the axis was first received
         bool is_late = true;                   // the log lacks its first messages
         AxisActivity last;
+        bool has_run = false;
+        bool is_behind_gap = false;  // runs before the next one are missing
         std::unique_ptr<RunFollower> follower;
         AxisCheck check;
         RunStream runs;
     };
     struct Machine {
-        explicit Machine(Findings& findings) : jobs(findings) {}
+        explicit Machine(Findings& findings);
         bool has_ended(const std::string& axis) const;
         void note_message(Axis& axis, std::int64_t incarnation, std::int64_t utime);
         void note_motion(Axis& axis);
         bool are_at_rest() const;
-        void finish();
+        void finish(const std::string& name, const analysis::RecordEnd& end);
         JobCheck jobs;
+        JobStream records;
         MachineActivity last;
-        analysis::MessageNumbers job_numbers;
         std::map<std::string, std::unique_ptr<Axis>> axes;
         std::map<std::int64_t, std::int64_t> marked_jobs;  // by coordinator: the first event that must be in the log
         bool has_jobs = false;
     };
-    Machine* note_record(const auto& message, RecordKind kind, analysis::LogPlace place);
+    void take_record(const auto& message, RecordKind kind, analysis::LogPlace place);
     void note_beginning(Machine& machine, std::int64_t coordinator, std::int64_t sequence, std::int64_t job);
 
     Machine* machine(const std::string& name, analysis::LogPlace place);

@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 
+#include "clients/analysis/log/content_memory.hpp"
 #include "clients/analysis/log/run.hpp"
 
 namespace lockstep::verification {
@@ -18,13 +19,18 @@ using analysis::Run;
 class RunStream {
 public:
     /// How many records wait for a missing one before it is given up: datagrams may overtake each other.
-    static constexpr std::size_t kPatience = 4;
+    static constexpr std::size_t kPatience = 16;
+    /// If the first record in the log has a number up to this, records of lower numbers may still follow.
+    static constexpr std::int64_t kShuffled = 8;
 
     /// Records with the numbers [from, end) are missing.
     using OnMissing = std::function<void(std::int64_t from, std::int64_t end)>;
     using OnRun = std::function<void(Run)>;
+    /// An earlier record has the number of this one, but other content.
+    using OnOther = std::function<void(const Run&)>;
 
-    RunStream(OnRun on_run, OnMissing on_missing) : on_run_(std::move(on_run)), on_missing_(std::move(on_missing)) {}
+    RunStream(OnRun on_run, OnMissing on_missing, OnOther on_other)
+        : on_run_(std::move(on_run)), on_missing_(std::move(on_missing)), on_other_(std::move(on_other)) {}
 
     void take(Run run);
     /// True if no run was received yet.
@@ -36,11 +42,15 @@ public:
 
 private:
     void deliver(std::size_t patience);
+    bool is_repeat(const Run& run);
 
     OnRun on_run_;
     OnMissing on_missing_;
+    OnOther on_other_;
+    analysis::ContentMemory contents_;
     std::optional<std::int64_t> incarnation_;
-    std::optional<std::int64_t> expected_;         // nullopt: accepts the first one
+    std::int64_t expected_ = 0;
+    bool accepts_any_ = false;                     // the first run may have any number
     std::map<std::int64_t, std::int64_t> marked_;  // by process: the expected number, before its first run
     std::map<std::int64_t, Run> waiting_;
 };

@@ -1,9 +1,20 @@
 #include "clients/verification/verification.hpp"
 
-#include "clients/analysis/analysis_text.hpp"
+#include <fmt/format.h>
+
 #include "clients/verification/log_check.hpp"
 
 namespace lockstep::verification {
+
+std::string_view name_of(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::Exact: return "exact";
+        case Verdict::Unknown: return "unknown";
+        case Verdict::NotExact: return "not exact";
+    }
+    return "";
+}
+
 namespace {
 
 std::string counted(const Findings& findings) {
@@ -38,6 +49,7 @@ void fill(const Difference& difference, proto::Difference& out) {
 proto::VerifyReport to_report(const Findings& findings) {
     proto::VerifyReport report;
     report.set_exact(findings.is_exact());
+    report.set_verdict(std::string(name_of(findings.verdict())));
     report.set_steps_compared(findings.steps);
     report.set_runs_compared(findings.runs + findings.local_runs);
     report.set_jobs_compared(findings.jobs);
@@ -57,17 +69,19 @@ std::string to_text(const Findings& findings) {
             text += "  in motion: " + findings.difference->commanded + "\n";
         }
         text += "  compared before that and equal: " + counted(findings) + "\n";
-    } else if (findings.end.missing.empty() && !findings.unknown.empty()) {
+    } else if (findings.verdict() == Verdict::Unknown) {
         text = "unknown: the log is incomplete; its content is what the programs give: " + counted(findings) + "\n";
-    } else if (!findings.end.missing.empty()) {
-        text = "not exact: the log lacks the end of the record; its content is what the programs give: " +
-               counted(findings) + "\n";
     } else {
         text = "exact: " + counted(findings) + " are what the programs give, tick for tick\n";
     }
     for (const std::string& line : findings.unknown) { text += "  unknown: " + line + "\n"; }
     for (const std::string& line : analysis::missing_sentences(findings.end)) { text += "  missing: " + line + "\n"; }
-    if (!findings.end.missing.empty()) { text += "  note: " + std::string(analysis::kWhereTheRestIs) + "\n"; }
+    if (findings.more_unknown > 0) {
+        text += fmt::format("  unknown: and {} more such places\n", findings.more_unknown);
+    }
+    if (findings.lacks_messages || !findings.end.missing.empty()) {
+        text += fmt::format("  note: {}\n", analysis::kWhereTheRestIs);
+    }
     for (const std::string& note : findings.notes) { text += "  note: " + note + "\n"; }
     return text;
 }

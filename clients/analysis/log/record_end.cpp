@@ -54,6 +54,12 @@ bool RecordEnd::lacks_steps() const {
     return std::ranges::any_of(missing, [](const MissingEnd& one) { return one.kind == RecordKind::Steps; });
 }
 
+bool RecordEnd::lacks(RecordKind kind, const std::string& machine, const std::string& axis) const {
+    return std::ranges::any_of(missing, [&](const MissingEnd& one) {
+        return one.kind == kind && one.process.machine == machine && one.process.axis == axis;
+    });
+}
+
 RecordEndCheck::Counted* RecordEndCheck::of(const std::string& machine, const std::string& axis,
                                             std::int64_t incarnation) {
     const auto is_last = [&] {

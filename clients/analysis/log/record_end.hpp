@@ -18,6 +18,10 @@
 
 namespace lockstep::analysis {
 
+/// The remedy if a log lacks messages. The log's writer may have missed messages that their sender has in its own log.
+inline constexpr const char* kWhereTheRestIs =
+    "missing messages are in the processes' own logs: lockstep log merge combines them";
+
 /// `axis` is empty for a coordinator.
 struct RecordingProcess {
     std::string machine;
@@ -46,6 +50,8 @@ struct RecordEnd {
 
     std::int64_t missing_messages() const;
     bool lacks_steps() const;
+    /// Whether messages of this kind are missing at the end of an axis's record.
+    bool lacks(RecordKind kind, const std::string& machine, const std::string& axis) const;
     /// Whether all published messages are known to be in the log.
     bool is_closed() const { return missing.empty() && open.empty(); }
 };

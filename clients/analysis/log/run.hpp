@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <expected>
 #include <lockstep/run_t.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,8 @@ struct Run {
     Position to() const;  // at the end of the pieces
     Ticks ticks() const;
     Tick commanded_start() const { return start + ahead; }  // machine time
+    /// Whether its steps are commanded for their device's ticks.
+    bool shares_time() const { return ahead == Ticks{} && commanded_ticks.empty(); }
     /// The device's counts, which zeroing does not change.
     std::int64_t device_start() const { return from.count() + zero_count; }
     std::int64_t device_stop() const { return stop_count + zero_count; }
@@ -63,6 +66,18 @@ public:
         return passed_ < made_.size() ? &made_[passed_] : nullptr;
     }
     void pass() { count_ += made_[passed_++].direction; }
+    /// The next steps, as many as are made at once; empty at the end of the pieces.
+    std::span<const StepEdge> ready() {
+        (void)next();
+        return std::span(made_).subspan(passed_);
+    }
+    /// The machine time commanded for a ready step.
+    Tick commanded_at(Tick tick) const { return commanded_.at(tick); }
+    /// Passes some of the ready steps.
+    void pass(std::size_t steps) {
+        for (const StepEdge& edge : std::span(made_).subspan(passed_, steps)) { count_ += edge.direction; }
+        passed_ += steps;
+    }
     /// The machine time commanded for the next step. There must be a next step.
     Tick commanded() { return commanded_.at(next()->tick); }
     /// The axis's position after the passed steps, in machine coordinates.

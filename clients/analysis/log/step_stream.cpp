@@ -1,12 +1,25 @@
 #include "clients/analysis/log/step_stream.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
+
+#include "clients/text/numbers.hpp"
 
 namespace lockstep::analysis {
 namespace {
 
 constexpr std::size_t kGivenUpKept = 64;
+
+std::size_t content_of(const StepBatch& batch) {
+    ContentHash hash;
+    hash.add(batch.position_before_steps).add(batch.ahead_first.value).add(batch.ahead_last.value);
+    for (std::size_t i = 0; i < batch.steps.size(); ++i) {
+        hash.add(batch.device_tick(i).value).add(batch.steps[i].direction);
+    }
+    return hash.value();
+}
 
 }  // namespace
 
@@ -16,11 +29,26 @@ ClockStretch StepBatch::machine_time() const {
     return {first, ticks, first + ahead_first, ticks + ahead_last - ahead_first};
 }
 
+std::string sentence(const Contradiction& what) {
+    const std::string which = fmt::format("message {} with {}", what.sequence, plural(what.steps, "step"));
+    switch (what.kind) {
+        case Contradiction::Kind::NotAfter:
+            return fmt::format("{} begins at tick {}, but the message before it ends at tick {}", which,
+                               what.first.value_or(Tick{}).value, what.last_before.value_or(Tick{}).value);
+        case Contradiction::Kind::OtherContent: return which + " is in the log twice, with different content";
+        case Contradiction::Kind::EndedProcess:
+            return which + " is of a process that another one had replaced before";
+    }
+    return which;
+}
+
 void StepStream::take(StepBatch batch) {
     if (has_passed(batch)) { return; }
     if (incarnation_ != batch.incarnation) { begin_incarnation(batch.incarnation); }
     const std::int64_t sequence = batch.sequence;
-    if (!waiting_.emplace(sequence, std::move(batch)).second) { ++counts_.duplicates; }
+    if (waiting_.contains(sequence)) { return note_repeat(batch); }
+    contents_.add({batch.incarnation, sequence}, content_of(batch));
+    waiting_.emplace(sequence, std::move(batch));
     deliver_in_order(true);
 }
 
@@ -32,14 +60,34 @@ void StepStream::finish() {
 /// Whether the batch comes after its turn; if it does, counts it as late or as a duplicate.
 bool StepStream::has_passed(const StepBatch& batch) {
     if (past_incarnations_.contains(batch.incarnation)) {
-        ++counts_.duplicates;
+        note_repeat(batch);
         return true;
     }
     if (incarnation_ != batch.incarnation || batch.sequence >= expected_) { return false; }
     const auto holds = [&](Numbers range) { return range.from <= batch.sequence && batch.sequence < range.end; };
     const bool given_up = std::ranges::any_of(given_up_, holds) || batch.sequence < kFirstSequence;
-    ++(given_up ? counts_.late : counts_.duplicates);
+    given_up ? void(++counts_.late) : note_repeat(batch);
     return true;
+}
+
+/// A repeat must have the content of the first one, as far as that is remembered.
+void StepStream::note_repeat(const StepBatch& batch) {
+    const auto content = contents_.find({batch.incarnation, batch.sequence});
+    if (content && *content != content_of(batch)) { return contradict(Contradiction::Kind::OtherContent, batch); }
+    const bool is_of_ended = past_incarnations_.contains(batch.incarnation);
+    if (!content && is_of_ended) { return contradict(Contradiction::Kind::EndedProcess, batch); }
+    ++counts_.duplicates;
+}
+
+void StepStream::contradict(Contradiction::Kind kind, const StepBatch& batch) {
+    ++counts_.contradictory;
+    Contradiction what{.kind = kind,
+                       .sequence = batch.sequence,
+                       .steps = std::ssize(batch.steps),
+                       .first = {},
+                       .last_before = last_tick_};
+    if (!batch.steps.empty()) { what.first = batch.steps.front().tick; }
+    for (StepListener* listener : listeners_) { listener->on_contradiction(what); }
 }
 
 void StepStream::begin_incarnation(std::int64_t incarnation) {
@@ -65,8 +113,7 @@ void StepStream::deliver(const StepBatch& batch) {
     note_missing(batch.sequence);
     const bool restarted = break_ && break_->kind == Break::Kind::Restart;
     if (!batch.steps.empty() && last_tick_ && batch.steps.front().tick <= *last_tick_ && !restarted) {
-        ++counts_.disordered;
-        return;
+        return contradict(Contradiction::Kind::NotAfter, batch);
     }
     note_position(batch.position_before_steps);
     ++counts_.batches;

@@ -1,7 +1,8 @@
 // Delivers one axis's steps in order, from batches that may be missing, repeated, late or of a restarted process.
 //
 // Missing steps are reported, never interpolated. The report names the number of missing batches, the ticks around
-// them, and the change of position across them.
+// them, and the change of position across them. A batch that cannot belong to the stream is reported too: the record
+// contradicts itself there.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +10,10 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
 #include <vector>
 
+#include "clients/analysis/log/content_memory.hpp"
 #include "core/clock/clock_view.hpp"
 #include "core/step/segment.hpp"
 #include "core/units.hpp"
@@ -51,6 +54,23 @@ struct Break {
     std::int64_t position_change = 0;  // steps, after minus before; missing steps in both directions cancel
 };
 
+/// A batch that is left out because it contradicts the others.
+struct Contradiction {
+    enum class Kind : std::uint8_t {
+        NotAfter,      // its first step is not after the last step of the batch before it
+        OtherContent,  // an earlier batch has its number, but other content
+        EndedProcess,  // it is of a process that another process of the axis has replaced, and no repeat
+    };
+    Kind kind = Kind::NotAfter;
+    std::int64_t sequence = 0;
+    std::int64_t steps = 0;            // in the batch
+    std::optional<Tick> first;         // its first step
+    std::optional<Tick> last_before;   // NotAfter: the last step before it
+};
+
+/// "message 12 with 80 steps has a step at tick 5, but the message before it ends at tick 9"
+std::string sentence(const Contradiction& what);
+
 /// Receives a stream's steps in order.
 class StepListener {
 public:
@@ -58,14 +78,15 @@ public:
     virtual void on_batch(const StepBatch& batch) = 0;
     /// A break between the previous batch and the next one.
     virtual void on_break(const Break& /*what*/) {}
+    virtual void on_contradiction(const Contradiction& /*what*/) {}
 };
 
 struct StreamCounts {
-    std::int64_t batches = 0;     // delivered
-    std::int64_t steps = 0;       // in these batches
-    std::int64_t duplicates = 0;  // repeated batches, left out
-    std::int64_t late = 0;        // batches that came after they were given up as missing, left out
-    std::int64_t disordered = 0;  // batches with steps before those of the previous batch, left out
+    std::int64_t batches = 0;        // delivered
+    std::int64_t steps = 0;          // in these batches
+    std::int64_t duplicates = 0;     // repeated batches, left out
+    std::int64_t late = 0;           // batches that came after they were given up as missing, left out
+    std::int64_t contradictory = 0;  // left out, and reported
 };
 
 class StepStream {
@@ -93,6 +114,8 @@ private:
     };
 
     bool has_passed(const StepBatch& batch);
+    void note_repeat(const StepBatch& batch);
+    void contradict(Contradiction::Kind kind, const StepBatch& batch);
     void begin_incarnation(std::int64_t incarnation);
     void deliver_in_order(bool wait);
     void deliver(const StepBatch& batch);
@@ -108,6 +131,7 @@ private:
     std::int64_t expected_ = kFirstSequence;
     std::deque<Numbers> given_up_;               // of this incarnation, the newest few
     std::map<std::int64_t, StepBatch> waiting_;  // by sequence
+    ContentMemory contents_;
     std::optional<Break> break_;                 // open until the next step closes it
     std::optional<std::int64_t> position_;
     std::optional<Tick> last_tick_;

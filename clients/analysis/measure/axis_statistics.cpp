@@ -37,6 +37,10 @@ void AxisStatistics::on_break(const Break& what) {
     if (breaks_.size() < kBreaksKept) { breaks_.push_back(what); }
 }
 
+void AxisStatistics::on_contradiction(const Contradiction& what) {
+    if (contradictions_.size() < kBreaksKept) { contradictions_.push_back(what); }
+}
+
 void AxisStatistics::finish() {
     meter_.interrupt();
     if (last_) { stand_at(last_->tick); }

@@ -29,6 +29,7 @@ public:
     }
     void on_batch(const StepBatch& batch) override;
     void on_break(const Break& what) override;
+    void on_contradiction(const Contradiction& what) override;
     /// Call once, at the end.
     void finish();
 
@@ -43,6 +44,7 @@ public:
 
     const std::vector<Break>& breaks() const { return breaks_; }  // the first kBreaksKept
     std::int64_t break_count() const { return break_count_; }
+    const std::vector<Contradiction>& contradictions() const { return contradictions_; }  // the first kBreaksKept
     /// The maximum error of the steps' times as machine time.
     Ticks clock_error() const { return clock_error_; }
     std::int64_t missing_batches() const { return missing_batches_; }
@@ -67,6 +69,7 @@ private:
     Ticks clock_error_;
     std::vector<Break> breaks_;
     std::int64_t break_count_ = 0;
+    std::vector<Contradiction> contradictions_;
     std::int64_t missing_batches_ = 0;
     std::int64_t missing_steps_ = 0;
     bool joined_ = true;  // the next step follows the last one

@@ -38,7 +38,7 @@ ExitCode replay_verb(const ReplayOptions& options) {
     if (made) {
         if (const auto kept = made->keep(); !kept) { return output.fail(failed(kept.error())); }
     }
-    const bool exact = !findings->difference;
+    const bool exact = findings->verdict() == verification::Verdict::Exact;
     output.print(result_text(replay::to_text(*findings), exact));
     output.report(replay::to_report(*findings, options.made));
     return exact ? kExitDone : kExitFailed;
@@ -61,7 +61,8 @@ void add_replay(Verb command) {
         "at the recorded step. A replay does not plan the program again; lockstep verify does.\n" +
         footer("  lockstep replay plate.lcm\n"
                "  lockstep replay plate.lcm --log again.lcm && lockstep verify again.lcm\n",
-               "0 exact; 1 not exact: the report has the first difference; 2 bad usage, or no log with a run"));
+               "0 exact; 1 not exact or unknown: the report has the first difference, or what the log lacks;\n"
+               "2 bad usage, or no log with a run that can be replayed"));
     verb.action([options] { return replay_verb(*options); });
 }
 

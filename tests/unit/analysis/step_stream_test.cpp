@@ -81,7 +81,7 @@ TEST_F(StepStreamTest, DistinguishesARestartFromAGap) {
     stream.take(batch(0, 0, even_steps(50, 10, 2), 8));
     stream.take(batch(1, 2, even_steps(120, 10, 2), 7));
     stream.finish();
-    EXPECT_EQ(stream.counts().duplicates, 1) << "a batch of the ended process";
+    EXPECT_EQ(stream.counts().contradictory, 1) << "a batch of the ended process";
     ASSERT_EQ(delivered.breaks.size(), 1U);
     EXPECT_EQ(delivered.breaks[0].kind, Break::Kind::Restart);
     EXPECT_EQ(delivered.breaks[0].position_change, -2);
@@ -110,7 +110,7 @@ TEST_F(StepStreamTest, LeavesOutStepsBeforeThoseDelivered) {
     stream.take(batch(0, 0, even_steps(100, 10, 3)));
     stream.take(batch(1, 3, even_steps(110, 10, 3)));
     stream.finish();
-    EXPECT_EQ(stream.counts().disordered, 1);
+    EXPECT_EQ(stream.counts().contradictory, 1);
     EXPECT_EQ(stream.counts().steps, 3);
 }
 

@@ -39,6 +39,13 @@ protected:
         return findings && findings->difference ? *findings->difference : Difference{};
     }
 
+    /// The result is not known, for this reason.
+    std::string unknown() {
+        const auto findings = verify_log(log.write(test::test_directory() / "altered.lcm"));
+        EXPECT_TRUE(findings && findings->verdict() == Verdict::Unknown) << to_text(*findings);
+        return findings && !findings->unknown.empty() ? findings->unknown.front() : "";
+    }
+
     /// The tenth message with steps of axis X while the program runs: the changes are made there.
     bool is_the_one(const step_batch_t& batch) {
         return batch.axis == "X" && batch.position_before > 800 && ++seen == 10;
@@ -140,16 +147,27 @@ TEST_F(Altered, OneMessageOfStepsLost) {
                                               return true;
                                           }),
               1U);
-    const Difference found = difference();
-    EXPECT_NE(found.text.find("at least " + std::to_string(steps) + " steps missing between tick "), std::string::npos)
-        << found.text;
+    const std::string found = unknown();
+    EXPECT_NE(found.find("at least " + std::to_string(steps) + " steps missing between tick "), std::string::npos)
+        << found;
 }
 
 TEST_F(Altered, OneRunLost) {
     ASSERT_EQ(log.leave_out<run_t>("_RUN", [&](const run_t& run) { return is_the_one(run); }), 1U);
-    const Difference found = difference();
-    EXPECT_EQ(found.axis, "Y");
-    EXPECT_NE(found.text.find("the record of run "), std::string::npos) << found.text;
+    const std::string found = unknown();
+    EXPECT_NE(found.find("axis Y: the record of run "), std::string::npos) << found;
+}
+
+TEST_F(Altered, BehindLostMessagesADifferenceIsFound) {
+    ASSERT_EQ(log.leave_out<run_t>("_RUN", [&](const run_t& run) { return is_the_one(run); }), 1U);
+    seen = 0;
+    ASSERT_EQ(log.change<step_batch_t>("_STEPS", [&](step_batch_t& batch) {
+        const bool is_later = batch.axis == "Y" && batch.position_before > 800 && batch.count > 2 && ++seen == 40;
+        if (is_later) { ++batch.delta_ticks[1]; }
+        return is_later;
+    }),
+              1);
+    EXPECT_EQ(difference().axis, "Y");
 }
 
 TEST_F(Altered, TheLastRunsLost) {
@@ -253,7 +271,7 @@ TEST_F(Altered, AJobWithWildNumbers) {
                                     return !job.start_count.empty();
                                 }),
               1);
-    EXPECT_FALSE(difference().text.empty());
+    EXPECT_FALSE(unknown().empty());
 }
 
 TEST_F(Altered, AnyRecordOfAJobLost) {
@@ -262,7 +280,7 @@ TEST_F(Altered, AnyRecordOfAJobLost) {
         std::int64_t number = 0;
         ASSERT_EQ(log.leave_out<job_t>("_JOB", [&](const job_t&) { return number++ == place; }), 1U);
         SCOPED_TRACE("record " + std::to_string(place));
-        EXPECT_FALSE(difference().text.empty());
+        EXPECT_FALSE(unknown().empty());
     }
 }
 
@@ -294,7 +312,7 @@ TEST_F(Altered, MessagesThatCameTwiceAreNoDifference) {
     std::vector<AlteredLog::Event> twice;
     for (const auto& event : log.events()) {
         twice.push_back(event);
-        if (!event.channel.ends_with("_JOB")) { twice.push_back(event); }
+        twice.push_back(event);
     }
     log.events() = twice;
     const auto findings = verify_log(log.write(test::test_directory() / "altered.lcm"));

@@ -63,6 +63,7 @@ TEST_F(LateRecord, AnEpochThatNoAxisRanIsNoted) {
     AlteredLog::Event late = *word(last - 1, "epoch");
     auto message = decode_lcm<job_t>(late.data).value();
     message.epoch += 1000;
+    ++message.sequence;
     message.encode(late.data.data(), 0, static_cast<int>(late.data.size()));
     log.events().insert(word(last, "ended"), late);
     const Findings found = verified();
@@ -73,7 +74,11 @@ TEST_F(LateRecord, AnEpochThatNoAxisRanIsNoted) {
 TEST_F(LateRecord, AnEpochOfTheSameCoordinatorIsNotLateButWrong) {
     log.change<job_t>("_JOB", [&](job_t& job) { return job.job < last && (job.coordinator = kHeir); });
     AlteredLog::Event late = *word(last - 1, "epoch");
+    auto message = decode_lcm<job_t>(late.data).value();
+    message.sequence = decode_lcm<job_t>(word(last, "ended")->data).value().sequence;
+    message.encode(late.data.data(), 0, static_cast<int>(late.data.size()));
     log.events().insert(word(last, "ended"), late);
+    log.change<job_t>("_JOB", [](job_t& job) { return job.event == "ended" && ++job.sequence > 0; });
     EXPECT_TRUE(verified().difference);
 }
 

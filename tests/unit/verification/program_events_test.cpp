@@ -100,6 +100,19 @@ protected:
                       1);
         };
     }
+    /// Gives the messages of jobs and events from the second one with this number on the next numbers.
+    static void renumber(test::AlteredLog& log, std::int64_t from) {
+        bool is_first = true;
+        for (test::AlteredLog::Event& event : log.events()) {
+            const auto raise = [&](auto message) {
+                if (message.sequence < from || std::exchange(is_first, false)) { return; }
+                ++message.sequence;
+                message.encode(event.data.data(), 0, static_cast<int>(event.data.size()));
+            };
+            if (event.channel.ends_with("_EVENTS")) { raise(decode_lcm<program_event_t>(event.data).value()); }
+            if (event.channel.ends_with("_JOB")) { raise(decode_lcm<job_t>(event.data).value()); }
+        }
+    }
     std::vector<program_event_t> recorded() {
         std::vector<program_event_t> events;
         test::AlteredLog(path()).change<program_event_t>("_EVENTS", [&](program_event_t& event) {
@@ -164,8 +177,7 @@ TEST_F(RecordedEvents, ThatAreMissingAreFound) {
                           "_EVENTS", [&](const program_event_t& event) { return event.number == number; }),
                       1U);
         });
-        EXPECT_FALSE(findings.is_exact()) << "event " << number << " of " << count;
-        EXPECT_TRUE(findings.difference) << "event " << number << " of " << count << "\n" << to_text(findings);
+        EXPECT_EQ(findings.verdict(), Verdict::Unknown) << "event " << number << " of " << count << to_text(findings);
     }
 }
 
@@ -180,7 +192,9 @@ TEST_F(RecordedEvents, ThatAreRecordedTwiceAreFound) {
             });
             ASSERT_NE(found, events.end());
             const test::AlteredLog::Event again = *found;
+            const std::int64_t from = decode_lcm<program_event_t>(again.data).value().sequence;
             events.insert(found, again);
+            renumber(log, from);
         });
         EXPECT_TRUE(findings.difference) << "event " << number;
     }

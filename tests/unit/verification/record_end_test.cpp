@@ -87,7 +87,7 @@ protected:
             EXPECT_THAT(text, Not(HasSubstr("complete: no message")));
             EXPECT_THAT(text, Not(HasSubstr("nothing missing")));
         }
-        EXPECT_THAT(texts[1], testing::StartsWith("not exact: "));
+        EXPECT_THAT(texts[1], testing::StartsWith("unknown: "));
     }
     void expect_open(const std::string& what) {
         EXPECT_TRUE(merged.is_complete());

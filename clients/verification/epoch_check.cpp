@@ -1,0 +1,142 @@
+#include "clients/verification/epoch_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/protocol/frame_room.hpp"
+
+namespace lockstep::verification {
+namespace {
+
+/// Returns the planned run, in machine time. `clock_error`: the tolerance of each step.
+Run planned_run(const Frame& frame, std::size_t axis, bool tail, Ticks clock_error) {
+    const AxisTrack& track = frame.axes[axis];
+    Run run{.epoch = frame.epoch,
+            .frame = frame.number,
+            .start = frame.start,
+            .from = track.from,
+            .pieces = {},
+            .clock_error = clock_error};
+    run.pieces.assign(track.body.begin(), track.body.end());
+    if (!tail) { return run; }
+    run.tail = true;
+    run.from = run.to();
+    run.start += frame.ticks;
+    run.pieces.assign(track.tail.begin(), track.tail.end());
+    return run;
+}
+
+}  // namespace
+
+EpochCheck::EpochCheck(const MachineConfig& machine, EpochReplay replay, const AxisPositions& at)
+    : machine_(machine), replay_(std::move(replay)) {
+    for (const Position place : at) { axes_.push_back({.at = place}); }
+}
+
+std::optional<RunDifference> EpochCheck::compare(std::size_t axis, const Run& run, bool is_behind_gap) {
+    Progress& progress = axes_[axis];
+    const std::string why = is_behind_gap ? "" : out_of_order(progress, run);
+    if (!why.empty()) { return RunDifference{why, std::nullopt, run.start}; }
+    const Frame* frame = replay_.frame(run.frame);
+    if (frame == nullptr) { return RunDifference{" is not in the plan", std::nullopt, run.start}; }
+    const Run planned = planned_run(*frame, axis, run.tail, run.clock_error);
+    const auto joins = is_behind_gap ? std::nullopt : progress.end;
+    if (auto found = has_own_clocks() ? compare_retimed(planned, run, joins) : compare_runs(planned, run)) {
+        found->text = " " + found->text;
+        return found;
+    }
+    progress = {run.frame, run.tail, run.cut, run.cut ? Position::steps(run.stop_count) : run.to(),
+                run.start + run.ticks()};
+    replay_.forget_before(std::ranges::min_element(axes_, {}, &Progress::ran)->ran);
+    return std::nullopt;
+}
+
+/// Returns an empty text if the run follows the axis's previous one.
+std::string EpochCheck::out_of_order(const Progress& axis, const Run& run) const {
+    const std::string after = fmt::format(" follows frame {}", axis.ran);
+    if (axis.cut || axis.in_tail) { return after + ", with which the epoch had ended"; }
+    const FrameNumber next = run.tail ? axis.ran : axis.ran + 1;
+    return run.frame == next && run.frame > 0 ? "" : after;
+}
+
+std::optional<Shortfall> EpochCheck::shortfall_of(std::size_t i) {
+    const Progress& axis = axes_[i];
+    const std::string frame = fmt::format("frame {}", axis.ran);
+    if (axis.cut) { return Shortfall{Shortfall::Kind::Cut, i, "was stopped early in " + frame}; }
+    if (axis.ran == 0 || axis.in_tail) { return std::nullopt; }
+    const Frame* last = replay_.frame(axis.ran);
+    if (last == nullptr || last->last || last->axes[i].tail.empty()) { return std::nullopt; }
+    return silent(i);
+}
+
+Shortfall EpochCheck::silent(std::size_t i) const {
+    const std::string after = axes_[i].ran == 0
+                                  ? "has no frame of its epoch in the log"
+                                  : fmt::format("has nothing in the log after frame {}, which is not its last",
+                                                axes_[i].ran);
+    return {Shortfall::Kind::Silent, i, after};
+}
+
+std::size_t EpochCheck::least_far() const {
+    return static_cast<std::size_t>(std::ranges::min_element(axes_, {}, &Progress::ran) - axes_.begin());
+}
+
+std::optional<Shortfall> EpochCheck::shortfall() {
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        if (auto found = shortfall_of(i)) { return found; }
+    }
+    const EpochEnd found = end();
+    const std::size_t least = least_far();
+    switch (found.kind) {
+        case EpochEnd::Kind::FramesDiffer:
+            if (!axes_[least].in_tail && !axes_[least].cut) { return silent(least); }
+            return Shortfall{Shortfall::Kind::Differs, found.axis, "ran other frames than the rest"};
+        case EpochEnd::Kind::Misplaced:
+            return Shortfall{Shortfall::Kind::Differs, found.axis, "is not where its frames end"};
+        case EpochEnd::Kind::Complete:
+        case EpochEnd::Kind::Interrupted: break;
+    }
+    return std::nullopt;
+}
+
+Position EpochCheck::rests_at(std::size_t axis, const Frame& frame) const {
+    const Run body = planned_run(frame, axis, false, {});
+    return frame.last ? body.to() : planned_run(frame, axis, true, {}).to();
+}
+
+bool EpochCheck::assume_complete(std::size_t axis) {
+    const FrameNumber most = ran();
+    const Frame* last = most > 0 ? replay_.frame(most) : nullptr;
+    if (last == nullptr) { return false; }
+    axes_[axis] = {most, !last->last, false, rests_at(axis, *last), std::nullopt};
+    return true;
+}
+
+EpochEnd EpochCheck::end() const {
+    std::vector<AxisEnd> ends;
+    for (const Progress& axis : axes_) { ends.push_back({axis.ran, axis.at}); }
+    return replay_.evaluate(ends);
+}
+
+FrameNumber EpochCheck::ran() const { return std::ranges::max_element(axes_, {}, &Progress::ran)->ran; }
+
+std::vector<Course> EpochCheck::courses_of(std::size_t axis, EpochReplay& ahead) const {
+    const Progress& progress = axes_[axis];
+    std::vector<Course> courses;
+    if (progress.cut || progress.in_tail) { return courses; }
+    Course frames;
+    const auto unrecorded = static_cast<FrameNumber>(frames_ahead(machine_.timing)) + 1;
+    for (FrameNumber number = progress.ran; number <= progress.ran + unrecorded; ++number) {
+        const Frame* frame = number > 0 ? ahead.frame(number) : nullptr;
+        if (number > progress.ran && frame == nullptr) { break; }
+        if (number > progress.ran) { frames.push_back(planned_run(*frame, axis, false, known_within())); }
+        Course course = frames;
+        if (frame != nullptr) { course.push_back(planned_run(*frame, axis, true, known_within())); }
+        if (!course.empty()) { courses.push_back(std::move(course)); }
+    }
+    return courses;
+}
+
+}  // namespace lockstep::verification

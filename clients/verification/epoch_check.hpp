@@ -1,0 +1,82 @@
+// Compares the runs of one epoch with its planned frames, bit for bit, and finds how far each axis came.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "clients/analysis/log/run.hpp"
+#include "clients/verification/epoch_replay.hpp"
+#include "clients/verification/left_steps.hpp"
+#include "clients/verification/run_difference.hpp"
+#include "core/machine.hpp"
+
+namespace lockstep::verification {
+
+using analysis::Run;
+
+/// Why an axis's runs are not its whole part of the epoch.
+struct Shortfall {
+    enum class Kind : std::uint8_t {
+        Cut,      // its pulses ceased early
+        Silent,   // the log has nothing after a frame that is not its last
+        Differs,  // it ran other frames than the rest, or rests elsewhere
+    };
+    Kind kind = Kind::Silent;
+    std::size_t axis = 0;
+    std::string text;  // "ran other frames than the rest"
+};
+
+class EpochCheck {
+public:
+    /// `at`: where each axis rests before the epoch.
+    EpochCheck(const MachineConfig& machine, EpochReplay replay, const AxisPositions& at);
+
+    Epoch epoch() const { return replay_.epoch(); }
+    EpochReplay& replay() { return replay_; }
+    const EpochReplay& replay() const { return replay_; }
+
+    /// Compares the next run of an axis. Returns why it is not the planned one; nullopt if it is. `is_behind_gap`: runs
+    /// before it are missing from the log.
+    std::optional<RunDifference> compare(std::size_t axis, const Run& run, bool is_behind_gap);
+
+    /// The first axis that did not run its last frame and tail to their end, and why; nullopt if all did.
+    std::optional<Shortfall> shortfall();
+    std::optional<Shortfall> shortfall_of(std::size_t axis);
+    /// Takes an axis whose runs are missing for one that ran what the others ran. Returns false if no other axis ran
+    /// further than it.
+    bool assume_complete(std::size_t axis);
+    /// How the epoch ended, by the coordinator's own evaluation.
+    EpochEnd end() const;
+    /// The highest frame that an axis ran.
+    FrameNumber ran() const;
+
+    /// The runs that the plan allows an axis after its newest run. Each course has further frames, or none, and then the
+    /// tail of the last frame, or the path's end if it has no tail. Before its process ended, an axis may have run or
+    /// armed, without a record, the frame in motion and all frames that were sent ahead. `ahead`: makes these frames.
+    std::vector<Course> courses_of(std::size_t axis, EpochReplay& ahead) const;
+
+private:
+    struct Progress {  // of an axis
+        FrameNumber ran = 0;
+        bool in_tail = false;
+        bool cut = false;
+        Position at;
+        std::optional<Tick> end;  // of its last run
+    };
+
+    bool has_own_clocks() const { return machine_.timing.time_source == TimeSource::Network; }
+    /// The largest clock error with which an axis moves.
+    Ticks known_within() const { return has_own_clocks() ? machine_.clock_error_limit() : Ticks{}; }
+    std::string out_of_order(const Progress& axis, const Run& run) const;
+    Shortfall silent(std::size_t axis) const;
+    std::size_t least_far() const;
+    Position rests_at(std::size_t axis, const Frame& frame) const;
+
+    MachineConfig machine_;
+    EpochReplay replay_;
+    std::vector<Progress> axes_;
+};
+
+}  // namespace lockstep::verification

@@ -1,0 +1,86 @@
+// The steps of an axis that wait for the record of their run, as batches; no step is copied.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <span>
+#include <utility>
+
+#include "clients/analysis/log/step_stream.hpp"
+#include "clients/verification/seen_step.hpp"
+
+namespace lockstep::verification {
+
+/// A batch of steps from the log, and how many of them were passed.
+class SeenBatch {
+public:
+    explicit SeenBatch(analysis::StepBatch batch)
+        : batch_(std::move(batch)), time_(batch_.machine_time()), count_(batch_.position_before_steps) {}
+
+    bool empty() const { return passed_ == batch_.steps.size(); }
+    std::size_t size() const { return batch_.steps.size() - passed_; }
+    std::int64_t incarnation() const { return batch_.incarnation; }
+    Ticks clock_error() const { return batch_.clock_error; }
+    /// Whether device time is machine time in this batch.
+    bool shares_time() const { return batch_.ahead_first == Ticks{} && batch_.ahead_last == Ticks{}; }
+    /// The steps that were not passed, in device time.
+    std::span<const StepEdge> edges() const { return std::span(batch_.steps).subspan(passed_); }
+    Tick machine_time(Tick device) const { return time_.at(device); }
+    /// The position before them.
+    std::int64_t count() const { return count_; }
+    SeenStep front() const {
+        const StepEdge& edge = batch_.steps[passed_];
+        return {edge, count_ + edge.direction, batch_.incarnation, time_.at(edge.tick), batch_.clock_error};
+    }
+    void pass(std::size_t steps) {
+        for (const StepEdge& edge : edges().first(steps)) { count_ += edge.direction; }
+        passed_ += steps;
+    }
+
+private:
+    analysis::StepBatch batch_;
+    ClockStretch time_;
+    std::size_t passed_ = 0;
+    std::int64_t count_;
+};
+
+class WaitingSteps {
+public:
+    /// The batch must have steps.
+    void add(analysis::StepBatch batch) {
+        size_ += batch.steps.size();
+        batches_.emplace_back(std::move(batch));
+    }
+    bool empty() const { return batches_.empty(); }
+    std::size_t size() const { return size_; }
+    /// The next batch, which is never empty. There must be a step.
+    const SeenBatch& batch() const { return batches_.front(); }
+    SeenStep front() const { return batches_.front().front(); }
+    /// Passes steps of the next batch.
+    void pass(std::size_t steps) {
+        batches_.front().pass(steps);
+        size_ -= steps;
+        if (batches_.front().empty()) { batches_.pop_front(); }
+    }
+    /// Drops the steps of a process before a tick of its device. Returns how many there were.
+    std::int64_t drop_before(std::int64_t incarnation, Tick tick) {
+        const std::size_t all = size_;
+        for (SeenBatch& batch : batches_) {
+            if (batch.incarnation() != incarnation) { continue; }
+            const auto edges = batch.edges();
+            const auto before = std::ranges::lower_bound(edges, tick, {}, &StepEdge::tick) - edges.begin();
+            batch.pass(static_cast<std::size_t>(before));
+            size_ -= static_cast<std::size_t>(before);
+        }
+        std::erase_if(batches_, [](const SeenBatch& batch) { return batch.empty(); });
+        return static_cast<std::int64_t>(all - size_);
+    }
+
+private:
+    std::deque<SeenBatch> batches_;
+    std::size_t size_ = 0;
+};
+
+}  // namespace lockstep::verification
