@@ -53,9 +53,13 @@ void Recorder::on_job(const RecordedJob& message, LogPlace place) {
         begin_job(message, *record, place);
     } else if (message.event == "epoch") {
         ++record->epochs;
-        record->overridden = record->overridden || message.feed_percent != 100 || message.rapid_percent != 100;
+        const bool is_overridden = message.feed_percent != 100 || message.rapid_percent != 100;
+        record->overridden = record->overridden || is_overridden;
+        const bool is_within_a_move = message.resume_high != 0 || message.resume_low != 0;
+        if (is_overridden || is_within_a_move) { moves_.plan_again(number_of(*record)); }
     } else if (message.event == "override") {
         record->overridden = true;
+        moves_.plan_again(number_of(*record));
         events_.note({.at = analysis_.tick_at(message.utime),
                       .what = fmt::format("overrides changed to feed {} %, rapid {} %, for all frames after frame {}",
                                           message.feed_percent, message.rapid_percent, message.behind_frame),
@@ -118,7 +122,7 @@ void Recorder::begin_job(const RecordedJob& message, JobLog& record, LogPlace pl
         keep_asked_way(*program);
         latest_program_ = message;
     }
-    moves_.begin(static_cast<std::size_t>(&record - analysis_.jobs.data()), analysis_.tick_at(message.utime),
+    moves_.begin(number_of(record), analysis_.tick_at(message.utime),
                  *analysis_.config, JobMoves(std::move(asked), record.is_on_a_line()));
 }
 

@@ -1,22 +1,23 @@
 #include "clients/analysis/measure/asked_path.hpp"
 
+#include <algorithm>
 #include <cstdlib>
+#include <utility>
+#include <variant>
 
-#include "clients/planning/leg_plan.hpp"
 #include "clients/planning/plan_summary.hpp"
 
 namespace lockstep::analysis {
 namespace {
 
-/// Finds by bisection when an axis is `steps` from the beginning of the first move, in `direction`.
-Ticks when(const LegPlan& leg, std::size_t axis, int direction, double steps) {
-    const AxisMotion& motion = leg.axes[axis];
-    const auto from = static_cast<double>(leg.from(0, axis));
-    Ticks low = leg.moves[0].begin;
-    Ticks high = leg.end(0);
+/// Finds by bisection when an axis is `steps` from the beginning of a stroke.
+Ticks when(const AxisMotion& motion, const PlannedStroke& stroke, double steps) {
+    const int direction = stroke.to > stroke.from ? 1 : -1;
+    Ticks low = stroke.begin;
+    Ticks high = stroke.end;
     while (low < high) {
         const Ticks middle{low.value + (high.value - low.value) / 2};
-        if (direction * (motion.at(middle).as_steps() - from) < steps) {
+        if (direction * (motion.at(middle).as_steps() - static_cast<double>(stroke.from)) < steps) {
             low = middle + Ticks{1};
         } else {
             high = middle;
@@ -25,28 +26,30 @@ Ticks when(const LegPlan& leg, std::size_t axis, int direction, double steps) {
     return low;
 }
 
-/// The time from the first step of the first move to its last. A step occurs halfway between two positions: the first
-/// half a step after the beginning, the last half a step before the end.
-Ticks stepping_time(const LegPlan& leg, std::size_t axis) {
-    const std::int64_t steps = leg.to(0, axis) - leg.from(0, axis);
-    if (steps == 0) { return {}; }
-    const int direction = steps > 0 ? 1 : -1;
-    const double last = static_cast<double>(std::abs(steps)) - 0.5;
-    return when(leg, axis, direction, last) - when(leg, axis, direction, 0.5);
+/// The time from an axis's first step of a move to its last. A step occurs halfway between two positions: the first half
+/// a step after the beginning, the last half a step before the end.
+Ticks stepping_time(const AxisMotion& motion, const PlannedStroke& first, const PlannedStroke& last) {
+    return when(motion, last, static_cast<double>(std::abs(last.to - last.from)) - 0.5) - when(motion, first, 0.5);
 }
 
 }  // namespace
 
-std::int64_t AskedPath::steps(std::size_t move, std::size_t axis) const {
-    return std::abs(to(move, axis) - from(move, axis));
-}
-
 std::expected<AskedPath, std::string> AskedPath::of(const MachineConfig& machine, const ProgramHead& head,
                                                     const std::shared_ptr<const ProgramBlocks>& blocks) {
     AskedPath asked;
-    asked.moves_of_.resize(machine.axes.size());
+    asked.strokes_.resize(machine.axes.size());
     for (const AxisConfig& axis : machine.axes) { asked.mm_per_step_.push_back(1 / axis.steps_per_mm); }
-    const auto planned = each_planned_move(machine, head, blocks, start_counts(machine, head),
+    const AxisCounts start = start_counts(machine, head);
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        asked.starts_.push_back(start[i]);
+        asked.rest_mm_.push_back(to_mm(machine.axes[i], static_cast<double>(start[i])));
+    }
+    for (const std::string& name : head.axes) {
+        const auto found = std::ranges::find(machine.axes, name, &AxisConfig::name);
+        asked.axes_.push_back(static_cast<std::size_t>(found - machine.axes.begin()));
+    }
+    asked.blocks_ = blocks;
+    const auto planned = each_planned_move(machine, head, blocks, start,
                                            [&asked](const LegPlan& leg) { asked.add_first(leg); });
     if (!planned) { return std::unexpected(planned.error().text); }
     asked.legs_ = planned->legs;
@@ -59,20 +62,62 @@ void AskedPath::add_first(const LegPlan& leg) {
     const PlannedMove& move = leg.moves.front();
     const auto number = static_cast<std::uint32_t>(lines_.size());
     lines_.push_back(move.line.value_or(0));
-    if (counts_.empty()) {
-        for (std::size_t axis = 0; axis < axes(); ++axis) { counts_.push_back(leg.from(0, axis)); }
-    }
-    for (std::size_t axis = 0; axis < axes(); ++axis) { counts_.push_back(leg.to(0, axis)); }
+    numbers_.push_back(move.block);
+    steps_.resize(steps_.size() + axes());
+    std::vector<std::optional<StrokeEnds>> ends = note_strokes(leg, number);
     std::size_t lead = 0;
-    for (std::size_t axis = 0; axis < axes(); ++axis) {
+    for (std::size_t axis = 1; axis < axes(); ++axis) {
         if (steps(number, axis) > steps(number, lead)) { lead = axis; }
-        if (steps(number, axis) != 0) { moves_of_[axis].push_back(number); }
     }
     leads_.push_back(static_cast<std::uint8_t>(lead));
-    if (details_.size() < kDetailed) {
-        details_.push_back(
-            {.length_mm = move.length_mm, .planned = leg.end(0) - move.begin, .stepping = stepping_time(leg, lead)});
+    const Block* block = blocks_->block(move.block);
+    const auto* its = block != nullptr ? std::get_if<ProgramMove>(&block->action) : nullptr;
+    const bool is_whole_leg = leg.moves.size() == 1 && move.begin == Ticks{};
+    is_exact_.push_back(its == nullptr || (!its->arc && (its->mode == PathMode::ExactStop || is_whole_leg)));
+    if (its != nullptr && its->mode == PathMode::Blend) { tolerance_mm_ = std::max(tolerance_mm_, its->tolerance_mm); }
+    if (details_.size() >= kDetailed) { return; }
+    AskedMove details{.length_mm = move.length_mm, .planned = leg.end(0) - move.begin, .stepping = {}};
+    if (ends[lead]) { details.stepping = stepping_time(leg.axes[lead], ends[lead]->first, ends[lead]->last); }
+    details_.push_back(details);
+}
+
+/// Returns the first and the last stroke of each axis that makes steps.
+std::vector<std::optional<AskedPath::StrokeEnds>> AskedPath::note_strokes(const LegPlan& leg, std::uint32_t number) {
+    std::vector<std::optional<StrokeEnds>> ends(axes());
+    for (std::size_t axis = 0; axis < axes(); ++axis) {
+        each_stroke(leg.axes[axis], leg.moves[0].begin, leg.end(0), [&](const PlannedStroke& stroke) {
+            strokes_[axis].push_back({stroke.from, stroke.to, number});
+            steps_[number * axes() + axis] += std::abs(stroke.to - stroke.from);
+            ends[axis] = {ends[axis] ? ends[axis]->first : stroke, stroke};
+        });
     }
+    return ends;
+}
+
+std::int64_t AskedPath::slack(std::size_t move, std::size_t axis) const {
+    if (is_exact_[move]) { return 0; }
+    const auto& strokes = strokes_[axis];
+    const auto of_move = std::ranges::equal_range(strokes, static_cast<std::uint32_t>(move), {}, &Stroke::move);
+    return 2 * std::max<std::int64_t>(1, std::ssize(of_move));
+}
+
+AskedShape AskedPath::shape(std::size_t move) const {
+    const std::uint32_t number = numbers_[move];
+    std::vector<double> from = rest_mm_;
+    if (const auto before = blocks_->place_before(number)) {
+        for (std::size_t i = 0; i < axes_.size(); ++i) { from[axes_[i]] = (*before)[i]; }
+    }
+    const Block* block = blocks_->block(number);
+    const auto* its = block != nullptr ? std::get_if<ProgramMove>(&block->action) : nullptr;
+    std::vector<double> to = from;
+    if (its == nullptr) { return {std::move(from), std::move(to), std::nullopt}; }
+    for (std::size_t i = 0; i < axes_.size(); ++i) { to[axes_[i]] = its->target_mm[i]; }
+    std::optional<ArcShape> arc = its->arc;
+    if (arc) {
+        arc->first = axes_[arc->first];
+        arc->second = axes_[arc->second];
+    }
+    return {std::move(from), std::move(to), arc};
 }
 
 }  // namespace lockstep::analysis

@@ -1,14 +1,20 @@
-// The motion that a job's program commands for each axis, move by move: places in whole steps, and times, as the
-// coordinator plans them.
+// The motion that a job's program commands for each axis, move by move: curves as programmed, steps and times as the
+// coordinator plans them. An axis's steps in a move are counted along its curve, so a full circle has steps too.
+//
+// Moves may be joined. Then a move's own steps are those that its part of the joined path makes. After a hold or an
+// override, a curve or a joined path may be a step longer or shorter at each reversal.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <expected>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "clients/analysis/measure/asked_shape.hpp"
+#include "clients/analysis/measure/strokes.hpp"
 #include "clients/planning/leg_plan.hpp"
 #include "core/machine.hpp"
 #include "core/program_blocks.hpp"
@@ -16,9 +22,9 @@
 
 namespace lockstep::analysis {
 
-/// A line from one place to another, or a dwell (no steps).
+/// A line or an arc from one place to another, or a dwell (no steps).
 struct AskedMove {
-    double length_mm = 0;
+    double length_mm = 0;  // 0 for a dwell
     Ticks planned;   // from end to end
     Ticks stepping;  // part of `planned` from the lead axis's first step to its last
 };
@@ -35,6 +41,19 @@ public:
     static std::expected<AskedPath, std::string> of(const MachineConfig& machine, const ProgramHead& head,
                                                     const std::shared_ptr<const ProgramBlocks>& blocks);
 
+    /// An axis's way from one reversal to the next, in whole steps.
+    struct Stroke {
+        std::int64_t from = 0;
+        std::int64_t to = 0;
+        std::uint32_t move = 0;
+
+        int direction() const { return to > from ? 1 : -1; }
+        /// Whether the axis makes a step from `count` in `direction` in it.
+        bool has(std::int64_t count, int direction) const {
+            return direction > 0 ? from <= count && count < to : to < count && count <= from;
+        }
+    };
+
     std::size_t size() const { return lines_.size(); }
     /// The program's line with this move; 0: none. A program may have millions of moves.
     std::int32_t line(std::size_t move) const { return lines_[move]; }
@@ -49,22 +68,40 @@ public:
     /// The number of the machine's axes; 0 without a program.
     std::size_t axes() const { return mm_per_step_.size(); }
     double mm_per_step(std::size_t axis) const { return mm_per_step_[axis]; }
-    /// Machine coordinates, in steps.
-    std::int64_t from(std::size_t move, std::size_t axis) const { return counts_[move * axes() + axis]; }
-    std::int64_t to(std::size_t move, std::size_t axis) const { return counts_[(move + 1) * axes() + axis]; }
-    std::int64_t steps(std::size_t move, std::size_t axis) const;
-    /// The moves in which an axis makes steps.
-    const std::vector<std::uint32_t>& moves_of(std::size_t axis) const { return moves_of_[axis]; }
+    /// Where an axis is before the first move, in steps.
+    std::int64_t start(std::size_t axis) const { return starts_[axis]; }
+    /// The steps in both directions together.
+    std::int64_t steps(std::size_t move, std::size_t axis) const { return steps_[move * axes() + axis]; }
+    /// By how much the steps that a correct job makes in a move may differ from these if it was planned again behind a
+    /// hold or an override: 0 for a line from rest to rest.
+    std::int64_t slack(std::size_t move, std::size_t axis) const;
+    const std::vector<Stroke>& strokes_of(std::size_t axis) const { return strokes_[axis]; }
+    /// The curve of a move, for all axes of the machine.
+    AskedShape shape(std::size_t move) const;
+    /// The greatest deviation from the curve that the program allows, of any axis in any move, in mm.
+    double tolerance_mm() const { return tolerance_mm_; }
 
 private:
     void add_first(const LegPlan& leg);
+    struct StrokeEnds {
+        PlannedStroke first;
+        PlannedStroke last;
+    };
+    std::vector<std::optional<StrokeEnds>> note_strokes(const LegPlan& leg, std::uint32_t number);
 
-    std::vector<double> mm_per_step_;   // of each axis
-    std::vector<std::int64_t> counts_;  // for each place, of each axis
-    std::vector<std::int32_t> lines_;   // of each move; the n-th move leads from the n-th place to the next
+    std::vector<double> mm_per_step_;  // of each axis
+    std::vector<std::int64_t> starts_;
+    std::shared_ptr<const ProgramBlocks> blocks_;
+    std::vector<std::size_t> axes_;      // the machine's axes that the program names
+    std::vector<double> rest_mm_;        // of each axis of the machine, where the program begins
+    std::vector<std::uint32_t> numbers_; // of each move's block
+    std::vector<std::int32_t> lines_;    // of each move
+    std::vector<std::int64_t> steps_;    // of each move and axis
     std::vector<std::uint8_t> leads_;
+    std::vector<std::uint8_t> is_exact_; // lines from rest to rest
     std::vector<AskedMove> details_;
-    std::vector<std::vector<std::uint32_t>> moves_of_;
+    std::vector<std::vector<Stroke>> strokes_;  // by axis
+    double tolerance_mm_ = 0;
     Ticks planned_;
     std::int64_t legs_ = 0;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 
 namespace lockstep::analysis {
@@ -15,7 +16,7 @@ std::size_t steps_in_move(const MoveCursor& cursor, std::span<const LateStep> st
         return static_cast<std::size_t>(std::min(way + 1, cursor.steps_from(first.count - first.direction)));
     }
     const auto is_elsewhere = [&](const LateStep& step) {
-        return !cursor.is_in_move(step.count - step.direction, step.direction);
+        return !cursor.is_in_stroke(step.count - step.direction, step.direction);
     };
     return static_cast<std::size_t>(std::ranges::find_if(steps, is_elsewhere) - steps.begin());
 }
@@ -23,25 +24,30 @@ std::size_t steps_in_move(const MoveCursor& cursor, std::span<const LateStep> st
 }  // namespace
 
 bool MoveLog::is_whole() const {
-    return std::ranges::all_of(axes, [](const AxisMove& axis) { return axis.made_steps == axis.asked_steps; });
+    return std::ranges::all_of(axes, [](const AxisMove& axis) {
+        return std::abs(axis.made_steps - axis.asked_steps) <= axis.slack_steps;
+    });
 }
 
-bool MoveCursor::find_next(const AskedPath& asked, std::size_t axis, std::int64_t count, int direction) {
-    const auto& moves = asked.moves_of(axis);
-    const std::size_t end = std::min(moves.size(), next_ + kReach);
-    for (std::size_t i = next_; i < end; ++i) {
-        const std::int64_t from = asked.from(moves[i], axis);
-        const std::int64_t to = asked.to(moves[i], axis);
-        const std::int64_t low = direction > 0 ? from : to + 1;
-        const std::int64_t high = direction > 0 ? to : from + 1;
-        if (low <= count && count < high) {
-            next_ = i;
-            move_ = moves[i];
-            direction_ = direction;
-            low_ = low;
-            high_ = high;
-            return true;
-        }
+bool MoveCursor::find_next(const AskedPath& asked, std::size_t axis, std::int64_t count, int direction,
+                           std::int64_t most_beyond) {
+    const std::size_t end = std::min(asked.strokes_of(axis).size(), next_ + kReach);
+    const std::size_t near = std::min(end, next_ + kNear);
+    if (find_among(asked, axis, next_, near, count, direction)) { return true; }
+    const bool goes_on = stroke_.direction() == direction && stroke_.to != stroke_.from;
+    const std::int64_t beyond = (count - stroke_.to) * direction;
+    if (goes_on && beyond >= 0 && beyond < most_beyond) { return true; }
+    return find_among(asked, axis, near, end, count, direction);
+}
+
+bool MoveCursor::find_among(const AskedPath& asked, std::size_t axis, std::size_t first, std::size_t end,
+                            std::int64_t count, int direction) {
+    const auto& strokes = asked.strokes_of(axis);
+    for (std::size_t i = first; i < end; ++i) {
+        if (!strokes[i].has(count, direction)) { continue; }
+        next_ = i;
+        stroke_ = strokes[i];
+        return true;
     }
     return false;
 }
@@ -52,63 +58,44 @@ JobMoves::JobMoves(AskedPath asked, bool on_a_line)
       made_cursor_(asked_.axes()),
       late_cursor_(asked_.axes()),
       made_(asked_.size()),
-      made_steps_(asked_.size() * asked_.axes()),
-      line_(asked_.axes()) {
+      made_steps_(asked_.size() * asked_.axes()) {
     if (asked_.size() == 0) { return; }
     while (asked_.details(details_.size()) != nullptr) { details_.emplace_back().peaks.resize(asked_.axes()); }
     for (std::size_t axis = 0; axis < asked_.axes(); ++axis) {
-        line_[axis].count = asked_.from(0, axis);
-        line_[axis].at_mm = static_cast<double>(line_[axis].count) * asked_.mm_per_step(axis);
+        counts_.push_back(asked_.start(axis));
+        at_mm_.push_back(static_cast<double>(counts_.back()) * asked_.mm_per_step(axis));
+        near_mm2_ += asked_.mm_per_step(axis) * asked_.mm_per_step(axis);
     }
     begin(0);
 }
 
 void JobMoves::begin(std::size_t move) {
     current_ = move;
-    double squares = 0;
-    for (std::size_t axis = 0; axis < asked_.axes(); ++axis) {
-        const std::int64_t steps = asked_.to(move, axis) - asked_.from(move, axis);
-        line_[axis].from_mm = static_cast<double>(asked_.from(move, axis)) * asked_.mm_per_step(axis);
-        line_[axis].direction = static_cast<double>(steps) * asked_.mm_per_step(axis);
-        squares += line_[axis].direction * line_[axis].direction;
-    }
-    line_length_mm_ = std::sqrt(squares);
-    for (Part& part : line_) {
-        if (line_length_mm_ > 0) { part.direction /= line_length_mm_; }
-        stand(part, part.at_mm);
-    }
+    if (on_a_line_) { shape_ = asked_.shape(move); }
 }
 
-void JobMoves::stand(Part& part, double at_mm) {
-    part.at_mm = at_mm;
-    part.off_mm = at_mm - part.from_mm;
-    part.along_mm = part.off_mm * part.direction;
-}
-
-/// The square of the distance from the axes' position to the nearest point of the line.
-double JobMoves::square_of_distance_mm2() const {
-    double along = 0;
-    for (const Part& part : line_) { along += part.along_mm; }
-    along = std::clamp(along, 0.0, line_length_mm_);
-    double squares = 0;
-    for (const Part& part : line_) {
-        const double off = part.off_mm - along * part.direction;
-        squares += off * off;
+/// The square of the distance from the axes' place to the curve. Near the joint of two moves, one axis may be in a later
+/// move than the others: then the nearest of the last curves counts.
+double JobMoves::square_of_distance_mm2() {
+    constexpr std::size_t kBack = 8;
+    double least = shape_.square_of_distance(at_mm_);
+    for (std::size_t back = 1; back <= std::min(kBack, current_) && least > near_mm2_; ++back) {
+        least = std::min(least, asked_.shape(current_ - back).square_of_distance(at_mm_));
     }
-    return squares;
+    return least;
 }
 
 void JobMoves::take(std::size_t axis, const MeasuredStep& step) {
     if (asked_.size() == 0) { return; }
     MoveCursor& cursor = made_cursor_[axis];
     const std::size_t move_before = cursor.move();
-    if (cursor.find(asked_, axis, step.count - step.direction, step.direction)) {
+    if (cursor.find(asked_, axis, step.count - step.direction, step.direction, slack(cursor.move(), axis))) {
         take_in(cursor.move(), axis, step);
     } else {
         ++unasked_steps_;
     }
-    const bool is_next = std::exchange(line_[axis].count, step.count) == step.count - step.direction;
-    stand(line_[axis], static_cast<double>(step.count) * asked_.mm_per_step(axis));
+    const bool is_next = std::exchange(counts_[axis], step.count) == step.count - step.direction;
+    at_mm_[axis] = static_cast<double>(step.count) * asked_.mm_per_step(axis);
     if (!on_a_line_) { return; }
     if (!is_next) { forget_distances(move_before); }
     if (step.tick < newest_) { return forget_distances(std::min(cursor.move(), current_)); }
@@ -124,7 +111,9 @@ void JobMoves::forget_distances(std::size_t from_move) {
 
 std::size_t JobMoves::first_move_that_lacks(std::size_t axis) const {
     std::size_t move = 0;
-    const auto has_all = [&] { return made_steps_[move * asked_.axes() + axis] == asked_.steps(move, axis); };
+    const auto has_all = [&] {
+        return made_steps_[move * asked_.axes() + axis] + slack(move, axis) >= asked_.steps(move, axis);
+    };
     while (move < asked_.size() && has_all()) { ++move; }
     return move;
 }
@@ -165,7 +154,8 @@ void JobMoves::take(std::size_t axis, LateSteps late) {
     MoveCursor& cursor = late_cursor_[axis];
     while (!late.steps.empty()) {
         const LateStep& first = late.steps.front();
-        const bool found = cursor.find(asked_, axis, first.count - first.direction, first.direction);
+        const bool found = cursor.find(asked_, axis, first.count - first.direction, first.direction,
+                                       slack(cursor.move(), axis));
         const std::size_t count = found ? steps_in_move(cursor, late.steps) : 1;
         if (found) {
             for_equally_late(late.first(count), [&](std::span<const LateStep> equal) {
@@ -193,7 +183,9 @@ MoveLog JobMoves::move(std::size_t number) const {
         log.largest_distance_mm = std::sqrt(static_cast<double>(made.largest_square_mm2));
     }
     for (std::size_t axis = 0; axis < asked_.axes(); ++axis) {
-        log.axes.push_back({asked_.steps(number, axis), made_steps_[number * asked_.axes() + axis]});
+        log.axes.push_back({.asked_steps = asked_.steps(number, axis),
+                            .made_steps = made_steps_[number * asked_.axes() + axis],
+                            .slack_steps = slack(number, axis)});
     }
     if (number < details_.size()) { add_details(number, log); }
     return log;

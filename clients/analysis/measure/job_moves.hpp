@@ -1,7 +1,8 @@
 // Compares the moves of a job as they were made, step by step, with the commanded ones.
 //
 // An axis makes exactly the steps of its moves, in order, also across holds and resumptions. The move of a step
-// therefore follows from the axis's position, not from a clock: it is the next move through this position.
+// therefore follows from the axis's position, not from a clock: it is the next stroke through this position. Where a
+// joined path was planned again behind a hold or an override, a reversal may be a step away from its planned place.
 #pragma once
 
 #include <cstddef>
@@ -22,6 +23,7 @@ namespace lockstep::analysis {
 struct AxisMove {
     std::int64_t asked_steps = 0;
     std::int64_t made_steps = 0;
+    std::int64_t slack_steps = 0;    // by which a correct job may differ here (AskedPath::slack)
     double peak_steps_per_tick = 0;  // from SpeedMeter; its window may reach into the previous move
     double peak_steps_per_tick2 = 0;
 };
@@ -43,32 +45,31 @@ struct MoveLog {
     bool is_whole() const;
 };
 
-/// Finds the next move of one axis through a place.
+/// Finds the next stroke of one axis through a place.
 class MoveCursor {
 public:
-    /// Goes to the move in which an axis steps from `count` in `direction`. Returns false if none of the next kReach
-    /// moves does.
-    bool find(const AskedPath& asked, std::size_t axis, std::int64_t count, int direction) {
-        return is_in_move(count, direction) || find_next(asked, axis, count, direction);
+    /// Goes to the stroke in which an axis steps from `count` in `direction`. Returns false if none of the next kReach
+    /// strokes is it.
+    /// `beyond`: steps by which a reversal may be later than planned.
+    bool find(const AskedPath& asked, std::size_t axis, std::int64_t count, int direction, std::int64_t beyond) {
+        return is_in_stroke(count, direction) || find_next(asked, axis, count, direction, beyond);
     }
-    bool is_in_move(std::int64_t count, int direction) const {
-        return direction == direction_ && low_ <= count && count < high_;
-    }
-    /// The number of steps from `count` to the end of the move.
-    std::int64_t steps_from(std::int64_t count) const { return direction_ > 0 ? high_ - count : count - low_ + 1; }
+    bool is_in_stroke(std::int64_t count, int direction) const { return stroke_.has(count, direction); }
+    /// The number of steps from `count` to the end of the stroke.
+    std::int64_t steps_from(std::int64_t count) const { return (stroke_.to - count) * stroke_.direction(); }
     /// The number of the move.
-    std::size_t move() const { return move_; }
+    std::size_t move() const { return stroke_.move; }
 
 private:
-    static constexpr std::size_t kReach = 64;  // moves searched, because some may be missing from the log
+    static constexpr std::size_t kReach = 64;  // strokes searched, because steps may be missing from the log
+    static constexpr std::size_t kNear = 3;    // strokes of which one is likely
 
-    bool find_next(const AskedPath& asked, std::size_t axis, std::int64_t count, int direction);
+    bool find_next(const AskedPath& asked, std::size_t axis, std::int64_t count, int direction, std::int64_t beyond);
+    bool find_among(const AskedPath& asked, std::size_t axis, std::size_t first, std::size_t end, std::int64_t count,
+                    int direction);
 
-    std::size_t next_ = 0;  // index in the axis's moves
-    std::size_t move_ = 0;  // found last; it passes counts from low_ up to high_, exclusive
-    int direction_ = 0;
-    std::int64_t low_ = 0;
-    std::int64_t high_ = 0;
+    std::size_t next_ = 0;      // index in the axis's strokes
+    AskedPath::Stroke stroke_;  // found last
 };
 
 class JobMoves {
@@ -82,6 +83,8 @@ public:
     void take(std::size_t axis, const MeasuredStep& step);
     void take(std::size_t axis, LateSteps late);
 
+    /// From here on the path is planned again, behind a hold or an override.
+    void plan_again() { is_planned_again_ = true; }
     /// Steps that belong to no move.
     std::int64_t unasked_steps() const { return unasked_steps_; }
     /// Whether the axis made fewer steps than commanded, because the log lacks some or the job ended earlier.
@@ -118,26 +121,19 @@ private:
         std::vector<Peak> peaks;  // by axis
         void add(std::span<const LateStep> equally_late);
     };
-    /// One axis's part in the current move's line, and its position.
-    struct Part {
-        std::int64_t count = 0;
-        double from_mm = 0;
-        double direction = 0;  // component of the line's unit vector
-        double at_mm = 0;
-        double off_mm = 0;    // at_mm - from_mm
-        double along_mm = 0;  // its contribution to the distance along the line
-    };
-
     void take_in(std::size_t move, std::size_t axis, const MeasuredStep& step);
     void begin(std::size_t move);
-    void stand(Part& part, double at_mm);
-    double square_of_distance_mm2() const;
+    double square_of_distance_mm2();
     void forget_distances(std::size_t from_move);
+    std::int64_t slack(std::size_t move, std::size_t axis) const {
+        return is_planned_again_ ? asked_.slack(move, axis) : 0;
+    }
     std::size_t first_move_that_lacks(std::size_t axis) const;
     void add_details(std::size_t number, MoveLog& log) const;
 
     AskedPath asked_;
     bool on_a_line_;
+    bool is_planned_again_ = false;
     std::vector<MoveCursor> made_cursor_;  // by axis
     std::vector<MoveCursor> late_cursor_;
     std::vector<Made> made_;                // by move
@@ -145,9 +141,11 @@ private:
     std::vector<Details> details_;          // of the first moves only
     TickHistogram late_;
     std::size_t current_ = 0;
-    Tick newest_;             // of the steps so far
-    std::vector<Part> line_;  // of the current move, by axis
-    double line_length_mm_ = 0;
+    Tick newest_;                       // of the steps so far
+    std::vector<std::int64_t> counts_;  // of each axis, after its newest step
+    std::vector<double> at_mm_;         // the same, in mm
+    AskedShape shape_;                  // of the current move
+    double near_mm2_ = 0;               // the square of a step of each axis
     std::int64_t unasked_steps_ = 0;
 };
 

@@ -30,6 +30,12 @@ void MoveMeter::begin(std::size_t number, Tick from, const MachineConfig& machin
     jobs_.push_back(std::move(job));
 }
 
+void MoveMeter::plan_again(std::size_t number) {
+    for (Job& job : jobs_) {
+        if (job.number == number) { job.moves.plan_again(); }
+    }
+}
+
 void MoveMeter::take(std::size_t lane, const MeasuredStep& step) {
     Job* job = job_at(step.tick);
     trace(job, lane, step);

@@ -28,6 +28,8 @@ public:
     void name_lane(std::size_t lane, const std::string& axis);
     /// Begins a job. All steps from `from` on belong to it, until the next job begins.
     void begin(std::size_t number, Tick from, const MachineConfig& machine, JobMoves moves);
+    /// The path of this job is planned again, behind a hold or an override.
+    void plan_again(std::size_t number);
     /// Takes the steps of all axes in the order of their ticks.
     void take(std::size_t lane, const MeasuredStep& step);
     /// The path of axes X and Y, in steps. It contains the jobs in which axes move together, or all steps if there is

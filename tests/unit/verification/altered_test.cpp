@@ -172,7 +172,7 @@ TEST_F(Altered, BehindLostMessagesADifferenceIsFound) {
 
 TEST_F(Altered, TheLastRunsLost) {
     ASSERT_GT(log.leave_out<run_t>("_RUN", [&](const run_t& run) { return run.axis == "Y" && run.sequence > 20; }), 1U);
-    (void)difference();
+    EXPECT_FALSE(unknown().empty());
 }
 
 TEST_F(Altered, AnyFieldOfARun) {

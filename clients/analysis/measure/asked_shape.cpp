@@ -1,0 +1,63 @@
+#include "clients/analysis/measure/asked_shape.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lockstep::analysis {
+
+AskedShape::AskedShape(std::vector<double> from_mm, std::vector<double> to_mm, std::optional<ArcShape> arc)
+    : from_(std::move(from_mm)), to_(std::move(to_mm)), arc_(arc) {
+    double squares = 0;
+    for (std::size_t i = 0; i < from_.size(); ++i) {
+        direction_.push_back(to_[i] - from_[i]);
+        squares += direction_[i] * direction_[i];
+    }
+    length_ = std::sqrt(squares);
+    for (double& part : direction_) { part = length_ > 0 ? part / length_ : 0; }
+}
+
+double AskedShape::square_of_distance(std::span<const double> at_mm) {
+    return arc_ ? of_arc(at_mm) : of_line(at_mm);
+}
+
+double AskedShape::of_line(std::span<const double> at_mm) const {
+    double along = 0;
+    for (std::size_t i = 0; i < from_.size(); ++i) { along += (at_mm[i] - from_[i]) * direction_[i]; }
+    along = std::clamp(along, 0.0, length_);
+    double squares = 0;
+    for (std::size_t i = 0; i < from_.size(); ++i) {
+        const double off = at_mm[i] - from_[i] - along * direction_[i];
+        squares += off * off;
+    }
+    return squares;
+}
+
+/// Steps along the tangent to the foot of the place, twice: the second correction is of the order of the distance times
+/// the angle between two places.
+double AskedShape::of_arc(std::span<const double> at_mm) {
+    constexpr int kCorrections = 2;
+    const ArcPath arc(*arc_, from_, to_);
+    const double radius_change = arc.radius_end() - arc.radius_begin();
+    double squares = 0;
+    for (int pass = 0;; ++pass) {
+        const double turn = arc.sweep() * (arc.radius_begin() + radius_change * share_);
+        double along = 0;
+        double speed = 0;  // the square of the tangent, per share
+        squares = 0;
+        for (std::size_t i = 0; i < from_.size(); ++i) {
+            const double off = at_mm[i] - arc.at(i, share_);
+            double tangent = to_[i] - from_[i];
+            if (i == arc_->first) { tangent = turn * arc.turn_first(share_); }
+            if (i == arc_->second) { tangent = turn * arc.turn_second(share_); }
+            along += off * tangent;
+            speed += tangent * tangent;
+            squares += off * off;
+        }
+        const double share = speed > 0 ? std::clamp(share_ + along / speed, 0.0, 1.0) : share_;
+        if (pass == kCorrections || share == share_) { return squares; }
+        share_ = share;
+    }
+}
+
+}  // namespace lockstep::analysis
