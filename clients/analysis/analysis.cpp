@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "clients/analysis/figures.hpp"
+#include "clients/analysis/judged_log.hpp"
 #include "clients/analysis/measure/late_meter.hpp"
 #include "clients/analysis/plane_path.hpp"
 #include "clients/analysis/recorder.hpp"
@@ -82,7 +83,8 @@ std::expected<Analysis, std::string> analyze_log(const std::filesystem::path& lo
     LateMeter late(recording);
     StageThread comparing(late);
     Sorter sorter(options, comparing);
-    const auto events = read_log(log, sorter, options.progress);
+    JudgedLog judged(sorter);
+    const auto events = read_log(log, judged, options.progress);
     if (!events) { return std::unexpected(events.error()); }
     const auto written = sorter.finish();
     if (!written) { return std::unexpected(written.error()); }
@@ -91,6 +93,7 @@ std::expected<Analysis, std::string> analyze_log(const std::filesystem::path& lo
     recording.finish();
     Analysis analysis = recorder.finish(sorter);
     analysis.step_skew = std::move(skew);
+    analysis.verified = judged.finish();
     if (analysis.axes.empty() && analysis.jobs.empty()) {
         return std::unexpected(log.string() + ": it contains no record of Lockstep" + of_machine(options.machine) +
                                first_reason(analysis));

@@ -23,6 +23,7 @@
 #include "clients/analysis/measure/job_moves.hpp"
 #include "clients/analysis/measure/skew.hpp"
 #include "clients/drawing/svg.hpp"
+#include "clients/verification/findings.hpp"
 #include "core/machine.hpp"
 #include "core/program.hpp"
 
@@ -67,6 +68,7 @@ struct Analysis {
 
     std::filesystem::path log;
     std::string machine;
+    verification::Findings verified;             // the comparison of all steps with their frames and programs
     std::optional<MachineConfig> config;         // of the last job that has one
     std::vector<std::unique_ptr<AxisLog>> axes;  // in the configuration's order; by name without one
     std::vector<JobLog> jobs;                    // in the order they began, the first kJobsKept
@@ -92,6 +94,8 @@ struct Analysis {
     const AxisConfig* axis_config(const std::string& name) const;
     /// From the configuration, else from the axis's own messages; nullopt if neither contains it.
     std::optional<double> steps_per_mm(const AxisLog& axis) const;
+    /// Whether the log has the frames of steps, as logs of all but early versions have.
+    bool is_verified() const { return verified.runs + verified.local_runs > 0 || verified.difference; }
     /// Configured axes without any message in the log.
     std::vector<std::string> absent_axes() const;
     /// The first and the last step of any axis; nullopt without steps.

@@ -44,6 +44,7 @@ bool lacks_steps(const Analysis& analysis) {
 
 /// Whether the log has all steps and all axes, and does not end within a job.
 bool has_all_steps(const Analysis& analysis) {
+    if (analysis.is_verified() && analysis.verified.verdict() != verification::Verdict::Exact) { return false; }
     const auto is_cut = [](const JobLog& job) { return job.outcome.empty() || !job.axes_not_known.empty(); };
     return !lacks_steps(analysis) && analysis.absent_axes().empty() && std::ranges::none_of(analysis.jobs, is_cut);
 }
@@ -79,9 +80,28 @@ void check_outcome(const JobLog& job, Findings& found) {
     }
 }
 
+/// The verification compares each step with its frame and its program. Its result is the grade of the steps.
+void check_exactness(const Analysis& analysis, Findings& found) {
+    if (!analysis.is_verified()) { return; }
+    const verification::Findings& verified = analysis.verified;
+    if (const auto& difference = verified.difference) {
+        const std::string where = difference->commanded.empty() ? "" : " (" + difference->commanded + ")";
+        found.push_back({Grade::Bad, "the log is not as its programs give: " + difference->text + where});
+    }
+    for (const std::string& line : verified.unknown) { found.push_back({Grade::Unknown, line}); }
+    if (verified.more_unknown > 0) {
+        found.push_back({Grade::Unknown, fmt::format("and {} more such places", verified.more_unknown)});
+    }
+    if (verified.verdict() == verification::Verdict::Exact && verified.steps > 0) {
+        found.push_back({Grade::Good, "every step is where and when its frame and its program place it, to the tick: " +
+                                          plural(verified.steps, "step")});
+    }
+}
+
 /// Only a job that is done must have all its steps. If the record lacks steps, the number of steps made is unknown.
-void check_steps(const JobLog& job, bool record_lacks_steps, Findings& found) {
+void check_steps(const Analysis& analysis, const JobLog& job, bool record_lacks_steps, Findings& found) {
     if (job.is_whole() || job.outcome != "done") { return; }
+    if (analysis.is_verified() && analysis.verified.verdict() != verification::Verdict::NotExact) { return; }
     const std::string moves = grouped(job.moves_not_whole) + " of " + plural(job.move_count, "move");
     if (!record_lacks_steps && !job.axes_not_known.empty()) {
         found.push_back(unknown(fmt::format("whether {} of {} have the commanded steps", moves, name_of(job)),
@@ -99,7 +119,7 @@ void check_jobs(const Analysis& analysis, Findings& found) {
     std::int64_t whole_jobs = 0;
     for (const JobLog& job : analysis.jobs) {
         check_outcome(job, found);
-        check_steps(job, lacking, found);
+        check_steps(analysis, job, lacking, found);
         if (job.move_count == 0 || !job.is_whole()) { continue; }
         ++whole_jobs;
         moves += job.move_count;
@@ -134,9 +154,11 @@ void check_events(const Analysis& analysis, Findings& found) {
     }
     std::int64_t interruptions = 0;
     for (const JobLog& job : analysis.jobs) { interruptions += job.interruptions(); }
-    if (interruptions > 0) {
-        found.push_back({Grade::Doubtful, "motion was interrupted and continued " + plural(interruptions, "time")});
-    }
+    if (interruptions == 0) { return; }
+    const bool is_exact = analysis.is_verified() && analysis.verified.verdict() == verification::Verdict::Exact;
+    found.push_back({is_exact ? Grade::Good : Grade::Doubtful,
+                     fmt::format("motion came to rest within a job and went on {}{}", plural(interruptions, "time"),
+                                 is_exact ? ", from the same place of its path" : "")});
 }
 
 void check_end(const Analysis& analysis, Findings& found) {
@@ -240,6 +262,7 @@ std::vector<Finding> findings(const Analysis& analysis) {
     Findings found;
     check_presence(analysis, found);
     check_events(analysis, found);
+    check_exactness(analysis, found);
     check_jobs(analysis, found);
     for (const auto& axis : analysis.axes) { check_axis(analysis, *axis, found); }
     check_end(analysis, found);

@@ -34,6 +34,8 @@ public:
     void on_foreign(std::string_view channel) override;
     void on_damage(LogPlace place, std::string what) override;
 
+    /// The analyzed machine; nullopt before its first message.
+    const std::optional<std::string>& machine() const { return machine_; }
     /// Delivers the waiting steps. Call once, at the end of the log. The error is that of the first file that could not
     /// be written.
     std::expected<void, std::string> finish();
