@@ -1,0 +1,165 @@
+// Records that are merged, extracted, begun late or cut: parts of a valid record.
+#include <stdexcept>
+
+#include "clients/merge/log_merge.hpp"
+#include "clients/merge/sessions.hpp"
+#include "tests/records/kinds/kinds.hpp"
+#include "tests/records/record_times.hpp"
+
+namespace lockstep::records {
+namespace {
+
+/// Homing and three jobs with rests between them.
+Record three_jobs() {
+    MachineRun run(small_plotter());
+    run.home();
+    for (const char* gcode : {"G1 X30 Y20 F3000\nX5 Y5\n", "G2 X25 Y5 I10 J0 F3000\nG0 X5\n", "G1 X20 Y40 F3000\n"}) {
+        run.run(gcode);
+        run.wait_ms(1200);
+    }
+    return run.finish();
+}
+
+Record merged(const std::vector<std::filesystem::path>& logs, const merge::TimeSpan& span = {}) {
+    MemorySink sink;
+    const auto result = merge::merge_logs({.logs = logs, .span = span}, sink);
+    if (!result) { throw std::runtime_error(result.error()); }
+    return std::move(sink.record);
+}
+
+/// The logs of each process, as their boards keep them, with both halves in files that overlap.
+std::vector<std::filesystem::path> own_logs(const Record& record, bool is_rotated) {
+    std::vector<std::filesystem::path> logs;
+    for (const std::string part : {"_X_", "_Y_", ""}) {
+        Record own;
+        for (const Message& message : record) {
+            const bool is_of_axis = message.channel.find("_X_") != std::string::npos ||
+                                    message.channel.find("_Y_") != std::string::npos;
+            if (part.empty() ? !is_of_axis : message.channel.find(part) != std::string::npos) { own.push_back(message); }
+        }
+        const auto size = static_cast<std::ptrdiff_t>(own.size());
+        const Record first(own.begin(), own.begin() + size * 2 / 3);
+        const Record second(own.begin() + size / 3, own.end());
+        for (const Record& half : {first, second}) {
+            if (is_rotated && &half == &first) { continue; }
+            logs.push_back(record_folder() / ("own" + std::to_string(logs.size()) + ".lcm"));
+            write_record(half, logs.back());
+        }
+    }
+    return logs;
+}
+
+Record merged_own_logs() { return merged(own_logs(three_jobs(), false)); }
+
+/// The first third of each process's log is gone.
+Record merged_rotated_logs() {
+    const Record record = three_jobs();
+    std::vector<std::filesystem::path> logs = own_logs(record, false);
+    return merged({logs[1], logs[3], logs[5]});
+}
+
+Record extract(const Record& record, std::int64_t job) {
+    const auto log = record_folder() / "session.lcm";
+    write_record(record, log);
+    const auto chosen = merge::choose_logs({{log}}, false);
+    if (!chosen) { throw std::runtime_error(chosen.error()); }
+    const auto span = merge::span_of_job(chosen->jobs, job);
+    if (!span) { throw std::runtime_error("no job " + std::to_string(job)); }
+    return merged({log}, *span);
+}
+
+/// An emergency stop between two other jobs.
+Record stopped_between() {
+    MachineRun run(small_plotter());
+    run.home();
+    run.run("G1 X30 Y20 F3000\nX5 Y5\n");
+    run.begin("G1 X60 Y50 F3000\n");
+    run.wait_ms(400);
+    run.command(CommandKind::EmergencyStop);
+    run.reach(MachinePhase::Fault);
+    run.command(CommandKind::Reset);
+    run.home();
+    run.run("G1 X20 Y40 F3000\n");
+    return run.finish();
+}
+
+/// An axis's process ends at rest between two jobs.
+Record restarted_between() {
+    MachineRun run(small_plotter());
+    run.home();
+    run.run("G1 X30 Y20 F3000\nX5 Y5\n");
+    run.wait_ms(500);
+    run.restart(1, 300);
+    run.wait_ms(2500);
+    run.command(CommandKind::Reset);
+    run.wait_ms(300);
+    run.home();
+    run.run("G1 X20 Y40 F3000\n");
+    return run.finish();
+}
+
+RecordKind begun_at(const std::string& name, std::function<std::int64_t(const Record&)> from,
+                    const Expected& expected) {
+    return {name,
+            [from = std::move(from)] {
+                Record record = three_jobs();
+                const std::int64_t utime = from(record);
+                std::erase_if(record, [&](const Message& message) { return message.utime < utime; });
+                return record;
+            },
+            expected};
+}
+
+RecordKind ended_at(const std::string& name, std::function<std::int64_t(const Record&)> until,
+                    const Expected& expected) {
+    return {name,
+            [until = std::move(until)] {
+                Record record = three_jobs();
+                const std::int64_t utime = until(record);
+                std::erase_if(record, [&](const Message& message) { return message.utime >= utime; });
+                return record;
+            },
+            expected};
+}
+
+std::int64_t newest_job(const Record& record) { return job_spans(record).back().job; }
+
+}  // namespace
+
+std::vector<RecordKind> file_of_log_kinds() {
+    // Exact from the first whole job on; nothing is known of what came before.
+    const Expected late{kGood, kGood | kDoubtful | kUnknown, kGood | kUnknown, kGood};
+    const Expected cut{kGood | kUnknown, kDoubtful | kUnknown, kGood | kUnknown, kGood | kUnknown};
+    const Expected extracted{kGood, kGood, kGood | kUnknown, kGood};
+    std::vector<RecordKind> kinds{
+        {"several_jobs", three_jobs},
+        {"own_logs_merged", merged_own_logs},
+        {"rotated_logs_merged", merged_rotated_logs, late},
+        {"extract_of_the_first_job", [] { return extract(three_jobs(), 2); }, extracted},
+        {"extract_of_the_second_job", [] { return extract(three_jobs(), 3); }, extracted},
+        {"extract_of_the_last_job", [] { return extract(three_jobs(), 4); }, extracted},
+        {"extract_before_an_emergency_stop", [] { return extract(stopped_between(), 2); }, extracted},
+        {"extract_after_an_emergency_stop",
+         [] {
+             const Record record = stopped_between();
+             return extract(record, newest_job(record));
+         },
+         extracted},
+        {"extract_after_a_restart",
+         [] {
+             const Record record = restarted_between();
+             return extract(record, newest_job(record));
+         },
+         extracted},
+        begun_at("begun_in_homing", [](const Record& r) { return job_spans(r).at(0).middle_us(); }, late),
+        begun_at("begun_in_a_job", [](const Record& r) { return job_spans(r).at(1).middle_us(); }, late),
+        begun_at("begun_between_jobs", [](const Record& r) { return job_spans(r).at(1).end_us + 500'000; }, late),
+        ended_at("cut_in_homing", [](const Record& r) { return job_spans(r).at(0).middle_us(); }, cut),
+        ended_at("cut_in_a_job", [](const Record& r) { return job_spans(r).at(2).middle_us(); }, cut),
+        ended_at("cut_between_jobs", [](const Record& r) { return job_spans(r).at(1).end_us + 700'000; },
+                 {kGood, kGood | kDoubtful | kUnknown, kGood | kUnknown, kGood}),
+    };
+    return kinds;
+}
+
+}  // namespace lockstep::records

@@ -1,0 +1,89 @@
+// Records of machines with clocks of their own, bad networks, other planners and other axes.
+#include "services/documents/machine_file.hpp"
+#include "tests/records/kinds/kinds.hpp"
+
+namespace lockstep::records {
+namespace {
+
+const std::string kTour = "G21 G90 F3000\nG1 X40 Y8\nX42 Y40\nG0 X10 Y40\nX5 Y5\n";
+const std::string kArc = "G21 G90\nG0 X20 Y20\nG2 X40 Y20 I10 J0 F2400\nG1 X5 Y5\n";
+
+Record recorded(const VirtualOptions& options, const std::string& gcode, bool is_held = false) {
+    MachineRun run(options);
+    run.home();
+    run.begin(gcode);
+    if (is_held) {
+        run.wait_ms(600);
+        run.hold();
+        run.resume();
+    }
+    run.to_rest();
+    run.move_own("G0 X12 Y9\n");
+    run.wait_ms(200);
+    return run.finish();
+}
+
+/// Datagrams between the processes are lost, late and repeated; the record is whole.
+VirtualOptions rough_network() {
+    VirtualOptions options = options_of(small_plotter());
+    options.seed = 7;
+    options.network = {.delay_min = Ticks{50}, .delay_max = Ticks{15'000}, .duplicated = 0.05, .lost = 0.05};
+    return options;
+}
+
+VirtualOptions lai_planner() {
+    MachineConfig machine = small_plotter();
+    machine.coordination = StepMethod::Lai;
+    return options_of(machine);
+}
+
+VirtualOptions rotary() {
+    MachineConfig machine = small_plotter();
+    machine.axes[1].name = "A";
+    return options_of(machine);
+}
+
+Record six_axes() {
+    MachineRun run(example_machine("six-axis"));
+    run.home();
+    run.run("G0 X30 Y20 Z50 A0 B10 C-90\nG0 X5 Y5 Z58 A-174 B-84 C-174\n");
+    return run.finish();
+}
+
+Record sent_in_parts() {
+    MachineRun run(small_plotter());
+    run.home();
+    std::string gcode = "G64\nG1 F3000\n";
+    for (int i = 1; i <= 400; ++i) {
+        gcode += "X" + std::to_string(5 + 0.1 * i) + " Y" + std::to_string(5 + 0.002 * i * (i % 40)) + "\n";
+    }
+    run.run_in_parts(gcode, 60);
+    run.wait_ms(200);
+    return run.finish();
+}
+
+}  // namespace
+
+std::vector<RecordKind> machine_kinds() {
+    // A network may interrupt the motion; the machine continues it.
+    const Expected interrupted{kGood, kGood | kDoubtful, kGood, kGood};
+    return {
+        {"own_clocks", [] { return recorded(own_clocks(small_plotter()), kTour); }},
+        {"own_clocks_with_arcs", [] { return recorded(own_clocks(small_plotter()), kArc); }},
+        {"own_clocks_and_a_hold", [] { return recorded(own_clocks(small_plotter()), kTour, true); }},
+        {"rough_network", [] { return recorded(rough_network(), kTour); }, interrupted},
+        {"lai_planner", [] { return recorded(lai_planner(), kTour); }},
+        {"lai_planner_and_a_hold", [] { return recorded(lai_planner(), kTour, true); }},
+        {"rotary_axis",
+         [] {
+             MachineRun run(rotary());
+             run.home();
+             run.run("G0 X20 A30\nG1 X30 A90 F3000\nA10\nX5\n");
+             return run.finish();
+         }},
+        {"six_axes", six_axes},
+        {"program_sent_in_parts", sent_in_parts},
+    };
+}
+
+}  // namespace lockstep::records

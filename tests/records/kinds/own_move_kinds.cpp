@@ -1,0 +1,92 @@
+// Records of homing, of moves that axes make on their own, and of jogs.
+#include "tests/records/kinds/kinds.hpp"
+
+namespace lockstep::records {
+namespace {
+
+/// The example of two axes, whose limits suit the method.
+MachineConfig machine_for(StepMethod method) {
+    MachineConfig machine = small_plotter();
+    for (AxisConfig& axis : machine.axes) {
+        axis.method = method;
+        if (method == StepMethod::Lai) { axis.max_velocity_mm_s = 40; }
+        if (method == StepMethod::Lam) { axis.start_velocity_mm_s = axis.max_velocity_mm_s = 15; }
+    }
+    return machine;
+}
+
+RecordKind by_method(const std::string& name, StepMethod method) {
+    return {"own_moves_" + name, [method] {
+                MachineRun run(machine_for(method));
+                run.home();
+                run.move_own("G0 X30 Y8\n");
+                run.begin_own("G0 X5 Y20\n");
+                run.wait_ms(500);
+                run.command(CommandKind::Stop);
+                run.to_rest();
+                return run.finish();
+            }, {kGood, kDoubtful, kGood, kGood}};
+}
+
+Record homed(const MachineConfig& machine) {
+    MachineRun run(machine);
+    run.home();
+    run.wait_ms(300);
+    return run.finish();
+}
+
+Record homed_twice() {
+    MachineRun run(small_plotter());
+    run.home();
+    run.run("G1 X20 Y10 F3000\n");
+    run.home();
+    run.home(AxisSet{2});
+    run.run("G1 X20 Y10 F3000\n");
+    return run.finish();
+}
+
+/// Only X moves after homing; the log goes on for seconds.
+Record y_at_rest_after_homing() {
+    MachineRun run(small_plotter());
+    run.home();
+    run.run("G1 X40 F3000\nX10\n");
+    run.wait_ms(3000);
+    return run.finish();
+}
+
+Record jogs() {
+    MachineRun run(small_plotter());
+    run.home();
+    run.jog(0, 20, 500);
+    run.jog(1, 8, 300);
+    run.jog(0, -20, 200);
+    return run.finish();
+}
+
+Record own_moves_of_one_axis() {
+    MachineRun run(small_plotter());
+    run.home();
+    run.move_own("G0 X12\n");
+    run.wait_ms(500);
+    return run.finish();
+}
+
+}  // namespace
+
+std::vector<RecordKind> own_move_kinds() {
+    return {
+        by_method("ranade", StepMethod::Ranade),
+        by_method("spielauer", StepMethod::Spielauer),
+        by_method("lai", StepMethod::Lai),
+        by_method("lam", StepMethod::Lam),
+        by_method("carrica", StepMethod::Carrica),
+        {"own_move_of_one_axis", own_moves_of_one_axis},
+        {"homing_only", [] { return homed(small_mill()); }},
+        {"homing_from_afar", [] { return homed(example_machine("two-axis")); }},
+        {"homing_again", homed_twice},
+        {"axis_without_steps_after_homing", y_at_rest_after_homing},
+        {"jogs", jogs},
+    };
+}
+
+}  // namespace lockstep::records

@@ -1,0 +1,79 @@
+// A whole machine in virtual time that is recorded into memory, driven like a person drives it.
+//
+// A command that is not answered, or a phase that is not reached, throws std::runtime_error.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "clients/simulation/machine_recorder.hpp"
+#include "core/machine.hpp"
+#include "core/program.hpp"
+#include "services/virtual/virtual_machine.hpp"
+#include "tests/records/record.hpp"
+
+namespace lockstep::records {
+
+/// A machine from deploy/examples.
+MachineConfig example_machine(const std::string& name);
+/// Axes X, Y and Z near their switches, so that homing is short. It has words for devices.
+MachineConfig small_mill();
+/// Axes X and Y of small_mill().
+MachineConfig small_plotter();
+VirtualOptions options_of(const MachineConfig& machine);
+/// Two boards whose clocks differ from the coordinator's.
+VirtualOptions own_clocks(MachineConfig machine);
+
+class MachineRun {
+public:
+    explicit MachineRun(const MachineConfig& machine) : MachineRun(options_of(machine)) {}
+    explicit MachineRun(const VirtualOptions& options);
+
+    VirtualMachine& vm() { return vm_; }
+    std::size_t coordinator() const { return vm_.machine().axes.size(); }
+
+    void home();
+    /// Homes these axes only.
+    void home(AxisSet axes);
+    /// Runs a program of G-code from where the axes are to its end, through its pauses.
+    void run(std::string_view gcode);
+    void run(const Program& program);
+    /// Runs a program that is sent in parts of so many blocks, each after the one before is nearly used up.
+    void run_in_parts(std::string_view gcode, std::size_t blocks);
+    /// Only begins the program.
+    void begin(std::string_view gcode);
+    void begin(const Program& program);
+    /// The axes move to a place, each on its own.
+    void move_own(std::string_view gcode);
+    void begin_own(std::string_view gcode);
+    void jog(std::uint32_t axis, double speed_mm_s, std::int64_t ms);
+
+    void wait_ms(std::int64_t ms);
+    void reach(MachinePhase phase);
+    void command(CommandKind kind, std::uint64_t program = 0, AxisSet axes = 0);
+    void turn(const Overrides& overrides);
+    void hold();
+    void resume();
+    /// Goes on until the machine rests without a job.
+    void to_rest();
+    /// The process ends now; a new one starts after `ms`.
+    void restart(std::size_t process, std::int64_t ms);
+
+    Program program_of(std::string_view gcode) const;
+    /// Ends the recording.
+    Record finish();
+
+private:
+    bool is(MachinePhase phase) const { return vm_.state() && vm_.state()->phase == phase; }
+    void await(const std::function<bool()>& done, const std::string& what);
+    std::vector<double> here_mm() const;
+
+    MemorySink sink_;
+    VirtualMachine vm_;
+    MachineRecorder recorder_;
+    std::uint64_t programs_ = 0;
+    std::uint64_t jogs_ = 0;
+};
+
+}  // namespace lockstep::records

@@ -1,0 +1,34 @@
+// Every valid record is exact and good, as far as it is complete, and the tools agree.
+#include <gtest/gtest.h>
+
+#include "tests/records/kinds/kinds.hpp"
+#include "tests/records/random_program.hpp"
+
+namespace lockstep::records {
+namespace {
+
+void expect_judged(const Record& record, const Expected& expected) {
+    const Judgement judgement = judge(record);
+    for (const std::string& wrong : wrong_verdicts(judgement, expected)) { ADD_FAILURE() << wrong; }
+    for (const std::string& broken : broken_laws(judgement, false, false)) { ADD_FAILURE() << broken; }
+}
+
+class ValidRecord : public testing::TestWithParam<RecordKind> {};
+
+TEST_P(ValidRecord, IsJudgedAsItIs) { expect_judged(GetParam().make(), GetParam().expected); }
+
+INSTANTIATE_TEST_SUITE_P(All, ValidRecord, testing::ValuesIn(record_kinds()),
+                         [](const auto& kind) { return kind.param.name; });
+
+class RandomProgram : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(RandomProgram, IsExactAndGood) {
+    const std::string gcode = random_gcode(GetParam());
+    SCOPED_TRACE(gcode);
+    expect_judged(recorded_program(gcode), kValid);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomProgram, testing::Range(std::uint64_t{1}, std::uint64_t{301}));
+
+}  // namespace
+}  // namespace lockstep::records
