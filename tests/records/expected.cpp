@@ -18,14 +18,14 @@ std::string both(const std::string& law, const Judgement& judgement) {
 }
 
 /// verify and analyze do not contradict each other about steps and paths.
-void check_agreement(const Judgement& judgement, std::vector<std::string>& broken) {
+void check_agreement(const Judgement& judgement, bool begins_late, std::vector<std::string>& broken) {
     const Verdict verify = judgement.of(Tool::Verify);
     const bool is_bad = any(judgement, Grade::Bad);
     const bool is_unknown = any(judgement, Grade::Unknown);
     if (verify == kGood && is_bad) {
         broken.push_back(both("verify says exact, analyze says bad of steps or paths", judgement));
     }
-    if (verify == kGood && is_unknown) {
+    if (verify == kGood && is_unknown && !begins_late) {
         broken.push_back(both("verify says exact, analyze says unknown of steps", judgement));
     }
     if (verify == kUnknown && is_bad) {
@@ -34,24 +34,24 @@ void check_agreement(const Judgement& judgement, std::vector<std::string>& broke
     if (verify == kUnknown && judgement.of(Tool::Analyze) == kGood) {
         broken.push_back(both("verify says unknown, analyze says good", judgement));
     }
-    if (judgement.is_step_difference && !is_bad && !is_unknown) {
-        broken.push_back(both("verify found a difference of an axis, analyze says neither bad nor unknown", judgement));
+    if (judgement.is_step_difference && !is_bad && !is_unknown && !any(judgement, Grade::Doubtful)) {
+        broken.push_back(both("verify found a difference of an axis, analyze has only good findings of motion", judgement));
     }
 }
 
 }  // namespace
 
-std::vector<std::string> broken_laws(const Judgement& judgement, bool alters_motion, bool must_be_mentioned) {
+std::vector<std::string> broken_laws(const Judgement& judgement, const Expected& expected, Altered altered) {
     std::vector<std::string> broken;
-    check_agreement(judgement, broken);
+    check_agreement(judgement, expected.begins_late, broken);
     const bool claims_all = std::ranges::any_of(judgement.findings, says_no_step_is_missing);
-    if (alters_motion && judgement.of(Tool::Verify) == kGood && claims_all) {
+    if (altered.motion && judgement.of(Tool::Verify) == kGood && claims_all) {
         broken.push_back(both("altered motion is exact, and no step is missing", judgement));
     }
-    if (must_be_mentioned && !judgement.verify_mentions) {
+    if (altered.must_be_mentioned && !judgement.verify_mentions) {
         broken.push_back("verify left a message out and reports nothing\n" + judgement.text_of(Tool::Verify));
     }
-    if (must_be_mentioned && !judgement.merge_mentions) {
+    if (altered.must_be_mentioned && !judgement.merge_mentions) {
         broken.push_back("merge left a message out and reports nothing\n" + judgement.text_of(Tool::Merge));
     }
     return broken;

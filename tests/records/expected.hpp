@@ -14,6 +14,9 @@ struct Expected {
     Verdicts analyze = kGood;
     Verdicts merge = kGood;
     Verdicts replay = kGood;
+    /// The log lacks the record's beginning. verify may then be exact from a later job on, though analyze does not know
+    /// an earlier one.
+    bool begins_late = false;
 
     Verdicts of(Tool tool) const {
         const Verdicts all[kTools]{verify, analyze, merge, replay};
@@ -28,10 +31,20 @@ inline constexpr Expected kLost{kUnknown, kDoubtful | kUnknown, kUnknown, kUnkno
 /// Steps and runs contradict each other. A merge does not compare them.
 inline constexpr Expected kOtherSteps{kBad, kBad, kGood | kUnknown, kBad};
 
-/// Returns the laws that the judgement breaks, as sentences with the tools' own text. `removes_motion`: the record was
-/// altered so that motion data is missing in it or is not what the machine made. `must_be_mentioned`: a tool that
-/// leaves a message out of its comparison must say so.
-std::vector<std::string> broken_laws(const Judgement& judgement, bool alters_motion, bool must_be_mentioned);
+/// A replay compares steps with runs only; other messages are nothing to it.
+inline constexpr Verdicts kReplayedAlike = kGood | kUnknown;
+
+/// How a record was altered.
+struct Altered {
+    bool motion = false;             // data of the motion is missing, or is not what the machine made
+    bool must_be_mentioned = false;  // a tool that leaves the message out of its comparison must say so
+};
+
+/// No data of the motion is altered.
+inline constexpr Altered kNoMotion{.motion = false};
+
+/// Returns the laws that the judgement breaks, as sentences with the tools' own text.
+std::vector<std::string> broken_laws(const Judgement& judgement, const Expected& expected, Altered altered = {});
 /// Returns the tools whose verdict is not expected, as sentences with the tools' own text.
 std::vector<std::string> wrong_verdicts(const Judgement& judgement, const Expected& expected);
 

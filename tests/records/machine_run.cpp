@@ -73,8 +73,8 @@ void MachineRun::wait_ms(std::int64_t ms) {
 }
 
 void MachineRun::command(CommandKind kind, std::uint64_t program, AxisSet axes) {
-    for (int tries = 0; tries < 50; ++tries) {
-        const std::uint64_t sequence = vm_.command(kind, axes, program);
+    const std::uint64_t sequence = vm_.command(kind, axes, program);
+    for (int tries = 0; tries < 50; ++tries, vm_.repeat_command()) {
         if (!vm_.advance_until([&] { return vm_.reply_to(sequence) != nullptr; }, Ticks{200'000})) { continue; }
         const Reply reply = *vm_.reply_to(sequence);
         if (reply.status == ReplyStatus::Refused) { throw std::runtime_error("a command is refused: " + reply.text); }
@@ -93,6 +93,11 @@ void MachineRun::hold() {
     command(CommandKind::Hold);
     reach(MachinePhase::Holding);
     wait_ms(400);
+}
+
+void MachineRun::reset() {
+    command(CommandKind::Reset);
+    reach(MachinePhase::Idle);
 }
 
 void MachineRun::resume() { command(CommandKind::Resume); }
@@ -125,6 +130,7 @@ void MachineRun::begin(std::string_view gcode) { begin(program_of(gcode)); }
 void MachineRun::begin(const Program& program) {
     vm_.give_program(++programs_, program);
     command(CommandKind::Run, programs_);
+    await([&] { return !is(MachinePhase::Idle); }, "began");
 }
 
 void MachineRun::run(std::string_view gcode) { run(program_of(gcode)); }
@@ -159,6 +165,7 @@ void MachineRun::run_in_parts(std::string_view gcode, std::size_t blocks) {
 void MachineRun::begin_own(std::string_view gcode) {
     vm_.give_program(++programs_, program_of(gcode));
     command(CommandKind::MoveOwn, programs_);
+    await([&] { return !is(MachinePhase::Idle); }, "began");
 }
 
 void MachineRun::move_own(std::string_view gcode) {

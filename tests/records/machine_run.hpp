@@ -55,6 +55,8 @@ public:
     void turn(const Overrides& overrides);
     void hold();
     void resume();
+    /// After a fault.
+    void reset();
     /// Goes on until the machine rests without a job.
     void to_rest();
     /// The process ends now; a new one starts after `ms`.

@@ -48,13 +48,13 @@ Record emergency_stops() {
     run.run("G1 X20 Y20 F3000\n");
     run.command(CommandKind::EmergencyStop);  // at rest
     run.reach(MachinePhase::Fault);
-    run.command(CommandKind::Reset);
+    run.reset();
     run.home();
     run.begin(kSquare);
     run.wait_ms(700);
     run.command(CommandKind::EmergencyStop);  // in motion
     run.reach(MachinePhase::Fault);
-    run.command(CommandKind::Reset);
+    run.reset();
     run.home();
     run.run("G1 X20 Y20 F3000\n");
     return run.finish();

@@ -13,7 +13,7 @@ namespace {
 Record three_jobs() {
     MachineRun run(small_plotter());
     run.home();
-    for (const char* gcode : {"G1 X30 Y20 F3000\nX5 Y5\n", "G2 X25 Y5 I10 J0 F3000\nG0 X5\n", "G1 X20 Y40 F3000\n"}) {
+    for (const char* gcode : {"G1 X30 Y20 F3000\nX5 Y5\n", "G1 X25 Y9 F3000\nG0 X5\n", "G1 X20 Y40 F3000\n"}) {
         run.run(gcode);
         run.wait_ms(1200);
     }
@@ -77,7 +77,7 @@ Record stopped_between() {
     run.wait_ms(400);
     run.command(CommandKind::EmergencyStop);
     run.reach(MachinePhase::Fault);
-    run.command(CommandKind::Reset);
+    run.reset();
     run.home();
     run.run("G1 X20 Y40 F3000\n");
     return run.finish();
@@ -91,8 +91,7 @@ Record restarted_between() {
     run.wait_ms(500);
     run.restart(1, 300);
     run.wait_ms(2500);
-    run.command(CommandKind::Reset);
-    run.wait_ms(300);
+    run.reset();
     run.home();
     run.run("G1 X20 Y40 F3000\n");
     return run.finish();
@@ -128,7 +127,7 @@ std::int64_t newest_job(const Record& record) { return job_spans(record).back().
 
 std::vector<RecordKind> file_of_log_kinds() {
     // Exact from the first whole job on; nothing is known of what came before.
-    const Expected late{kGood, kGood | kDoubtful | kUnknown, kGood | kUnknown, kGood};
+    const Expected late{kGood, kGood | kDoubtful | kUnknown, kGood | kUnknown, kGood, true};
     const Expected cut{kGood | kUnknown, kDoubtful | kUnknown, kGood | kUnknown, kGood | kUnknown};
     const Expected extracted{kGood, kGood, kGood | kUnknown, kGood};
     std::vector<RecordKind> kinds{

@@ -20,7 +20,7 @@ RecordKind by_method(const std::string& name, StepMethod method) {
                 MachineRun run(machine_for(method));
                 run.home();
                 run.move_own("G0 X30 Y8\n");
-                run.begin_own("G0 X5 Y20\n");
+                run.begin_own("G0 X150 Y120\n");
                 run.wait_ms(500);
                 run.command(CommandKind::Stop);
                 run.to_rest();

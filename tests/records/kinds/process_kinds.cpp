@@ -17,8 +17,7 @@ Record restarted_at_rest(std::size_t process) {
     run.wait_ms(1500);
     run.restart(process, 400);
     run.wait_ms(2500);
-    run.command(CommandKind::Reset);
-    run.wait_ms(300);
+    run.reset();
     run.home();
     run.run("G1 X20 Y10 F3000\n");
     return run.finish();

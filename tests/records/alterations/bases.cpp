@@ -1,0 +1,77 @@
+// The valid records that are altered. Each has homing, a program and an own move.
+#include "tests/records/alterations/alterations.hpp"
+#include "tests/records/machine_run.hpp"
+
+namespace lockstep::records {
+namespace {
+
+Record lines() {
+    MachineRun run(small_plotter());
+    run.home();
+    run.run("G21 G90 F3000\nM3 S900\nG1 X30 Y8\nM62 P1\nX32 Y20\nM63 P1\nG4 P0.1\nG1 X10 Y20\nM5\nX5 Y5\n");
+    run.move_own("G0 X14 Y9\n");
+    run.run("G1 X5 Y5 F3000\n");
+    run.wait_ms(300);
+    return run.finish();
+}
+
+Record held_lines() {
+    MachineRun run(small_plotter());
+    run.home();
+    run.begin("G21 G90 F2400\nG1 X30 Y8\nX32 Y20\nX5 Y5\n");
+    run.wait_ms(500);
+    run.turn({60, 100});
+    run.wait_ms(200);
+    run.hold();
+    run.resume();
+    run.to_rest();
+    run.move_own("G0 X14 Y9\n");
+    run.wait_ms(300);
+    return run.finish();
+}
+
+Record arcs() {
+    MachineRun run(small_plotter());
+    run.home();
+    run.run("G21 G90\nG0 X20 Y20\nG2 X32 Y20 I6 J0 F2400\nG1 X12 Y12\n");
+    run.move_own("G0 X5 Y5\n");
+    run.wait_ms(300);
+    return run.finish();
+}
+
+Record clocks() {
+    MachineRun run(own_clocks(small_plotter()));
+    run.home();
+    run.run("G21 G90 F3000\nG1 X30 Y8\nX32 Y20\nX5 Y5\n");
+    run.move_own("G0 X14 Y9\n");
+    run.wait_ms(300);
+    return run.finish();
+}
+
+Record parts() {
+    MachineRun run(small_plotter());
+    run.home();
+    std::string gcode = "G64\nG1 F3000\n";
+    for (int i = 1; i <= 150; ++i) {
+        gcode += "X" + std::to_string(5 + 0.15 * i) + " Y" + std::to_string(5 + 0.0006 * i * i) + "\n";
+    }
+    run.run_in_parts(gcode, 50);
+    run.move_own("G0 X14 Y9\n");
+    run.wait_ms(300);
+    return run.finish();
+}
+
+}  // namespace
+
+const std::vector<Base>& bases() {
+    static const std::vector<Base> all{
+        {"lines", lines, {.events = true, .shared_clock = true, .whole_program = true}},
+        {"held_lines", held_lines, {.overrides = true, .shared_clock = true, .whole_program = true}},
+        {"arcs", arcs, {.shared_clock = true, .whole_program = true}},
+        {"own_clocks", clocks, {.clocks = true, .whole_program = true}},
+        {"sent_in_parts", parts, {.parts = true, .shared_clock = true}},
+    };
+    return all;
+}
+
+}  // namespace lockstep::records

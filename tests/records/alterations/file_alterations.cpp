@@ -1,0 +1,46 @@
+// Log files whose bytes are damaged.
+#include "tests/records/alterations/alterations.hpp"
+
+namespace lockstep::records {
+namespace {
+
+/// A part of the file cannot be read: what was in it is not known.
+constexpr Expected kDamaged{kUnknown, kDoubtful | kUnknown, kUnknown, kUnknown};
+constexpr Expected kNoLog{kRefused, kRefused, kRefused, kRefused};
+
+std::size_t middle_byte(const std::string& bytes) { return bytes.size() / 2; }
+
+/// The first byte of an event behind the middle.
+std::size_t event_in_the_middle(const std::string& bytes) {
+    return bytes.find(std::string("\xED\xA1\xDA\x01", 4), middle_byte(bytes));
+}
+
+}  // namespace
+
+const std::vector<FileAlteration>& file_alterations() {
+    static const std::vector<FileAlteration> all{
+        {"file_cut_in_the_middle", [](std::string& bytes) { bytes.resize(middle_byte(bytes)); },
+         {kGood | kUnknown, kDoubtful | kUnknown, kUnknown, kGood | kUnknown}},
+        {"file_without_its_last_bytes", [](std::string& bytes) { bytes.resize(bytes.size() - 10); },
+         {kGood | kUnknown, kGood | kDoubtful | kUnknown, kUnknown, kGood | kUnknown}},
+        {"file_with_a_damaged_header", [](std::string& bytes) { bytes[event_in_the_middle(bytes) + 1] ^= 0x10; },
+         kDamaged},
+        {"file_with_a_wrong_length", [](std::string& bytes) { bytes[event_in_the_middle(bytes) + 25] ^= 0x7f; },
+         kDamaged},
+        {"file_with_garbage_inserted",
+         [](std::string& bytes) { bytes.insert(event_in_the_middle(bytes), std::string(1000, 'x')); },
+         {kGood | kUnknown, kDoubtful | kUnknown, kUnknown, kGood | kUnknown}},
+        {"file_with_a_block_of_zeros",
+         [](std::string& bytes) { bytes.replace(middle_byte(bytes), 4096, std::string(4096, '\0')); }, kDamaged},
+        {"file_without_its_first_bytes", [](std::string& bytes) { bytes.erase(0, 10); },
+         {kGood | kUnknown, kGood | kDoubtful | kUnknown, kUnknown, kGood | kUnknown}},
+        {"file_twice_in_one", [](std::string& bytes) { bytes += std::string(bytes); },
+         {kGood | kUnknown, kGood | kDoubtful | kUnknown, kGood | kBad | kUnknown, kGood | kUnknown}},
+        {"file_empty", [](std::string& bytes) { bytes.clear(); }, kNoLog},
+        {"file_of_text", [](std::string& bytes) { bytes = "G0 X1\nG0 X2\n"; }, kNoLog},
+        {"file_of_zeros", [](std::string& bytes) { bytes.assign(5000, '\0'); }, kNoLog},
+    };
+    return all;
+}
+
+}  // namespace lockstep::records

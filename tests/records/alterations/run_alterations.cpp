@@ -1,0 +1,108 @@
+// Runs (frames, tails and own moves) that are not those the axis made.
+#include "tests/records/alterations/alterations.hpp"
+#include "tests/records/alterations/places.hpp"
+
+namespace lockstep::records {
+namespace {
+
+constexpr Verdicts kRunAnyMerge = kGood | kUnknown | kBad;
+/// The run does not make the recorded steps.
+constexpr Expected kRunOtherMotion{kBad, kDoubtful | kUnknown | kBad, kRunAnyMerge, kBad | kUnknown};
+/// The run makes the same steps, but is not the one of the plan.
+constexpr Expected kRunOtherLabel{kBad | kUnknown, kDoubtful | kUnknown | kBad, kRunAnyMerge, kGood | kBad | kUnknown};
+constexpr Expected kRunOtherClock{kBad | kUnknown, kDoubtful | kUnknown | kBad, kRunAnyMerge, kGood | kBad | kUnknown};
+
+struct RunChange {
+    const char* name;
+    void (*change)(run_t&);
+    Expected expected;
+    bool only_in_jobs = false;  // the axis itself chooses it in its own moves
+};
+
+const RunChange kRunChanges[]{
+    {"start_a_tick_later", [](run_t& run) { ++run.start_tick; }, kRunOtherMotion},
+    {"start_a_second_earlier", [](run_t& run) { run.start_tick -= 1'000'000; }, kRunOtherMotion},
+    {"start_count_one_more", [](run_t& run) { ++run.start_count; }, kRunOtherMotion},
+    {"start_phase_half_a_step_more", [](run_t& run) { run.start_phase += std::int64_t{1} << 62; }, kRunOtherMotion},
+    {"first_piece_longer", [](run_t& run) { run.ticks[0] += 100; }, kRunOtherMotion},
+    {"first_piece_twice_as_fast", [](run_t& run) { run.velocity[0] *= 2; }, kRunOtherMotion},
+    {"first_piece_backwards", [](run_t& run) { run.velocity[0] *= -1; }, kRunOtherMotion},
+    {"first_piece_accelerates", [](run_t& run) { run.acceleration[0] += run.velocity[0] / run.ticks[0]; },
+     kRunOtherMotion},
+    {"stop_count_one_more", [](run_t& run) { ++run.stop_count; }, kRunOtherMotion},
+    {"zero_count_one_more", [](run_t& run) { ++run.zero_count; }, kRunOtherLabel},
+    {"cut_marked", [](run_t& run) { run.cut = run.cut == 0 ? 1 : 0; }, kRunOtherLabel},
+    {"epoch_one_more", [](run_t& run) { ++run.epoch; }, kRunOtherLabel},
+    {"frame_one_more", [](run_t& run) { ++run.frame; }, kRunOtherLabel, true},
+    {"marked_as_tail", [](run_t& run) { run.tail = 1; }, kRunOtherLabel, true},
+    {"ahead_a_millisecond_more", [](run_t& run) { run.ahead += 1000; }, kRunOtherClock},
+    {"clock_error_of_ten_seconds", [](run_t& run) { run.clock_error = 10'000'000; }, kRunOtherClock},
+    {"of_another_process", [](run_t& run) { run.incarnation += 1'000'000; }, kRunOtherLabel},
+    {"named_axis_y", [](run_t& run) { run.axis = "Y"; }, kRunOtherLabel},
+    {"number_far_ahead", [](run_t& run) { run.sequence += 5000; }, kRunOtherLabel},
+    {"without_pieces",
+     [](run_t& run) {
+         run.pieces = 0;
+         run.ticks.clear();
+         run.velocity.clear();
+         run.acceleration.clear();
+     },
+     kRunOtherMotion},
+};
+
+bool insert_changed(Record& record, const std::string& motion, const std::function<void(run_t&)>& change) {
+    const auto place = run_in(record, motion);
+    if (!place) { return false; }
+    run_t more = *decoded<run_t>(record[*place]);
+    change(more);
+    insert_run(record, *place, std::move(more));
+    return true;
+}
+
+void add_whole_runs(const std::string& motion, std::vector<Alteration>& all) {
+    const std::string where = "_" + name_of_motion(motion);
+    const Altered inserted{.motion = true, .must_be_mentioned = false};
+    all.push_back({"run_dropped" + where, [=](Record& r) { return erase_at(r, run_in(r, motion)); }, kLost});
+    all.push_back({"run_twice" + where, [=](Record& r) { return repeat_at(r, run_in(r, motion)); }, kValid,
+                   Altered{.motion = false, .must_be_mentioned = true}});
+    all.push_back({"inserted_same_run_again" + where, [=](Record& r) { return insert_changed(r, motion, [](run_t&) {}); },
+                   kRunOtherMotion, inserted});
+    all.push_back({"inserted_run_a_minute_earlier" + where,
+                   [=](Record& r) { return insert_changed(r, motion, [](run_t& run) { run.start_tick -= 60'000'000; }); },
+                   kRunOtherMotion, inserted});
+}
+
+}  // namespace
+
+std::vector<Alteration> run_alterations() {
+    std::vector<Alteration> all;
+    for (const std::string motion : kMotions) {
+        for (const RunChange& change : kRunChanges) {
+            if (change.only_in_jobs && motion != "run") { continue; }
+            all.push_back({"run_" + std::string(change.name) + "_" + name_of_motion(motion),
+                           [=](Record& r) { return change_at<run_t>(r, run_in(r, motion), change.change); },
+                           change.expected});
+        }
+        add_whole_runs(motion, all);
+    }
+    all.push_back({"runs_of_y_dropped",
+                   [](Record& r) { return leave_out<run_t>(r, [](const run_t& run) { return run.axis == "Y"; }) > 0; },
+                   kLost});
+    all.push_back({"last_run_dropped",
+                   [](Record& r) {
+                       return erase_at(r, places_of<run_t>(r, [](const run_t& run) { return run.axis == "X"; }).back());
+                   },
+                   kLost});
+    all.push_back({"run_retimed_otherwise",
+                   [](Record& r) {
+                       const auto retimed = places_of<run_t>(
+                           r, [](const run_t& run) { return run.retimed > 0 && run.epoch != 0 && run.axis == "X"; });
+                       if (retimed.empty()) { return false; }
+                       return change_at<run_t>(r, retimed[retimed.size() / 2],
+                                               [](run_t& run) { run.commanded_ticks[0] += 500; });
+                   },
+                   kRunOtherClock, Altered{}, Needs{.clocks = true}});
+    return all;
+}
+
+}  // namespace lockstep::records
