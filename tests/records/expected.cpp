@@ -35,7 +35,8 @@ void check_agreement(const Judgement& judgement, bool begins_late, std::vector<s
         broken.push_back(both("verify says unknown, analyze says good", judgement));
     }
     if (judgement.is_step_difference && !is_bad && !is_unknown && !any(judgement, Grade::Doubtful)) {
-        broken.push_back(both("verify found a difference of an axis, analyze has only good findings of motion", judgement));
+        broken.push_back(
+            both("verify found a difference of an axis, analyze has only good findings of motion", judgement));
     }
 }
 

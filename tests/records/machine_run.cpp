@@ -21,9 +21,10 @@ std::string axis_text(const std::string& name, int steps_per_mm, int max_mm) {
 }
 
 MachineConfig machine_of(const std::string& axes) {
-    return parse_machine("name: \"mill\" unassigned { spindle: IGNORE outputs: IGNORE coolant: IGNORE "
-                         "tool_change: GO_ON }\n" +
-                         axes)
+    return parse_machine(
+               "name: \"mill\" unassigned { spindle: IGNORE outputs: IGNORE coolant: IGNORE "
+               "tool_change: GO_ON }\n" +
+               axes)
         .value();
 }
 
@@ -125,12 +126,17 @@ Program MachineRun::program_of(std::string_view gcode) const {
     return std::move(*program);
 }
 
+void MachineRun::begin_job(CommandKind kind) {
+    const std::uint64_t before = vm_.state()->job;
+    command(kind, programs_);
+    await([&] { return vm_.state()->job > before; }, "began the job");
+}
+
 void MachineRun::begin(std::string_view gcode) { begin(program_of(gcode)); }
 
 void MachineRun::begin(const Program& program) {
     vm_.give_program(++programs_, program);
-    command(CommandKind::Run, programs_);
-    await([&] { return !is(MachinePhase::Idle); }, "began");
+    begin_job(CommandKind::Run);
 }
 
 void MachineRun::run(std::string_view gcode) { run(program_of(gcode)); }
@@ -164,8 +170,7 @@ void MachineRun::run_in_parts(std::string_view gcode, std::size_t blocks) {
 
 void MachineRun::begin_own(std::string_view gcode) {
     vm_.give_program(++programs_, program_of(gcode));
-    command(CommandKind::MoveOwn, programs_);
-    await([&] { return !is(MachinePhase::Idle); }, "began");
+    begin_job(CommandKind::MoveOwn);
 }
 
 void MachineRun::move_own(std::string_view gcode) {

@@ -67,6 +67,7 @@ public:
     Record finish();
 
 private:
+    void begin_job(CommandKind kind);
     bool is(MachinePhase phase) const { return vm_.state() && vm_.state()->phase == phase; }
     void await(const std::function<bool()>& done, const std::string& what);
     std::vector<double> here_mm() const;

@@ -14,8 +14,8 @@ public:
     explicit Writer(std::uint64_t seed) : random_(seed) {}
 
     std::string write() {
-        text_ = fmt::format("G21 G90 G17 G94 G80\n{}\nG0 X{:.0f} Y{:.0f} Z{:.0f}\n", one_of({"G64", "G64 P0.05", "G61", "G61.1"}),
-                            x_, y_, z_);
+        text_ = fmt::format("G21 G90 G17 G94 G80\n{}\nG0 X{:.0f} Y{:.0f} Z{:.0f}\n",
+                            one_of({"G64", "G64 P0.05", "G61", "G61.1"}), x_, y_, z_);
         const int parts = 2 + static_cast<int>(random_() % 4);
         for (int i = 0; i < parts; ++i) { add_part(); }
         return text_;
@@ -60,8 +60,8 @@ private:
         const double i = centre_x - x_;
         const double j = centre_y - y_;
         go(centre_x + radius * std::cos(to), centre_y + radius * std::sin(to));
-        text_ += fmt::format("{} X{:.6f} Y{:.6f}{} I{:.6f} J{:.6f} F{:.0f}\n", one_of({"G2", "G3"}), x_, y_, turns, i, j,
-                             feed());
+        text_ += fmt::format("{} X{:.6f} Y{:.6f}{} I{:.6f} J{:.6f} F{:.0f}\n", one_of({"G2", "G3"}), x_, y_, turns, i,
+                             j, feed());
     }
     void add_spline() {
         const double dx = between(2, 8);
@@ -95,8 +95,6 @@ private:
 
 }  // namespace
 
-std::string random_gcode(std::uint64_t seed) {
-    return Writer(seed).write();
-}
+std::string random_gcode(std::uint64_t seed) { return Writer(seed).write(); }
 
 }  // namespace lockstep::records

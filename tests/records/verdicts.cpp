@@ -61,9 +61,8 @@ void ask_merge(const std::filesystem::path& log, Judgement& judgement) {
     if (!merged) { return set(judgement, Tool::Merge, kRefused, merged.error()); }
     const bool is_damaged =
         std::ranges::any_of(merged->inputs, [](const auto& input) { return !input.damages.empty(); });
-    const Verdict verdict =
-        merged->differing > 0 || merged->late > 0 ? kBad : merged->is_complete() && !is_damaged ? kGood : kUnknown;
-    judgement.merge_mentions = verdict != kGood || merged->duplicates > 0;
+    const Verdict verdict = merged->differing > 0 ? kBad : merged->is_complete() && !is_damaged ? kGood : kUnknown;
+    judgement.merge_mentions = verdict != kGood || merged->duplicates > 0 || merged->late > 0;
     set(judgement, Tool::Merge, verdict, merge::to_text(*merged, "merged.lcm"));
 }
 

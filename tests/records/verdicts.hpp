@@ -18,7 +18,7 @@ namespace lockstep::records {
 /// | Good     | exact                 | good     | complete                                    |
 /// | Doubtful | -                     | doubtful | -                                           |
 /// | Unknown  | something is unknown  | unknown  | messages are missing or cannot be read      |
-/// | Bad      | a difference          | bad      | messages of one number differ, or come late |
+/// | Bad      | a difference          | bad      | messages of one number differ               |
 /// | Refused  | an error instead of a result                                                    |
 enum Verdict : std::uint8_t { kGood = 1, kDoubtful = 2, kUnknown = 4, kBad = 8, kRefused = 16 };
 using Verdicts = std::uint8_t;
@@ -33,11 +33,11 @@ std::string words_of(Tool tool, Verdicts verdicts);
 
 struct Judgement {
     Verdict verdict[kTools]{};
-    std::string text[kTools];  // why, for a failed test
-    bool is_step_difference = false;            // verify found a difference of one axis
-    bool verify_mentions = false;               // verify has a difference, an unknown result or a note
-    bool merge_mentions = false;                // merge counts duplicates, losses or other things worth a line
-    std::vector<analysis::Finding> findings;    // of analyze
+    std::string text[kTools];                 // why, for a failed test
+    bool is_step_difference = false;          // verify found a difference of one axis
+    bool verify_mentions = false;             // verify has a difference, an unknown result or a note
+    bool merge_mentions = false;              // merge counts duplicates, losses or other things worth a line
+    std::vector<analysis::Finding> findings;  // of analyze
     std::int64_t steps_verified = 0;
 
     Verdict of(Tool tool) const { return verdict[static_cast<std::size_t>(tool)]; }

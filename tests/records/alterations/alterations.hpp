@@ -14,13 +14,14 @@ namespace lockstep::records {
 /// What a base record must contain so that the alteration is possible. Every base has homing, a program and an own
 /// move.
 struct Needs {
-    bool events = false;     // of the program
-    bool overrides = false;  // and holds
-    bool clocks = false;     // of each board
-    bool parts = false;      // of a program that is sent in parts
-    bool restart = false;    // of an axis's process
-    bool shared_clock = false;  // one clock drives all devices
+    bool events = false;         // of the program
+    bool overrides = false;      // and holds
+    bool clocks = false;         // of each board
+    bool parts = false;          // of a program that is sent in parts
+    bool restart = false;        // of an axis's process
+    bool shared_clock = false;   // one clock drives all devices
     bool whole_program = false;  // in the job's own message
+    bool all_motions = false;    // homing and own moves are altered in these bases only, to save time
 };
 
 struct Alteration {
@@ -35,16 +36,16 @@ struct Alteration {
     friend void PrintTo(const Alteration& alteration, std::ostream* out) { *out << alteration.name; }
 };
 
-std::vector<Alteration> step_alterations();      // one step, or one message of steps
-std::vector<Alteration> inserted_steps();        // further messages of steps with their own numbers
+std::vector<Alteration> step_alterations();  // one step, or one message of steps
+std::vector<Alteration> inserted_steps();    // further messages of steps with their own numbers
 std::vector<Alteration> run_alterations();
 std::vector<Alteration> job_alterations();
 std::vector<Alteration> program_alterations();
 std::vector<Alteration> event_alterations();
 std::vector<Alteration> mark_alterations();
-std::vector<Alteration> sample_alterations();    // positions and health
+std::vector<Alteration> sample_alterations();  // positions and health
 std::vector<Alteration> order_alterations();
-std::vector<Alteration> machine_alterations();   // other machines, configurations and versions
+std::vector<Alteration> machine_alterations();  // other machines, configurations and versions
 /// All of them.
 const std::vector<Alteration>& alterations();
 
@@ -70,5 +71,20 @@ struct Base {
     friend void PrintTo(const Base& base, std::ostream* out) { *out << base.name; }
 };
 const std::vector<Base>& bases();
+/// The base's record, made once.
+const Record& record_of(const Base& base);
+
+/// A base and an alteration that it has a place for.
+struct AlteredBase {
+    Base base;
+    Alteration alteration;
+
+    std::string name() const { return base.name + "__" + alteration.name; }
+    /// For GoogleTest.
+    friend void PrintTo(const AlteredBase& altered, std::ostream* out) { *out << altered.name(); }
+};
+std::vector<AlteredBase> altered_bases();
+/// The tools' verdicts about the first base's file with this damage.
+Judgement judge_damaged(const FileAlteration& damage);
 
 }  // namespace lockstep::records

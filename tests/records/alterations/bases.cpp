@@ -65,10 +65,10 @@ Record parts() {
 
 const std::vector<Base>& bases() {
     static const std::vector<Base> all{
-        {"lines", lines, {.events = true, .shared_clock = true, .whole_program = true}},
+        {"lines", lines, {.events = true, .shared_clock = true, .whole_program = true, .all_motions = true}},
         {"held_lines", held_lines, {.overrides = true, .shared_clock = true, .whole_program = true}},
         {"arcs", arcs, {.shared_clock = true, .whole_program = true}},
-        {"own_clocks", clocks, {.clocks = true, .whole_program = true}},
+        {"own_clocks", clocks, {.clocks = true, .whole_program = true, .all_motions = true}},
         {"sent_in_parts", parts, {.parts = true, .shared_clock = true}},
     };
     return all;

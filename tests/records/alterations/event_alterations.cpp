@@ -45,13 +45,16 @@ std::vector<Alteration> event_alterations() {
                        [=](Record& r) { return change_at<program_event_t>(r, event_place(r), change.change); },
                        kEventOtherEvent, kNoMotion, kEvents});
     }
-    all.push_back({"event_dropped", [](Record& r) { return erase_at(r, event_place(r)); }, kEventLost, kNoMotion,
-                   kEvents});
+    all.push_back(
+        {"event_dropped", [](Record& r) { return erase_at(r, event_place(r)); }, kEventLost, kNoMotion, kEvents});
     all.push_back({"events_all_dropped",
                    [](Record& r) { return leave_out<program_event_t>(r, [](const auto&) { return true; }) > 0; },
                    kEventLost, kNoMotion, kEvents});
-    all.push_back({"event_twice", [](Record& r) { return repeat_at(r, event_place(r)); },
-                   {kGood, kGood, kGood, kReplayedAlike}, Altered{.motion = false, .must_be_mentioned = true}, kEvents});
+    all.push_back({"event_twice",
+                   [](Record& r) { return repeat_at(r, event_place(r)); },
+                   {kGood, kGood, kGood, kReplayedAlike},
+                   Altered{.motion = false, .must_be_mentioned = true},
+                   kEvents});
     return all;
 }
 

@@ -1,4 +1,7 @@
 // Log files whose bytes are damaged.
+#include <fstream>
+#include <iterator>
+
 #include "tests/records/alterations/alterations.hpp"
 
 namespace lockstep::records {
@@ -19,9 +22,11 @@ std::size_t event_in_the_middle(const std::string& bytes) {
 
 const std::vector<FileAlteration>& file_alterations() {
     static const std::vector<FileAlteration> all{
-        {"file_cut_in_the_middle", [](std::string& bytes) { bytes.resize(middle_byte(bytes)); },
+        {"file_cut_in_the_middle",
+         [](std::string& bytes) { bytes.resize(middle_byte(bytes)); },
          {kGood | kUnknown, kDoubtful | kUnknown, kUnknown, kGood | kUnknown}},
-        {"file_without_its_last_bytes", [](std::string& bytes) { bytes.resize(bytes.size() - 10); },
+        {"file_without_its_last_bytes",
+         [](std::string& bytes) { bytes.resize(bytes.size() - 10); },
          {kGood | kUnknown, kGood | kDoubtful | kUnknown, kUnknown, kGood | kUnknown}},
         {"file_with_a_damaged_header", [](std::string& bytes) { bytes[event_in_the_middle(bytes) + 1] ^= 0x10; },
          kDamaged},
@@ -32,15 +37,29 @@ const std::vector<FileAlteration>& file_alterations() {
          {kGood | kUnknown, kDoubtful | kUnknown, kUnknown, kGood | kUnknown}},
         {"file_with_a_block_of_zeros",
          [](std::string& bytes) { bytes.replace(middle_byte(bytes), 4096, std::string(4096, '\0')); }, kDamaged},
-        {"file_without_its_first_bytes", [](std::string& bytes) { bytes.erase(0, 10); },
+        {"file_without_its_first_bytes",
+         [](std::string& bytes) { bytes.erase(0, 10); },
          {kGood | kUnknown, kGood | kDoubtful | kUnknown, kUnknown, kGood | kUnknown}},
-        {"file_twice_in_one", [](std::string& bytes) { bytes += std::string(bytes); },
+        {"file_twice_in_one",
+         [](std::string& bytes) { bytes += std::string(bytes); },
          {kGood | kUnknown, kGood | kDoubtful | kUnknown, kGood | kBad | kUnknown, kGood | kUnknown}},
         {"file_empty", [](std::string& bytes) { bytes.clear(); }, kNoLog},
         {"file_of_text", [](std::string& bytes) { bytes = "G0 X1\nG0 X2\n"; }, kNoLog},
         {"file_of_zeros", [](std::string& bytes) { bytes.assign(5000, '\0'); }, kNoLog},
     };
     return all;
+}
+
+Judgement judge_damaged(const FileAlteration& damage) {
+    const auto log = record_folder() / "damaged.lcm";
+    write_record(record_of(bases().front()), log);
+    std::ifstream in(log, std::ios::binary);
+    std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    damage.alter(bytes);
+    std::ofstream(log, std::ios::binary) << bytes;
+    Judgement judgement = judge_file(log);
+    std::filesystem::remove(log);
+    return judgement;
 }
 
 }  // namespace lockstep::records

@@ -53,7 +53,7 @@ std::vector<Alteration> inserted_steps() {
                 return true;
             };
             all.push_back({"inserted_" + std::string(change.name) + "_" + name_of_motion(motion), alter, kInserted,
-                           Altered{.motion = true, .must_be_mentioned = true}});
+                           Altered{.motion = true, .must_be_mentioned = true}, Needs{.all_motions = motion != "run"}});
         }
     }
     return all;

@@ -7,7 +7,8 @@ namespace {
 
 constexpr Expected kJobLost{kUnknown, kDoubtful | kUnknown, kUnknown, kReplayedAlike};
 constexpr Expected kJobOtherPlan{kBad, kDoubtful | kUnknown | kBad, kGood | kUnknown | kBad, kReplayedAlike};
-constexpr Expected kJobOtherLabel{kBad | kUnknown, kDoubtful | kUnknown | kBad, kGood | kUnknown | kBad, kReplayedAlike};
+constexpr Expected kJobOtherLabel{kBad | kUnknown, kDoubtful | kUnknown | kBad, kGood | kUnknown | kBad,
+                                  kReplayedAlike};
 
 std::optional<std::size_t> job_message(const Record& record, const std::string& kind, const std::string& event) {
     const auto places =
@@ -32,18 +33,30 @@ const JobChange kJobChanges[]{
     {"start_count_one_more", "begun", [](job_t& job) { ++job.start_count[0]; }, kJobOtherLabel, {}},
     {"number_one_more", "begun", [](job_t& job) { job.job += 100; }, kJobOtherLabel, {}},
     {"event_unknown", "epoch", [](job_t& job) { job.event = "nothing"; }, kJobOtherLabel, {}},
-    {"override_behind_another_frame", "override", [](job_t& job) { job.behind_frame += 2; }, kJobOtherPlan,
+    {"override_behind_another_frame",
+     "override",
+     [](job_t& job) { job.behind_frame += 2; },
+     kJobOtherPlan,
      {.overrides = true}},
-    {"override_of_another_feed", "override", [](job_t& job) { job.feed_percent = 190; }, kJobOtherPlan,
+    {"override_of_another_feed",
+     "override",
+     [](job_t& job) { job.feed_percent = 190; },
+     kJobOtherPlan,
      {.overrides = true}},
-    {"outcome_failed", "ended", [](job_t& job) { job.outcome = "failed"; },
-     {kGood | kBad | kUnknown, kDoubtful | kBad, kGood, kReplayedAlike}, {}},
-    {"outcome_empty", "ended", [](job_t& job) { job.outcome = ""; },
-     {kGood | kBad | kUnknown, kDoubtful | kUnknown | kBad, kGood, kReplayedAlike}, {}},
+    {"outcome_failed",
+     "ended",
+     [](job_t& job) { job.outcome = "failed"; },
+     {kGood | kBad | kUnknown, kDoubtful | kBad, kGood, kReplayedAlike},
+     {}},
+    {"outcome_empty",
+     "ended",
+     [](job_t& job) { job.outcome = ""; },
+     {kGood | kBad | kUnknown, kDoubtful | kUnknown | kBad, kGood, kReplayedAlike},
+     {}},
 };
 
 void add_lost_message(const std::string& kind, const std::string& event, const Expected& expected, Needs needs,
-              std::vector<Alteration>& all) {
+                      std::vector<Alteration>& all) {
     all.push_back({"job_" + event + "_dropped_of_" + (kind == "run" ? "a_job" : "homing"),
                    [=](Record& r) { return erase_at(r, job_message(r, kind, event)); }, expected, Altered{}, needs});
 }
@@ -53,19 +66,20 @@ void add_lost_message(const std::string& kind, const std::string& event, const E
 std::vector<Alteration> job_alterations() {
     std::vector<Alteration> all;
     for (const JobChange& change : kJobChanges) {
-        all.push_back({"job_" + std::string(change.name),
-                       [=](Record& r) {
-                           return change_at<job_t>(r, job_message(r, "run", change.event), change.change);
-                       },
-                       change.expected, Altered{}, change.needs});
+        all.push_back(
+            {"job_" + std::string(change.name),
+             [=](Record& r) { return change_at<job_t>(r, job_message(r, "run", change.event), change.change); },
+             change.expected, Altered{}, change.needs});
     }
     for (const char* event : {"begun", "epoch", "ended"}) { add_lost_message("run", event, kJobLost, {}, all); }
     add_lost_message("run", "override", kJobLost, {.overrides = true}, all);
     // Homing has no plan: its steps are compared with its runs all the same.
-    const Expected homing{kGood | kUnknown, kDoubtful | kUnknown, kUnknown, kReplayedAlike};
+    const Expected homing{kGood | kUnknown, kDoubtful | kUnknown, kGood | kUnknown, kReplayedAlike};
     for (const char* event : {"begun", "ended"}) { add_lost_message("home", event, homing, {}, all); }
-    all.push_back({"job_begun_twice", [](Record& r) { return repeat_at(r, job_message(r, "run", "begun")); },
-                   {kGood, kGood, kGood, kReplayedAlike}, Altered{.motion = false, .must_be_mentioned = true}});
+    all.push_back({"job_begun_twice",
+                   [](Record& r) { return repeat_at(r, job_message(r, "run", "begun")); },
+                   {kGood, kGood, kGood, kReplayedAlike},
+                   Altered{.motion = false, .must_be_mentioned = true}});
     all.push_back({"job_messages_all_dropped",
                    [](Record& r) { return leave_out<job_t>(r, [](const job_t&) { return true; }) > 0; },
                    {kUnknown, kUnknown, kUnknown, kReplayedAlike}});

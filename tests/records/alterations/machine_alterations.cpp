@@ -7,7 +7,6 @@
 namespace lockstep::records {
 namespace {
 
-
 template <typename Type>
 void rename(Message& message, const std::string& machine) {
     auto content = decoded<Type>(message);
@@ -87,18 +86,24 @@ std::vector<Alteration> machine_alterations() {
                                  kUnknown | kRefused};
     return {
         {"two_machines_side_by_side", [](Record& r) { return add_second_machine(r, false); }, two, kNoMotion},
-        {"two_machines_one_after_the_other", [](Record& r) { return add_second_machine(r, true); },
-         {kGood, kDoubtful | kUnknown | kRefused, kGood | kBad, kGood}, kNoMotion},
+        {"two_machines_one_after_the_other",
+         [](Record& r) { return add_second_machine(r, true); },
+         {kGood, kDoubtful | kUnknown | kRefused, kGood | kBad, kGood},
+         kNoMotion},
         {"axis_y_absent", [](Record& r) { return erase_axis(r, "Y", true); }, absent},
         {"axis_y_absent_but_for_its_marks", [](Record& r) { return erase_axis(r, "Y", false); }, absent},
-        {"all_of_another_version", [](Record& r) { return change_version(r, ""); },
+        {"all_of_another_version",
+         [](Record& r) { return change_version(r, ""); },
          {kRefused, kUnknown | kRefused, kRefused | kUnknown, kRefused}},
         {"steps_of_another_version", [](Record& r) { return change_version(r, "_STEPS"); }, other_version},
         {"runs_of_another_version", [](Record& r) { return change_version(r, "_RUN"); }, other_version},
-        {"jobs_of_another_version", [](Record& r) { return change_version(r, "_JOB"); },
+        {"jobs_of_another_version",
+         [](Record& r) { return change_version(r, "_JOB"); },
          {kUnknown | kRefused, kDoubtful | kUnknown | kRefused, kUnknown | kRefused, kGood | kUnknown}},
         {"foreign_channels", add_foreign, kValid, kNoMotion},
-        {"loss_message", add_loss, {kGood | kUnknown, kGood | kDoubtful | kUnknown, kGood | kUnknown, kGood | kUnknown},
+        {"loss_message",
+         add_loss,
+         {kGood | kUnknown, kGood | kDoubtful | kUnknown, kGood | kUnknown, kGood | kUnknown},
          kNoMotion},
     };
 }

@@ -10,9 +10,8 @@ constexpr Expected kOpen{kGood, kGood, kGood, kGood};
 constexpr Expected kEndMissing{kUnknown, kDoubtful | kUnknown, kUnknown, kGood | kUnknown};
 
 bool raise_last(Record& record, std::int64_t record_mark_t::*counted, const std::string& process) {
-    const auto places = places_of<record_mark_t>(record, [&](const record_mark_t& mark) {
-        return mark.process == process && mark.witness == process;
-    });
+    const auto places = places_of<record_mark_t>(
+        record, [&](const record_mark_t& mark) { return mark.process == process && mark.witness == process; });
     if (places.empty()) { return false; }
     return change_at<record_mark_t>(record, places.back(), [&](record_mark_t& mark) { mark.*counted += 3; });
 }
@@ -22,8 +21,8 @@ bool raise_last(Record& record, std::int64_t record_mark_t::*counted, const std:
 std::vector<Alteration> mark_alterations() {
     std::vector<Alteration> all;
     const auto drop = [&](std::string name, std::function<bool(const record_mark_t&)> unwanted) {
-        all.push_back({std::move(name), [=](Record& r) { return leave_out<record_mark_t>(r, unwanted) > 0; }, kOpen,
-                       kNoMotion});
+        all.push_back(
+            {std::move(name), [=](Record& r) { return leave_out<record_mark_t>(r, unwanted) > 0; }, kOpen, kNoMotion});
     };
     drop("marks_all_dropped", [](const record_mark_t&) { return true; });
     drop("marks_of_x_dropped", [](const record_mark_t& mark) { return mark.process == "X"; });
@@ -44,11 +43,10 @@ std::vector<Alteration> mark_alterations() {
                               });
                    },
                    kEndMissing});
-    all.push_back({"mark_twice",
-                   [](Record& r) {
-                       return repeat_at(r, places_of<record_mark_t>(r, [](const auto&) { return true; }).front());
-                   },
-                   kValid, kNoMotion});
+    all.push_back(
+        {"mark_twice",
+         [](Record& r) { return repeat_at(r, places_of<record_mark_t>(r, [](const auto&) { return true; }).front()); },
+         kValid, kNoMotion});
     return all;
 }
 

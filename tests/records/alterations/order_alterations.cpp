@@ -8,7 +8,6 @@
 namespace lockstep::records {
 namespace {
 
-
 bool shuffle_within(Record& record, std::size_t length) {
     std::mt19937_64 random(5);
     for (std::size_t at = 0; at + length <= record.size(); at += length) {

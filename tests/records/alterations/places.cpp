@@ -13,8 +13,8 @@ std::optional<std::size_t> middle(const std::vector<std::size_t>& places) {
 template <typename Type>
 void renumber(Record& record, const Type& from) {
     change_each<Type>(record, [&](Type& message) {
-        const bool is_later = message.axis == from.axis && message.incarnation == from.incarnation &&
-                              message.sequence >= from.sequence;
+        const bool is_later =
+            message.axis == from.axis && message.incarnation == from.incarnation && message.sequence >= from.sequence;
         message.sequence += is_later ? 1 : 0;
         return is_later;
     });

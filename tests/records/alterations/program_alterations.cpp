@@ -1,4 +1,6 @@
 // Programs in the record that are not those that the machine ran.
+#include <algorithm>
+
 #include "services/documents/machine_file.hpp"
 #include "services/documents/program_document.hpp"
 #include "tests/records/alterations/alterations.hpp"
@@ -20,9 +22,8 @@ ProgramMove* last_move(Program& program) {
 }
 
 std::optional<std::size_t> begun_message(const Record& record) {
-    const auto places = places_of<job_t>(record, [](const job_t& job) {
-        return job.kind == "run" && job.event == "begun" && !job.program.empty();
-    });
+    const auto places = places_of<job_t>(
+        record, [](const job_t& job) { return job.kind == "run" && job.event == "begun" && !job.program.empty(); });
     return places.empty() ? std::nullopt : std::optional(places.front());
 }
 
@@ -47,15 +48,21 @@ const ProgramChange kProgramChanges[]{
     {"last_move_left_out", [](Program& program) { program.blocks.pop_back(); }},
     {"move_added", [](Program& program) { program.blocks.push_back(program.blocks.front()); }},
     {"dwell_added",
-     [](Program& program) { program.blocks.insert(program.blocks.begin() + 1, Block{{}, Dwell{0.2}}); }},
-    {"pause_added", [](Program& program) { program.blocks.insert(program.blocks.begin() + 1, Block{{}, Pause{}}); }},
+     [](Program& program) {
+         program.blocks.insert(program.blocks.begin() + 1, Block{{}, Dwell{0.2}});
+     }},
+    {"pause_added",
+     [](Program& program) {
+         program.blocks.insert(program.blocks.begin() + 1, Block{{}, Pause{}});
+     }},
     {"exact_stop_at_each_corner",
      [](Program& program) {
          for (Block& block : program.blocks) {
              if (auto* move = std::get_if<ProgramMove>(&block.action)) { move->mode = PathMode::ExactStop; }
          }
      }},
-    {"start_elsewhere", [](Program& program) { program.start_mm[0] += 1; },
+    {"start_elsewhere",
+     [](Program& program) { program.start_mm[0] += 1; },
      {kBad | kUnknown, kDoubtful | kUnknown | kBad, kGood, kReplayedAlike}},
     {"axes_swapped", [](Program& program) { std::swap(program.axes[0], program.axes[1]); }},
 };
@@ -74,9 +81,13 @@ void add_configurations(std::vector<Alteration>& all) {
     const auto with = [&](std::string name, std::function<void(MachineConfig&)> change, const Expected& expected) {
         all.push_back({"machine_" + std::move(name), [=](Record& r) { return change_config(r, change); }, expected});
     };
-    with("of_other_steps_per_mm", [](MachineConfig& machine) { machine.axes[0].steps_per_mm = 100; }, kProgramOtherPlan);
-    with("of_other_acceleration", [](MachineConfig& machine) { machine.axes[0].max_accel_mm_s2 = 700; }, kProgramOtherPlan);
-    with("of_other_slots", [](MachineConfig& machine) { machine.timing.slot_us = 5000; }, kProgramOtherPlan);
+    with(
+        "of_other_steps_per_mm", [](MachineConfig& machine) { machine.axes[0].steps_per_mm = 100; }, kProgramOtherPlan);
+    with(
+        "of_other_acceleration", [](MachineConfig& machine) { machine.axes[0].max_accel_mm_s2 = 700; },
+        kProgramOtherPlan);
+    with(
+        "of_other_slots", [](MachineConfig& machine) { machine.timing.slot_us = 5000; }, kProgramOtherPlan);
     with("with_a_further_axis",
          [](MachineConfig& machine) {
              machine.axes.push_back(machine.axes.front());
@@ -110,13 +121,16 @@ std::vector<Alteration> program_alterations() {
     const auto place = [](const Record& r) {
         return places_of<program_part_t>(r, [](const auto& part) { return part.size > 0; })[1];
     };
-    parts("program_part_dropped", [=](Record& r) { return erase_at(r, place(r)); }, lost);
+    parts(
+        "program_part_dropped", [=](Record& r) { return erase_at(r, place(r)); }, lost);
     parts("program_part_unreadable",
           [=](Record& r) {
-              return change_at<program_part_t>(r, place(r), [](program_part_t& part) { part.data[3] ^= 0x55; });
+              return change_at<program_part_t>(
+                  r, place(r), [](program_part_t& part) { std::fill_n(part.data.begin(), 8, std::uint8_t{0xff}); });
           },
           {kUnknown | kBad | kRefused, kDoubtful | kUnknown | kBad, kGood | kUnknown, kReplayedAlike});
-    parts("program_part_twice", [=](Record& r) { return repeat_at(r, place(r)); }, {kGood, kGood, kGood, kReplayedAlike});
+    parts("program_part_twice", [=](Record& r) { return repeat_at(r, place(r)); },
+          {kGood, kGood, kGood, kReplayedAlike});
     add_configurations(all);
     all.push_back({"machine_unreadable",
                    [](Record& r) {

@@ -35,7 +35,7 @@ const RunChange kRunChanges[]{
     {"epoch_one_more", [](run_t& run) { ++run.epoch; }, kRunOtherLabel},
     {"frame_one_more", [](run_t& run) { ++run.frame; }, kRunOtherLabel, true},
     {"marked_as_tail", [](run_t& run) { run.tail = 1; }, kRunOtherLabel, true},
-    {"ahead_a_millisecond_more", [](run_t& run) { run.ahead += 1000; }, kRunOtherClock},
+    {"ahead_five_milliseconds_more", [](run_t& run) { run.ahead += 5000; }, kRunOtherClock},
     {"clock_error_of_ten_seconds", [](run_t& run) { run.clock_error = 10'000'000; }, kRunOtherClock},
     {"of_another_process", [](run_t& run) { run.incarnation += 1'000'000; }, kRunOtherLabel},
     {"named_axis_y", [](run_t& run) { run.axis = "Y"; }, kRunOtherLabel},
@@ -61,15 +61,19 @@ bool insert_changed(Record& record, const std::string& motion, const std::functi
 
 void add_whole_runs(const std::string& motion, std::vector<Alteration>& all) {
     const std::string where = "_" + name_of_motion(motion);
+    const Needs needs{.all_motions = motion != "run"};
     const Altered inserted{.motion = true, .must_be_mentioned = false};
-    all.push_back({"run_dropped" + where, [=](Record& r) { return erase_at(r, run_in(r, motion)); }, kLost});
+    all.push_back(
+        {"run_dropped" + where, [=](Record& r) { return erase_at(r, run_in(r, motion)); }, kLost, Altered{}, needs});
     all.push_back({"run_twice" + where, [=](Record& r) { return repeat_at(r, run_in(r, motion)); }, kValid,
-                   Altered{.motion = false, .must_be_mentioned = true}});
-    all.push_back({"inserted_same_run_again" + where, [=](Record& r) { return insert_changed(r, motion, [](run_t&) {}); },
-                   kRunOtherMotion, inserted});
-    all.push_back({"inserted_run_a_minute_earlier" + where,
-                   [=](Record& r) { return insert_changed(r, motion, [](run_t& run) { run.start_tick -= 60'000'000; }); },
-                   kRunOtherMotion, inserted});
+                   Altered{.motion = false, .must_be_mentioned = true}, Needs{.all_motions = motion != "run"}});
+    all.push_back({"inserted_same_run_again" + where,
+                   [=](Record& r) { return insert_changed(r, motion, [](run_t&) {}); }, kRunOtherMotion, inserted,
+                   needs});
+    all.push_back(
+        {"inserted_run_a_minute_earlier" + where,
+         [=](Record& r) { return insert_changed(r, motion, [](run_t& run) { run.start_tick -= 60'000'000; }); },
+         kRunOtherMotion, inserted, needs});
 }
 
 }  // namespace
@@ -81,7 +85,7 @@ std::vector<Alteration> run_alterations() {
             if (change.only_in_jobs && motion != "run") { continue; }
             all.push_back({"run_" + std::string(change.name) + "_" + name_of_motion(motion),
                            [=](Record& r) { return change_at<run_t>(r, run_in(r, motion), change.change); },
-                           change.expected});
+                           change.expected, Altered{}, Needs{.all_motions = motion != "run"}});
         }
         add_whole_runs(motion, all);
     }

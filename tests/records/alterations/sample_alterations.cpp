@@ -13,8 +13,8 @@ constexpr Expected kSampleLost{kGood | kUnknown, kGood | kDoubtful, kUnknown, kG
 template <typename Type>
 std::optional<std::size_t> sample_in_job(const Record& record) {
     const RecordedSpan span = first_span(record, "run");
-    const auto places = places_of<Type>(
-        record, [&](const Type& sample) { return sample.axis == "X" && span.contains(sample.utime); });
+    const auto places =
+        places_of<Type>(record, [&](const Type& sample) { return sample.axis == "X" && span.contains(sample.utime); });
     return places.empty() ? std::nullopt : std::optional(places[places.size() / 2]);
 }
 
@@ -26,8 +26,8 @@ Alteration changed(std::string name, void (*change)(Type&), const Expected& expe
 
 template <typename Type>
 void add_lost_sample(const std::string& what, std::vector<Alteration>& all) {
-    all.push_back({what + "_dropped", [](Record& r) { return erase_at(r, sample_in_job<Type>(r)); }, kSampleLost,
-                   kNoMotion});
+    all.push_back(
+        {what + "_dropped", [](Record& r) { return erase_at(r, sample_in_job<Type>(r)); }, kSampleLost, kNoMotion});
     all.push_back({what + "_twice", [](Record& r) { return repeat_at(r, sample_in_job<Type>(r)); }, kValid, kNoMotion});
     all.push_back({what + "_all_dropped",
                    [](Record& r) { return leave_out<Type>(r, [](const Type&) { return true; }) > 0; },
@@ -41,22 +41,27 @@ std::vector<Alteration> sample_alterations() {
     using Sample = axis_position_t;
     using Health = axis_health_t;
     std::vector<Alteration> all{
-        changed<Sample>("position_a_thousand_steps_off", [](Sample& s) { s.position_steps += 1000; }, kWrongSample),
-        changed<Sample>("position_five_mm_off", [](Sample& s) { s.position_mm += 5; }, kWrongSample),
-        changed<Sample>("following_error_of_500_steps", [](Sample& s) { s.following_error_steps = 500; },
-                        kWrongSample),
-        changed<Sample>("position_with_a_fault",
-                        [](Sample& s) {
-                            s.fault = 12;
-                            s.state = "Fault";
-                        },
-                        kWrongSample),
-        changed<Sample>("position_of_an_axis_not_homed", [](Sample& s) { s.homed = 0; }, kWrongSample),
-        changed<Health>("health_with_late_steps", [](Health& h) { h.step_lateness_max_us = 900; }, kWrongSample),
-        changed<Health>("health_with_lost_records", [](Health& h) { h.lost_records = 5; }, kWrongSample),
-        changed<Health>("health_with_lost_captures", [](Health& h) { h.lost_captures = 3; }, kWrongSample),
-        changed<Health>("health_with_a_clock_error_of_ten_seconds", [](Health& h) { h.clock_error_us = 1e7; },
-                        kWrongSample),
+        changed<Sample>(
+            "position_a_thousand_steps_off", [](Sample& s) { s.position_steps += 1000; }, kWrongSample),
+        changed<Sample>(
+            "position_five_mm_off", [](Sample& s) { s.position_mm += 5; }, kWrongSample),
+        changed<Sample>(
+            "following_error_of_500_steps", [](Sample& s) { s.following_error_steps = 500; }, kWrongSample),
+        changed<Sample>(
+            "position_with_a_fault",
+            [](Sample& s) {
+                s.fault = 12;
+                s.state = "Fault";
+            },
+            kWrongSample),
+        changed<Health>(
+            "health_with_late_steps", [](Health& h) { h.step_lateness_max_us = 900; }, kWrongSample),
+        changed<Health>(
+            "health_with_lost_records", [](Health& h) { h.lost_records = 5; }, kWrongSample),
+        changed<Health>(
+            "health_with_lost_captures", [](Health& h) { h.lost_captures = 3; }, kWrongSample),
+        changed<Health>(
+            "health_with_a_clock_error_of_ten_seconds", [](Health& h) { h.clock_error_us = 1e7; }, kWrongSample),
     };
     add_lost_sample<Sample>("position", all);
     add_lost_sample<Health>("health", all);

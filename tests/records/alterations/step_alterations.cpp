@@ -36,10 +36,10 @@ struct StepChange {
 constexpr Expected kStepOtherCounts{kBad, kBad, kGood | kUnknown | kBad, kBad};
 constexpr Expected kStepOtherTicks{kBad, kDoubtful | kBad, kGood | kUnknown | kBad, kBad};
 /// A value that cannot be: the message is as good as lost.
-constexpr Expected kStepImpossible{kUnknown, kDoubtful | kUnknown, kUnknown | kBad, kUnknown};
+constexpr Expected kStepImpossible{kBad | kUnknown, kDoubtful | kUnknown, kUnknown | kBad, kBad | kUnknown};
 /// The time of the steps is not known well enough.
 constexpr Expected kStepOtherClock{kBad | kUnknown, kDoubtful | kUnknown | kBad, kGood | kUnknown | kBad,
-                               kGood | kBad | kUnknown};
+                                   kGood | kBad | kUnknown};
 constexpr Expected kStepMislabelled{kBad | kUnknown, kDoubtful | kUnknown | kBad, kUnknown | kBad, kBad | kUnknown};
 
 const StepChange kStepChanges[]{
@@ -71,10 +71,10 @@ const StepChange kStepChanges[]{
     {"message_reversed", reverse_all, kStepOtherCounts},
     {"position_before_one_more", [](Steps& steps) { ++steps.position_before; }, kStepOtherCounts},
     {"position_before_far_away", [](Steps& steps) { steps.position_before = 99'999; }, kStepOtherCounts},
-    {"ahead_fifty_ticks_more",
+    {"ahead_five_milliseconds_more",
      [](Steps& steps) {
-         steps.ahead_first += 50;
-         steps.ahead_last += 50;
+         steps.ahead_first += 5000;
+         steps.ahead_last += 5000;
      },
      kStepOtherClock},
     {"clock_error_of_ten_seconds", [](Steps& steps) { steps.clock_error = 10'000'000; }, kStepOtherClock},
@@ -84,7 +84,8 @@ const StepChange kStepChanges[]{
     {"direction_of_two", [](Steps& steps) { steps.direction[1] = 2; }, kStepImpossible},
     {"ticks_that_fall", [](Steps& steps) { steps.delta_ticks[2] = -5; }, kStepImpossible},
     {"first_tick_beyond_all_limits", [](Steps& steps) { steps.first_tick = std::int64_t{1} << 60; }, kStepImpossible},
-    {"number_far_ahead", [](Steps& steps) { steps.sequence += 5000; },
+    {"number_far_ahead",
+     [](Steps& steps) { steps.sequence += 5000; },
      {kBad | kUnknown, kDoubtful | kUnknown, kUnknown, kBad | kUnknown}},
 };
 
@@ -126,12 +127,14 @@ void add_whole_messages(const std::string& motion, std::vector<Alteration>& all)
     const std::string where = "_" + name_of_motion(motion);
     all.push_back(lost_steps("steps_dropped" + where, [=](Record& r) { return erase_at(r, steps_in(r, motion)); }));
     all.push_back({"steps_twice" + where, [=](Record& r) { return repeat_at(r, steps_in(r, motion)); }, kValid,
-                   Altered{.motion = false, .must_be_mentioned = true}});
+                   Altered{.motion = false, .must_be_mentioned = true}, Needs{.all_motions = motion != "run"}});
     all.push_back({"steps_split_in_two" + where, [=](Record& r) { return split(r, motion); }, kValid,
-                   Altered{.motion = false}, Needs{.shared_clock = true}});
-    all.push_back({"steps_at_the_end_of_the_log" + where, [=](Record& r) { return move_back(r, motion); },
+                   Altered{.motion = false}, Needs{.shared_clock = true, .all_motions = motion != "run"}});
+    all.push_back({"steps_at_the_end_of_the_log" + where,
+                   [=](Record& r) { return move_back(r, motion); },
                    {kGood | kUnknown, kGood | kDoubtful | kUnknown, kGood | kUnknown | kBad, kGood | kUnknown},
-                   Altered{.motion = true, .must_be_mentioned = true}});
+                   Altered{.motion = true, .must_be_mentioned = true},
+                   Needs{.all_motions = motion != "run"}});
 }
 
 }  // namespace
@@ -142,7 +145,7 @@ std::vector<Alteration> step_alterations() {
         for (const StepChange& change : kStepChanges) {
             all.push_back({change.name + ("_" + name_of_motion(motion)),
                            [=](Record& r) { return change_at<Steps>(r, steps_in(r, motion), change.change); },
-                           change.expected});
+                           change.expected, Altered{}, Needs{.all_motions = motion != "run"}});
         }
         add_whole_messages(motion, all);
     }

@@ -21,13 +21,13 @@ struct RecordKind {
     friend void PrintTo(const RecordKind& kind, std::ostream* out) { *out << kind.name; }
 };
 
-std::vector<RecordKind> path_kinds();           // lines, arcs, helices, splines, cycles
-std::vector<RecordKind> file_kinds();           // the programs of deploy/examples
-std::vector<RecordKind> interruption_kinds();   // holds, overrides, pauses, stops, events
-std::vector<RecordKind> own_move_kinds();       // own moves by each method, jogs, homing
-std::vector<RecordKind> process_kinds();        // restarts and takeovers
-std::vector<RecordKind> machine_kinds();        // clocks, networks and other machines
-std::vector<RecordKind> file_of_log_kinds();    // merged, extracted, begun late, cut
+std::vector<RecordKind> path_kinds();          // lines, arcs, helices, splines, cycles
+std::vector<RecordKind> file_kinds();          // the programs of deploy/examples
+std::vector<RecordKind> interruption_kinds();  // holds, overrides, pauses, stops, events
+std::vector<RecordKind> own_move_kinds();      // own moves by each method, jogs, homing
+std::vector<RecordKind> process_kinds();       // restarts and takeovers
+std::vector<RecordKind> machine_kinds();       // clocks, networks and other machines
+std::vector<RecordKind> file_of_log_kinds();   // merged, extracted, begun late, cut
 /// All of them.
 const std::vector<RecordKind>& record_kinds();
 

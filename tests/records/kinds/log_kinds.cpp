@@ -33,9 +33,11 @@ std::vector<std::filesystem::path> own_logs(const Record& record, bool is_rotate
     for (const std::string part : {"_X_", "_Y_", ""}) {
         Record own;
         for (const Message& message : record) {
-            const bool is_of_axis = message.channel.find("_X_") != std::string::npos ||
-                                    message.channel.find("_Y_") != std::string::npos;
-            if (part.empty() ? !is_of_axis : message.channel.find(part) != std::string::npos) { own.push_back(message); }
+            const bool is_of_axis =
+                message.channel.find("_X_") != std::string::npos || message.channel.find("_Y_") != std::string::npos;
+            if (part.empty() ? !is_of_axis : message.channel.find(part) != std::string::npos) {
+                own.push_back(message);
+            }
         }
         const auto size = static_cast<std::ptrdiff_t>(own.size());
         const Record first(own.begin(), own.begin() + size * 2 / 3);
@@ -150,11 +152,16 @@ std::vector<RecordKind> file_of_log_kinds() {
              return extract(record, newest_job(record));
          },
          extracted},
-        begun_at("begun_in_homing", [](const Record& r) { return job_spans(r).at(0).middle_us(); }, late),
-        begun_at("begun_in_a_job", [](const Record& r) { return job_spans(r).at(1).middle_us(); }, late),
-        begun_at("begun_between_jobs", [](const Record& r) { return job_spans(r).at(1).end_us + 500'000; }, late),
-        ended_at("cut_in_homing", [](const Record& r) { return job_spans(r).at(0).middle_us(); }, cut),
-        ended_at("cut_in_a_job", [](const Record& r) { return job_spans(r).at(2).middle_us(); }, cut),
+        begun_at(
+            "begun_in_homing", [](const Record& r) { return job_spans(r).at(0).middle_us(); }, late),
+        begun_at(
+            "begun_in_a_job", [](const Record& r) { return job_spans(r).at(1).middle_us(); }, late),
+        begun_at(
+            "begun_between_jobs", [](const Record& r) { return job_spans(r).at(1).end_us + 500'000; }, late),
+        ended_at(
+            "cut_in_homing", [](const Record& r) { return job_spans(r).at(0).middle_us(); }, cut),
+        ended_at(
+            "cut_in_a_job", [](const Record& r) { return job_spans(r).at(2).middle_us(); }, cut),
         ended_at("cut_between_jobs", [](const Record& r) { return job_spans(r).at(1).end_us + 700'000; },
                  {kGood, kGood | kDoubtful | kUnknown, kGood | kUnknown, kGood}),
     };

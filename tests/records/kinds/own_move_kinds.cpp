@@ -16,7 +16,8 @@ MachineConfig machine_for(StepMethod method) {
 }
 
 RecordKind by_method(const std::string& name, StepMethod method) {
-    return {"own_moves_" + name, [method] {
+    return {"own_moves_" + name,
+            [method] {
                 MachineRun run(machine_for(method));
                 run.home();
                 run.move_own("G0 X30 Y8\n");
@@ -25,7 +26,8 @@ RecordKind by_method(const std::string& name, StepMethod method) {
                 run.command(CommandKind::Stop);
                 run.to_rest();
                 return run.finish();
-            }, {kGood, kDoubtful, kGood, kGood}};
+            },
+            {kGood, kDoubtful, kGood, kGood}};
 }
 
 Record homed(const MachineConfig& machine) {

@@ -36,10 +36,11 @@ std::string straight_lines(int count) {
 
 /// A machine of one coarse clock and one fine axis.
 MachineConfig slow_axis() {
-    return parse_machine("name: \"slow\" tick_ns: 100000 axis { name: \"X\" steps_per_mm: 1000 "
-                         "start_velocity_mm_s: 0.78 max_velocity_mm_s: 4 max_accel_mm_s2: 20 position_min_mm: 0 "
-                         "position_max_mm: 50 homing { pulloff_mm: 0.1 park_mm: 0.5 } "
-                         "plant { start_position_mm: 0.2 } }")
+    return parse_machine(
+               "name: \"slow\" tick_ns: 100000 axis { name: \"X\" steps_per_mm: 1000 "
+               "start_velocity_mm_s: 0.78 max_velocity_mm_s: 4 max_accel_mm_s2: 20 position_min_mm: 0 "
+               "position_max_mm: 50 homing { pulloff_mm: 0.1 park_mm: 0.5 } "
+               "plant { start_position_mm: 0.2 } }")
         .value();
 }
 
@@ -48,15 +49,17 @@ MachineConfig slow_axis() {
 std::vector<RecordKind> path_kinds() {
     return {
         program("two_lines_with_an_arc", "G0 X10 Y10\nG2 X30 Y10 I10 J0 F1200\n"),
-        program("quarter_arcs", "G0 X20 Y20\nG1 X60 F3000\nG3 X70 Y30 R10\nG1 Y50\nG3 X60 Y60 I-10 J0\nG1 X20\n"
-                                "G3 X10 Y50 R10\nG1 Y30\nG3 X20 Y20 I10 J0\n"),
+        program("quarter_arcs",
+                "G0 X20 Y20\nG1 X60 F3000\nG3 X70 Y30 R10\nG1 Y50\nG3 X60 Y60 I-10 J0\nG1 X20\n"
+                "G3 X10 Y50 R10\nG1 Y30\nG3 X20 Y20 I10 J0\n"),
         program("full_circles", "G0 X40 Y30\nG2 I10 J0 F3000\nG3 I-5 J5\n"),
         program("arcs_in_other_planes", "G0 X20 Y20 Z10\nG18 G2 X40 Z10 I10 K0 F2400\nG19 G3 Y40 Z10 J10 K0\nG17\n"),
         program("helices", "G0 X40 Y40 Z5\nG2 X40 Y40 Z10 I10 J0 P3 F3000\nG3 X60 Y40 Z6 I10 J0\n"),
         program("arcs_joined_with_lines", "G64 P0.1\nG0 X20 Y20\nG1 X40 F4000\nG2 X50 Y10 R10\nG1 Y5\nX30\n"),
         program("splines", "G0 X20 Y20\nG5 I0 J-8 P0 Q-8 X32 Y20 F2400\nG5.1 I5 J8 X50 Y20\n"),
-        program("canned_cycles", "G0 X10 Y10 Z20\nG99 G81 X15 Y15 Z4 R8 F1200\nX25\nG98 G83 Z3 R8 Q2\n"
-                                 "G82 X30 Y20 Z6 R8 P0.1\nG80\nG0 X5\n"),
+        program("canned_cycles",
+                "G0 X10 Y10 Z20\nG99 G81 X15 Y15 Z4 R8 F1200\nX25\nG98 G83 Z3 R8 Q2\n"
+                "G82 X30 Y20 Z6 R8 P0.1\nG80\nG0 X5\n"),
         program("short_lines_joined", short_lines(2000, 0.08, "G64")),
         program("short_lines_joined_widely", short_lines(1000, 0.08, "G64 P0.05")),
         program("straight_short_lines_joined", straight_lines(3000)),
@@ -66,9 +69,7 @@ std::vector<RecordKind> path_kinds() {
         program("dwells", "G1 X30 F3000\nG4 P0.3\nY30\nG4 P0.05\nG0 X5 Y5\n"),
         program("inverse_time", "G93\nG1 X20 Y20 F60\nG2 X40 Y20 I10 J0 F60\nG94\n"),
         {"one_slow_axis_with_a_coarse_clock",
-         [] {
-             return recorded_program(slow_axis(), "G64\nG1 X2 F200\nX3.5\nX3.2\nX6\nX5.9\nX0.5\n");
-         }},
+         [] { return recorded_program(slow_axis(), "G64\nG1 X2 F200\nX3.5\nX3.2\nX6\nX5.9\nX0.5\n"); }},
     };
 }
 

@@ -1,0 +1,78 @@
+// Prints what verify, analyze, merge and replay say about every kind of record and every alteration, as Markdown.
+//
+// A verdict that is not the expected one is followed by the expected one.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <string_view>
+
+#include "tests/records/alterations/alterations.hpp"
+#include "tests/records/kinds/kinds.hpp"
+
+namespace lockstep::records {
+namespace {
+
+constexpr Tool kColumns[]{Tool::Verify, Tool::Analyze, Tool::Merge, Tool::Replay};
+
+void print_head(std::string_view title, std::string_view first) {
+    fmt::print("\n## {}\n\n| {} |", title, first);
+    for (const Tool tool : kColumns) { fmt::print(" {} |", name_of(tool)); }
+    fmt::print("\n|---|---|---|---|---|\n");
+}
+
+/// `said`: all verdicts of one tool, of one or several records.
+std::string cell(Tool tool, Verdicts said, Verdicts expected) {
+    const bool is_expected = (said & ~expected) == 0;
+    return words_of(tool, said) + (is_expected ? "" : fmt::format(" (**must be {}**)", words_of(tool, expected)));
+}
+
+void print_row(std::string name, const std::vector<Judgement>& judgements, const Expected& expected) {
+    std::ranges::replace(name, '_', ' ');
+    fmt::print("| {} |", name);
+    for (const Tool tool : kColumns) {
+        Verdicts said = 0;
+        for (const Judgement& judgement : judgements) { said |= judgement.of(tool); }
+        fmt::print(" {} |", cell(tool, said, expected.of(tool)));
+    }
+    fmt::print("\n");
+}
+
+void print_kinds() {
+    print_head("Valid records", "record");
+    for (const RecordKind& kind : record_kinds()) { print_row(kind.name, {judge(kind.make())}, kind.expected); }
+}
+
+void print_alterations() {
+    std::map<std::string, std::vector<Judgement>> judged;
+    for (const AlteredBase& altered : altered_bases()) {
+        Record record = record_of(altered.base);
+        if (altered.alteration.alter(record)) { judged[altered.alteration.name].push_back(judge(record)); }
+    }
+    print_head("Altered records", "alteration");
+    for (const Alteration& alteration : alterations()) {
+        print_row(alteration.name, judged[alteration.name], alteration.expected);
+    }
+}
+
+void print_files() {
+    print_head("Damaged files", "damage");
+    for (const FileAlteration& damage : file_alterations()) {
+        print_row(damage.name, {judge_damaged(damage)}, damage.expected);
+    }
+}
+
+}  // namespace
+}  // namespace lockstep::records
+
+int main(int count, char** arguments) {
+    if (count != 2 || std::string_view(arguments[1]) != "--print") {
+        fmt::print("usage: records_table --print\n");
+        return 2;
+    }
+    lockstep::records::print_kinds();
+    lockstep::records::print_alterations();
+    lockstep::records::print_files();
+    return 0;
+}
