@@ -22,16 +22,16 @@ void check_agreement(const Judgement& judgement, bool begins_late, std::vector<s
     const Verdict verify = judgement.of(Tool::Verify);
     const bool is_bad = any(judgement, Grade::Bad);
     const bool is_unknown = any(judgement, Grade::Unknown);
-    if (verify == kGood && is_bad) {
+    if (verify == kSaysGood && is_bad) {
         broken.push_back(both("verify says exact, analyze says bad of steps or paths", judgement));
     }
-    if (verify == kGood && is_unknown && !begins_late) {
+    if (verify == kSaysGood && is_unknown && !begins_late) {
         broken.push_back(both("verify says exact, analyze says unknown of steps", judgement));
     }
-    if (verify == kUnknown && is_bad) {
+    if (verify == kSaysUnknown && is_bad) {
         broken.push_back(both("verify says unknown, analyze says bad of steps or paths", judgement));
     }
-    if (verify == kUnknown && judgement.of(Tool::Analyze) == kGood) {
+    if (verify == kSaysUnknown && judgement.of(Tool::Analyze) == kSaysGood) {
         broken.push_back(both("verify says unknown, analyze says good", judgement));
     }
     if (judgement.is_step_difference && !is_bad && !is_unknown && !any(judgement, Grade::Doubtful)) {
@@ -46,7 +46,7 @@ std::vector<std::string> broken_laws(const Judgement& judgement, const Expected&
     std::vector<std::string> broken;
     check_agreement(judgement, expected.begins_late, broken);
     const bool claims_all = std::ranges::any_of(judgement.findings, says_no_step_is_missing);
-    if (altered.motion && judgement.of(Tool::Verify) == kGood && claims_all) {
+    if (altered.motion && judgement.of(Tool::Verify) == kSaysGood && claims_all) {
         broken.push_back(both("altered motion is exact, and no step is missing", judgement));
     }
     if (altered.must_be_mentioned && !judgement.verify_mentions) {

@@ -10,10 +10,10 @@ namespace lockstep::records {
 
 /// Each member allows one or several verdicts.
 struct Expected {
-    Verdicts verify = kGood;
-    Verdicts analyze = kGood;
-    Verdicts merge = kGood;
-    Verdicts replay = kGood;
+    Verdicts verify = kSaysGood;
+    Verdicts analyze = kSaysGood;
+    Verdicts merge = kSaysGood;
+    Verdicts replay = kSaysGood;
     /// The log lacks the record's beginning. verify may then be exact from a later job on, though analyze does not know
     /// an earlier one.
     bool begins_late = false;
@@ -27,12 +27,12 @@ struct Expected {
 /// Complete, and as commanded.
 inline constexpr Expected kValid{};
 /// Messages are lost: nobody can say whether the motion was right.
-inline constexpr Expected kLost{kUnknown, kDoubtful | kUnknown, kUnknown, kUnknown};
+inline constexpr Expected kLost{kSaysUnknown, kSaysDoubtful | kSaysUnknown, kSaysUnknown, kSaysUnknown};
 /// Steps and runs contradict each other. A merge does not compare them.
-inline constexpr Expected kOtherSteps{kBad, kBad, kGood | kUnknown, kBad};
+inline constexpr Expected kOtherSteps{kSaysBad, kSaysBad, kSaysGood | kSaysUnknown, kSaysBad};
 
 /// A replay compares steps with runs only; other messages are nothing to it.
-inline constexpr Verdicts kReplayedAlike = kGood | kUnknown;
+inline constexpr Verdicts kReplayedAlike = kSaysGood | kSaysUnknown;
 
 /// How a record was altered.
 struct Altered {

@@ -40,6 +40,14 @@ MachineConfig small_mill() {
 
 MachineConfig small_plotter() { return machine_of(axis_text("X", 80, 200) + axis_text("Y", 80, 200)); }
 
+MachineConfig slow_axis_machine() {
+    return parse_machine(
+               "name: \"slow\" tick_ns: 100000 axis { name: \"X\" steps_per_mm: 1000 start_velocity_mm_s: "
+               "0.78 max_velocity_mm_s: 4 max_accel_mm_s2: 20 position_min_mm: 0 position_max_mm: 50 "
+               "homing { pulloff_mm: 0.1 park_mm: 0.5 } plant { start_position_mm: 0.2 } }")
+        .value();
+}
+
 VirtualOptions options_of(const MachineConfig& machine) {
     return {.machine = machine, .config_hash = config_hash(machine)};
 }
@@ -165,6 +173,12 @@ void MachineRun::run_in_parts(std::string_view gcode, std::size_t blocks) {
         await([&] { return vm_.reply_to(sequence) != nullptr; }, "answered a part");
         if (index == 0) { command(CommandKind::Run, programs_); }
     }
+    to_rest();
+}
+
+void MachineRun::move(std::string_view gcode) {
+    vm_.give_program(++programs_, program_of(gcode));
+    begin_job(CommandKind::Move);
     to_rest();
 }
 

@@ -21,6 +21,8 @@ MachineConfig example_machine(const std::string& name);
 MachineConfig small_mill();
 /// Axes X and Y of small_mill().
 MachineConfig small_plotter();
+/// One axis of 1000 steps/mm that a clock of 10 kHz drives.
+MachineConfig slow_axis_machine();
 VirtualOptions options_of(const MachineConfig& machine);
 /// Two boards whose clocks differ from the coordinator's.
 VirtualOptions own_clocks(MachineConfig machine);
@@ -44,6 +46,8 @@ public:
     /// Only begins the program.
     void begin(std::string_view gcode);
     void begin(const Program& program);
+    /// A single move, without the program's pauses.
+    void move(std::string_view gcode);
     /// The axes move to a place, each on its own.
     void move_own(std::string_view gcode);
     void begin_own(std::string_view gcode);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -96,5 +97,35 @@ private:
 }  // namespace
 
 std::string random_gcode(std::uint64_t seed) { return Writer(seed).write(); }
+
+std::string random_lines(std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    const auto between = [&](double low, double high) {
+        return low + (high - low) * static_cast<double>(random() % 1'000'001) * 1e-6;
+    };
+    std::string text =
+        fmt::format("G21 G90 G64{}\nG0 X60 Y60\nG1 F{:.0f}\n", seed % 3 == 0 ? " P0.05" : "", between(600, 6000));
+    double x = 60;
+    double y = 60;
+    double angle = between(0, 2 * std::numbers::pi);
+    const double longest = between(0.02, 3);
+    for (int i = 0; i < 150; ++i) {
+        angle += random() % 8 == 0 ? between(-3, 3) : random() % 2 == 0 ? 0 : between(-0.1, 0.1);
+        const double length = longest * std::pow(0.004 / longest, between(0, 1));
+        x = std::clamp(x + length * std::cos(angle), 1.0, 199.0);
+        y = std::clamp(y + length * std::sin(angle), 1.0, 199.0);
+        text += fmt::format("X{:.4f} Y{:.4f}\n", x, y);
+    }
+    return text;
+}
+
+std::string random_moves_of_one_axis(std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    std::string text = fmt::format("G64\nG1 F{}\n", 40 + random() % 200);
+    for (int i = 0; i < 8; ++i) {
+        text += fmt::format("X{:.3f}\n", 0.001 * static_cast<double>(100 + random() % 4000));
+    }
+    return text;
+}
 
 }  // namespace lockstep::records

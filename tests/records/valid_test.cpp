@@ -28,6 +28,22 @@ TEST_P(RandomProgram, IsExactAndGood) {
     expect_judged(recorded_program(gcode), kValid);
 }
 
+class RandomLines : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(RandomLines, OfTwoAxesAreExactAndGood) {
+    const std::string gcode = random_lines(GetParam());
+    SCOPED_TRACE(gcode);
+    expect_judged(recorded_program(small_plotter(), gcode), kValid);
+}
+
+TEST_P(RandomLines, OfASlowAxisAreExactAndGood) {
+    const std::string gcode = random_moves_of_one_axis(GetParam());
+    SCOPED_TRACE(gcode);
+    expect_judged(recorded_program(slow_axis_machine(), gcode), kValid);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomLines, testing::Range(std::uint64_t{1}, std::uint64_t{41}));
+
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomProgram, testing::Range(std::uint64_t{1}, std::uint64_t{301}));
 
 }  // namespace

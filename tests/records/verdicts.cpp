@@ -12,7 +12,7 @@
 namespace lockstep::records {
 namespace {
 
-constexpr std::array kAll{kGood, kDoubtful, kUnknown, kBad, kRefused};
+constexpr std::array kAll{kSaysGood, kSaysDoubtful, kSaysUnknown, kSaysBad, kSaysRefused};
 
 /// Drops everything.
 class NullSink final : public RecordSink {
@@ -21,8 +21,8 @@ public:
 };
 
 Verdict verdict_of(const verification::Findings& findings) {
-    if (findings.difference) { return kBad; }
-    return findings.is_exact() ? kGood : kUnknown;
+    if (findings.difference) { return kSaysBad; }
+    return findings.is_exact() ? kSaysGood : kSaysUnknown;
 }
 
 void set(Judgement& judgement, Tool tool, Verdict verdict, std::string text) {
@@ -34,7 +34,7 @@ void ask_verify(const std::filesystem::path& log, Judgement& judgement) {
     const auto findings = verification::verify_log(log);
     if (!findings) {
         judgement.verify_mentions = true;
-        return set(judgement, Tool::Verify, kRefused, findings.error());
+        return set(judgement, Tool::Verify, kSaysRefused, findings.error());
     }
     judgement.is_step_difference = findings->difference && !findings->difference->axis.empty();
     judgement.verify_mentions = !findings->is_exact() || !findings->notes.empty();
@@ -43,9 +43,9 @@ void ask_verify(const std::filesystem::path& log, Judgement& judgement) {
 }
 
 void ask_analyze(const std::filesystem::path& log, Judgement& judgement) {
-    constexpr std::array kGrades{kGood, kDoubtful, kUnknown, kBad};  // in the order of analysis::Grade
+    constexpr std::array kGrades{kSaysGood, kSaysDoubtful, kSaysUnknown, kSaysBad};  // in the order of analysis::Grade
     const auto analysis = analysis::analyze_log(log);
-    if (!analysis) { return set(judgement, Tool::Analyze, kRefused, analysis.error()); }
+    if (!analysis) { return set(judgement, Tool::Analyze, kSaysRefused, analysis.error()); }
     judgement.findings = analysis::findings(*analysis);
     std::string text;
     for (const auto& finding : judgement.findings) {
@@ -58,17 +58,19 @@ void ask_analyze(const std::filesystem::path& log, Judgement& judgement) {
 void ask_merge(const std::filesystem::path& log, Judgement& judgement) {
     NullSink sink;
     const auto merged = merge::merge_logs({.logs = {log}}, sink);
-    if (!merged) { return set(judgement, Tool::Merge, kRefused, merged.error()); }
+    if (!merged) { return set(judgement, Tool::Merge, kSaysRefused, merged.error()); }
     const bool is_damaged =
         std::ranges::any_of(merged->inputs, [](const auto& input) { return !input.damages.empty(); });
-    const Verdict verdict = merged->differing > 0 ? kBad : merged->is_complete() && !is_damaged ? kGood : kUnknown;
-    judgement.merge_mentions = verdict != kGood || merged->duplicates > 0 || merged->late > 0;
+    const Verdict verdict = merged->differing > 0                  ? kSaysBad
+                            : merged->is_complete() && !is_damaged ? kSaysGood
+                                                                   : kSaysUnknown;
+    judgement.merge_mentions = verdict != kSaysGood || merged->duplicates > 0 || merged->late > 0;
     set(judgement, Tool::Merge, verdict, merge::to_text(*merged, "merged.lcm"));
 }
 
 void ask_replay(const std::filesystem::path& log, Judgement& judgement) {
     const auto findings = replay::replay_log(log, nullptr);
-    if (!findings) { return set(judgement, Tool::Replay, kRefused, findings.error()); }
+    if (!findings) { return set(judgement, Tool::Replay, kSaysRefused, findings.error()); }
     set(judgement, Tool::Replay, verdict_of(*findings), replay::to_text(*findings));
 }
 

@@ -20,7 +20,7 @@ namespace lockstep::records {
 /// | Unknown  | something is unknown  | unknown  | messages are missing or cannot be read      |
 /// | Bad      | a difference          | bad      | messages of one number differ               |
 /// | Refused  | an error instead of a result                                                    |
-enum Verdict : std::uint8_t { kGood = 1, kDoubtful = 2, kUnknown = 4, kBad = 8, kRefused = 16 };
+enum Verdict : std::uint8_t { kSaysGood = 1, kSaysDoubtful = 2, kSaysUnknown = 4, kSaysBad = 8, kSaysRefused = 16 };
 using Verdicts = std::uint8_t;
 
 enum class Tool : std::uint8_t { Verify, Analyze, Merge, Replay };

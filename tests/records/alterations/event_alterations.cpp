@@ -5,9 +5,9 @@
 namespace lockstep::records {
 namespace {
 
-constexpr Verdicts kEventAnyGrade = kGood | kDoubtful | kUnknown | kBad;
-constexpr Expected kEventOtherEvent{kBad, kEventAnyGrade, kGood | kUnknown | kBad, kReplayedAlike};
-constexpr Expected kEventLost{kUnknown, kDoubtful | kUnknown, kUnknown, kReplayedAlike};
+constexpr Verdicts kEventAnyGrade = kSaysGood | kSaysDoubtful | kSaysUnknown | kSaysBad;
+constexpr Expected kEventOtherEvent{kSaysBad, kEventAnyGrade, kSaysGood | kSaysUnknown | kSaysBad, kReplayedAlike};
+constexpr Expected kEventLost{kSaysUnknown, kSaysDoubtful | kSaysUnknown, kSaysUnknown, kReplayedAlike};
 constexpr Needs kEvents{.events = true};
 
 /// The second event of a program in motion.
@@ -52,7 +52,7 @@ std::vector<Alteration> event_alterations() {
                    kEventLost, kNoMotion, kEvents});
     all.push_back({"event_twice",
                    [](Record& r) { return repeat_at(r, event_place(r)); },
-                   {kGood, kGood, kGood, kReplayedAlike},
+                   {kSaysGood, kSaysGood, kSaysGood, kReplayedAlike},
                    Altered{.motion = false, .must_be_mentioned = true},
                    kEvents});
     return all;

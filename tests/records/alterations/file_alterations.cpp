@@ -8,8 +8,8 @@ namespace lockstep::records {
 namespace {
 
 /// A part of the file cannot be read: what was in it is not known.
-constexpr Expected kDamaged{kUnknown, kDoubtful | kUnknown, kUnknown, kUnknown};
-constexpr Expected kNoLog{kRefused, kRefused, kRefused, kRefused};
+constexpr Expected kDamaged{kSaysUnknown, kSaysDoubtful | kSaysUnknown, kSaysUnknown, kSaysUnknown};
+constexpr Expected kNoLog{kSaysRefused, kSaysRefused, kSaysRefused, kSaysRefused};
 
 std::size_t middle_byte(const std::string& bytes) { return bytes.size() / 2; }
 
@@ -24,25 +24,26 @@ const std::vector<FileAlteration>& file_alterations() {
     static const std::vector<FileAlteration> all{
         {"file_cut_in_the_middle",
          [](std::string& bytes) { bytes.resize(middle_byte(bytes)); },
-         {kGood | kUnknown, kDoubtful | kUnknown, kUnknown, kGood | kUnknown}},
+         {kSaysGood | kSaysUnknown, kSaysDoubtful | kSaysUnknown, kSaysUnknown, kSaysGood | kSaysUnknown}},
         {"file_without_its_last_bytes",
          [](std::string& bytes) { bytes.resize(bytes.size() - 10); },
-         {kGood | kUnknown, kGood | kDoubtful | kUnknown, kUnknown, kGood | kUnknown}},
+         {kSaysGood | kSaysUnknown, kSaysGood | kSaysDoubtful | kSaysUnknown, kSaysUnknown, kSaysGood | kSaysUnknown}},
         {"file_with_a_damaged_header", [](std::string& bytes) { bytes[event_in_the_middle(bytes) + 1] ^= 0x10; },
          kDamaged},
         {"file_with_a_wrong_length", [](std::string& bytes) { bytes[event_in_the_middle(bytes) + 25] ^= 0x7f; },
          kDamaged},
         {"file_with_garbage_inserted",
          [](std::string& bytes) { bytes.insert(event_in_the_middle(bytes), std::string(1000, 'x')); },
-         {kGood | kUnknown, kDoubtful | kUnknown, kUnknown, kGood | kUnknown}},
+         {kSaysGood | kSaysUnknown, kSaysDoubtful | kSaysUnknown, kSaysUnknown, kSaysGood | kSaysUnknown}},
         {"file_with_a_block_of_zeros",
          [](std::string& bytes) { bytes.replace(middle_byte(bytes), 4096, std::string(4096, '\0')); }, kDamaged},
         {"file_without_its_first_bytes",
          [](std::string& bytes) { bytes.erase(0, 10); },
-         {kGood | kUnknown, kGood | kDoubtful | kUnknown, kUnknown, kGood | kUnknown}},
+         {kSaysGood | kSaysUnknown, kSaysGood | kSaysDoubtful | kSaysUnknown, kSaysUnknown, kSaysGood | kSaysUnknown}},
         {"file_twice_in_one",
          [](std::string& bytes) { bytes += std::string(bytes); },
-         {kGood | kUnknown, kGood | kDoubtful | kUnknown, kGood | kBad | kUnknown, kGood | kUnknown}},
+         {kSaysGood | kSaysUnknown, kSaysGood | kSaysDoubtful | kSaysUnknown, kSaysGood | kSaysBad | kSaysUnknown,
+          kSaysGood | kSaysUnknown}},
         {"file_empty", [](std::string& bytes) { bytes.clear(); }, kNoLog},
         {"file_of_text", [](std::string& bytes) { bytes = "G0 X1\nG0 X2\n"; }, kNoLog},
         {"file_of_zeros", [](std::string& bytes) { bytes.assign(5000, '\0'); }, kNoLog},

@@ -8,7 +8,7 @@ namespace {
 using Steps = step_batch_t;
 
 /// The numbers are right, but the ticks or positions do not follow. A merge cannot call that complete.
-constexpr Expected kInserted{kBad, kBad | kUnknown, kUnknown | kBad, kBad};
+constexpr Expected kInserted{kSaysBad, kSaysBad | kSaysUnknown, kSaysUnknown | kSaysBad, kSaysBad};
 
 struct InsertedChange {
     const char* name;

@@ -5,10 +5,11 @@
 namespace lockstep::records {
 namespace {
 
-constexpr Expected kJobLost{kUnknown, kDoubtful | kUnknown, kUnknown, kReplayedAlike};
-constexpr Expected kJobOtherPlan{kBad, kDoubtful | kUnknown | kBad, kGood | kUnknown | kBad, kReplayedAlike};
-constexpr Expected kJobOtherLabel{kBad | kUnknown, kDoubtful | kUnknown | kBad, kGood | kUnknown | kBad,
-                                  kReplayedAlike};
+constexpr Expected kJobLost{kSaysUnknown, kSaysDoubtful | kSaysUnknown, kSaysUnknown, kReplayedAlike};
+constexpr Expected kJobOtherPlan{kSaysBad, kSaysDoubtful | kSaysUnknown | kSaysBad, kSaysGood | kSaysUnknown | kSaysBad,
+                                 kReplayedAlike};
+constexpr Expected kJobOtherLabel{kSaysBad | kSaysUnknown, kSaysDoubtful | kSaysUnknown | kSaysBad,
+                                  kSaysGood | kSaysUnknown | kSaysBad, kReplayedAlike};
 
 std::optional<std::size_t> job_message(const Record& record, const std::string& kind, const std::string& event) {
     const auto places =
@@ -46,12 +47,12 @@ const JobChange kJobChanges[]{
     {"outcome_failed",
      "ended",
      [](job_t& job) { job.outcome = "failed"; },
-     {kGood | kBad | kUnknown, kDoubtful | kBad, kGood, kReplayedAlike},
+     {kSaysGood | kSaysBad | kSaysUnknown, kSaysDoubtful | kSaysBad, kSaysGood, kReplayedAlike},
      {}},
     {"outcome_empty",
      "ended",
      [](job_t& job) { job.outcome = ""; },
-     {kGood | kBad | kUnknown, kDoubtful | kUnknown | kBad, kGood, kReplayedAlike},
+     {kSaysGood | kSaysBad | kSaysUnknown, kSaysDoubtful | kSaysUnknown | kSaysBad, kSaysGood, kReplayedAlike},
      {}},
 };
 
@@ -74,15 +75,16 @@ std::vector<Alteration> job_alterations() {
     for (const char* event : {"begun", "epoch", "ended"}) { add_lost_message("run", event, kJobLost, {}, all); }
     add_lost_message("run", "override", kJobLost, {.overrides = true}, all);
     // Homing has no plan: its steps are compared with its runs all the same.
-    const Expected homing{kGood | kUnknown, kDoubtful | kUnknown, kGood | kUnknown, kReplayedAlike};
+    const Expected homing{kSaysGood | kSaysUnknown, kSaysDoubtful | kSaysUnknown, kSaysGood | kSaysUnknown,
+                          kReplayedAlike};
     for (const char* event : {"begun", "ended"}) { add_lost_message("home", event, homing, {}, all); }
     all.push_back({"job_begun_twice",
                    [](Record& r) { return repeat_at(r, job_message(r, "run", "begun")); },
-                   {kGood, kGood, kGood, kReplayedAlike},
+                   {kSaysGood, kSaysGood, kSaysGood, kReplayedAlike},
                    Altered{.motion = false, .must_be_mentioned = true}});
     all.push_back({"job_messages_all_dropped",
                    [](Record& r) { return leave_out<job_t>(r, [](const job_t&) { return true; }) > 0; },
-                   {kUnknown, kUnknown, kUnknown, kReplayedAlike}});
+                   {kSaysUnknown, kSaysUnknown, kSaysUnknown, kReplayedAlike}});
     return all;
 }
 

@@ -80,30 +80,32 @@ bool add_loss(Record& record) {
 }  // namespace
 
 std::vector<Alteration> machine_alterations() {
-    const Expected two{kGood, kDoubtful | kUnknown | kRefused, kGood, kGood};
-    const Expected absent{kUnknown, kUnknown, kUnknown, kGood | kUnknown};
-    const Expected other_version{kUnknown | kRefused, kDoubtful | kUnknown | kRefused, kUnknown | kRefused,
-                                 kUnknown | kRefused};
+    const Expected two{kSaysGood, kSaysDoubtful | kSaysUnknown | kSaysRefused, kSaysGood, kSaysGood};
+    const Expected absent{kSaysUnknown, kSaysUnknown, kSaysUnknown, kSaysGood | kSaysUnknown};
+    const Expected other_version{kSaysUnknown | kSaysRefused, kSaysDoubtful | kSaysUnknown | kSaysRefused,
+                                 kSaysUnknown | kSaysRefused, kSaysUnknown | kSaysRefused};
     return {
         {"two_machines_side_by_side", [](Record& r) { return add_second_machine(r, false); }, two, kNoMotion},
         {"two_machines_one_after_the_other",
          [](Record& r) { return add_second_machine(r, true); },
-         {kGood, kDoubtful | kUnknown | kRefused, kGood | kBad, kGood},
+         {kSaysGood, kSaysDoubtful | kSaysUnknown | kSaysRefused, kSaysGood | kSaysBad, kSaysGood},
          kNoMotion},
         {"axis_y_absent", [](Record& r) { return erase_axis(r, "Y", true); }, absent},
         {"axis_y_absent_but_for_its_marks", [](Record& r) { return erase_axis(r, "Y", false); }, absent},
         {"all_of_another_version",
          [](Record& r) { return change_version(r, ""); },
-         {kRefused, kUnknown | kRefused, kRefused | kUnknown, kRefused}},
+         {kSaysRefused, kSaysUnknown | kSaysRefused, kSaysRefused | kSaysUnknown, kSaysRefused}},
         {"steps_of_another_version", [](Record& r) { return change_version(r, "_STEPS"); }, other_version},
         {"runs_of_another_version", [](Record& r) { return change_version(r, "_RUN"); }, other_version},
         {"jobs_of_another_version",
          [](Record& r) { return change_version(r, "_JOB"); },
-         {kUnknown | kRefused, kDoubtful | kUnknown | kRefused, kUnknown | kRefused, kGood | kUnknown}},
+         {kSaysUnknown | kSaysRefused, kSaysDoubtful | kSaysUnknown | kSaysRefused, kSaysUnknown | kSaysRefused,
+          kSaysGood | kSaysUnknown}},
         {"foreign_channels", add_foreign, kValid, kNoMotion},
         {"loss_message",
          add_loss,
-         {kGood | kUnknown, kGood | kDoubtful | kUnknown, kGood | kUnknown, kGood | kUnknown},
+         {kSaysGood | kSaysUnknown, kSaysGood | kSaysDoubtful | kSaysUnknown, kSaysGood | kSaysUnknown,
+          kSaysGood | kSaysUnknown},
          kNoMotion},
     };
 }

@@ -6,8 +6,8 @@ namespace lockstep::records {
 namespace {
 
 /// Without marks nobody knows whether the end is there; what is there is as planned.
-constexpr Expected kOpen{kGood, kGood, kGood, kGood};
-constexpr Expected kEndMissing{kUnknown, kDoubtful | kUnknown, kUnknown, kGood | kUnknown};
+constexpr Expected kOpen{kSaysGood, kSaysGood, kSaysGood, kSaysGood};
+constexpr Expected kEndMissing{kSaysUnknown, kSaysDoubtful | kSaysUnknown, kSaysUnknown, kSaysGood | kSaysUnknown};
 
 bool raise_last(Record& record, std::int64_t record_mark_t::*counted, const std::string& process) {
     const auto places = places_of<record_mark_t>(

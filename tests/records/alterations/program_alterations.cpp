@@ -9,8 +9,9 @@
 namespace lockstep::records {
 namespace {
 
-constexpr Expected kProgramOtherPlan{kBad, kDoubtful | kUnknown | kBad, kGood, kReplayedAlike};
-constexpr Expected kProgramNoPlan{kUnknown | kRefused, kDoubtful | kUnknown, kGood | kUnknown, kReplayedAlike};
+constexpr Expected kProgramOtherPlan{kSaysBad, kSaysDoubtful | kSaysUnknown | kSaysBad, kSaysGood, kReplayedAlike};
+constexpr Expected kProgramNoPlan{kSaysUnknown | kSaysRefused, kSaysDoubtful | kSaysUnknown, kSaysGood | kSaysUnknown,
+                                  kReplayedAlike};
 
 ProgramMove* last_move(Program& program) {
     ProgramMove* last = nullptr;
@@ -63,7 +64,7 @@ const ProgramChange kProgramChanges[]{
      }},
     {"start_elsewhere",
      [](Program& program) { program.start_mm[0] += 1; },
-     {kBad | kUnknown, kDoubtful | kUnknown | kBad, kGood, kReplayedAlike}},
+     {kSaysBad | kSaysUnknown, kSaysDoubtful | kSaysUnknown | kSaysBad, kSaysGood, kReplayedAlike}},
     {"axes_swapped", [](Program& program) { std::swap(program.axes[0], program.axes[1]); }},
 };
 
@@ -93,7 +94,7 @@ void add_configurations(std::vector<Alteration>& all) {
              machine.axes.push_back(machine.axes.front());
              machine.axes.back().name = "W";
          },
-         {kUnknown | kBad | kRefused, kUnknown, kGood | kUnknown, kReplayedAlike});
+         {kSaysUnknown | kSaysBad | kSaysRefused, kSaysUnknown, kSaysGood | kSaysUnknown, kReplayedAlike});
 }
 
 }  // namespace
@@ -117,7 +118,7 @@ std::vector<Alteration> program_alterations() {
     const auto parts = [&](std::string name, std::function<bool(Record&)> alter, const Expected& expected) {
         all.push_back({std::move(name), std::move(alter), expected, Altered{}, Needs{.parts = true}});
     };
-    const Expected lost{kUnknown, kDoubtful | kUnknown, kUnknown, kReplayedAlike};
+    const Expected lost{kSaysUnknown, kSaysDoubtful | kSaysUnknown, kSaysUnknown, kReplayedAlike};
     const auto place = [](const Record& r) {
         return places_of<program_part_t>(r, [](const auto& part) { return part.size > 0; })[1];
     };
@@ -128,9 +129,10 @@ std::vector<Alteration> program_alterations() {
               return change_at<program_part_t>(
                   r, place(r), [](program_part_t& part) { std::fill_n(part.data.begin(), 8, std::uint8_t{0xff}); });
           },
-          {kUnknown | kBad | kRefused, kDoubtful | kUnknown | kBad, kGood | kUnknown, kReplayedAlike});
+          {kSaysUnknown | kSaysBad | kSaysRefused, kSaysDoubtful | kSaysUnknown | kSaysBad, kSaysGood | kSaysUnknown,
+           kReplayedAlike});
     parts("program_part_twice", [=](Record& r) { return repeat_at(r, place(r)); },
-          {kGood, kGood, kGood, kReplayedAlike});
+          {kSaysGood, kSaysGood, kSaysGood, kReplayedAlike});
     add_configurations(all);
     all.push_back({"machine_unreadable",
                    [](Record& r) {

@@ -5,12 +5,15 @@
 namespace lockstep::records {
 namespace {
 
-constexpr Verdicts kRunAnyMerge = kGood | kUnknown | kBad;
+constexpr Verdicts kRunAnyMerge = kSaysGood | kSaysUnknown | kSaysBad;
 /// The run does not make the recorded steps.
-constexpr Expected kRunOtherMotion{kBad, kDoubtful | kUnknown | kBad, kRunAnyMerge, kBad | kUnknown};
+constexpr Expected kRunOtherMotion{kSaysBad, kSaysDoubtful | kSaysUnknown | kSaysBad, kRunAnyMerge,
+                                   kSaysBad | kSaysUnknown};
 /// The run makes the same steps, but is not the one of the plan.
-constexpr Expected kRunOtherLabel{kBad | kUnknown, kDoubtful | kUnknown | kBad, kRunAnyMerge, kGood | kBad | kUnknown};
-constexpr Expected kRunOtherClock{kBad | kUnknown, kDoubtful | kUnknown | kBad, kRunAnyMerge, kGood | kBad | kUnknown};
+constexpr Expected kRunOtherLabel{kSaysBad | kSaysUnknown, kSaysDoubtful | kSaysUnknown | kSaysBad, kRunAnyMerge,
+                                  kSaysGood | kSaysBad | kSaysUnknown};
+constexpr Expected kRunOtherClock{kSaysBad | kSaysUnknown, kSaysDoubtful | kSaysUnknown | kSaysBad, kRunAnyMerge,
+                                  kSaysGood | kSaysBad | kSaysUnknown};
 
 struct RunChange {
     const char* name;

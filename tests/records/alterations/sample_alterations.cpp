@@ -7,8 +7,8 @@ namespace lockstep::records {
 namespace {
 
 /// The steps are as planned, but a sample contradicts them.
-constexpr Expected kWrongSample{kGood | kBad | kUnknown, kDoubtful | kBad, kGood, kGood};
-constexpr Expected kSampleLost{kGood | kUnknown, kGood | kDoubtful, kUnknown, kGood};
+constexpr Expected kWrongSample{kSaysGood | kSaysBad | kSaysUnknown, kSaysDoubtful | kSaysBad, kSaysGood, kSaysGood};
+constexpr Expected kSampleLost{kSaysGood | kSaysUnknown, kSaysGood | kSaysDoubtful, kSaysUnknown, kSaysGood};
 
 template <typename Type>
 std::optional<std::size_t> sample_in_job(const Record& record) {
@@ -31,7 +31,7 @@ void add_lost_sample(const std::string& what, std::vector<Alteration>& all) {
     all.push_back({what + "_twice", [](Record& r) { return repeat_at(r, sample_in_job<Type>(r)); }, kValid, kNoMotion});
     all.push_back({what + "_all_dropped",
                    [](Record& r) { return leave_out<Type>(r, [](const Type&) { return true; }) > 0; },
-                   {kGood | kUnknown, kGood | kDoubtful | kUnknown, kUnknown, kGood},
+                   {kSaysGood | kSaysUnknown, kSaysGood | kSaysDoubtful | kSaysUnknown, kSaysUnknown, kSaysGood},
                    kNoMotion});
 }
 

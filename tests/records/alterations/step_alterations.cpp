@@ -33,14 +33,16 @@ struct StepChange {
 };
 
 /// Of counts, directions and positions: each tool that compares must notice. A merge compares the positions only.
-constexpr Expected kStepOtherCounts{kBad, kBad, kGood | kUnknown | kBad, kBad};
-constexpr Expected kStepOtherTicks{kBad, kDoubtful | kBad, kGood | kUnknown | kBad, kBad};
+constexpr Expected kStepOtherCounts{kSaysBad, kSaysBad, kSaysGood | kSaysUnknown | kSaysBad, kSaysBad};
+constexpr Expected kStepOtherTicks{kSaysBad, kSaysDoubtful | kSaysBad, kSaysGood | kSaysUnknown | kSaysBad, kSaysBad};
 /// A value that cannot be: the message is as good as lost.
-constexpr Expected kStepImpossible{kBad | kUnknown, kDoubtful | kUnknown, kUnknown | kBad, kBad | kUnknown};
+constexpr Expected kStepImpossible{kSaysBad | kSaysUnknown, kSaysDoubtful | kSaysUnknown, kSaysUnknown | kSaysBad,
+                                   kSaysBad | kSaysUnknown};
 /// The time of the steps is not known well enough.
-constexpr Expected kStepOtherClock{kBad | kUnknown, kDoubtful | kUnknown | kBad, kGood | kUnknown | kBad,
-                                   kGood | kBad | kUnknown};
-constexpr Expected kStepMislabelled{kBad | kUnknown, kDoubtful | kUnknown | kBad, kUnknown | kBad, kBad | kUnknown};
+constexpr Expected kStepOtherClock{kSaysBad | kSaysUnknown, kSaysDoubtful | kSaysUnknown | kSaysBad,
+                                   kSaysGood | kSaysUnknown | kSaysBad, kSaysGood | kSaysBad | kSaysUnknown};
+constexpr Expected kStepMislabelled{kSaysBad | kSaysUnknown, kSaysDoubtful | kSaysUnknown | kSaysBad,
+                                    kSaysUnknown | kSaysBad, kSaysBad | kSaysUnknown};
 
 const StepChange kStepChanges[]{
     {"step_a_tick_later",
@@ -86,7 +88,7 @@ const StepChange kStepChanges[]{
     {"first_tick_beyond_all_limits", [](Steps& steps) { steps.first_tick = std::int64_t{1} << 60; }, kStepImpossible},
     {"number_far_ahead",
      [](Steps& steps) { steps.sequence += 5000; },
-     {kBad | kUnknown, kDoubtful | kUnknown, kUnknown, kBad | kUnknown}},
+     {kSaysBad | kSaysUnknown, kSaysDoubtful | kSaysUnknown, kSaysUnknown, kSaysBad | kSaysUnknown}},
 };
 
 Alteration lost_steps(std::string name, std::function<bool(Record&)> alter) {
@@ -132,7 +134,8 @@ void add_whole_messages(const std::string& motion, std::vector<Alteration>& all)
                    Altered{.motion = false}, Needs{.shared_clock = true, .all_motions = motion != "run"}});
     all.push_back({"steps_at_the_end_of_the_log" + where,
                    [=](Record& r) { return move_back(r, motion); },
-                   {kGood | kUnknown, kGood | kDoubtful | kUnknown, kGood | kUnknown | kBad, kGood | kUnknown},
+                   {kSaysGood | kSaysUnknown, kSaysGood | kSaysDoubtful | kSaysUnknown,
+                    kSaysGood | kSaysUnknown | kSaysBad, kSaysGood | kSaysUnknown},
                    Altered{.motion = true, .must_be_mentioned = true},
                    Needs{.all_motions = motion != "run"}});
 }

@@ -85,6 +85,36 @@ Record stopped_between() {
     return run.finish();
 }
 
+/// An emergency stop at rest, between two jobs.
+Record stopped_at_rest() {
+    MachineRun run(small_plotter());
+    run.home();
+    run.run("G1 X30 Y20 F3000\nX5 Y5\n");
+    run.wait_ms(500);
+    run.command(CommandKind::EmergencyStop);
+    run.reach(MachinePhase::Fault);
+    run.wait_ms(300);
+    run.reset();
+    run.home();
+    run.run("G1 X20 Y40 F3000\n");
+    return run.finish();
+}
+
+/// An axis's process ends at rest. The next one knows where the axis is, so it need not be homed.
+Record restarted_with_position() {
+    VirtualOptions options = options_of(small_plotter());
+    options.keeps_positions = true;
+    MachineRun run(options);
+    run.home();
+    run.run("G1 X30 Y20 F3000\n");
+    run.wait_ms(500);
+    run.restart(1, 300);
+    run.wait_ms(3000);
+    run.to_rest();
+    run.run("G1 X20 Y40 F3000\nX5\n");
+    return run.finish();
+}
+
 /// An axis's process ends at rest between two jobs.
 Record restarted_between() {
     MachineRun run(small_plotter());
@@ -129,9 +159,12 @@ std::int64_t newest_job(const Record& record) { return job_spans(record).back().
 
 std::vector<RecordKind> file_of_log_kinds() {
     // Exact from the first whole job on; nothing is known of what came before.
-    const Expected late{kGood, kGood | kDoubtful | kUnknown, kGood | kUnknown, kGood, true};
-    const Expected cut{kGood | kUnknown, kDoubtful | kUnknown, kGood | kUnknown, kGood | kUnknown};
-    const Expected extracted{kGood, kGood, kGood | kUnknown, kGood};
+    const Expected late{kSaysGood, kSaysGood | kSaysDoubtful | kSaysUnknown, kSaysGood | kSaysUnknown, kSaysGood, true};
+    const Expected cut{kSaysGood | kSaysUnknown, kSaysDoubtful | kSaysUnknown, kSaysGood | kSaysUnknown,
+                       kSaysGood | kSaysUnknown};
+    const Expected extracted{kSaysGood, kSaysGood, kSaysGood | kSaysUnknown, kSaysGood};
+    // The stop is no fault of the job beside it.
+    const Expected with_a_stop{kSaysGood, kSaysGood | kSaysDoubtful, kSaysGood | kSaysUnknown, kSaysGood};
     std::vector<RecordKind> kinds{
         {"several_jobs", three_jobs},
         {"own_logs_merged", merged_own_logs},
@@ -152,18 +185,27 @@ std::vector<RecordKind> file_of_log_kinds() {
              return extract(record, newest_job(record));
          },
          extracted},
+        {"extract_before_an_emergency_stop_at_rest", [] { return extract(stopped_at_rest(), 2); }, with_a_stop},
+        {"extract_of_homing_after_an_emergency_stop", [] { return extract(stopped_at_rest(), 3); }, with_a_stop},
+        {"extract_before_a_restart", [] { return extract(restarted_between(), 2); }, extracted},
+        {"extract_of_homing_after_a_restart", [] { return extract(restarted_between(), 3); }, extracted},
+        {"axis_restarted_that_knows_its_position", restarted_with_position},
+        {"extract_after_a_restart_with_position", [] { return extract(restarted_with_position(), 3); }, extracted},
         begun_at(
             "begun_in_homing", [](const Record& r) { return job_spans(r).at(0).middle_us(); }, late),
         begun_at(
             "begun_in_a_job", [](const Record& r) { return job_spans(r).at(1).middle_us(); }, late),
         begun_at(
             "begun_between_jobs", [](const Record& r) { return job_spans(r).at(1).end_us + 500'000; }, late),
+        begun_at("begun_in_the_last_job", [](const Record& r) { return job_spans(r).back().middle_us(); },
+                 {kSaysGood | kSaysUnknown, kSaysDoubtful | kSaysUnknown, kSaysGood | kSaysUnknown,
+                  kSaysGood | kSaysUnknown, true}),
         ended_at(
             "cut_in_homing", [](const Record& r) { return job_spans(r).at(0).middle_us(); }, cut),
         ended_at(
             "cut_in_a_job", [](const Record& r) { return job_spans(r).at(2).middle_us(); }, cut),
         ended_at("cut_between_jobs", [](const Record& r) { return job_spans(r).at(1).end_us + 700'000; },
-                 {kGood, kGood | kDoubtful | kUnknown, kGood | kUnknown, kGood}),
+                 {kSaysGood, kSaysGood | kSaysDoubtful | kSaysUnknown, kSaysGood | kSaysUnknown, kSaysGood}),
     };
     return kinds;
 }

@@ -66,7 +66,7 @@ Record sent_in_parts() {
 
 std::vector<RecordKind> machine_kinds() {
     // A network may interrupt the motion; the machine continues it.
-    const Expected interrupted{kGood, kGood | kDoubtful, kGood, kGood};
+    const Expected interrupted{kSaysGood, kSaysGood | kSaysDoubtful, kSaysGood, kSaysGood};
     return {
         {"own_clocks", [] { return recorded(own_clocks(small_plotter()), kTour); }},
         {"own_clocks_with_arcs", [] { return recorded(own_clocks(small_plotter()), kArc); }},

@@ -27,7 +27,7 @@ RecordKind by_method(const std::string& name, StepMethod method) {
                 run.to_rest();
                 return run.finish();
             },
-            {kGood, kDoubtful, kGood, kGood}};
+            {kSaysGood, kSaysDoubtful, kSaysGood, kSaysGood}};
 }
 
 Record homed(const MachineConfig& machine) {
@@ -53,6 +53,34 @@ Record y_at_rest_after_homing() {
     run.home();
     run.run("G1 X40 F3000\nX10\n");
     run.wait_ms(3000);
+    return run.finish();
+}
+
+/// The axes wait on their switches, so that their last steps are made before their zero is set.
+MachineConfig parked_on_switches() {
+    MachineConfig machine = small_plotter();
+    for (AxisConfig& axis : machine.axes) {
+        axis.homing.switch_position_mm = axis.homing.park_mm = 0;
+        axis.plant.start_position_mm = 8;
+    }
+    return machine;
+}
+
+Record x_moves_alone_from_its_switch() {
+    MachineRun run(parked_on_switches());
+    run.home();
+    run.run("G1 X20 F3000\n");
+    run.wait_ms(500);
+    return run.finish();
+}
+
+/// Short jobs, one directly after the other.
+Record short_moves() {
+    MachineRun run(small_plotter());
+    run.home();
+    for (const char* gcode : {"G0 X6 Y6\n", "G0 X7\n", "G0 X8\n", "G0 Y7\n", "G0 X9\n", "G0 X10\n"}) {
+        run.move(gcode);
+    }
     return run.finish();
 }
 
@@ -87,6 +115,9 @@ std::vector<RecordKind> own_move_kinds() {
         {"homing_from_afar", [] { return homed(example_machine("two-axis")); }},
         {"homing_again", homed_twice},
         {"axis_without_steps_after_homing", y_at_rest_after_homing},
+        {"homing_to_the_switches", [] { return homed(parked_on_switches()); }},
+        {"one_axis_stays_on_its_switch", x_moves_alone_from_its_switch},
+        {"short_moves_one_after_the_other", short_moves},
         {"jogs", jogs},
     };
 }

@@ -1,8 +1,6 @@
 // Records of programs, one for each kind of path.
 #include <cmath>
 
-#include "core/gcode/gcode.hpp"
-#include "services/documents/machine_file.hpp"
 #include "tests/records/kinds/kinds.hpp"
 
 namespace lockstep::records {
@@ -34,16 +32,6 @@ std::string straight_lines(int count) {
     return text;
 }
 
-/// A machine of one coarse clock and one fine axis.
-MachineConfig slow_axis() {
-    return parse_machine(
-               "name: \"slow\" tick_ns: 100000 axis { name: \"X\" steps_per_mm: 1000 "
-               "start_velocity_mm_s: 0.78 max_velocity_mm_s: 4 max_accel_mm_s2: 20 position_min_mm: 0 "
-               "position_max_mm: 50 homing { pulloff_mm: 0.1 park_mm: 0.5 } "
-               "plant { start_position_mm: 0.2 } }")
-        .value();
-}
-
 }  // namespace
 
 std::vector<RecordKind> path_kinds() {
@@ -69,7 +57,7 @@ std::vector<RecordKind> path_kinds() {
         program("dwells", "G1 X30 F3000\nG4 P0.3\nY30\nG4 P0.05\nG0 X5 Y5\n"),
         program("inverse_time", "G93\nG1 X20 Y20 F60\nG2 X40 Y20 I10 J0 F60\nG94\n"),
         {"one_slow_axis_with_a_coarse_clock",
-         [] { return recorded_program(slow_axis(), "G64\nG1 X2 F200\nX3.5\nX3.2\nX6\nX5.9\nX0.5\n"); }},
+         [] { return recorded_program(slow_axis_machine(), "G64\nG1 X2 F200\nX3.5\nX3.2\nX6\nX5.9\nX0.5\n"); }},
     };
 }
 

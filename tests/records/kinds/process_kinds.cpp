@@ -7,7 +7,8 @@ namespace {
 const std::string kLine = "G21 G90 F3000\nG1 X60 Y50\nX9 Y40\nX5 Y5\n";
 
 /// The job fails. Its steps are as planned, as far as they are known.
-constexpr Expected kEndedInMotion{kGood | kUnknown, kDoubtful | kUnknown | kBad, kGood | kUnknown, kGood | kUnknown};
+constexpr Expected kEndedInMotion{kSaysGood | kSaysUnknown, kSaysDoubtful | kSaysUnknown | kSaysBad,
+                                  kSaysGood | kSaysUnknown, kSaysGood | kSaysUnknown};
 
 /// A process is killed at rest; the next one takes its place. Nothing is missing.
 Record restarted_at_rest(std::size_t process) {
@@ -51,7 +52,7 @@ Record taken_over(OnTakeover on_takeover) {
 }  // namespace
 
 std::vector<RecordKind> process_kinds() {
-    const Expected at_rest{kGood | kUnknown, kGood | kDoubtful | kBad, kGood | kUnknown, kGood};
+    const Expected at_rest{kSaysGood, kSaysGood | kSaysDoubtful, kSaysGood, kSaysGood};
     return {
         {"axis_restarted_at_rest", [] { return restarted_at_rest(1); }, at_rest},
         {"coordinator_restarted_at_rest", [] { return restarted_at_rest(2); }, at_rest},
