@@ -26,13 +26,27 @@ Record read_record(const std::filesystem::path& path) {
     return record;
 }
 
+namespace {
+
+/// Exists as long as the process.
+struct RecordFolder {
+    RecordFolder() { std::filesystem::create_directories(path); }
+    ~RecordFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path, ignored);
+    }
+    RecordFolder(const RecordFolder&) = delete;
+    RecordFolder& operator=(const RecordFolder&) = delete;
+
+    std::filesystem::path path =
+        std::filesystem::temp_directory_path() / ("lockstep_records_" + std::to_string(getpid()));
+};
+
+}  // namespace
+
 std::filesystem::path record_folder() {
-    static const std::filesystem::path folder = [] {
-        auto path = std::filesystem::temp_directory_path() / ("lockstep_records_" + std::to_string(getpid()));
-        std::filesystem::create_directories(path);
-        return path;
-    }();
-    return folder;
+    static const RecordFolder folder;
+    return folder.path;
 }
 
 }  // namespace lockstep::records
