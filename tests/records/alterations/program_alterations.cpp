@@ -87,8 +87,8 @@ void add_configurations(std::vector<Alteration>& all) {
     with(
         "of_other_acceleration", [](MachineConfig& machine) { machine.axes[0].max_accel_mm_s2 = 700; },
         kProgramOtherPlan);
-    with(
-        "of_other_slots", [](MachineConfig& machine) { machine.timing.slot_us = 5000; }, kProgramOtherPlan);
+    with("of_other_slots", [](MachineConfig& machine) { machine.timing.slot_us = 5000; },
+         {kSaysBad | kSaysRefused, kSaysDoubtful | kSaysUnknown | kSaysBad, kSaysGood, kReplayedAlike});
     with("with_a_further_axis",
          [](MachineConfig& machine) {
              machine.axes.push_back(machine.axes.front());

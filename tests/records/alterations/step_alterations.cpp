@@ -35,6 +35,8 @@ struct StepChange {
 /// Of counts, directions and positions: each tool that compares must notice. A merge compares the positions only.
 constexpr Expected kStepOtherCounts{kSaysBad, kSaysBad, kSaysGood | kSaysUnknown | kSaysBad, kSaysBad};
 constexpr Expected kStepOtherTicks{kSaysBad, kSaysDoubtful | kSaysBad, kSaysGood | kSaysUnknown | kSaysBad, kSaysBad};
+/// The message does not join its neighbours: its steps may be right, but something is missing or wrong.
+constexpr Expected kStepOtherPosition{kSaysBad, kSaysUnknown | kSaysBad, kSaysGood | kSaysUnknown | kSaysBad, kSaysBad};
 /// A value that cannot be: the message is as good as lost.
 constexpr Expected kStepImpossible{kSaysBad | kSaysUnknown, kSaysDoubtful | kSaysUnknown, kSaysUnknown | kSaysBad,
                                    kSaysBad | kSaysUnknown};
@@ -71,8 +73,8 @@ const StepChange kStepChanges[]{
     {"message_fifty_ticks_later", [](Steps& steps) { steps.first_tick += 50; }, kStepOtherTicks},
     {"message_half_a_second_earlier", [](Steps& steps) { steps.first_tick -= 500'000; }, kStepOtherCounts},
     {"message_reversed", reverse_all, kStepOtherCounts},
-    {"position_before_one_more", [](Steps& steps) { ++steps.position_before; }, kStepOtherCounts},
-    {"position_before_far_away", [](Steps& steps) { steps.position_before = 99'999; }, kStepOtherCounts},
+    {"position_before_one_more", [](Steps& steps) { ++steps.position_before; }, kStepOtherPosition},
+    {"position_before_far_away", [](Steps& steps) { steps.position_before = 99'999; }, kStepOtherPosition},
     {"ahead_five_milliseconds_more",
      [](Steps& steps) {
          steps.ahead_first += 5000;
