@@ -84,6 +84,7 @@ struct Analysis {
     std::uint64_t events_not_kept = 0;
     std::vector<HappenedEvent> program_events;  // the first of the log, in the order of time
     std::uint64_t program_events_not_kept = 0;
+    double tolerance_mm = 0;                                 // of joined moves, the greatest of any program
     std::vector<PairSkew> step_skew;                         // between axes that ran frames together
     std::optional<double> largest_distance_mm;               // of any step from the commanded line, all axes together
     std::vector<std::vector<drawing::Point>> asked_ways_mm;  // X-Y, of each program that differs from the previous one
@@ -95,7 +96,8 @@ struct Analysis {
     /// From the configuration, else from the axis's own messages; nullopt if neither contains it.
     std::optional<double> steps_per_mm(const AxisLog& axis) const;
     /// Whether the log has the frames of steps, as logs of all but early versions have.
-    bool is_verified() const { return verified.runs + verified.local_runs > 0 || verified.difference; }
+    bool is_verified() const { return runs > 0; }
+    bool is_exact() const { return is_verified() && verified.verdict() == verification::Verdict::Exact; }
     /// Configured axes without any message in the log.
     std::vector<std::string> absent_axes() const;
     /// The first and the last step of any axis; nullopt without steps.

@@ -18,11 +18,16 @@ std::expected<void, std::string> AxisLog::write_csv(const std::filesystem::path&
 
 void AxisLog::take(StepBatch batch) {
     farthest_position_.reset();
+    if (origin_ && !batch.steps.empty() && batch.steps.back().tick > origin_->tick) { origin_.reset(); }
     stream_.take(std::move(batch));
 }
 
 void AxisLog::take(const PositionSample& sample) {
     if (positions_++ == 0) { first_position_steps_ = sample.position_steps; }
+    if (counts_anew(sample)) {
+        origin_ = sample;
+        farthest_position_.reset();
+    }
     last_position_ = sample;
     if (!farthest_position_ || std::abs(unrecorded_at(sample)) > std::abs(unrecorded_at(*farthest_position_))) {
         farthest_position_ = sample;
@@ -44,10 +49,18 @@ std::expected<void, std::string> AxisLog::finish() {
     return steps ? position_csv_->close() : steps;
 }
 
+/// Homing and a new process give positions another zero.
+bool AxisLog::counts_anew(const PositionSample& sample) const {
+    if (!last_position_) { return false; }
+    return sample.incarnation != last_position_->incarnation || (sample.is_homed && !last_position_->is_homed);
+}
+
 /// The steps from the last recorded step to a later position.
 std::int64_t AxisLog::unrecorded_at(const PositionSample& sample) const {
     const bool is_later = !stream_.last_tick() || sample.tick >= *stream_.last_tick();
-    return is_later ? sample.position_steps - stream_.position_steps().value_or(first_position_steps_) : 0;
+    if (!is_later) { return 0; }
+    if (origin_) { return sample.tick >= origin_->tick ? sample.position_steps - origin_->position_steps : 0; }
+    return sample.position_steps - stream_.position_steps().value_or(first_position_steps_);
 }
 
 std::int64_t AxisLog::unrecorded_steps() const {

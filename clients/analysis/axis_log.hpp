@@ -25,6 +25,8 @@ struct PositionSample {
     std::int64_t position_steps = 0;
     double position_mm = 0;
     double velocity_mm_per_s = 0;
+    std::int64_t incarnation = 0;  // of the axis's process
+    bool is_homed = false;
 };
 
 /// How late an axis's steps were against the commanded ticks, in ticks.
@@ -86,6 +88,7 @@ public:
 
 private:
     std::int64_t unrecorded_at(const PositionSample& sample) const;
+    bool counts_anew(const PositionSample& sample) const;
 
     std::string name_;
     AxisStatistics statistics_;
@@ -99,6 +102,7 @@ private:
     std::int64_t positions_ = 0;
     std::int64_t first_position_steps_ = 0;
     std::optional<PositionSample> last_position_;
+    std::optional<PositionSample> origin_;  // the first with the newest zero, until steps with it are recorded
     std::optional<PositionSample> farthest_position_;  // since the last message of steps
     std::optional<double> steps_per_mm_;
     StepStream stream_{{&statistics_, &trace_}};

@@ -31,8 +31,9 @@ Tick ceased(const Run& run) {
 
 void EventLog::take(const axis_position_t& message) {
     at_steps_[message.axis] = message.position_steps;
+    const bool is_older = !faults_.contains(message.axis) && message.sequence > 0;  // it began before the log
     const std::int32_t before = std::exchange(faults_[message.axis], message.fault);
-    if (message.fault != 0 && message.fault != before) { note(fault_event(message)); }
+    if (message.fault != 0 && message.fault != before && !is_older) { note(fault_event(message)); }
 }
 
 /// The end of a frame is not an event. A tail is one, because it runs only if the next frame was vetoed or not

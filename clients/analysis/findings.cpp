@@ -44,7 +44,7 @@ bool lacks_steps(const Analysis& analysis) {
 
 /// Whether the log has all steps and all axes, and does not end within a job.
 bool has_all_steps(const Analysis& analysis) {
-    if (analysis.is_verified() && analysis.verified.verdict() != verification::Verdict::Exact) { return false; }
+    if (analysis.is_verified() && analysis.verified.difference) { return false; }
     const auto is_cut = [](const JobLog& job) { return job.outcome.empty() || !job.axes_not_known.empty(); };
     return !lacks_steps(analysis) && analysis.absent_axes().empty() && std::ranges::none_of(analysis.jobs, is_cut);
 }
@@ -92,7 +92,7 @@ void check_exactness(const Analysis& analysis, Findings& found) {
     if (verified.more_unknown > 0) {
         found.push_back({Grade::Unknown, fmt::format("and {} more such places", verified.more_unknown)});
     }
-    if (verified.verdict() == verification::Verdict::Exact && verified.steps > 0) {
+    if (analysis.is_exact() && verified.steps > 0) {
         found.push_back({Grade::Good, "every step is where and when its frame and its program place it, to the tick: " +
                                           plural(verified.steps, "step")});
     }
@@ -100,12 +100,16 @@ void check_exactness(const Analysis& analysis, Findings& found) {
 
 /// Only a job that is done must have all its steps. If the record lacks steps, the number of steps made is unknown.
 void check_steps(const Analysis& analysis, const JobLog& job, bool record_lacks_steps, Findings& found) {
-    if (job.is_whole() || job.outcome != "done") { return; }
-    if (analysis.is_verified() && analysis.verified.verdict() != verification::Verdict::NotExact) { return; }
+    if (job.is_whole() || job.outcome != "done" || analysis.is_exact()) { return; }
     const std::string moves = grouped(job.moves_not_whole) + " of " + plural(job.move_count, "move");
     if (!record_lacks_steps && !job.axes_not_known.empty()) {
         found.push_back(unknown(fmt::format("whether {} of {} have the commanded steps", moves, name_of(job)),
                                 "not all steps of " + in_words(job.axes_not_known) + " are in this log"));
+        return;
+    }
+    if (analysis.is_verified() && !analysis.verified.difference) {
+        found.push_back(unknown(fmt::format("whether {} of {} have the commanded steps", moves, name_of(job)),
+                                "the log lacks messages"));
         return;
     }
     const Grade grade = record_lacks_steps ? Grade::Doubtful : Grade::Bad;
@@ -155,10 +159,9 @@ void check_events(const Analysis& analysis, Findings& found) {
     std::int64_t interruptions = 0;
     for (const JobLog& job : analysis.jobs) { interruptions += job.interruptions(); }
     if (interruptions == 0) { return; }
-    const bool is_exact = analysis.is_verified() && analysis.verified.verdict() == verification::Verdict::Exact;
-    found.push_back({is_exact ? Grade::Good : Grade::Doubtful,
+    found.push_back({analysis.is_exact() ? Grade::Good : Grade::Doubtful,
                      fmt::format("motion came to rest within a job and went on {}{}", plural(interruptions, "time"),
-                                 is_exact ? ", from the same place of its path" : "")});
+                                 analysis.is_exact() ? ", from the same place of its path" : "")});
 }
 
 void check_end(const Analysis& analysis, Findings& found) {
@@ -204,15 +207,16 @@ void check_times(const Analysis& analysis, Findings& found) {
                             "the times commanded are not in this log"));
 }
 
-/// The maximum distance from the line that exact steps can have: one step of each axis, and the motion of each axis
-/// within the uncertainty of its clock.
+/// The maximum distance from the curve that exact steps can have: of each axis one step, or the tolerance within which
+/// the program lets moves be joined, and its motion within the uncertainty of its clock.
 double exact_distance_mm(const Analysis& analysis) {
     double squares = 0;
     double by_clocks = 0;
     for (const auto& axis : analysis.axes) {
         const double mm_per_step = 1 / analysis.steps_per_mm(*axis).value_or(1);
         const auto error = static_cast<double>((kRounding + axis->statistics().clock_error()).value);
-        squares += mm_per_step * mm_per_step;
+        const double most_mm = std::max(mm_per_step, analysis.tolerance_mm);
+        squares += most_mm * most_mm;
         by_clocks += axis->statistics().peak_steps_per_tick() * mm_per_step * error;
     }
     return std::sqrt(squares) + by_clocks;

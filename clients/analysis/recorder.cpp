@@ -116,6 +116,7 @@ void Recorder::begin_job(const RecordedJob& message, JobLog& record, LogPlace pl
             record.planned = planned->planned();
             record.legs = planned->legs();
         }
+        if (planned) { analysis_.tolerance_mm = std::max(analysis_.tolerance_mm, planned->tolerance_mm()); }
         planned ? void(asked = std::move(*planned)) : void(record.unplannable = planned.error());
     }
     if (program && record.is_on_a_line() && !message.has_program_of(latest_program_)) {

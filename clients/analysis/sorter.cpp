@@ -27,7 +27,8 @@ void Sorter::on_position(const axis_position_t& message, LogPlace place) {
     of->log->position_numbers().add(message.incarnation, message.sequence);
     listener_.on_position(message);
     of->log->take(
-        PositionSample{Tick{message.tick}, message.position_steps, message.position_mm, message.velocity_mm_per_s});
+        PositionSample{Tick{message.tick}, message.position_steps, message.position_mm, message.velocity_mm_per_s,
+                       message.incarnation, message.homed != 0});
 }
 
 void Sorter::on_health(const axis_health_t& message, LogPlace place) {

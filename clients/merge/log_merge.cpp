@@ -60,6 +60,7 @@ public:
         merged_.axes = missing_.finish();
         merged_.missing_job_events = missing_.missing_of_jobs(RecordKind::Job);
         merged_.missing_program_parts = std::max(missing_.missing_of_jobs(RecordKind::ProgramPart), program_.missing());
+        merged_.absent_axes = missing_.absent_axes();
         merged_.end = missing_.end();
         return std::move(merged_);
     }
@@ -168,9 +169,13 @@ private:
 
 }  // namespace
 
-bool Merged::is_complete() const {
-    return missing_job_events == 0 && missing_program_parts == 0 && end.missing.empty() &&
-           std::ranges::all_of(axes, [](const AxisRecord& axis) { return axis.missing_messages() == 0; });
+bool Merged::lacks_messages() const {
+    return missing_job_events != 0 || missing_program_parts != 0 || !end.missing.empty() || !absent_axes.empty() ||
+           std::ranges::any_of(axes, [](const AxisRecord& axis) { return axis.missing_messages() != 0; });
+}
+
+bool Merged::contradicts() const {
+    return differing > 0 || std::ranges::any_of(axes, [](const AxisRecord& axis) { return !axis.contradictions.empty(); });
 }
 
 std::expected<Merged, std::string> merge_logs(const MergeOptions& options, RecordSink& to) {

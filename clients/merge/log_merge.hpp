@@ -46,13 +46,16 @@ struct Merged {
     std::uint64_t late = 0;        // written after newer ones because they came later than the window
     std::uint64_t foreign = 0;     // written, of channels that are not of the record
     std::vector<AxisRecord> axes;
+    std::vector<std::string> absent_axes;  // of the recorded machine, without any message
     std::int64_t missing_job_events = 0;
     std::int64_t missing_program_parts = 0;
     analysis::RecordEnd end;  // messages missing at the end, and processes with an unknown end
     ChosenLogs chosen;        // set by the caller: which logs were left out
 
-    /// True if no message is known to be missing.
-    bool is_complete() const;
+    /// True if no message is known to be missing, and none contradicts another.
+    bool is_complete() const { return !lacks_messages() && !contradicts(); }
+    bool lacks_messages() const;
+    bool contradicts() const;
 };
 
 /// The error is a sentence for the user: a log cannot be read, or no log contains a message of the record.

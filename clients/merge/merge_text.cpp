@@ -25,6 +25,8 @@ std::string line_of(const MissingRuns& missing) {
     return fmt::format("  {} missing: runs {} to {}\n", missing.axis, missing.numbers.from, missing.numbers.end - 1);
 }
 
+std::string line_of(const std::string& contradiction) { return "  contradiction: " + contradiction + "\n"; }
+
 std::string line_of(const std::string& whose, std::int64_t messages, const char* what) {
     if (messages == 0) { return ""; }
     return fmt::format("  {} missing: {} of {}\n", whose, plural(messages, "message"), what);
@@ -68,7 +70,7 @@ std::string axes_table(const Merged& merged) {
     for (const AxisRecord& axis : merged.axes) {
         text += fmt::format("{:<16} {:>14} {:>10} {:>20}\n", axis.axis, grouped(axis.steps), grouped(axis.runs),
                             grouped(axis.missing_messages()));
-        text += lines_of(axis.missing_steps) + lines_of(axis.missing_runs);
+        text += lines_of(axis.missing_steps) + lines_of(axis.missing_runs) + lines_of(axis.contradictions);
         text += line_of(axis.axis, axis.missing_positions, "positions") +
                 line_of(axis.axis, axis.missing_figures, "figures");
     }
@@ -81,6 +83,9 @@ std::string oddities(const Merged& merged) {
     if (merged.differing > 0) {
         text += count(merged.differing) + " left out: they have the number of another message, but other content\n";
     }
+    for (const std::string& axis : merged.absent_axes) {
+        text += fmt::format("  {} missing: all its messages, though it is in the machine's file\n", axis);
+    }
     text += line_of("jobs", merged.missing_job_events, "events") +
             line_of("jobs", merged.missing_program_parts, "programs");
     for (const std::string& line : analysis::missing_sentences(merged.end)) { text += "  " + line + "\n"; }
@@ -92,6 +97,7 @@ std::string oddities(const Merged& merged) {
 }
 
 std::string result_of(const Merged& merged) {
+    if (merged.contradicts()) { return "contradictory: messages of the logs exclude each other, as listed"; }
     if (!merged.is_complete()) { return "incomplete: the listed messages are in none of the logs"; }
     std::string text = merged.end.is_closed() ? "complete: no message of the record is missing"
                                               : "complete as far as is known: no message is known to be missing";

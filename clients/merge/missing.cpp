@@ -1,6 +1,9 @@
 #include "clients/merge/missing.hpp"
 
+#include <algorithm>
+
 #include "clients/analysis/log/log_step.hpp"
+#include "services/documents/machine_file.hpp"
 #include "services/wire/lcm/lcm_decode.hpp"
 
 namespace lockstep::merge {
@@ -65,6 +68,10 @@ public:
         for (const StepEdge& step : batch.steps) { *position_ += step.direction; }
     }
 
+    void on_contradiction(const analysis::Contradiction& what) override {
+        if (record.contradictions.size() < kListed) { record.contradictions.push_back(sentence(what)); }
+    }
+
     AxisRecord record;
     analysis::StepStream stream{{this}};
 
@@ -106,6 +113,7 @@ void MissingWatch::take(const MessageId& id, const std::vector<std::uint8_t>& da
     if (kind == RecordKind::Mark) {
         if (const auto mark = decode_lcm<record_mark_t>(data)) { marks_.take(*mark); }
     }
+    if (kind == RecordKind::Job) { note_machine(data); }
     if (kind == RecordKind::Steps) {
         if (const auto message = decode_lcm<step_batch_t>(data)) { note_steps(*message); }
     }
@@ -113,6 +121,25 @@ void MissingWatch::take(const MessageId& id, const std::vector<std::uint8_t>& da
     const auto [known, is_new] = processes_.try_emplace(whose(id));
     if (is_new) { known->second = publisher_of(kind, data); }
     if (kind == RecordKind::Run) { ++axis(known->second.machine, known->second.axis).record.runs; }
+}
+
+/// The machine's file is in the message with which a job begins.
+void MissingWatch::note_machine(const std::vector<std::uint8_t>& data) {
+    const auto job = decode_lcm<job_t>(data);
+    if (!job || job->config.empty()) { return; }
+    const auto machine = parse_machine(job->config);
+    if (machine) { axes_wanted_[job->machine] = machine->axis_names(); }
+}
+
+std::vector<std::string> MissingWatch::absent_axes() const {
+    std::vector<std::string> absent;
+    for (const auto& [machine, names] : axes_wanted_) {
+        for (const std::string& name : names) {
+            const auto is_it = [&](const auto& known) { return known.second.machine == machine && known.second.axis == name; };
+            if (std::ranges::none_of(processes_, is_it)) { absent.push_back(name); }
+        }
+    }
+    return absent;
 }
 
 void MissingWatch::note_missing_runs(const Whose& whose, AxisRecord& record) const {

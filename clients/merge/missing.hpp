@@ -46,6 +46,7 @@ struct AxisRecord {
     std::int64_t runs = 0;
     std::vector<MissingSteps> missing_steps;  // the first kListed
     std::vector<MissingRuns> missing_runs;    // the first kListed
+    std::vector<std::string> contradictions;  // messages of steps that contradict the others, the first kListed
     std::int64_t missing_step_messages = 0;
     std::int64_t missing_run_messages = 0;
     std::int64_t missing_positions = 0;  // messages, between the first and the last: a log may begin later
@@ -72,6 +73,8 @@ public:
     std::vector<AxisRecord> finish();
     /// Number of job events or program parts (`kind`) missing between the first and the last of each coordinator.
     std::int64_t missing_of_jobs(RecordKind kind) const;
+    /// Axes of the recorded machines without any message.
+    std::vector<std::string> absent_axes() const;
     /// Call once, at the end.
     analysis::RecordEnd end();
 
@@ -84,11 +87,13 @@ private:
 
     bool begins_late_;
     void note_steps(const step_batch_t& message);
+    void note_machine(const std::vector<std::uint8_t>& data);
     void note_missing_runs(const Whose& whose, AxisRecord& record) const;
 
     std::map<Whose, analysis::NumberSet> seen_;
     std::map<std::pair<std::string, std::string>, std::unique_ptr<Axis>> axes_;  // by machine and name
     std::map<Whose, analysis::RecordingProcess> processes_;                      // the process that published them
+    std::map<std::string, std::vector<std::string>> axes_wanted_;  // by machine
     analysis::RecordEndCheck marks_;
 };
 

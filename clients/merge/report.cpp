@@ -30,6 +30,7 @@ void fill(const AxisRecord& axis, proto::AxisRecordReport& report) {
     report.set_missing_runs(axis.missing_run_messages);
     report.set_missing_positions(axis.missing_positions);
     report.set_missing_figures(axis.missing_figures);
+    for (const std::string& line : axis.contradictions) { report.add_contradictions(line); }
     for (const MissingSteps& missing : axis.missing_steps) { fill(missing, *report.add_missing_steps()); }
     for (const MissingRuns& missing : axis.missing_runs) {
         proto::MissingRunsReport& runs = *report.add_missing_run_numbers();
@@ -53,6 +54,7 @@ proto::MergeReport to_report(const Merged& merged, const std::filesystem::path& 
     report.set_missing_program_parts(merged.missing_program_parts);
     for (const std::string& line : analysis::missing_sentences(merged.end)) { report.add_missing_at_end(line); }
     for (const std::string& line : analysis::open_sentences(merged.end)) { report.add_not_known(line); }
+    for (const std::string& axis : merged.absent_axes) { report.add_absent_axes(axis); }
     for (const auto& log : merged.chosen.left_out) { report.add_left_out(log.string()); }
     for (const MergedInput& input : merged.inputs) { fill(input, *report.add_inputs()); }
     for (const AxisRecord& axis : merged.axes) { fill(axis, *report.add_axes()); }

@@ -148,12 +148,17 @@ std::expected<ChosenLogs, std::string> choose_logs(const std::vector<GivenLog>& 
 std::optional<TimeSpan> span_of_job(const std::vector<JobSpan>& jobs, std::int64_t job) {
     const auto found = std::ranges::find(jobs.rbegin(), jobs.rend(), job, &JobSpan::job);
     if (found == jobs.rend()) { return std::nullopt; }
-    TimeSpan span;
+    constexpr std::int64_t kBeside_us = 500'000;  // marks and positions around the job; steps are published within 0.1 s
+    TimeSpan span{.from_us = found->begun_us - kBeside_us, .until_us = {}, .program = {}};
+    if (found->ended_us) { span.until_us = *found->ended_us + kBeside_us; }
     if (found->program) { span.program = {found->coordinator, *found->program}; }
     if (const auto before = found + 1; before != jobs.rend()) {
-        span.from_us = before->ended_us.value_or(before->begun_us) + 1;
+        span.from_us = std::max(*span.from_us, before->ended_us.value_or(before->begun_us) + 1);
     }
-    if (found != jobs.rbegin()) { span.until_us = (found - 1)->begun_us; }
+    if (found != jobs.rbegin()) {
+        const std::int64_t next_us = (found - 1)->begun_us;
+        span.until_us = std::min(span.until_us.value_or(next_us), next_us);
+    }
     return span;
 }
 

@@ -75,13 +75,10 @@ std::expected<Findings, std::string> replay_log(const std::filesystem::path& log
     const auto events = analysis::read_log(log, listener, progress);
     if (!events) { return std::unexpected(events.error()); }
     Findings findings = listener.finish();
-    if (findings.going() && findings.runs == 0) {
-        return std::unexpected(log.string() +
-                               (listener.runs() == 0
-                                    ? ": it contains no run to replay"
-                                    : ": none of its " + plural(listener.runs(), "run") +
-                                          " can be replayed: the log begins within a motion, and none begins from rest "
-                                          "in it"));
+    if (listener.runs() == 0) { return std::unexpected(log.string() + ": it contains no run to replay"); }
+    if (findings.runs == 0) {
+        findings.add_unknown("none of its " + plural(listener.runs(), "run") +
+                             " can be replayed: the log begins within a motion, and no motion begins from rest in it");
     }
     return findings;
 }

@@ -321,10 +321,11 @@ void AxisCheck::leave_run() {
     for (; maker_->next() != nullptr && !is_cut_here(nullptr); pass_step(false)) { ++steps; }
     unrecorded_ += steps;
     if (unrecorded_ > StepBatcher::kMaxSteps) { return differ_unrecorded(unrecorded_); }
-    findings_.notes.push_back(
+    const std::string text =
         fmt::format("axis {}: {} after {} are not in the log, because its process ended; with {} it came to {}", name_,
                     plural(steps, "step"), at_tick(last_tick_, "the log's beginning"), name_of(maker_->run()),
-                    maker_->run().stop_count));
+                    maker_->run().stop_count);
+    steps > 0 ? findings_.add_unknown(text) : findings_.notes.push_back(text);
     end_run();
 }
 
@@ -342,7 +343,7 @@ void AxisCheck::check_left(const std::vector<SeenStep>& left) {
         fmt::format("axis {}: {} from tick {} on belong to no run in the log, because its process ended; ", name_,
                     plural(static_cast<std::int64_t>(left.size()), "step"), left.front().edge.tick.value);
     const std::vector<Course> courses = planned_(left.front().machine);
-    if (courses.empty()) { return findings_.notes.push_back(what + "there is no plan to compare them with"); }
+    if (courses.empty()) { return findings_.add_unknown(what + "there is no plan to compare them with"); }
     const LeftSteps found = compare_left(
         left, courses,
         last_run_ ? LeftBy{last_run_->incarnation, last_run_->zero_count} : LeftBy{incarnations_.front(), {}});
@@ -352,7 +353,8 @@ void AxisCheck::check_left(const std::vector<SeenStep>& left) {
     last_tick_ = left.back().edge.tick;
     findings_.last_tick = std::max(findings_.last_tick, last_tick_);
     if (found.unrecorded > StepBatcher::kMaxSteps) { return differ_unrecorded(found.unrecorded); }
-    findings_.notes.push_back(what + "they are as planned: " + found.runs + text_of_missing(found));
+    const std::string text = what + "they are as planned: " + found.runs + text_of_missing(found);
+    found.missing + found.unrecorded > 0 ? findings_.add_unknown(text) : findings_.notes.push_back(text);
 }
 
 void AxisCheck::differ_from_plan(const std::string& what, const SeenStep& seen, const LeftSteps& found) {
@@ -409,6 +411,8 @@ void AxisCheck::end_of_log(LogEdges edges) {
     if (maker_ && (edges.ends_early || edges.lacks_steps)) {
         findings_.add_unknown("axis " + name_ + ": the log ends before the last steps of " + name_of(maker_->run()) +
                               "; " + compared);
+        while (maker_->next() != nullptr && !is_cut_here(nullptr)) { pass_step(false); }
+        end_run();
     } else if (edges.begins_late && !last_run_ && !waiting_.empty()) {
         findings_.add_unknown("axis " + name_ + ": no run of it is in the log, which begins later; " +
                               plural(static_cast<std::int64_t>(waiting_.size()), "step") + " cannot be compared");

@@ -37,6 +37,8 @@ public:
     EpochReplay& replay() { return replay_; }
     const EpochReplay& replay() const { return replay_; }
 
+    /// Whether a run of an axis follows its newest one in the log.
+    bool follows(std::size_t axis, const Run& run) const { return out_of_order(axes_[axis], run).empty(); }
     /// Compares the next run of an axis. Returns why it is not the planned one; nullopt if it is. `is_behind_gap`: runs
     /// before it are missing from the log.
     std::optional<RunDifference> compare(std::size_t axis, const Run& run, bool is_behind_gap);

@@ -462,6 +462,10 @@ void JobCheck::compare(const AxisRun& of) {
     if (axis == job_->replay->machine().axes.size()) {
         return differ("axis " + name + " ran a frame of a machine that has no such axis", name, &run);
     }
+    if (is_behind_gap && !epoch_->follows(axis, run)) {
+        findings_.add_missing(fmt::format("axis {}: runs before {} of epoch {} are not in the log", name, name_of(run),
+                                          run.epoch));
+    }
     const auto found = epoch_->compare(axis, run, is_behind_gap);
     if (!found) { return void(++findings_.runs); }
     if (job_->replay->program()->failure()) { return differ("", name, &run); }

@@ -18,7 +18,9 @@ LogCheck::Axis::Axis(const std::string& name, Findings& findings, JobCheck* jobs
       runs(
           [this, name, &findings, jobs](Run run) {
               if (!findings.going()) { return; }
-              if (jobs != nullptr && !std::exchange(has_run, true) && run.sequence > 0) { jobs->begins_late(); }
+              const bool begins_late = !std::exchange(has_run, true) && run.sequence > 0;
+              is_behind_gap = is_behind_gap || begins_late;
+              if (jobs != nullptr && begins_late) { jobs->begins_late(); }
               if (jobs != nullptr) { jobs->take(name, run, std::exchange(is_behind_gap, false)); }
               check.take(std::move(run));
           },

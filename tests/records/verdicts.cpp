@@ -61,7 +61,7 @@ void ask_merge(const std::filesystem::path& log, Judgement& judgement) {
     if (!merged) { return set(judgement, Tool::Merge, kSaysRefused, merged.error()); }
     const bool is_damaged =
         std::ranges::any_of(merged->inputs, [](const auto& input) { return !input.damages.empty(); });
-    const Verdict verdict = merged->differing > 0                  ? kSaysBad
+    const Verdict verdict = merged->contradicts()                  ? kSaysBad
                             : merged->is_complete() && !is_damaged ? kSaysGood
                                                                    : kSaysUnknown;
     judgement.merge_mentions = verdict != kSaysGood || merged->duplicates > 0 || merged->late > 0;

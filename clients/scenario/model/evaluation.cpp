@@ -150,10 +150,10 @@ private:
         const std::string asked = "every step as planned";
         if (!evidence_.verified) { return add(asked, evidence_.verified.error(), kWholeLog, false); }
         const proto::VerifyReport& report = *evidence_.verified;
-        const std::string found = report.exact()
-                                      ? fmt::format("{} steps compared, none differs", report.steps_compared())
-                                      : report.first_difference().text();
-        add(asked, found, kWholeLog, report.exact());
+        const bool differs = report.has_first_difference();
+        const std::string found = differs ? report.first_difference().text()
+                                          : fmt::format("{} steps compared, none differs", report.steps_compared());
+        add(asked, found, kWholeLog, !differs);
     }
 
     void check_complete() {

@@ -53,7 +53,9 @@ protected:
     }
     std::string notes() const {
         std::string text;
-        for (const std::string& note : findings.notes) { text += note + "\n"; }
+        for (const auto& lines : {findings.notes, findings.unknown}) {
+            for (const std::string& line : lines) { text += line + "\n"; }
+        }
         return text;
     }
 
