@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <span>
+#include <utility>
 
 #include "clients/incident/rest.hpp"
 #include "clients/incident/sentences.hpp"
@@ -171,11 +173,21 @@ std::string noticed_text(const Incident& incident, const Entry& symptom, const C
     return text + ", " + duration(incident.seconds(symptom.tick - *cause.at)) + " later";
 }
 
-std::string rest_text(const Incident& incident, const Evaluation& evaluation) {
-    if (!evaluation.rest) { return "no axis was moving"; }
-    const Ticks after = *evaluation.rest - evaluation.noticed;
+std::string end_of_motion(const Incident& incident, const Rest& rest, Tick noticed) {
+    if (rest.without_rest != 0) {
+        return "the notes do not show when " + axes_named(incident.machine, rest.without_rest) + " came to rest";
+    }
+    const Ticks after = *rest.at - noticed;
     if (after < Ticks{}) { return "all axes had come to rest " + duration(-incident.seconds(after)) + " before that"; }
     return "all axes at rest " + duration(incident.seconds(after)) + " after that";
+}
+
+std::string rest_text(const Incident& incident, const Rest& rest, Tick noticed) {
+    if (!rest.at && rest.moving == 0) { return "no axis was moving"; }
+    const std::string end = end_of_motion(incident, rest, noticed);
+    if (rest.moving == 0) { return end; }
+    const bool is_one = std::popcount(rest.moving) == 1;
+    return axes_named(incident.machine, rest.moving) + (is_one ? " was moving; " : " were moving; ") + end;
 }
 
 }  // namespace
@@ -196,11 +208,13 @@ Evaluation evaluate(const Incident& incident) {
         evaluation.story = {evaluation.cause.text};
         return evaluation;
     }
-    Evaluation evaluation{cause_of(incident, *symptom), symptom->tick, {}, {}};
-    evaluation.rest =
-        all_at_rest(incident, std::min(evaluation.noticed, evaluation.cause.at.value_or(evaluation.noticed)));
+    const Tick noticed = symptom->tick;
+    Cause cause = cause_of(incident, *symptom);
+    const Rest rest = rest_of(incident, std::min(noticed, cause.at.value_or(noticed)));
+    Evaluation evaluation{
+        .cause = std::move(cause), .noticed = noticed, .rest = rest.at, .moving = rest.moving, .story = {}};
     evaluation.story = {evaluation.cause.text, noticed_text(incident, *symptom, evaluation.cause),
-                        rest_text(incident, evaluation)};
+                        rest_text(incident, rest, noticed)};
     return evaluation;
 }
 

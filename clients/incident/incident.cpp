@@ -3,39 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
+#include <optional>
 #include <tuple>
+
+#include "clients/incident/file_groups.hpp"
+#include "clients/incident/separation.hpp"
 
 namespace lockstep::incident {
 namespace {
-
-constexpr double kApart_s = 10;                              // of machine time between two incidents
-constexpr std::int64_t kApart_us = 24LL * 3600 * 1'000'000;  // of wall time: machine time restarted between the marks
-
-using Group = std::vector<const FlightFile*>;
-
-bool is_near(const FlightFile& a, const FlightFile& b) {
-    const double ticks = static_cast<double>(std::abs((a.head.mark.tick - b.head.mark.tick).value));
-    return ticks <= kApart_s * a.machine.ticks_per_second() &&
-           std::abs(a.head.mark.wall_us - b.head.mark.wall_us) <= kApart_us;
-}
-
-std::vector<Group> grouped(const std::vector<FlightFile>& files) {
-    Group all;
-    for (const FlightFile& file : files) { all.push_back(&file); }
-    std::ranges::sort(all, {}, [](const FlightFile* file) { return file->head.mark.tick; });
-    std::vector<Group> groups;
-    for (const FlightFile* file : all) {
-        const auto found = std::ranges::find_if(groups, [&](const Group& g) { return is_near(*g.back(), *file); });
-        if (found == groups.end()) {
-            groups.push_back({file});
-        } else {
-            found->push_back(file);
-        }
-    }
-    std::ranges::sort(groups, {}, [](const Group& group) { return group.front()->head.mark.wall_us; });
-    return groups;
-}
 
 /// The axis with this process; any other process is a coordinator.
 FlightPeer who_is(const MachineConfig& machine, const std::string& process) {
@@ -51,17 +29,32 @@ std::string name_of(const MachineConfig& machine, FlightPeer who) {
     return who.kind == FlightPeer::Kind::Coordinator ? "coordinator" : "axis " + machine.axes[who.axis].name;
 }
 
+/// A stretch of machine time: from `from`, before `to`.
+struct Window {
+    Tick from;
+    Tick to;
+    bool has(Tick tick) const { return from <= tick && tick < to; }
+};
+constexpr Window kAllTime{Tick{std::numeric_limits<std::int64_t>::min()},
+                          Tick{std::numeric_limits<std::int64_t>::max()}};
+
 /// All notes of one life of a process, from any number of files.
 struct Life {
     FlightPeer who;
     std::map<std::uint64_t, FlightEvent> events;  // by number
+    Tick first;
+    Tick last;
     bool ended = false;
     std::string note;
     bool was_asked = false;
-    std::vector<std::string> files;
+    std::vector<const FlightFile*> files;
+
+    bool has_events_in(const Window& window) const {
+        return std::ranges::any_of(events, [&](const auto& noted) { return window.has(noted.second.tick); });
+    }
 };
 
-std::vector<Life> lives_of(const Group& group) {
+std::vector<Life> lives_of(const FileGroup& group) {
     std::map<std::tuple<int, Identity>, Life> lives;
     for (const FlightFile* file : group) {
         const FlightPeer who = who_is(file->machine, file->head.source.process);
@@ -70,39 +63,72 @@ std::vector<Life> lives_of(const Group& group) {
         life.ended |= file->head.mark.reason == IncidentReason::Ended;
         if (!file->note.empty()) { life.note = file->note; }
         life.was_asked |= file->head.mark.reason == IncidentReason::Asked;
-        life.files.push_back(file->path.string());
+        life.files.push_back(file);
         for (const NumberedEvent& noted : file->events) { life.events.emplace(noted.number, noted.event); }
     }
     std::vector<Life> out;
-    for (auto& [key, life] : lives) { out.push_back(std::move(life)); }
+    for (auto& [key, life] : lives) {
+        const auto tick_of = [](const auto& noted) { return noted.second.tick; };
+        if (!life.events.empty()) {
+            life.first = tick_of(*std::ranges::min_element(life.events, {}, tick_of));
+            life.last = tick_of(*std::ranges::max_element(life.events, {}, tick_of));
+        }
+        out.push_back(std::move(life));
+    }
     return out;
 }
 
-void add(const Life& life, Incident& incident) {
-    Process process{.name = name_of(incident.machine, life.who),
-                    .who = life.who,
-                    .ended = life.ended,
-                    .note = life.note,
-                    .was_asked = life.was_asked,
-                    .files = life.files};
-    const auto before = std::ranges::count(incident.processes, life.who, &Process::who);
-    if (before > 0 && life.who.kind == FlightPeer::Kind::Axis) { process.name += ", restarted"; }
-    if (before > 0 && life.who.kind == FlightPeer::Kind::Coordinator) {
-        process.name += fmt::format(" ({})", before + 1);
+/// The files that were written about an incident in the window. If there is none, all files.
+std::vector<const FlightFile*> files_about(const Life& life, const Window& window) {
+    std::vector<const FlightFile*> files;
+    for (const FlightFile* file : life.files) {
+        if (window.has(file->head.mark.tick)) { files.push_back(file); }
     }
+    return files.empty() ? life.files : files;
+}
+
+void add_events(const Life& life, const Window& window, Process& process, Incident& incident) {
+    std::optional<Tick> first;
     for (const auto& [number, event] : life.events) {
-        if (process.first == Tick{} || event.tick < process.first) { process.first = event.tick; }
+        if (!window.has(event.tick)) { continue; }
+        first = std::min(first.value_or(event.tick), event.tick);
         process.last = std::max(process.last, event.tick);
         const bool is_state = event.kind == FlightKind::State || event.kind == FlightKind::Phase;
         if (is_state) { process.clock_error = std::max(process.clock_error, event.lasts); }
         incident.timeline.push_back({event.tick, incident.processes.size(), event});
     }
-    if (life.ended && !life.events.empty()) {
-        const FlightEvent end{.tick = process.last,
-                              .kind = FlightKind::Incident,
-                              .detail = static_cast<std::uint8_t>(IncidentReason::Ended)};
-        incident.timeline.push_back({process.last, incident.processes.size(), end});
+    process.first = first.value_or(life.first);
+    if (!first) { process.last = life.last; }
+}
+
+void add_end(Tick last, Incident& incident) {
+    const FlightEvent end{
+        .tick = last, .kind = FlightKind::Incident, .detail = static_cast<std::uint8_t>(IncidentReason::Ended)};
+    incident.timeline.push_back({last, incident.processes.size(), end});
+}
+
+/// A process that ended before the window is part of the incident, because nothing shows that it is back.
+void add(const Life& life, const Window& window, Incident& incident) {
+    const bool has_end = life.last < window.to;
+    Process process{.name = name_of(incident.machine, life.who),
+                    .who = life.who,
+                    .ended = life.ended && has_end,
+                    .note = has_end ? life.note : "",
+                    .was_asked = life.was_asked && has_end,
+                    .files = {}};
+    const auto before = std::ranges::count(incident.processes, life.who, &Process::who);
+    if (before > 0 && life.who.kind == FlightPeer::Kind::Axis) { process.name += ", restarted"; }
+    if (before > 0 && life.who.kind == FlightPeer::Kind::Coordinator) {
+        process.name += fmt::format(" ({})", before + 1);
     }
+    for (const FlightFile* file : files_about(life, window)) {
+        process.files.push_back(file->path.string());
+        for (const analysis::Damage& damage : file->damages) {
+            incident.unread.push_back(file->path.string() + ": " + analysis::damage_sentence(damage));
+        }
+    }
+    add_events(life, window, process, incident);
+    if (process.ended && window.has(life.last)) { add_end(life.last, incident); }
     incident.processes.push_back(std::move(process));
 }
 
@@ -116,25 +142,68 @@ void name_the_absent(Incident& incident) {
     }
 }
 
-Incident merged(const Group& group) {
-    Incident incident{.machine = group.front()->machine, .wall_us = group.front()->head.mark.wall_us};
-    for (const Life& life : lives_of(group)) { add(life, incident); }
-    std::ranges::stable_sort(incident.timeline, {}, &Entry::tick);
+/// Whether the life belongs to the incident in the window: it has notes there, or it is the last of its process that
+/// has ended before, or all its notes are missing.
+bool belongs_to(const Life& life, const Window& window, const std::vector<Life>& lives) {
+    if (life.events.empty() || life.has_events_in(window)) { return true; }
+    const auto replaces = [&](const Life& other) {
+        return &other != &life && other.who == life.who && other.first < window.to && other.last >= life.last;
+    };
+    return life.ended && life.last < window.from && std::ranges::none_of(lives, replaces);
+}
+
+/// When the incident happened: the first note of it, or else its last note.
+Tick time_of(const Incident& incident) {
+    const auto mark =
+        std::ranges::find(incident.timeline, FlightKind::Incident, [](const Entry& e) { return e.event.kind; });
+    if (mark != incident.timeline.end()) { return mark->tick; }
+    return incident.timeline.empty() ? Tick{} : incident.timeline.back().tick;
+}
+
+/// The wall time of the first file that was written about an incident in the window. If there is none, the wall time of
+/// `at`, by the file with the nearest mark.
+std::int64_t wall_us_of(const FileGroup& group, const Window& window, Tick at) {
+    std::optional<std::int64_t> first;
+    const FlightFile* nearest = group.front();
+    const auto distance_us = [&](const FlightFile& file) {
+        const double ticks = static_cast<double>(at.value) - static_cast<double>(file.head.mark.tick.value);
+        return ticks * 1e6 / file.machine.ticks_per_second();
+    };
     for (const FlightFile* file : group) {
-        incident.wall_us = std::min(incident.wall_us, file->head.mark.wall_us);
-        for (const analysis::Damage& damage : file->damages) {
-            incident.unread.push_back(file->path.string() + ": " + analysis::damage_sentence(damage));
-        }
+        const IncidentMark& mark = file->head.mark;
+        if (window.has(mark.tick)) { first = std::min(first.value_or(mark.wall_us), mark.wall_us); }
+        if (std::abs(distance_us(*file)) < std::abs(distance_us(*nearest))) { nearest = file; }
     }
+    return first ? *first : nearest->head.mark.wall_us + std::llround(distance_us(*nearest));
+}
+
+Incident incident_in(const Window& window, const FileGroup& group, const std::vector<Life>& lives) {
+    Incident incident{.machine = group.front()->machine};
+    for (const Life& life : lives) {
+        if (belongs_to(life, window, lives)) { add(life, window, incident); }
+    }
+    std::ranges::stable_sort(incident.timeline, {}, &Entry::tick);
     name_the_absent(incident);
+    incident.wall_us = wall_us_of(group, window, time_of(incident));
     return incident;
+}
+
+void add_incidents(const FileGroup& group, std::vector<Incident>& incidents) {
+    const std::vector<Life> lives = lives_of(group);
+    Incident all = incident_in(kAllTime, group, lives);
+    Tick from = kAllTime.from;
+    for (const Tick boundary : boundaries(all)) {
+        incidents.push_back(incident_in({from, boundary}, group, lives));
+        from = boundary;
+    }
+    incidents.push_back(from == kAllTime.from ? std::move(all) : incident_in({from, kAllTime.to}, group, lives));
 }
 
 }  // namespace
 
 std::vector<Incident> incidents_of(const std::vector<FlightFile>& files) {
     std::vector<Incident> incidents;
-    for (const Group& group : grouped(files)) { incidents.push_back(merged(group)); }
+    for (const FileGroup& group : grouped(files)) { add_incidents(group, incidents); }
     return incidents;
 }
 

@@ -31,7 +31,7 @@ struct Entry {
 
 struct Incident {
     MachineConfig machine;
-    std::int64_t wall_us = 0;         // when its first file was written
+    std::int64_t wall_us = 0;  // when its first file was written; without a file of its own, about when it happened
     std::vector<Process> processes;   // the coordinators, then the axes as configured; each with its lives in order
     std::vector<Entry> timeline;      // in the order of time
     std::vector<std::string> unread;  // errors in reading, by file and place
@@ -41,8 +41,9 @@ struct Incident {
     Ticks slots(std::int64_t count) const { return machine.slot_ticks() * count; }
 };
 
-/// Groups the files by incident, the oldest first. Files belong to one incident if their marks follow each other within
-/// 10 s of machine time. Files of one process may overlap. All `files` must be of one machine.
+/// Combines the files and separates the incidents in them, the oldest first. One file may hold several incidents, and
+/// files of one process may overlap. Notes without a sign that the machine continued in between (separation.hpp) are
+/// one incident. All `files` must be of one machine.
 std::vector<Incident> incidents_of(const std::vector<FlightFile>& files);
 
 }  // namespace lockstep::incident

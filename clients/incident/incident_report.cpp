@@ -52,12 +52,28 @@ proto::IncidentReport to_report(const Incident& incident, const Evaluation& eval
     if (evaluation.cause.at) { report.set_cause_at_s(incident.seconds(*evaluation.cause.at - evaluation.noticed)); }
     if (evaluation.cause.lasts > Ticks{}) { report.set_cause_lasts_s(incident.seconds(evaluation.cause.lasts)); }
     if (evaluation.rest) { report.set_rest_s(incident.seconds(*evaluation.rest - evaluation.noticed)); }
+    for (std::size_t i = 0; i < incident.machine.axes.size(); ++i) {
+        if (has_axis(evaluation.moving, i)) { report.add_moving(incident.machine.axes[i].name); }
+    }
     report.set_noticed_tick(evaluation.noticed.value);
     for (const std::string& sentence : evaluation.story) { report.add_story(sentence); }
     for (const Process& process : incident.processes) { add(incident, process, evaluation.noticed, report); }
     for (const Entry& entry : incident.timeline) { add(incident, entry, evaluation.noticed, report); }
     for (const std::string& note : notes_of(incident)) { report.add_notes(note); }
     return report;
+}
+
+void add_summaries(const std::vector<Incident>& incidents, proto::IncidentReport& report) {
+    for (std::size_t back = 0; back < incidents.size(); ++back) {
+        const Incident& incident = incidents[incidents.size() - 1 - back];
+        const Evaluation evaluation = evaluate(incident);
+        proto::IncidentSummary& summary = *report.add_incidents();
+        summary.set_back(static_cast<std::int64_t>(back));
+        summary.set_written(wall_time(incident.wall_us));
+        summary.set_cause(std::string(name_of(evaluation.cause.kind)));
+        const auto& story = evaluation.story;
+        summary.set_text(story.size() < 2 ? story.front() : story.front() + "; " + story.back());
+    }
 }
 
 }  // namespace lockstep::incident

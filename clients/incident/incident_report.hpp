@@ -8,4 +8,7 @@ namespace lockstep::incident {
 
 proto::IncidentReport to_report(const Incident& incident, const Evaluation& evaluation);
 
+/// `incidents`: all of the same files, the oldest first.
+void add_summaries(const std::vector<Incident>& incidents, proto::IncidentReport& report);
+
 }  // namespace lockstep::incident

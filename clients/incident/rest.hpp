@@ -1,4 +1,4 @@
-// Finds when a machine came to rest, from its axes' notes.
+// Finds which axes were moving and when they came to rest, from their notes.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,13 @@
 
 namespace lockstep::incident {
 
-/// When the last of the axes that moved at `since` came to rest. Returns nullopt if none moved, or if not known.
-std::optional<Tick> all_at_rest(const Incident& incident, Tick since);
+struct Rest {
+    std::optional<Tick> at;    // when the last axis came to rest; nullopt if none moved, or if no axis's rest is known
+    AxisSet moving = 0;        // the axes whose notes show motion
+    AxisSet without_rest = 0;  // those of them whose notes end, or have a gap, before they came to rest
+};
+
+/// The motion of all axes at `since`, and its end.
+Rest rest_of(const Incident& incident, Tick since);
 
 }  // namespace lockstep::incident

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/protocol/names.hpp"
+#include "core/protocol/needs_lease.hpp"
 #include "core/protocol/reception_watch.hpp"
 
 namespace lockstep::incident {
@@ -13,9 +14,24 @@ namespace {
 
 using Kind = FlightKind;
 
+/// A value that has no name here, as from a later version.
+std::string numbered(std::int64_t value) { return fmt::format("number {} (not of this version)", value); }
+
+/// The name of a value of the enumeration.
+template <typename Enum>
+std::string named(std::uint8_t detail) {
+    const std::string_view name = name_of(static_cast<Enum>(detail));
+    return name == "unknown" ? numbered(detail) : std::string(name);
+}
+
+std::string fault_name_of(FaultCode code) {
+    const bool is_known = code == FaultCode::None || find_fault(code) != nullptr;
+    return is_known ? std::string(lockstep::name_of(code)) : numbered(static_cast<std::int64_t>(code));
+}
+
 std::string fault_text_of(FaultCode code) {
     const FaultText* fault = find_fault(code);
-    return fault == nullptr ? std::string(lockstep::name_of(code)) : fmt::format("{} ({})", fault->name, fault->cause);
+    return fault == nullptr ? fault_name_of(code) : fmt::format("{} ({})", fault->name, fault->cause);
 }
 
 std::string veto_text(const Incident& incident, const FlightEvent& event) {
@@ -28,21 +44,25 @@ std::string veto_text(const Incident& incident, const FlightEvent& event) {
             return "no recent state of " + axes_named(incident.machine, static_cast<AxisSet>(event.count)) +
                    " reports that the frame is held";
     }
-    return "the reason is unknown";
+    return "the reason has " + numbered(event.detail);
+}
+
+std::string reopen_text(std::uint8_t reason) {
+    const std::string_view text = text_of(static_cast<ReopenReason>(reason));
+    return text.empty() ? "the reason has " + numbered(reason) : std::string(text);
 }
 
 std::string homing_text(std::int64_t stage) {
     constexpr std::array<std::string_view, 6> kStages{"ended",   "searches the switch", "pulls off", "latches", "parks",
                                                       "releases"};
     const bool is_known = stage >= 0 && stage < static_cast<std::int64_t>(kStages.size());
-    return "homing: " + std::string(is_known ? kStages[static_cast<std::size_t>(stage)] : "unknown stage");
+    return "homing: " + (is_known ? std::string(kStages[static_cast<std::size_t>(stage)]) : "stage " + numbered(stage));
 }
 
 std::string phase_text(const Incident& incident, const Entry& entry) {
+    const std::uint8_t detail = entry.event.detail;
     const bool is_axis = incident.processes[entry.process].who.kind == FlightPeer::Kind::Axis;
-    const auto phase = is_axis ? name_of(static_cast<AxisPhase>(entry.event.detail))
-                               : name_of(static_cast<MachinePhase>(entry.event.detail));
-    return (is_axis ? "is in " : "machine is ") + std::string(phase);
+    return is_axis ? "is in " + named<AxisPhase>(detail) : "machine is " + named<MachinePhase>(detail);
 }
 
 /// The text of a received message.
@@ -55,13 +75,11 @@ std::string reception_text(const Incident& incident, const FlightEvent& event) {
             return event.lasts == Ticks{} ? "receives " + who
                                           : fmt::format("receives {} again, after {}", who, duration(lasts));
         case Kind::PeerVeto: return fmt::format("receives {}'s veto of frame {}", who, event.frame);
-        case Kind::PeerFault: return fmt::format("receives {}'s fault: {}", who, lockstep::name_of(event.fault));
+        case Kind::PeerFault: return fmt::format("receives {}'s fault: {}", who, fault_name_of(event.fault));
         case Kind::PeerRestarted: return fmt::format("receives another process as {}", who);
-        case Kind::CommandReceived:
-            return fmt::format("receives the command {}", name_of(static_cast<CommandKind>(event.detail)));
-        case Kind::OrderReceived:
-            return fmt::format("receives the order {}", name_of(static_cast<AxisCommandKind>(event.detail)));
-        default: return "receives that the machine is " + std::string(name_of(static_cast<MachinePhase>(event.detail)));
+        case Kind::CommandReceived: return "receives the command " + named<CommandKind>(event.detail);
+        case Kind::OrderReceived: return "receives the order " + named<AxisCommandKind>(event.detail);
+        default: return "receives that the machine is " + named<MachinePhase>(event.detail);
     }
 }
 
@@ -72,7 +90,7 @@ bool is_end(const FlightEvent& event) {
 std::string incident_text(const Incident& incident, const FlightEvent& event) {
     if (is_end(event)) { return "has no more notes, because its process ended"; }
     const std::string who = event.about == FlightPeer{} ? "" : ", " + peer_name(incident.machine, event.about);
-    return fmt::format("saves its earlier notes ({}{})", name_of(static_cast<IncidentReason>(event.detail)), who);
+    return fmt::format("saves its earlier notes ({}{})", named<IncidentReason>(event.detail), who);
 }
 
 /// The text of an event about frames and epochs.
@@ -103,14 +121,13 @@ std::string coordinator_text(const Incident& incident, const FlightEvent& event)
         case Kind::JobCutShort: return fmt::format("the previous owner's job ended early near line {}", event.count);
         case Kind::JobContinued: return fmt::format("continues the previous owner's job near line {}", event.count);
         case Kind::JobBegun: return fmt::format("begins job {}", event.count);
-        case Kind::JobEnded:
-            return fmt::format("job {} ends: {}", event.count, name_of(static_cast<JobOutcome>(event.detail)));
-        default: return fmt::format("orders {} to {}", who, name_of(static_cast<AxisCommandKind>(event.detail)));
+        case Kind::JobEnded: return fmt::format("job {} ends: {}", event.count, named<JobOutcome>(event.detail));
+        default: return fmt::format("orders {} to {}", who, named<AxisCommandKind>(event.detail));
     }
 }
 
 std::string fault_sentence(const Incident& incident, const FlightEvent& event) {
-    const bool has_axis = event.about.kind == FlightPeer::Kind::Axis;
+    const bool has_axis = event.about.kind == FlightPeer::Kind::Axis && is_of_an_axis(event.fault);
     return "fault" + (has_axis ? " of " + peer_name(incident.machine, event.about) : "") + ": " +
            fault_text_of(event.fault);
 }
@@ -123,8 +140,9 @@ Weight weight_of(const Incident& incident, const Entry& entry) {
     switch (event.kind) {
         case Kind::Phase: return is_axis ? Weight::Routine : Weight::Notable;
         case Kind::PeerReceived: return event.lasts == Ticks{} ? Weight::Routine : Weight::Telling;
-        case Kind::OwnerFollowed:
         case Kind::CommandReceived:
+            return is_about_lease(static_cast<CommandKind>(event.detail)) ? Weight::Routine : Weight::Notable;
+        case Kind::OwnerFollowed:
         case Kind::CommandRefused:
         case Kind::JobBegun:
         case Kind::JobEnded:
@@ -170,8 +188,7 @@ std::string sentence(const Incident& incident, const Entry& entry) {
         case Kind::State:
         case Kind::Phase: return phase_text(incident, entry);
         case Kind::Started: return "starts";
-        case Kind::Reopened:
-            return fmt::format("opens its DDS participant again: {}", text_of(static_cast<ReopenReason>(event.detail)));
+        case Kind::Reopened: return "opens its DDS participant again: " + reopen_text(event.detail);
         case Kind::Stalled: return fmt::format("its loop has not run for {}", duration(lasts));
         case Kind::LoopStuck: return fmt::format("its loop has not run for {}, so it ends itself", duration(lasts));
         case Kind::Loops: return fmt::format("{} loops in a second, at most {} apart", event.count, duration(lasts));

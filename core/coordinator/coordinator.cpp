@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/coordinator/reply.hpp"
+#include "core/protocol/needs_lease.hpp"
 
 namespace lockstep {
 namespace {

@@ -20,8 +20,6 @@ std::string name_of(const LeaseHolder& writer) { return writer.name + " on " + w
 
 }  // namespace
 
-bool is_about_lease(CommandKind kind) { return kind == CommandKind::TakeLease || kind == CommandKind::GiveLease; }
-
 WriterLease::WriterLease(const MachineConfig& machine)
     : ticks_per_second_(machine.ticks_per_second()), silence_(kLeaseSilence_ms * 1000 / machine.timing.slot_us + 1) {
     members_.reserve(kMostMembers);

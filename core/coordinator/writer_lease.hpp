@@ -12,9 +12,6 @@
 
 namespace lockstep {
 
-/// TakeLease or GiveLease.
-bool is_about_lease(CommandKind kind);
-
 class WriterLease {
 public:
     explicit WriterLease(const MachineConfig& machine);

@@ -1,5 +1,7 @@
 #include "core/flight/coordinator_flight.hpp"
 
+#include "core/protocol/needs_lease.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -61,13 +63,19 @@ void CoordinatorFlight::receive(const CoordinatorInputs& in) {
         knew_owner_ = true;
         other_owner_.receive(in.now, {other.term.coordinator, other.fault, other.epoch, {}}, log_);
     }
-    for (const Command& command : in.commands) {  // a client repeats its command until it is answered
-        if (command.client == client_ && command.sequence == command_) { continue; }
-        client_ = command.client;
-        command_ = command.sequence;
-        log_.add(
-            {.tick = in.now, .kind = FlightKind::CommandReceived, .detail = static_cast<std::uint8_t>(command.kind)});
-    }
+    for (const Command& command : in.commands) { receive_command(in.now, command); }
+}
+
+/// Notes only the first of equal commands. A client repeats a command until it is answered, a jog while it lasts, and
+/// its request of the lease as long as it is the writer, also between other commands.
+void CoordinatorFlight::receive_command(Tick now, const Command& command) {
+    const LastCommands* known = commands_.find(command.client);
+    LastCommands last = known == nullptr ? LastCommands{} : *known;
+    std::uint64_t& sequence = is_about_lease(command.kind) ? last.about_lease : last.other;
+    if (known != nullptr && sequence == command.sequence) { return; }
+    sequence = command.sequence;
+    commands_.note(command.client, last);
+    log_.add({.tick = now, .kind = FlightKind::CommandReceived, .detail = static_cast<std::uint8_t>(command.kind)});
 }
 
 void CoordinatorFlight::take_notice(Tick now, const CoordinatorNotice& notice) {
@@ -77,6 +85,8 @@ void CoordinatorFlight::take_notice(Tick now, const CoordinatorNotice& notice) {
     FlightEvent event{.tick = now, .kind = *kind, .fault = notice.fault};
     switch (notice.kind) {
         case Kind::Fault:
+            if (is_of_an_axis(notice.fault)) { event.about = flight_axis(notice.number); }
+            break;
         case Kind::AxisSeen:
         case Kind::AxisGone: event.about = flight_axis(notice.number); break;
         case Kind::Interrupted: event.frame = notice.number; break;

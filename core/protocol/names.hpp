@@ -31,9 +31,10 @@ constexpr std::string_view name_of(MachinePhase phase) {
 }
 
 constexpr std::string_view name_of(CommandKind kind) {
-    return detail::pick_name(std::array<std::string_view, 11>{"home", "move", "run", "hold", "resume", "stop", "estop",
-                                                              "reset", "move --own", "override", "jog"},
-                             kind);
+    return detail::pick_name(
+        std::array<std::string_view, 13>{"home", "move", "run", "hold", "resume", "stop", "estop", "reset",
+                                         "move --own", "override", "jog", "take-lease", "give-lease"},
+        kind);
 }
 
 constexpr std::string_view name_of(AxisCommandKind kind) {

@@ -1,4 +1,4 @@
-// Which commands only the writer may give.
+// Which commands only the writer may give, and which are about its lease.
 #pragma once
 
 #include "core/protocol/messages.hpp"
@@ -14,6 +14,11 @@ inline bool needs_lease(const Command& command) {
         case CommandKind::Jog: return !command.jogs.empty();
         default: return true;
     }
+}
+
+/// TakeLease or GiveLease.
+constexpr bool is_about_lease(CommandKind kind) {
+    return kind == CommandKind::TakeLease || kind == CommandKind::GiveLease;
 }
 
 }  // namespace lockstep

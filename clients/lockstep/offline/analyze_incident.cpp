@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "clients/incident/incident_input.hpp"
 #include "clients/incident/incident_report.hpp"
 #include "clients/lockstep/offline/incident_text.hpp"
@@ -24,22 +26,35 @@ std::string coloured_incident(const std::string& text) {
     return text.substr(0, from) + painted(text.substr(from, to - from), kBold) + text.substr(to);
 }
 
-/// The page's path: as the user gave it, else beside the incident files, named like the first of them.
-fs::path page_path(const IncidentOptions& options, const proto::IncidentReport& report) {
-    if (options.html) { return *options.html; }
+/// The name of the first of the incident's files.
+std::string first_file(const incident::Incident& incident) {
     std::string first;
-    for (const auto& process : report.processes()) {
-        if (first.empty() || process.files(0) < first) { first = process.files(0); }
+    for (const incident::Process& process : incident.processes) {
+        for (const std::string& file : process.files) {
+            if (first.empty() || file < first) { first = file; }
+        }
     }
+    return first;
+}
+
+/// The page's path: as the user gave it, else beside the incident files, named like the first of them. If a file holds
+/// several incidents, the pages of all but the first are numbered.
+fs::path page_path(const IncidentOptions& options, const IncidentInput& input, std::size_t chosen) {
+    if (options.html) { return *options.html; }
+    const std::string first = first_file(input.incidents[chosen]);
+    const auto before = input.incidents.begin() + static_cast<std::ptrdiff_t>(chosen);
+    const auto same = std::count_if(input.incidents.begin(), before,
+                                    [&](const incident::Incident& other) { return first_file(other) == first; });
     const fs::path file(first);
     const std::string name = file.filename().string();
-    return file.parent_path() / (name.substr(0, name.find('-')) + ".html");
+    const std::string number = same == 0 ? "" : fmt::format("-{}", same + 1);
+    return file.parent_path() / (name.substr(0, name.find('-')) + number + ".html");
 }
 
 /// Returns the path of the written page, or an empty path if none was written. Fails only if the log cannot be read, or
 /// if the page was requested and cannot be written.
-std::expected<fs::path, std::string> write_page(const IncidentOptions& options, const proto::IncidentReport& report,
-                                                Output& output) {
+std::expected<fs::path, std::string> write_page(const IncidentOptions& options, const fs::path& path,
+                                                const proto::IncidentReport& report, Output& output) {
     std::optional<analysis::Analysis> log;
     if (options.log) {
         auto found = analysis::analyze_log(*options.log, {.machine = report.machine()});
@@ -47,18 +62,12 @@ std::expected<fs::path, std::string> write_page(const IncidentOptions& options, 
         log = std::move(*found);
     }
     if (!options.html && (options.no_html || options.json)) { return fs::path(); }
-    fs::path path = page_path(options, report);
     const auto written = analysis::may_replace(path) ? incident::write_html(report, log ? &*log : nullptr, path)
                                                      : std::unexpected(analysis::in_the_way(path));
     if (written) { return path; }
     if (options.html) { return std::unexpected(written.error()); }
     output.warn("no report page: " + written.error());
     return fs::path();
-}
-
-std::string earlier_text(int back, std::size_t earlier) {
-    return fmt::format("{} earlier incident{} in the same files: --back {}{}", earlier, earlier == 1 ? "" : "s",
-                       back + 1, earlier == 1 ? "" : " and on");
 }
 
 }  // namespace
@@ -90,16 +99,18 @@ ExitCode analyze_incident(const IncidentOptions& options) {
         return output.fail(bad_input(fmt::format("--back {}: the files hold {} incidents, so it goes from 0 to {}",
                                                  options.back, count, count - 1)));
     }
-    const std::size_t earlier = count - 1 - static_cast<std::size_t>(options.back);
-    const incident::Incident& incident = input->incidents[earlier];
+    const std::size_t chosen = count - 1 - static_cast<std::size_t>(options.back);
+    const incident::Incident& incident = input->incidents[chosen];
     const incident::Evaluation evaluation = incident::evaluate(incident);
     proto::IncidentReport report = incident::to_report(incident, evaluation);
-    report.set_earlier(static_cast<std::int64_t>(earlier));
+    report.set_earlier(static_cast<std::int64_t>(chosen));
+    report.set_back(options.back);
+    incident::add_summaries(input->incidents, report);
     std::string text = incident::to_text(
         incident, evaluation, {.least = options.all ? incident::Weight::Routine : incident::Weight::Notable});
     if (wants_colour() && !options.no_colour) { text = coloured_incident(text); }
-    if (earlier > 0) { text += earlier_text(options.back, earlier) + "\n"; }
-    const auto page = write_page(options, report, output);
+    if (count > 1) { text += "\n" + incident::list_text(report); }
+    const auto page = write_page(options, page_path(options, *input, chosen), report, output);
     if (!page) { return output.fail(bad_input(page.error())); }
     report.set_page(page->string());
     if (text.ends_with('\n')) { text.pop_back(); }

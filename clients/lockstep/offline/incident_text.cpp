@@ -11,6 +11,7 @@ namespace lockstep::incident {
 namespace {
 
 constexpr std::size_t kTimeWidth = 12;
+constexpr int kMostListed = 10;
 
 std::size_t name_width(const Incident& incident) {
     std::size_t width = 0;
@@ -52,6 +53,23 @@ std::string to_text(const Incident& incident, const Evaluation& evaluation, cons
     }
     if (left_out > 0) { text += fmt::format("\n{} more routine events: --all\n", left_out); }
     for (const std::string& note : notes_of(incident)) { text += wrapped(note, options.width, "   ") + "\n"; }
+    return text;
+}
+
+std::string list_text(const proto::IncidentReport& report, std::size_t width) {
+    const int count = report.incidents_size();
+    if (count < 2) { return ""; }
+    std::string text = fmt::format("{} incidents in these files, the newest first; --back N reports another:\n", count);
+    const int back = static_cast<int>(report.back());
+    const int first = std::clamp(back - kMostListed / 2, 0, std::max(0, count - kMostListed));
+    const int end = std::min(count, first + kMostListed);
+    for (const auto& summary : report.incidents()) {
+        if (summary.back() < first || summary.back() >= end) { continue; }
+        const std::string head = fmt::format("  --back {:<3} {}  ", summary.back(), summary.written());
+        const std::string body = summary.text() + (summary.back() == back ? " (this one)" : "");
+        text += head + wrapped(body, width - head.size(), std::string(head.size(), ' ')) + "\n";
+    }
+    if (end - first < count) { text += fmt::format("  and {} more\n", count - (end - first)); }
     return text;
 }
 
