@@ -19,9 +19,8 @@ std::size_t name_width(const Incident& incident) {
     return std::min<std::size_t>(width, 30);
 }
 
-std::string row(const std::string& time, const std::string& name, const std::string& what, std::size_t names,
-                std::size_t width) {
-    const std::string head = fmt::format("{:>{}}  {:<{}}  ", time, kTimeWidth, name, names);
+/// `what` after `head`, in lines of at most `width` characters that begin below the first.
+std::string hanging(const std::string& head, const std::string& what, std::size_t width) {
     const std::size_t room = std::max<std::size_t>(20, width - std::min(width, head.size()));
     std::string text = wrapped(what, room, "");
     const std::string indent(head.size(), ' ');
@@ -29,6 +28,11 @@ std::string row(const std::string& time, const std::string& name, const std::str
         text.insert(at + 1, indent);
     }
     return head + text + "\n";
+}
+
+std::string row(const std::string& time, const std::string& name, const std::string& what, std::size_t names,
+                std::size_t width) {
+    return hanging(fmt::format("{:>{}}  {:<{}}  ", time, kTimeWidth, name, names), what, width);
 }
 
 }  // namespace
@@ -67,7 +71,7 @@ std::string list_text(const proto::IncidentReport& report, std::size_t width) {
         if (summary.back() < first || summary.back() >= end) { continue; }
         const std::string head = fmt::format("  --back {:<3} {}  ", summary.back(), summary.written());
         const std::string body = summary.text() + (summary.back() == back ? " (this one)" : "");
-        text += head + wrapped(body, width - head.size(), std::string(head.size(), ' ')) + "\n";
+        text += hanging(head, body, width);
     }
     if (end - first < count) { text += fmt::format("  and {} more\n", count - (end - first)); }
     return text;

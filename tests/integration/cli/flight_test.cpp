@@ -87,7 +87,10 @@ TEST_F(Flight, AnEmergencyStopIsNamed) {
     begin_job();
     EXPECT_EQ(run_lockstep({"estop"}).code, 0);
     ASSERT_TRUE(all_write());
-    EXPECT_EQ(incident().cause(), "emergency-stop");
+    const auto report = incident();
+    EXPECT_EQ(report.cause(), "emergency-stop");
+    EXPECT_EQ(report.moving_size(), 2) << report.ShortDebugString().substr(0, 2000);
+    EXPECT_TRUE(report.has_rest_s());
 }
 
 TEST_F(Flight, IsReadOnRequestEvenFromAProcessThatHangs) {
