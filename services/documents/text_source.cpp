@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "services/documents/block_balance.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -55,6 +57,29 @@ private:
     TextSource::Place place_;
 };
 
+/// Protobuf's messages end with the text that it found, which is empty at the end of the text.
+bool names_the_end(const std::string& message) {
+    return message.ends_with("got: ") || message.ends_with("found \"\".");
+}
+
+/// Says of errors that missing or surplus braces cause what to do.
+void explain_braces(std::string_view text, Diagnostics& errors) {
+    const BlockBalance balance = block_balance(text);
+    const auto is_at = [](const Diagnostic& error, const TextPlace& place) {
+        return TextPlace{error.line, error.column} == place;
+    };
+    for (Diagnostic& error : errors) {
+        if (balance.surplus && is_at(error, *balance.surplus)) {
+            error.message = "this brace closes no block; remove it, or add the beginning of the block";
+        } else if (balance.open.empty() && is_at(error, balance.end) && names_the_end(error.message)) {
+            error.message += "the end of the text";
+        }
+    }
+    if (balance.open.empty()) { return; }
+    std::erase_if(errors, [&](const Diagnostic& error) { return is_at(error, balance.end); });
+    errors.push_back({balance.end.line, balance.end.column, text_of_open(balance)});
+}
+
 }  // namespace
 
 Diagnostics TextSource::parse(std::string_view text, pb::Message& message) {
@@ -68,6 +93,7 @@ Diagnostics TextSource::parse(std::string_view text, pb::Message& message) {
     if (!parser.Parse(&stream, &message) && errors.found.empty()) {
         errors.found.push_back({.message = "the text cannot be read"});
     }
+    if (!errors.found.empty()) { explain_braces(text, errors.found); }
     return errors.found;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "services/wire/lcm/lcm_decode.hpp"
 #include "services/wire/lcm/translate_lcm.hpp"
@@ -113,6 +114,9 @@ std::expected<NumberedEvent, std::string> from_lcm(const flight_event_t& message
     }
     if (fault == nullptr && !message.fault.empty()) {
         return std::unexpected("an event has an unknown fault: \"" + message.fault + "\"");
+    }
+    if (message.detail < 0 || message.detail > std::numeric_limits<std::uint8_t>::max()) {
+        return std::unexpected(fmt::format("an event has the detail {}; it must be from 0 to 255", message.detail));
     }
     NumberedEvent out{.number = static_cast<std::uint64_t>(message.sequence), .event = {}};
     out.event.tick = {message.tick};

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "clients/scenario/model/expectation_text.hpp"
 #include "clients/scenario/model/problems.hpp"
 #include "clients/scenario/model/scenario_text.hpp"
 #include "clients/text/format.hpp"
@@ -14,8 +15,6 @@ namespace {
 using Names = std::vector<std::string>;
 
 std::string mm_text(double mm) { return fixed(mm, 4) + " mm"; }
-
-std::string listed_or_none(const Names& names) { return names.empty() ? "none" : listed(names); }
 
 class Evaluation {
 public:
@@ -66,8 +65,7 @@ private:
     }
 
     void check_final(const Asked::Final& end) {
-        const std::string asked = end.axis() + " at " + mm_text(end.mm()) +
-                                  (end.has_within_mm() ? " within " + mm_text(end.within_mm()) : " to the step");
+        const std::string asked = text_of(end);
         const proto::AxisAnalysis* axis = analysis_of(end.axis());
         if (axis == nullptr || !axis->has_position_end_mm()) { return add(asked, "not recorded", kWholeLog, false); }
         const double found = axis->position_end_mm();
@@ -78,7 +76,7 @@ private:
     }
 
     void check_path() {
-        const std::string asked = "every step within " + mm_text(expect_.path_within_mm()) + " of the commanded line";
+        const std::string asked = path_text(expect_);
         if (!evidence_.analysis) { return add(asked, evidence_.analysis.error(), kWholeLog, false); }
         if (!evidence_.analysis->has_largest_distance_mm()) { return add(asked, "not recorded", kWholeLog, false); }
         const double found = evidence_.analysis->largest_distance_mm();
@@ -86,7 +84,7 @@ private:
     }
 
     void check_interruptions() {
-        const std::string asked = fmt::format("{} interruptions of jobs", expect_.interruptions());
+        const std::string asked = interruptions_text(expect_);
         if (!evidence_.analysis) { return add(asked, evidence_.analysis.error(), kWholeLog, false); }
         std::int64_t found = 0;
         for (const auto& job : evidence_.analysis->jobs()) { found += job.interruptions(); }
@@ -97,9 +95,8 @@ private:
         const Names axes{expect_.together().begin(), expect_.together().end()};
         const auto parting = evidence_.record.parting(axes);
         const auto epochs = evidence_.record.epochs_of(axes);
-        add(listed(axes) + " ended each epoch with the same frame",
-            parting ? *parting : fmt::format("the same in all {} epochs", epochs), std::string(kWholeLog) + ", runs",
-            !parting && epochs > 0);
+        add(together_text(expect_), parting ? *parting : fmt::format("the same in all {} epochs", epochs),
+            std::string(kWholeLog) + ", runs", !parting && epochs > 0);
     }
 
     void check_vetoes() {
@@ -107,7 +104,7 @@ private:
         std::ranges::sort(asked);
         const Names found{evidence_.vetoed_by.begin(), evidence_.vetoed_by.end()};
         const bool held = std::ranges::includes(asked, found) && found.empty() == asked.empty();
-        add("vetoes by " + listed_or_none(asked), "by " + listed_or_none(found), notes(), held);
+        add(text_of(expect_.vetoes()), "by " + listed_or_none(found), notes(), held);
     }
 
     void check_cause() {
@@ -119,8 +116,7 @@ private:
         for (const FoundCause& one : evidence_.causes) {
             found += (found.empty() ? "" : "; ") + one.kind + ": " + one.text;
         }
-        add("cause " + cause.kind() + (cause.has_process() ? " of " + cause.process() : ""),
-            found.empty() ? "no incident is recorded" : found, notes(),
+        add(text_of(cause), found.empty() ? "no incident is recorded" : found, notes(),
             std::ranges::any_of(evidence_.causes, is_asked));
     }
 
@@ -128,26 +124,24 @@ private:
         const auto& axes = observed_.status.axes();
         const auto axis = std::ranges::find_if(axes, [&](const auto& one) { return one.name() == end.name(); });
         const bool is_present = axis != axes.end() && axis->present();
-        const auto yes_no = [&](bool asked, bool found, const std::string& what) {
-            add(end.name() + (asked ? " " : " not ") + what, found ? what : "not " + what, "status at the end",
-                asked == found);
+        const auto add_fact = [&](const std::string& asked, bool is_asked, bool is_found, const std::string& what) {
+            add(asked, is_found ? what : "not " + what, "status at the end", is_asked == is_found);
         };
-        if (end.has_heard()) { yes_no(end.heard(), is_present, "received"); }
-        if (end.has_homed()) { yes_no(end.homed(), is_present && axis->homed(), "homed"); }
+        if (end.has_heard()) { add_fact(received_text(end), end.heard(), is_present, "received"); }
+        if (end.has_homed()) { add_fact(homed_text(end), end.homed(), is_present && axis->homed(), "homed"); }
         if (!end.has_fault()) { return; }
         const std::string fault = !is_present ? "not received" : axis->has_fault() ? axis->fault().name() : "none";
-        add(end.name() + " has fault " + end.fault(), fault, "status at the end", fault == end.fault());
+        add(fault_text(end), fault, "status at the end", fault == end.fault());
     }
 
     void check_phase() {
         const std::string found = observed_.status.phase();
-        const std::string asked = text_of(expect_.phase());
-        add("the machine is " + asked + " at the end", found.empty() ? "not received" : found, "status at the end",
-            expect_.phase() == Asked::ANY || found == asked);
+        add(phase_text(expect_), found.empty() ? "not received" : found, "status at the end",
+            expect_.phase() == Asked::ANY || found == text_of(expect_.phase()));
     }
 
     void check_exact() {
-        const std::string asked = "every step as planned";
+        const std::string asked = kExactText;
         if (!evidence_.verified) { return add(asked, evidence_.verified.error(), kWholeLog, false); }
         const proto::VerifyReport& report = *evidence_.verified;
         const bool differs = report.has_first_difference();
@@ -157,7 +151,7 @@ private:
     }
 
     void check_complete() {
-        const std::string asked = "nothing missing in the record";
+        const std::string asked = kCompleteText;
         if (!evidence_.merged) { return add(asked, evidence_.merged.error(), kWholeLog, false); }
         const proto::MergeReport& report = *evidence_.merged;
         std::string found = fmt::format("{} messages, none missing", report.messages());

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "clients/incident/cause.hpp"
 #include "clients/planning/plan_summary.hpp"
 #include "clients/scenario/model/act_rules.hpp"
+#include "clients/scenario/model/expectation_rules.hpp"
+#include "clients/scenario/model/name_rules.hpp"
 #include "clients/scenario/model/problems.hpp"
 #include "clients/session/move_program.hpp"
-#include "core/faults.hpp"
 
 namespace lockstep::scenario {
 namespace {
@@ -16,6 +16,13 @@ constexpr double kMostSeconds = 60;
 constexpr int kMostFrames = 1000;
 constexpr int kMostSteps = 100;
 
+/// 0 if the program does nothing.
+std::int32_t last_line_of(const Program& program) {
+    std::int32_t last = 0;
+    for (const Block& block : program.blocks) { last = std::max(last, block.line.value_or(0)); }
+    return last;
+}
+
 class Rules {
 public:
     Rules(const Scenario& scenario, const TextSource& source)
@@ -23,7 +30,6 @@ public:
           asked_(scenario.asked),
           machine_(scenario.machine),
           processes_(processes_of(asked_, machine_)),
-          axes_(machine_.axis_names()),
           problems_(source) {}
 
     Diagnostics errors() {
@@ -35,7 +41,7 @@ public:
         problems_.require(asked_.step_size() <= kMostSteps, nth("step", kMostSteps),
                           fmt::format("there are {} steps; at most {} are allowed", asked_.step_size(), kMostSteps));
         for (int i = 0; i < asked_.step_size(); ++i) { check_step(asked_.step(i), nth("step", i)); }
-        check_expectations(asked_.expect());
+        check_expectations(asked_.expect(), machine_, problems_);
         return problems_.take();
     }
 
@@ -51,7 +57,7 @@ private:
     }
 
     void check_clock(const Asked::WrongClock& clock, const std::string& path) {
-        require_axis(path + ".axis", clock.axis());
+        require_axis(problems_, machine_, path + ".axis", clock.axis());
         const auto& clocks = asked_.wrong_clock();
         const auto of_axis = [&](const Asked::WrongClock& other) { return other.axis() == clock.axis(); };
         problems_.require(&*std::ranges::find_if(clocks, of_axis) == &clock, path + ".axis",
@@ -59,6 +65,10 @@ private:
         problems_.require(
             machine_.timing.time_source == TimeSource::Network, path,
             "a wrong clock needs a clock for each process; set timing { time_source: NETWORK } in the machine");
+        problems_.require(clock.has_offset_s() || clock.has_ppm() || clock.has_step_s(), path,
+                          "this clock is not wrong; set offset_s, ppm or step_s");
+        problems_.require(clock.has_step_s() || !clock.has_step_at_s(), path + ".step_at_s",
+                          "step_at_s is only for a clock with step_s; set how far it is set forward");
         problems_.require(!asked_.separate_devices(), path,
                           "a wrong clock needs devices in the axes' processes; remove separate_devices");
         problems_.require_range(path, "offset_s", clock.offset_s(), -1e6, 1e6);
@@ -68,6 +78,7 @@ private:
     }
 
     void check_step(const Asked::Step& step, const std::string& path) {
+        last_line_.reset();
         switch (step.what_case()) {
             case Asked::Step::kHome: check_home(step.home(), path + ".home"); break;
             case Asked::Step::kRun: check_run(step.run(), path + ".run"); break;
@@ -82,12 +93,27 @@ private:
                           "during is only for home, run and move; make it a separate step");
         problems_.require(is_job || !step.has_ends(), path + ".ends", "ends is only for home, run and move");
         problems_.require(!step.has_act() || !step.has_fault(), path + ".fault", "fault is only for jobs and wait");
-        if (step.has_fault()) { require_fault(path + ".fault", step.fault()); }
+        if (step.has_fault()) { require_fault(problems_, path + ".fault", step.fault()); }
+        if (is_job) { check_ending(step, path); }
         for (int i = 0; i < step.during_size(); ++i) { check_during(step, i, path + "." + nth("during", i)); }
     }
 
+    /// What the job's end makes impossible.
+    void check_ending(const Asked::Step& step, const std::string& path) {
+        const bool is_good = step.ends() == Asked::Step::DONE;
+        problems_.require(!step.has_fault() || (!is_good && step.ends() != Asked::Step::SILENT), path + ".fault",
+                          is_good
+                              ? "fault contradicts an end that is DONE; set ends: FAILED or REFUSED, or remove fault"
+                              : "fault contradicts an end that is SILENT: no state is received; remove fault");
+        problems_.require(
+            step.ends() != Asked::Step::REFUSED || step.during_size() == 0, path + ".during[0]",
+            "a job that is REFUSED does not begin, so this event never happens; remove it or change ends");
+    }
+
     void check_home(const Asked::Home& home, const std::string& path) {
-        for (int i = 0; i < home.axis_size(); ++i) { require_axis(path + "." + nth("axis", i), home.axis(i)); }
+        for (int i = 0; i < home.axis_size(); ++i) {
+            require_axis(problems_, machine_, path + "." + nth("axis", i), home.axis(i));
+        }
     }
 
     /// Checks the program from the position of a homed machine. It is parsed again from the actual position when it
@@ -97,7 +123,10 @@ private:
             return problems_.add(path, "a run needs one program; set file: \"FILE\" or gcode: \"G1 X10 F600\"");
         }
         const auto program = program_of(run, scenario_.folder(), machine_, parked_mm(machine_));
-        if (program) { return; }
+        if (program) {
+            last_line_ = last_line_of(*program);
+            return;
+        }
         const std::string key = run.has_file() ? ".file" : ".gcode";
         const std::string name = run.has_file() ? (scenario_.folder() / run.file()).string() : "gcode";
         for (const Diagnostic& error : program.error()) { problems_.add(path + key, to_text(name, error)); }
@@ -124,7 +153,11 @@ private:
                           "only a run has lines; use another event, or after_s alone");
         problems_.require(!during.has_line() || during.line() >= 1, path + ".line",
                           fmt::format("line is {}; lines are numbered from 1", during.line()));
-        if (during.has_passes()) { require_place(during.passes(), path + ".passes"); }
+        problems_.require(!during.has_line() || !last_line_ || during.line() <= *last_line_, path + ".line",
+                          fmt::format("line is {}; the program's last line that does something is {}, so this event "
+                                      "never happens; use a line from 1 to {}",
+                                      during.line(), last_line_.value_or(0), last_line_.value_or(0)));
+        if (during.has_passes()) { require_place(problems_, machine_, path + ".passes", during.passes()); }
         if (during.has_after_s()) { problems_.require_range(path, "after_s", during.after_s(), 0, kMostSeconds); }
         if (during.has_rests_within_frames()) {
             problems_.require_range(path, "rests_within_frames", during.rests_within_frames(), 1, kMostFrames);
@@ -132,76 +165,11 @@ private:
         if (during.has_act()) { check_act(during.act(), path + ".act", asked_, processes_, problems_); }
     }
 
-    void check_expectations(const Asked::Expect& expect) {
-        const std::string path = "expect";
-        for (int i = 0; i < expect.final_size(); ++i) { check_final(expect.final(i), path + "." + nth("final", i)); }
-        problems_.require(
-            !expect.has_path_within_mm() || expect.path_within_mm() > 0, "expect.path_within_mm",
-            "path_within_mm is " + number_text(expect.path_within_mm()) +
-                "; it must be above 0; the smallest distance that can be kept is a step, 1 / steps_per_mm");
-        problems_.require(expect.interruptions() >= 0, "expect.interruptions",
-                          fmt::format("interruptions is {}; it must be at least 0", expect.interruptions()));
-        problems_.require(expect.together_size() != 1, "expect.together[0]", "this compares axes; name at least two");
-        for (int i = 0; i < expect.together_size(); ++i) {
-            require_axis(nth("expect.together", i), expect.together(i));
-        }
-        for (int i = 0; i < expect.vetoes().by_size(); ++i) {
-            require_axis(nth("expect.vetoes.by", i), expect.vetoes().by(i));
-        }
-        if (expect.has_cause()) { check_cause(expect.cause()); }
-        for (int i = 0; i < expect.axis_size(); ++i) {
-            const std::string axis = path + "." + nth("axis", i);
-            require_axis(axis + ".name", expect.axis(i).name());
-            if (expect.axis(i).has_fault()) { require_fault(axis + ".fault", expect.axis(i).fault(), true); }
-        }
-    }
-
-    void check_final(const Asked::Final& end, const std::string& path) {
-        Asked::Target target;
-        target.set_axis(end.axis());
-        if (end.has_mm()) { target.set_mm(end.mm()); }
-        require_place(target, path);
-        problems_.require(!end.has_within_mm() || end.within_mm() > 0, path + ".within_mm",
-                          "within_mm is " + number_text(end.within_mm()) +
-                              "; it must be above 0; remove it to require the exact step");
-    }
-
-    void check_cause(const Asked::Cause& cause) {
-        std::vector<std::string> kinds;
-        for (int i = 0; i <= static_cast<int>(incident::CauseKind::Unknown); ++i) {
-            kinds.emplace_back(name_of(static_cast<incident::CauseKind>(i)));
-        }
-        problems_.require_one_of("expect.cause.kind", cause.kind(), kinds, "cause");
-        if (cause.has_process()) {
-            problems_.require_one_of("expect.cause.process", cause.process(), processes_, "process");
-        }
-    }
-
-    void require_axis(const std::string& path, const std::string& name) {
-        problems_.require_one_of(path, name, axes_, "axis");
-    }
-
-    void require_place(const Asked::Target& target, const std::string& path) {
-        require_axis(path + ".axis", target.axis());
-        const auto axis = std::ranges::find(machine_.axes, target.axis(), &AxisConfig::name);
-        if (axis == machine_.axes.end()) { return; }
-        problems_.require(target.has_mm(), path, "mm is missing; set the position in machine coordinates");
-        if (target.has_mm()) {
-            problems_.require_range(path, "mm", target.mm(), axis->position_min_mm, axis->position_max_mm);
-        }
-    }
-
-    void require_fault(const std::string& path, const std::string& name, bool may_be_none = false) {
-        const bool is_one = find_fault(name) != nullptr || (may_be_none && name == "none");
-        problems_.require(is_one, path,
-                          "there is no fault '" + name + "'; use its name in lockstep status, such as axis-lost");
-    }
-
     const Scenario& scenario_;
     const Asked& asked_;
     const MachineConfig& machine_;
     std::vector<std::string> processes_;
-    std::vector<std::string> axes_;
+    std::optional<std::int32_t> last_line_;  // of the program of the step; nullopt if it has none, or errors
     Problems problems_;
 };
 

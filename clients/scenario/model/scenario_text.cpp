@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "clients/scenario/model/expectation_text.hpp"
 #include "clients/scenario/model/problems.hpp"
 
 namespace lockstep::scenario {
@@ -53,6 +56,11 @@ std::string what_text(const Asked::Act& act) {
     return "nothing";
 }
 
+std::string move_text(const Asked::Move& move) {
+    return "move " + listed({move.to().begin(), move.to().end()}) +
+           (move.has_feed_mm_min() ? " at " + number_text(move.feed_mm_min()) + " mm/min" : "");
+}
+
 std::string event_text(const Asked::During& during) {
     switch (during.event_case()) {
         case Asked::During::kLine: return fmt::format("at line {}", during.line());
@@ -64,23 +72,54 @@ std::string event_text(const Asked::During& during) {
     return "begun";
 }
 
-void add_expectations(const Asked::Expect& expect, std::string& text) {
-    for (const auto& end : expect.final()) {
-        text += "  expect   " + end.axis() + " at " + number_text(end.mm()) + " mm\n";
+std::string clock_text(const Asked::WrongClock& clock) {
+    std::string text = "of " + clock.axis() + " is wrong:";
+    if (clock.has_offset_s()) { text += " " + seconds(clock.offset_s()) + " ahead;"; }
+    if (clock.has_ppm()) { text += " " + number_text(clock.ppm()) + " ppm fast;"; }
+    if (clock.has_step_s()) { text += " set forward by " + seconds(clock.step_s()); }
+    if (clock.has_step_at_s()) { text += " at " + seconds(clock.step_at_s()) + " after its start"; }
+    if (clock.has_step_s() || clock.has_step_at_s()) { text += ";"; }
+    text.pop_back();
+    return text;
+}
+
+std::string setup_text(const Scenario& scenario) {
+    const Asked& asked = scenario.asked;
+    std::string text = scenario.machine.name;
+    if (asked.has_machine_file()) { text += " of " + asked.machine_file(); }
+    text += ": " + listed(processes_of(asked, scenario.machine)) + "; " + text_of(asked.place());
+    if (asked.continues()) { text += "; coordinator-2 continues a program in motion"; }
+    return text;
+}
+
+/// The lines of a program, each below the other.
+std::string gcode_text(const std::string& gcode) {
+    std::string text;
+    for (std::size_t at = 0; at < gcode.size();) {
+        const std::size_t end = std::min(gcode.find('\n', at), gcode.size());
+        text += "           | " + gcode.substr(at, end - at) + "\n";
+        at = end + 1;
     }
-    if (expect.has_path_within_mm()) {
-        text += "  expect   every step within " + number_text(expect.path_within_mm()) + " mm of the commanded line\n";
+    return text;
+}
+
+std::string step_text(const Asked::Step& step) {
+    std::string text = text_of(step);
+    if (step.has_ends()) { text += "; ends " + text_of(step.ends()); }
+    if (step.has_fault()) { text += (step.has_ends() ? " with " : "; with ") + step.fault(); }
+    return text;
+}
+
+void add_step(const Asked::Step& step, std::string& text) {
+    text += "  step     " + step_text(step) + "\n";
+    if (step.run().has_gcode()) { text += gcode_text(step.run().gcode()); }
+    for (const auto& during : step.during()) {
+        text += "             " + text_of(during);
+        if (during.has_rests_within_frames()) {
+            text += fmt::format("; at rest within {} frames", during.rests_within_frames());
+        }
+        text += "\n";
     }
-    if (expect.together_size() > 0) {
-        text += "  expect   the same frames: " + listed({expect.together().begin(), expect.together().end()}) + "\n";
-    }
-    if (expect.has_vetoes()) {
-        const std::string names = listed({expect.vetoes().by().begin(), expect.vetoes().by().end()});
-        text += "  expect   vetoes by: " + (names.empty() ? "none" : names) + "\n";
-    }
-    if (expect.has_cause()) { text += "  expect   its cause: " + expect.cause().kind() + "\n"; }
-    if (!expect.has_exact() || expect.exact()) { text += "  expect   every step as planned\n"; }
-    if (!expect.has_complete() || expect.complete()) { text += "  expect   a record without missing messages\n"; }
 }
 
 }  // namespace
@@ -102,7 +141,7 @@ std::string text_of(const Asked::Step& step) {
             return axes.empty() ? "home" : "home " + listed({axes.begin(), axes.end()});
         }
         case Asked::Step::kRun: return "run " + (step.run().has_file() ? step.run().file() : "a program");
-        case Asked::Step::kMove: return "move " + listed({step.move().to().begin(), step.move().to().end()});
+        case Asked::Step::kMove: return move_text(step.move());
         case Asked::Step::kWait:
             return step.wait().has_phase() ? "wait until " + text_of(step.wait().phase())
                                            : "wait " + seconds(step.wait().seconds());
@@ -128,15 +167,16 @@ std::string text_of(Asked::Place place) {
 std::string outline(const Scenario& scenario) {
     const Asked& asked = scenario.asked;
     std::string text = scenario.file.string() + ": " + asked.shows() + "\n";
-    text += "  machine  " + scenario.machine.name + ": " + listed(processes_of(asked, scenario.machine)) + "; " +
-            text_of(asked.place()) + "\n";
-    for (const auto& clock : asked.wrong_clock()) { text += "  clock    of " + clock.axis() + " is wrong\n"; }
-    for (const auto& step : asked.step()) {
-        text += "  step     " + text_of(step) + (step.has_ends() ? "; ends " + text_of(step.ends()) : "") +
-                (step.has_fault() ? " with " + step.fault() : "") + "\n";
-        for (const auto& during : step.during()) { text += "             " + text_of(during) + "\n"; }
+    text += "  machine  " + setup_text(scenario) + "\n";
+    for (const auto& clock : asked.wrong_clock()) { text += "  clock    " + clock_text(clock) + "\n"; }
+    for (const auto& step : asked.step()) { add_step(step, text); }
+    for (const std::string& expected : expectation_texts(asked.expect())) { text += "  expect   " + expected + "\n"; }
+    if (asked.expect().has_exact() && !asked.expect().exact()) {
+        text += "  skip     " + std::string(kExactText) + "\n";
     }
-    add_expectations(asked.expect(), text);
+    if (asked.expect().has_complete() && !asked.expect().complete()) {
+        text += "  skip     " + std::string(kCompleteText) + "\n";
+    }
     return text;
 }
 

@@ -12,8 +12,10 @@ std::string text_of(const Asked::During& during);  // "at line 2, 0.1 s later: k
 std::string text_of(const Asked::Step& step);      // "run gcode"
 std::string text_of(Asked::Step::Ending ending);   // "done"
 std::string text_of(Asked::Phase phase);           // "Idle", as MachinePhase is called
+std::string text_of(Asked::Place place);           // "a container each"
 
-/// One line for each: the machine, where it runs, its steps, the scripted events, the expectations.
+/// Every value of the scenario, but of the machine only its name and processes: a line for each step, line of its
+/// program, scripted event and expectation.
 std::string outline(const Scenario& scenario);
 
 }  // namespace lockstep::scenario

@@ -102,6 +102,17 @@ TEST_F(IncidentFile, EveryKindOfEventComesBack) {
     }
 }
 
+TEST_F(IncidentFile, RefusesADetailThatNoEventHas) {
+    const MachineConfig machine{.name = "mill"};
+    flight_event_t message = to_lcm(source(), machine, {1, noted(5)});
+    for (const std::int32_t detail : {-1, 256}) {
+        message.detail = detail;
+        const auto back = from_lcm(message, machine);
+        ASSERT_FALSE(back);
+        EXPECT_THAT(back.error(), testing::HasSubstr(std::to_string(detail)));
+    }
+}
+
 class Recorder : public FlightFolder {
 protected:
     std::unique_ptr<FlightRecorder> begin() { return FlightRecorder::open(rings(), source(), 100).value(); }

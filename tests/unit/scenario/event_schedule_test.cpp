@@ -80,7 +80,7 @@ TEST(EventScheduleTest, KeepsTheOrderWritten) {
 }
 
 TEST(EventScheduleTest, CountsEventsThatWereDue) {
-    ScheduledRun job("during { act { kill: \"axis-X\" } } during { line: 9 act { kill: \"axis-Y\" } }");
+    ScheduledRun job("during { act { kill: \"axis-X\" } } during { line: 3 act { kill: \"axis-Y\" } }");
     EXPECT_EQ(job.killed(at(0)), "axis-X ");
     EXPECT_EQ(job.killed(at(100)), "");
     EXPECT_EQ(job.done(), 1);
