@@ -66,9 +66,9 @@ std::string text_of_open(const BlockBalance& balance) {
         blocks += fmt::format(" within {} (line {})", block->key, block->place.line);
     }
     const char close = balance.open.empty() ? '}' : balance.open.back().close;
-    const std::string count =
-        balance.open.size() == 1 ? "the missing" : fmt::format("the {} missing", balance.open.size());
-    return fmt::format("Expected \"{}\": the text ends{}; add {} {}", close, blocks, count, close);
+    const std::string missing = balance.open.size() == 1 ? fmt::format("missing {}", close)
+                                                         : fmt::format("{} missing ends", balance.open.size());
+    return fmt::format("Expected \"{}\": the text ends{}; add the {}", close, blocks, missing);
 }
 
 }  // namespace lockstep

@@ -29,7 +29,7 @@ struct BlockBalance {
 /// Ignores braces in strings and comments. The rest of the text may have errors.
 BlockBalance block_balance(std::string_view text);
 
-/// "Expected "}": the text ends within run (line 8) within step (line 7); add 2 }"
+/// "Expected "}": the text ends within run (line 8) within step (line 7); add the 2 missing ends"
 std::string text_of_open(const BlockBalance& balance);
 
 }  // namespace lockstep

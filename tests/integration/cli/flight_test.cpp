@@ -34,13 +34,16 @@ protected:
     bool all_write() const {
         return eventually([&] { return writers() == std::set<std::string>{"axis-X", "axis-Y", "coordinator"}; });
     }
-    proto::IncidentReport incident() const {
-        const Ran ran = run_lockstep({"analyze", "--incident", directory().string(), "--json"});
+    proto::IncidentReport incident(const std::string& back = "0") const {
+        const Ran ran = run_lockstep({"analyze", "--incident", directory().string(), "--back", back, "--json"});
         EXPECT_EQ(ran.code, 0) << ran.err;
         return ran.json<proto::IncidentReport>();
     }
     void begin_job() {
         bring_up_and_home();
+        run_job();
+    }
+    void run_job() {
         job_.emplace(LOCKSTEP_COMMAND, Words{"run", write("job.gcode", "G21 G90\nG1 X150 Y30 F1200\nM2\n"), "--json"});
         ASSERT_TRUE(becomes("Running"));
         std::this_thread::sleep_for(700ms);  // it moves
@@ -91,6 +94,24 @@ TEST_F(Flight, AnEmergencyStopIsNamed) {
     EXPECT_EQ(report.cause(), "emergency-stop");
     EXPECT_EQ(report.moving_size(), 2) << report.ShortDebugString().substr(0, 2000);
     EXPECT_TRUE(report.has_rest_s());
+}
+
+TEST_F(Flight, AnEmergencyStopAtRestAndOneInMotionAreTwoIncidents) {
+    bring_up_and_home();
+    EXPECT_EQ(run_lockstep({"estop"}).code, 0);
+    EXPECT_EQ(run_lockstep({"reset"}).code, 0);
+    ASSERT_TRUE(becomes("Idle"));
+    run_job();
+    EXPECT_EQ(run_lockstep({"estop"}).code, 0);
+    ASSERT_TRUE(all_write());
+    ASSERT_TRUE(eventually([&] { return incident().incidents_size() == 2; }));
+    EXPECT_EQ(incident().moving_size(), 2);
+    EXPECT_TRUE(incident().has_rest_s());
+    const auto first = incident("1");
+    EXPECT_EQ(first.cause(), "emergency-stop");
+    EXPECT_EQ(first.moving_size(), 0);
+    EXPECT_FALSE(first.has_rest_s());
+    EXPECT_THAT(first.ShortDebugString(), testing::Not(HasSubstr("command unknown")));
 }
 
 TEST_F(Flight, IsReadOnRequestEvenFromAProcessThatHangs) {

@@ -61,14 +61,14 @@ int processes_of_machine() {
 
 TEST_F(ScenarioRun, FalsePositionAndEventThatNeverHappensFail) {
     const std::string file = write(kShortJob +
-                                   "during { line: 99 act { kill: \"axis-Y\" } } }\n"
+                                   "during { passes { axis: \"X\" mm: 90 } act { kill: \"axis-Y\" } } }\n"
                                    "expect { final { axis: \"X\" mm: 11 } final { axis: \"Y\" mm: 8 } }");
     const Ran ran =
         run_lockstep({"scenario", "run", file, "--json", "--junit", folder_ / "out.xml", "--keep", folder_ / "logs"});
     EXPECT_EQ(ran.code, 1) << ran.out << ran.err;
     const auto failed = failures(ran.json<proto::ScenarioRunReport>());
     EXPECT_EQ(failed.size(), 2) << ran.out;
-    EXPECT_THAT(failed, Contains(HasSubstr("X at 11.0000 mm to the step: at 10.0000 mm")));
+    EXPECT_THAT(failed, Contains(HasSubstr("X at 11 mm to the step: at 10.0000 mm")));
     EXPECT_THAT(failed, Contains(HasSubstr("kill axis-Y: never happened: the job ended before (done)")));
     EXPECT_TRUE(std::filesystem::exists(folder_ / "out.xml"));
     EXPECT_TRUE(std::filesystem::exists(folder_ / "logs" / "mine" / "whole.lcm"));

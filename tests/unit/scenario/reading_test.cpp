@@ -192,7 +192,7 @@ INSTANTIATE_TEST_SUITE_P(
             {"10:1", "the text ends within expect (line 8)", "add the missing }"}},
         Bad{"NoEndOfTwoBlocks",
             whole("step {\n  run { gcode: \"}\" # }\n"),
-            {"10:1", "ends within run (line 9) within step (line 8)", "add the 2 missing }"}},
+            {"10:1", "ends within run (line 9) within step (line 8)", "add the 2 missing ends"}},
         Bad{"NoEndOfAnEarlierBlock",
             whole("step { home {}\nexpect { final { axis: \"X\" mm: 10 } }\n"),
             {"9:8", "expect", "10:1", "the text ends within step (line 8)"}},
