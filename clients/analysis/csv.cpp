@@ -1,9 +1,7 @@
 #include "clients/analysis/csv.hpp"
 
 #include <array>
-#include <cerrno>
 #include <charconv>
-#include <cstring>
 
 namespace lockstep::analysis {
 namespace {
@@ -20,10 +18,9 @@ std::string csv_text(std::string_view text) {
 }
 
 std::expected<CsvFile, std::string> CsvFile::create(const std::filesystem::path& path, std::string_view header) {
-    errno = 0;
-    std::ofstream out(path, std::ios::binary | std::ios::trunc);
-    if (!out) { return std::unexpected(path.string() + ": cannot be written: " + std::strerror(errno)); }
-    CsvFile file(path, std::move(out));
+    auto out = OutputFile::create(path);
+    if (!out) { return std::unexpected(out.error()); }
+    CsvFile file(std::move(*out));
     file.buffer_.reserve(kBuffer + 128);
     file.buffer_.append(header).push_back('\n');
     return file;
@@ -57,16 +54,13 @@ void CsvFile::end_line() {
 }
 
 void CsvFile::flush() {
-    out_.write(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+    out_.write(buffer_);
     buffer_.clear();
 }
 
 std::expected<void, std::string> CsvFile::close() {
     flush();
-    errno = 0;
-    out_.close();
-    if (!out_) { return std::unexpected(path_.string() + ": not written completely: " + std::strerror(errno)); }
-    return {};
+    return out_.close();
 }
 
 void StepCsv::on_batch(const StepBatch& batch) {

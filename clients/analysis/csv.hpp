@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <expected>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
 
 #include "clients/analysis/log/step_stream.hpp"
+#include "services/files/output_file.hpp"
 
 namespace lockstep::analysis {
 
@@ -30,13 +30,12 @@ public:
     std::expected<void, std::string> close();
 
 private:
-    CsvFile(std::filesystem::path path, std::ofstream out) : path_(std::move(path)), out_(std::move(out)) {}
+    explicit CsvFile(OutputFile out) : out_(std::move(out)) {}
     template <typename Number>
     CsvFile& append(Number value);
     void flush();
 
-    std::filesystem::path path_;
-    std::ofstream out_;
+    OutputFile out_;
     std::string buffer_;
 };
 

@@ -80,13 +80,13 @@ std::expected<Exported, std::string> export_log(const std::filesystem::path& log
                                                 Format format, const std::function<void(double)>& progress) {
     UnfinishedFile file(to);
     auto writer = format == Format::Csv ? open_csv(log, file.unfinished()) : open_mcap(file.unfinished());
-    if (!writer) { return std::unexpected(writer.error()); }
+    if (!writer) { return std::unexpected(file.named(writer.error())); }
     Samples samples([&](const Sample& sample) { (*writer)->write(sample); });
     if (const auto read = analysis::read_log(log, samples, progress); !read) { return std::unexpected(read.error()); }
     if (samples.samples() == 0) {
         return std::unexpected(log.string() + ": it contains no position, health or job to export");
     }
-    if (const auto closed = (*writer)->close(); !closed) { return std::unexpected(closed.error()); }
+    if (const auto closed = (*writer)->close(); !closed) { return std::unexpected(file.named(closed.error())); }
     if (const auto kept = file.keep(); !kept) { return std::unexpected(kept.error()); }
     return Exported{samples.samples(), (*writer)->left_out(), samples.damages(), samples.record()};
 }

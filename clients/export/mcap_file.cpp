@@ -1,118 +1,56 @@
 #include "clients/export/mcap_file.hpp"
 
-#include <google/protobuf/struct.pb.h>
-#include <google/protobuf/util/json_util.h>
-
-#include <cerrno>
-#include <cmath>
-#include <cstring>
+#include <algorithm>
 #include <utility>
+
+#include "clients/export/mcap_json.hpp"
 
 namespace lockstep::exporting {
 namespace {
 
-constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
-enum Opcode : std::uint8_t { kHeader = 1, kFooter = 2, kSchema = 3, kChannel = 4, kMessage = 5, kDataEnd = 15 };
-
-/// A record's fields. Numbers are little-endian; a text follows its length.
-class Fields {
-public:
-    template <typename Number>
-    Fields& number(Number value) {
-        for (std::size_t byte = 0; byte < sizeof value; ++byte) {
-            bytes_.push_back(static_cast<char>(static_cast<std::uint64_t>(value) >> (8 * byte)));
-        }
-        return *this;
-    }
-    Fields& text(std::string_view value) {
-        number(static_cast<std::uint32_t>(value.size()));
-        return bytes(value);
-    }
-    Fields& bytes(std::string_view value) {
-        bytes_ += value;
-        return *this;
-    }
-    operator const std::string&() const { return bytes_; }
-
-private:
-    std::string bytes_;
-};
-
-/// Names in a damaged log may be any bytes, but JSON must be UTF-8.
-std::string printable(std::string text) {
-    for (char& c : text) { c = c >= ' ' && c <= '~' ? c : '?'; }
-    return text;
-}
-
-using google::protobuf::Struct;
-
-std::string to_json(const Struct& object) {
-    std::string json;
-    (void)google::protobuf::util::MessageToJsonString(object, &json);
-    return json;
-}
-
-const char* type_of(const Value& value) {
-    constexpr const char* kTypes[] = {"number", "integer", "string"};
-    return kTypes[value.index()];
-}
-
-std::string schema_of(const Sample& sample) {
-    Struct schema;
-    auto& fields = *schema.mutable_fields();
-    fields["type"].set_string_value("object");
-    auto& properties = *fields["properties"].mutable_struct_value()->mutable_fields();
-    for (const Signal& signal : sample.signals) {
-        auto& property = *properties[std::string(signal.name)].mutable_struct_value()->mutable_fields();
-        property["type"].set_string_value(type_of(signal.value));
-    }
-    return to_json(schema);
-}
-
-/// Leaves out values that are not finite, because JSON cannot represent them.
-std::string message_of(const Sample& sample) {
-    Struct message;
-    for (const auto& [name, value] : sample.signals) {
-        google::protobuf::Value field;
-        if (const auto* text = std::get_if<std::string>(&value)) {
-            field.set_string_value(printable(*text));
-        } else if (const auto* whole = std::get_if<std::int64_t>(&value)) {
-            field.set_number_value(static_cast<double>(*whole));
-        } else if (std::isfinite(std::get<double>(value))) {
-            field.set_number_value(std::get<double>(value));
-        } else {
-            continue;
-        }
-        (*message.mutable_fields())[std::string(name)] = field;
-    }
-    return to_json(message);
-}
+constexpr std::size_t kIndexBytesHeld = std::size_t{1} << 16;
 
 }  // namespace
 
 std::expected<McapFile, std::string> McapFile::create(const std::filesystem::path& path) {
-    errno = 0;
-    std::ofstream out(path, std::ios::binary | std::ios::trunc);
-    if (!out) { return std::unexpected(path.string() + ": cannot be written: " + std::strerror(errno)); }
-    McapFile file(path, std::move(out));
-    file.out_ << kMagic;
-    file.record(kHeader, Fields().text("").text("lockstep"));
+    auto out = OutputFile::create(path);
+    if (!out) { return std::unexpected(out.error()); }
+    McapFile file(path, std::move(*out));
+    file.write_bytes(kMcapMagic);
+    file.write_bytes(mcap_record(McapKind::Header, McapFields().text("").text("lockstep")));
+    file.chunks_begin_ = file.out_.size();
     return file;
 }
 
-void McapFile::record(std::uint8_t opcode, const std::string& content) {
-    const std::string head = Fields().number(opcode).number(static_cast<std::uint64_t>(content.size()));
-    out_ << head << content;
+void McapFile::write_bytes(std::string_view bytes) {
+    crc_.add(bytes);
+    out_.write(bytes);
 }
 
-/// A channel and its schema have the same number. Returns null if there are too many topics.
+/// The schema of all topics of one kind, by the kind's name.
+std::uint16_t McapFile::schema(const Sample& sample) {
+    const std::string name = printable("lockstep." + sample.topic.substr(sample.topic.rfind('/') + 1));
+    const auto [known, is_new] = schemas_.try_emplace(name, static_cast<std::uint16_t>(schemas_.size() + 1));
+    if (is_new) {
+        const std::string record =
+            mcap_record(McapKind::Schema,
+                        McapFields().number(known->second).text(name).text("jsonschema").text(json_schema_of(sample)));
+        schema_records_ += record;
+        chunk_.add(record);
+    }
+    return known->second;
+}
+
+/// Returns null if there are too many topics.
 McapFile::Channel* McapFile::channel(const Sample& sample) {
     if (const auto known = channels_.find(sample.topic); known != channels_.end()) { return &known->second; }
     if (channels_.size() == kMaxTopics) { return nullptr; }
     const auto id = static_cast<std::uint16_t>(channels_.size() + 1);
-    const std::string name = "lockstep." + sample.topic.substr(sample.topic.rfind('/') + 1);
-    record(kSchema, Fields().number(id).text(name).text("jsonschema").text(schema_of(sample)));
-    record(kChannel, Fields().number(id).number(id).text(printable(sample.topic)).text("json").text(""));
+    const std::string record =
+        mcap_record(McapKind::Channel,
+                    McapFields().number(id).number(schema(sample)).text(printable(sample.topic)).text("json").text(""));
+    channel_records_ += record;
+    chunk_.add(record);
     return &channels_.emplace(sample.topic, Channel{id, 0}).first->second;
 }
 
@@ -123,18 +61,96 @@ void McapFile::write(const Sample& sample) {
         return;
     }
     const auto time_ns = static_cast<std::uint64_t>(sample.utime) * 1000;
-    record(kMessage,
-           Fields().number(to->id).number(++to->messages).number(time_ns).number(time_ns).bytes(message_of(sample)));
+    const auto number = static_cast<std::uint32_t>(++to->messages);
+    note_time(time_ns);
+    chunk_.add_message(
+        to->id, time_ns,
+        mcap_record(McapKind::Message,
+                    McapFields().number(to->id).number(number).number(time_ns).number(time_ns).bytes(json_of(sample))));
+    if (chunk_.is_full()) { write_chunk(); }
+}
+
+void McapFile::note_time(std::uint64_t time_ns) {
+    begin_ns_ = messages_ == 0 ? time_ns : std::min(begin_ns_, time_ns);
+    end_ns_ = std::max(end_ns_, time_ns);
+    ++messages_;
+}
+
+void McapFile::write_chunk() {
+    if (chunk_.is_empty()) { return; }
+    write_bytes(chunk_.take());
+    ++chunks_;
+}
+
+std::string McapFile::statistics() const {
+    std::map<std::uint16_t, std::uint64_t> of_channels;
+    for (const auto& [topic, channel] : channels_) { of_channels[channel.id] = channel.messages; }
+    return mcap_record(McapKind::Statistics, McapFields()
+                                                 .number(messages_)
+                                                 .number(static_cast<std::uint16_t>(schemas_.size()))
+                                                 .number(static_cast<std::uint32_t>(channels_.size()))
+                                                 .number(std::uint32_t{0})  // attachments
+                                                 .number(std::uint32_t{0})  // metadata
+                                                 .number(chunks_)
+                                                 .number(begin_ns_)
+                                                 .number(end_ns_)
+                                                 .map(of_channels));
+}
+
+/// Ends a group of records of one kind, which began at `from`.
+void McapFile::end_group(McapKind kind, std::uint64_t from) {
+    if (out_.size() == from) { return; }
+    group_records_ +=
+        mcap_record(McapKind::SummaryOffset,
+                    McapFields().number(static_cast<std::uint8_t>(kind)).number(from).number(out_.size() - from));
+}
+
+void McapFile::write_group(McapKind kind, const std::string& records) {
+    const std::uint64_t from = out_.size();
+    write_bytes(records);
+    end_group(kind, from);
+}
+
+std::expected<void, std::string> McapFile::write_chunk_index(std::uint64_t chunks_end) {
+    const std::uint64_t from = out_.size();
+    std::string held;
+    const auto indexed = index_chunks(path_, chunks_begin_, chunks_end, [&](const std::string& index) {
+        held += index;
+        if (held.size() >= kIndexBytesHeld) { write_bytes(std::exchange(held, {})); }
+    });
+    write_bytes(held);
+    end_group(McapKind::ChunkIndex, from);
+    return indexed;
+}
+
+/// The groups, the place of each group, and the footer.
+std::expected<void, std::string> McapFile::write_summary(std::uint64_t chunks_end) {
+    constexpr std::uint32_t kNoCrc = 0;
+    crc_ = Crc32();
+    const std::uint64_t begin = out_.size();
+    write_group(McapKind::Schema, schema_records_);
+    write_group(McapKind::Channel, channel_records_);
+    write_group(McapKind::Statistics, statistics());
+    const auto indexed = write_chunk_index(chunks_end);
+    const std::uint64_t groups_end = out_.size();
+    write_bytes(group_records_);
+    std::string footer = mcap_record(McapKind::Footer, McapFields().number(begin).number(groups_end).number(kNoCrc));
+    footer.resize(footer.size() - sizeof kNoCrc);
+    write_bytes(footer);
+    const std::string crc = McapFields().number(crc_.value());  // covers the footer's other fields too
+    write_bytes(crc);
+    return indexed;
 }
 
 std::expected<void, std::string> McapFile::close() {
-    record(kDataEnd, Fields().number(std::uint32_t{0}));
-    record(kFooter, Fields().number(std::uint64_t{0}).number(std::uint64_t{0}).number(std::uint32_t{0}));
-    out_ << kMagic;
-    errno = 0;
-    out_.close();
-    if (!out_) { return std::unexpected(path_.string() + ": not written completely: " + std::strerror(errno)); }
-    return {};
+    write_chunk();
+    const std::uint64_t chunks_end = out_.size();
+    write_bytes(mcap_record(McapKind::DataEnd, McapFields().number(crc_.value())));
+    if (!out_.is_written()) { return out_.close(); }
+    const auto summary = write_summary(chunks_end);
+    write_bytes(kMcapMagic);
+    if (const auto closed = out_.close(); !closed) { return closed; }
+    return summary;
 }
 
 }  // namespace lockstep::exporting

@@ -19,6 +19,12 @@ UnfinishedFile::~UnfinishedFile() {
     if (!unfinished_.empty()) { std::filesystem::remove(unfinished_, ignored); }
 }
 
+std::string UnfinishedFile::named(std::string error) const {
+    const std::size_t at = error.find(unfinished_.string());
+    if (!unfinished_.empty() && at != error.npos) { error.replace(at, unfinished_.string().size(), path_.string()); }
+    return error;
+}
+
 std::expected<void, std::string> UnfinishedFile::keep() {
     std::error_code error;
     std::filesystem::rename(unfinished_, path_, error);

@@ -19,6 +19,8 @@ public:
 
     const std::filesystem::path& path() const { return path_; }
     const std::filesystem::path& unfinished() const { return unfinished_; }
+    /// The error with the file's name in place of the unfinished file's.
+    std::string named(std::string error) const;
     /// Gives the file its name. Error: the file and the reason.
     std::expected<void, std::string> keep();
 

@@ -5,6 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
+#include <csignal>
 #include <fstream>
 #include <limits>
 #include <lockstep/axis_position_t.hpp>
@@ -29,9 +32,32 @@ axis_position_t position(const std::string& axis, std::int64_t utime, double pos
     return message;
 }
 
+/// While it lives, no file of this process can become larger, as on a full disk.
+class LimitedFileSize {
+public:
+    explicit LimitedFileSize(rlim_t bytes) {
+        (void)::getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit limit{bytes, before_.rlim_max};
+        (void)::setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    ~LimitedFileSize() {
+        (void)::setrlimit(RLIMIT_FSIZE, &before_);
+        (void)std::signal(SIGXFSZ, handler_);
+    }
+    LimitedFileSize(const LimitedFileSize&) = delete;
+    LimitedFileSize& operator=(const LimitedFileSize&) = delete;
+
+private:
+    void (*handler_)(int) = std::signal(SIGXFSZ, SIG_IGN);  // so that write() returns an error
+    rlimit before_{};
+};
+
 class Export : public testing::Test {
 protected:
-    Export() { std::filesystem::create_directories(directory); }
+    Export() {
+        std::filesystem::remove_all(directory);
+        std::filesystem::create_directories(directory);
+    }
 
     void write(const std::vector<axis_position_t>& messages) const {
         auto writer = LogWriter::open(log).value();
@@ -114,6 +140,19 @@ TEST_F(Export, IsNotBegunWithoutDataToExport) {
     EXPECT_FALSE(export_log(log, out, Format::Mcap));
     EXPECT_FALSE(export_log(directory / "none.lcm", out, Format::Csv));
     EXPECT_FALSE(std::filesystem::exists(out)) << "no partial file is left";
+}
+
+TEST_F(Export, FullDiskIsAnErrorThatNamesTheFileAndLeavesNoPart) {
+    std::vector<axis_position_t> messages;
+    for (int i = 0; i < 30'000; ++i) { messages.push_back(position("X", i * 10'000, i)); }
+    write(messages);
+    const LimitedFileSize full(500'000);
+    for (const Format format : {Format::Csv, Format::Mcap}) {
+        const auto result = export_log(log, out, format);
+        ASSERT_FALSE(result);
+        EXPECT_EQ(result.error(), out.string() + ": not written completely: File too large");
+    }
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory), {}), 1) << "only the log is left";
 }
 
 TEST_F(Export, OfADamagedLogContainsTheReadableSamples) {
