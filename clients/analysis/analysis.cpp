@@ -35,6 +35,11 @@ std::string of_machine(const std::optional<std::string>& machine) { return machi
 
 }  // namespace
 
+bool is_dwell(const MoveLog& move) {
+    return move.length_mm == 0 &&
+           std::ranges::none_of(move.axes, [](const AxisMove& axis) { return axis.asked_steps != 0; });
+}
+
 const AxisConfig* Analysis::axis_config(const std::string& name) const {
     if (!config) { return nullptr; }
     const auto found = std::ranges::find(config->axes, name, &AxisConfig::name);

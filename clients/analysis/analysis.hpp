@@ -42,6 +42,7 @@ struct JobLog {
     std::int64_t legs = 0;                   // motions from rest to rest as planned; further epochs are interruptions
     std::optional<std::string> unplannable;  // why the commanded motion is not known
     std::int64_t move_count = 0;
+    std::int64_t dwells = 0;       // of move_count
     std::vector<MoveLog> moves;    // the first ones, as many as are kept
     std::optional<Ticks> planned;  // as programmed
     bool overridden = false;       // it ran with feeds or rapids other than programmed
@@ -58,6 +59,9 @@ struct JobLog {
     std::int64_t interruptions() const { return std::max<std::int64_t>(0, epochs - legs); }
     bool is_whole() const { return moves_not_whole == 0 && unasked_steps == 0; }
 };
+
+/// Whether the program commands no motion there, but a pause.
+bool is_dwell(const MoveLog& move);
 
 struct Analysis {
     static constexpr std::size_t kJobsKept = 10'000;

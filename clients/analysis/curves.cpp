@@ -24,6 +24,9 @@ struct Scaled {
     }
 };
 
+/// Whether the axis is known to rest after its last step in the log.
+bool is_end_known(const AxisLog& axis) { return axis.unrecorded_steps() == 0; }
+
 Scaled scaled(const Analysis& analysis, const AxisLog& axis) {
     const auto steps_per_mm = analysis.steps_per_mm(axis);
     Scaled out{.origin = analysis.first_tick().value_or(Tick{})};
@@ -50,13 +53,29 @@ void add_samples(const std::vector<Sample>& samples, double scale, Scaled& out) 
     }
 }
 
+/// Ends a curve of motion: with rest, or with a gap if the log lacks steps after the axis's last one.
+void add_end(const Analysis& analysis, const AxisLog& axis, double value_at_rest, Scaled& out) {
+    if (is_end_known(axis)) { return out.add(*analysis.last_tick(), value_at_rest); }
+    out.curve.missing.push_back({out.seconds(axis.statistics().last()->tick), out.seconds(*analysis.last_tick())});
+}
+
+/// If the log lacks steps after the axis's last one, the axis does not rest there, but moves on at an unknown speed.
+std::vector<Sample> known_speed(const AxisLog& axis) {
+    std::vector<Sample> samples = axis.statistics().speed();
+    if (is_end_known(axis)) { return samples; }
+    const Tick last = axis.statistics().last()->tick;
+    std::erase_if(samples, [&](const Sample& sample) { return sample.at >= last; });
+    if (!samples.empty()) { samples.push_back({last, samples.back().value}); }
+    return samples;
+}
+
 drawing::AxisCurve speed_curve(const Analysis& analysis, const AxisLog& axis) {
     Scaled out = scaled(analysis, axis);
     if (const AxisConfig* config = analysis.axis_config(axis.name())) { out.curve.limit = config->max_velocity_mm_s; }
     if (!axis.statistics().first()) { return std::move(out.curve); }
     out.add(*analysis.first_tick(), 0);
-    add_samples(axis.statistics().speed(), out.ticks_per_s * out.length_per_step, out);
-    out.add(*analysis.last_tick(), 0);
+    add_samples(known_speed(axis), out.ticks_per_s * out.length_per_step, out);
+    add_end(analysis, axis, 0, out);
     return std::move(out.curve);
 }
 
@@ -69,7 +88,7 @@ drawing::AxisCurve position_curve(const Analysis& analysis, const AxisLog& axis)
         if (i > 0 && !knots[i].joined) { out.add(knots[i].tick, kNone); }
         out.add(knots[i].tick, knots[i].position_steps * out.length_per_step);
     }
-    out.add(*analysis.last_tick(), knots.back().position_steps * out.length_per_step);
+    add_end(analysis, axis, knots.back().position_steps * out.length_per_step, out);
     return std::move(out.curve);
 }
 

@@ -10,7 +10,7 @@
 namespace lockstep::analysis {
 
 /// Speeds and positions range from the first step of any axis to the last step of any axis. An axis rests before its
-/// own first step and after its own last step.
+/// own first step and after its own last step, unless the log lacks steps after it.
 std::vector<drawing::AxisCurve> speed_curves(const Analysis& analysis);  // per s
 std::vector<drawing::AxisCurve> position_curves(const Analysis& analysis);
 std::vector<drawing::AxisCurve> acceleration_curves(const Analysis& analysis);  // per s^2

@@ -4,6 +4,7 @@
 
 #include "clients/analysis/analysis_text.hpp"
 #include "clients/analysis/curves.hpp"
+#include "clients/analysis/moves/deviation.hpp"
 #include "clients/drawing/motion_figures.hpp"
 #include "services/files/text_file.hpp"
 
@@ -35,9 +36,13 @@ drawing::Figure position_figure(const Analysis& analysis) {
 drawing::Figure path_figure(const Analysis& analysis, const std::optional<PlanePaths>& plane) {
     if (!plane) { return position_figure(analysis); }
     std::string subtitle = in_a_line(analysis);
-    if (analysis.largest_distance_mm) {
-        subtitle =
-            fmt::format("stepped is at most {:.4f} mm from commanded · ", *analysis.largest_distance_mm) + subtitle;
+    Deviations distances;
+    for (const JobLog& job : analysis.jobs) {
+        if (!analysis.config) { break; }
+        add(distances, deviations(*analysis.config, job.moves, job.move_count, job.largest_distance_mm));
+    }
+    if (!distances.empty()) {
+        subtitle = fmt::format("stepped is at most {} from commanded · ", to_text(distances)) + subtitle;
     }
     return drawing::path_figure(title(analysis, "path in the X\u2013Y plane"), subtitle, {}, plane->asked,
                                 plane->stepped);

@@ -1,4 +1,4 @@
-// Whether the record in a log is complete, as text about missing and unknown parts.
+// Whether the record in a log is complete, as text about missing and unknown parts, and for the steps of one job.
 #pragma once
 
 #include <string>
@@ -22,5 +22,9 @@ RecordState record_state(const Analysis& analysis);
 
 /// "complete: ...", "complete as far as is known: ...", or "missing: ...".
 std::string to_text(const RecordState& state);
+
+/// Whether the log has all steps that the axis made during the job. Returns false if the log lacks steps of the axis
+/// within the job, if it ends before the job, or if a part of it that cannot be read may have contained them.
+bool has_all_steps_of(const Analysis& analysis, const JobLog& job, const std::string& axis);
 
 }  // namespace lockstep::analysis

@@ -179,7 +179,8 @@ void Recorder::note_unknown(JobLog& job, const std::vector<std::string>& axes, J
 
 void Recorder::note_moves(JobLog& job, const JobMoves& moves) {
     for (Event& event : events_.events()) {
-        if (is_during(event.at, job)) { event.line = moves.line_at(event.at); }
+        const auto line = is_during(event.at, job) ? moves.line_at(event.at) : std::nullopt;
+        if (line.value_or(0) > 0) { event.line = line; }  // 0: the job's moves are of no line
     }
     job.unasked_steps = moves.unasked_steps();
     job.late.add(moves.late());
@@ -189,6 +190,7 @@ void Recorder::note_moves(JobLog& job, const JobMoves& moves) {
 
 void Recorder::note_move(JobLog& job, MoveLog move) {
     ++job.move_count;
+    job.dwells += is_dwell(move) ? 1 : 0;
     job.moves_not_whole += move.is_whole() ? 0 : 1;
     for (const AxisMove& axis : move.axes) {
         job.asked_steps += axis.asked_steps;

@@ -1,10 +1,13 @@
 #include "clients/analysis/report.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
 #include "clients/analysis/analysis_text.hpp"
 #include "clients/analysis/findings.hpp"
+#include "clients/analysis/moves/deviation.hpp"
+#include "clients/analysis/record_state.hpp"
 #include "clients/text/event_text.hpp"
 #include "services/wire/lcm/translate_lcm.hpp"
 
@@ -69,8 +72,13 @@ void fill(const Analysis& analysis, const AxisConfig& config, const AxisMove& mo
     }
 }
 
-void fill(const Analysis& analysis, const MoveLog& move, proto::MoveAnalysis& report) {
+using Names = google::protobuf::RepeatedPtrField<std::string>;
+
+/// `not_known`: axes whose steps the log lacks.
+void fill(const Analysis& analysis, const MoveLog& move, const Names& not_known, proto::MoveAnalysis& report) {
     report.set_line(move.line);
+    if (analysis.config) { report.set_unit(std::string(name_of(motion_unit(*analysis.config, move)))); }
+    report.set_dwell(is_dwell(move));
     report.set_length_mm(move.length_mm);
     report.set_planned_s(analysis.seconds(move.planned));
     if (move.made) { report.set_real_s(analysis.seconds(*move.made)); }
@@ -81,12 +89,31 @@ void fill(const Analysis& analysis, const MoveLog& move, proto::MoveAnalysis& re
     const std::size_t axes = analysis.config ? std::min(move.axes.size(), analysis.config->axes.size()) : 0;
     for (std::size_t i = 0; i < axes; ++i) {
         if (move.axes[i].asked_steps == 0 && move.axes[i].made_steps == 0) { continue; }
-        fill(analysis, analysis.config->axes[i], move.axes[i], *report.add_axes());
+        const AxisConfig& axis = analysis.config->axes[i];
+        fill(analysis, axis, move.axes[i], *report.add_axes());
+        const bool is_short = move.axes[i].made_steps < move.axes[i].asked_steps;
+        const bool is_known = std::ranges::find(not_known, axis.name) == not_known.end();
+        report.mutable_axes()->rbegin()->set_made_unknown(is_short && !is_known);
+    }
+}
+
+/// What only a machine with a known configuration has.
+void fill_axes(const Analysis& analysis, const JobLog& job, proto::JobAnalysis& report) {
+    if (!analysis.config) { return; }
+    for (const auto& [unit, largest] :
+         deviations(*analysis.config, job.moves, job.move_count, job.largest_distance_mm)) {
+        proto::Deviation& out = *report.add_deviations();
+        out.set_unit(std::string(name_of(unit)));
+        out.set_largest(largest);
+    }
+    for (const AxisConfig& axis : analysis.config->axes) {
+        if (!has_all_steps_of(analysis, job, axis.name)) { report.add_axes_not_known(axis.name); }
     }
 }
 
 void fill_steps(const Analysis& analysis, const JobLog& job, proto::JobAnalysis& report) {
     report.set_move_count(job.move_count);
+    report.set_dwells(job.dwells);
     report.set_asked_steps(job.asked_steps);
     report.set_made_steps(job.made_steps);
     report.set_unasked_steps(job.unasked_steps);
@@ -94,7 +121,8 @@ void fill_steps(const Analysis& analysis, const JobLog& job, proto::JobAnalysis&
     report.set_interruptions(job.interruptions());
     if (job.largest_distance_mm) { report.set_largest_distance_mm(*job.largest_distance_mm); }
     fill(analysis, job.late, *report.mutable_step_time_error());
-    for (const MoveLog& move : job.moves) { fill(analysis, move, *report.add_moves()); }
+    fill_axes(analysis, job, report);
+    for (const MoveLog& move : job.moves) { fill(analysis, move, report.axes_not_known(), *report.add_moves()); }
 }
 
 void fill(const Analysis& analysis, const JobLog& job, proto::JobAnalysis& report) {

@@ -15,7 +15,7 @@ struct AxisCurve {
     std::string axis;
     std::vector<double> time_s;
     std::vector<double> value;
-    std::string unit = "mm";      // of length: "mm" or "steps"
+    std::string unit = "mm";      // of length: "mm", "deg" or "steps"
     std::optional<double> limit;  // of speed, in unit/s, in both directions
     std::vector<Span> missing;    // seconds
 };
