@@ -1,5 +1,8 @@
 #include "clients/report_page/report_page.hpp"
 
+#include <fmt/format.h>
+
+#include <array>
 #include <fstream>
 
 #include "clients/analysis/analysis_text.hpp"
@@ -19,11 +22,17 @@ namespace {
 constexpr std::string_view kMark = R"(<meta name="generator" content="lockstep analyze">)";
 constexpr std::size_t kMarkWithin = 1024;  // at the beginning of the page
 
+/// The symbol of a grade: check mark, exclamation mark, question mark, cross. As in web/tables.js.
+std::string_view mark_of(Grade grade) {
+    constexpr std::array<std::string_view, 4> kMarks{"\u2713", "!", "?", "\u2717"};
+    return kMarks[static_cast<std::size_t>(grade)];
+}
+
 std::string findings_list(const std::vector<Finding>& found) {
     std::string out;
     for (const Finding& finding : found) {
-        out +=
-            "<li class=\"" + std::string(name_of(finding.grade)) + "\">" + drawing::escape_xml(finding.text) + "</li>";
+        out += fmt::format(R"(<li class="{0}"><b><span class="mark">{1}</span>{0}</b><span>{2}</span></li>)",
+                           name_of(finding.grade), mark_of(finding.grade), drawing::escape_xml(finding.text));
     }
     return out;
 }
@@ -36,6 +45,7 @@ std::string to_html(const Analysis& analysis) {
                   {{"TITLE", drawing::escape_xml(analysis.machine + ": " + analysis.log.filename().string())},
                    {"SUBTITLE", drawing::escape_xml(in_a_line(analysis))},
                    {"RECORD", drawing::escape_xml(to_text(record_state(analysis)))},
+                   {"MARK", std::string(mark_of(worst_grade(found)))},
                    {"GRADE", std::string(name_of(worst_grade(found)))},
                    {"FINDINGS", findings_list(found)},
                    {"REPORT", within_page(report_json(to_report(analysis)))},

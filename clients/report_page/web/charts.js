@@ -63,16 +63,32 @@ function marksPlugin(row, events, programEvents) {
   } } };
 }
 
+// The extent of a curve from one time to another: of the points between, and of the curve where it enters and leaves.
+function shownExtent([xs, ys], [from, to]) {
+  const at = (x, i) => ys[i - 1] + ((ys[i] - ys[i - 1]) * (x - xs[i - 1])) / (xs[i] - xs[i - 1]);
+  let low = 0;
+  let high = 0;
+  const add = (y) => { low = Math.min(low, y); high = Math.max(high, y); };
+  for (let i = 0; i < xs.length; i++) {
+    if (ys[i] === null) { continue; }
+    if (xs[i] >= from && xs[i] <= to) { add(ys[i]); }
+    if (i === 0 || ys[i - 1] === null || xs[i] <= xs[i - 1]) { continue; }
+    [from, to].filter((edge) => xs[i - 1] < edge && edge < xs[i]).forEach((edge) => add(at(edge, i)));
+  }
+  return [low, high];
+}
+
 function timeChart(host, row, last, events, programEvents = []) {
   const width = () => Math.max(240, host.clientWidth);
-  const pad = (min, max) => {
-    const room = 0.06 * (max - min) || Math.abs(max) * 0.1 || 1;
+  const pad = ([min, max]) => {
+    const room = 0.06 * (max - min) || 1;
     return [min - room, max + room];
   };
+  let shown = whole;  // uPlot asks for the range of x first
   const chart = new uPlot({
     width: width(), padding: [10, 12, 0, 0], height: last ? 200 : 170, cursor: { sync: { key: joined.key, setSeries: false }, drag: { x: true, y: false } },
-    scales: { x: { time: false, min: whole[0], max: whole[1] },
-      y: { range: (u, min, max) => (min === null || min === undefined ? [0, 1] : pad(Math.min(min, 0), Math.max(max, 0))) } },
+    scales: { x: { time: false, min: whole[0], max: whole[1], range: (u, min, max) => (shown = [min ?? whole[0], max ?? whole[1]]) },
+      y: { range: () => pad(shownExtent([row.x, row.y], shown)) } },
     axes: [{ ...axisStyle(last ? "time, s" : undefined), size: last ? 46 : 26 }, axisStyle(row.unit)],
     series: [{ label: "s", value: (u, value) => value?.toFixed(4) },
       { label: row.name, stroke: colours[row.colour % colours.length], width: 1.3, points: { show: false }, spanGaps: false }],
@@ -165,6 +181,6 @@ function barChart(host, axes) {
       rows.push(make("tr", {}, make("td", {}, axis.name), make("td", {}, axis.classes[i]), make("td", {}, count(number)), make("td", { className: "text" }, bar)));
     });
   }
-  const heads = ["axis", "step time error, us", "steps", ""].map((head) => make("th", {}, head));
-  host.append(make("div", { className: "wide" }, make("table", {}, make("thead", {}, make("tr", {}, ...heads)), make("tbody", {}, ...rows))));
+  const heads = ["axis", "step time error, \u00b5s", "steps", ""].map((head) => make("th", {}, head));
+  host.append(inBox(make("table", {}, make("thead", {}, make("tr", {}, ...heads)), make("tbody", {}, ...rows))));
 }

@@ -117,26 +117,58 @@ function lanesChart() {
   host.before(make("p", {}, zoom(aroundIt()), zoom(whole), routine));
 }
 
-// Takes the rows from the log if there is one, else from the states that axes noted ten times a second.
-function rows() {
-  if (log) {
-    return log.rows.filter((row) => row.kind === "speed" || row.kind === "position")
-      .map((row) => ({ ...row, x: row.x.map((x) => x + log.offset_s), missing: row.missing.map((m) => m.map((x) => x + log.offset_s)) }));
+const axisOf = (process) => process.replace(/^axis[ -]/, "");
+// The states that a process noted, ten times a second.
+const statesOf = (process) => report.events.filter((event) => event.process === process && event.position_mm !== undefined);
+const kinds = { speed: "velocity_mm_s", position: "position_mm" };
+
+// The part of a curve up to a time.
+function pointsUntil(points, end) {
+  const behind = points.findIndex(([x]) => x > end);
+  if (behind < 0) { return points; }
+  const kept = points.slice(0, behind);
+  const [[x0, y0], [x1, y1]] = [kept.at(-1) ?? [end, null], points[behind]];
+  return y0 === null || y1 === null ? kept : [...kept, [end, y0 + ((y1 - y0) * (end - x0)) / (x1 - x0)]];
+}
+
+// A row of the log, by the time of the page. The log's curves end at its last step: noted states continue them. After
+// the end of its process an axis's motion is not known.
+function rowOfLog(row) {
+  const process = report.processes.find((each) => axisOf(each.name) === row.name);
+  const end = process?.ended ? process.last_s : Infinity;
+  const points = pointsUntil(row.x.map((x, i) => [x + log.offset_s, row.y[i]]), end);
+  const last = points.at(-1)?.[0] ?? -Infinity;
+  const gaps = row.missing.map((span) => span.map((x) => x + log.offset_s));
+  const isOpen = (span) => span[1] > end || span[0] >= last - 1e-3;  // the curve does not go on behind it
+  const missing = gaps.filter((span) => !isOpen(span));
+  const from = Math.min(end, ...gaps.filter(isOpen).map((span) => span[0]));
+  if (process?.ended) {
+    missing.push([from, report.processes.find((each) => axisOf(each.name).startsWith(`${row.name},`))?.first_s ?? whole[1]]);
+  } else if (from < Infinity) {
+    missing.push([from, whole[1]]);
+  } else {
+    points.push(...statesOf(process?.name).filter((event) => event.at_s > last).map((event) => [event.at_s, event[kinds[row.kind]]]));
   }
-  return lanes.flatMap((name, lane) => {
-    const states = report.events.filter((event) => event.process === name && event.position_mm !== undefined);
-    if (states.length < 2) { return []; }
-    const x = states.map((event) => event.at_s);
-    const row = (kind, unit, key) => ({ kind, name, what: `${kind}, as it noted it`, unit, colour: lane, x, y: states.map((event) => event[key]), limits: [], missing: [] });
-    const unit = unitOf(name.replace(/^axis[ -]/, ""));
-    return [row("speed", `${unit}/s`, "velocity_mm_s"), row("position", unit, "position_mm")];
+  return { ...row, x: points.map((point) => point[0]), y: points.map((point) => point[1]), missing };
+}
+
+function rowsOfNotes() {
+  const axes = lanes.filter((name) => statesOf(name).length >= 2);
+  return axes.flatMap((name, colour) => {
+    const states = statesOf(name);
+    const unit = unitOf(axisOf(name).replace(/,.*/, ""));
+    return Object.entries(kinds).map(([kind, key]) => ({ kind, name, what: `${kind}, as it noted it`, unit: kind === "speed" ? `${unit}/s` : unit,
+      colour, x: states.map((event) => event.at_s), y: states.map((event) => event[key]), limits: [], missing: [] }));
   });
 }
+
+// Takes the rows from the log if there is one, else from the states that axes noted.
+const rows = () => (log ? log.rows.filter((row) => row.kind in kinds).map(rowOfLog) : rowsOfNotes());
 
 function curves() {
   const all = rows();
   if (all.length === 0) { return; }
-  const part = section("Motion of the axes", make("p", { className: "soft" }, "Drag to zoom, double-click to see all again. Red: vetoes and faults."));
+  const part = section("Motion of the axes", make("p", { className: "soft" }, "Drag to zoom, double-click to see all again. Red lines: vetoes and faults. Shaded: not known."));
   const moved = all.filter((row) => row.kind === "speed" ? row.y.some((y) => y) : true);
   ["speed", "position"].forEach((kind) => moved.filter((row) => row.kind === kind).forEach((row, i, same) => {
     const figure = make("figure", {}, make("figcaption", {}, make("b", {}, row.name), ` ${row.what}`));
@@ -146,7 +178,7 @@ function curves() {
 }
 
 function noted() {
-  const weights = { telling: "bad", notable: "", routine: "soft" };
+  const weights = { telling: "telling", notable: "", routine: "soft" };
   const columns = [
     { head: "s", of: (event) => event.at_s, show: fixed(4) },
     { head: "process", of: (event) => event.process, text: true },

@@ -16,21 +16,43 @@ function showTime(from, to) {
   document.getElementById("time")?.scrollIntoView({ behavior: "smooth" });
 }
 
-// mm, or deg if only rotary axes move.
-const unitOfAxes = (axes) => (axes.length > 0 && axes.every((axis) => unitOf(axis.name) === "deg") ? "deg" : "mm");
-const unitOfMove = (move) => unitOfAxes(move.axes);
-const unitOfJob = (job) => unitOfAxes(job.moves.flatMap((move) => move.axes));
-const shownThousandths = (unit) => (value, row) =>
-  (value === undefined ? "–" : `${(value * 1000).toFixed(1)} ${smallUnitOf[unit(row)]}`);
+// Units of report.proto: "mm", "deg", or "mm and deg" if axes slide and rotate together.
+const shownLength = (value, move) => (move.dwell ? "–" : `${value.toFixed(3)} ${move.unit.replace(" and", ",")}`);
+const thousandths = (value, unit) => {
+  const units = unit.split(" and ").map((each) => smallUnitOf[each]);
+  return `${units.length > 1 ? "\u2264 " : ""}${(value * 1000).toFixed(1)} ${units.join(", ")}`;
+};
+const shownDeviations = (value, job) => job.deviations.map((each) => thousandths(each.largest, each.unit)).join("\n") || "–";
 const peakAxis = (key, move) => move.axes.reduce((top, axis) => ((axis[key] ?? 0) > (top?.[key] ?? 0) ? axis : top), undefined);
 const peak = (key) => (move) => peakAxis(key, move)?.[key];
 const shownPeak = (digits, key, per) => fixedIn(digits, (move) => unitOf(peakAxis(key, move).name) + per);
 const sum = (key) => (move) => move.axes.reduce((all, axis) => all + Number(axis[key]), 0);
-const isWhole = (move) => move.axes.every((axis) => axis.asked_steps === axis.made_steps);
+const shownLine = (line, row) => line || (row.kind === "own-move" ? "own move" : "–");
+// Undefined if no step was compared.
+const timeError = (key) => (row) => (Number(row.step_time_error.steps) ? row.step_time_error[key] : undefined);
+const timeErrorColumns = ["p50", "p99", "max"].map((key) => (
+  { head: key, group: "step time error, \u00b5s", of: timeError(`${key}_us`), show: fixed(1) }));
+
+// Steps that the log lacks are not known to be wrong. A job that was not done need not have made all its steps.
+function gradeOfAxis(axis, job) {
+  const difference = Number(axis.made_steps) - Number(axis.asked_steps);
+  if (difference === 0) { return ""; }
+  if (axis.made_unknown || job.axes_not_known.includes(axis.name)) { return "unknown"; }
+  return difference < 0 && job.outcome !== "done" ? "doubtful" : "bad";
+}
+const worst = (found) => ["bad", "unknown", "doubtful"].find((grade) => found.includes(grade)) ?? "";
+const gradeOfMove = (move, job) => worst(move.axes.map((axis) => gradeOfAxis(axis, job)));
+function gradeOfJob(job) {
+  const listed = job.moves.map((move) => gradeOfMove(move, job));
+  const others = Number(job.moves_not_whole) - listed.filter(Boolean).length;  // of moves that are not listed
+  const unclear = job.axes_not_known.length > 0 ? "unknown" : job.outcome === "done" ? "bad" : "doubtful";
+  return worst([...listed, others > 0 ? unclear : "", Number(job.unasked_steps) > 0 && job.outcome === "done" ? unclear : ""]);
+}
+const shownMade = (grade) => (value, row) => (grade(row) === "unknown" ? `\u2265 ${count(value)}` : count(value));
 
 const stepColumns = (asked, made, grade) => [
   { head: "steps commanded", of: asked, show: count },
-  { head: "made", of: made, show: count, grade },
+  { head: "steps made", of: made, show: shownMade(grade), grade },
 ];
 
 function jobs() {
@@ -42,49 +64,52 @@ function jobs() {
     { head: "kind", of: (job) => job.kind, text: true },
     { head: "program", of: (job) => job.name, text: true },
     { head: "outcome", of: (job) => job.outcome || "not ended", text: true, grade: (job) => outcome[job.outcome] ?? "doubtful" },
-    { head: "moves", of: (job) => Number(job.move_count), show: count },
-    ...stepColumns((job) => Number(job.asked_steps), (job) => Number(job.made_steps),
-      (job) => (job.outcome === "done" && (Number(job.moves_not_whole) || Number(job.unasked_steps)) ? "bad" : "")),
-    { head: "planned, s", of: (job) => job.planned_s, show: fixed(3) },
+    { head: "moves", of: (job) => Number(job.move_count) - Number(job.dwells), show: count },
+    { head: "dwells", of: (job) => Number(job.dwells), show: count },
+    ...stepColumns((job) => Number(job.asked_steps), (job) => Number(job.made_steps), gradeOfJob),
+    { head: "planned,\u00a0s", of: (job) => job.planned_s, show: fixed(3) },
     { head: "overridden", of: (job) => (job.overridden ? "yes" : "no"), text: true },
-    { head: "took, s", of: (job) => job.real_s, show: fixed(3) },
+    { head: "took,\u00a0s", of: (job) => job.real_s, show: fixed(3) },
     { head: "interrupted", of: (job) => Number(job.interruptions), grade: (job) => (Number(job.interruptions) ? "doubtful" : "") },
-    { head: "path deviation", of: (job) => job.largest_distance_mm, show: shownThousandths(unitOfJob) },
-    { head: "step time error, \u00b5s", of: (job) => job.step_time_error.max_us, show: fixed(1) },
+    { head: "path deviation", of: (job) => job.largest_distance_mm, wraps: true, show: shownDeviations },
+    { head: "step time error, \u00b5s", of: timeError("max_us"), show: fixed(1) },
   ];
   const onRow = (job) => showTime(job.begun_s ?? whole[0], (job.begun_s ?? 0) + (job.real_s ?? whole[1]));
   section("Jobs", table(columns, rows, { first: 50, onRow }));
 }
 
 function moves() {
-  const all = report.jobs.flatMap((job) => job.moves.map((move) => ({ ...move, job: Number(job.job) })));
+  const all = report.jobs.flatMap((job) => job.moves.map((move) => ({ ...move, job: Number(job.job), kind: job.kind, grade: gradeOfMove(move, job) })));
   if (all.length === 0) { return; }
-  const wholeGrade = (move) => (isWhole(move) ? "" : "bad");
   const columns = [
     { head: "job", of: (move) => move.job },
-    { head: "line", of: (move) => move.line },
-    { head: "axes", of: (move) => move.axes.map((axis) => axis.name).join(" ") || "dwell", text: true },
-    { head: "length", of: (move) => move.length_mm, show: fixedIn(3, unitOfMove) },
-    ...stepColumns(sum("asked_steps"), sum("made_steps"), wholeGrade),
-    { head: "planned, s", of: (move) => move.planned_s, show: fixed(4) },
-    { head: "took, s", of: (move) => move.real_s, show: fixed(4) },
-    { head: "difference, ms", of: (move) => (move.real_s === undefined ? undefined : (move.real_s - move.planned_s) * 1000), show: fixed(3) },
+    { head: "line", of: (move) => move.line, show: shownLine },
+    { head: "axes", of: (move) => (move.dwell ? "dwell" : move.axes.map((axis) => axis.name).join(" ") || "–"), text: true },
+    { head: "length", of: (move) => move.length_mm, show: shownLength },
+    ...stepColumns(sum("asked_steps"), sum("made_steps"), (move) => move.grade),
+    { head: "planned,\u00a0s", of: (move) => move.planned_s, show: fixed(4) },
+    { head: "took,\u00a0s", of: (move) => move.real_s, show: fixed(4) },
+    { head: "difference,\u00a0ms", of: (move) => (move.real_s === undefined ? undefined : (move.real_s - move.planned_s) * 1000), show: fixed(3) },
     { head: "peak speed", of: peak("peak_velocity_mm_s"), show: shownPeak(2, "peak_velocity_mm_s", "/s") },
     { head: "peak acceleration", of: peak("peak_acceleration_mm_s2"), show: shownPeak(0, "peak_acceleration_mm_s2", "/s\u00b2") },
-    { head: "path deviation", of: (move) => move.largest_distance_mm, show: shownThousandths(unitOfMove) },
-    { head: "step time error, \u00b5s: p50", of: (move) => move.step_time_error.p50_us, show: fixed(1) },
-    { head: "p99", of: (move) => move.step_time_error.p99_us, show: fixed(1) },
-    { head: "max", of: (move) => move.step_time_error.max_us, show: fixed(1) },
-    { head: "step skew, \u00b5s", of: (move) => move.skew_max_us, show: fixed(1) },
+    { head: "path deviation", of: (move) => move.largest_distance_mm, wraps: true,
+      show: (value, move) => (value === undefined ? "–" : thousandths(value, move.unit)) },
+    ...timeErrorColumns,
+    { head: "step skew, \u00b5s", of: (move) => (Number(move.step_time_error.steps) ? move.skew_max_us : undefined), show: fixed(1) },
   ];
   const listed = report.jobs.reduce((sumOf, job) => sumOf + Number(job.move_count), 0);
-  const note = all.length < listed ? `The first ${count(all.length)} of ${count(listed)}; all are in the jobs' figures.` : "";
+  const notes = ["Peaks are those of the fastest axis, computed from its steps."];
+  if (all.some((move) => move.unit === "mm and deg")) {
+    notes.push("If axes slide and rotate in one move, its length and deviation are the root of the sum of the squares in mm and degrees; the deviation limits each of them.");
+  }
+  notes.push("Click a heading to sort the table, or a move to show it in the charts.");
+  if (all.length < listed) { notes.push(`The first ${count(all.length)} of ${count(listed)}; all are in the jobs' figures.`); }
   const onRow = (move) => {
     if (move.begun_s === undefined) { return; }
     const lasts = move.real_s ?? move.planned_s;
     showTime(move.begun_s - 0.1 * lasts, move.begun_s + 1.1 * lasts);
   };
-  section("Moves", make("p", { className: "soft" }, `Peaks are those of the fastest axis, computed from its steps. Click a heading to sort the table, or a move to show it in the charts. ${note}`),
+  section("Moves", make("p", { className: "soft" }, notes.join(" ")),
     table(columns, all, { first: 25, onRow }));
 }
 
@@ -96,32 +121,28 @@ function axes() {
     { head: "to", of: (axis) => axis.position_end_mm, show: fixedIn(3, (axis) => unitOf(axis.name)) },
     { head: "peak speed", of: (axis) => axis.peak_velocity_mm_s, show: fixedIn(2, (axis) => unitOf(axis.name) + "/s") },
     { head: "peak acceleration", of: (axis) => axis.peak_acceleration_mm_s2, show: fixedIn(0, (axis) => unitOf(axis.name) + "/s\u00b2") },
-    { head: "missing steps", of: (axis) => Number(axis.missing_steps), show: count, grade: (axis) => (Number(axis.missing_steps) ? "doubtful" : "") },
-    { head: "step time error, \u00b5s: p50", of: (axis) => axis.step_time_error.p50_us, show: fixed(1) },
-    { head: "p99", of: (axis) => axis.step_time_error.p99_us, show: fixed(1) },
-    { head: "max", of: (axis) => axis.step_time_error.max_us, show: fixed(1) },
+    { head: "steps missing in the log", of: (axis) => Number(axis.missing_steps), show: count, grade: (axis) => (Number(axis.missing_steps) ? "unknown" : "") },
+    ...timeErrorColumns,
   ];
   section("Axes", table(columns, report.axes));
   if (report.step_skew_between_axes.length === 0) { return; }
   section("Step skew between axes", table([
     { head: "axes", of: (skew) => `${skew.first} – ${skew.second}`, text: true },
     { head: "steps", of: (skew) => Number(skew.steps), show: count },
-    { head: "p50, \u00b5s", of: (skew) => skew.p50_us, show: fixed(1) },
-    { head: "p99", of: (skew) => skew.p99_us, show: fixed(1) },
-    { head: "max", of: (skew) => skew.max_us, show: fixed(1) },
+    ...["p50", "p99", "max"].map((key) => ({ head: key, group: "skew, \u00b5s", of: (skew) => skew[`${key}_us`], show: fixed(1) })),
   ], report.step_skew_between_axes));
 }
 
 function events() {
   if (report.events.length === 0) { return; }
-  const place = (event) => event.positions.map((at) => `${at.name} ${at.position_mm === undefined ? at.position_steps : `${at.position_mm.toFixed(3)} ${unitOf(at.name)}`}`).join("  ");
+  const place = (event) => event.positions.map((at) => `${at.name}\u00a0${at.position_mm === undefined ? at.position_steps : `${at.position_mm.toFixed(3)}\u00a0${unitOf(at.name)}`}`).join("  ");
   section("Faults, stops and interruptions", table([
     { head: "at, s", of: (event) => event.at_s, show: fixed(3) },
     { head: "axis", of: (event) => event.axis ?? "all", text: true },
     { head: "what", of: (event) => event.what, text: true, long: true },
     { head: "job", of: (event) => event.job ?? "–" },
-    { head: "line", of: (event) => event.line ?? "–" },
-    { head: "axes were at", of: place, text: true },
+    { head: "line", of: (event) => event.line || "–" },
+    { head: "axes were at", of: place, text: true, long: true },
     { head: "remedy", of: (event) => event.remedy ?? "", text: true, long: true },
   ], report.events, { first: 50, onRow: (event) => showTime(event.at_s - 1, event.at_s + 1) }));
 }
@@ -129,15 +150,15 @@ function events() {
 function programEvents() {
   const rows = report.program_events;
   if (rows.length === 0) { return; }
-  const place = (event) => (event.of_program ? event.place.map((at) => `${at.name} ${at.position_mm.toFixed(3)} ${unitOf(at.name)}`).join("  ") : "switched off at the job's end");
+  const place = (event) => (event.of_program ? event.place.map((at) => `${at.name}\u00a0${at.position_mm.toFixed(3)}\u00a0${unitOf(at.name)}`).join("  ") : "switched off at the job's end");
   const more = Number(report.program_events_not_listed);
   const note = more ? `The first ${count(rows.length)} of ${count(rows.length + more)}.` : "";
   section("Events of programs", make("p", { className: "soft" }, `What programs switch; the place is the program's, in machine coordinates. ${note}`), table([
     { head: "at, s", of: (event) => event.at_s, show: fixed(3) },
     { head: "job", of: (event) => Number(event.job) },
-    { head: "line", of: (event) => event.line, show: (line) => line ?? "–" },
+    { head: "line", of: (event) => event.line, show: (line) => line || "–" },
     { head: "event", of: (event) => event.what, text: true },
-    { head: "place", of: place, text: true },
+    { head: "place", of: place, text: true, long: true },
     { head: "at rest", of: (event) => (event.at_rest ? "yes" : "no"), text: true },
   ], rows, { first: 50, onRow: (event) => showTime(event.at_s - 1, event.at_s + 1) }));
 }
@@ -202,7 +223,9 @@ function path() {
 
 function stepTimes() {
   if (charts.step_times.length === 0) { return; }
-  barChart(section("Differences between step times and commanded times"), charts.step_times);
+  const isExact = charts.step_times.every((axis) => axis.counts.every((number, i) => i === 0 || number === 0));
+  const words = isExact ? "Every step that was compared is at its commanded tick." : "A bar's length is the logarithm of the number of steps.";
+  barChart(section("Differences between step times and commanded times", make("p", { className: "soft" }, words)), charts.step_times);
 }
 
 jobs();
