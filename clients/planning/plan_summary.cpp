@@ -4,11 +4,12 @@
 #include <utility>
 
 #include "clients/planning/counted_blocks.hpp"
+#include "clients/planning/timed_legs.hpp"
 
 namespace lockstep {
 namespace {
 
-/// Plans a program leg by leg, from rest to rest.
+/// Plans the frames of a program leg by leg, from rest to rest.
 class LegByLeg {
 public:
     LegByLeg(const MachineConfig& machine, std::shared_ptr<const CountedBlocks> blocks, const Planning& planning)
@@ -31,8 +32,7 @@ public:
         return {};
     }
 
-    const PlanTotals& totals() const { return totals_; }
-    int pauses() const { return pauses_; }
+    PlannedTotals totals() const { return {totals_.duration(), pauses_, totals_.axes()}; }
 
 private:
     std::expected<void, PlanError> plan(FrameSource& source, std::uint32_t first) {
@@ -47,6 +47,7 @@ private:
             const Ticks begin = totals_.duration();
             totals_.take(**frame, source.begins());
             if (planning_.each_frame) { planning_.each_frame({**frame, begin, std::exchange(is_first, false)}); }
+            if (planning_.progress) { planning_.progress(totals_.duration()); }
         }
         totals_.end_leg();
         return {};
@@ -59,6 +60,17 @@ private:
     PlanTotals totals_;
     int pauses_ = 0;
 };
+
+std::expected<PlannedTotals, PlanError> totals_of(const MachineConfig& machine,
+                                                  const std::shared_ptr<const CountedBlocks>& blocks,
+                                                  const Planning& planning) {
+    if (!planning.each_frame && machine.coordination != StepMethod::Lai) {
+        return time_legs(machine, blocks, planning.start, planning.overrides, planning.progress);
+    }
+    LegByLeg legs(machine, blocks, planning);
+    if (auto planned = legs.run(); !planned) { return std::unexpected(planned.error()); }
+    return legs.totals();
+}
 
 }  // namespace
 
@@ -88,18 +100,17 @@ std::expected<ProgramPlan, PlanError> plan_blocks(const MachineConfig& machine, 
     if (auto fits = planner.check_start(head, planning.start); !fits) { return std::unexpected(fits.error()); }
     const auto counted =
         std::make_shared<CountedBlocks>(planner, std::move(blocks), planner.axes_of(head.axes).value(), planning.start);
-    LegByLeg legs(machine, counted, planning);
-    if (auto planned = legs.run(); !planned) { return std::unexpected(planned.error()); }
+    auto totals = totals_of(machine, counted, planning);
+    if (!totals) { return std::unexpected(totals.error()); }
     if (counted->error()) { return std::unexpected(*counted->error()); }
-    const PlanTotals& totals = legs.totals();
     ProgramPlan plan{.program = head.name,
                      .start_mm = {},
                      .moves = counted->moves(),
-                     .pauses = legs.pauses(),
-                     .duration = totals.duration(),
-                     .duration_s = static_cast<double>(totals.duration().value) / machine.ticks_per_second(),
+                     .pauses = totals->pauses,
+                     .duration = totals->duration,
+                     .duration_s = static_cast<double>(totals->duration.value) / machine.ticks_per_second(),
                      .length_mm = counted->length_mm(),
-                     .axes = totals.axes()};
+                     .axes = std::move(totals->axes)};
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         plan.start_mm.push_back(to_mm(machine.axes[i], static_cast<double>(planning.start[i])));
     }
@@ -108,8 +119,9 @@ std::expected<ProgramPlan, PlanError> plan_blocks(const MachineConfig& machine, 
 
 std::expected<ProgramPlan, PlanError> plan_program(const MachineConfig& machine, const Program& program,
                                                    const OnPlannedFrame& each_frame) {
-    return plan_blocks(machine, program.head(), std::make_shared<WholeProgram>(borrowed(program)),
-                       {.start = start_counts(machine, program.head()), .overrides = {}, .each_frame = each_frame});
+    return plan_blocks(
+        machine, program.head(), std::make_shared<WholeProgram>(borrowed(program)),
+        {.start = start_counts(machine, program.head()), .overrides = {}, .each_frame = each_frame, .progress = {}});
 }
 
 proto::PlanReport to_report(const ProgramPlan& plan, int lines) {

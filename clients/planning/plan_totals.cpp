@@ -9,17 +9,6 @@
 namespace lockstep {
 namespace {
 
-/// Returns the position after the first `t` ticks of the track.
-Position position_at(const AxisTrack& track, Ticks t) {
-    Position at = track.from;
-    for (const Piece& piece : track.body) {
-        const Ticks into = std::min(t, piece.ticks);
-        at = at + piece.covered(into);
-        t = t - into;
-    }
-    return at;
-}
-
 void raise(double& peak, double value) { peak = std::max(peak, value); }
 
 }  // namespace
@@ -28,28 +17,33 @@ PlanTotals::PlanTotals(const MachineConfig& machine, const AxisCounts& start) : 
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         const double mm = to_mm(machine.axes[i], static_cast<double>(start[i]));
         axes_.push_back({.name = machine.axes[i].name, .min_mm = mm, .max_mm = mm});
-        now_.push_back({.count = start[i], .speed = 0, .at = Position::steps(start[i])});
+        now_.push_back({.count = start[i], .speed = 0});
     }
 }
 
 void PlanTotals::take(const PathFrame& frame, const std::vector<MoveBegin>& begins) {
-    note_begins(frame, begins);
+    note_begins(begins);
     for (std::size_t i = 0; i < axes_.size(); ++i) { note_pieces(frame.axes[i], i); }
     ends_move_ = !corners_.empty() && corners_.back() >= frame.ticks;
     duration_ += frame.ticks;
 }
 
-/// A move ends where the next one begins. A begin at the end of a frame may be listed for the next frame again.
-void PlanTotals::note_begins(const PathFrame& frame, const std::vector<MoveBegin>& begins) {
+/// A move ends where the next one begins.
+void PlanTotals::note_begins(const std::vector<MoveBegin>& begins) {
     corners_.clear();
     if (ends_move_) { corners_.push_back(Ticks{}); }
-    for (const MoveBegin& begin : begins) {
-        const Ticks at{std::llround(begin.at)};
-        corners_.push_back(at);
-        if (begin.block <= begun_) { continue; }
-        begun_ = begin.block;
-        for (std::size_t i = 0; i < axes_.size(); ++i) { note_place(i, position_at(frame.axes[i], at).count()); }
+    for (const MoveBegin& begin : begins) { corners_.push_back(Ticks{std::llround(begin.at)}); }
+}
+
+/// Notes the places around the tick at which the axis turns back, if it does, and the end.
+void PlanTotals::note_way(const Piece& piece, Position from, std::size_t axis) {
+    const double turn = -piece.velocity.steps_per_tick() / piece.acceleration.steps_per_tick2();
+    if (turn > 0 && turn < static_cast<double>(piece.ticks.value)) {
+        const Ticks before{static_cast<std::int64_t>(turn)};
+        note_place(axis, (from + piece.covered(before)).count());
+        note_place(axis, (from + piece.covered(before + Ticks{1})).count());
     }
+    note_place(axis, (from + piece.covered()).count());
 }
 
 void PlanTotals::note_place(std::size_t axis, std::int64_t count) {
@@ -67,7 +61,7 @@ void PlanTotals::note_pieces(const AxisTrack& track, std::size_t axis) {
     const double per_s = machine_.ticks_per_second();
     const double mm = 1 / machine_.axes[axis].steps_per_mm;
     Ticks begin;
-    now.at = track.from;
+    Position at = track.from;
     for (const Piece& piece : track.body) {
         const double change = piece.acceleration.steps_per_tick2();
         const double first = piece.velocity.steps_per_tick() + change / 2;
@@ -76,7 +70,8 @@ void PlanTotals::note_pieces(const AxisTrack& track, std::size_t axis) {
         raise(plan.peak_velocity_mm_s, std::max(std::abs(first), std::abs(last)) * mm * per_s);
         raise(plan.peak_acceleration_mm_s2, std::abs(change) * mm * per_s * per_s);
         now.speed = last;
-        now.at = now.at + piece.covered();
+        note_way(piece, at, axis);
+        at = at + piece.covered();
         begin += piece.ticks;
     }
 }
@@ -92,10 +87,8 @@ void PlanTotals::note_jump(std::size_t axis, double change, bool is_between_move
 void PlanTotals::end_leg() {
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         note_jump(i, now_[i].speed, true);
-        note_place(i, now_[i].at.count());
         now_[i].speed = 0;
     }
-    begun_ = -1;
     ends_move_ = true;
 }
 

@@ -21,6 +21,13 @@ struct AxisPlan {
     double max_mm = 0;
 };
 
+/// The sum of all legs.
+struct PlannedTotals {
+    Ticks duration;
+    int pauses = 0;
+    std::vector<AxisPlan> axes;
+};
+
 class PlanTotals {
 public:
     PlanTotals(const MachineConfig& machine, const AxisCounts& start);
@@ -35,13 +42,13 @@ public:
 
 private:
     struct Axis {
-        std::int64_t count = 0;  // in steps, where the last move began
-        double speed = 0;        // steps per tick, at the end of the last piece
-        Position at;
+        std::int64_t count = 0;  // in steps, at the end of the last piece
+        double speed = 0;        // steps per tick, there
     };
 
-    void note_begins(const PathFrame& frame, const std::vector<MoveBegin>& begins);
+    void note_begins(const std::vector<MoveBegin>& begins);
     void note_pieces(const AxisTrack& track, std::size_t axis);
+    void note_way(const Piece& piece, Position from, std::size_t axis);
     void note_place(std::size_t axis, std::int64_t count);
     void note_jump(std::size_t axis, double change, bool is_between_moves);
 
@@ -49,7 +56,6 @@ private:
     std::vector<AxisPlan> axes_;
     std::vector<Axis> now_;
     Ticks duration_;
-    std::int64_t begun_ = -1;     // the last block that began in this leg
     std::vector<Ticks> corners_;  // where moves begin in the frame, ascending
     bool ends_move_ = true;       // a move begins with the next frame, or the leg does
 };

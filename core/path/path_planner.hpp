@@ -7,10 +7,8 @@
 
 #include <expected>
 
-#include "core/path/arc_cutter.hpp"
-#include "core/path/chord_joiner.hpp"
 #include "core/path/frame_planner.hpp"
-#include "core/path/path_trail.hpp"
+#include "core/path/path_geometry.hpp"
 
 namespace lockstep {
 
@@ -24,7 +22,7 @@ public:
     /// Begins a path. The axes rest at `at`.
     void begin(std::span<const Position> at);
     /// Sets the programmed place at the begin, which is less than a step from the place of rest. Arcs need it.
-    void begin_program_at(const AxisVector& steps) { programmed_ = steps; }
+    void begin_program_at(const AxisVector& steps) { geometry_.begin_program_at(steps); }
     /// The axes rest at `at`: the place of rest of one of the last kFramesKept frames, or the begin of the path. The
     /// next frame continues from there.
     ///
@@ -43,6 +41,13 @@ public:
         arc_to_steps(arc.shape, setup_.to_steps(arc.to_mm), settings, block);
     }
     void arc_to_steps(const ArcShape& shape, const AxisVector& to, const MoveSettings& settings, std::uint32_t block);
+    /// The same, but only begins the arc. Call cut_on() while there are more pieces of it. So an arc of many turns can
+    /// be planned in little memory. The next move cuts what is left of it.
+    void begin_arc_to_steps(const ArcShape& shape, const AxisVector& to, const MoveSettings& settings,
+                            std::uint32_t block);
+    bool has_more() const { return geometry_.has_more(); }
+    /// Adds the next quarter turn of the arc, or its rest.
+    void cut_on();
     /// The machine rests on whole steps for `ticks`, at least for kLeastRest.
     void rest(Ticks ticks, std::uint32_t block);
     /// Ends the path: the machine comes to rest on whole steps at the end of the last move.
@@ -65,30 +70,25 @@ public:
     std::int64_t braked() const { return frames_.braked(); }
     /// Intervals that wait for their frames, and stored pieces. Memory depends on these.
     std::size_t waiting() const { return window_.end() - window_.first(); }
-    std::size_t kept() const { return trail_.end() - trail_.first(); }
+    std::size_t kept() const { return geometry_.trail().end() - geometry_.trail().first(); }
+    /// The place where the path continues has not been read yet.
+    bool is_seeking() const { return is_sought_; }
 
-    static constexpr Ticks kLeastRest{64};
+    static constexpr Ticks kLeastRest = PathGeometry::kLeastRest;
     static constexpr std::size_t kFramesKept = 64;  // far more frames than can be in flight
 
 private:
     void seek(const PathPlace& place);
-    void come_to_rest();
-    bool move_end(const AxisVector& end);
-    void pass_on(std::size_t ready);
-    void pass_on_but_last();
+    void pass_on();
     void remember(const PathFrame& frame);
 
     PathSetup setup_;
     Overrides overrides_;
-    ChordJoiner joiner_;
-    PathTrail trail_;
+    PathGeometry geometry_;
     SpeedWindow window_;
     FramePlanner frames_;
-    AxisVector at_;           // where the last move ends, in steps; whole ones if the machine rests there
-    AxisVector programmed_;   // where it ends in the program, up to half a step beyond the travel
     PathPlace start_;         // where the path continues
     bool is_sought_ = false;  // start_ is not found on the geometry yet
-    std::size_t ready_ = 0;   // pieces that are final; the last piece's end may still move to a whole step
     std::size_t passed_ = 0;  // pieces that were passed to the window
     bool is_finished_ = false;
     SlidingVector<std::size_t> begins_;  // the pieces in which the last frames begin

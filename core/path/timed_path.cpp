@@ -10,6 +10,16 @@ constexpr double kShortest_ticks = 1e-9;
 
 }  // namespace
 
+StraightPassage::StraightPassage(const Interval& part, double w0, double w1) {
+    const double mm = part.length();
+    const double up = part.acceleration;
+    const double down = part.deceleration;
+    const double peak = (2 * up * down * mm + down * w0 + up * w1) / (up + down);
+    top = std::max({std::min(peak, part.top), w0, w1});
+    rise = std::min((top - w0) / (2 * up), mm);
+    fall = std::min((top - w1) / (2 * down), mm - rise);
+}
+
 double PathPhase::along(double t) const {
     const double into = std::clamp(t - begin, 0.0, ticks);
     return u + (v + a * into / 2) * into;
@@ -46,7 +56,7 @@ void TimedPath::add(PathPhase phase, double mm, double u, double w0, double w1) 
     phase.u = u;
     phase.v = std::sqrt(w0);
     const double v1 = std::sqrt(w1);
-    phase.ticks = 2 * mm / (phase.v + v1);
+    phase.ticks = ticks_over(mm, phase.v, v1);
     phase.a = (v1 - phase.v) / phase.ticks;
     add_phase(phase);
 }
@@ -71,15 +81,10 @@ void TimedPath::pass(const Quadratic& shape, const Interval& part, std::size_t n
     }
     const double mm = part.length();
     if (part.kind == IntervalKind::Curved) { return add(here, mm, part.from, w0, w1); }
-    const double up = part.acceleration;
-    const double down = part.deceleration;
-    const double peak = (2 * up * down * mm + down * w0 + up * w1) / (up + down);
-    const double top = std::max({std::min(peak, part.top), w0, w1});
-    const double rise = std::min((top - w0) / (2 * up), mm);
-    const double fall = std::min((top - w1) / (2 * down), mm - rise);
-    add(here, rise, part.from, w0, top);
-    add(here, mm - rise - fall, part.from + rise, top, top);
-    add(here, fall, part.to - fall, top, w1);
+    const StraightPassage straight(part, w0, w1);
+    add(here, straight.rise, part.from, w0, straight.top);
+    add(here, mm - straight.rise - straight.fall, part.from + straight.rise, straight.top, straight.top);
+    add(here, straight.fall, part.to - straight.fall, straight.top, w1);
 }
 
 void TimedPath::brake(const Quadratic& shape, const Interval& part, std::size_t number, double w0, double w1) {

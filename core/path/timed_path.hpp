@@ -7,6 +7,19 @@
 
 namespace lockstep {
 
+/// How a straight interval is passed: the speed rises, is constant and falls.
+struct StraightPassage {
+    double top = 0;   // the greatest w
+    double rise = 0;  // mm, with the interval's acceleration
+    double fall = 0;  // mm, with its deceleration
+
+    /// `w0` and `w1`: the squared speeds at the interval's ends.
+    StraightPassage(const Interval& part, double w0, double w1);
+};
+
+/// The time in which the square of the speed changes linearly over `mm`, from the speed v0 to v1. 0 if mm is 0 or less.
+inline double ticks_over(double mm, double v0, double v1) { return mm > 0 ? 2 * mm / (v0 + v1) : 0; }
+
 /// Constant acceleration along one piece of geometry.
 struct PathPhase {
     const Quadratic* shape = nullptr;

@@ -57,8 +57,7 @@ public:
     Progress(std::string name, const ProgramText& text, double ticks_per_s, Output& output)
         : name_(std::move(name)), text_(text), ticks_per_s_(ticks_per_s), output_(output) {}
 
-    void show(const PlannedFrame& planned) {
-        const Ticks motion = planned.begin + planned.frame.ticks;
+    void show(Ticks motion) {
         const auto share = static_cast<int>(100 * text_.share_read());
         if (std::exchange(shown_, share) == share) { return; }
         output_.progress(fmt::format("{}: {} %, {} lines, {} of motion", name_, share, text_.lines(),
@@ -82,14 +81,11 @@ std::expected<PlannedFile, Failure> plan_long_file(const ProgramOptions& options
     GcodeSetup reading = program_setup(options.file, setup->machine, setup->start_mm, options.switches, setup->values);
     const auto text = std::make_shared<ProgramText>(*std::move(lines), reading);
     Progress progress(options.file, *text, setup->machine.ticks_per_second(), output);
-    const OnPlannedFrame each_frame = on_setup ? on_setup(setup->machine) : OnPlannedFrame{};
     auto plan = plan_blocks(setup->machine, text->head(), text,
                             {.start = start_counts(setup->machine, text->head()),
                              .overrides = {},
-                             .each_frame = [&](const PlannedFrame& planned) {
-                                 progress.show(planned);
-                                 if (each_frame) { each_frame(planned); }
-                             }});
+                             .each_frame = on_setup ? on_setup(setup->machine) : OnPlannedFrame{},
+                             .progress = [&](Ticks motion) { progress.show(motion); }});
     if (!text->errors().empty()) { return std::unexpected(bad_file(options.file, text->errors())); }
     if (!plan) { return std::unexpected(not_planned(options.file, plan.error())); }
     return PlannedFile{std::move(setup->machine), *std::move(plan), text->lines(), text->notes(), std::move(reading)};

@@ -1,0 +1,82 @@
+#include "clients/planning/timed_legs.hpp"
+
+#include <cmath>
+
+#include "core/coordinator/path/program_moves.hpp"
+#include "core/path/timing/path_timer.hpp"
+
+namespace lockstep {
+namespace {
+
+Ticks rounded_up(double ticks) { return {static_cast<std::int64_t>(std::ceil(ticks - 0x1p-20))}; }
+
+class LegTimer {
+public:
+    LegTimer(const MachineConfig& machine, std::shared_ptr<const ProgramBlocks> blocks, const AxisCounts& start,
+             const Overrides& overrides, const std::function<void(Ticks)>& progress)
+        : blocks_(std::move(blocks)),
+          axes_(ProgramPlanner(machine).axes_of(blocks_->axes()).value()),
+          overrides_(overrides),
+          progress_(progress),
+          moves_(machine),
+          timer_(path_setup_of(machine)),
+          load_({start.begin(), start.size()}) {}
+
+    LegEnd time(std::uint32_t first, const AxisCounts& from) {
+        constexpr std::uint32_t kBlocksBetween = 1024;  // calls of progress
+        moves_.begin(blocks_, axes_, first, from);
+        timer_.begin(positions_of(from), overrides_, load_);
+        while (!moves_.read(timer_).ends) {
+            if (progress_ && moves_.next() % kBlocksBetween == 0) { progress_(duration_ + rounded_up(timer_.ticks())); }
+        }
+        duration_ += rounded_up(timer_.ticks());
+        return moves_.end();
+    }
+
+    Ticks duration() const { return duration_; }
+    const PathLoad& load() const { return load_; }
+
+private:
+    std::shared_ptr<const ProgramBlocks> blocks_;
+    std::vector<std::size_t> axes_;
+    Overrides overrides_;
+    const std::function<void(Ticks)>& progress_;
+    ProgramMoves moves_;
+    PathTimer timer_;
+    PathLoad load_;
+    Ticks duration_;
+};
+
+AxisPlan plan_of(const AxisConfig& axis, const AxisLoad& load, double ticks_per_s) {
+    const double mm_s = ticks_per_s / axis.steps_per_mm;
+    return {.name = axis.name,
+            .steps = load.steps,
+            .peak_velocity_mm_s = load.peak_velocity * mm_s,
+            .peak_acceleration_mm_s2 = load.peak_acceleration * mm_s * ticks_per_s,
+            .peak_jump_mm_s = load.peak_jump * mm_s,
+            .min_mm = to_mm(axis, static_cast<double>(load.least)),
+            .max_mm = to_mm(axis, static_cast<double>(load.greatest))};
+}
+
+}  // namespace
+
+PlannedTotals time_legs(const MachineConfig& machine, const std::shared_ptr<const ProgramBlocks>& blocks,
+                        const AxisCounts& start, const Overrides& overrides,
+                        const std::function<void(Ticks)>& progress) {
+    LegTimer timer(machine, blocks, start, overrides, progress);
+    PlannedTotals totals;
+    AxisCounts at = start;
+    for (std::uint32_t first = 0; !blocks->ends_before(first);) {
+        const LegEnd end = timer.time(first, at);
+        totals.pauses += end.kind == LegEnd::Kind::Pause ? 1 : 0;
+        at = end.to;
+        first = end.block + 1;
+    }
+    totals.duration = timer.duration();
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        totals.axes.push_back(plan_of(machine.axes[i], timer.load().axes()[i], machine.ticks_per_second()));
+    }
+    return totals;
+}
+
+}  // namespace lockstep

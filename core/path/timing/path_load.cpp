@@ -1,0 +1,97 @@
+#include "core/path/timing/path_load.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace lockstep {
+namespace {
+
+void raise(double& peak, double value) { peak = std::max(peak, value); }
+
+}  // namespace
+
+PathLoad::PathLoad(std::span<const std::int64_t> at) : counts_(at.begin(), at.end()), slopes_(at.size()) {
+    for (const std::int64_t count : at) { axes_.push_back({.least = count, .greatest = count}); }
+}
+
+void PathLoad::begin() { std::ranges::fill(slopes_, 0.0); }
+
+void PathLoad::note_place(std::size_t axis, double place) {
+    const auto count = static_cast<std::int64_t>(std::floor(place + 0.5));
+    AxisLoad& load = axes_[axis];
+    load.steps += std::abs(count - counts_[axis]);
+    load.least = std::min(load.least, count);
+    load.greatest = std::max(load.greatest, count);
+    counts_[axis] = count;
+}
+
+/// Notes the place where each axis turns back, if it does, and the end.
+void PathLoad::note_piece(const Quadratic& shape) {
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        const double bend = shape.bend.begin()[i];
+        const double slope = shape.slope.begin()[i];
+        if (bend == 0 && slope == 0) { continue; }
+        if (std::abs(bend) * shape.length > 2 * std::abs(slope)) {
+            note_place(i, shape.place(i, shape.length / 2 - slope / bend));
+        }
+        note_place(i, shape.place(i, shape.length));
+    }
+}
+
+/// Notes the jumps where the next piece begins. Null: the machine rests there.
+void PathLoad::note_joint(const Quadratic* next, double v) {
+    const bool is_rest = next == nullptr || next->length == 0;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        const double slope = is_rest ? 0 : next->slope_at(i, 0);
+        raise(axes_[i].peak_jump, std::abs(slope - slopes_[i]) * v);
+        slopes_[i] = is_rest ? 0 : next->slope_at(i, next->length);
+    }
+}
+
+void PathLoad::pass(const PassedInterval& passed, bool is_first) {
+    if (is_first) {
+        note_joint(&passed.piece.shape, passed.v0);
+        note_piece(passed.piece.shape);
+    }
+    if (passed.part.kind == IntervalKind::Straight) { note_straight(passed); }
+    if (passed.part.kind == IntervalKind::Curved) { note_curved(passed); }
+}
+
+void PathLoad::note_straight(const PassedInterval& passed) {
+    const double up = passed.top > passed.v0 ? passed.part.acceleration : 0;
+    const double change = passed.top > passed.v1 ? std::max(up, passed.part.deceleration) : up;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        const double slope = std::abs(passed.piece.shape.slope.begin()[i]);
+        raise(axes_[i].peak_velocity, slope * passed.top);
+        raise(axes_[i].peak_acceleration, slope * change);
+    }
+}
+
+/// The accelerations at both ends of the interval, and at its middle with the bend that the joints charge
+/// (core/path/interval.hpp has the formulas).
+void PathLoad::note_curved(const PassedInterval& passed) {
+    const double d = passed.part.length();
+    if (d <= 0) { return; }
+    const double middle = (passed.part.from + passed.part.to) / 2;
+    const double w0 = passed.v0 * passed.v0;
+    const double w1 = passed.v1 * passed.v1;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        const double slope = passed.piece.shape.slope_at(i, middle);
+        const double bend = passed.piece.shape.bend.begin()[i] * d;
+        const double begin = std::abs(slope - bend / 2) * passed.v0;
+        const double end = std::abs(slope + bend / 2) * passed.v1;
+        raise(axes_[i].peak_velocity, std::max(begin, end));
+        double change = std::max(std::abs(w1 * (slope - bend / 2) - w0 * (slope - 2.5 * bend)),
+                                 std::abs(w1 * (slope + 2.5 * bend) - w0 * (slope + bend / 2)));
+        if (passed.piece.is_charged) {
+            const double charged = passed.piece.charged.begin()[i] * d;
+            raise(change, std::abs(w1 * (slope + charged) - w0 * (slope - charged)));
+        }
+        raise(axes_[i].peak_acceleration, change / (2 * d));
+    }
+}
+
+void PathLoad::end(double v) { note_joint(nullptr, v); }
+
+}  // namespace lockstep

@@ -1,0 +1,68 @@
+// Plans how long a path takes, and how far and how fast each axis goes, without frames.
+//
+// The moves are those of a PathPlanner. Geometry and look-ahead are the same, so the speeds at all places are those
+// that the frames are made from. Frames add less than a tick at the path's end, and are slower where no pieces keep the
+// limits of all axes (FramePlanner). The cost depends on the length of the path and not on its duration. The turns of
+// an arc that repeat at the same speed are counted and not passed one by one.
+#pragma once
+
+#include <deque>
+
+#include "core/path/path_geometry.hpp"
+#include "core/path/timing/path_load.hpp"
+
+namespace lockstep {
+
+class PathTimer {
+public:
+    explicit PathTimer(const PathSetup& setup) : geometry_(setup), window_(setup) {}
+
+    /// Begins a path. The axes rest at `at`. Figures are added to `load`, which must outlive the path.
+    void begin(std::span<const Position> at, const Overrides& overrides, PathLoad& load);
+    void begin_program_at(const AxisVector& steps) { geometry_.begin_program_at(steps); }
+
+    /// The moves are as in PathPlanner.
+    void line_to_steps(const AxisVector& to, const MoveSettings& settings, std::uint32_t block);
+    void begin_arc_to_steps(const ArcShape& shape, const AxisVector& to, const MoveSettings& settings,
+                            std::uint32_t block);
+    void rest(Ticks ticks, std::uint32_t block);
+    void finish();
+
+    /// The time of the path so far, without the part that waits for later moves. After finish() all of it.
+    double ticks() const { return ticks_; }
+    /// Intervals and pieces in memory.
+    std::size_t waiting() const { return window_.end() - window_.first(); }
+    std::size_t kept() const { return geometry_.trail().end() - geometry_.trail().first(); }
+
+private:
+    /// The begin of a turn of an arc, and its passage.
+    struct Turn {
+        std::size_t piece = 0;
+        bool is_passed = false;
+        double ticks = 0;
+        double v = 0;
+        std::int64_t first_steps = 0;  // of the plane's axes, up to there
+        std::int64_t second_steps = 0;
+    };
+
+    void pass_on();
+    void pass_known();
+    void pass(const Interval& part, double w1);
+    void note_turn();
+    void cut_turn();
+    void skip_turns();
+
+    PathGeometry geometry_;
+    SpeedWindow window_;
+    PathLoad* load_ = nullptr;
+    std::size_t passed_on_ = 0;  // pieces
+    std::size_t next_ = 0;       // interval
+    std::size_t piece_ = 0;      // with which it begins, if it begins a piece
+    bool has_begun_ = false;
+    double w_ = 0;  // squared speed where the next interval begins, and the speed
+    double v_ = 0;
+    double ticks_ = 0;
+    std::deque<Turn> turns_;  // of the arc that is being cut: the last two that were passed, and those to be passed
+};
+
+}  // namespace lockstep
