@@ -23,15 +23,15 @@ bool CountedBlocks::ends_before(std::uint32_t number) const {
 
 bool CountedBlocks::count(const Block& block, std::uint32_t number) const {
     if (error_) { return false; }
-    const auto move = planner_.move_of(block, number, axes_, at_);
-    if (!move) {
-        error_ = move.error();
+    const auto length_mm = planner_.length_of(block, number, axes_, at_);
+    if (!length_mm) {
+        error_ = length_mm.error();
         return false;
     }
     ++next_;
-    if (*move && (*move)->lead != 0) {
+    if (*length_mm) {
         ++moves_;
-        length_mm_ += (*move)->length_mm;
+        length_mm_ += **length_mm;
     }
     return true;
 }

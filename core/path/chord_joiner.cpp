@@ -56,7 +56,7 @@ void ChordJoiner::join(bool is_end, PathTrail& out) {
         if (chords == 0) { break; }
         piece.feed_mm_per_tick = points_[start_ + 1].settings.feed_mm_per_tick;
         piece.is_feed_fixed = points_[start_ + 1].settings.is_feed_fixed;
-        start_at_ = end_at(start_ + chords);
+        start_at_ = best_end_;
         mark(chords, out);
         out.add(piece);
         guess_ = chords;
@@ -140,10 +140,12 @@ ChordJoiner::Reach ChordJoiner::reach(bool is_end) {
 }
 
 bool ChordJoiner::try_chords(std::size_t chords, Quadratic& best) {
+    const AxisVector end = end_at(start_ + chords);
     Quadratic piece;
-    if (!fit_.fit(points_, chords, end_at(start_ + chords), tolerance_steps_, piece)) { return false; }
+    if (!fit_.fit(points_, chords, end, tolerance_steps_, piece)) { return false; }
     if (chords > 1 && !is_within_travel(piece)) { return false; }
     best = piece;
+    best_end_ = end;
     return true;
 }
 

@@ -68,6 +68,7 @@ private:
     std::vector<double> tolerance_steps_;  // of the next piece
     std::size_t start_ = 0;                // the vertex at which the next piece begins
     AxisVector start_at_;                  // and its place
+    AxisVector best_end_;                  // where the best piece that was found ends
     bool is_fit_begun_ = false;            // for start_
     std::size_t measured_ = 1;             // the first vertex with a turn that is not measured yet
     std::size_t found_ = 1;                // the first vertex that is not classified yet: corner or not

@@ -31,6 +31,8 @@ public:
     std::span<const PathEvent> events_before(std::uint32_t block) const override { return events_.before(block); }
     std::optional<std::int32_t> line_of(std::uint32_t block) const override;
     double seconds_from(const PathPlace& place) const override { return moves_.program().seconds_from(place); }
+    /// Intervals and pieces in memory.
+    std::size_t kept() const { return planner_.waiting() + planner_.kept(); }
 
     static constexpr std::size_t kBlocksAtOnce = 200;   // or quarter turns: a fraction of a millisecond
     static constexpr std::size_t kBlocksPassed = 2000;  // at once if they were run before, which is less work

@@ -25,6 +25,11 @@ PlanError outside_travel(const AxisConfig& axis, double mm, std::optional<std::i
                 number(axis.position_max_mm) + unit};
 }
 
+PlanError too_far(const AxisConfig& axis, double mm, std::optional<std::int32_t> line) {
+    return {FaultCode::BadProgram, line,
+            axis.name + " " + number(mm) + " " + std::string(unit_of(axis.name)) + " is too far from 0"};
+}
+
 void end(Leg& leg, std::uint32_t before, const AxisCounts& at) {
     leg.end = before;
     leg.to = at;
@@ -62,13 +67,12 @@ std::expected<AxisCounts, PlanError> ProgramPlanner::target(const ProgramMove& m
     for (std::size_t i = 0; i < axes.size(); ++i) {
         const AxisConfig& axis = machine_.axes[axes[i]];
         const double mm = move.target_mm[i];
-        const std::string unit = " " + std::string(unit_of(axis.name));
-        if (!(std::abs(mm * axis.steps_per_mm) < kMaxSteps)) {
-            return std::unexpected(
-                PlanError{FaultCode::BadProgram, line, axis.name + " " + number(mm) + unit + " is too far from 0"});
+        if (!(std::abs(mm * axis.steps_per_mm) < kMaxSteps)) { return std::unexpected(too_far(axis, mm, line)); }
+        const std::int64_t steps = to_steps(axis, mm);
+        to[axes[i]] = steps;
+        if (steps < limits_[axes[i]].min_steps || steps > limits_[axes[i]].max_steps) {
+            return std::unexpected(outside_travel(axis, mm, line));
         }
-        to[axes[i]] = to_steps(axis, mm);
-        if (!is_within_travel(axes[i], mm)) { return std::unexpected(outside_travel(axis, mm, line)); }
     }
     return to;
 }
@@ -225,6 +229,28 @@ std::expected<std::optional<PathMove>, PlanError> ProgramPlanner::move_of(const 
     move.block = number;
     if (move.lead == 0 && move.dwell <= Ticks{}) { return std::nullopt; }
     return move;
+}
+
+std::expected<std::optional<double>, PlanError> ProgramPlanner::length_of(const Block& block, std::uint32_t number,
+                                                                          const std::vector<std::size_t>& axes,
+                                                                          AxisCounts& at) const {
+    const auto* move = std::get_if<ProgramMove>(&block.action);
+    if (move == nullptr) { return std::nullopt; }
+    if (move->arc || machine_.coordination == StepMethod::Lai) {
+        const auto whole = move_of(block, number, axes, at);
+        if (!whole) { return std::unexpected(whole.error()); }
+        return *whole && (*whole)->lead != 0 ? std::optional((*whole)->length_mm) : std::nullopt;
+    }
+    const AxisCounts from = at;
+    const auto to = target(*move, axes, from, block.line);
+    if (!to) { return std::unexpected(to.error()); }
+    at = *to;
+    double square = 0;
+    for (const std::size_t axis : axes) {
+        const double mm = static_cast<double>(at[axis] - from[axis]) / steps_per_mm_[axis];
+        square += mm * mm;
+    }
+    return square > 0 ? std::optional(std::sqrt(square)) : std::nullopt;
 }
 
 std::vector<PathMove> ProgramPlanner::moves_of(const Program& program, const Leg& leg) const {

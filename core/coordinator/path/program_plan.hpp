@@ -87,6 +87,11 @@ public:
     std::expected<std::optional<PathMove>, PlanError> move_of(const Block& block, std::uint32_t number,
                                                               const std::vector<std::size_t>& axes,
                                                               AxisCounts& at) const;
+    /// Returns the length of the block's move from `at`, in mm, and sets `at` to its end. Returns nullopt if no axis
+    /// moves. Errors as with move_of().
+    std::expected<std::optional<double>, PlanError> length_of(const Block& block, std::uint32_t number,
+                                                              const std::vector<std::size_t>& axes,
+                                                              AxisCounts& at) const;
 
 private:
     bool is_within_travel(std::size_t axis, double mm) const;

@@ -126,6 +126,37 @@ TEST(PathMemory, DependsOnTheWayToStopAndNotOnTheProgram) {
     EXPECT_LT(kept, 2'000U);
 }
 
+/// The frames are those of an arc that is cut at once.
+TEST(PathMemory, DoesNotGrowWithTheTurnsOfAnArc) {
+    const PathSetup setup = setup_of(mill());
+    const ArcShape shape{.first = 0, .second = 1, .centre_first_mm = 10, .turns = 400};
+    const AxisVector to = setup.to_steps(Place{0, 0, 20});
+    const MoveSettings settings{.feed_mm_per_tick = 60e-6};
+    PathPlanner whole(setup);
+    whole.begin(std::vector<Position>(3));
+    whole.arc_to_steps(shape, to, settings, 1);
+    whole.finish();
+    PathRun at_once;
+    drain(whole, at_once);
+    PathPlanner planner(setup);
+    planner.begin(std::vector<Position>(3));
+    planner.begin_arc_to_steps(shape, to, settings, 1);
+    PathRun run;
+    std::size_t kept = 0;
+    while (planner.has_more()) {
+        planner.cut_on();
+        ASSERT_NO_FATAL_FAILURE(drain(planner, run));
+        kept = std::max(kept, planner.kept() + planner.waiting());
+    }
+    planner.finish();
+    drain(planner, run);
+    EXPECT_LT(kept, 6'000U);
+    ASSERT_EQ(run.frames.size(), at_once.frames.size());
+    for (std::size_t k = 0; k < run.frames.size(); ++k) {
+        ASSERT_EQ(run.frames[k].axes, at_once.frames[k].axes) << "frame " << k;
+    }
+}
+
 /// The place where the arc turns back is rounded to the last step of the travel. The machine rests on whole steps
 /// before the arc, beside its begin.
 TEST(Path, OfAnArcThatTouchesTheEndOfTheTravelEndsAtTheLastStep) {

@@ -134,6 +134,55 @@ TEST(ProgramTime, OfALineIsTheSameHoweverFinelyItIsCut) {
     }
 }
 
+class ManyTurnsTest : public Frames {
+protected:
+    ManyTurnsTest() : Frames(turns()) {}
+    static Program turns() {
+        Program program{.name = "turns", .axes = {"X", "Y"}, .start_mm = {0, 0}};
+        ProgramMove arc{{20, 20}, 60, false};
+        arc.arc = ArcShape{.centre_first_mm = 30, .centre_second_mm = 20, .turns = 2000};
+        program.blocks = {{1, ProgramMove{{20, 20}, 60, false}}, {2, arc}, {3, ProgramMove{{0, 0}, 60, false}}};
+        return program;
+    }
+};
+
+/// A part of the arc is read in each slot, so that the frames begin before all of it is in memory.
+TEST_F(ManyTurnsTest, AreReadABoundedAmountAtATime) {
+    ProgramFrames frames(machine, std::make_shared<WholeProgram>(program_), 0, leg.from);
+    frames.resume({0, {}}, std::vector<Position>(2), {});
+    std::size_t made = 0;
+    for (int slot = 0; slot < 300; ++slot) {
+        (void)frames.read();
+        while (frames.is_ready() && made < static_cast<std::size_t>(slot)) {
+            ASSERT_TRUE(frames.next().has_value());
+            ++made;
+            EXPECT_LT(frames.kept(), 40'000U);
+        }
+        EXPECT_LT(frames.kept(), 40'000U);
+    }
+    EXPECT_GT(made, 250U);
+}
+
+TEST_F(ManyTurnsTest, AreContinuedInTheMiddle) {
+    OwnedSource source = this->source();
+    const auto frames = up_to(source, 600);
+    ASSERT_EQ(frames.size(), 600U);
+    ASSERT_EQ(frames.back().rest.block, 1U);
+    const std::vector<Position> rest = rest_of(frames.back());
+    source->resume(frames.back().rest, rest, {});
+    OwnedSource other = ProgramPlanner(machine).frames(program_, leg);
+    other->resume(frames.back().rest, rest, {});
+    OwnedSource third = other;  // begins to read where the other one begins
+    const auto a = up_to(source, 200);
+    const auto b = up_to(other, 200);
+    const auto c = up_to(third, 200);
+    ASSERT_EQ(a.size(), 200U);
+    for (std::size_t k = 0; k < a.size(); ++k) {
+        EXPECT_TRUE(are_same(a[k], b[k])) << k;
+        EXPECT_TRUE(are_same(a[k], c[k])) << k;
+    }
+}
+
 class ArcAtTheTravelTest : public Frames {
 protected:
     ArcAtTheTravelTest() : Frames(arc(), machine_of_few_steps()) {}
