@@ -1,5 +1,6 @@
 #include "clients/analysis/axis_log.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -24,6 +25,7 @@ void AxisLog::take(StepBatch batch) {
 
 void AxisLog::take(const PositionSample& sample) {
     if (positions_++ == 0) { first_position_steps_ = sample.position_steps; }
+    following_error_ = std::max(following_error_, std::abs(sample.following_error_steps));
     if (counts_anew(sample)) {
         origin_ = sample;
         farthest_position_.reset();

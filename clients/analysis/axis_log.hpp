@@ -27,6 +27,7 @@ struct PositionSample {
     double velocity_mm_per_s = 0;
     std::int64_t incarnation = 0;  // of the axis's process
     bool is_homed = false;
+    std::int64_t following_error_steps = 0;
 };
 
 /// How late an axis's steps were against the commanded ticks, in ticks.
@@ -76,6 +77,8 @@ public:
     std::vector<Sample> slack() const { return slack_.samples(); }
     const Trace& trace() const { return trace_; }
     std::int64_t positions() const { return positions_; }
+    /// Without its sign.
+    std::int64_t largest_following_error() const { return following_error_; }
     /// Missing messages between the first and the last in the log.
     std::int64_t missing_positions() const { return position_numbers_.missing_within(); }
     std::int64_t missing_figures() const { return figure_numbers_.missing_within(); }
@@ -100,6 +103,7 @@ private:
     MessageNumbers position_numbers_;
     MessageNumbers figure_numbers_;  // of health messages
     std::int64_t positions_ = 0;
+    std::int64_t following_error_ = 0;
     std::int64_t first_position_steps_ = 0;
     std::optional<PositionSample> last_position_;
     std::optional<PositionSample> origin_;  // the first with the newest zero, until steps with it are recorded

@@ -86,7 +86,8 @@ void check_exactness(const Analysis& analysis, Findings& found) {
     const verification::Findings& verified = analysis.verified;
     if (const auto& difference = verified.difference) {
         const std::string where = difference->commanded.empty() ? "" : " (" + difference->commanded + ")";
-        found.push_back({Grade::Bad, "the log is not as its programs give: " + difference->text + where});
+        found.push_back(
+            {Grade::Bad, "the steps on record are not what the programs give: " + difference->text + where});
     }
     for (const std::string& line : verified.unknown) { found.push_back({Grade::Unknown, line}); }
     if (verified.more_unknown > 0) {
@@ -162,6 +163,28 @@ void check_events(const Analysis& analysis, Findings& found) {
     found.push_back({analysis.is_exact() ? Grade::Good : Grade::Doubtful,
                      fmt::format("motion came to rest within a job and went on {}{}", plural(interruptions, "time"),
                                  analysis.is_exact() ? ", from the same place of its path" : "")});
+}
+
+/// An encoder that does not follow shows lost steps of the motor, which the record of steps cannot show.
+void check_encoders(const Analysis& analysis, Findings& found) {
+    for (const auto& axis : analysis.axes) {
+        if (std::abs(axis->largest_following_error()) <= 1) { continue; }
+        found.push_back({Grade::Doubtful, fmt::format("{}: its encoder was up to {} from its count of steps",
+                                                      axis->name(), plural(axis->largest_following_error(), "step"))});
+    }
+}
+
+/// Only one machine is analyzed.
+void check_machines(const Analysis& analysis, Findings& found) {
+    constexpr std::string_view kMachine = "machine ";
+    for (const auto& [name, messages] : analysis.foreign) {
+        if (!name.starts_with(kMachine)) { continue; }
+        found.push_back(
+            {Grade::Unknown,
+             fmt::format("the motion of {} cannot be determined here: {} of it are in this log too; "
+                         "lockstep analyze --machine {} analyzes it",
+                         name, plural(static_cast<std::int64_t>(messages), "message"), name.substr(kMachine.size()))});
+    }
 }
 
 void check_end(const Analysis& analysis, Findings& found) {
@@ -265,6 +288,8 @@ std::string_view name_of(Grade grade) {
 std::vector<Finding> findings(const Analysis& analysis) {
     Findings found;
     check_presence(analysis, found);
+    check_machines(analysis, found);
+    check_encoders(analysis, found);
     check_events(analysis, found);
     check_exactness(analysis, found);
     check_jobs(analysis, found);

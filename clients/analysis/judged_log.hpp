@@ -1,5 +1,5 @@
-// Passes each message of a log to the figures of the analysis and to the verification. So both read the same messages of
-// the same machine, and the analysis grades the steps as the verification does.
+// Passes each message of a log to the figures of the analysis and to the verification. So both read the same messages
+// of the same machine, and the analysis grades the steps as the verification does.
 #pragma once
 
 #include "clients/analysis/log/log_read.hpp"
@@ -12,7 +12,9 @@ class JudgedLog final : public LogListener {
 public:
     explicit JudgedLog(Sorter& sorter) : sorter_(sorter) {}
 
-    void on_steps(const step_batch_t& message, LogPlace place) override { pass(&LogListener::on_steps, message, place); }
+    void on_steps(const step_batch_t& message, LogPlace place) override {
+        pass(&LogListener::on_steps, message, place);
+    }
     void on_position(const axis_position_t& message, LogPlace place) override {
         pass(&LogListener::on_position, message, place);
     }

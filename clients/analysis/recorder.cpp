@@ -123,8 +123,8 @@ void Recorder::begin_job(const RecordedJob& message, JobLog& record, LogPlace pl
         keep_asked_way(*program);
         latest_program_ = message;
     }
-    moves_.begin(number_of(record), analysis_.tick_at(message.utime),
-                 *analysis_.config, JobMoves(std::move(asked), record.is_on_a_line()));
+    moves_.begin(number_of(record), analysis_.tick_at(message.utime), *analysis_.config,
+                 JobMoves(std::move(asked), record.is_on_a_line()));
 }
 
 void Recorder::on_late(const std::string& axis, const SharedLate& steps) {

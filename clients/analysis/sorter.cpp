@@ -20,15 +20,16 @@ void Sorter::on_steps(const step_batch_t& message, LogPlace place) {
 void Sorter::on_position(const axis_position_t& message, LogPlace place) {
     Lane* of = lane(message.machine, message.axis, place);
     if (of == nullptr) { return; }
-    if (!is_countable(message.tick) || !is_countable(message.position_steps) || !is_message_number(message.sequence)) {
+    if (!is_countable(message.tick) || !is_countable(message.position_steps) ||
+        !is_countable(message.following_error_steps) || !is_message_number(message.sequence)) {
         return on_damage(place, "a position with impossible numbers");
     }
     end_.saw(RecordKind::Position, message.machine, message.axis, message.incarnation, message.sequence);
     of->log->position_numbers().add(message.incarnation, message.sequence);
     listener_.on_position(message);
-    of->log->take(
-        PositionSample{Tick{message.tick}, message.position_steps, message.position_mm, message.velocity_mm_per_s,
-                       message.incarnation, message.homed != 0});
+    of->log->take(PositionSample{Tick{message.tick}, message.position_steps, message.position_mm,
+                                 message.velocity_mm_per_s, message.incarnation, message.homed != 0,
+                                 message.following_error_steps});
 }
 
 void Sorter::on_health(const axis_health_t& message, LogPlace place) {

@@ -175,7 +175,8 @@ bool Merged::lacks_messages() const {
 }
 
 bool Merged::contradicts() const {
-    return differing > 0 || std::ranges::any_of(axes, [](const AxisRecord& axis) { return !axis.contradictions.empty(); });
+    return differing > 0 ||
+           std::ranges::any_of(axes, [](const AxisRecord& axis) { return !axis.contradictions.empty(); });
 }
 
 std::expected<Merged, std::string> merge_logs(const MergeOptions& options, RecordSink& to) {

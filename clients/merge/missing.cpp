@@ -135,7 +135,9 @@ std::vector<std::string> MissingWatch::absent_axes() const {
     std::vector<std::string> absent;
     for (const auto& [machine, names] : axes_wanted_) {
         for (const std::string& name : names) {
-            const auto is_it = [&](const auto& known) { return known.second.machine == machine && known.second.axis == name; };
+            const auto is_it = [&](const auto& known) {
+                return known.second.machine == machine && known.second.axis == name;
+            };
             if (std::ranges::none_of(processes_, is_it)) { absent.push_back(name); }
         }
     }

@@ -93,7 +93,7 @@ private:
     std::map<Whose, analysis::NumberSet> seen_;
     std::map<std::pair<std::string, std::string>, std::unique_ptr<Axis>> axes_;  // by machine and name
     std::map<Whose, analysis::RecordingProcess> processes_;                      // the process that published them
-    std::map<std::string, std::vector<std::string>> axes_wanted_;  // by machine
+    std::map<std::string, std::vector<std::string>> axes_wanted_;                // by machine
     analysis::RecordEndCheck marks_;
 };
 

@@ -148,7 +148,8 @@ std::expected<ChosenLogs, std::string> choose_logs(const std::vector<GivenLog>& 
 std::optional<TimeSpan> span_of_job(const std::vector<JobSpan>& jobs, std::int64_t job) {
     const auto found = std::ranges::find(jobs.rbegin(), jobs.rend(), job, &JobSpan::job);
     if (found == jobs.rend()) { return std::nullopt; }
-    constexpr std::int64_t kBeside_us = 500'000;  // marks and positions around the job; steps are published within 0.1 s
+    constexpr std::int64_t kBeside_us =
+        500'000;  // marks and positions around the job; steps are published within 0.1 s
     TimeSpan span{.from_us = found->begun_us - kBeside_us, .until_us = {}, .program = {}};
     if (found->ended_us) { span.until_us = *found->ended_us + kBeside_us; }
     if (found->program) { span.program = {found->coordinator, *found->program}; }

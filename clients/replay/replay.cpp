@@ -22,7 +22,10 @@ public:
     }
 
     void on_steps(const step_batch_t& message, LogPlace place) override { check_.on_steps(message, place); }
-    void on_position(const axis_position_t& message, LogPlace /*place*/) override { pass(message); }
+    void on_position(const axis_position_t& message, LogPlace place) override {
+        pass(message);
+        check_.on_position(message, place);
+    }
     void on_health(const axis_health_t& message, LogPlace /*place*/) override { pass(message); }
     void on_job(const analysis::RecordedJob& message, LogPlace place) override {
         pass(message);

@@ -43,11 +43,21 @@ bool goes_on(const Run& before, const Run& run) {
 }  // namespace
 
 AxisCheck::AxisCheck(std::string name, Findings& findings, Commanded commanded, Planned planned)
-    : name_(std::move(name)), findings_(findings), commanded_(std::move(commanded)), planned_(std::move(planned)) {}
+    : name_(std::move(name)),
+      findings_(findings),
+      commanded_(std::move(commanded)),
+      planned_(std::move(planned)),
+      positions_(name_) {}
+
+void AxisCheck::set_machine(const MachineConfig& machine) {
+    clocks_.set_machine(machine);
+    slot_ = machine.slot_ticks();
+}
 
 void AxisCheck::take(Run run) {
     if (!findings_.going()) { return; }
     (void)birth_of(run.incarnation);
+    note_wrong(clocks_.take(name_, run), run.start);
     runs_.push_back(std::move(run));
     settle(false);
 }
@@ -70,6 +80,8 @@ void AxisCheck::on_batch(const analysis::StepBatch& batch) {
     if (!findings_.going()) { return; }
     (void)birth_of(batch.incarnation);
     if (!steps_from_) { steps_from_ = batch.sequence > 0 ? batch.steps.front().tick : kBeginning; }
+    note_wrong(clocks_.take(name_, batch), batch.steps.front().tick);
+    note_wrong(positions_.take(batch, slot_), batch.steps.front().tick);
     waiting_.add(batch);
     if (runs_from_) { before_log_steps_ += waiting_.drop_before(runs_from_->first, runs_from_->second); }
     settle(false);
@@ -86,6 +98,7 @@ void AxisCheck::on_contradiction(const analysis::Contradiction& what) {
 void AxisCheck::on_break(const analysis::Break& what) {
     if (what.missing_batches == 0 || !findings_.going()) { return; }
     const bool is_first = !what.from && incarnations_.size() <= 1;
+    positions_.skip();
     if (is_first && (marked_.empty() || what.missing_batches <= marked_.begin()->second)) { return; }  // begins later
     settle(false);
     findings_.add_missing("axis " + name_ + ": " + plural(what.missing_batches, "message") + " with at least " +
@@ -280,9 +293,14 @@ void AxisCheck::drop_steps_of_missing_runs() {
 
 void AxisCheck::note_gaps() {
     if (gap_steps_ == 0 && gap_run_steps_ == 0) { return; }
-    findings_.add_unknown(fmt::format("axis {}: {} of its runs are not in the log, and {} in the log are of runs that "
-                                      "are not; all others are compared",
-                                      name_, plural(gap_steps_, "step"), plural(gap_run_steps_, "step")));
+    findings_.add_unknown(
+        fmt::format("axis {}: {} of its runs are not in the log, and {} in the log are of runs that "
+                    "are not; all others are compared",
+                    name_, plural(gap_steps_, "step"), plural(gap_run_steps_, "step")));
+}
+
+void AxisCheck::note_wrong(const std::optional<std::string>& why, std::optional<Tick> seen) {
+    if (why && findings_.going()) { differ(*why, {}, seen); }
 }
 
 std::string AxisCheck::waiting_text() const {
@@ -390,6 +408,7 @@ void AxisCheck::finish(const HasEnded& has_ended, LogEdges edges) {
     }
     if (findings_.going() && !maker_ && !waiting_.empty() && is_left_at_end(has_ended)) { leave_steps(); }
     if (findings_.going()) { end_of_log(edges); }
+    if (!edges.ends_early && !edges.lacks_steps) { note_wrong(positions_.finish(), last_tick_); }
     if (findings_.going()) { note_gaps(); }
     if (findings_.going() && before_log_steps_ > 0) {
         findings_.notes.push_back(fmt::format(

@@ -20,8 +20,10 @@
 
 #include "clients/analysis/log/run.hpp"
 #include "clients/analysis/log/step_stream.hpp"
+#include "clients/verification/clock_check.hpp"
 #include "clients/verification/findings.hpp"
 #include "clients/verification/left_steps.hpp"
+#include "clients/verification/position_check.hpp"
 #include "clients/verification/seen_step.hpp"
 #include "clients/verification/waiting_steps.hpp"
 
@@ -70,6 +72,9 @@ public:
     AxisCheck& operator=(const AxisCheck&) = delete;
 
     void take(analysis::StepBatch batch) { stream_.take(std::move(batch)); }
+    void take(const SeenPosition& position) { positions_.take(position); }
+    /// The machine's file is known from its first job on.
+    void set_machine(const MachineConfig& machine);
     /// Runs must come in the order of their numbers.
     void take(Run run);
     void runs_missing(std::int64_t from, std::int64_t end);
@@ -117,6 +122,7 @@ private:
     void differ(std::string text, std::optional<Tick> expected, std::optional<Tick> seen);
     std::string step_name() const;
     std::string waiting_text() const;
+    void note_wrong(const std::optional<std::string>& why, std::optional<Tick> seen);
 
     std::string name_;
     Findings& findings_;
@@ -124,22 +130,25 @@ private:
     Planned planned_;
     RunFollower* follower_ = nullptr;
     analysis::StepStream stream_{{this}};
+    ClockCheck clocks_;
+    PositionCheck positions_;
+    Ticks slot_{100'000};  // before the machine is known
     WaitingSteps waiting_;
     std::deque<Run> runs_;
-    std::vector<std::int64_t> incarnations_;       // in the order of their first messages
-    std::optional<StepMaker> maker_;               // of the run being compared
-    std::optional<Run> last_run_;                  // the one before it
-    bool device_lost_ = false;                     // since last_run_
+    std::vector<std::int64_t> incarnations_;  // in the order of their first messages
+    std::optional<StepMaker> maker_;          // of the run being compared
+    std::optional<Run> last_run_;             // the one before it
+    bool device_lost_ = false;                // since last_run_
     // Where messages are missing.
     struct Gap {
         std::int64_t incarnation = 0;
         Tick until;  // of the device
     };
-    std::optional<Gap> steps_gap_;     // the steps before that are not in the log
-    std::optional<Gap> runs_gap_;      // the steps up to that are of runs that are not in the log
-    bool runs_are_missing_ = false;    // since last_run_
-    std::int64_t gap_steps_ = 0;       // of recorded runs, not in the log
-    std::int64_t gap_run_steps_ = 0;   // in the log, of runs that are not
+    std::optional<Gap> steps_gap_;                 // the steps before that are not in the log
+    std::optional<Gap> runs_gap_;                  // the steps up to that are of runs that are not in the log
+    bool runs_are_missing_ = false;                // since last_run_
+    std::int64_t gap_steps_ = 0;                   // of recorded runs, not in the log
+    std::int64_t gap_run_steps_ = 0;               // in the log, of runs that are not
     std::map<std::int64_t, std::int64_t> marked_;  // by process: the first message of steps that must be in the log
     // For a log that begins later than the process. Ticks are in the device's time.
     std::optional<std::pair<std::int64_t, std::int64_t>> before_log_;  // the last run before the log: process, number

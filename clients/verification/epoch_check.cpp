@@ -72,10 +72,9 @@ std::optional<Shortfall> EpochCheck::shortfall_of(std::size_t i) {
 }
 
 Shortfall EpochCheck::silent(std::size_t i) const {
-    const std::string after = axes_[i].ran == 0
-                                  ? "has no frame of its epoch in the log"
-                                  : fmt::format("has nothing in the log after frame {}, which is not its last",
-                                                axes_[i].ran);
+    const std::string after =
+        axes_[i].ran == 0 ? "has no frame of its epoch in the log"
+                          : fmt::format("has nothing in the log after frame {}, which is not its last", axes_[i].ran);
     return {Shortfall::Kind::Silent, i, after};
 }
 

@@ -54,9 +54,10 @@ public:
     /// The highest frame that an axis ran.
     FrameNumber ran() const;
 
-    /// The runs that the plan allows an axis after its newest run. Each course has further frames, or none, and then the
-    /// tail of the last frame, or the path's end if it has no tail. Before its process ended, an axis may have run or
-    /// armed, without a record, the frame in motion and all frames that were sent ahead. `ahead`: makes these frames.
+    /// The runs that the plan allows an axis after its newest run. Each course has further frames, or none, and then
+    /// the tail of the last frame, or the path's end if it has no tail. Before its process ended, an axis may have run
+    /// or armed, without a record, the frame in motion and all frames that were sent ahead. `ahead`: makes these
+    /// frames.
     std::vector<Course> courses_of(std::size_t axis, EpochReplay& ahead) const;
 
 private:

@@ -91,10 +91,10 @@ void JobCheck::handle(const Record& record) {
 
 /// Records before this one are missing. From here on the plan of the job is not known.
 void JobCheck::lose_job(const Record& record) {
-    findings_.add_missing(fmt::format("messages of jobs are missing before {} of {}; from there on its runs are compared "
-                                      "only with their own records",
-                                      record.event == "gap" ? "an event" : "\"" + record.event + "\"",
-                                      number_of(record)));
+    findings_.add_missing(
+        fmt::format("messages of jobs are missing before {} of {}; from there on its runs are compared "
+                    "only with their own records",
+                    record.event == "gap" ? "an event" : "\"" + record.event + "\"", number_of(record)));
     lacks_records_ = true;
     lose_epoch();
     job_.reset();
@@ -220,7 +220,7 @@ void JobCheck::begin_epoch(const RecordedJob& record) {
 void JobCheck::turn(const RecordedJob& record) {
     if (!epoch_ || epoch_->epoch() != static_cast<Epoch>(record.epoch)) { return; }  // no axis ran a frame of it
     if (!epoch_->replay().turn(static_cast<FrameNumber>(record.behind_frame),
-                             {record.feed_percent, record.rapid_percent})) {
+                               {record.feed_percent, record.rapid_percent})) {
         differ(fmt::format(
             "{}: its overrides were changed after frame {}, but frames after that had been run when it was recorded",
             job_->label, record.behind_frame));
@@ -278,14 +278,13 @@ bool JobCheck::suspect(const Shortfall& shortfall) {
     if (!epoch_->assume_complete(shortfall.axis)) { return false; }
     assumed_.emplace_back(axis, epoch_->epoch());
     if (assumed_.size() > kAssumedKept) { assumed_.pop_front(); }
-    suspects_.try_emplace(
-        axis, incarnations_[axis],
-        Difference{.text = fmt::format("axis {} {}, though {} went on to frame {}", axis, shortfall.text,
-                                            job_->label, most),
-                        .axis = axis,
-                        .tick_expected = {},
-                        .tick_seen = {},
-                        .commanded = job_->label});
+    suspects_.try_emplace(axis, incarnations_[axis],
+                          Difference{.text = fmt::format("axis {} {}, though {} went on to frame {}", axis,
+                                                         shortfall.text, job_->label, most),
+                                     .axis = axis,
+                                     .tick_expected = {},
+                                     .tick_seen = {},
+                                     .commanded = job_->label});
     return true;
 }
 
@@ -419,11 +418,12 @@ void JobCheck::wait(AxisRun of) {
     if (waiting_.size() == kMaxWaiting) {
         const auto& [axis, run, is_behind_gap] = waiting_.front();
         if (!unplaced_) {
-            unplaced_ = Difference{"axis " + axis + ": runs of an unknown epoch", axis, {}, run.start,
-                                   commanded(run, run.start)};
+            unplaced_ = Difference{
+                "axis " + axis + ": runs of an unknown epoch", axis, {}, run.start, commanded(run, run.start)};
         }
         lost_epochs_.push_back(run.epoch);
-        leave_out(std::erase_if(waiting_, [&](const AxisRun& other) { return other.run.epoch == lost_epochs_.back(); }));
+        leave_out(
+            std::erase_if(waiting_, [&](const AxisRun& other) { return other.run.epoch == lost_epochs_.back(); }));
     }
     waiting_.push_back(std::move(of));
 }
@@ -463,8 +463,8 @@ void JobCheck::compare(const AxisRun& of) {
         return differ("axis " + name + " ran a frame of a machine that has no such axis", name, &run);
     }
     if (is_behind_gap && !epoch_->follows(axis, run)) {
-        findings_.add_missing(fmt::format("axis {}: runs before {} of epoch {} are not in the log", name, name_of(run),
-                                          run.epoch));
+        findings_.add_missing(
+            fmt::format("axis {}: runs before {} of epoch {} are not in the log", name, name_of(run), run.epoch));
     }
     const auto found = epoch_->compare(axis, run, is_behind_gap);
     if (!found) { return void(++findings_.runs); }

@@ -40,8 +40,8 @@ public:
     void contradict(const JobRecord& other);
     /// The log begins later than the record. A job that began before the log is not compared with its plan.
     void begins_late();
-    /// A run of a job, or of the axis's own move, which is not compared. The runs of each axis must come in the order of
-    /// their numbers. `is_behind_gap`: runs before it are missing from the log.
+    /// A run of a job, or of the axis's own move, which is not compared. The runs of each axis must come in the order
+    /// of their numbers. `is_behind_gap`: runs before it are missing from the log.
     void take(const std::string& axis, const Run& run, bool is_behind_gap);
 
     /// What the log may lack at its end.
@@ -130,9 +130,10 @@ private:
     std::optional<Job> job_;
     std::optional<EpochCheck> epoch_;
     std::deque<Epoch> lost_epochs_;  // the newest whose plan is not known
-    /// A run that differs from its plan. The coordinator's next record shows whether a record before the run is missing.
+    /// A run that differs from its plan. The coordinator's next record shows whether a record before the run is
+    /// missing.
     std::optional<Difference> doubt_;
-    bool lacks_records_ = false;      // of jobs
+    bool lacks_records_ = false;          // of jobs
     std::optional<Difference> unplaced_;  // a run without a record of its epoch
     /// An axis with nothing in the log after a frame that is not its last, in a job that went on. Its next run shows
     /// whether runs are missing.
@@ -141,8 +142,8 @@ private:
         Difference difference;
     };
     std::map<std::string, Suspect> suspects_;
-    std::deque<std::pair<std::string, Epoch>> assumed_;  // axes that were taken for complete in an epoch
-    std::map<std::string, std::int64_t> incarnations_;  // of each axis's newest run
+    std::deque<std::pair<std::string, Epoch>> assumed_;   // axes that were taken for complete in an epoch
+    std::map<std::string, std::int64_t> incarnations_;    // of each axis's newest run
     std::deque<std::pair<Epoch, std::string>> labels_;    // of the newest epochs
     std::map<std::string, std::vector<Course>> planned_;  // by axis: what may follow its newest run
 };

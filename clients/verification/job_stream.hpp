@@ -1,5 +1,5 @@
-// Delivers the records of jobs and of events of programs in the order of their numbers, for each coordinator. Records may
-// come late, twice or never.
+// Delivers the records of jobs and of events of programs in the order of their numbers, for each coordinator. Records
+// may come late, twice or never.
 //
 // A log may begin later than its coordinator. Then no record is missing before the first one.
 #pragma once

@@ -6,6 +6,7 @@
 
 #include "clients/analysis/log/log_step.hpp"
 #include "core/faults.hpp"
+#include "services/documents/machine_file.hpp"
 
 namespace lockstep::verification {
 
@@ -32,11 +33,9 @@ LogCheck::Axis::Axis(const std::string& name, Findings& findings, JobCheck* jobs
 
 LogCheck::Machine::Machine(Findings& findings)
     : jobs(findings),
-      records(
-          [this](const JobRecord& record, bool is_behind_gap) {
-              std::visit([&](const auto& of) { jobs.take(of, is_behind_gap); }, record);
-          },
-          [this](const JobRecord& other) { jobs.contradict(other); }) {}
+      records([this](const JobRecord& record,
+                     bool is_behind_gap) { std::visit([&](const auto& of) { jobs.take(of, is_behind_gap); }, record); },
+              [this](const JobRecord& other) { jobs.contradict(other); }) {}
 
 void LogCheck::on_steps(const step_batch_t& message, analysis::LogPlace place) {
     Axis* to = axis(message.machine, message.axis, place);
@@ -96,8 +95,8 @@ void LogCheck::note_beginning(Machine& machine, std::int64_t coordinator, std::i
     machine.jobs.begins_late();
     const auto marked = machine.marked_jobs.find(coordinator);
     if (marked == machine.marked_jobs.end() || sequence <= marked->second) { return; }
-    findings_.add_missing(fmt::format("{} messages of jobs are missing from the log before job {}",
-                                      sequence - marked->second, job));
+    findings_.add_missing(
+        fmt::format("{} messages of jobs are missing from the log before job {}", sequence - marked->second, job));
 }
 
 /// Takes a record of a job, or of an event of its program.
@@ -132,6 +131,10 @@ void LogCheck::on_position(const axis_position_t& message, analysis::LogPlace pl
     if (found == of->second.axes.end()) { return; }
     of->second.note_message(*found->second, message.incarnation, message.utime);
     of->second.records.pass(message.utime);
+    if (message.fault == 0 && analysis::is_countable(message.tick) && analysis::is_countable(message.position_steps)) {
+        found->second->check.take(
+            SeenPosition{{message.tick}, message.position_steps, message.incarnation, message.homed != 0});
+    }
     found->second->last.is_moving = message.velocity_steps_per_s != 0;
     if (message.fault == static_cast<std::int32_t>(FaultCode::DeviceLost)) { found->second->check.device_lost(); }
 }
@@ -144,12 +147,38 @@ void LogCheck::on_job(const analysis::RecordedJob& message, analysis::LogPlace p
     if (!Overrides::allows(message.feed_percent) || !Overrides::allows(message.rapid_percent)) {
         return on_damage(place, "a job with overrides that are out of range");
     }
+    if (Machine* of = machine(message.machine, place); of != nullptr) { of->set_config(message.config); }
     take_record(message, RecordKind::Job, place);
 }
 
 void LogCheck::on_damage(analysis::LogPlace place, std::string what) {
     if (++damages_ > kDamagesNoted) { return; }
     findings_.notes.push_back(fmt::format("damaged at byte {}: {}", place.offset, what));
+}
+
+void LogCheck::Machine::set_config(const std::string& text) {
+    if (config || text.empty()) { return; }
+    if (auto parsed = parse_machine(text)) { config = std::move(*parsed); }
+    for (auto& [name, axis] : axes) {
+        if (config) { axis->check.set_machine(*config); }
+    }
+}
+
+/// The log must have messages of each axis of the machine's file, and of no other.
+void LogCheck::Machine::check_axes(Findings& findings) const {
+    if (!config) { return; }
+    const auto names = config->axis_names();
+    for (const auto& [name, axis] : axes) {
+        if (std::ranges::find(names, name) != names.end()) { continue; }
+        findings.differ({.text = "the log has messages of axis " + name + ", which the machine does not have",
+                         .axis = name,
+                         .tick_expected = {},
+                         .tick_seen = {},
+                         .commanded = {}});
+    }
+    for (const std::string& name : names) {
+        if (!axes.contains(name)) { findings.add_missing("axis " + name + ": no message of it is in the log"); }
+    }
 }
 
 LogCheck::Machine* LogCheck::machine(const std::string& name, analysis::LogPlace place) {
@@ -172,6 +201,7 @@ LogCheck::Axis* LogCheck::axis(const std::string& machine_name, const std::strin
     auto& found = of->axes[name];
     if (found) { return found.get(); }
     found = std::make_unique<Axis>(name, findings_, make_follower_ ? nullptr : &of->jobs);
+    if (of->config) { found->check.set_machine(*of->config); }
     if (make_follower_) {
         found->follower = make_follower_(machine_name, name, findings_);
         found->check.set_follower(*found->follower);
@@ -233,7 +263,10 @@ void LogCheck::Machine::finish(const std::string& name, const analysis::RecordEn
 
 Findings LogCheck::finish() {
     const analysis::RecordEnd end = end_.finish();
-    for (auto& [name, machine] : machines_) { machine.finish(name, end); }
+    for (auto& [name, machine] : machines_) {
+        machine.finish(name, end);
+        machine.check_axes(findings_);
+    }
     if (!make_follower_) { findings_.end = end; }
     for (std::string& line : analysis::open_sentences(findings_.end)) { findings_.notes.push_back(std::move(line)); }
     if (damages_ > kDamagesNoted) {

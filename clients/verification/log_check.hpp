@@ -69,8 +69,11 @@ private:
         void note_motion(Axis& axis);
         bool are_at_rest() const;
         void finish(const std::string& name, const analysis::RecordEnd& end);
+        void set_config(const std::string& text);
+        void check_axes(Findings& findings) const;
         JobCheck jobs;
         JobStream records;
+        std::optional<MachineConfig> config;  // of its first job in the log
         MachineActivity last;
         std::map<std::string, std::unique_ptr<Axis>> axes;
         std::map<std::int64_t, std::int64_t> marked_jobs;  // by coordinator: the first event that must be in the log

@@ -51,7 +51,9 @@ void RunStream::deliver(std::size_t patience) {
         const std::int64_t first = waiting_.begin()->first;
         const bool begins_late = accepts_any_ && first > kShuffled;
         const bool is_next = first == expected_ || begins_late;
-        if (!is_next && waiting_.size() <= (accepts_any_ ? std::min<std::size_t>(patience, kShuffled) : patience)) { return; }
+        if (!is_next && waiting_.size() <= (accepts_any_ ? std::min<std::size_t>(patience, kShuffled) : patience)) {
+            return;
+        }
         if (!is_next && !accepts_any_) { on_missing_(expected_, first); }
         accepts_any_ = false;
         expected_ = first + 1;

@@ -26,7 +26,7 @@ private:
 
 class ContentMemory {
 public:
-    static constexpr std::size_t kKept = 4096;  // messages
+    static constexpr std::size_t kKept = 4096;             // messages
     using Number = std::pair<std::int64_t, std::int64_t>;  // the process and the number of its message
 
     void add(Number number, std::size_t content) {

@@ -36,8 +36,7 @@ std::string sentence(const Contradiction& what) {
             return fmt::format("{} begins at tick {}, but the message before it ends at tick {}", which,
                                what.first.value_or(Tick{}).value, what.last_before.value_or(Tick{}).value);
         case Contradiction::Kind::OtherContent: return which + " is in the log twice, with different content";
-        case Contradiction::Kind::EndedProcess:
-            return which + " is of a process that another one had replaced before";
+        case Contradiction::Kind::EndedProcess: return which + " is of a process that another one had replaced before";
     }
     return which;
 }

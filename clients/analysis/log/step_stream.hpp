@@ -63,9 +63,9 @@ struct Contradiction {
     };
     Kind kind = Kind::NotAfter;
     std::int64_t sequence = 0;
-    std::int64_t steps = 0;            // in the batch
-    std::optional<Tick> first;         // its first step
-    std::optional<Tick> last_before;   // NotAfter: the last step before it
+    std::int64_t steps = 0;           // in the batch
+    std::optional<Tick> first;        // its first step
+    std::optional<Tick> last_before;  // NotAfter: the last step before it
 };
 
 /// "message 12 with 80 steps has a step at tick 5, but the message before it ends at tick 9"
@@ -132,7 +132,7 @@ private:
     std::deque<Numbers> given_up_;               // of this incarnation, the newest few
     std::map<std::int64_t, StepBatch> waiting_;  // by sequence
     ContentMemory contents_;
-    std::optional<Break> break_;                 // open until the next step closes it
+    std::optional<Break> break_;  // open until the next step closes it
     std::optional<std::int64_t> position_;
     std::optional<Tick> last_tick_;
 };

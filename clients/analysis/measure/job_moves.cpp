@@ -13,7 +13,8 @@ std::size_t steps_in_move(const MoveCursor& cursor, std::span<const LateStep> st
     const LateStep& first = steps.front();
     const std::int64_t way = (steps.back().count - first.count) * first.direction;
     if (way + 1 == std::ssize(steps)) {  // no step reverses
-        return static_cast<std::size_t>(std::min(way + 1, cursor.steps_from(first.count - first.direction)));
+        const std::int64_t in_stroke = std::min(way + 1, cursor.steps_from(first.count - first.direction));
+        return static_cast<std::size_t>(std::max<std::int64_t>(1, in_stroke));
     }
     const auto is_elsewhere = [&](const LateStep& step) {
         return !cursor.is_in_stroke(step.count - step.direction, step.direction);
@@ -24,9 +25,8 @@ std::size_t steps_in_move(const MoveCursor& cursor, std::span<const LateStep> st
 }  // namespace
 
 bool MoveLog::is_whole() const {
-    return std::ranges::all_of(axes, [](const AxisMove& axis) {
-        return std::abs(axis.made_steps - axis.asked_steps) <= axis.slack_steps;
-    });
+    return std::ranges::all_of(
+        axes, [](const AxisMove& axis) { return std::abs(axis.made_steps - axis.asked_steps) <= axis.slack_steps; });
 }
 
 bool MoveCursor::find_next(const AskedPath& asked, std::size_t axis, std::int64_t count, int direction,
@@ -74,8 +74,8 @@ void JobMoves::begin(std::size_t move) {
     if (on_a_line_) { shape_ = asked_.shape(move); }
 }
 
-/// The square of the distance from the axes' place to the curve. Near the joint of two moves, one axis may be in a later
-/// move than the others: then the nearest of the last curves counts.
+/// The square of the distance from the axes' place to the curve. Near the joint of two moves, one axis may be in a
+/// later move than the others: then the nearest of the last curves counts.
 double JobMoves::square_of_distance_mm2() {
     constexpr std::size_t kBack = 8;
     double least = shape_.square_of_distance(at_mm_);
@@ -154,8 +154,8 @@ void JobMoves::take(std::size_t axis, LateSteps late) {
     MoveCursor& cursor = late_cursor_[axis];
     while (!late.steps.empty()) {
         const LateStep& first = late.steps.front();
-        const bool found = cursor.find(asked_, axis, first.count - first.direction, first.direction,
-                                       slack(cursor.move(), axis));
+        const bool found =
+            cursor.find(asked_, axis, first.count - first.direction, first.direction, slack(cursor.move(), axis));
         const std::size_t count = found ? steps_in_move(cursor, late.steps) : 1;
         if (found) {
             for_equally_late(late.first(count), [&](std::span<const LateStep> equal) {

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "clients/analysis/measure/asked_path.hpp"
+#include "clients/analysis/asked/asked_path.hpp"
 #include "clients/analysis/measure/lateness.hpp"
 #include "clients/analysis/measure/measured_step.hpp"
 #include "clients/analysis/measure/tick_histogram.hpp"

@@ -161,11 +161,13 @@ TEST_F(Altered, OneRunLost) {
 TEST_F(Altered, BehindLostMessagesADifferenceIsFound) {
     ASSERT_EQ(log.leave_out<run_t>("_RUN", [&](const run_t& run) { return is_the_one(run); }), 1U);
     seen = 0;
-    ASSERT_EQ(log.change<step_batch_t>("_STEPS", [&](step_batch_t& batch) {
-        const bool is_later = batch.axis == "Y" && batch.position_before > 800 && batch.count > 2 && ++seen == 40;
-        if (is_later) { ++batch.delta_ticks[1]; }
-        return is_later;
-    }),
+    ASSERT_EQ(log.change<step_batch_t>("_STEPS",
+                                       [&](step_batch_t& batch) {
+                                           const bool is_later = batch.axis == "Y" && batch.position_before > 800 &&
+                                                                 batch.count > 2 && ++seen == 40;
+                                           if (is_later) { ++batch.delta_ticks[1]; }
+                                           return is_later;
+                                       }),
               1);
     EXPECT_EQ(difference().axis, "Y");
 }

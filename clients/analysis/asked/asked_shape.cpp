@@ -1,4 +1,4 @@
-#include "clients/analysis/measure/asked_shape.hpp"
+#include "clients/analysis/asked/asked_shape.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,9 +17,7 @@ AskedShape::AskedShape(std::vector<double> from_mm, std::vector<double> to_mm, s
     for (double& part : direction_) { part = length_ > 0 ? part / length_ : 0; }
 }
 
-double AskedShape::square_of_distance(std::span<const double> at_mm) {
-    return arc_ ? of_arc(at_mm) : of_line(at_mm);
-}
+double AskedShape::square_of_distance(std::span<const double> at_mm) { return arc_ ? of_arc(at_mm) : of_line(at_mm); }
 
 double AskedShape::of_line(std::span<const double> at_mm) const {
     double along = 0;

@@ -1,4 +1,4 @@
-#include "clients/analysis/measure/strokes.hpp"
+#include "clients/analysis/asked/strokes.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "clients/analysis/measure/asked_path.hpp"
+#include "clients/analysis/asked/asked_path.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -26,8 +26,8 @@ Ticks when(const AxisMotion& motion, const PlannedStroke& stroke, double steps) 
     return low;
 }
 
-/// The time from an axis's first step of a move to its last. A step occurs halfway between two positions: the first half
-/// a step after the beginning, the last half a step before the end.
+/// The time from an axis's first step of a move to its last. A step occurs halfway between two positions: the first
+/// half a step after the beginning, the last half a step before the end.
 Ticks stepping_time(const AxisMotion& motion, const PlannedStroke& first, const PlannedStroke& last) {
     return when(motion, last, static_cast<double>(std::abs(last.to - last.from)) - 0.5) - when(motion, first, 0.5);
 }
@@ -49,8 +49,8 @@ std::expected<AskedPath, std::string> AskedPath::of(const MachineConfig& machine
         asked.axes_.push_back(static_cast<std::size_t>(found - machine.axes.begin()));
     }
     asked.blocks_ = blocks;
-    const auto planned = each_planned_move(machine, head, blocks, start,
-                                           [&asked](const LegPlan& leg) { asked.add_first(leg); });
+    const auto planned =
+        each_planned_move(machine, head, blocks, start, [&asked](const LegPlan& leg) { asked.add_first(leg); });
     if (!planned) { return std::unexpected(planned.error().text); }
     asked.legs_ = planned->legs;
     asked.planned_ = planned->duration;

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "clients/analysis/measure/asked_shape.hpp"
-#include "clients/analysis/measure/strokes.hpp"
+#include "clients/analysis/asked/asked_shape.hpp"
+#include "clients/analysis/asked/strokes.hpp"
 #include "clients/planning/leg_plan.hpp"
 #include "core/machine.hpp"
 #include "core/program_blocks.hpp"
@@ -25,8 +25,8 @@ namespace lockstep::analysis {
 /// A line or an arc from one place to another, or a dwell (no steps).
 struct AskedMove {
     double length_mm = 0;  // 0 for a dwell
-    Ticks planned;   // from end to end
-    Ticks stepping;  // part of `planned` from the lead axis's first step to its last
+    Ticks planned;         // from end to end
+    Ticks stepping;        // part of `planned` from the lead axis's first step to its last
 };
 
 class AskedPath {
@@ -92,13 +92,13 @@ private:
     std::vector<double> mm_per_step_;  // of each axis
     std::vector<std::int64_t> starts_;
     std::shared_ptr<const ProgramBlocks> blocks_;
-    std::vector<std::size_t> axes_;      // the machine's axes that the program names
-    std::vector<double> rest_mm_;        // of each axis of the machine, where the program begins
-    std::vector<std::uint32_t> numbers_; // of each move's block
-    std::vector<std::int32_t> lines_;    // of each move
-    std::vector<std::int64_t> steps_;    // of each move and axis
+    std::vector<std::size_t> axes_;       // the machine's axes that the program names
+    std::vector<double> rest_mm_;         // of each axis of the machine, where the program begins
+    std::vector<std::uint32_t> numbers_;  // of each move's block
+    std::vector<std::int32_t> lines_;     // of each move
+    std::vector<std::int64_t> steps_;     // of each move and axis
     std::vector<std::uint8_t> leads_;
-    std::vector<std::uint8_t> is_exact_; // lines from rest to rest
+    std::vector<std::uint8_t> is_exact_;  // lines from rest to rest
     std::vector<AskedMove> details_;
     std::vector<std::vector<Stroke>> strokes_;  // by axis
     double tolerance_mm_ = 0;

@@ -1,0 +1,33 @@
+#include "clients/verification/clock_check.hpp"
+
+#include <fmt/format.h>
+
+namespace lockstep::verification {
+
+std::optional<std::string> ClockCheck::take(const std::string& axis, const analysis::StepBatch& batch) const {
+    if (!machine_ || !shares_clock()) { return std::nullopt; }
+    if (batch.clock_error == Ticks{} && batch.ahead_first == Ticks{} && batch.ahead_last == Ticks{}) {
+        return std::nullopt;
+    }
+    return fmt::format(
+        "axis {}: message {} of steps gives times of a clock of its own ({} ticks ahead, within {}), but "
+        "the machine's processes share one clock (timing.time_source)",
+        axis, batch.sequence, batch.ahead_first.value, batch.clock_error.value);
+}
+
+std::optional<std::string> ClockCheck::take(const std::string& axis, const analysis::Run& run) const {
+    if (!machine_) { return std::nullopt; }
+    if (shares_clock() && (run.clock_error != Ticks{} || run.ahead != Ticks{})) {
+        return fmt::format(
+            "axis {}: {} gives times of a clock of its own ({} ticks ahead, within {}), but the machine's "
+            "processes share one clock (timing.time_source)",
+            axis, name_of(run), run.ahead.value, run.clock_error.value);
+    }
+    if (run.epoch == 0 || run.clock_error <= most()) { return std::nullopt; }
+    return fmt::format(
+        "axis {}: {} was run while machine time was known within {} ticks; {} are allowed "
+        "(timing.clock_error_limit_us)",
+        axis, name_of(run), run.clock_error.value, machine_->clock_error_limit().value);
+}
+
+}  // namespace lockstep::verification
