@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstring>
 #include <initializer_list>
+#include <type_traits>
 
 #include "core/check.hpp"
 
@@ -18,11 +20,11 @@ public:
         for (const T& value : values) { append(value); }
     }
     /// Copies only the values in use, so unused capacity costs nothing.
-    StaticVector(const StaticVector& other) : size_(other.size_) { std::copy_n(other.begin(), size_, begin()); }
+    StaticVector(const StaticVector& other) : size_(other.size_) { copy(other); }
     StaticVector& operator=(const StaticVector& other) {
         if (this == &other) { return *this; }
         size_ = other.size_;
-        std::copy_n(other.begin(), size_, begin());
+        copy(other);
         return *this;
     }
     ~StaticVector() = default;
@@ -73,6 +75,18 @@ public:
     bool operator==(const StaticVector& other) const { return std::ranges::equal(*this, other); }
 
 private:
+    /// Most vectors are short. Blocks of a fixed size are copied without a call, a part of which may be unused.
+    void copy(const StaticVector& other) {
+        constexpr std::size_t kBlock = 64;
+        if constexpr (std::is_trivially_copyable_v<T> && sizeof(std::array<T, Capacity>) % kBlock == 0) {
+            auto* const to = reinterpret_cast<std::byte*>(items_.data());
+            const auto* const from = reinterpret_cast<const std::byte*>(other.items_.data());
+            for (std::size_t at = 0; at < size_ * sizeof(T); at += kBlock) { std::memcpy(to + at, from + at, kBlock); }
+        } else {
+            std::copy_n(other.begin(), size_, begin());
+        }
+    }
+
     std::array<T, Capacity> items_;
     std::size_t size_ = 0;
 };

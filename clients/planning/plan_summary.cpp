@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "clients/planning/counted_blocks.hpp"
+#include "clients/planning/lai_legs.hpp"
 #include "clients/planning/timed_legs.hpp"
 
 namespace lockstep {
@@ -61,10 +62,23 @@ private:
     int pauses_ = 0;
 };
 
+/// Frames from rest can fail only if an axis reaches its start velocity within a few ticks. Such a machine is planned
+/// by frames, so that a program that cannot run is not reported as correct.
+bool may_get_stuck(const MachineConfig& machine) {
+    constexpr double kTicks = 8;
+    return std::ranges::any_of(machine.axes, [&](const AxisConfig& axis) {
+        const double change_mm_s = std::max(axis.max_accel_mm_s2, axis.max_decel_mm_s2) / machine.ticks_per_second();
+        return axis.start_velocity_mm_s < kTicks * change_mm_s;
+    });
+}
+
 std::expected<PlannedTotals, PlanError> totals_of(const MachineConfig& machine,
                                                   const std::shared_ptr<const CountedBlocks>& blocks,
                                                   const Planning& planning) {
-    if (!planning.each_frame && machine.coordination != StepMethod::Lai) {
+    if (!planning.each_frame && machine.coordination == StepMethod::Lai) {
+        return plan_lai_legs(machine, blocks, planning.start, planning.progress);
+    }
+    if (!planning.each_frame && !may_get_stuck(machine)) {
         return time_legs(machine, blocks, planning.start, planning.overrides, planning.progress);
     }
     LegByLeg legs(machine, blocks, planning);

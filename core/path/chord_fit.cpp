@@ -51,9 +51,9 @@ void ChordFit::bend(std::size_t count, Quadratic& piece) const {
 }
 
 bool ChordFit::is_close(const SlidingVector<PathPoint>& points, std::size_t count,
-                        std::span<const double> tolerance_steps, const Quadratic& piece) const {
+                        std::span<const double> tolerance_steps, double share, const Quadratic& piece) const {
     for (std::size_t i = 0; i < from_.size(); ++i) {
-        const double most = tolerance_steps[i];
+        const double most = share * tolerance_steps[i];
         double before = points[first_].at.begin()[i];
         double u0 = 0;
         for (std::size_t k = 1; k <= count; ++k) {
@@ -75,16 +75,17 @@ bool ChordFit::fit(const SlidingVector<PathPoint>& points, std::size_t count, co
     const std::size_t axes = from_.size();
     piece.from = from_;
     piece.length = points[first_ + count].along - points[first_].along;
-    piece.slope = piece.bend = zeros(axes);
-    for (std::size_t i = 0; i < axes; ++i) { piece.slope[i] = (to[i] - from_[i]) / piece.length; }
+    piece.slope = piece.bend = from_;
+    for (std::size_t i = 0; i < axes; ++i) {
+        piece.slope.begin()[i] = (to.begin()[i] - from_.begin()[i]) / piece.length;
+        piece.bend.begin()[i] = 0;
+    }
     piece.is_straight = true;
     if (count == 1) { return true; }
-    AxisVector narrow;
-    for (std::size_t i = 0; i < axes; ++i) { narrow.append(kStraightShare * tolerance_steps[i]); }
-    if (is_close(points, count, {narrow.begin(), axes}, piece)) { return true; }
+    if (is_close(points, count, tolerance_steps, kStraightShare, piece)) { return true; }
     extend(points, count);
     bend(count, piece);
-    return is_close(points, count, tolerance_steps, piece);
+    return is_close(points, count, tolerance_steps, 1, piece);
 }
 
 }  // namespace lockstep

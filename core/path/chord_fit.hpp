@@ -30,8 +30,9 @@ public:
 private:
     void extend(const SlidingVector<PathPoint>& points, std::size_t count);
     void bend(std::size_t count, Quadratic& piece) const;
+    /// Within a share of the tolerance.
     bool is_close(const SlidingVector<PathPoint>& points, std::size_t count, std::span<const double> tolerance_steps,
-                  const Quadratic& piece) const;
+                  double share, const Quadratic& piece) const;
 
     std::size_t first_ = 0;
     AxisVector from_;

@@ -192,18 +192,21 @@ std::size_t ChordJoiner::longest(const Reach& limit, Quadratic& best) {
 
 /// The place of a piece's end at a vertex.
 AxisVector ChordJoiner::end_at(std::size_t k) const {
-    AxisVector at = points_[k].at;
-    if (k + 1 == points_.size() || points_[k].is_corner) { return at; }
-    const MoveSettings& settings = points_[k].settings;
-    const MoveSettings& next = points_[k + 1].settings;
-    if (settings.mode != PathMode::Blend || next.mode != PathMode::Blend) { return at; }
-    if (settings.tolerance_mm != next.tolerance_mm) { return at; }
-    const double before = points_[k].along - points_[k - 1].along;
-    const double after = points_[k + 1].along - points_[k].along;
+    const PathPoint& point = points_[k];
+    AxisVector at = point.at;
+    if (k + 1 == points_.size() || point.is_corner) { return at; }
+    const PathPoint& last = points_[k - 1];
+    const PathPoint& next = points_[k + 1];
+    if (point.settings.mode != PathMode::Blend || next.settings.mode != PathMode::Blend) { return at; }
+    if (point.settings.tolerance_mm != next.settings.tolerance_mm) { return at; }
+    const double before = point.along - last.along;
+    const double after = next.along - point.along;
+    const double shift = kShift * std::min(before, after);
+    double* const to = at.begin();
     for (std::size_t i = 0; i < at.size(); ++i) {
-        const double turn = (points_[k + 1].at[i] - at[i]) / after - (at[i] - points_[k - 1].at[i]) / before;
+        const double turn = (next.at.begin()[i] - to[i]) / after - (to[i] - last.at.begin()[i]) / before;
         const double most = kMostShift * tolerance_steps_[i];
-        at[i] += std::clamp(kShift * std::min(before, after) * turn, -most, most);
+        to[i] += std::clamp(shift * turn, -most, most);
     }
     return at;
 }

@@ -149,6 +149,42 @@ TEST(TimedPlan, DoesNotDependOnTheDuration) {
     EXPECT_NEAR(long_one->duration_s, 1e5 * 4 * std::numbers::pi / 50, 0.001 * long_one->duration_s);
 }
 
+/// Each move rests at its end, so each is planned alone.
+TEST(TimedPlan, HasTheFiguresOfTheFramesOfLai) {
+    MachineConfig machine = example("three-axis");
+    machine.coordination = StepMethod::Lai;
+    const std::string text =
+        "G21 G90 F3000\nG0 X50 Y50 Z40\nG1 X60 Y52\nG4 P0.3\nM0\nG1 X59.5 Y53 Z41\nG0 X10\nG1 X10.1 Y53.2\n";
+    const Program program = program_of(machine, text);
+    const auto timed = plan_of(machine, program, {}, {});
+    const auto made = plan_of(machine, program, {}, [](const PlannedFrame&) {});
+    ASSERT_TRUE(timed.has_value() && made.has_value());
+    EXPECT_EQ(timed->duration, made->duration);
+    EXPECT_EQ(timed->pauses, 1);
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        EXPECT_EQ(timed->axes[i].steps, made->axes[i].steps);
+        EXPECT_EQ(timed->axes[i].peak_velocity_mm_s, made->axes[i].peak_velocity_mm_s);
+        EXPECT_EQ(timed->axes[i].peak_acceleration_mm_s2, made->axes[i].peak_acceleration_mm_s2);
+        EXPECT_EQ(timed->axes[i].peak_jump_mm_s, made->axes[i].peak_jump_mm_s);
+        EXPECT_EQ(timed->axes[i].max_mm, made->axes[i].max_mm);
+    }
+}
+
+/// The start velocity is less than the acceleration of a tick, so no frame begins from rest.
+TEST(TimedPlan, RefusesLimitsThatContradictEachOther) {
+    MachineConfig machine = example("two-axis");
+    for (AxisConfig& axis : machine.axes) {
+        axis.start_velocity_mm_s = 0.005;
+        axis.max_velocity_mm_s = 300;
+        axis.max_accel_mm_s2 = axis.max_decel_mm_s2 = 70'000;
+    }
+    const Program program = program_of(machine, "G1 X20 Y30 F3000\n");
+    const auto timed = plan_of(machine, program, {}, {});
+    ASSERT_FALSE(timed.has_value());
+    EXPECT_EQ(timed.error().fault, FaultCode::FrameBeyondLimits);
+    EXPECT_EQ(timed.error().line, 1);
+}
+
 TEST(TimedPlan, RefusesWhatFramesRefuse) {
     const MachineConfig machine = example("two-axis");
     Program program{.name = "outside", .axes = {"X", "Y"}, .start_mm = parked_mm(machine)};
