@@ -53,9 +53,9 @@ struct Planning {
 /// Plans the program as the coordinator does. Reads each block once, in order. Fails like ProgramPlanner::plan.
 ///
 /// Without `each_frame`, times and figures are those of the planned path (core/path/timing/path_timer.hpp), and the
-/// cost depends on the program and not on the duration of its motion. With it, they are those of the frames. Frames last
-/// longer where they have no room for the pieces of the path: 0.02 % for a million lines of 0.05 to 1 mm. They fail if
-/// the axes' limits contradict each other. The figures of the LAI method are the same in both cases.
+/// cost depends on the program and not on the duration of its motion. With it, they are those of the frames. Frames
+/// last longer where they have no room for the pieces of the path: 0.02 % for a million lines of 0.05 to 1 mm. They
+/// fail if the axes' limits contradict each other. The figures of the LAI method are the same in both cases.
 std::expected<ProgramPlan, PlanError> plan_blocks(const MachineConfig& machine, const ProgramHead& head,
                                                   std::shared_ptr<const ProgramBlocks> blocks,
                                                   const Planning& planning);

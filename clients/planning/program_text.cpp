@@ -23,6 +23,14 @@ bool ProgramText::ends_before(std::uint32_t number) const {
     return number >= first_ + blocks_.size();
 }
 
+bool ProgramText::take_blocks(std::size_t count, std::vector<Block>& out) {
+    for (; count > 0 && !ends_before(first_); --count, ++first_) {
+        out.push_back(std::move(blocks_.front()));
+        blocks_.pop_front();
+    }
+    return count == 0;
+}
+
 const Diagnostics& ProgramText::errors() {
     while (!errors_.empty() && errors_.size() < kMaxGcodeErrors && read_line()) { blocks_.clear(); }
     return errors_;

@@ -24,6 +24,10 @@ public:
     /// The place before the last requested block.
     std::optional<std::span<const double>> place_before(std::uint32_t /*number*/) const override { return at_mm_; }
 
+    /// Moves the next blocks to the end of `out`, at most `count`, in place of requests of single blocks. Places are
+    /// then not known. Returns false if no block follows.
+    bool take_blocks(std::size_t count, std::vector<Block>& out);
+
     /// The errors by line and column, at most kMaxGcodeErrors. Reads on after the first line with an error.
     const Diagnostics& errors();
     /// Ignored words, and messages.

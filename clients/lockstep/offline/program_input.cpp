@@ -8,6 +8,7 @@
 
 #include "clients/lockstep/live_options.hpp"
 #include "clients/planning/program_text.hpp"
+#include "clients/planning/read_ahead.hpp"
 #include "clients/session/program_start.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/format.hpp"
@@ -54,7 +55,7 @@ Failure not_planned(const std::string& file, const PlanError& error) {
 /// Shows progress for each percent of the file.
 class Progress {
 public:
-    Progress(std::string name, const ProgramText& text, double ticks_per_s, Output& output)
+    Progress(std::string name, const ReadAhead& text, double ticks_per_s, Output& output)
         : name_(std::move(name)), text_(text), ticks_per_s_(ticks_per_s), output_(output) {}
 
     void show(Ticks motion) {
@@ -66,11 +67,16 @@ public:
 
 private:
     std::string name_;
-    const ProgramText& text_;
+    const ReadAhead& text_;
     double ticks_per_s_;
     Output& output_;
     int shown_ = 0;
 };
+
+/// The text has an error before the one of the plan. It was read some thousand lines farther than it was planned.
+bool has_error_before(ProgramText& text, const PlanError& error) {
+    return !text.errors().empty() && (!error.line || text.errors().front().line <= *error.line);
+}
 
 std::expected<PlannedFile, Failure> plan_long_file(const ProgramOptions& options, Output& output,
                                                    const OnSetup& on_setup) {
@@ -80,14 +86,19 @@ std::expected<PlannedFile, Failure> plan_long_file(const ProgramOptions& options
     if (!lines) { return std::unexpected(bad_file(options.file, {{.message = lines.error()}})); }
     GcodeSetup reading = program_setup(options.file, setup->machine, setup->start_mm, options.switches, setup->values);
     const auto text = std::make_shared<ProgramText>(*std::move(lines), reading);
-    Progress progress(options.file, *text, setup->machine.ticks_per_second(), output);
-    auto plan = plan_blocks(setup->machine, text->head(), text,
-                            {.start = start_counts(setup->machine, text->head()),
+    const ProgramHead head = text->head();
+    const auto blocks = std::make_shared<ReadAhead>(text);
+    Progress progress(options.file, *blocks, setup->machine.ticks_per_second(), output);
+    auto plan = plan_blocks(setup->machine, head, blocks,
+                            {.start = start_counts(setup->machine, head),
                              .overrides = {},
                              .each_frame = on_setup ? on_setup(setup->machine) : OnPlannedFrame{},
                              .progress = [&](Ticks motion) { progress.show(motion); }});
+    blocks->stop();
+    if (!plan && !has_error_before(*text, plan.error())) {
+        return std::unexpected(not_planned(options.file, plan.error()));
+    }
     if (!text->errors().empty()) { return std::unexpected(bad_file(options.file, text->errors())); }
-    if (!plan) { return std::unexpected(not_planned(options.file, plan.error())); }
     return PlannedFile{std::move(setup->machine), *std::move(plan), text->lines(), text->notes(), std::move(reading)};
 }
 

@@ -14,6 +14,7 @@
 
 #include "clients/planning/plan_summary.hpp"
 #include "clients/planning/program_text.hpp"
+#include "clients/planning/read_ahead.hpp"
 #include "services/documents/program_file.hpp"
 #include "services/files/text_file.hpp"
 #include "tests/temporary_directory.hpp"
@@ -79,9 +80,12 @@ public:
     }
     void plan(const OnPlannedFrame& each_frame) const {
         const auto text = open();
+        const ProgramHead head = text->head();
+        const auto blocks = std::make_shared<ReadAhead>(text);
         const auto plan = plan_blocks(
-            machine_, text->head(), text,
-            {.start = start_counts(machine_, text->head()), .overrides = {}, .each_frame = each_frame, .progress = {}});
+            machine_, head, blocks,
+            {.start = start_counts(machine_, head), .overrides = {}, .each_frame = each_frame, .progress = {}});
+        blocks->stop();
         if (!plan || !text->errors().empty()) { std::abort(); }
         benchmark::DoNotOptimize(plan->duration);
     }
@@ -126,32 +130,36 @@ constexpr int kLinesWithFrames = 100'000;
 void Read(benchmark::State& bench) {
     measure(bench, turns(kLines), [](const PlannedFile& file) { file.read(); });
 }
-BENCHMARK(Read)->Name("plan/turns/only_read")->Unit(benchmark::kMillisecond);
+BENCHMARK(Read)->Name("plan/turns/only_read")->UseRealTime()->Unit(benchmark::kMillisecond);
 
 void Turns(benchmark::State& bench) {
     measure(bench, turns(kLines), [](const PlannedFile& file) { file.plan({}); });
 }
-BENCHMARK(Turns)->Name("plan/turns")->Unit(benchmark::kMillisecond);
+BENCHMARK(Turns)->Name("plan/turns")->UseRealTime()->Unit(benchmark::kMillisecond);
 
 void TurnsWithFrames(benchmark::State& bench) {
     measure(bench, turns(kLinesWithFrames), [](const PlannedFile& file) { file.plan([](const PlannedFrame&) {}); });
 }
-BENCHMARK(TurnsWithFrames)->Name("plan/turns/with_frames")->Unit(benchmark::kMillisecond);
+BENCHMARK(TurnsWithFrames)->Name("plan/turns/with_frames")->UseRealTime()->Unit(benchmark::kMillisecond);
 
 void Helix(benchmark::State& bench) {
     measure(bench, kHelix, [](const PlannedFile& file) { file.plan({}); });
 }
-BENCHMARK(Helix)->Name("plan/helix")->Unit(benchmark::kMillisecond);
+BENCHMARK(Helix)->Name("plan/helix")->UseRealTime()->Unit(benchmark::kMillisecond);
 
 void SlowArc(benchmark::State& bench) {
     measure(bench, kSlowArc, [](const PlannedFile& file) { file.plan({}); });
 }
-BENCHMARK(SlowArc)->Name("plan/slow_arc")->Unit(benchmark::kMillisecond);
+BENCHMARK(SlowArc)->Name("plan/slow_arc")->UseRealTime()->Unit(benchmark::kMillisecond);
 
 void SlowArcWithFrames(benchmark::State& bench) {
     measure(bench, kSlowArc, [](const PlannedFile& file) { file.plan([](const PlannedFrame&) {}); });
 }
-BENCHMARK(SlowArcWithFrames)->Name("plan/slow_arc/with_frames")->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK(SlowArcWithFrames)
+    ->Name("plan/slow_arc/with_frames")
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(1);
 
 }  // namespace
 }  // namespace lockstep

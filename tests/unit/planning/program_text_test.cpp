@@ -4,6 +4,7 @@
 
 #include "clients/planning/plan_summary.hpp"
 #include "clients/planning/program_text.hpp"
+#include "clients/planning/read_ahead.hpp"
 #include "services/documents/program_file.hpp"
 #include "services/files/text_file.hpp"
 #include "tests/temporary_directory.hpp"
@@ -52,6 +53,43 @@ TEST_F(PlannedAsItIsRead, IsAsPlannedAsAWhole) {
         ASSERT_TRUE(streamed && whole);
         expect_same(*streamed, plan_program(machine_, *whole).value());
     }
+}
+
+/// More blocks than the thread reads ahead, with arcs that need the place before them.
+TEST_F(PlannedAsItIsRead, OrReadAheadByAThread) {
+    std::string text = "G0 X20 Y20\n";
+    for (int k = 0; k < 3000; ++k) {
+        text += k % 500 == 7 ? "M0\nG2 X20 Y20 I3 J0 F3000\n" : "G1 X20.5 F3000\nG1 X20 Y20.25\nG1 Y20\n";
+    }
+    const auto whole = plan(read(text));
+    const auto program = read(text);
+    const auto head = program->head();
+    const auto ahead = std::make_shared<ReadAhead>(program);
+    const auto streamed = plan_blocks(machine_, head, ahead, {.start = start_counts(machine_, head)});
+    ahead->stop();
+    ASSERT_TRUE(streamed && whole);
+    expect_same(*streamed, *whole);
+    EXPECT_EQ(program->lines(), 1 + 3 * 2994 + 2 * 6);
+}
+
+TEST_F(PlannedAsItIsRead, StopsReadingAheadAtAnyTime) {
+    std::string text;
+    for (int k = 0; k < 20'000; ++k) { text += "G1 X20 F3000\nG1 X21\n"; }
+    const auto program = read(text);
+    const ReadAhead ahead(program);
+    EXPECT_NE(ahead.block(0), nullptr);
+    EXPECT_FALSE(ahead.ends_before(3000));
+    EXPECT_EQ(ahead.block(2), nullptr) << "blocks are requested in order";
+}
+
+/// The blocks before the first line with an error are planned.
+TEST_F(PlannedAsItIsRead, EndsReadingAheadAtAnError) {
+    const auto program = read("G1 X20 F600\nG1 X9999\nG1 X30\n");
+    ReadAhead ahead(program);
+    EXPECT_FALSE(ahead.ends_before(0));
+    EXPECT_TRUE(ahead.ends_before(1));
+    ahead.stop();
+    EXPECT_EQ(program->errors().size(), 1U);
 }
 
 TEST_F(PlannedAsItIsRead, LegByLeg) {

@@ -163,9 +163,9 @@ TEST(TimedPlan, HasTheFiguresOfTheFramesOfLai) {
     EXPECT_EQ(timed->pauses, 1);
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         EXPECT_EQ(timed->axes[i].steps, made->axes[i].steps);
-        EXPECT_EQ(timed->axes[i].peak_velocity_mm_s, made->axes[i].peak_velocity_mm_s);
-        EXPECT_EQ(timed->axes[i].peak_acceleration_mm_s2, made->axes[i].peak_acceleration_mm_s2);
-        EXPECT_EQ(timed->axes[i].peak_jump_mm_s, made->axes[i].peak_jump_mm_s);
+        EXPECT_NEAR(timed->axes[i].peak_velocity_mm_s, made->axes[i].peak_velocity_mm_s, 1e-6);
+        EXPECT_NEAR(timed->axes[i].peak_acceleration_mm_s2, made->axes[i].peak_acceleration_mm_s2, 1e-6);
+        EXPECT_NEAR(timed->axes[i].peak_jump_mm_s, made->axes[i].peak_jump_mm_s, 1e-6);
         EXPECT_EQ(timed->axes[i].max_mm, made->axes[i].max_mm);
     }
 }
