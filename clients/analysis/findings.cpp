@@ -181,9 +181,8 @@ void check_machines(const Analysis& analysis, Findings& found) {
         if (!name.starts_with(kMachine)) { continue; }
         found.push_back(
             {Grade::Unknown,
-             fmt::format("the motion of {} cannot be determined here: {} of it are in this log too; "
-                         "lockstep analyze --machine {} analyzes it",
-                         name, plural(static_cast<std::int64_t>(messages), "message"), name.substr(kMachine.size()))});
+             fmt::format("{} is in this log too and is not analyzed here ({}): lockstep analyze --machine {}", name,
+                         plural(static_cast<std::int64_t>(messages), "message"), name.substr(kMachine.size()))});
     }
 }
 
@@ -222,9 +221,10 @@ void check_times(const Analysis& analysis, Findings& found) {
     Ticks bound = kRounding;
     for (const auto& axis : analysis.axes) { bound = std::max(bound, kRounding + axis->statistics().clock_error()); }
     const Grade grade = late.largest() <= bound ? Grade::Good : Grade::Doubtful;
-    found.push_back(
-        {grade, fmt::format("no step {}is more than {:.0f} us from the time commanded",
-                            not_compared > 0 ? "whose time is known " : "", analysis.microseconds(late.largest()))});
+    const std::string which = not_compared > 0 ? "every step whose time is known" : "every step";
+    found.push_back({grade, late.largest() == Ticks{} ? which + " is at its commanded tick"
+                                                      : fmt::format("{} is within {:.0f} us of its commanded time",
+                                                                    which, analysis.microseconds(late.largest()))});
     if (not_compared == 0) { return; }
     found.push_back(unknown("whether " + plural(not_compared, "step") + " were in time",
                             "the times commanded are not in this log"));

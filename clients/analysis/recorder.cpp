@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "clients/analysis/log/run.hpp"
@@ -28,8 +29,9 @@ void Recorder::on_measured(std::size_t lane, const SharedSteps& steps) {
         auto& seen = lanes_[lane].seen_us;
         seen = std::max(seen.value_or(0), analysis_.microseconds_at(steps->steps.back().tick));
     }
+    newest_ = std::max(newest_, steps->steps.back().tick);
     merge_.take(lane, steps);
-    merge_.settle([this](std::size_t of, const MeasuredStep& step) { moves_.take(of, step); });
+    settle();
 }
 
 void Recorder::on_position(const axis_position_t& message) {
@@ -41,6 +43,7 @@ void Recorder::on_position(const axis_position_t& message) {
     if (lacks_messages && before && message.utime - *before > kSilence_us) { merge_.lost(number); }
     lane->incarnation = message.incarnation;
     lane->sequence = message.sequence;
+    newest_ = std::max(newest_, Tick{message.tick});
     merge_.stands(number, Tick{message.tick}, message.position_steps);
 }
 
@@ -128,7 +131,7 @@ void Recorder::begin_job(const RecordedJob& message, JobLog& record, LogPlace pl
 }
 
 void Recorder::on_late(const std::string& axis, const SharedLate& steps) {
-    moves_.on_late(axis, steps->all());
+    if (!steps->steps.empty()) { waiting_late_.push_back({axis, steps}); }
     const auto lane = std::ranges::find(lanes_, axis, &Lane::axis);
     if (lane == lanes_.end()) { return; }
     lane->late.add(steps->all());
@@ -205,8 +208,25 @@ void Recorder::note_move(JobLog& job, MoveLog move) {
     job.moves.push_back(std::move(move));
 }
 
+/// Steps wait for a while for the record of their job, which another process publishes.
+void Recorder::settle() {
+    constexpr std::int64_t kPatience_us = 1'500'000;
+    const Tick end = newest_ - Ticks{analysis_.tick_at(kPatience_us).value};
+    merge_.settle(end, [this](std::size_t of, const MeasuredStep& step) { moves_.take(of, step); });
+    settle_late(end);
+}
+
+void Recorder::settle_late(Tick end) {
+    for (; !waiting_late_.empty() && waiting_late_.front().steps->steps.back().commanded < end;
+         waiting_late_.pop_front()) {
+        moves_.on_late(waiting_late_.front().axis, waiting_late_.front().steps->all());
+    }
+}
+
 Analysis Recorder::finish(Sorter& sorter) {
+    constexpr Tick kNever{std::numeric_limits<std::int64_t>::max()};
     merge_.finish([this](std::size_t lane, const MeasuredStep& step) { moves_.take(lane, step); });
+    settle_late(kNever);
     for (Event& event : events_.events()) {
         const auto job = std::ranges::find_if(analysis_.jobs, [&](const JobLog& j) { return is_during(event.at, j); });
         if (job != analysis_.jobs.end()) { event.job = job->job; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <string>
@@ -60,7 +61,16 @@ private:
         note_unknown(analysis_.jobs[job], axes, moves);
         note_moves(analysis_.jobs[job], moves);
     }};
+    struct WaitingLate {
+        std::string axis;
+        SharedLate steps;
+    };
+    void settle();
+    void settle_late(Tick end);
+
     StepMerge merge_;
+    Tick newest_;  // machine time that the log has reached
+    std::deque<WaitingLate> waiting_late_;
     std::vector<Lane> lanes_;  // by lane number
     Analysis analysis_;
     RecordedJob latest_program_;  // the job with the latest program

@@ -84,7 +84,7 @@ std::string oddities(const Merged& merged) {
         text += count(merged.differing) + " left out: they have the number of another message, but other content\n";
     }
     for (const std::string& axis : merged.absent_axes) {
-        text += fmt::format("  {} missing: all its messages, though it is in the machine's file\n", axis);
+        text += fmt::format("  {} missing: all its messages, though the machine's file or a mark names it\n", axis);
     }
     text += line_of("jobs", merged.missing_job_events, "events") +
             line_of("jobs", merged.missing_program_parts, "programs");

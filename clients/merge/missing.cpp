@@ -111,7 +111,10 @@ void MissingWatch::note_steps(const step_batch_t& message) {
 void MissingWatch::take(const MessageId& id, const std::vector<std::uint8_t>& data) {
     const RecordKind kind = kind_of(id.channel);
     if (kind == RecordKind::Mark) {
-        if (const auto mark = decode_lcm<record_mark_t>(data)) { marks_.take(*mark); }
+        if (const auto mark = decode_lcm<record_mark_t>(data)) {
+            marks_.take(*mark);
+            if (!mark->process.empty()) { marked_.emplace(mark->machine, mark->process); }
+        }
     }
     if (kind == RecordKind::Job) { note_machine(data); }
     if (kind == RecordKind::Steps) {
@@ -140,6 +143,13 @@ std::vector<std::string> MissingWatch::absent_axes() const {
             };
             if (std::ranges::none_of(processes_, is_it)) { absent.push_back(name); }
         }
+    }
+    for (const auto& [machine, name] : marked_) {
+        const auto wanted = axes_wanted_.find(machine);
+        if (wanted == axes_wanted_.end() || std::ranges::find(wanted->second, name) != wanted->second.end()) {
+            continue;
+        }
+        absent.push_back(name);
     }
     return absent;
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -73,7 +74,7 @@ public:
     std::vector<AxisRecord> finish();
     /// Number of job events or program parts (`kind`) missing between the first and the last of each coordinator.
     std::int64_t missing_of_jobs(RecordKind kind) const;
-    /// Axes of the recorded machines without any message.
+    /// Axes without any message that the recorded machine has, or that a mark names.
     std::vector<std::string> absent_axes() const;
     /// Call once, at the end.
     analysis::RecordEnd end();
@@ -94,6 +95,7 @@ private:
     std::map<std::pair<std::string, std::string>, std::unique_ptr<Axis>> axes_;  // by machine and name
     std::map<Whose, analysis::RecordingProcess> processes_;                      // the process that published them
     std::map<std::string, std::vector<std::string>> axes_wanted_;                // by machine
+    std::set<std::pair<std::string, std::string>> marked_;                       // machines and axes that marks name
     analysis::RecordEndCheck marks_;
 };
 

@@ -99,6 +99,15 @@ void DeviceReplay::on_run_over() {
     if (newest_) { ++findings_.runs; }
 }
 
+/// A new device continues with the next motion from rest.
+void DeviceReplay::on_gap() {
+    held_.reset();
+    tail_.reset();
+    newest_.reset();
+    expected_.clear();
+    hardware_.reset();
+}
+
 void DeviceReplay::on_end() {
     if (held_) { end_motion(); }
 }

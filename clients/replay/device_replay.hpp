@@ -39,6 +39,7 @@ public:
     void on_run(const Run& run) override;
     void on_step(StepEdge step, Tick commanded, bool is_recorded) override;
     void on_run_over() override;
+    void on_gap() override;
     void on_end() override;
 
 private:

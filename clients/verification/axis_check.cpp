@@ -87,7 +87,7 @@ void AxisCheck::on_batch(const analysis::StepBatch& batch) {
     settle(false);
     if (waiting_.size() <= kMaxWaiting) { return; }
     findings_.add_unknown("axis " + name_ + ": no run is recorded for " + waiting_text());
-    runs_gap_ = {waiting_.front().incarnation, kNever};
+    runs_gap_ = {waiting_.front().incarnation, kBeginning, kNever};
     drop_steps_of_missing_runs();
 }
 
@@ -105,7 +105,9 @@ void AxisCheck::on_break(const analysis::Break& what) {
                           plural(std::abs(what.position_change), "step") + " missing between " +
                           at_tick(what.from, "the log's beginning") + " and " + at_tick(what.to, "the log's end"));
     const Run* run = maker_ ? &maker_->run() : last_run_ ? &*last_run_ : nullptr;
-    if (run != nullptr) { steps_gap_ = {run->incarnation, what.to.value_or(kNever)}; }
+    if (run != nullptr) {
+        steps_gaps_.push_back({run->incarnation, what.from.value_or(kBeginning), what.to.value_or(kNever)});
+    }
 }
 
 /// Compares as far as steps and runs were received.
@@ -160,7 +162,8 @@ bool AxisCheck::begin_next_run() {
     runs_.pop_front();
     const Run& run = maker_->run();
     const bool is_behind_gap = std::exchange(runs_are_missing_, false);
-    if (is_behind_gap) { runs_gap_ = {run.incarnation, run.start}; }
+    if (is_behind_gap && follower_ != nullptr) { follower_->on_gap(); }
+    if (is_behind_gap) { runs_gap_ = {run.incarnation, kBeginning, run.start}; }
     const bool follows = last_run_ && last_run_->incarnation == run.incarnation && !is_behind_gap;
     const bool jumps = follows && last_run_->device_stop() != run.device_start();
     if (jumps && std::exchange(device_lost_, false)) {
@@ -274,14 +277,19 @@ void AxisCheck::differ_at(const SeenStep& seen) {
 
 /// Passes the steps whose messages are missing.
 void AxisCheck::pass_gap() {
-    if (!steps_gap_ || !maker_) { return; }
-    const bool is_of_it = maker_->run().incarnation == steps_gap_->incarnation;
-    while (is_of_it && maker_->next() != nullptr && maker_->next()->tick < steps_gap_->until && !is_cut_here(nullptr)) {
-        pass_step(false);
-        ++gap_steps_;
+    while (!steps_gaps_.empty() && maker_ && maker_->run().incarnation == steps_gaps_.front().incarnation) {
+        const Gap& gap = steps_gaps_.front();
+        const StepEdge* next = maker_->next();
+        if (next == nullptr || next->tick <= gap.from) { return; }
+        if (next->tick >= gap.until) {
+            steps_gaps_.pop_front();
+        } else if (is_cut_here(nullptr)) {
+            return;
+        } else {
+            pass_step(false);
+            ++gap_steps_;
+        }
     }
-    const bool is_behind = is_of_it && maker_->next() != nullptr && maker_->next()->tick >= steps_gap_->until;
-    if (is_behind) { steps_gap_.reset(); }
 }
 
 /// Drops the steps of runs that are missing: they are before the next run.

@@ -41,6 +41,8 @@ public:
     /// ended before publishing it, or the log begins later.
     virtual void on_step(StepEdge step, Tick commanded, bool is_recorded) = 0;
     virtual void on_run_over() = 0;
+    /// Runs before the next one are not in the log.
+    virtual void on_gap() = 0;
     /// The end of the log.
     virtual void on_end() = 0;
 };
@@ -142,10 +144,11 @@ private:
     // Where messages are missing.
     struct Gap {
         std::int64_t incarnation = 0;
-        Tick until;  // of the device
+        Tick from;  // of the device
+        Tick until;
     };
-    std::optional<Gap> steps_gap_;                 // the steps before that are not in the log
-    std::optional<Gap> runs_gap_;                  // the steps up to that are of runs that are not in the log
+    std::deque<Gap> steps_gaps_;                   // the steps between, exclusive, are not in the log
+    std::optional<Gap> runs_gap_;                  // the steps up to `until` are of runs that are not in the log
     bool runs_are_missing_ = false;                // since last_run_
     std::int64_t gap_steps_ = 0;                   // of recorded runs, not in the log
     std::int64_t gap_run_steps_ = 0;               // in the log, of runs that are not

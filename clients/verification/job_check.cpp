@@ -197,7 +197,10 @@ void JobCheck::begin_epoch(const RecordedJob& record) {
         if (lost_epochs_.size() > kLabelsKept) { lost_epochs_.pop_front(); }
         return;
     }
-    if (!is_of_job(record) || !job_->replay) {
+    if (is_of_job(record) && !job_->replay) {
+        return differ("the log has an epoch of " + number_of(record) + ", which has no program");
+    }
+    if (!is_of_job(record)) {
         return differ("the log has an epoch of " + number_of(record) + ", but not the beginning of that job");
     }
     if (!job_->broken.empty()) { return differ(job_->label + " continues, though " + job_->broken, job_->broken_axis); }
@@ -294,6 +297,12 @@ void JobCheck::resolve(const std::string& axis, const Run& run, bool is_behind_g
     auto found = suspects_.extract(axis);
     if (!found) { return; }
     Suspect& suspect = found.mapped();
+    if (std::ranges::find(assumed_, std::pair{axis, run.epoch}) != assumed_.end() && !is_behind_gap) {
+        return findings_.add_unknown(
+            fmt::format("axis {}: its runs from {} of epoch {} on come too late in this log to "
+                        "be compared with their plan; lockstep log merge sorts them",
+                        axis, name_of(run), run.epoch));
+    }
     const bool is_known = !is_behind_gap && suspect.incarnation == run.incarnation;
     is_known ? findings_.differ(std::move(suspect.difference)) : findings_.add_missing(suspect.difference.text);
 }

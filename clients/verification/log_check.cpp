@@ -75,6 +75,9 @@ void LogCheck::on_program_part(const program_part_t& message, analysis::LogPlace
 /// A process's mark about itself applies to the rest of the log.
 void LogCheck::on_mark(const record_mark_t& message, analysis::LogPlace place) {
     end_.take(message);
+    if (Machine* of = machine(message.machine, place); of != nullptr && !message.process.empty()) {
+        if (of->marked_axes.size() < kMaxAxes) { of->marked_axes.insert(message.process); }
+    }
     if (message.witness != message.process) { return; }
     if (message.process.empty()) {
         Machine* of = machine(message.machine, place);
@@ -168,6 +171,10 @@ void LogCheck::Machine::set_config(const std::string& text) {
 void LogCheck::Machine::check_axes(Findings& findings) const {
     if (!config) { return; }
     const auto names = config->axis_names();
+    for (const std::string& name : marked_axes) {
+        if (axes.contains(name) || std::ranges::find(names, name) != names.end()) { continue; }
+        findings.add_missing("axis " + name + ": marks count its messages, but the machine has no such axis");
+    }
     for (const auto& [name, axis] : axes) {
         if (std::ranges::find(names, name) != names.end()) { continue; }
         findings.differ({.text = "the log has messages of axis " + name + ", which the machine does not have",
@@ -245,26 +252,27 @@ bool LogCheck::Machine::has_ended(const std::string& axis) const {
     return known == axes.end() || last.has_ended(known->second->last);
 }
 
-void LogCheck::Machine::finish(const std::string& name, const analysis::RecordEnd& end) {
+void LogCheck::Machine::finish(const std::string& name, const analysis::RecordEnd& end, bool is_damaged) {
     for (auto& [axis, of] : axes) { of->runs.finish(); }
     records.finish();
-    jobs.finish({.at_rest = are_at_rest(),
-                 .lacks_records = end.lacks(RecordKind::Job, name, ""),
-                 .has_ended = [this](const std::string& axis) { return has_ended(axis); },
-                 .lacks_runs = [&](const std::string& axis) { return end.lacks(RecordKind::Run, name, axis); }});
+    jobs.finish(
+        {.at_rest = are_at_rest(),
+         .lacks_records = is_damaged || end.lacks(RecordKind::Job, name, ""),
+         .has_ended = [this](const std::string& axis) { return has_ended(axis); },
+         .lacks_runs = [&](const std::string& axis) { return is_damaged || end.lacks(RecordKind::Run, name, axis); }});
     for (auto& [axis, of] : axes) {
         of->check.finish([&](std::int64_t incarnation) { return last.has_ended(of->last, incarnation); },
                          {.begins_late = of->is_late,
                           .ends_early = of->last.is_cut(),
-                          .lacks_steps = end.lacks(RecordKind::Steps, name, axis),
-                          .lacks_runs = end.lacks(RecordKind::Run, name, axis)});
+                          .lacks_steps = is_damaged || end.lacks(RecordKind::Steps, name, axis),
+                          .lacks_runs = is_damaged || end.lacks(RecordKind::Run, name, axis)});
     }
 }
 
 Findings LogCheck::finish() {
     const analysis::RecordEnd end = end_.finish();
     for (auto& [name, machine] : machines_) {
-        machine.finish(name, end);
+        machine.finish(name, end, damages_ > 0);
         machine.check_axes(findings_);
     }
     if (!make_follower_) { findings_.end = end; }

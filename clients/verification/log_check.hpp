@@ -4,6 +4,8 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -68,7 +70,7 @@ private:
         void note_message(Axis& axis, std::int64_t incarnation, std::int64_t utime);
         void note_motion(Axis& axis);
         bool are_at_rest() const;
-        void finish(const std::string& name, const analysis::RecordEnd& end);
+        void finish(const std::string& name, const analysis::RecordEnd& end, bool is_damaged);
         void set_config(const std::string& text);
         void check_axes(Findings& findings) const;
         JobCheck jobs;
@@ -77,6 +79,7 @@ private:
         MachineActivity last;
         std::map<std::string, std::unique_ptr<Axis>> axes;
         std::map<std::int64_t, std::int64_t> marked_jobs;  // by coordinator: the first event that must be in the log
+        std::set<std::string> marked_axes;                 // that marks name
         bool has_jobs = false;
     };
     void take_record(const auto& message, RecordKind kind, analysis::LogPlace place);

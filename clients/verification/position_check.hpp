@@ -3,6 +3,8 @@
 // until the next step.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -32,7 +34,7 @@ public:
     /// position and its time may be.
     std::optional<std::string> take(const analysis::StepBatch& batch, Ticks slot);
     /// Nothing is known across a gap.
-    void skip() { stretch_.reset(); }
+    void skip();
     /// Call once, at the end of the log.
     std::optional<std::string> finish();
 
@@ -45,17 +47,32 @@ private:
             high = std::max(high, count);
         }
     };
-    /// After the newest step.
-    struct Stretch {
+    /// A recent batch, and the steps of it that are too old for the next position.
+    struct Recent {
+        analysis::StepBatch batch;
+        ClockStretch time;
+        std::size_t passed = 0;
+        std::int64_t count = 0;  // after them
+
+        bool is_passed() const { return passed == batch.steps.size(); }
+        Tick next() const { return time.at(batch.steps[passed].tick); }
+        void pass() { count += batch.steps[passed++].direction; }
+    };
+    /// The axis stands at `count` from a time on, until the first recent step.
+    struct Stand {
         Tick from;
         std::int64_t count = 0;
     };
-    std::optional<std::string> compare(const SeenPosition& position, const Range& allowed) const;
+    void pass_before(Tick tick);
+    std::optional<std::string> compare(const SeenPosition& position, Ticks reach) const;
+    std::string text(const SeenPosition& position, const Range& allowed) const;
 
     std::string axis_;
     std::deque<SeenPosition> waiting_;
-    std::optional<Stretch> stretch_;
-    std::optional<SeenPosition> newest_;
+    std::deque<Recent> recent_;
+    std::optional<Stand> stand_;   // before the recent steps
+    std::optional<Stand> newest_;  // after all steps
+    std::optional<SeenPosition> last_;
     std::optional<Tick> anew_;  // the newest time from which positions count from another zero
 };
 

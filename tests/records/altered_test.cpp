@@ -1,6 +1,8 @@
 // Every alteration of a valid record is found, and the tools agree about it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/records/alterations/alterations.hpp"
 
 namespace lockstep::records {
@@ -22,6 +24,15 @@ TEST_P(AlteredRecord, IsJudgedByWhatWasAltered) {
 
 INSTANTIATE_TEST_SUITE_P(All, AlteredRecord, testing::ValuesIn(altered_bases()),
                          [](const auto& cell) { return cell.param.name(); });
+
+TEST(Alterations, HaveAPlaceInABase) {
+    const auto cells = altered_bases();
+    for (const Alteration& alteration : alterations()) {
+        EXPECT_TRUE(std::ranges::any_of(cells, [&](const AlteredBase& cell) {
+            return cell.alteration.name == alteration.name;
+        })) << alteration.name;
+    }
+}
 
 class UnalteredBase : public testing::TestWithParam<Base> {};
 

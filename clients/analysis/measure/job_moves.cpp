@@ -19,7 +19,8 @@ std::size_t steps_in_move(const MoveCursor& cursor, std::span<const LateStep> st
     const auto is_elsewhere = [&](const LateStep& step) {
         return !cursor.is_in_stroke(step.count - step.direction, step.direction);
     };
-    return static_cast<std::size_t>(std::ranges::find_if(steps, is_elsewhere) - steps.begin());
+    return std::max<std::size_t>(1,
+                                 static_cast<std::size_t>(std::ranges::find_if(steps, is_elsewhere) - steps.begin()));
 }
 
 }  // namespace

@@ -19,7 +19,10 @@ public:
 
     void on_axis(const std::string& name) override;
     void on_measured(std::size_t lane, const SharedSteps& steps) override;
-    void on_position(const axis_position_t& message) override { next_.on_position(message); }
+    void on_position(const axis_position_t& message) override {
+        skew_.pass(message.axis, Tick{message.tick});
+        next_.on_position(message);
+    }
     void on_run(std::size_t lane, const Run& run) override;
     void on_job(const RecordedJob& message, LogPlace place) override { next_.on_job(message, place); }
     void on_event(const program_event_t& message, const ProgramEvent& event) override {

@@ -15,7 +15,7 @@ std::size_t likely_steps(const Run& run) {
 }  // namespace
 
 void Lateness::take(SharedSteps steps) {
-    last_tick_ = steps->steps.back().tick;
+    last_tick_ = std::max(last_tick_.value_or(steps->steps.back().tick), steps->steps.back().tick);
     seen_.add(std::move(steps));
     settle();
     while (seen_.size() > kMaxSeen) { seen_.pop(); }
@@ -24,6 +24,14 @@ void Lateness::take(SharedSteps steps) {
 void Lateness::take(Run run) {
     const auto later = std::ranges::upper_bound(runs_, run.commanded_start(), {}, &Run::commanded_start);
     runs_.insert(later, std::move(run));
+    settle();
+}
+
+/// Steps are published up to 10 ms after they are made, and a process may stall.
+void Lateness::pass(Tick tick) {
+    const Tick known = tick - kPatience;
+    if (last_tick_ && known <= *last_tick_) { return; }
+    last_tick_ = known;
     settle();
 }
 

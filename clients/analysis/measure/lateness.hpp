@@ -74,6 +74,8 @@ public:
     /// Takes the next steps.
     void take(SharedSteps steps);
     void take(Run run);
+    /// The axis has reported its position at this time, so its steps before are in the log.
+    void pass(Tick tick);
     /// Call once, at the end of the log.
     void finish();
 

@@ -18,7 +18,7 @@ namespace lockstep::analysis {
 class MoveMeter {
 public:
     /// How many jobs may be open. Messages of the next job may come before the last steps of the previous one.
-    static constexpr std::size_t kJobsOpen = 4;
+    static constexpr std::size_t kJobsOpen = 16;
 
     /// Called when a job is over, with the number given to begin(), the axes of its machine, and its moves.
     using OnJob = std::function<void(std::size_t number, const std::vector<std::string>& axes, JobMoves&)>;

@@ -41,6 +41,7 @@ public:
     void add(const std::string& axis) { lateness(axis); }
     /// The next steps of an axis.
     void take(const std::string& axis, SharedSteps steps) { lateness(axis).take(std::move(steps)); }
+    void pass(const std::string& axis, Tick tick) { lateness(axis).pass(tick); }
     void take(const std::string& axis, Run run) { lateness(axis).take(std::move(run)); }
     /// Call once, at the end of the log. Returns the pairs that ran frames together.
     std::vector<PairSkew> finish();

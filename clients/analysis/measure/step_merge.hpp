@@ -35,10 +35,10 @@ public:
     /// Between these times the log has all of the axis's motion, except for gaps.
     Tick known_from(std::size_t lane) const { return lanes_[lane].known_from; }
     Tick known_until(std::size_t lane) const { return lanes_[lane].known_until; }
-    /// Calls on_step(lane, step) for the steps that need not wait any longer. Call from time to time.
+    /// Calls on_step(lane, step) for the steps before `end` that need not wait any longer. Call from time to time.
     template <typename OnStep>
-    void settle(OnStep&& on_step) {
-        deliver_before(settled_until(), on_step);
+    void settle(Tick end, OnStep&& on_step) {
+        deliver_before(std::min(end, settled_until()), on_step);
         while (waiting_ > max_waiting_ && give_up_slowest()) { deliver_before(settled_until(), on_step); }
     }
     /// Calls on_step(lane, step) for all remaining steps.

@@ -34,7 +34,9 @@ std::vector<AlteredBase> altered_bases() {
     std::vector<AlteredBase> all;
     for (const Base& base : bases()) {
         for (const Alteration& alteration : alterations()) {
-            if (base.fulfils(alteration.needs)) { all.push_back({base, alteration}); }
+            if (!base.fulfils(alteration.needs)) { continue; }
+            Record record = record_of(base);
+            if (alteration.alter(record)) { all.push_back({base, alteration}); }
         }
     }
     return all;

@@ -1,6 +1,11 @@
 // Finds and changes single messages of a record.
 #pragma once
 
+#include <string>
+#include <string_view>
+
+#include "tests/records/alterations/alterations.hpp"
+
 #include <functional>
 #include <optional>
 #include <string>
@@ -37,5 +42,11 @@ bool repeat_at(Record& record, std::optional<std::size_t> place);
 /// numbers then, and the marks count one more, as if the process had published it.
 void insert_steps(Record& record, std::size_t behind, step_batch_t message);
 void insert_run(Record& record, std::size_t behind, run_t message);
+
+/// An axis's own moves follow its own clock only, so its machine time shows nothing there.
+inline Needs clock_needs(std::string_view change, const std::string& motion) {
+    const bool is_of_clock = change.starts_with("ahead") || change.starts_with("clock_error");
+    return {.shared_clock = is_of_clock && motion != "run", .all_motions = motion != "run"};
+}
 
 }  // namespace lockstep::records

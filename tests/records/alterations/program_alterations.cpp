@@ -10,8 +10,8 @@ namespace lockstep::records {
 namespace {
 
 constexpr Expected kProgramOtherPlan{kSaysBad, kSaysDoubtful | kSaysUnknown | kSaysBad, kSaysGood, kReplayedAlike};
-constexpr Expected kProgramNoPlan{kSaysUnknown | kSaysRefused, kSaysDoubtful | kSaysUnknown, kSaysGood | kSaysUnknown,
-                                  kReplayedAlike};
+constexpr Expected kProgramNoPlan{kSaysUnknown | kSaysRefused | kSaysBad, kSaysDoubtful | kSaysUnknown | kSaysBad,
+                                  kSaysGood | kSaysUnknown, kReplayedAlike};
 
 ProgramMove* last_move(Program& program) {
     ProgramMove* last = nullptr;
@@ -94,7 +94,7 @@ void add_configurations(std::vector<Alteration>& all) {
              machine.axes.push_back(machine.axes.front());
              machine.axes.back().name = "W";
          },
-         {kSaysUnknown | kSaysBad | kSaysRefused, kSaysUnknown, kSaysGood | kSaysUnknown, kReplayedAlike});
+         {kSaysUnknown | kSaysBad | kSaysRefused, kSaysUnknown | kSaysBad, kSaysGood | kSaysUnknown, kReplayedAlike});
 }
 
 }  // namespace

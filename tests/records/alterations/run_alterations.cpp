@@ -88,7 +88,7 @@ std::vector<Alteration> run_alterations() {
             if (change.only_in_jobs && motion != "run") { continue; }
             all.push_back({"run_" + std::string(change.name) + "_" + name_of_motion(motion),
                            [=](Record& r) { return change_at<run_t>(r, run_in(r, motion), change.change); },
-                           change.expected, Altered{}, Needs{.all_motions = motion != "run"}});
+                           change.expected, Altered{}, clock_needs(change.name, motion)});
         }
         add_whole_runs(motion, all);
     }

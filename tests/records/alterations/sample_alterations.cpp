@@ -1,4 +1,4 @@
-// Samples of positions and health that contradict the steps, are wrong, or are lost.
+// Samples of positions that contradict the steps, are wrong, or are lost. A machine in virtual time records no health.
 #include "tests/records/alterations/alterations.hpp"
 #include "tests/records/alterations/places.hpp"
 #include "tests/records/record_times.hpp"
@@ -39,7 +39,6 @@ void add_lost_sample(const std::string& what, std::vector<Alteration>& all) {
 
 std::vector<Alteration> sample_alterations() {
     using Sample = axis_position_t;
-    using Health = axis_health_t;
     std::vector<Alteration> all{
         changed<Sample>(
             "position_a_thousand_steps_off", [](Sample& s) { s.position_steps += 1000; }, kWrongSample),
@@ -54,17 +53,8 @@ std::vector<Alteration> sample_alterations() {
                 s.state = "Fault";
             },
             kWrongSample),
-        changed<Health>(
-            "health_with_late_steps", [](Health& h) { h.step_lateness_max_us = 900; }, kWrongSample),
-        changed<Health>(
-            "health_with_lost_records", [](Health& h) { h.lost_records = 5; }, kWrongSample),
-        changed<Health>(
-            "health_with_lost_captures", [](Health& h) { h.lost_captures = 3; }, kWrongSample),
-        changed<Health>(
-            "health_with_a_clock_error_of_ten_seconds", [](Health& h) { h.clock_error_us = 1e7; }, kWrongSample),
     };
     add_lost_sample<Sample>("position", all);
-    add_lost_sample<Health>("health", all);
     return all;
 }
 

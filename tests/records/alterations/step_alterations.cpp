@@ -90,7 +90,8 @@ const StepChange kStepChanges[]{
     {"first_tick_beyond_all_limits", [](Steps& steps) { steps.first_tick = std::int64_t{1} << 60; }, kStepImpossible},
     {"number_far_ahead",
      [](Steps& steps) { steps.sequence += 5000; },
-     {kSaysBad | kSaysUnknown, kSaysDoubtful | kSaysUnknown, kSaysUnknown, kSaysBad | kSaysUnknown}},
+     {kSaysBad | kSaysUnknown, kSaysDoubtful | kSaysUnknown | kSaysBad, kSaysUnknown | kSaysBad,
+      kSaysBad | kSaysUnknown}},
 };
 
 Alteration lost_steps(std::string name, std::function<bool(Record&)> alter) {
@@ -120,7 +121,7 @@ bool split(Record& record, const std::string& motion) {
 
 bool move_back(Record& record, const std::string& motion) {
     const auto place = steps_in(record, motion);
-    if (!place || *place + 1500 >= record.size()) { return false; }
+    if (!place || *place + 300 >= record.size()) { return false; }
     Message late = record[*place];
     record.erase(record.begin() + static_cast<std::ptrdiff_t>(*place));
     record.push_back(std::move(late));
@@ -150,7 +151,7 @@ std::vector<Alteration> step_alterations() {
         for (const StepChange& change : kStepChanges) {
             all.push_back({change.name + ("_" + name_of_motion(motion)),
                            [=](Record& r) { return change_at<Steps>(r, steps_in(r, motion), change.change); },
-                           change.expected, Altered{}, Needs{.all_motions = motion != "run"}});
+                           change.expected, Altered{}, clock_needs(change.name, motion)});
         }
         add_whole_messages(motion, all);
     }

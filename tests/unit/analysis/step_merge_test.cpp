@@ -19,7 +19,7 @@ protected:
         return std::make_shared<MeasuredSteps>(std::move(made));
     }
     std::size_t settled() {
-        merge.settle(deliver);
+        merge.settle(Tick{std::numeric_limits<std::int64_t>::max()}, deliver);
         return delivered.size();
     }
     std::size_t finished() {
