@@ -42,6 +42,14 @@ void AxisLog::take(const PositionSample& sample) {
     position_csv_->cell(sample.position_mm).cell(sample.velocity_mm_per_s).end_line();
 }
 
+void AxisLog::take(const Run& run) {
+    double largest = commanded_acceleration_.value_or(0);
+    for (const Piece& piece : run.pieces) {
+        largest = std::max(largest, std::abs(std::ldexp(static_cast<double>(piece.acceleration.raw), -64)));
+    }
+    commanded_acceleration_ = largest;
+}
+
 std::expected<void, std::string> AxisLog::finish() {
     stream_.finish();
     statistics_.finish();

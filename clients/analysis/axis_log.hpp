@@ -11,6 +11,7 @@
 
 #include "clients/analysis/csv.hpp"
 #include "clients/analysis/log/message_numbers.hpp"
+#include "clients/analysis/log/run.hpp"
 #include "clients/analysis/log/step_stream.hpp"
 #include "clients/analysis/measure/axis_statistics.hpp"
 #include "clients/analysis/measure/lateness.hpp"
@@ -77,6 +78,11 @@ public:
     std::vector<Sample> slack() const { return slack_.samples(); }
     const Trace& trace() const { return trace_; }
     std::int64_t positions() const { return positions_; }
+    /// A frame, a tail or an own move that its device ran.
+    void take(const Run& run);
+    /// The largest acceleration of their pieces, without sign, in steps per tick^2. Jumps of speed between pieces, up
+    /// to the start velocity, are not in it. nullopt without runs.
+    std::optional<double> commanded_steps_per_tick2() const { return commanded_acceleration_; }
     /// Without its sign.
     std::int64_t largest_following_error() const { return following_error_; }
     /// Missing messages between the first and the last in the log.
@@ -104,6 +110,7 @@ private:
     MessageNumbers figure_numbers_;  // of health messages
     std::int64_t positions_ = 0;
     std::int64_t following_error_ = 0;
+    std::optional<double> commanded_acceleration_;
     std::int64_t first_position_steps_ = 0;
     std::optional<PositionSample> last_position_;
     std::optional<PositionSample> origin_;  // the first with the newest zero, until steps with it are recorded

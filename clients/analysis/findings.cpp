@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "clients/analysis/analysis_text.hpp"
+#include "clients/analysis/moves/deviation.hpp"
 #include "clients/text/numbers.hpp"
 #include "core/axis_unit.hpp"
 
@@ -127,11 +128,24 @@ void check_jobs(const Analysis& analysis, Findings& found) {
         check_steps(analysis, job, lacking, found);
         if (job.move_count == 0 || !job.is_whole()) { continue; }
         ++whole_jobs;
-        moves += job.move_count;
+        moves += job.move_count - job.dwells;
     }
     if (moves == 0) { return; }
     found.push_back({Grade::Good, fmt::format("each of {} in {} has exactly the commanded steps", plural(moves, "move"),
                                               plural(whole_jobs, "job"))});
+}
+
+/// The frames on record say by how much an axis accelerated. Over a window of steps a permitted jump of speed would
+/// count as acceleration too.
+void check_acceleration(const Analysis& analysis, const AxisLog& axis, Findings& found) {
+    const AxisConfig* config = analysis.axis_config(axis.name());
+    if (config == nullptr || !axis.commanded_steps_per_tick2()) { return; }
+    const double ticks_per_s = 1e9 / static_cast<double>(analysis.tick_ns());
+    const double most = *axis.commanded_steps_per_tick2() * ticks_per_s * ticks_per_s / config->steps_per_mm;
+    const double limit = std::max(config->max_accel_mm_s2, config->max_decel_mm_s2);
+    if (most <= limit * kOverLimit) { return; }
+    found.push_back({Grade::Bad, fmt::format("{}: {:.0f} {unit}/s² is above its limit of {:.0f} {unit}/s²", axis.name(),
+                                             most, limit, fmt::arg("unit", unit_of(axis.name())))});
 }
 
 void check_axis(const Analysis& analysis, const AxisLog& axis, Findings& found) {
@@ -143,6 +157,7 @@ void check_axis(const Analysis& analysis, const AxisLog& axis, Findings& found) 
                                                       plural(messages, "message"), kWhereTheRestIs)});
     }
     const AxisConfig* config = analysis.axis_config(axis.name());
+    check_acceleration(analysis, axis, found);
     const double peak = axis.statistics().peak_steps_per_tick() * 1e9 / static_cast<double>(analysis.tick_ns());
     if (config == nullptr || peak <= config->max_velocity_mm_s * config->steps_per_mm * kOverLimit) { return; }
     found.push_back({Grade::Bad, fmt::format("{}: {:.2f} {unit}/s is above its limit of {:.2f} {unit}/s", axis.name(),
@@ -181,7 +196,7 @@ void check_machines(const Analysis& analysis, Findings& found) {
         if (!name.starts_with(kMachine)) { continue; }
         found.push_back(
             {Grade::Unknown,
-             fmt::format("{} is in this log too and is not analyzed here ({}): lockstep analyze --machine {}", name,
+             fmt::format("{} is in this log too and is not analyzed here ({}); --machine {} analyzes it", name,
                          plural(static_cast<std::int64_t>(messages), "message"), name.substr(kMachine.size()))});
     }
 }
@@ -250,10 +265,16 @@ void check_distance(const Analysis& analysis, Findings& found) {
     if (analysis.largest_distance_mm) {
         const double exact_mm = exact_distance_mm(analysis);
         const bool is_good = *analysis.largest_distance_mm <= exact_mm;
-        std::string text =
-            fmt::format("the stepped path is at most {:.4f} mm from the commanded path", *analysis.largest_distance_mm);
+        Deviations largest;
+        for (const JobLog& job : analysis.jobs) {
+            if (!analysis.config) { break; }
+            add(largest, deviations(*analysis.config, job.moves, job.move_count, job.largest_distance_mm));
+        }
+        const std::string amount =
+            largest.empty() ? fmt::format("{:.4f} mm", *analysis.largest_distance_mm) : to_text(largest);
+        std::string text = fmt::format("the stepped path is at most {} from the commanded path", amount);
         if (unmeasured > 0) { text += ", where it is known"; }
-        if (!is_good) { text += fmt::format("; exact steps are within {:.4f} mm", exact_mm); }
+        if (!is_good) { text += fmt::format("; exact steps are within {:.4f}", exact_mm); }
         found.push_back({is_good ? Grade::Good : Grade::Bad, text});
     }
     if (unmeasured == 0) { return; }

@@ -50,6 +50,7 @@ void Sorter::on_run(const run_t& message, LogPlace place) {
     const auto run = to_run(message);
     if (!run) { return on_damage(place, run.error()); }
     end_.saw(RecordKind::Run, message.machine, message.axis, message.incarnation, message.sequence);
+    of->log->take(*run);
     listener_.on_run(of->number, *run);
 }
 

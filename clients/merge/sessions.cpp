@@ -148,10 +148,10 @@ std::expected<ChosenLogs, std::string> choose_logs(const std::vector<GivenLog>& 
 std::optional<TimeSpan> span_of_job(const std::vector<JobSpan>& jobs, std::int64_t job) {
     const auto found = std::ranges::find(jobs.rbegin(), jobs.rend(), job, &JobSpan::job);
     if (found == jobs.rend()) { return std::nullopt; }
-    constexpr std::int64_t kBeside_us =
-        500'000;  // marks and positions around the job; steps are published within 0.1 s
-    TimeSpan span{.from_us = found->begun_us - kBeside_us, .until_us = {}, .program = {}};
-    if (found->ended_us) { span.until_us = *found->ended_us + kBeside_us; }
+    constexpr std::int64_t kBefore_us = 20'000;
+    constexpr std::int64_t kBehind_us = 500'000;  // steps are published within 0.1 s
+    TimeSpan span{.from_us = found->begun_us - kBefore_us, .until_us = {}, .program = {}};
+    if (found->ended_us) { span.until_us = *found->ended_us + kBehind_us; }
     if (found->program) { span.program = {found->coordinator, *found->program}; }
     if (const auto before = found + 1; before != jobs.rend()) {
         span.from_us = std::max(*span.from_us, before->ended_us.value_or(before->begun_us) + 1);

@@ -51,8 +51,8 @@ struct TimeSpan {
     std::optional<ProgramInParts> program;  // all its parts are included, also those recorded before
 };
 
-/// Returns the span of the newest job with that number, with half a second on each side at most, but without the jobs
-/// before and after it, and the job's program. Returns nullopt if no such job exists.
+/// Returns the span of the newest job with that number, from shortly before its begin until half a second after its
+/// end, but without the jobs before and after it, and the job's program. Returns nullopt if no such job exists.
 std::optional<TimeSpan> span_of_job(const std::vector<JobSpan>& jobs, std::int64_t job);
 
 }  // namespace lockstep::merge

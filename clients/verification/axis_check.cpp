@@ -58,7 +58,7 @@ void AxisCheck::take(Run run) {
     if (!findings_.going()) { return; }
     (void)birth_of(run.incarnation);
     note_wrong(clocks_.take(name_, run), run.start);
-    runs_.push_back(std::move(run));
+    runs_.push_back({std::move(run), std::exchange(runs_are_missing_, false)});
     settle(false);
 }
 
@@ -157,11 +157,11 @@ void AxisCheck::pass_before_log() {
 
 bool AxisCheck::begin_next_run() {
     if (runs_.empty()) { return false; }
-    if (!last_run_ && runs_.front().sequence > 0) { leave_out_before_log(runs_.front()); }
-    maker_.emplace(std::move(runs_.front()));
+    const bool is_behind_gap = runs_.front().is_behind_gap;
+    if (!last_run_ && runs_.front().run.sequence > 0) { leave_out_before_log(runs_.front().run); }
+    maker_.emplace(std::move(runs_.front().run));
     runs_.pop_front();
     const Run& run = maker_->run();
-    const bool is_behind_gap = std::exchange(runs_are_missing_, false);
     if (is_behind_gap && follower_ != nullptr) { follower_->on_gap(); }
     if (is_behind_gap) { runs_gap_ = {run.incarnation, kBeginning, run.start}; }
     const bool follows = last_run_ && last_run_->incarnation == run.incarnation && !is_behind_gap;
@@ -236,6 +236,7 @@ void AxisCheck::note_equal(std::size_t steps) {
 std::size_t AxisCheck::in_time(const SeenBatch& batch, std::span<const StepEdge> steps) {
     const Run& run = maker_->run();
     if (run.epoch == 0) { return steps.size(); }
+    note_wrong(clocks_.take_in_frame(name_, run, batch.clock_error()), steps.empty() ? run.start : steps.front().tick);
     findings_.clock_error = std::max(findings_.clock_error, batch.clock_error() + run.clock_error);
     if (batch.shares_time() && run.shares_time()) { return steps.size(); }
     const Ticks most = allowed(batch.clock_error(), run.clock_error);

@@ -136,7 +136,11 @@ private:
     PositionCheck positions_;
     Ticks slot_{100'000};  // before the machine is known
     WaitingSteps waiting_;
-    std::deque<Run> runs_;
+    struct NextRun {
+        Run run;
+        bool is_behind_gap = false;  // runs before it are missing
+    };
+    std::deque<NextRun> runs_;
     std::vector<std::int64_t> incarnations_;  // in the order of their first messages
     std::optional<StepMaker> maker_;          // of the run being compared
     std::optional<Run> last_run_;             // the one before it
@@ -149,7 +153,7 @@ private:
     };
     std::deque<Gap> steps_gaps_;                   // the steps between, exclusive, are not in the log
     std::optional<Gap> runs_gap_;                  // the steps up to `until` are of runs that are not in the log
-    bool runs_are_missing_ = false;                // since last_run_
+    bool runs_are_missing_ = false;                // before the next run to come
     std::int64_t gap_steps_ = 0;                   // of recorded runs, not in the log
     std::int64_t gap_run_steps_ = 0;               // in the log, of runs that are not
     std::map<std::int64_t, std::int64_t> marked_;  // by process: the first message of steps that must be in the log

@@ -30,4 +30,13 @@ std::optional<std::string> ClockCheck::take(const std::string& axis, const analy
         axis, name_of(run), run.clock_error.value, machine_->clock_error_limit().value);
 }
 
+std::optional<std::string> ClockCheck::take_in_frame(const std::string& axis, const analysis::Run& run,
+                                                     Ticks error) const {
+    if (!machine_ || error <= most() * 2) { return std::nullopt; }  // an improved estimate may shift steps as well
+    return fmt::format(
+        "axis {}: steps of {} are known within {} ticks of machine time; {} are allowed "
+        "(timing.clock_error_limit_us)",
+        axis, name_of(run), error.value, machine_->clock_error_limit().value);
+}
+
 }  // namespace lockstep::verification

@@ -21,6 +21,9 @@ public:
     std::optional<std::string> take(const std::string& axis, const analysis::StepBatch& batch) const;
     std::optional<std::string> take(const std::string& axis, const analysis::Run& run) const;
 
+    /// Of the steps of a frame.
+    std::optional<std::string> take_in_frame(const std::string& axis, const analysis::Run& run, Ticks error) const;
+
 private:
     bool shares_clock() const { return machine_->timing.time_source == TimeSource::Shared; }
     /// Twice the limit: the bound may grow while a frame that was armed in time is run.

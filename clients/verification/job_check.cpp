@@ -30,7 +30,9 @@ std::size_t index_of(const MachineConfig& machine, const std::string& axis) {
 
 /// Late records of a stopped coordinator's job are sorted before the job that another coordinator has begun since.
 void JobCheck::take(const RecordedJob& record, bool is_behind_gap) {
-    resolve_doubt(is_behind_gap);
+    const bool explains = record.event == "override" && static_cast<Epoch>(record.epoch) == doubtful_.first &&
+                          static_cast<FrameNumber>(record.behind_frame) < doubtful_.second;
+    resolve_doubt(is_behind_gap || explains);
     if (begins_late_ && !first_job_ && record.event != "begun") { return; }  // of a job begun before the log
     if (record.event == "begun" && !first_job_) { first_job_ = record.job; }
     if (record.event == "epoch" && !first_epoch_) {
@@ -251,6 +253,10 @@ void JobCheck::end(const RecordedJob& record) {
                                   "; what was run of it is as planned");
     } else if (!job.broken.empty()) {
         return differ(job.label + " is recorded as " + record.outcome + ", but " + job.broken, job.broken_axis);
+    } else if (record.outcome == "done" && job.ran == FrameNumber{0}) {
+        const std::string text = job.label + " is recorded as done, but no run of its last motion is in the log";
+        if (!undone_) { undone_ = Difference{text, {}, {}, {}, job.label}; }
+        return events_.leave();
     } else if (record.outcome == "done" && left) {
         return differ(job.label + " is recorded as done, but its program continues at " + text_of(left->place));
     }
@@ -265,6 +271,7 @@ void JobCheck::end(const RecordedJob& record) {
 void JobCheck::close_epoch(bool goes_on, bool lacks_events) {
     if (!epoch_) { return; }
     plan_next(epoch_->replay());
+    job_->ran = epoch_->ran();
     const std::size_t axes = job_->replay->machine().axes.size();
     std::optional<Shortfall> found = epoch_->shortfall();
     for (std::size_t i = 0; goes_on && i < axes && found && suspect(*found); ++i) { found = epoch_->shortfall(); }
@@ -343,6 +350,7 @@ void JobCheck::finish(const LogEnd& end) {
         unplaced_ = Difference{text, axis, {}, run.start, commanded(run, run.start)};
     }
     if (unplaced_) { lacks_records_ ? findings_.add_missing(unplaced_->text) : findings_.differ(*unplaced_); }
+    if (undone_) { end.lacks_any_run ? findings_.add_missing(undone_->text) : findings_.differ(*undone_); }
     resolve_at_end(end);
     if (!job_ && end.at_rest && !begins_late_ && !lacks_records_) { events_.finish(); }
     if (!job_ || !findings_.going()) { return; }
@@ -480,6 +488,7 @@ void JobCheck::compare(const AxisRun& of) {
     if (job_->replay->program()->failure()) { return differ("", name, &run); }
     doubt_ = {"axis " + name + ": " + name_of(run) + found->text, name, found->tick_expected, found->tick_seen,
               commanded(run, found->tick_expected.value_or(run.start))};
+    doubtful_ = {run.epoch, run.frame};
     job_->is_lost = true;
     lose_epoch();
 }

@@ -48,6 +48,7 @@ public:
     struct LogEnd {
         bool at_rest = false;        // it continues long enough after the last motion on record
         bool lacks_records = false;  // by the marks, records of jobs after the last one are missing
+        bool lacks_any_run = false;  // by the marks, runs of any axis after its last one are missing
         /// Whether an axis's process had ended, and whether by the marks runs of the axis after its last are missing.
         std::function<bool(const std::string& axis)> has_ended;
         std::function<bool(const std::string& axis)> lacks_runs;
@@ -68,6 +69,7 @@ private:
         std::int64_t number = 0;
         std::string label;                // "job 2, run plate.gcode"
         std::optional<JobReplay> replay;  // none for homing and own moves
+        std::optional<FrameNumber> ran;   // in its last epoch, by any axis; nullopt before the end of one
         bool is_lost = false;             // records of it are missing, so its plan is not known
         std::string broken;               // why the runs are not the whole plan; empty if they are
         std::string broken_axis;
@@ -133,7 +135,9 @@ private:
     /// A run that differs from its plan. The coordinator's next record shows whether a record before the run is
     /// missing.
     std::optional<Difference> doubt_;
+    std::pair<Epoch, FrameNumber> doubtful_{0, 0};
     bool lacks_records_ = false;          // of jobs
+    std::optional<Difference> undone_;    // a job that is done, though none of its last runs are in the log
     std::optional<Difference> unplaced_;  // a run without a record of its epoch
     /// An axis with nothing in the log after a frame that is not its last, in a job that went on. Its next run shows
     /// whether runs are missing.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "clients/analysis/log/log_step.hpp"
 #include "core/faults.hpp"
@@ -134,12 +135,33 @@ void LogCheck::on_position(const axis_position_t& message, analysis::LogPlace pl
     if (found == of->second.axes.end()) { return; }
     of->second.note_message(*found->second, message.incarnation, message.utime);
     of->second.records.pass(message.utime);
-    if (message.fault == 0 && analysis::is_countable(message.tick) && analysis::is_countable(message.position_steps)) {
+    check_place(message, of->second);
+    if (!make_follower_ && message.fault == 0 && analysis::is_countable(message.tick) &&
+        analysis::is_countable(message.position_steps)) {
         found->second->check.take(
             SeenPosition{{message.tick}, message.position_steps, message.incarnation, message.homed != 0});
     }
     found->second->last.is_moving = message.velocity_steps_per_s != 0;
     if (message.fault == static_cast<std::int32_t>(FaultCode::DeviceLost)) { found->second->check.device_lost(); }
+}
+
+/// The position in mm must be that in steps.
+void LogCheck::check_place(const axis_position_t& message, const Machine& of) {
+    constexpr double kRounding_steps = 1e-3;
+    if (make_follower_ || !of.config) { return; }
+    const auto axis = std::ranges::find(of.config->axes, message.axis, &AxisConfig::name);
+    if (axis == of.config->axes.end()) { return; }
+    const double steps = message.position_mm * axis->steps_per_mm;
+    const auto counted = static_cast<double>(message.position_steps);
+    if (std::abs(steps - counted) <= kRounding_steps + std::abs(counted) * 1e-9) { return; }
+    findings_.differ(
+        {.text = fmt::format("axis {}: its position at tick {} is recorded as {} steps and as {} mm, which "
+                             "are {} steps",
+                             message.axis, message.tick, message.position_steps, message.position_mm, steps),
+         .axis = message.axis,
+         .tick_expected = {},
+         .tick_seen = Tick{message.tick},
+         .commanded = {}});
 }
 
 void LogCheck::on_job(const analysis::RecordedJob& message, analysis::LogPlace place) {
@@ -258,6 +280,11 @@ void LogCheck::Machine::finish(const std::string& name, const analysis::RecordEn
     jobs.finish(
         {.at_rest = are_at_rest(),
          .lacks_records = is_damaged || end.lacks(RecordKind::Job, name, ""),
+         .lacks_any_run = is_damaged || std::ranges::any_of(end.missing,
+                                                            [&](const analysis::MissingEnd& one) {
+                                                                return one.kind == RecordKind::Run &&
+                                                                       one.process.machine == name;
+                                                            }),
          .has_ended = [this](const std::string& axis) { return has_ended(axis); },
          .lacks_runs = [&](const std::string& axis) { return is_damaged || end.lacks(RecordKind::Run, name, axis); }});
     for (auto& [axis, of] : axes) {

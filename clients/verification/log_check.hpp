@@ -82,6 +82,7 @@ private:
         std::set<std::string> marked_axes;                 // that marks name
         bool has_jobs = false;
     };
+    void check_place(const axis_position_t& message, const Machine& of);
     void take_record(const auto& message, RecordKind kind, analysis::LogPlace place);
     void note_beginning(Machine& machine, std::int64_t coordinator, std::int64_t sequence, std::int64_t job);
 

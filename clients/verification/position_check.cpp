@@ -9,11 +9,17 @@ namespace lockstep::verification {
 void PositionCheck::take(const SeenPosition& position) {
     const bool has_new_zero =
         last_ && (position.incarnation != last_->incarnation || position.is_homed != last_->is_homed);
+    if (last_ && position.tick < last_->tick) { return wait(position); }
     if (has_new_zero) { anew_ = position.tick; }
     last_ = position;
+    wait(position);
+}
+
+/// Positions may overtake each other in the log.
+void PositionCheck::wait(const SeenPosition& position) {
     const bool is_known = newest_ && position.steps == newest_->count && waiting_.empty();
-    if (is_known || waiting_.size() == kMaxWaiting) { return; }
-    waiting_.push_back(position);
+    if (is_known || waiting_.size() == kMaxWaiting || (compared_ && position.tick < *compared_)) { return; }
+    waiting_.insert(std::ranges::upper_bound(waiting_, position.tick, {}, &SeenPosition::tick), position);
 }
 
 void PositionCheck::skip() {
@@ -32,7 +38,8 @@ std::optional<std::string> PositionCheck::take(const analysis::StepBatch& batch,
     recent_.push_back({batch, time, 0, batch.position_before_steps});
     std::optional<std::string> wrong;
     for (; !waiting_.empty() && waiting_.front().tick + reach <= last; waiting_.pop_front()) {
-        pass_before(waiting_.front().tick - reach);
+        compared_ = waiting_.front().tick;
+        pass_before(*compared_ - reach);
         if (!wrong) { wrong = compare(waiting_.front(), reach); }
     }
     if (waiting_.empty()) { pass_before(last - reach * 2); }

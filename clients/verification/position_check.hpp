@@ -63,12 +63,14 @@ private:
         Tick from;
         std::int64_t count = 0;
     };
+    void wait(const SeenPosition& position);
     void pass_before(Tick tick);
     std::optional<std::string> compare(const SeenPosition& position, Ticks reach) const;
     std::string text(const SeenPosition& position, const Range& allowed) const;
 
     std::string axis_;
-    std::deque<SeenPosition> waiting_;
+    std::deque<SeenPosition> waiting_;  // by time
+    std::optional<Tick> compared_;      // the time of the newest one compared
     std::deque<Recent> recent_;
     std::optional<Stand> stand_;   // before the recent steps
     std::optional<Stand> newest_;  // after all steps

@@ -44,12 +44,29 @@ void look_ahead(const std::filesystem::path& path, const job_t& job, ProgramPart
     }
 }
 
+/// A job's link to its program and the program's parts are recorded before the job, but the job may have overtaken the
+/// last of them.
+void look_for_link(const std::filesystem::path& path, std::uint64_t offset, ProgramParts& programs) {
+    constexpr int kOvertaken = 32;
+    auto reader = LogReader::open(path);
+    if (!reader) { return; }
+    (void)reader->event_at(offset);
+    for (int i = 0; i < kOvertaken; ++i) {
+        const auto event = reader->next();
+        if (!event || !*event) { return; }
+        if (kind_of((*event)->channel) != RecordKind::ProgramPart) { continue; }
+        const auto part = decode_lcm<program_part_t>((*event)->data);
+        if (part) { (void)programs.take(*part, (*event)->offset); }
+    }
+}
+
 void deliver_job(const LogEvent& event, LogListener& listener, ProgramParts& programs,
                  const std::filesystem::path& path) {
     const LogPlace place{event.offset, event.bytes};
     auto message = decode_lcm<job_t>(event.data);
     if (!message) { return listener.on_damage(place, message.error() + " on " + std::string(event.channel)); }
     RecordedJob job(*std::move(message));
+    if (job.event == "begun" && job.program.empty()) { look_for_link(path, event.offset, programs); }
     if (programs.is_open(job)) { look_ahead(path, job, programs); }
     programs.complete(job);
     listener.on_job(job, place);

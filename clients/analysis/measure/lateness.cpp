@@ -27,9 +27,10 @@ void Lateness::take(Run run) {
     settle();
 }
 
-/// Steps are published up to 10 ms after they are made, and a process may stall.
+/// Steps are published up to 10 ms after they are made, but a process or its messages may be late.
 void Lateness::pass(Tick tick) {
-    const Tick known = tick - kPatience;
+    constexpr Ticks kLatest{3'000'000};
+    const Tick known = tick - kLatest;
     if (last_tick_ && known <= *last_tick_) { return; }
     last_tick_ = known;
     settle();

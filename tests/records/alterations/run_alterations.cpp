@@ -50,7 +50,7 @@ const RunChange kRunChanges[]{
          run.velocity.clear();
          run.acceleration.clear();
      },
-     kRunOtherMotion},
+     kRunOtherClock},
 };
 
 bool insert_changed(Record& record, const std::string& motion, const std::function<void(run_t&)>& change) {

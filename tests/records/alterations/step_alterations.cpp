@@ -135,11 +135,12 @@ void add_whole_messages(const std::string& motion, std::vector<Alteration>& all)
                    Altered{.motion = false, .must_be_mentioned = true}, Needs{.all_motions = motion != "run"}});
     all.push_back({"steps_split_in_two" + where, [=](Record& r) { return split(r, motion); }, kValid,
                    Altered{.motion = false}, Needs{.shared_clock = true, .all_motions = motion != "run"}});
+    if (motion == "own-move") { return; }  // the log ends soon after it
     all.push_back({"steps_at_the_end_of_the_log" + where,
                    [=](Record& r) { return move_back(r, motion); },
                    {kSaysGood | kSaysUnknown, kSaysGood | kSaysDoubtful | kSaysUnknown,
                     kSaysGood | kSaysUnknown | kSaysBad, kSaysGood | kSaysUnknown},
-                   Altered{.motion = true, .must_be_mentioned = true},
+                   Altered{},
                    Needs{.all_motions = motion != "run"}});
 }
 
