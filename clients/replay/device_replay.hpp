@@ -12,7 +12,7 @@
 #include <optional>
 #include <string>
 
-#include "clients/verification/axis_check.hpp"
+#include "clients/verification/steps/axis_check.hpp"
 #include "core/axis/device/device.hpp"
 
 namespace lockstep::replay {

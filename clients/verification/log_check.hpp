@@ -12,9 +12,9 @@
 #include "clients/analysis/log/log_read.hpp"
 #include "clients/analysis/log/message_numbers.hpp"
 #include "clients/verification/activity.hpp"
-#include "clients/verification/axis_check.hpp"
-#include "clients/verification/job_check.hpp"
-#include "clients/verification/run_stream.hpp"
+#include "clients/verification/jobs/job_check.hpp"
+#include "clients/verification/steps/axis_check.hpp"
+#include "clients/verification/steps/run_stream.hpp"
 
 namespace lockstep::verification {
 

@@ -71,6 +71,9 @@ int main(int count, char** arguments) {
         fmt::print("usage: records_table --print\n");
         return 2;
     }
+    fmt::print(
+        "# What the tools say about a log\n\nWritten by `records_table --print` from the records that tests/records "
+        "makes, and checked by its tests.\n");
     lockstep::records::print_kinds();
     lockstep::records::print_alterations();
     lockstep::records::print_files();

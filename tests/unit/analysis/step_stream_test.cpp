@@ -15,7 +15,9 @@ struct Delivered final : StepListener {
         for (const StepEdge& step : b.steps) { ticks.push_back(step.tick.value); }
     }
     void on_break(const Break& b) override { breaks.push_back(b); }
+    void on_contradiction(const Contradiction& c) override { contradictions.push_back(c); }
     std::vector<std::int64_t> ticks;
+    std::vector<Contradiction> contradictions;
     std::vector<Break> breaks;
 };
 
@@ -106,12 +108,26 @@ TEST_F(StepStreamTest, ReportsThatTheLogBeganInTheMiddle) {
     EXPECT_EQ(delivered.breaks[0].position_change, 0);
 }
 
-TEST_F(StepStreamTest, LeavesOutStepsBeforeThoseDelivered) {
+TEST_F(StepStreamTest, ReportsStepsBeforeThoseDelivered) {
     stream.take(batch(0, 0, even_steps(100, 10, 3)));
     stream.take(batch(1, 3, even_steps(110, 10, 3)));
     stream.finish();
     EXPECT_EQ(stream.counts().contradictory, 1);
     EXPECT_EQ(stream.counts().steps, 3);
+    ASSERT_EQ(delivered.contradictions.size(), 1U);
+    EXPECT_EQ(delivered.contradictions[0].kind, Contradiction::Kind::NotAfter);
+    EXPECT_EQ(sentence(delivered.contradictions[0]),
+              "message 1 with 3 steps begins at tick 110, but the message before it ends at tick 120");
+}
+
+TEST_F(StepStreamTest, ReportsARepeatWithOtherContent) {
+    stream.take(batch(0, 0, even_steps(100, 10, 3)));
+    stream.take(batch(0, 0, even_steps(100, 10, 3)));
+    stream.take(batch(0, 0, even_steps(100, 10, 3, -1)));
+    stream.finish();
+    EXPECT_EQ(stream.counts().duplicates, 1);
+    ASSERT_EQ(delivered.contradictions.size(), 1U);
+    EXPECT_EQ(delivered.contradictions[0].kind, Contradiction::Kind::OtherContent);
 }
 
 }  // namespace

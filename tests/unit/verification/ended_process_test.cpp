@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "clients/verification/axis_check.hpp"
+#include "clients/verification/steps/axis_check.hpp"
 
 namespace lockstep::verification {
 namespace {

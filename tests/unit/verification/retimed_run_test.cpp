@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "clients/verification/run_difference.hpp"
+#include "clients/verification/jobs/run_difference.hpp"
 #include "core/axis/device/retime.hpp"
 
 namespace lockstep::verification {

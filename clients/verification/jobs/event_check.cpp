@@ -1,4 +1,4 @@
-#include "clients/verification/event_check.hpp"
+#include "clients/verification/jobs/event_check.hpp"
 
 #include <fmt/format.h>
 

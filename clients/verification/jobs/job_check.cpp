@@ -1,4 +1,4 @@
-#include "clients/verification/job_check.hpp"
+#include "clients/verification/jobs/job_check.hpp"
 
 #include <fmt/format.h>
 
@@ -30,9 +30,7 @@ std::size_t index_of(const MachineConfig& machine, const std::string& axis) {
 
 /// Late records of a stopped coordinator's job are sorted before the job that another coordinator has begun since.
 void JobCheck::take(const RecordedJob& record, bool is_behind_gap) {
-    const bool explains = record.event == "override" && static_cast<Epoch>(record.epoch) == doubtful_.first &&
-                          static_cast<FrameNumber>(record.behind_frame) < doubtful_.second;
-    resolve_doubt(is_behind_gap || explains);
+    questions_.take(record, is_behind_gap);
     if (begins_late_ && !first_job_ && record.event != "begun") { return; }  // of a job begun before the log
     if (record.event == "begun" && !first_job_) { first_job_ = record.job; }
     if (record.event == "epoch" && !first_epoch_) {
@@ -111,15 +109,8 @@ void JobCheck::lose_job(const Record& record) {
     events_.leave();
 }
 
-void JobCheck::resolve_doubt(bool lacks_records) {
-    if (!doubt_) { return; }
-    lacks_records ? findings_.add_missing(doubt_->text) : findings_.differ(std::move(*doubt_));
-    doubt_.reset();
-}
-
 /// The further runs of the epoch in progress are not compared with its plan.
 void JobCheck::lose_epoch() {
-    suspects_.clear();
     if (!epoch_) { return; }
     lost_epochs_.push_back(epoch_->epoch());
     epoch_.reset();
@@ -255,7 +246,7 @@ void JobCheck::end(const RecordedJob& record) {
         return differ(job.label + " is recorded as " + record.outcome + ", but " + job.broken, job.broken_axis);
     } else if (record.outcome == "done" && job.ran == FrameNumber{0}) {
         const std::string text = job.label + " is recorded as done, but no run of its last motion is in the log";
-        if (!undone_) { undone_ = Difference{text, {}, {}, {}, job.label}; }
+        questions_.ask_motion({text, {}, {}, {}, job.label});
         return events_.leave();
     } else if (record.outcome == "done" && left) {
         return differ(job.label + " is recorded as done, but its program continues at " + text_of(left->place));
@@ -286,40 +277,14 @@ bool JobCheck::suspect(const Shortfall& shortfall) {
     if (shortfall.kind != Shortfall::Kind::Silent) { return false; }
     const FrameNumber most = epoch_->ran();
     if (!epoch_->assume_complete(shortfall.axis)) { return false; }
-    assumed_.emplace_back(axis, epoch_->epoch());
-    if (assumed_.size() > kAssumedKept) { assumed_.pop_front(); }
-    suspects_.try_emplace(axis, incarnations_[axis],
-                          Difference{.text = fmt::format("axis {} {}, though {} went on to frame {}", axis,
-                                                         shortfall.text, job_->label, most),
-                                     .axis = axis,
-                                     .tick_expected = {},
-                                     .tick_seen = {},
-                                     .commanded = job_->label});
+    questions_.ask_silence(
+        axis, epoch_->epoch(),
+        {.text = fmt::format("axis {} {}, though {} went on to frame {}", axis, shortfall.text, job_->label, most),
+         .axis = axis,
+         .tick_expected = {},
+         .tick_seen = {},
+         .commanded = job_->label});
     return true;
-}
-
-/// The axis has a further run.
-void JobCheck::resolve(const std::string& axis, const Run& run, bool is_behind_gap) {
-    incarnations_[axis] = run.incarnation;
-    auto found = suspects_.extract(axis);
-    if (!found) { return; }
-    Suspect& suspect = found.mapped();
-    if (std::ranges::find(assumed_, std::pair{axis, run.epoch}) != assumed_.end() && !is_behind_gap) {
-        return findings_.add_unknown(
-            fmt::format("axis {}: its runs from {} of epoch {} on come too late in this log to "
-                        "be compared with their plan; lockstep log merge sorts them",
-                        axis, name_of(run), run.epoch));
-    }
-    const bool is_known = !is_behind_gap && suspect.incarnation == run.incarnation;
-    is_known ? findings_.differ(std::move(suspect.difference)) : findings_.add_missing(suspect.difference.text);
-}
-
-void JobCheck::resolve_at_end(const LogEnd& end) {
-    for (auto& [axis, suspect] : suspects_) {
-        const bool is_known = end.at_rest && !end.has_ended(axis) && !end.lacks_runs(axis);
-        is_known ? findings_.differ(suspect.difference) : findings_.add_missing(suspect.difference.text);
-    }
-    suspects_.clear();
 }
 
 /// Takes the state of the job after an epoch that all axes ran to its end.
@@ -337,21 +302,13 @@ void JobCheck::break_off(const Shortfall& shortfall) {
     job_->broken = "axis " + job_->broken_axis + " " + shortfall.text;
 }
 
-void JobCheck::finish(const LogEnd& end) {
+void JobCheck::finish(LogEnd end) {
     leave_out_before_first_job();
     if (begins_late_) { note_beginning(); }
     for (; !records_.empty() && findings_.going(); records_.pop_front()) { handle(records_.front()); }
-    lacks_records_ = lacks_records_ || end.lacks_records;
-    resolve_doubt(lacks_records_);
-    if (!waiting_.empty() && !unplaced_) {
-        const auto& [axis, run, is_behind_gap] = waiting_.front();
-        const std::string text =
-            fmt::format("axis {}: the log has no record of epoch {}, which it ran", axis, run.epoch);
-        unplaced_ = Difference{text, axis, {}, run.start, commanded(run, run.start)};
-    }
-    if (unplaced_) { lacks_records_ ? findings_.add_missing(unplaced_->text) : findings_.differ(*unplaced_); }
-    if (undone_) { end.lacks_any_run ? findings_.add_missing(undone_->text) : findings_.differ(*undone_); }
-    resolve_at_end(end);
+    end.lacks_records = lacks_records_ = lacks_records_ || end.lacks_records;
+    if (!waiting_.empty()) { ask_epoch(waiting_.front(), "the log has no record of its epoch, which it ran"); }
+    questions_.finish(end);
     if (!job_ && end.at_rest && !begins_late_ && !lacks_records_) { events_.finish(); }
     if (!job_ || !findings_.going()) { return; }
     if (end.at_rest) { return leave_job(end); }
@@ -418,7 +375,7 @@ void JobCheck::leave_out_before_first_job() {
 
 void JobCheck::take(const std::string& axis, const Run& run, bool is_behind_gap) {
     if (!findings_.going()) { return; }
-    resolve(axis, run, is_behind_gap);
+    questions_.take(axis, run, is_behind_gap);
     if (run.epoch == 0) { return void(++findings_.local_runs); }
     wait({axis, run, is_behind_gap});
 }
@@ -433,16 +390,17 @@ void JobCheck::wait(AxisRun of) {
         leave_out_before_first_job();
     }
     if (waiting_.size() == kMaxWaiting) {
-        const auto& [axis, run, is_behind_gap] = waiting_.front();
-        if (!unplaced_) {
-            unplaced_ = Difference{
-                "axis " + axis + ": runs of an unknown epoch", axis, {}, run.start, commanded(run, run.start)};
-        }
-        lost_epochs_.push_back(run.epoch);
+        ask_epoch(waiting_.front(), "its runs are of an unknown epoch");
+        lost_epochs_.push_back(waiting_.front().run.epoch);
         leave_out(
             std::erase_if(waiting_, [&](const AxisRun& other) { return other.run.epoch == lost_epochs_.back(); }));
     }
     waiting_.push_back(std::move(of));
+}
+
+void JobCheck::ask_epoch(const AxisRun& of, const std::string& why) {
+    const std::string text = fmt::format("axis {}, epoch {}: {}", of.axis, of.run.epoch, why);
+    questions_.ask_epoch({text, of.axis, {}, of.run.start, commanded(of.run, of.run.start)});
 }
 
 /// Returns false if the run's epoch is not known yet.
@@ -452,7 +410,7 @@ bool JobCheck::place(const AxisRun& of) {
     };
     const auto is_lost = [&] {
         return std::ranges::find(lost_epochs_, of.run.epoch) != lost_epochs_.end() ||
-               std::ranges::find(assumed_, std::pair{of.axis, of.run.epoch}) != assumed_.end();
+               questions_.is_silent_in(of.axis, of.run.epoch);
     };
     if ((!epoch_ || epoch_->epoch() != of.run.epoch) && !is_lost()) {
         const auto found = std::ranges::find_if(records_, begins_it);
@@ -486,9 +444,9 @@ void JobCheck::compare(const AxisRun& of) {
     const auto found = epoch_->compare(axis, run, is_behind_gap);
     if (!found) { return void(++findings_.runs); }
     if (job_->replay->program()->failure()) { return differ("", name, &run); }
-    doubt_ = {"axis " + name + ": " + name_of(run) + found->text, name, found->tick_expected, found->tick_seen,
-              commanded(run, found->tick_expected.value_or(run.start))};
-    doubtful_ = {run.epoch, run.frame};
+    questions_.ask_plan({"axis " + name + ": " + name_of(run) + found->text, name, found->tick_expected,
+                         found->tick_seen, commanded(run, found->tick_expected.value_or(run.start))},
+                        run);
     job_->is_lost = true;
     lose_epoch();
 }

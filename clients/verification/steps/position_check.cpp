@@ -1,4 +1,4 @@
-#include "clients/verification/position_check.hpp"
+#include "clients/verification/steps/position_check.hpp"
 
 #include <fmt/format.h>
 

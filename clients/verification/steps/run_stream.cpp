@@ -1,4 +1,4 @@
-#include "clients/verification/run_stream.hpp"
+#include "clients/verification/steps/run_stream.hpp"
 
 #include <algorithm>
 #include <utility>

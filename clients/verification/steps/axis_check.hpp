@@ -20,12 +20,12 @@
 
 #include "clients/analysis/log/run.hpp"
 #include "clients/analysis/log/step_stream.hpp"
-#include "clients/verification/clock_check.hpp"
 #include "clients/verification/findings.hpp"
-#include "clients/verification/left_steps.hpp"
-#include "clients/verification/position_check.hpp"
-#include "clients/verification/seen_step.hpp"
-#include "clients/verification/waiting_steps.hpp"
+#include "clients/verification/steps/clock_check.hpp"
+#include "clients/verification/steps/left_steps.hpp"
+#include "clients/verification/steps/position_check.hpp"
+#include "clients/verification/steps/seen_step.hpp"
+#include "clients/verification/steps/waiting_steps.hpp"
 
 namespace lockstep::verification {
 

@@ -1,4 +1,4 @@
-#include "clients/verification/run_difference.hpp"
+#include "clients/verification/jobs/run_difference.hpp"
 
 #include <fmt/format.h>
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "clients/analysis/log/step_stream.hpp"
-#include "clients/verification/seen_step.hpp"
+#include "clients/verification/steps/seen_step.hpp"
 
 namespace lockstep::verification {
 

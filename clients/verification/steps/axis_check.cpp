@@ -1,4 +1,4 @@
-#include "clients/verification/axis_check.hpp"
+#include "clients/verification/steps/axis_check.hpp"
 
 #include <fmt/format.h>
 

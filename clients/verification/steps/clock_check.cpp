@@ -1,4 +1,4 @@
-#include "clients/verification/clock_check.hpp"
+#include "clients/verification/steps/clock_check.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "clients/verification/epoch_check.hpp"
+#include "clients/verification/jobs/epoch_check.hpp"
 
 #include <fmt/format.h>
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "clients/analysis/log/run.hpp"
-#include "clients/verification/seen_step.hpp"
+#include "clients/verification/steps/seen_step.hpp"
 
 namespace lockstep::verification {
 

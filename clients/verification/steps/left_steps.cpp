@@ -1,4 +1,4 @@
-#include "clients/verification/left_steps.hpp"
+#include "clients/verification/steps/left_steps.hpp"
 
 #include <algorithm>
 

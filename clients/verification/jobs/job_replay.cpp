@@ -1,4 +1,4 @@
-#include "clients/verification/job_replay.hpp"
+#include "clients/verification/jobs/job_replay.hpp"
 
 #include <utility>
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "clients/analysis/log/recorded_program.hpp"
-#include "clients/verification/epoch_replay.hpp"
+#include "clients/verification/jobs/epoch_replay.hpp"
 #include "core/coordinator/path/program_plan.hpp"
 #include "core/machine.hpp"
 

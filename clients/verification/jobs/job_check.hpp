@@ -14,12 +14,13 @@
 
 #include "clients/analysis/log/program_parts.hpp"
 #include "clients/analysis/log/run.hpp"
-#include "clients/verification/epoch_check.hpp"
-#include "clients/verification/event_check.hpp"
 #include "clients/verification/findings.hpp"
-#include "clients/verification/job_replay.hpp"
-#include "clients/verification/job_stream.hpp"
-#include "clients/verification/left_steps.hpp"
+#include "clients/verification/jobs/epoch_check.hpp"
+#include "clients/verification/jobs/event_check.hpp"
+#include "clients/verification/jobs/job_replay.hpp"
+#include "clients/verification/jobs/job_stream.hpp"
+#include "clients/verification/jobs/open_questions.hpp"
+#include "clients/verification/steps/left_steps.hpp"
 
 namespace lockstep::verification {
 
@@ -44,17 +45,8 @@ public:
     /// of their numbers. `is_behind_gap`: runs before it are missing from the log.
     void take(const std::string& axis, const Run& run, bool is_behind_gap);
 
-    /// What the log may lack at its end.
-    struct LogEnd {
-        bool at_rest = false;        // it continues long enough after the last motion on record
-        bool lacks_records = false;  // by the marks, records of jobs after the last one are missing
-        bool lacks_any_run = false;  // by the marks, runs of any axis after its last one are missing
-        /// Whether an axis's process had ended, and whether by the marks runs of the axis after its last are missing.
-        std::function<bool(const std::string& axis)> has_ended;
-        std::function<bool(const std::string& axis)> lacks_runs;
-    };
     /// Call once, at the end of the log.
-    void finish(const LogEnd& end);
+    void finish(LogEnd end);
 
     /// The motion at a tick of a run: "job 2, run plate.gcode, line 57, epoch 9, frame 12".
     std::string commanded(const Run& run, Tick tick) const;
@@ -90,14 +82,11 @@ private:
     void end(const RecordedJob& record);
     void close_epoch(bool goes_on, bool lacks_events);
     void lose_epoch();
-    void resolve_doubt(bool lacks_records);
     void take_waiting();
     void check_epoch(bool lacks_events);
     void check_events_so_far();
     void break_off(const Shortfall& shortfall);
     bool suspect(const Shortfall& shortfall);
-    void resolve(const std::string& axis, const Run& run, bool is_behind_gap);
-    void resolve_at_end(const LogEnd& end);
     bool is_of_job(const RecordedJob& record) const;
 
     struct AxisRun {
@@ -108,6 +97,7 @@ private:
     bool place(const AxisRun& of);
     void compare(const AxisRun& of);
     void wait(AxisRun of);
+    void ask_epoch(const AxisRun& of, const std::string& why);
     void plan_next(EpochReplay replay);
     void leave_job(const LogEnd& end);
     bool is_before_first_job(const Run& run) const;
@@ -117,7 +107,6 @@ private:
     void differ(std::string text, const std::string& axis = {}, const Run* run = nullptr);
 
     static constexpr std::size_t kLabelsKept = 16;
-    static constexpr std::size_t kAssumedKept = 256;
 
     Findings& findings_;
     EventCheck events_;
@@ -131,23 +120,9 @@ private:
     std::optional<Epoch> first_epoch_;       // the first of such a job
     std::optional<Job> job_;
     std::optional<EpochCheck> epoch_;
-    std::deque<Epoch> lost_epochs_;  // the newest whose plan is not known
-    /// A run that differs from its plan. The coordinator's next record shows whether a record before the run is
-    /// missing.
-    std::optional<Difference> doubt_;
-    std::pair<Epoch, FrameNumber> doubtful_{0, 0};
-    bool lacks_records_ = false;          // of jobs
-    std::optional<Difference> undone_;    // a job that is done, though none of its last runs are in the log
-    std::optional<Difference> unplaced_;  // a run without a record of its epoch
-    /// An axis with nothing in the log after a frame that is not its last, in a job that went on. Its next run shows
-    /// whether runs are missing.
-    struct Suspect {
-        std::int64_t incarnation = 0;
-        Difference difference;
-    };
-    std::map<std::string, Suspect> suspects_;
-    std::deque<std::pair<std::string, Epoch>> assumed_;   // axes that were taken for complete in an epoch
-    std::map<std::string, std::int64_t> incarnations_;    // of each axis's newest run
+    OpenQuestions questions_{findings_};
+    std::deque<Epoch> lost_epochs_;                       // the newest whose plan is not known
+    bool lacks_records_ = false;                          // of jobs
     std::deque<std::pair<Epoch, std::string>> labels_;    // of the newest epochs
     std::map<std::string, std::vector<Course>> planned_;  // by axis: what may follow its newest run
 };

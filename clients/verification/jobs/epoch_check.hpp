@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "clients/analysis/log/run.hpp"
-#include "clients/verification/epoch_replay.hpp"
-#include "clients/verification/left_steps.hpp"
-#include "clients/verification/run_difference.hpp"
+#include "clients/verification/jobs/epoch_replay.hpp"
+#include "clients/verification/jobs/run_difference.hpp"
+#include "clients/verification/steps/left_steps.hpp"
 #include "core/machine.hpp"
 
 namespace lockstep::verification {

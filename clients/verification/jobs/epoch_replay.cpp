@@ -1,4 +1,4 @@
-#include "clients/verification/epoch_replay.hpp"
+#include "clients/verification/jobs/epoch_replay.hpp"
 
 #include <limits>
 #include <utility>

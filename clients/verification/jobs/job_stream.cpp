@@ -1,4 +1,4 @@
-#include "clients/verification/job_stream.hpp"
+#include "clients/verification/jobs/job_stream.hpp"
 
 #include <algorithm>
 #include <functional>
