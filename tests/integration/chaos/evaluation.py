@@ -30,8 +30,8 @@ def evaluate(machine, story, log, types):
     found = Evaluation(failures=list(story.failures))
     record = Record(log, types)
     found.timed = [timed(chapter, record) for chapter in story.chapters]
-    found.verify, is_exact = machine.verify(log)
-    if not is_exact:
+    found.verify, is_as_planned = machine.verify(log)
+    if not is_as_planned:
         found.failures.append("the record is not exact: " + found.verify.splitlines()[0])
     found.failures += list(partings(story, record)) + list(deaths(machine, story)) + list(alarms(machine))
     found.failures += [f"{chapter.injected.text}: the machine answers with {chapter.fault}"

@@ -79,9 +79,9 @@ class Machine:
                        capture_output=True)  # the evaluation handles messages that no log has
 
     def verify(self, log):
-        """The output of lockstep verify, and whether the log is exact."""
+        """The output of lockstep verify, and whether no step on record differs: of a killed axis the last may be missing."""
         ran = subprocess.run([self.lockstep, "verify", str(log)], env=self.environment, capture_output=True, text=True)
-        return (ran.stdout + ran.stderr).strip(), ran.returncode == 0
+        return (ran.stdout + ran.stderr).strip(), ran.stdout.startswith(("exact:", "unknown:"))
 
     def status(self):
         return self.call("status")[1]

@@ -80,7 +80,7 @@ def an_axis_that_dies_is_restarted(composed):
     state = composed.inspect("axis-z")["State"]
     composed.expect(state["Running"] and state["Pid"] != process, f"it was not restarted: {state}")
     if composed.move(*BACK):
-        composed.verify()
+        composed.verify(killed=True)
 
 
 def an_axis_is_paused_in_motion(composed):
