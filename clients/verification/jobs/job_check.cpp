@@ -4,21 +4,11 @@
 
 #include <algorithm>
 
+#include "clients/verification/jobs/record_text.hpp"
 #include "services/documents/machine_file.hpp"
 
 namespace lockstep::verification {
 namespace {
-
-PathPlace place_in(const RecordedJob& record) {
-    const Int128 along = Int128{record.resume_high} * kOneStep + Int128{static_cast<std::uint64_t>(record.resume_low)};
-    return {static_cast<std::uint32_t>(record.resume_block), {along}};
-}
-
-std::string text_of(const PathPlace& place) {
-    return fmt::format("block {}, {:f} mm along it", place.block, place.along.as_steps());
-}
-
-std::string number_of(const RecordedJob& record) { return fmt::format("job {}", record.job); }
 
 std::size_t index_of(const MachineConfig& machine, const std::string& axis) {
     return static_cast<std::size_t>(std::ranges::find(machine.axes, axis, &AxisConfig::name) - machine.axes.begin());
@@ -183,13 +173,17 @@ bool JobCheck::is_of_job(const RecordedJob& record) const {
     return job_ && job_->number == record.job && job_->coordinator == record.coordinator;
 }
 
+/// The runs of an epoch are not compared, because the plan of its job is not known.
+void JobCheck::leave_job_plan(Epoch epoch) {
+    job_->is_lost = true;
+    events_.leave();
+    lost_epochs_.push_back(epoch);
+    if (lost_epochs_.size() > kLabelsKept) { lost_epochs_.pop_front(); }
+}
+
 void JobCheck::begin_epoch(const RecordedJob& record) {
     const auto epoch = static_cast<Epoch>(record.epoch);
-    if (is_of_job(record) && job_->is_lost) {
-        lost_epochs_.push_back(epoch);
-        if (lost_epochs_.size() > kLabelsKept) { lost_epochs_.pop_front(); }
-        return;
-    }
+    if (is_of_job(record) && job_->is_lost) { return leave_job_plan(epoch); }
     if (is_of_job(record) && !job_->replay) {
         return differ("the log has an epoch of " + number_of(record) + ", which has no program");
     }
@@ -202,7 +196,11 @@ void JobCheck::begin_epoch(const RecordedJob& record) {
     if (!start) { return differ(job_->label + " continues, though its program is done"); }
     const PathPlace place = place_in(record);
     if (place.block != start->place.block || place.along != start->place.along) {
-        return differ(job_->label + " continues from " + text_of(place) + "; planned: " + text_of(start->place));
+        const std::string text =
+            job_->label + " continues from " + text_of(place) + "; planned: " + text_of(start->place);
+        if (job_->ran != FrameNumber{0}) { return differ(text); }
+        questions_.ask_motion({text + ", as no run before is in the log", {}, {}, {}, job_->label});
+        return leave_job_plan(epoch);
     }
     events_.check_rest(start->place.block, start->place.block);
     events_.begin_epoch(epoch, record.coordinator);

@@ -82,6 +82,7 @@ private:
     void end(const RecordedJob& record);
     void close_epoch(bool goes_on, bool lacks_events);
     void lose_epoch();
+    void leave_job_plan(Epoch epoch);
     void take_waiting();
     void check_epoch(bool lacks_events);
     void check_events_so_far();
