@@ -32,7 +32,7 @@ def evaluate(machine, story, log, types):
     found.timed = [timed(chapter, record) for chapter in story.chapters]
     found.verify, is_as_planned = machine.verify(log)
     if not is_as_planned:
-        found.failures.append("the record is not exact: " + found.verify.splitlines()[0])
+        found.failures.append("a step on record is not as planned: " + found.verify.splitlines()[0])
     found.failures += list(partings(story, record)) + list(deaths(machine, story)) + list(alarms(machine))
     found.failures += [f"{chapter.injected.text}: the machine answers with {chapter.fault}"
                        for chapter in story.chapters if chapter.fault not in FAULTS_OF_LATENESS]
