@@ -16,7 +16,7 @@ std::size_t content_of(const StepBatch& batch) {
     ContentHash hash;
     hash.add(batch.position_before_steps).add(batch.ahead_first.value).add(batch.ahead_last.value);
     for (std::size_t i = 0; i < batch.steps.size(); ++i) {
-        hash.add(batch.device_tick(i).value).add(batch.steps[i].direction);
+        hash.add(2 * batch.device_tick(i).value + (batch.steps[i].direction > 0 ? 1 : 0));
     }
     return hash.value();
 }
