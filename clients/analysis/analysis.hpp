@@ -56,7 +56,8 @@ struct JobLog {
     TickHistogram late;                         // of its steps
 
     bool is_on_a_line() const { return kind != "own-move" && kind != "jog"; }  // its axes move together
-    std::int64_t interruptions() const { return std::max<std::int64_t>(0, epochs - legs); }
+    /// 0 if its plan is not known.
+    std::int64_t interruptions() const { return planned ? std::max<std::int64_t>(0, epochs - legs) : 0; }
     bool is_whole() const { return moves_not_whole == 0 && unasked_steps == 0; }
 };
 

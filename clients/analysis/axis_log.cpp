@@ -26,7 +26,7 @@ void AxisLog::take(StepBatch batch) {
 void AxisLog::take(const PositionSample& sample) {
     if (positions_++ == 0) { first_position_steps_ = sample.position_steps; }
     following_error_ = std::max(following_error_, std::abs(sample.following_error_steps));
-    if (counts_anew(sample)) {
+    if (has_new_zero(sample)) {
         origin_ = sample;
         farthest_position_.reset();
     }
@@ -60,7 +60,7 @@ std::expected<void, std::string> AxisLog::finish() {
 }
 
 /// Homing and a new process give positions another zero.
-bool AxisLog::counts_anew(const PositionSample& sample) const {
+bool AxisLog::has_new_zero(const PositionSample& sample) const {
     if (!last_position_) { return false; }
     return sample.incarnation != last_position_->incarnation || (sample.is_homed && !last_position_->is_homed);
 }

@@ -97,7 +97,7 @@ public:
 
 private:
     std::int64_t unrecorded_at(const PositionSample& sample) const;
-    bool counts_anew(const PositionSample& sample) const;
+    bool has_new_zero(const PositionSample& sample) const;
 
     std::string name_;
     AxisStatistics statistics_;

@@ -45,7 +45,7 @@ bool lacks_steps(const Analysis& analysis) {
 
 /// Whether the log has all steps and all axes, and does not end within a job.
 bool has_all_steps(const Analysis& analysis) {
-    if (analysis.is_verified() && analysis.verified.difference) { return false; }
+    if (analysis.is_verified() && (analysis.verified.difference || analysis.verified.lacks_steps)) { return false; }
     const auto is_cut = [](const JobLog& job) { return job.outcome.empty() || !job.axes_not_known.empty(); };
     return !lacks_steps(analysis) && analysis.absent_axes().empty() && std::ranges::none_of(analysis.jobs, is_cut);
 }

@@ -50,6 +50,7 @@ struct Findings {
     std::uint64_t more_unknown = 0;         // beyond these
     std::vector<std::string> notes;
     bool lacks_messages = false;  // between others
+    bool lacks_steps = false;     // steps of runs on record, or of runs that the plan demands, are not in the log
     analysis::RecordEnd end;
 
     static constexpr std::size_t kUnknown = 100;

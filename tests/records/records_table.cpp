@@ -1,4 +1,5 @@
-// Prints what verify, analyze, merge and replay say about every kind of record and every alteration, as Markdown.
+// Prints what verify, analyze, merge and replay say about every kind of record and every alteration, as Markdown, or
+// with --show what they say about one kind of record, in full.
 //
 // A verdict that is not the expected one is followed by the expected one.
 #include <fmt/format.h>
@@ -63,12 +64,25 @@ void print_files() {
     }
 }
 
+/// What each tool says about one kind of record.
+int show(std::string_view name) {
+    for (const RecordKind& kind : record_kinds()) {
+        if (kind.name != name) { continue; }
+        const Judgement judgement = judge(kind.make());
+        for (const Tool tool : kColumns) { fmt::print("== {}\n{}\n", name_of(tool), judgement.text_of(tool)); }
+        return 0;
+    }
+    fmt::print("no kind of record is named {}\n", name);
+    return 2;
+}
+
 }  // namespace
 }  // namespace lockstep::records
 
 int main(int count, char** arguments) {
+    if (count == 3 && std::string_view(arguments[1]) == "--show") { return lockstep::records::show(arguments[2]); }
     if (count != 2 || std::string_view(arguments[1]) != "--print") {
-        fmt::print("usage: records_table --print\n");
+        fmt::print("usage: records_table --print | --show KIND\n");
         return 2;
     }
     fmt::print(

@@ -289,6 +289,7 @@ void AxisCheck::pass_gap() {
         } else {
             pass_step(false);
             ++gap_steps_;
+            findings_.lacks_steps = true;
         }
     }
 }
@@ -352,6 +353,7 @@ void AxisCheck::leave_run() {
         fmt::format("axis {}: {} after {} are not in the log, because its process ended; with {} it came to {}", name_,
                     plural(steps, "step"), at_tick(last_tick_, "the log's beginning"), name_of(maker_->run()),
                     maker_->run().stop_count);
+    findings_.lacks_steps = findings_.lacks_steps || steps > 0;
     steps > 0 ? findings_.add_unknown(text) : findings_.notes.push_back(text);
     end_run();
 }
@@ -381,7 +383,9 @@ void AxisCheck::check_left(const std::vector<SeenStep>& left) {
     findings_.last_tick = std::max(findings_.last_tick, last_tick_);
     if (found.unrecorded > StepBatcher::kMaxSteps) { return differ_unrecorded(found.unrecorded); }
     const std::string text = what + "they are as planned: " + found.runs + text_of_missing(found);
-    found.missing + found.unrecorded > 0 ? findings_.add_unknown(text) : findings_.notes.push_back(text);
+    const bool lacks_steps = found.missing + found.unrecorded > 0;
+    findings_.lacks_steps = findings_.lacks_steps || lacks_steps;
+    lacks_steps ? findings_.add_unknown(text) : findings_.notes.push_back(text);
 }
 
 void AxisCheck::differ_from_plan(const std::string& what, const SeenStep& seen, const LeftSteps& found) {

@@ -13,7 +13,7 @@ namespace lockstep::verification {
 
 class ClockCheck {
 public:
-    /// The machine is known from its first job on. What was received before is checked then.
+    /// The machine is known from its first job on. Messages before that are not checked.
     void set_machine(const MachineConfig& machine) {
         if (!machine_) { machine_ = machine; }
     }

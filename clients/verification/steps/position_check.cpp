@@ -10,7 +10,7 @@ void PositionCheck::take(const SeenPosition& position) {
     const bool has_new_zero =
         last_ && (position.incarnation != last_->incarnation || position.is_homed != last_->is_homed);
     if (last_ && position.tick < last_->tick) { return wait(position); }
-    if (has_new_zero) { anew_ = position.tick; }
+    if (has_new_zero) { zero_since_ = position.tick; }
     last_ = position;
     wait(position);
 }
@@ -61,7 +61,7 @@ void PositionCheck::pass_before(Tick tick) {
 
 /// Where positions count from another zero between two steps, both zeros are possible.
 std::optional<std::string> PositionCheck::compare(const SeenPosition& position, Ticks reach) const {
-    if (!stand_ || recent_.empty() || (anew_ && position.tick <= *anew_ + reach)) { return std::nullopt; }
+    if (!stand_ || recent_.empty() || (zero_since_ && position.tick <= *zero_since_ + reach)) { return std::nullopt; }
     Range allowed{stand_->count, stand_->count};
     for (const Recent& of : recent_) {
         std::int64_t count = of.count;
@@ -82,7 +82,7 @@ std::string PositionCheck::text(const SeenPosition& position, const Range& allow
 }
 
 std::optional<std::string> PositionCheck::finish() {
-    const bool is_known = newest_ && (!anew_ || *anew_ <= newest_->from);
+    const bool is_known = newest_ && (!zero_since_ || *zero_since_ <= newest_->from);
     for (const SeenPosition& position : waiting_) {
         if (!is_known || position.tick <= newest_->from || position.steps == newest_->count) { continue; }
         return text(position, {newest_->count, newest_->count});

@@ -75,7 +75,7 @@ private:
     std::optional<Stand> stand_;   // before the recent steps
     std::optional<Stand> newest_;  // after all steps
     std::optional<SeenPosition> last_;
-    std::optional<Tick> anew_;  // the newest time from which positions count from another zero
+    std::optional<Tick> zero_since_;  // the newest time from which positions count from another zero
 };
 
 }  // namespace lockstep::verification
