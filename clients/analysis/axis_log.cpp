@@ -45,7 +45,7 @@ void AxisLog::take(const PositionSample& sample) {
 void AxisLog::take(const Run& run) {
     double largest = commanded_acceleration_.value_or(0);
     for (const Piece& piece : run.pieces) {
-        largest = std::max(largest, std::abs(std::ldexp(static_cast<double>(piece.acceleration.raw), -64)));
+        largest = std::max(largest, std::abs(piece.acceleration.steps_per_tick2()));
     }
     commanded_acceleration_ = largest;
 }

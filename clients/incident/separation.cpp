@@ -56,7 +56,7 @@ private:
         was_in_fault_[entry.process] = false;
     }
 
-    /// Keeps the first sign since the last mark. What is noted within a hop of it may have been decided before.
+    /// Keeps the first sign since the last mark. A sign within a hop of the mark may have been decided before the mark.
     void note(std::optional<Tick>& sign, Tick tick) const {
         if (mark_ && !sign && tick - *mark_ > hop_) { sign = tick; }
     }

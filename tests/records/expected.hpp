@@ -1,4 +1,4 @@
-// What the four tools must say about a record.
+// The verdicts that the four tools must give about a record.
 #pragma once
 
 #include <string>

@@ -64,7 +64,7 @@ void print_files() {
     }
 }
 
-/// What each tool says about one kind of record.
+/// Prints the full text of each tool about one kind of record.
 int show(std::string_view name) {
     for (const RecordKind& kind : record_kinds()) {
         if (kind.name != name) { continue; }

@@ -34,13 +34,9 @@ void JobCheck::take(const RecordedJob& record, bool is_behind_gap) {
             return r.event == "begun" && r.coordinator != record.coordinator;
         });
     }
-    records_.insert(behind, Record{record, is_behind_gap});
+    records_.insert(behind, Record{record, is_behind_gap, false});
     if (record.event == "begun") { begun_.emplace_back(record.coordinator, record.job); }
     if (begun_.size() > kLabelsKept) { begun_.pop_front(); }
-    take_waiting();
-}
-
-void JobCheck::take_waiting() {
     std::deque<AxisRun> waiting;
     waiting.swap(waiting_);
     for (AxisRun& of : waiting) { wait(std::move(of)); }
@@ -52,8 +48,7 @@ void JobCheck::take(const program_event_t& event, bool is_behind_gap) {
         RecordedJob gap;
         gap.coordinator = event.coordinator;
         gap.job = event.job;
-        gap.event = "gap";
-        records_.push_back(Record{gap, true});
+        records_.push_back(Record{gap, true, true});
     }
     if (begins_late_ && !first_job_ && event.job != newest_event_job_) { events_.forget_all(); }
     newest_event_job_ = event.job;
@@ -68,7 +63,7 @@ void JobCheck::begins_late() {
 /// A coordinator that ends or gives a job up may not have published the last events.
 void JobCheck::handle(const Record& record) {
     if (record.is_behind_gap) { lose_job(record); }
-    if (record.event == "gap" || is_outdated(record)) { return; }
+    if (record.is_of_event || is_outdated(record)) { return; }
     const bool lacks_events = record.outcome == "failed" || (job_ && job_->coordinator != record.coordinator);
     if (record.event != "begun") { note_owner(record); }
     if (record.event == "override") { return turn(record); }
@@ -84,7 +79,7 @@ void JobCheck::lose_job(const Record& record) {
     findings_.add_missing(
         fmt::format("messages of jobs are missing before {} of {}; from there on its runs are compared "
                     "only with their own records",
-                    record.event == "gap" ? "an event" : "\"" + record.event + "\"", number_of(record)));
+                    record.is_of_event ? "an event" : "\"" + record.event + "\"", number_of(record)));
     lacks_records_ = true;
     lose_epoch();
     job_.reset();
@@ -102,8 +97,14 @@ void JobCheck::lose_job(const Record& record) {
 /// The further runs of the epoch in progress are not compared with its plan.
 void JobCheck::lose_epoch() {
     if (!epoch_) { return; }
-    lost_epochs_.push_back(epoch_->epoch());
+    note_lost(epoch_->epoch());
     epoch_.reset();
+}
+
+/// The runs of this epoch are left out.
+void JobCheck::note_lost(Epoch epoch) {
+    lost_epochs_.push_back(epoch);
+    if (lost_epochs_.size() > kLabelsKept) { lost_epochs_.pop_front(); }
 }
 
 void JobCheck::contradict(const JobRecord& other) {
@@ -177,8 +178,7 @@ bool JobCheck::is_of_job(const RecordedJob& record) const {
 void JobCheck::leave_job_plan(Epoch epoch) {
     job_->is_lost = true;
     events_.leave();
-    lost_epochs_.push_back(epoch);
-    if (lost_epochs_.size() > kLabelsKept) { lost_epochs_.pop_front(); }
+    note_lost(epoch);
 }
 
 void JobCheck::begin_epoch(const RecordedJob& record) {
@@ -389,7 +389,7 @@ void JobCheck::wait(AxisRun of) {
     }
     if (waiting_.size() == kMaxWaiting) {
         ask_epoch(waiting_.front(), "its runs are of an unknown epoch");
-        lost_epochs_.push_back(waiting_.front().run.epoch);
+        note_lost(waiting_.front().run.epoch);
         leave_out(
             std::erase_if(waiting_, [&](const AxisRun& other) { return other.run.epoch == lost_epochs_.back(); }));
     }

@@ -68,6 +68,7 @@ private:
     };
     struct Record : RecordedJob {
         bool is_behind_gap = false;
+        bool is_of_event = false;  // no record of the job: it only marks the gap before an event
     };
 
     void handle(const Record& record);
@@ -83,7 +84,7 @@ private:
     void close_epoch(bool goes_on, bool lacks_events);
     void lose_epoch();
     void leave_job_plan(Epoch epoch);
-    void take_waiting();
+    void note_lost(Epoch epoch);
     void check_epoch(bool lacks_events);
     void check_events_so_far();
     void break_off(const Shortfall& shortfall);

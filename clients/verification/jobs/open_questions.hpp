@@ -20,7 +20,7 @@ namespace lockstep::verification {
 using analysis::RecordedJob;
 using analysis::Run;
 
-/// What the log may lack at its end.
+/// The parts of a record that the log may lack at its end.
 struct LogEnd {
     bool at_rest = false;        // it continues long enough after the last motion on record
     bool lacks_records = false;  // by the marks, records of jobs after the last one are missing

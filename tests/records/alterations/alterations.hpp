@@ -11,7 +11,7 @@
 
 namespace lockstep::records {
 
-/// What a base record must contain so that the alteration is possible. Every base has homing, a program and an own
+/// The contents of a base record that make the alteration possible. Every base has homing, a program and an own
 /// move.
 struct Needs {
     bool events = false;         // of the program
