@@ -1,5 +1,6 @@
 // The lockstep command.
 #include <algorithm>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -11,38 +12,26 @@ namespace {
 
 using namespace lockstep;
 
-void add_verbs(Verb command) {
-    add_up(command);
-    add_status(command);
-    add_watch(command);
-    add_flight(command);
-    add_spy(command);
-    add_doctor(command);
-    add_timing(command);
-    add_keys(command);
-    add_home(command);
-    add_move(command);
-    add_jog(command);
-    add_run(command);
-    add_interrupts(command);
-    add_send(command);
-    add_override(command);
-    add_offsets(command);
-    add_touch(command);
-    add_tools(command);
-    add_down(command);
-    add_check(command);
-    add_plan(command);
-    add_simulate(command);
-    add_analyze(command);
-    add_verify(command);
-    add_log(command);
-    add_machine(command);
-    add_config(command);
-    add_export(command);
-    add_replay(command);
-    add_compare(command);
-    add_scenario(command);
+struct Group {
+    const char* heading;
+    std::initializer_list<void (*)(Verb)> verbs;
+};
+
+const Group kGroups[] = {
+    {"Verbs that set up a machine", {add_machine, add_config, add_keys, add_doctor, add_timing}},
+    {"Verbs that operate a machine",
+     {add_up, add_status, add_watch, add_home, add_move, add_jog, add_run, add_send, add_down}},
+    {"Verbs that interrupt or change a job", {add_interrupts, add_override}},
+    {"Verbs for offsets and tools", {add_offsets, add_touch, add_tools}},
+    {"Verbs for programs, without a machine", {add_check, add_plan, add_simulate, add_compare, add_scenario}},
+    {"Verbs for records of a machine", {add_analyze, add_verify, add_replay, add_log, add_export, add_spy, add_flight}},
+};
+
+void add_verbs(const Verb& command) {
+    for (const Group& group : kGroups) {
+        const Verb listed = command.under(group.heading);
+        for (const auto add : group.verbs) { add(listed); }
+    }
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 # the installed version.
 
 # Prints the verbs, or the parts of a verb, that a help text lists.
-_lockstep_verbs() { awk '/^Subcommands:/ { on = 1; next } /^[^ ]/ { on = 0 } on && /^  [a-z]/ { print $1 }' <<<"$1"; }
+_lockstep_verbs() { awk '/^Verbs.*:$/ { on = 1; next } /^[^ ]/ { on = 0 } on && /^  [a-z]/ { print $1 }' <<<"$1"; }
 
 _lockstep_options() { grep -oE '^  (-[A-Za-z],)?--[a-z][a-z-]*' <<<"$1" | grep -oE -- '--[a-z-]+'; }
 

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <map>
 #include <optional>
+#include <sstream>
 
 #include <CLI/CLI.hpp>
 
@@ -44,6 +45,19 @@ std::string text_of(const CLI::ParseError& error, CLI::App& app, const std::stri
     const bool is_verb = !verbs.empty() && !first.empty() && !first.starts_with('-');
     return (is_verb ? "there is no verb '" + first + "'" : error.what()) + "; see: " + name + " --help";
 }
+
+/// A list of verbs has one line for each.
+class ShortListFormatter : public CLI::Formatter {
+public:
+    ShortListFormatter() { label("SUBCOMMAND", "VERB"); }
+
+    std::string make_subcommand(const CLI::App* verb) const override {
+        const std::string help = verb->get_description();
+        std::ostringstream line;
+        CLI::detail::format_help(line, verb->get_name(), help.substr(0, help.find('\n')), get_column_width());
+        return line.str();
+    }
+};
 
 }  // namespace
 
@@ -93,8 +107,12 @@ Argument Argument::excludes(Argument other) const {
 }
 
 Verb Verb::add_verb(const std::string& name, const std::string& help) const {
-    return {*app_->add_subcommand(name, help), *state_};
+    CLI::App* verb = app_->add_subcommand(name, help);
+    verb->group(heading_);
+    return {*verb, *state_};
 }
+
+Verb Verb::under(const std::string& heading) const { return {*app_, *state_, heading}; }
 
 Verb Verb::add_choice(const std::string& name, const std::string& help) const {
     auto* group = app_->add_option_group(name, help);
@@ -119,7 +137,9 @@ ArgumentParser::ArgumentParser(const std::string& description, const std::string
     : ArgumentParser(std::unique_ptr<ParserState>(new ParserState{CLI::App(description, name), {}})) {}
 
 ArgumentParser::ArgumentParser(std::unique_ptr<ParserState> state)
-    : Verb(state->app, *state), owned_(std::move(state)) {}
+    : Verb(state->app, *state), owned_(std::move(state)) {
+    app_->formatter(std::make_shared<ShortListFormatter>());
+}
 
 ArgumentParser::~ArgumentParser() = default;
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace CLI {
@@ -44,7 +45,11 @@ struct ParserState;
 /// arguments must live until the action ends.
 class Verb {
 public:
+    /// A list of verbs contains only the first line of `help`, which should have at most 70 characters. The verb's own
+    /// help contains all of it.
     Verb add_verb(const std::string& name, const std::string& help) const;
+    /// The same verb. Verbs that are added to the result are listed under `heading`, which begins with "Verbs".
+    Verb under(const std::string& heading) const;
     /// Adds options of which exactly one must be given.
     Verb add_choice(const std::string& name, const std::string& help) const;
     /// `name`: "--name" for an option, "name" for a word at a fixed position. Value: see the end of
@@ -59,10 +64,12 @@ public:
     void action(std::function<int()> run) const;
 
 protected:
-    Verb(CLI::App& app, ParserState& state) : app_(&app), state_(&state) {}
+    Verb(CLI::App& app, ParserState& state, std::string heading = "Verbs")
+        : app_(&app), state_(&state), heading_(std::move(heading)) {}
 
     CLI::App* app_;
     ParserState* state_;
+    std::string heading_;
 };
 
 class ArgumentParser : public Verb {

@@ -42,8 +42,8 @@ def help_of(*words):
 
 
 def verbs_in(text):
-    listed = re.search(r"(?ms)^Subcommands:\n(.*?)(?=^\S|\Z)", text)
-    return re.findall(r"(?m)^  ([a-z]\S*)", listed.group(1)) if listed else []
+    listed = re.findall(r"(?ms)^Verbs[^\n]*:\n(.*?)(?=^\S|\Z)", text)
+    return re.findall(r"(?m)^  ([a-z]\S*)", "".join(listed))
 
 
 def breach(program, words):

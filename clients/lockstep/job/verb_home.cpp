@@ -43,8 +43,9 @@ ExitCode home(const HomeOptions& options) {
 }  // namespace
 
 void add_home(Verb command) {
-    const Verb verb =
-        command.add_verb("home", "find the zero of all axes, or of the named axes, with their home switches");
+    const Verb verb = command.add_verb("home",
+                                       "find the zero of all axes, or of the named axes\n"
+                                       "The axes find it with their home switches.");
     const auto options = std::make_shared<HomeOptions>();
     verb.add_option("axes", options->axes, "the names of the axes; default: all axes");
     add_detach(verb, options->detach);

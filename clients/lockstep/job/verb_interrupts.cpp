@@ -26,12 +26,13 @@ struct Interrupt {
 };
 
 constexpr std::array kInterrupts{
-    Interrupt{"hold", CommandKind::Hold, "bring the machine to rest on its path, so that the job can be resumed",
+    Interrupt{"hold", CommandKind::Hold, "bring the machine to rest on its path; the job can be resumed",
               "continue with: lockstep resume; end the job with: lockstep stop"},
     Interrupt{"resume", CommandKind::Resume, "continue a job that is held or paused", "watch it with: lockstep watch"},
-    Interrupt{"stop", CommandKind::Stop, "bring the machine to rest on its path, and drop the rest of the job", ""},
+    Interrupt{"stop", CommandKind::Stop, "bring the machine to rest on its path, and end the job", ""},
     Interrupt{"estop", CommandKind::EmergencyStop,
-              "stop all pulses at once, also without a coordinator; axes that were in motion must then be homed again",
+              "stop all pulses at once, also without a coordinator\n"
+              "Axes that were in motion must then be homed again.",
               "when it is safe: lockstep reset; lockstep status shows which axes to home"},
     Interrupt{"reset", CommandKind::Reset, "leave Fault after its cause is removed", ""},
 };

@@ -63,8 +63,9 @@ ExitCode move(const MoveVerbOptions& options) {
 }  // namespace
 
 void add_move(Verb command) {
-    const Verb verb = command.add_verb(
-        "move", "move axes to a place in machine coordinates: together, in a straight line, or each on its own");
+    const Verb verb = command.add_verb("move",
+                                       "move axes to a place in machine coordinates\n"
+                                       "The axes move together, in a straight line; with --own, each on its own.");
     const auto options = std::make_shared<MoveVerbOptions>();
     verb.add_option("targets", options->move.targets, "AXIS=MM, e.g. X=10 Y=-3.5; axes that are not named do not move")
         .required();

@@ -55,12 +55,13 @@ ExitCode turn(const OverrideOptions& options) {
 }  // namespace
 
 void add_override(Verb command) {
-    const Verb verb = command.add_verb("override",
-                                       "change feed and rapid, in percent of the programmed values, also while a job "
-                                       "runs. The machine stays on its path "
-                                       "and within every limit. The values stay until they are changed again. Without "
-                                       "options, the command prints them. "
-                                       "Overrides do not apply to homing and to moves of axes on their own");
+    const Verb verb =
+        command.add_verb("override",
+                         "change feed and rapid, in percent of the programmed values\n"
+                         "The change is possible while a job runs. The machine stays on its path and within "
+                         "every limit. The values stay until they are changed again. Without options, the "
+                         "command prints them. Overrides do not apply to homing and to moves of axes on their "
+                         "own.");
     const auto options = std::make_shared<OverrideOptions>();
     verb.add_option("--feed", options->feed_percent, "percent of the programmed feeds")
         .in_range(Overrides::kLeast, Overrides::kMost);

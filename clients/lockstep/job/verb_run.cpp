@@ -245,8 +245,9 @@ void add_restart_options(Verb verb, RunOptions& options) {
 }  // namespace
 
 void add_run(Verb command) {
-    const Verb verb =
-        command.add_verb("run", "run a G-code file from the machine's present position, and wait for its end");
+    const Verb verb = command.add_verb("run",
+                                       "run a G-code file, and wait for its end\n"
+                                       "The program begins at the machine's present position.");
     const auto options = std::make_shared<RunOptions>();
     verb.add_option(
             "file", options->file,

@@ -141,11 +141,12 @@ ExitCode jog(const JogVerbOptions& options) {
 }  // namespace
 
 void add_jog(Verb command) {
-    const Verb verb = command.add_verb("jog",
-                                       "move axes while this command runs: by keys on a terminal; or the named axes, "
-                                       "until a distance, the end of their "
-                                       "travel or Ctrl-C. Each axis moves on its own, not in a line. When the command "
-                                       "ends for any reason, the axes brake");
+    const Verb verb =
+        command.add_verb("jog",
+                         "move axes while this command runs\n"
+                         "On a terminal, keys move the axes. The named axes move until a distance, the end of "
+                         "their travel or Ctrl-C. Each axis moves on its own, not in a line. When the command "
+                         "ends for any reason, the axes brake.");
     const auto options = std::make_shared<JogVerbOptions>();
     verb.add_option("axes", options->jog.words, "an axis and a direction: X+ Y-; default: the keys of the terminal");
     verb.add_option("--speed", options->jog.speed_mm_s,

@@ -193,8 +193,8 @@ ExitCode examine(const DoctorOptions& options) {
 
 void add_doctor(Verb command) {
     const Verb verb = command.add_verb("doctor",
-                                       "check whether this host and its network are suitable for a machine; prints "
-                                       "the command that corrects each problem");
+                                       "check whether this host and its network suit a machine\n"
+                                       "The command prints the command that corrects each problem.");
     const auto options = std::make_shared<DoctorOptions>();
     verb.add_option("--seconds", options->seconds, "how long to watch for stalls; run it under the usual load")
         .in_range(0.1, 3600.0)

@@ -89,8 +89,7 @@ ExitCode down(const DownOptions& options) {
 }  // namespace
 
 void add_down(Verb command) {
-    const Verb verb =
-        command.add_verb("down", "stop the machine on its path if it moves, then end its processes on this host");
+    const Verb verb = command.add_verb("down", "stop the machine on its path, then end its processes of this host");
     const auto options = std::make_shared<DownOptions>();
     add_all_hosts(verb, options->all);
     add_live_options(verb, *options);

@@ -31,8 +31,10 @@ ExitCode flight(const LiveOptions& options) {
 }  // namespace
 
 void add_flight(Verb command) {
-    const Verb verb = command.add_verb(
-        "flight", "write to files what each process on this host last received, decided and published");
+    const Verb verb = command.add_verb("flight",
+                                       "write what each process last received and decided to files\n"
+                                       "The files contain what each process on this host last received, decided and "
+                                       "published.");
     const auto options = std::make_shared<LiveOptions>();
     add_live_options(verb, *options);
     verb.footer(

@@ -129,8 +129,9 @@ void add_look(Verb keys, const char* name, const char* what, bool with_fingerpri
 }  // namespace
 
 void add_keys(Verb command) {
-    const Verb keys =
-        command.add_verb("keys", "the keys of the machine's members (DDS Security): make, show or check them");
+    const Verb keys = command.add_verb("keys",
+                                       "make, show or check the keys of the machine's members\n"
+                                       "The keys are those of DDS Security.");
     keys.footer(group_footer("  lockstep keys make --machine mill.textproto\n", "keys make"));
     add_make(keys);
     add_look(keys, "show", "show each member's certificate: subject, fingerprint and end", true);

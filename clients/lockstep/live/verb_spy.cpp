@@ -35,8 +35,9 @@ ExitCode spy(const LiveOptions& options) {
 }  // namespace
 
 void add_spy(Verb command) {
-    const Verb verb = command.add_verb(
-        "spy", "open lcm-spy with the machine's types, which shows every channel, field and curve live");
+    const Verb verb = command.add_verb("spy",
+                                       "open lcm-spy with the machine's types\n"
+                                       "lcm-spy shows every channel, field and curve live.");
     const auto options = std::make_shared<LiveOptions>();
     add_live_options(verb, *options);
     verb.footer(footer("  lockstep spy\n  lockstep spy --machine mill.textproto\n"));

@@ -45,8 +45,9 @@ ExitCode apply(const TimingOptions& options) {
 }  // namespace
 
 void add_timing(Verb command) {
-    const Verb verb =
-        command.add_verb("timing", "write the fastest timing that the hosts can keep into a machine's file");
+    const Verb verb = command.add_verb("timing",
+                                       "write the fastest timing that the hosts can keep into a file\n"
+                                       "The file is the machine's.");
     verb.footer(group_footer("  lockstep timing apply --machine mill.textproto --seconds 600\n", "timing apply"));
     const Verb part = verb.add_verb(
         "apply",

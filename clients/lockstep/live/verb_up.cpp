@@ -143,8 +143,9 @@ ExitCode up(const UpOptions& options) {
 }  // namespace
 
 void add_up(Verb command) {
-    const Verb verb = command.add_verb(
-        "up", "start the processes of a machine that belong on this host, and wait until they are ready");
+    const Verb verb = command.add_verb("up",
+                                       "start the machine's processes of this host\n"
+                                       "The command waits until they are ready.");
     const auto options = std::make_shared<UpOptions>();
     verb.add_option("--fpga", options->fpga,
                     "simulated devices instead of those of the configuration: sim: in the axes' processes; shm: in "

@@ -117,8 +117,7 @@ ExitCode analyze(AnalyzeOptions options) {
 }  // namespace
 
 void add_analyze(Verb command) {
-    const Verb verb =
-        command.add_verb("analyze", "report the content of a log and what it lacks; or the cause of an incident");
+    const Verb verb = command.add_verb("analyze", "report a log's content and what it lacks; or an incident's cause");
     const auto options = std::make_shared<AnalyzeOptions>();
     verb.add_option("log", options->paths,
                     "an LCM log, of lcm-logger or of lockstep simulate; with --incident: incident files, or their "

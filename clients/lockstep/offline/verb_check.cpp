@@ -23,9 +23,11 @@ ExitCode check(const ProgramOptions& options) {
 }  // namespace
 
 void add_check(Verb command) {
-    const Verb verb = command.add_verb("check",
-                                       "read a G-code file as the machine would: errors by line and column, ignored "
-                                       "words, travel and duration; needs no running machine");
+    const Verb verb =
+        command.add_verb("check",
+                         "read a G-code file as the machine would, and report errors\n"
+                         "The command reports errors by line and column, ignored words, travel and duration. It "
+                         "needs no running machine.");
     const auto options = std::make_shared<ProgramOptions>();
     add_program_options(verb, *options);
     add_start(verb, *options);

@@ -75,8 +75,9 @@ ExitCode compare_verb(const CompareOptions& options) {
 void add_compare(Verb command) {
     const Verb verb =
         command.add_verb("compare",
-                         "make one move by five published methods, and report how far the steps of each are "
-                         "from the ideal times; needs no machine");
+                         "make one move by five published methods, and compare the steps\n"
+                         "The command reports how far the steps of each method are from the ideal times. It "
+                         "needs no machine.");
     const auto options = std::make_shared<CompareOptions>();
     verb.add_option("--move", options->move, "STEPS,START,MAX,ACCEL[,DECEL] in steps, steps/s and steps/s^2")
         .with_default();

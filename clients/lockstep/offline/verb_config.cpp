@@ -76,8 +76,9 @@ ExitCode config(const ConfigOptions& options) {
 }  // namespace
 
 void add_config(Verb command) {
-    const Verb verb = command.add_verb(
-        "config", "show the settings that senders have written, which apply instead of the machine's file");
+    const Verb verb = command.add_verb("config",
+                                       "show the settings that senders have written\n"
+                                       "These settings apply instead of the machine's file.");
     const auto options = std::make_shared<ConfigOptions>();
     verb.add_option("file", options->file, "the machine's configuration file; default: the file that other verbs use");
     verb.add_flag(

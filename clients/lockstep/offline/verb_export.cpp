@@ -75,8 +75,9 @@ ExitCode export_verb(const ExportOptions& options) {
 }  // namespace
 
 void add_export(Verb command) {
-    const Verb verb = command.add_verb(
-        "export", "write a log's positions, states, health and jobs in a format of PlotJuggler and Foxglove");
+    const Verb verb = command.add_verb("export",
+                                       "write a log in a format of PlotJuggler and Foxglove\n"
+                                       "The file contains positions, states, health and jobs.");
     const auto options = std::make_shared<ExportOptions>();
     verb.add_option("log", options->log, "an LCM log, of lcm-logger or of lockstep simulate").required();
     verb.add_option("--format", options->format, "csv: PlotJuggler, spreadsheets; mcap: Foxglove, PlotJuggler")

@@ -55,8 +55,8 @@ ExitCode plan(const PlanOptions& options) {
 
 void add_plan(Verb command) {
     const Verb verb = command.add_verb("plan",
-                                       "report how long a G-code file takes, and the load on each axis; "
-                                       "needs no running machine");
+                                       "report how long a G-code file takes, and the load on each axis\n"
+                                       "The command needs no running machine.");
     const auto options = std::make_shared<PlanOptions>();
     add_program_options(verb, *options);
     add_start(verb, *options);

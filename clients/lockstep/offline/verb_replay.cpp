@@ -48,8 +48,8 @@ ExitCode replay_verb(const ReplayOptions& options) {
 
 void add_replay(Verb command) {
     const Verb verb = command.add_verb("replay",
-                                       "run the recorded frames of a log on simulated devices, and compare "
-                                       "every step with the log, tick for tick");
+                                       "run a log's frames on simulated devices and compare the steps\n"
+                                       "The command compares every step with the log, tick for tick.");
     const auto options = std::make_shared<ReplayOptions>();
     verb.add_option("log", options->log, "an LCM log, of lcm-logger or of lockstep simulate").required();
     verb.add_option("--log", options->made, "write a log of the replay: the recorded messages with the new steps");

@@ -159,9 +159,11 @@ void add_scenario_check(Verb verb) {
 }  // namespace
 
 void add_scenario(Verb command) {
-    const Verb verb = command.add_verb(
-        "scenario",
-        "run or check scripted tests of a whole machine: its actions, the faults to inject and what must be true");
+    const Verb verb =
+        command.add_verb("scenario",
+                         "run or check scripted tests of a whole machine\n"
+                         "A scenario contains the machine's actions, the faults to inject and what must be "
+                         "true.");
     verb.footer("idl/proto/scenario.proto describes scenarios; deploy/scenarios/ has examples.\n" +
                 group_footer("  lockstep scenario run deploy/scenarios/axis-killed.textproto\n", "scenario run"));
     add_scenario_run(verb);

@@ -132,8 +132,9 @@ bool is_streamed(const SimulateOptions& options) {
 void add_simulate(Verb command) {
     const Verb verb =
         command.add_verb("simulate",
-                         "home a simulated machine, run a G-code file on it without its pauses, and write the same "
-                         "log as a live run");
+                         "run a G-code file on a simulated machine, and write its log\n"
+                         "The simulated machine is homed first, does not pause, and writes the same log as a "
+                         "live run.");
     const auto options = std::make_shared<SimulateOptions>();
     add_program_options(verb, *options);
     verb.add_option("--log", options->log, "the LCM log to write; a log of that name is replaced").required();

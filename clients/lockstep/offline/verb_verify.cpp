@@ -28,9 +28,7 @@ ExitCode verify(const VerifyOptions& options) {
 }  // namespace
 
 void add_verify(Verb command) {
-    const Verb verb = command.add_verb("verify",
-                                       "compare every step in a log with the steps that its programs give, tick "
-                                       "for tick");
+    const Verb verb = command.add_verb("verify", "compare every step in a log with its programs, tick for tick");
     const auto options = std::make_shared<VerifyOptions>();
     verb.add_option("log", options->log, "an LCM log, of lcm-logger or of lockstep simulate").required();
     add_json(verb, options->json);

@@ -141,8 +141,9 @@ ExitCode send(const SendOptions& options) {
 }  // namespace
 
 void add_send(Verb command) {
-    const Verb verb = command.add_verb(
-        "send", "send a file to a controller with grbl's protocol: lockstep-grbl, or any grbl 1.1 at a serial line");
+    const Verb verb = command.add_verb("send",
+                                       "send a file to a controller with grbl's protocol\n"
+                                       "The controller is lockstep-grbl, or any grbl 1.1 at a serial line.");
     const auto options = std::make_shared<SendOptions>();
     verb.add_option("file", options->file, "a file of G-code and $ commands; - for standard input").required();
     verb.add_option("--port", options->port, "the path of a serial line or pseudo-terminal, or HOST:PORT").required();

@@ -74,8 +74,9 @@ ExitCode watch(const LiveOptions& options) {
 }  // namespace
 
 void add_watch(Verb command) {
-    const Verb verb =
-        command.add_verb("watch", "the machine's status, ten times a second; without a terminal, a line a second");
+    const Verb verb = command.add_verb("watch",
+                                       "the machine's status, ten times a second\n"
+                                       "Without a terminal, the command prints a line a second.");
     const auto options = std::make_shared<LiveOptions>();
     add_live_options(verb, *options);
     verb.footer(

@@ -50,9 +50,10 @@ void add_clear(Verb offsets) {
 void add_offsets(Verb command) {
     const Verb verb =
         command.add_verb("offsets",
-                         "show or change what G-code programs begin with: the coordinate systems G54 to G59.3, the "
-                         "offsets of G92, the places of G28 and G30; the coordinator keeps them, and a program "
-                         "that reaches its end can change them. This is not possible while a job runs");
+                         "show or change the coordinate systems G54 to G59.3 and G92\n"
+                         "These offsets, and the places of G28 and G30, are what G-code programs begin with. "
+                         "The coordinator keeps them, and a program that reaches its end can change them. A "
+                         "change is not possible while a job runs.");
     const auto options = std::make_shared<OffsetOptions>();
     add_live_options(verb, *options);
     verb.footer(

@@ -52,9 +52,9 @@ void add_remove(Verb tools) {
 void add_tools(Verb command) {
     const Verb verb =
         command.add_verb("tools",
-                         "show or change the tool table, which the coordinator keeps: G43 takes a "
-                         "tool's length from it, G41 and G42 its diameter, and G10 L1 changes it. This is "
-                         "not possible while a job runs");
+                         "show or change the tool table\n"
+                         "The coordinator keeps the table. G43 takes a tool's length from it, G41 and G42 its "
+                         "diameter, and G10 L1 changes it. A change is not possible while a job runs.");
     const auto options = std::make_shared<ToolOptions>();
     add_live_options(verb, *options);
     verb.footer(

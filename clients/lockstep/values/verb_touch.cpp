@@ -37,9 +37,11 @@ Changed touch(Session& session, const TouchOptions& options, gcode::KeptValues& 
 }  // namespace
 
 void add_touch(Verb command) {
-    const Verb verb = command.add_verb(
-        "touch",
-        "set the work zero: give the axes' present positions new coordinates in a coordinate system, as G10 L20 does");
+    const Verb verb =
+        command.add_verb("touch",
+                         "set the work zero at the axes' present positions\n"
+                         "The present positions get new coordinates in a coordinate system, as G10 L20 gives "
+                         "them.");
     const auto options = std::make_shared<TouchOptions>();
     verb.add_option("words", options->words, "X=0 Z=-0.1; axes that are not named keep their zero").required();
     verb.add_option("--system", options->system, "G54 to G59, G59.1 to G59.3; programs begin with G54").with_default();

@@ -10,6 +10,7 @@
 namespace lockstep {
 namespace {
 
+using ::testing::ContainsRegex;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -26,7 +27,7 @@ class ArgumentParserTest : public ::testing::Test {
 protected:
     ArgumentParserTest() {
         parser_.version("mill 1.2");
-        const Verb move = parser_.add_verb("move", "moves");
+        const Verb move = parser_.under("Verbs of motion").add_verb("move", "moves\nAlong a line.");
         move.add_option("targets", targets_, "where to").required();
         move.add_option("--feed", feed_, "how fast").in_range(1.0, 100.0);
         const Argument slow = move.add_flag("--slow", slow_, "slowly");
@@ -120,6 +121,13 @@ TEST_F(ArgumentParserTest, PrintsHelpAndVersion) {
     EXPECT_EQ(printed_by({"--version"}), "mill 1.2\n");
     EXPECT_THAT(printed_by({"--help"}), HasSubstr("Runs a mill."));
     EXPECT_THAT(printed_by({"move", "--help"}), HasSubstr("{exact,smooth}=exact"));
+}
+
+TEST_F(ArgumentParserTest, ListsVerbsUnderTheirHeadingsByTheFirstLineOfTheirHelp) {
+    const std::string list = printed_by({"--help"});
+    EXPECT_THAT(list, ContainsRegex("Verbs of motion:\n  move +moves\n"));
+    EXPECT_THAT(list, ContainsRegex("Verbs:\n  tools +shows tools\n"));
+    EXPECT_THAT(printed_by({"move", "--help"}), StartsWith("moves\nAlong a line.\n"));
 }
 
 }  // namespace
