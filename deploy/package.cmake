@@ -8,13 +8,24 @@ install(DIRECTORY deploy/examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep
   USE_SOURCE_PERMISSIONS)
 install(DIRECTORY deploy/grbl/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/grbl COMPONENT lockstep)
 install(DIRECTORY deploy/scenarios/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/scenarios COMPONENT lockstep)
-# Documents keep their relative paths, so that their links work.
-install(FILES README.md ARCHITECTURE.md CONTRIBUTING.md CHANGELOG.md LICENSE NOTICE
-  DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT lockstep)
+# Documents, and the files that they link to, keep their relative paths, so that the links work.
+set(DOCUMENTS README.md ARCHITECTURE.md CONTRIBUTING.md CHANGELOG.md LICENSE NOTICE)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT lockstep
   FILES_MATCHING PATTERN "*.md" PATTERN "*.svg" PATTERN "*.png")
-install(FILES sim_fpga/REGISTERS.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/sim_fpga COMPONENT lockstep)
-install(FILES deploy/security.md deploy/scale.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/deploy COMPONENT lockstep)
+file(GLOB_RECURSE DOCS CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} docs/*.md)
+execute_process(COMMAND deploy/linked-files . ${DOCUMENTS} ${DOCS} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
+  OUTPUT_VARIABLE LINKED COMMAND_ERROR_IS_FATAL ANY OUTPUT_STRIP_TRAILING_WHITESPACE)
+string(REPLACE "\n" ";" LINKED "${LINKED}")
+list(FILTER LINKED EXCLUDE REGEX "^(docs|deploy/(examples|scenarios|grbl))/")
+foreach(FILE ${LINKED})
+  cmake_path(GET FILE PARENT_PATH FOLDER)
+  install(FILES ${FILE} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${FOLDER} COMPONENT lockstep)
+endforeach()
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/links)
+foreach(FOLDER examples scenarios grbl)
+  file(CREATE_LINK ../../../lockstep/${FOLDER} ${PROJECT_BINARY_DIR}/links/${FOLDER} SYMBOLIC)
+  install(FILES ${PROJECT_BINARY_DIR}/links/${FOLDER} DESTINATION ${CMAKE_INSTALL_DOCDIR}/deploy COMPONENT lockstep)
+endforeach()
 install(FILES deploy/completion/lockstep.bash RENAME lockstep
   DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT lockstep)
 install(FILES deploy/completion/_lockstep
