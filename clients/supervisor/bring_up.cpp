@@ -27,7 +27,7 @@ constexpr nanoseconds kUpPatienceEach = 400ms;  // for each axis: they start one
 constexpr std::size_t kTailLines = 6;
 
 void route_multicast(const NetworkConfig& network, Output& output) {
-    if (network.interface == "lo") {
+    if (needs_loopback_multicast(network)) {
         if (const auto route = ensure_loopback_multicast(); !route) { output.warn(route.error()); }
     }
     if (const auto may = check_multicast(network); !may) { output.warn("the record is not published: " + may.error()); }

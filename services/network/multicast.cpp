@@ -53,6 +53,12 @@ std::expected<void, std::string> check_multicast(const NetworkConfig& network) {
                     url->ttl, url->address, *interface, network.interface, remedy(network.interface)));
 }
 
+bool needs_loopback_multicast(const NetworkConfig& network) {
+    if (network.interface == "lo") { return true; }
+    const auto url = parse_lcm_url(network.lcm_url);
+    return url && url->is_multicast() && url->ttl == 0 && !route_interface(url->address);
+}
+
 std::expected<bool, std::string> ensure_loopback_multicast() {
     if (route_interface(kDefaultGroup) == "lo") { return false; }
     if (add_loopback_route()) { return true; }

@@ -15,7 +15,11 @@ namespace lockstep {
 /// Checks that LCM may publish with this configuration. Error: why not, and the remedy.
 std::expected<void, std::string> check_multicast(const NetworkConfig& network);
 
-/// Routes multicast to lo, for a machine on one host. Adds the route if it is missing, which requires root. Returns
+/// Whether LCM needs a route of multicast to lo: on a machine of one host, or if LCM's datagrams stay on their host
+/// (ttl 0) and the host has no route for them, as a board without a default route.
+bool needs_loopback_multicast(const NetworkConfig& network);
+
+/// Routes multicast to lo. Adds the route if it is missing, which requires root. Returns
 /// true if it was added, false if it existed. Error: what failed, and the remedy.
 std::expected<bool, std::string> ensure_loopback_multicast();
 

@@ -43,7 +43,6 @@ board() {  # NAME NUMBER UPTIME_S, beyond the host's own
     on "$name" ip link set lo up
     on "$name" ip link set eth0 up
     on "$name" ip addr add "10.9.0.$number/24" dev eth0
-    on "$name" ip route add default via 10.9.0.1
 }
 
 on() { "$work/ssh" "$@"; }  # NAME COMMAND...

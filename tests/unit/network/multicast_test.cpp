@@ -49,5 +49,11 @@ TEST(Multicast, AnotherCarrierNeedsNoRoute) {
     EXPECT_TRUE(check_multicast({.interface = "none0", .lcm_url = "memq://"}));
 }
 
+TEST(Multicast, NeedsTheRouteToLoOnAMachineOfOneHost) {
+    EXPECT_TRUE(needs_loopback_multicast({.interface = "lo"}));
+    EXPECT_FALSE(needs_loopback_multicast({.interface = "none0", .lcm_url = "memq://"}));
+    EXPECT_FALSE(needs_loopback_multicast({.interface = "none0", .lcm_url = "udpm://239.255.76.67:7667?ttl=1"}));
+}
+
 }  // namespace
 }  // namespace lockstep
