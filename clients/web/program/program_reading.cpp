@@ -37,12 +37,16 @@ Problem no_text(std::string_view text) {
             .remedy = "choose the program's file"};
 }
 
+std::string in_words(const Diagnostic& error) {
+    return fmt::format("line {}, column {}: {}", error.line, error.column, error.message);
+}
+
 Problem wrong_program(const Diagnostics& errors) {
     const std::string more = errors.size() > 1 ? fmt::format(", and {} more", errors.size() - 1) : "";
     return {.status = 422,
             .code = "bad-program",
             .title = "the program has errors",
-            .detail = errors.empty() ? "" : to_text("line", errors.front()) + more,
+            .detail = errors.empty() ? "" : in_words(errors.front()) + more,
             .place = "body",
             .remedy = "correct the lines and send it again",
             .errors = errors};

@@ -1,12 +1,14 @@
 import { describe, expect, test } from "vitest";
-import type { Offsets } from "../../../clients/web/page/src/api/contract";
+import type { MachineAxis, Offsets } from "../../../clients/web/page/src/api/contract";
 import { noAnswer, problemOf } from "../../../clients/web/page/src/api/result";
 import { Trace } from "../../../clients/web/page/src/chart/trace";
 import { History, MOST_LINES } from "../../../clients/web/page/src/mdi/history";
 import { timeOfDay } from "../../../clients/web/page/src/format/times";
+import { unitTexts } from "../../../clients/web/page/src/format/units";
 import { deviceTexts } from "../../../clients/web/page/src/state/device_texts";
 import { groupedAlarms } from "../../../clients/web/page/src/state/grouped_alarms";
 import { otherWriter } from "../../../clients/web/page/src/state/other_writer";
+import { pageRemedy } from "../../../clients/web/page/src/state/page_remedy";
 import { shownMode } from "../../../clients/web/page/src/state/shown_mode";
 import { en } from "../../../clients/web/page/src/texts/en";
 import { workPlace } from "../../../clients/web/page/src/views/axis_places";
@@ -71,6 +73,28 @@ describe("devices", () => {
     expect(deviceTexts({ spindle: { direction: "reverse", rpm: 12000 }, mist: true, flood: true, tool: 3, outputs: [0, 2] }, en)).toEqual(
       ["Spindle reverse 12000 rpm", "Mist", "Flood", "Tool 3", "Output 0", "Output 2"]);
     expect(deviceTexts({ spindle: { direction: "forward", rpm: 799.6 } }, en)).toEqual(["Spindle forward 800 rpm"]);
+  });
+});
+
+describe("a remedy on the page", () => {
+  test("names the page's buttons instead of shell commands", () => {
+    expect(pageRemedy("find out why the axis reached the switch; then: lockstep reset, lockstep home", en)).toBe(
+      "Remedy: find out why the axis reached the switch; then: Reset, Home");
+    expect(pageRemedy("lockstep status, lockstep reset", en)).toBe("Remedy: this page, Reset");
+  });
+
+  test("says where to type the other shell commands", () => {
+    expect(pageRemedy("check whether the machine is up: lockstep up", en)).toBe(
+      "Remedy, in a shell on the machine's host: check whether the machine is up: lockstep up");
+    expect(pageRemedy("see the axis's log, and start its lockstep-axis if it is not running", en)).toMatch(/^Remedy: see/);
+  });
+});
+
+describe("units", () => {
+  test("are those of the axes, each once", () => {
+    const axes = [{ unit: "mm" }, { unit: "mm" }, { unit: "deg" }] as MachineAxis[];
+    expect(unitTexts(axes)).toBe("mm, °");
+    expect(unitTexts(axes, "/s")).toBe("mm/s, °/s");
   });
 });
 

@@ -35,7 +35,7 @@ export const de: Texts = {
     home: "Referenz", homeAxis: "Referenzfahrt {axis}", run: "Start", hold: "Halt", resume: "Weiter", stop: "Stopp", stops: "Halt und Stopp",
     estop: "Not-Halt", reset: "Quittieren", refused: "Abgelehnt: {title}", noAnswer: "Der Server antwortet nicht.",
     noAnswerRemedy: "Prüfe die Verbindung. Die Achsen einer Handfahrt bremsen von selbst, wenn die Seite sie nicht mehr erneuert.",
-    remedy: "Abhilfe: {remedy}", place: "{place}: {value}", limit: "erlaubt: {limit}",
+    remedy: "Abhilfe: {remedy}", shellRemedy: "Abhilfe, in einer Shell auf dem Rechner der Maschine: {remedy}", thisPage: "diese Seite", place: "{place}: {value}", limit: "erlaubt: {limit}",
     estopHint: "Die Pulse enden sofort. Dies ist keine Sicherheitsfunktion, denn die Motoren bleiben unter Spannung.",
   },
   alarms: {
@@ -61,7 +61,7 @@ export const de: Texts = {
     label: "Bahn des Programms. Pfeiltasten verschieben oder drehen sie, Plus und Minus vergrößern, 0 passt sie in die Ansicht ein.", segments: "{count} Strecken", ahead: "Voraus", rapid: "Eilgang",
     done: "Erledigt",
   },
-  strip: { title: "Letzte {seconds} s", velocity: "Tempo", position: "Position", unit: { velocity: "mm/s", position: "mm" } },
+  strip: { title: "Letzte {seconds} s", velocity: "Tempo", position: "Position" },
   job: {
     title: "Auftrag", none: "Noch kein Auftrag", left: "noch", progress: "Fortschritt", waits: "Die Achsen ruhen auf der Bahn, bis mehr vom Programm ankommt",
     line: "Zeile {line}", outcome: { Done: "Fertig", Stopped: "Gestoppt", Failed: "Fehlgeschlagen" },
@@ -69,8 +69,8 @@ export const de: Texts = {
     number: "Auftrag {number}", held: "Angehalten in Zeile {line}", braking: "Bremst …",
   },
   devices: {
-    title: "Eingeschaltet", forward: "Spindel rechts {rpm} 1/min", reverse: "Spindel links {rpm} 1/min", mist: "Nebel", flood: "Kühlmittel", tool: "Werkzeug {number}",
-    output: "Ausgang {number}",
+    title: "Vom Programm befohlen", forward: "Spindel rechts {rpm} 1/min", reverse: "Spindel links {rpm} 1/min", mist: "Nebel", flood: "Kühlmittel",
+    tool: "Werkzeug {number}", output: "Ausgang {number}", notConnected: "nichts ist angeschlossen",
   },
   overrides: { title: "Anpassung", feed: "Vorschub", rapid: "Eilgang", normal: "100 %", unit: "%" },
   program: {

@@ -34,7 +34,7 @@ export const en = {
     home: "Home", homeAxis: "Home {axis}", run: "Run", hold: "Hold", resume: "Resume", stop: "Stop", stops: "Hold and stop",
     estop: "Emergency stop", reset: "Reset", refused: "Refused: {title}", noAnswer: "The server does not answer.",
     noAnswerRemedy: "Check the connection. The axes of a jog brake by themselves when the page no longer renews it.",
-    remedy: "Remedy: {remedy}", place: "{place}: {value}", limit: "allowed: {limit}",
+    remedy: "Remedy: {remedy}", shellRemedy: "Remedy, in a shell on the machine's host: {remedy}", thisPage: "this page", place: "{place}: {value}", limit: "allowed: {limit}",
     estopHint: "Pulses stop at once. This is not a safety function, because the motors keep their power.",
   },
   alarms: {
@@ -60,7 +60,7 @@ export const en = {
     label: "Path of the program. Arrow keys move or rotate it, plus and minus zoom, 0 fits it into the view.", segments: "{count} segments", ahead: "Ahead", rapid: "Rapid",
     done: "Done",
   },
-  strip: { title: "Last {seconds} s", velocity: "Velocity", position: "Position", unit: { velocity: "mm/s", position: "mm" } },
+  strip: { title: "Last {seconds} s", velocity: "Velocity", position: "Position" },
   job: {
     title: "Job", none: "No job yet", left: "left", progress: "Progress", waits: "The axes rest on the path until more of the program arrives",
     line: "Line {line}", outcome: { Done: "Done", Stopped: "Stopped", Failed: "Failed" },
@@ -68,8 +68,8 @@ export const en = {
     number: "Job {number}", held: "Held at line {line}", braking: "Braking …",
   },
   devices: {
-    title: "Switched on", forward: "Spindle forward {rpm} rpm", reverse: "Spindle reverse {rpm} rpm", mist: "Mist", flood: "Flood", tool: "Tool {number}",
-    output: "Output {number}",
+    title: "Commanded by the program", forward: "Spindle forward {rpm} rpm", reverse: "Spindle reverse {rpm} rpm", mist: "Mist", flood: "Flood",
+    tool: "Tool {number}", output: "Output {number}", notConnected: "nothing is connected",
   },
   overrides: { title: "Overrides", feed: "Feed", rapid: "Rapid", normal: "100 %", unit: "%" },
   program: {

@@ -3,6 +3,7 @@ import type { Alarm, Fault } from "../api/contract";
 import { h, icon, show } from "../dom/element";
 import { ICONS } from "../dom/icons";
 import { groupedAlarms } from "../state/grouped_alarms";
+import { pageRemedy } from "../state/page_remedy";
 import { fill, t } from "../texts";
 import type { Model, View } from "./view";
 
@@ -14,7 +15,7 @@ function heading(fault: Fault, axes: readonly string[]): string {
 function item(fault: Fault, axes: readonly string[], kind: string, className: string): HTMLElement {
   return h("li", { class: `alarm ${className}` }, icon(className === "fault" ? ICONS.emergency : ICONS.warning),
     h("div", {}, h("strong", {}, `${kind} – ${heading(fault, axes)}`), h("p", {}, fault.cause),
-      fault.remedy === "" ? undefined : h("p", { class: "remedy" }, fill(t.commands.remedy, { remedy: fault.remedy }))));
+      fault.remedy === "" ? undefined : h("p", { class: "remedy" }, pageRemedy(fault.remedy, t))));
 }
 
 export class Alarms implements View {

@@ -4,6 +4,7 @@ import { h, icon, setAttribute, setText, show } from "../dom/element";
 import { ICONS } from "../dom/icons";
 import { fixed } from "../format/numbers";
 import { age } from "../format/times";
+import { unitText } from "../format/units";
 import { ageNow, freshness } from "../state/freshness";
 import { fill, t } from "../texts";
 
@@ -56,7 +57,7 @@ export class AxisCard {
     this.travel = h("div", { class: "travel", "aria-hidden": "true" }, this.place);
     this.element = h("article", { class: "axis", "data-axis": axis.name, "aria-label": fill(t.alarms.axis, { axis: axis.name }) },
       h("div", { class: "reading" }, h("span", { class: `letter axis-${index % 6}` }, axis.name), this.position,
-        h("span", { class: "unit" }, axis.unit === "deg" ? "°" : axis.unit), this.velocity),
+        h("span", { class: "unit" }, unitText(axis)), this.velocity),
       this.travel,
       h("div", { class: "chips" }, this.phase, this.homed, this.homeButton),
       this.trouble,
@@ -69,7 +70,7 @@ export class AxisCard {
     const isFresh = state.present && freshness(old) === "live";
     setAttribute(this.element, "data-fresh", isFresh ? "live" : "stale");
     setText(this.position, fixed(moment.position, 3));
-    setText(this.velocity, `${fixed(state.velocity, 1)} ${this.axis.unit === "deg" ? "°" : "mm"}/s`);
+    setText(this.velocity, `${fixed(state.velocity, 1)} ${unitText(this.axis)}/s`);
     const phase = state.state ?? undefined;
     setText(this.phase, !state.present ? t.axes.missing : phase === undefined ? "–" : t.phase[phase]);
     setAttribute(this.phase, "data-look", this.phaseLook(state));

@@ -16,6 +16,9 @@ export class DevicesRow implements View {
     setAttribute(this.element, "data-fresh", freshness(old) === "live" ? "live" : "stale");
     if (texts.join("\n") === this.shown) return;
     this.shown = texts.join("\n");
-    this.element.replaceChildren(...texts.map((text) => h("span", { class: "chip", "data-look": "busy" }, text)));
+    const chips = texts.map((text) => h("span", { class: "chip", "data-look": "busy" }, text));
+    const areSwitched = deviceTexts(state.devices && { ...state.devices, tool: null }, t).length > 0;
+    this.element.replaceChildren(h("span", { class: "soft" }, t.devices.title), ...chips,
+      h("span", { class: "soft" }, areSwitched ? t.devices.notConnected : ""));
   }
 }

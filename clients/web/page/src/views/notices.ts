@@ -3,16 +3,17 @@ import type { Problem } from "../api/contract";
 import { NO_ANSWER, type Result } from "../api/result";
 import { h, icon } from "../dom/element";
 import { ICONS } from "../dom/icons";
+import { pageRemedy } from "../state/page_remedy";
 import { fill, t } from "../texts";
 
 const MOST_NOTICES = 3;
 const STAYS_MS = 15_000;
 
 function details(problem: Problem): string {
-  const value = problem.value === undefined ? "" : String(JSON.stringify(problem.value));
   const parts = [
     problem.detail === problem.title ? "" : problem.detail,
-    problem.place === undefined ? "" : fill(t.commands.place, { place: problem.place, value }),
+    problem.place === undefined || problem.value === undefined ? "" :
+      fill(t.commands.place, { place: problem.place, value: JSON.stringify(problem.value) }),
     problem.limit === undefined ? "" : fill(t.commands.limit, { limit: problem.limit }),
   ];
   return parts.filter((part) => part !== "").join(" · ");
@@ -32,7 +33,7 @@ export class Notices {
     this.add(
       isSilent ? t.commands.noAnswer : fill(t.commands.refused, { title: problem.title }),
       isSilent ? "" : details(problem),
-      remedy === undefined || remedy === "" ? "" : fill(t.commands.remedy, { remedy }),
+      remedy === undefined || remedy === "" ? "" : pageRemedy(remedy, t),
     );
   }
 

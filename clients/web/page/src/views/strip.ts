@@ -4,6 +4,7 @@ import type { Machine } from "../api/contract";
 import { Trace } from "../chart/trace";
 import { h, setAttribute, setText } from "../dom/element";
 import { onTheme, paletteColour } from "../dom/theme";
+import { unitTexts } from "../format/units";
 import { fill, t } from "../texts";
 import type { Model, View } from "./view";
 
@@ -31,7 +32,7 @@ export class Strip implements View {
     const legend = machine.axes.map((axis, i) => h("span", { class: `key axis-${i % 6}` }, axis.name));
     this.element = h("section", { class: "strip", "aria-label": fill(t.strip.title, { seconds: SPAN_S }) },
       h("div", { class: "heading" }, h("h2", {}, fill(t.strip.title, { seconds: SPAN_S })), this.unit, h("div", { class: "legend" }, ...legend),
-        h("div", { class: "switch", role: "group", "aria-label": t.strip.title }, this.switches.velocity, this.switches.position)),
+        h("div", { class: "switch", role: "group", "aria-label": fill(t.strip.title, { seconds: SPAN_S }) }, this.switches.velocity, this.switches.position)),
       this.plotArea);
     onTheme(() => this.build());
     new ResizeObserver(() => this.fit()).observe(this.plotArea);
@@ -50,7 +51,7 @@ export class Strip implements View {
 
   private choose(signal: Signal): void {
     this.signal = signal;
-    setText(this.unit, t.strip.unit[signal]);
+    setText(this.unit, unitTexts(this.machine.axes, signal === "velocity" ? "/s" : ""));
     for (const [name, button] of Object.entries(this.switches)) setAttribute(button, "aria-pressed", String(name === signal));
     this.build();
   }
