@@ -103,7 +103,7 @@ set(CPACK_DEBIAN_LOCKSTEP_PACKAGE_CONTROL_EXTRA
 set(CPACK_DEBIAN_LOCKSTEP_PACKAGE_CONTROL_STRICT_PERMISSION TRUE)
 set(CPACK_DEBIAN_LOCKSTEP-DEV_PACKAGE_NAME lockstep-dev)
 set(CPACK_DEBIAN_LOCKSTEP-DEV_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_LOCKSTEP-DEV_PACKAGE_DEPENDS "libhwy-dev")
+set(CPACK_DEBIAN_LOCKSTEP-DEV_PACKAGE_DEPENDS "lockstep (= ${PROJECT_VERSION}), libhwy-dev, liblcm-dev, liblcm-bin")
 set(CPACK_DEBIAN_LOCKSTEP-DEV_DESCRIPTION
   "The core, to build on: step engine, planner, frames, and the axis and the coordinator as state machines
  without I/O, as a static library with headers and a CMake package.")

@@ -172,7 +172,7 @@ int main(int argc, char** argv) {
         "a sender's lines, jogs and homing take over the machine from another writer; without --take they are refused "
         "while there is another writer. lockstep status names the writer");
     parser.footer(
-        "Examples:\n  lockstep-grbl\n  lockstep-grbl --machine mill.textproto --port 2302 --pty /tmp/grbl\n"
+        "Examples:\n  lockstep-grbl\n  lockstep-grbl --machine mill.textproto --port 2311 --pty /tmp/grbl\n"
         "Exit codes: 0 ended as asked, 1 failed, 2 wrong usage or configuration, 3 machine not reachable");
     parser.action([&] { return run(options); });
     return parser.run(argc, argv);

@@ -39,7 +39,11 @@ bool write_durably(const std::filesystem::path& path, int flags, mode_t mode, st
 std::expected<std::string, Diagnostic> read_text_file(const std::filesystem::path& path) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
-    if (!std::filesystem::exists(status)) { return refusal("there is no such file, or its directory cannot be read"); }
+    if (error == std::errc::permission_denied) {
+        return refusal("this user may not look into its directory; join the group that may, then log in again: ls -ld " +
+                       path.parent_path().string());
+    }
+    if (!std::filesystem::exists(status)) { return refusal("there is no such file"); }
     if (std::filesystem::is_directory(status)) { return refusal("this is a directory; name a file in it"); }
     if (!std::filesystem::is_regular_file(status)) { return refusal("this is not a regular file"); }
     const auto size = std::filesystem::file_size(path, error);

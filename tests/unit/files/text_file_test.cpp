@@ -36,6 +36,17 @@ protected:
         std::filesystem::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
+TEST_F(TextFile, NamesTheDirectoryThatTheUserMayNotLookInto) {
+    if (geteuid() != 0) { GTEST_SKIP() << "only root can act as another user"; }
+    const std::filesystem::path file = write("text");
+    std::filesystem::permissions(folder_, std::filesystem::perms::owner_all);
+    ASSERT_EQ(seteuid(65534), 0);
+    const std::string text = refusal(file);
+    ASSERT_EQ(seteuid(0), 0);
+    EXPECT_THAT(text, HasSubstr("may not look into its directory"));
+    EXPECT_THAT(text, HasSubstr("ls -ld " + folder_.string()));
+}
+
 TEST_F(TextFile, IsReadWhole) { EXPECT_EQ(read_text_file(write("one\r\ntwo")).value(), "one\r\ntwo"); }
 
 TEST_F(TextFile, ThatIsMissingEmptyBinaryOrNoFileIsRefused) {
