@@ -40,8 +40,9 @@ std::expected<std::string, Diagnostic> read_text_file(const std::filesystem::pat
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     if (error == std::errc::permission_denied) {
-        return refusal("this user may not look into its directory; join the group that may, then log in again: ls -ld " +
-                       path.parent_path().string());
+        return refusal(
+            "this user may not look into its directory; join the group that may, then log in again: ls -ld " +
+            path.parent_path().string());
     }
     if (!std::filesystem::exists(status)) { return refusal("there is no such file"); }
     if (std::filesystem::is_directory(status)) { return refusal("this is a directory; name a file in it"); }
