@@ -1,4 +1,5 @@
-// Stores consecutive messages in one reused piece of memory. It allocates nothing once this memory has grown.
+// Stores consecutive messages in one reused piece of memory. It allocates nothing while they fit into what was
+// reserved, or has grown.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +16,13 @@ public:
         std::int64_t utime = 0;
         std::span<const std::uint8_t> data;
     };
+
+    /// Room for messages of this many bytes, of at least kSmallMessage_bytes each on average.
+    void reserve(std::size_t bytes) {
+        entries_.reserve(bytes / kSmallMessage_bytes);
+        bytes_.reserve(bytes);
+    }
+    static constexpr std::size_t kSmallMessage_bytes = 64;
 
     void add(std::string_view channel, std::int64_t utime, std::span<const std::uint8_t> data) {
         entries_.push_back({utime, channel.size(), data.size()});

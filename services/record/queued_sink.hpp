@@ -36,6 +36,8 @@ class QueuedSink final : public RecordSink {
 public:
     /// At 100,000 steps/s an axis writes half a megabyte a second.
     static constexpr std::size_t kQueueBytes = 8 << 20;
+    /// The caller allocates nothing while its messages of two seconds wait for the disk.
+    static constexpr std::size_t kReserved_bytes = 1 << 20;
     static constexpr std::chrono::milliseconds kPeriod{20};  // how often the thread checks the queue
 
     /// Writes a loss to the given sink. The queue's thread calls this function and the sink `behind`; other threads
@@ -57,6 +59,8 @@ private:
     struct Backlog {
         MessageBlock block;
         RecordLoss dropped;
+
+        Backlog() { block.reserve(kReserved_bytes); }
     };
 
     void add(Backlog& backlog, std::string_view channel, std::int64_t utime, std::span<const std::uint8_t> bytes);

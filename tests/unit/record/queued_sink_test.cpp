@@ -7,6 +7,8 @@
 #include <future>
 #include <vector>
 
+#include "tests/unit/allocations/counted_allocations.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -90,6 +92,24 @@ TEST_F(SinkQueue, NeverMakesAWriterWaitForADiskThatHangs) {
     EXPECT_EQ(disk.losses[0].first_utime, disk.written.back() + 1);
     EXPECT_EQ(disk.losses[0].last_utime, 999);
     EXPECT_EQ(disk.losses_at[0], disk.written.size());
+}
+
+TEST_F(SinkQueue, AllocatesNothingForTheCallerWhileMessagesOfTwoSecondsWait) {
+    begin(QueuedSink::kQueueBytes);
+    std::int64_t next = write_until([this] { return disk.is_busy.load(); });
+    const std::string channel = "C";
+    const std::vector<std::uint8_t> message(100);
+    const std::uint64_t before = CountedAllocations::count();
+    {
+        const CountedAllocations counted;
+        for (std::size_t bytes = 0; bytes < QueuedSink::kReserved_bytes - 4096; bytes += 128) {
+            sink->write(channel, next++, message);
+        }
+    }
+    EXPECT_EQ(CountedAllocations::count(), before) << CountedAllocations::places();
+    disk.opens.set_value();
+    end();
+    EXPECT_EQ(disk.written.size(), static_cast<std::size_t>(next));
 }
 
 TEST_F(SinkQueue, ReportsMessagesThatAFullDiskRefused) {
