@@ -83,10 +83,12 @@ Tick SimulatedDevice::decide_first_frame(Tick until) {
     segments_.drop_other_runs(run_);
     const auto first = segments_.front();
     if (!first) { return until; }
-    if (first->segment.start > engine_.now()) { return std::min(until, first->segment.start); }
     if (vetoed(1)) {
         finish(0);
-    } else if (may_run(1)) {
+        return until;
+    }
+    if (first->segment.start > engine_.now()) { return std::min(until, first->segment.start); }
+    if (may_run(1)) {
         const bool joins = first->frame == 1 && first->segment.start == engine_.now() && rebase_to(first->segment.from);
         if (!joins || !segments_.take_frame(next_)) {
             finish(kStatusBadSegment);

@@ -1,8 +1,8 @@
 // The simulated hardware of one axis, down to its registers. It executes frames by itself, exact to the tick.
 //
 // A run goes from rest to rest. The host begins one by a new number in RUN_REQUEST, which is taken at rest only. Then:
-// - At the start tick of frame 1 its body runs, if ARMED >= 1 and VETO > 1. If it is vetoed, the run ends there. If it
-//   is found armed only after that tick, it is refused (BAD_SEGMENT).
+// - At the start tick of frame 1 its body runs, if ARMED >= 1 and VETO > 1. If it is vetoed until
+//   then, the run ends at once. If it is found armed only after that tick, it is refused (BAD_SEGMENT).
 // - At the end of frame k's body, the run is finished if k was the last. Else, if frame k+1 is loaded, ARMED >= k+1 and
 //   VETO > k+1, its body runs: it must start at this tick and position, exactly. In every other case frame k's tail
 //   runs and the run is finished; a frame k+1 that was armed but does not join, or is malformed, sets BAD_SEGMENT.

@@ -8,22 +8,33 @@
 namespace lockstep {
 namespace {
 
-/// A forward motion that brakes from a place and speed of the move to rest on a whole step.
+/// A forward motion that brakes from a place and speed of the move to rest.
 struct Brake {
     Displacement to;
     double entry = 0;  // steps per tick
     double exit = 0;
+
+    double ticks(Displacement from) const { return std::ceil(2 * (to - from).as_steps() / (entry + exit)); }
 };
+
+/// Plans to rest between two steps, from the speed that the axis can drop suddenly.
+Brake plan_soonest_brake(Displacement from, double speed, double jump, std::int64_t last_step,
+                         const AxisLimits& limits) {
+    Brake brake{.to = from, .entry = speed, .exit = std::min(speed, jump)};
+    const double way = (speed * speed - brake.exit * brake.exit) / (2 * limits.max_deceleration);
+    brake.to =
+        std::min(Displacement{from.raw + static_cast<Int128>(std::ceil(way * 0x1p64))}, Displacement::steps(last_step));
+    return brake;
+}
 
 /// Plans to rest on the first whole step that can be reached, but never beyond the move's last step. If there is enough
 /// distance, the speed falls at the end from half of the start velocity to 0. The other half is left for uneven pulses
 /// of a method. Near its last step a move is planned to slow down to the start velocity only. There the final speed
 /// follows from the distance s that remains: its square is v^2 - 2 d s, and it is at most the start velocity. If the
-/// speed is still too high, because a method rounds, it first drops suddenly, within the start velocity. `jumped`: the
-/// part of the start velocity that the method's pulses have just used up.
-Brake plan_brake(Displacement from, double speed, double jumped, std::int64_t last_step, const AxisLimits& limits) {
+/// speed is still too high, because a method rounds, it first drops suddenly, within the start velocity. `jump`: what
+/// the method's pulses have left of the start velocity.
+Brake plan_whole_brake(Displacement from, double speed, double jump, std::int64_t last_step, const AxisLimits& limits) {
     const double d = limits.max_deceleration;
-    const double jump = std::max(0.0, limits.start_velocity - jumped);
     Brake brake{.entry = speed, .exit = std::min({speed, limits.start_velocity / 2, jump})};
     const double way = (speed * speed - brake.exit * brake.exit) / (2 * d) + 2 * speed;  // not shorter than two ticks
     const Int128 end = from.raw + static_cast<Int128>(std::ceil(way * 0x1p64));
@@ -35,6 +46,15 @@ Brake plan_brake(Displacement from, double speed, double jumped, std::int64_t la
     const double steepest = std::sqrt(brake.exit * brake.exit + 2 * d * left);
     brake.entry = std::min(speed, std::max(steepest, speed - jump));
     return brake;
+}
+
+Brake plan_brake(Displacement from, double speed, double jumped, std::int64_t last_step, Ticks most_longer,
+                 const AxisLimits& limits) {
+    const double jump = std::max(0.0, limits.start_velocity - jumped);
+    const Brake whole = plan_whole_brake(from, speed, jump, last_step, limits);
+    const Brake soonest = plan_soonest_brake(from, speed, jump, last_step, limits);
+    const bool is_soon = whole.ticks(from) <= soonest.ticks(from) + static_cast<double>(most_longer.value);
+    return is_soon ? whole : soonest;
 }
 
 }  // namespace
@@ -70,10 +90,10 @@ void OwnMove::fill_body(HeldFrame& frame) {
 /// The tail is one piece of constant deceleration. Its ticks are rounded up, and its velocity is solved for the exact
 /// end.
 void OwnMove::fill_tail(HeldFrame& frame) const {
-    const Brake brake = plan_brake(gone_, speed_, fastest_ - speed_, place_.steps, limits_);
+    const Brake brake = plan_brake(gone_, speed_, fastest_ - speed_, place_.steps, span_ * kTailFrames, limits_);
     const Displacement way = brake.to - gone_;
     if (way.raw <= 0) { return; }
-    const double ticks = std::ceil(2 * way.as_steps() / (brake.entry + brake.exit));
+    const double ticks = brake.ticks(gone_);
     const Piece piece = solve_piece(Position{}, Position{way.raw}, {static_cast<std::int64_t>(ticks)},
                                     (brake.exit - brake.entry) / ticks);
     frame.track.tail.append(directed(piece));

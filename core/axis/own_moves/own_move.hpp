@@ -1,7 +1,9 @@
 // A move of one axis by itself, as frames for its device. Each frame has a tail from its end to rest.
 //
-// A device that gets no further frame in time runs the tail of the last one. It comes to rest within limits, on a whole
-// step, not beyond the move's end. So an axis's process may stall, and a move may be halted at any frame.
+// A device that gets no further frame in time runs the tail of the last one. It comes to rest within limits, not beyond
+// the move's end, and on a whole step if that takes little time. A slow axis stops between two steps instead. Its count
+// of steps is its position, and its next move begins on that whole step. So an axis's process may stall, and a move may
+// be halted at any frame and at any speed.
 #pragma once
 
 #include "core/axis/device/held_frames.hpp"
@@ -19,6 +21,9 @@ public:
     };
     /// Frames last little longer than `span`, and have at most as many pieces as a frame holds.
     OwnMove(OwnPieces pieces, const Place& place, const AxisLimits& limits, Ticks span);
+
+    /// By how much a tail may last longer than the deceleration that stops between two steps, in frames.
+    static constexpr std::int64_t kTailFrames = 4;
 
     /// The next frame, numbered from 1. Must not be called when all frames are made.
     HeldFrame next();

@@ -78,7 +78,7 @@ FaultCode OwnMoves::jog_refusal_of(const AxisCommand& order, bool is_resting, co
     if (!is_resting || loop.device.status().moving) { return FaultCode::Busy; }
     if (loop.condition.phases.has_fault()) { return FaultCode::InFault; }
     if (!loop.device.is_present()) { return FaultCode::DeviceMissing; }
-    if (order.speed_mm_s <= 0) { return FaultCode::BadProgram; }
+    if (!(order.speed_mm_s >= least_speed_mm_s(axis_))) { return FaultCode::BadProgram; }
     if (!loop.condition.position.homed()) { return axis_.unhomed_jog_mm_s ? FaultCode::None : FaultCode::NotHomed; }
     const bool is_within = order.target_steps >= limits_.min_steps && order.target_steps <= limits_.max_steps;
     return is_within ? FaultCode::None : FaultCode::OutsideTravel;
@@ -87,7 +87,7 @@ FaultCode OwnMoves::jog_refusal_of(const AxisCommand& order, bool is_resting, co
 /// Ends a jog here if its order runs out before the motion could begin. The owner orders it again while its client
 /// renews it.
 void OwnMoves::start_jog(const LocalMove& move, Tick until, AxisLoop& loop) {
-    const Tick start = loop.now + jog_lead_;
+    const Tick start = std::max(loop.now + jog_lead_, earliest_start(loop));
     if (std::min(until, loop.now + jog_hold_) < start + jog_frame_ * 2) {
         return loop.condition.orders.end(FaultCode::None);
     }
@@ -97,6 +97,7 @@ void OwnMoves::start_jog(const LocalMove& move, Tick until, AxisLoop& loop) {
     OwnMove frames(std::move(*pieces), {from, move.steps < 0, std::abs(move.steps), start}, limits_, jog_frame_);
     run_.emplace(move, std::move(frames), count + move.steps, 0, ahead_);
     run_->allow_until(std::min(until, loop.now + jog_hold_));
+    between_steps_.reset();
     loop.begin_run(Trigger::None, true);
     feed(loop);
 }
@@ -117,14 +118,24 @@ OwnMove OwnMoves::frames_of(const LocalMove& move, Position from, Tick start) co
     return OwnMove(std::move(*pieces), {from, move.steps < 0, request.steps, start}, limits_, frame_);
 }
 
-/// A run that a switch cut short ended on a pulse, but the next run starts from the whole step. So the start waits for
-/// the time of half a step.
+/// After a rest between two steps the last pulse may be just over, but the next run starts from the whole step. So it
+/// starts after the time of half a step.
+Tick OwnMoves::earliest_start(const AxisLoop& loop) {
+    const Position here = loop.device.status().position;
+    if (here == rest_position(here.count(), false) || here == rest_position(here.count(), true)) { return loop.now; }
+    if (!between_steps_ || between_steps_->at != here) {
+        const Ticks half_step{static_cast<std::int64_t>(std::ceil(0.5 / limits_.start_velocity))};
+        between_steps_ = {here, loop.now + half_step};
+    }
+    return between_steps_->start;
+}
+
 void OwnMoves::start(const LocalMove& move, int tries, AxisLoop& loop) {
-    const Ticks half_step{static_cast<std::int64_t>(std::ceil(0.5 / limits_.start_velocity))};
-    const Tick start = loop.now + slot_ * (2 + tries) + half_step;
+    const Tick start = std::max(loop.now, earliest_start(loop)) + slot_ * (2 + tries);
     const std::int64_t count = loop.device.status().position.count();
     const Position from = rest_position(count - loop.condition.position.zero_count(), move.steps < 0);
     run_.emplace(move, frames_of(move, from, start), count + move.steps, tries, ahead_);
+    between_steps_.reset();
     loop.begin_run(move.trigger, true);
     feed(loop);
 }

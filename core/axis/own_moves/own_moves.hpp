@@ -40,6 +40,7 @@ private:
     FaultCode refusal_of(const AxisCommand& order, std::int64_t steps, bool is_resting, const AxisLoop& loop) const;
     FaultCode jog_refusal_of(const AxisCommand& order, bool is_resting, const AxisLoop& loop) const;
     OwnMove frames_of(const LocalMove& move, Position from, Tick start) const;
+    Tick earliest_start(const AxisLoop& loop);
     void start(const LocalMove& move, int tries, AxisLoop& loop);
     void start_jog(const LocalMove& move, Tick until, AxisLoop& loop);
     void go_on(const LocalMove& rest, int tries, AxisLoop& loop);
@@ -60,6 +61,13 @@ private:
     Ticks jog_hold_;
     Ticks jog_frame_;
     Ticks jog_lead_;  // time from the order to the first frame's start
+    /// A rest between two steps, and when a run may start from there.
+    struct BetweenSteps {
+        Position at;
+        Tick start;
+    };
+
+    std::optional<BetweenSteps> between_steps_;
     BeginSteps begin_steps_;
     Homing homing_;
     std::optional<OwnRun> run_;

@@ -28,6 +28,11 @@ std::string text_of(const OwnMoveError& error, const AxisConfig& axis, std::int6
         return "axis " + axis.name + " cannot move in a given time by method " + std::string(name_of(other->method)) +
                "; omit the time, or configure method RANADE";
     }
+    if (const auto* slow = std::get_if<TooSlow>(&error)) {
+        return "axis " + axis.name + ": " + short_number(to_mm(axis, static_cast<double>(move.steps))) +
+               " mm must take at most " + short_number(slow->most_s) + " s; that is the least speed, a step in " +
+               short_number(1 / kLeastSpeed_steps_per_s) + " s";
+    }
     if (const auto* lack = std::get_if<Infeasible>(&error)) { return text_in_time(*lack, axis, tick_ns, move); }
     return "axis " + axis.name + ": " + text_of(std::get<StepError>(error));
 }
@@ -41,6 +46,10 @@ StepMove step_move_of(const AxisConfig& axis, const OwnMoveRequest& move) {
 
 std::expected<OwnPieces, OwnMoveError> OwnPieces::plan(const AxisConfig& axis, std::int64_t tick_ns, StepMethod method,
                                                        const OwnMoveRequest& move, BeginSteps begin_steps) {
+    const double most_s = static_cast<double>(move.steps) / kLeastSpeed_steps_per_s;
+    if (move.ticks && static_cast<double>(move.ticks->value) * static_cast<double>(tick_ns) * 1e-9 > most_s) {
+        return std::unexpected(TooSlow{most_s});
+    }
     if (method == StepMethod::Ranade) { return planned(axis, tick_ns, move); }
     if (!move.ticks) { return stepped(axis, tick_ns, method, move, begin_steps); }
     return std::unexpected(NotInTime{method});
@@ -76,29 +85,25 @@ std::expected<OwnPieces, OwnMoveError> OwnPieces::stepped(const AxisConfig& axis
     return OwnPieces(Stepped{std::move(*source), watch, ticks_per_s, move.steps});
 }
 
+/// A long piece is cut at any tick, which changes none of its steps.
 std::optional<Piece> OwnPieces::next(Ticks most) {
-    return std::visit([most](auto& maker) { return maker.next(most); }, maker_);
+    std::optional<Piece> piece = std::exchange(rest_, std::nullopt);
+    if (!piece) {
+        piece = std::visit([most](auto& maker) { return maker.next(most); }, maker_);
+    }
+    if (!piece || piece->ticks <= most + most) { return piece; }
+    const Velocity then{static_cast<std::int64_t>(piece->velocity_after(most))};
+    rest_ = Piece{piece->ticks - most, then, piece->acceleration};
+    piece->ticks = most;
+    return piece;
 }
 
 bool OwnPieces::done() const {
-    return std::visit([](const auto& maker) { return maker.done(); }, maker_);
+    return !rest_ && std::visit([](const auto& maker) { return maker.done(); }, maker_);
 }
 
 bool OwnPieces::broken() const {
     return std::visit([](const auto& maker) { return maker.broken(); }, maker_);
-}
-
-std::optional<Piece> OwnPieces::Planned::next(Ticks most) {
-    if (done()) { return std::nullopt; }
-    Piece& piece = pieces[made];
-    if (piece.ticks <= most + most) {
-        ++made;
-        return piece;
-    }
-    const Piece begun{most, piece.velocity, piece.acceleration};
-    piece.velocity.raw = static_cast<std::int64_t>(piece.velocity_after(most));  // value of the register then
-    piece.ticks = piece.ticks - most;
-    return begun;
 }
 
 std::optional<Piece> OwnPieces::Stepped::next(Ticks most) {

@@ -32,8 +32,12 @@ struct OwnMoveRequest {
 struct NotInTime {
     StepMethod method;
 };
+/// The move would be slower than the least speed.
+struct TooSlow {
+    double most_s;  // the longest duration of this distance
+};
 /// Why a move cannot be made.
-using OwnMoveError = std::variant<NotInTime, Infeasible, StepError>;
+using OwnMoveError = std::variant<NotInTime, TooSlow, Infeasible, StepError>;
 
 /// Says why the move is impossible and what would be possible, in the user's units.
 std::string text_of(const OwnMoveError& error, const AxisConfig& axis, std::int64_t tick_ns,
@@ -48,8 +52,8 @@ public:
     static std::expected<OwnPieces, OwnMoveError> plan(const AxisConfig& axis, std::int64_t tick_ns, StepMethod method,
                                                        const OwnMoveRequest& move, BeginSteps begin_steps);
 
-    /// Returns the next piece. It lasts little longer than `most` if a step or a profile allows a cut there. Returns
-    /// nullopt after the last piece, or if the next step would break the axis's limits.
+    /// Returns the next piece, which lasts at most twice as long as `most`. Returns nullopt after the last piece, or if
+    /// the next step would break the axis's limits.
     std::optional<Piece> next(Ticks most);
     /// Whether all pieces are made, so that the move ends on its last whole step.
     bool done() const;
@@ -62,7 +66,7 @@ private:
         std::vector<Piece> pieces;
         std::size_t made = 0;
 
-        std::optional<Piece> next(Ticks most);
+        std::optional<Piece> next(Ticks /*most*/) { return done() ? std::nullopt : std::optional(pieces[made++]); }
         bool done() const { return made == pieces.size(); }
         bool broken() const { return false; }
     };
@@ -92,6 +96,7 @@ private:
                                                           BeginSteps begin_steps);
 
     Maker maker_;
+    std::optional<Piece> rest_;  // of a piece that was cut
 };
 
 }  // namespace lockstep

@@ -20,10 +20,11 @@ CommandResult check_homed(const AxisConfig& axis, const AxisState& state) {
 
 CommandResult check_speed(const AxisConfig& axis, double speed_mm_s) {
     const double speed = std::abs(speed_mm_s);
-    if (speed > 0 && speed <= axis.max_velocity_mm_s) { return {}; }
-    return refuse(FaultCode::BadProgram,
-                  "axis " + axis.name + ": a jog speed must be above 0 and at most max_velocity_mm_s " +
-                      short_number(axis.max_velocity_mm_s) + "; it is " + short_number(speed) + " mm/s");
+    if (speed >= least_speed_mm_s(axis) && speed <= axis.max_velocity_mm_s) { return {}; }
+    return refuse(FaultCode::BadProgram, "axis " + axis.name + ": a jog speed must be at least " +
+                                             short_number(least_speed_mm_s(axis)) + " and at most max_velocity_mm_s " +
+                                             short_number(axis.max_velocity_mm_s) + "; it is " + short_number(speed) +
+                                             " mm/s");
 }
 
 }  // namespace

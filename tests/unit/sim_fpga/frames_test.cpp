@@ -76,15 +76,14 @@ TEST(Frames, ArmedInTheVeryTickOfItsStartTheFirstFrameRuns) {
     EXPECT_EQ(bench.at(kMuchLater).position.count(), 11);
 }
 
-TEST(Frames, AVetoedFirstFrameEndsTheRunAtItsStart) {
+TEST(Frames, AVetoedFirstFrameEndsTheRunAtOnce) {
     DeviceBench bench;
     bench.order(device::BeginRun{1});
     bench.order(frame(1));
     bench.order(device::Arm{1});
     bench.order(device::Veto{1});
-    EXPECT_FALSE(bench.at(kStart - Ticks{1}).finished);
-    const DeviceStatus after = bench.at(kStart);
-    EXPECT_TRUE(after.finished);
+    const DeviceStatus after = bench.at(kStart - Ticks{1});
+    EXPECT_TRUE(after.finished) << "not only at its start, which may be far away";
     EXPECT_FALSE(after.bad_segment);
     EXPECT_EQ(bench.at(kMuchLater).position.count(), 0);
 }
