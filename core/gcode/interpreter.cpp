@@ -15,6 +15,23 @@ Interpreter::Interpreter(Setup setup, State state, Sink sink)
     begin(state_);
 }
 
+Interpreter::Interpreter(Setup setup, Memory memory, Sink sink)
+    : setup_(std::move(setup)),
+      state_(std::move(memory.state)),
+      sink_(std::move(sink)),
+      parameters_(state_.parameters, *this, std::move(memory.local)),
+      kept_(std::move(memory.kept)),
+      returned_(memory.returned),
+      has_returned_(memory.has_returned) {}
+
+Memory Interpreter::memory() const {
+    return {.state = state_,
+            .local = parameters_.local(),
+            .kept = kept_,
+            .returned = returned_,
+            .has_returned = has_returned_};
+}
+
 std::unexpected<GcodeError> Interpreter::error(std::size_t place, std::string message) const {
     return std::unexpected(line_.error(place, std::move(message)));
 }

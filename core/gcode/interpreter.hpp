@@ -13,6 +13,7 @@
 
 #include "core/gcode/block.hpp"
 #include "core/gcode/flow/body.hpp"
+#include "core/gcode/memory.hpp"
 #include "core/gcode/run/context.hpp"
 #include "core/gcode/setup.hpp"
 #include "core/gcode/state.hpp"
@@ -22,6 +23,8 @@ namespace lockstep::gcode {
 class Interpreter : private SystemValues {
 public:
     Interpreter(Setup setup, State state, Sink sink);
+    /// Continues where another interpreter was between two lines.
+    Interpreter(Setup setup, Memory memory, Sink sink);
     Interpreter(const Interpreter&) = delete;
     Interpreter& operator=(const Interpreter&) = delete;
 
@@ -29,10 +32,14 @@ public:
     Result take(std::string_view text, int number);
     /// Ends the text. Returns an error if a loop or a subroutine is not closed.
     Result finish();
+    /// The O-word whose end has not been read yet, such as "o100 while"; nullopt if there is none.
+    std::optional<std::string> open_word() const { return recorder_.open_word(); }
     /// True after M2, M30 or the second %. Later lines are ignored.
     bool ended() const { return ended_; }
 
     const State& state() const { return state_; }
+    /// For an interpreter that continues with the next line. Call between two lines.
+    Memory memory() const;
     /// The last line that was run, and its block, for messages.
     const Line& line() const { return line_; }
     const Block& block() const { return block_; }

@@ -93,6 +93,17 @@ GcodeSetup program_setup(const std::filesystem::path& path, const MachineConfig&
     return setup;
 }
 
+GcodeSetup session_setup(const MachineConfig& machine, const std::string& name) {
+    constexpr std::int64_t kMaxRepeatedLines = 100'000;  // of one line, so that a sender is answered soon
+    GcodeSetup setup = gcode_setup(machine, std::vector<double>(machine.axes.size()), name);
+    setup.limits.repeated_lines = kMaxRepeatedLines;
+    if (machine.subroutine_directory.empty()) { return setup; }
+    setup.find_subroutine = [directory = std::filesystem::path(machine.subroutine_directory)](std::string_view called) {
+        return read_subroutine({directory}, called);
+    };
+    return setup;
+}
+
 std::expected<ProgramFile, Diagnostics> read_program_file(const std::filesystem::path& path,
                                                           const MachineConfig& machine,
                                                           const std::vector<double>& start_mm, GcodeSwitches switches,

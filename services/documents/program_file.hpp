@@ -31,6 +31,10 @@ GcodeSetup program_setup(const std::filesystem::path& path, const MachineConfig&
                          const std::vector<double>& start_mm, GcodeSwitches switches = {},
                          const gcode::KeptValues& values = {});
 
+/// Returns the interpreter's setup for lines that come one by one. It reads subroutines from the machine's
+/// subroutine_directory.
+GcodeSetup session_setup(const MachineConfig& machine, const std::string& name);
+
 /// Like load_gcode_file, but uses the machine's values that outlive programs, and also returns the ignored words and
 /// the program's messages. It reads subroutines that the text calls but does not contain from files name.ngc in its
 /// directory, or in the machine's subroutine_directory.

@@ -64,7 +64,7 @@ void Grbl::see(const MachineView& view) {
         const FaultText* text = find_fault(view.fault);
         if (text != nullptr) { say_message(std::string(text->name) + ": " + std::string(text->cause)); }
         modes_.is_unlocked = false;
-        (void)lines_.switch_off();  // the machine has switched them off
+        lines_.reset();
     }
     advance();
 }
@@ -93,7 +93,7 @@ void Grbl::end_jog() {
 void Grbl::do_real_time(unsigned char byte) {
     Overrides overrides = view_.overrides;
     switch (byte) {
-        case '?': return say(report_.text(view_, state(), lines_.offset_mm(view_.values), bytes_.room(), options_));
+        case '?': return say(report_.text(view_, state(), lines_.offset_mm(values()), bytes_.room(), options_));
         case '!':
         case kDoor: return hold();
         case '~':
@@ -158,7 +158,9 @@ void Grbl::forget_lines() {
     before_ok_.clear();
     next_jog_.reset();
     next_line_.reset();
+    refused_body_.clear();
     planned_mm_.clear();
+    checked_values_.reset();
 }
 
 /// Until the machine rests, its position is not known.

@@ -11,6 +11,7 @@
 
 #include "clients/grbl/protocol/gcode_lines.hpp"
 #include "clients/grbl/protocol/received_bytes.hpp"
+#include "clients/grbl/protocol/refused_body.hpp"
 #include "clients/grbl/protocol/request.hpp"
 #include "clients/grbl/protocol/settings.hpp"
 #include "clients/grbl/protocol/status_report.hpp"
@@ -61,6 +62,7 @@ private:
     void refuse_gcode(const Refused& refused);
     bool is_settled() const;
     std::vector<double> place_mm() const;
+    const gcode::KeptValues& values() const;
     void switch_off();
     void raise_alarm(int number, const std::string& why);
     void do_jog(std::string_view text);
@@ -92,6 +94,7 @@ private:
     ReportOptions options_;
     StatusReport report_;
     GcodeLines lines_;
+    RefusedBody refused_body_;
     std::string output_;
     std::vector<Request> requests_;
     std::uint64_t number_ = 0;                // number of the last request
@@ -103,6 +106,7 @@ private:
     std::optional<ReceivedLine> next_jog_;   // waits for the end of the previous jog
     std::optional<ReceivedLine> next_line_;  // waits until the machine has run the earlier lines
     std::vector<double> planned_mm_;         // end of the accepted lines, while there are any or in check mode
+    std::optional<gcode::KeptValues> checked_values_;  // behind the lines of a check
 };
 
 }  // namespace lockstep::grbl

@@ -8,6 +8,15 @@
 #include "clients/grbl/protocol/jog_line.hpp"
 
 namespace lockstep::grbl {
+namespace {
+
+Refused in_refused(const gcode::OWord& body) {
+    return {Error::Unsupported, "this line is within " + gcode::shown_word(body.keyword, body.label) +
+                                    ", which was refused, so it is not run either; send the end " +
+                                    gcode::shown_word(gcode::end_of(body.keyword), body.label) + ", or a reset"};
+}
+
+}  // namespace
 
 /// The position where the next line begins.
 std::vector<double> Grbl::place_mm() const {
@@ -16,6 +25,9 @@ std::vector<double> Grbl::place_mm() const {
     for (const AxisPlace& axis : view_.axes) { place.push_back(axis.mm); }
     return place;
 }
+
+/// The offsets and tools with which the next line begins. A check stores none in the machine.
+const gcode::KeptValues& Grbl::values() const { return checked_values_ ? *checked_values_ : view_.values; }
 
 /// Whether the position where the next line begins is known, from earlier lines or because the machine rests.
 bool Grbl::is_settled() const {
@@ -32,14 +44,15 @@ void Grbl::do_gcode(const ReceivedLine& line) {
         next_line_ = line;
         return;
     }
-    auto effect = lines_.read(line.text, place_mm(), view_.values);
+    if (const auto body = refused_body_.take(line.text)) { return refuse_gcode(in_refused(*body)); }
+    auto effect = lines_.read(line.text, place_mm(), values());
     if (!effect) { return refuse_gcode(effect.error()); }
     const bool is_check = now == State::Check;
     if (!is_check && effect->rests_before && view_.lines > 0) {
         next_line_ = line;
         return;
     }
-    const bool takes_machine = effect->values || !effect->blocks.empty();
+    const bool takes_machine = effect->line.changes_values || !effect->line.blocks.empty();
     if (!is_check && takes_machine && view_.lines == 0 && view_.phase != MachinePhase::Idle) {
         return refuse(Error::Locked, "another client's job is in progress");
     }
@@ -47,28 +60,29 @@ void Grbl::do_gcode(const ReceivedLine& line) {
 }
 
 void Grbl::do_effect(LineEffect&& effect, bool is_check) {
-    lines_.commit(effect);
-    for (const std::string& note : effect.notes) { say_message(note); }
-    const std::string end = effect.ends_program ? "[MSG:Pgm End]" : "";
-    if (!is_check && effect.values) {
+    SessionLine& line = effect.line;
+    lines_.commit(line);
+    for (const GcodeNote& note : line.notes) { say_message(note.text); }
+    const std::string end = line.ends_program ? "[MSG:Pgm End]" : "";
+    planned_mm_ = std::move(line.place_mm);
+    if (is_check) { checked_values_ = line.values; }
+    if (!is_check && line.changes_values) {
         Request& request = ask(Request::Kind::SetValues);
-        request.values = *std::move(effect.values);
+        request.values = std::move(line.values);
         waits_for_ = request.number;
         before_ok_ = end;
         return;
     }
-    if (is_check || effect.blocks.empty()) {
-        if (is_check) { planned_mm_ = std::move(effect.place_mm); }
+    if (is_check || line.blocks.empty()) {
         if (!end.empty()) { say(end); }
         return ok();
     }
     Request& request = ask(Request::Kind::RunLine);
-    request.line = {.blocks = std::move(effect.blocks),
-                    .from_mm = place_mm(),
+    request.line = {.blocks = std::move(line.blocks),
+                    .from_mm = std::move(line.head.start_mm),
                     .seconds = effect.seconds,
                     .sender_line = effect.sender_line,
-                    .is_answered_behind = effect.rests_behind || effect.ends_program};
-    planned_mm_ = std::move(effect.place_mm);
+                    .is_answered_behind = effect.rests_behind || line.ends_program};
     ++view_.lines;
     waits_for_ = request.number;
     waits_for_line_ = true;
@@ -120,7 +134,7 @@ void Grbl::raise_alarm(int number, const std::string& why) {
 
 void Grbl::do_jog(std::string_view text) {
     if (state() != State::Idle) { return refuse(Error::NotIdle); }
-    const JogModes modes{lines_.inches(), lines_.relative(), lines_.offset_mm(view_.values)};
+    const JogModes modes{lines_.inches(), lines_.relative(), lines_.offset_mm(values())};
     auto jogs = read_jog(text, machine_, view_.axes, modes);
     if (!jogs) { return refuse(jogs.error().error, jogs.error().text); }
     if (jogs->empty()) { return ok(); }

@@ -7,32 +7,8 @@ namespace {
 
 constexpr const char* kOfSubroutines = "<sub>";  // scope of the labels of subroutines; no subroutine has this name
 
-bool opens(Keyword keyword) {
-    return keyword == Keyword::Sub || keyword == Keyword::If || keyword == Keyword::While || keyword == Keyword::Do ||
-           keyword == Keyword::Repeat;
-}
-
 bool is_loop(Keyword keyword) {
     return keyword == Keyword::While || keyword == Keyword::Do || keyword == Keyword::Repeat;
-}
-
-Keyword end_of(Keyword keyword) {
-    switch (keyword) {
-        case Keyword::Sub: return Keyword::EndSub;
-        case Keyword::If: return Keyword::EndIf;
-        case Keyword::While: return Keyword::EndWhile;
-        case Keyword::Do: return Keyword::While;
-        default: return Keyword::EndRepeat;
-    }
-}
-
-std::string shown_label(const std::string& label) {
-    const bool is_number = std::ranges::all_of(label, [](char c) { return c >= '0' && c <= '9'; });
-    return is_number ? "O" + label : "O<" + label + ">";
-}
-
-std::string shown_word(Keyword keyword, const std::string& label) {
-    return shown_label(label) + " " + std::string(name_of(keyword));
 }
 
 }  // namespace
@@ -141,6 +117,11 @@ std::optional<GcodeError> Recorder::take(const Line& line, const OWord& word, st
         return error;
     }
     return std::nullopt;
+}
+
+std::optional<std::string> Recorder::open_word() const {
+    if (open_.empty()) { return std::nullopt; }
+    return shown_word(open_.front().keyword, open_.front().label);
 }
 
 std::optional<GcodeError> Recorder::unclosed() const {

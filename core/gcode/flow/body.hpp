@@ -38,6 +38,8 @@ public:
     Body take_body() { return std::exchange(body_, {}); }
     bool is_subroutine() const { return !body_.lines.empty() && body_.lines.front().keyword == Keyword::Sub; }
     std::size_t lines() const { return body_.lines.size(); }
+    /// The first O-word that is open; nullopt if none is.
+    std::optional<std::string> open_word() const;
     /// Returns an error if a body is open at the text's end.
     std::optional<GcodeError> unclosed() const;
     void clear();

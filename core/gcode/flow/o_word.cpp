@@ -1,5 +1,6 @@
 #include "core/gcode/flow/o_word.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -48,6 +49,47 @@ std::string_view name_of(Keyword keyword) {
         if (entry.meaning == keyword) { return entry.name; }
     }
     return "";
+}
+
+bool opens(Keyword keyword) {
+    return keyword == Keyword::Sub || keyword == Keyword::If || keyword == Keyword::While || keyword == Keyword::Do ||
+           keyword == Keyword::Repeat;
+}
+
+Keyword end_of(Keyword keyword) {
+    switch (keyword) {
+        case Keyword::Sub: return Keyword::EndSub;
+        case Keyword::If: return Keyword::EndIf;
+        case Keyword::While: return Keyword::EndWhile;
+        case Keyword::Do: return Keyword::While;
+        default: return Keyword::EndRepeat;
+    }
+}
+
+std::string shown_label(const std::string& label) {
+    const bool is_number = std::ranges::all_of(label, [](char c) { return c >= '0' && c <= '9'; });
+    return is_number ? "O" + label : "O<" + label + ">";
+}
+
+std::string shown_word(Keyword keyword, const std::string& label) {
+    return shown_label(label) + " " + std::string(name_of(keyword));
+}
+
+std::optional<OWord> find_o_word(std::string_view raw) {
+    Line line;
+    if (raw.find_first_of("oO") == std::string_view::npos || line.read(raw, 1)) { return std::nullopt; }
+    const struct : SystemValues {
+        std::optional<double> numbered(int) const override { return std::nullopt; }
+        std::optional<double> named(std::string_view) const override { return std::nullopt; }
+    } none;
+    ParameterValues values;
+    const Parameters parameters(values, none);
+    Reader reader(line, parameters);
+    while (reader.peek() == '(') { reader.skip_comment(); }
+    if (reader.take('N')) { (void)reader.value(); }
+    if (reader.peek() != 'O') { return std::nullopt; }
+    OWord word = read_o_word(reader);
+    return reader.error() ? std::nullopt : std::optional(std::move(word));
 }
 
 OWord read_o_word(Reader& reader) {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace lockstep::gcode {
@@ -34,7 +35,8 @@ struct ParameterValues {
 
 class Parameters {
 public:
-    Parameters(ParameterValues& values, const SystemValues& system) : values_(values), system_(system) {}
+    Parameters(ParameterValues& values, const SystemValues& system, NamedValues local = {})
+        : values_(values), system_(system), local_(std::move(local)) {}
 
     /// 1 to kMaxParameter.
     double numbered(int number) const;
@@ -43,6 +45,8 @@ public:
     bool is_read_only(std::string_view name) const { return system_.named(name).has_value(); }
     void set(int number, double value) { values_.numbered[static_cast<std::size_t>(number)] = value; }
     void set(std::string_view name, double value);
+    /// The names without _ of the program or of the present call.
+    const NamedValues& local() const { return local_; }
 
     /// Begins a call: the subroutine has its own #1 to #30, and no local names.
     void enter(const std::array<double, kArguments>& arguments);
