@@ -74,6 +74,8 @@ void Grbl::answer(std::uint64_t number, const Answer& answer) {
     waits_for_.reset();
     waits_for_line_ = false;
     const std::string before = std::exchange(before_ok_, {});
+    auto line = std::exchange(asked_line_, std::nullopt);
+    if (answer.is_done && line) { lines_.commit(*line); }
     if (answer.is_done) {
         if (!before.empty()) { say(before); }
         ok();
@@ -155,10 +157,12 @@ void Grbl::forget_lines() {
     lines_.reset();
     waits_for_.reset();
     waits_for_line_ = false;
+    asked_line_.reset();
     before_ok_.clear();
     next_jog_.reset();
     next_line_.reset();
     refused_body_.clear();
+    program_line_ = 0;
     planned_mm_.clear();
     checked_values_.reset();
 }

@@ -100,6 +100,8 @@ private:
     std::uint64_t number_ = 0;                // number of the last request
     std::optional<std::uint64_t> waits_for_;  // request that must be answered before its line is
     bool waits_for_line_ = false;             // that request is to run a line
+    std::optional<SessionLine> asked_line_;   // of that request
+    std::int32_t program_line_ = 0;           // of the last line, counted from M2, M30 or a reset
     std::string before_ok_;                   // sent before the ok of that line
     bool has_jog_ = false;
     bool is_to_switch_off_ = false;          // spindle and coolant, once the machine rests

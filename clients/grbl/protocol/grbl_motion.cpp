@@ -59,34 +59,34 @@ void Grbl::do_gcode(const ReceivedLine& line) {
     do_effect(*std::move(effect), is_check);
 }
 
+/// A line that the machine must accept leaves its modes behind only when it has.
 void Grbl::do_effect(LineEffect&& effect, bool is_check) {
     SessionLine& line = effect.line;
-    lines_.commit(line);
     for (const GcodeNote& note : line.notes) { say_message(note.text); }
     const std::string end = line.ends_program ? "[MSG:Pgm End]" : "";
-    planned_mm_ = std::move(line.place_mm);
+    const std::int32_t number = effect.sender_line.value_or(++program_line_);
+    if (line.ends_program) { program_line_ = 0; }
+    planned_mm_ = line.place_mm;
     if (is_check) { checked_values_ = line.values; }
-    if (!is_check && line.changes_values) {
-        Request& request = ask(Request::Kind::SetValues);
-        request.values = std::move(line.values);
-        waits_for_ = request.number;
-        before_ok_ = end;
-        return;
-    }
-    if (is_check || line.blocks.empty()) {
+    if (is_check || (!line.changes_values && line.blocks.empty())) {
+        lines_.commit(line);
         if (!end.empty()) { say(end); }
         return ok();
     }
-    Request& request = ask(Request::Kind::RunLine);
-    request.line = {.blocks = std::move(line.blocks),
-                    .from_mm = std::move(line.head.start_mm),
-                    .seconds = effect.seconds,
-                    .sender_line = effect.sender_line,
-                    .is_answered_behind = effect.rests_behind || line.ends_program};
-    ++view_.lines;
-    waits_for_ = request.number;
-    waits_for_line_ = true;
+    if (line.changes_values) {
+        ask(Request::Kind::SetValues).values = line.values;
+    } else {
+        ask(Request::Kind::RunLine).line = {.blocks = std::move(line.blocks),
+                                            .from_mm = line.head.start_mm,
+                                            .seconds = effect.seconds,
+                                            .sender_line = number,
+                                            .is_answered_behind = effect.rests_behind || line.ends_program};
+        ++view_.lines;
+        waits_for_line_ = true;
+    }
+    waits_for_ = number_;
     before_ok_ = end;
+    asked_line_ = std::move(line);
 }
 
 /// A target outside the travel stops the machine and raises an alarm, as grbl's soft limits do, because the following

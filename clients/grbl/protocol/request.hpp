@@ -24,7 +24,7 @@ struct LineToRun {
     std::vector<Block> blocks;
     std::vector<double> from_mm;              // of each axis, where the line begins
     double seconds = 0;                       // approximate duration
-    std::optional<std::int32_t> sender_line;  // its N word
+    std::optional<std::int32_t> sender_line;  // for reports
     bool is_answered_behind = false;          // answered after it was run, else when it is accepted
 };
 

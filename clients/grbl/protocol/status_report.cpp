@@ -10,8 +10,13 @@
 namespace lockstep::grbl {
 namespace {
 
-constexpr int kEvery = 30;  // at rest, one in this many reports has WCO
-constexpr int kEveryMoving = 10;
+// One in so many reports has WCO or Ov, as in grbl's config.h: REPORT_WCO_REFRESH_IDLE_COUNT and its siblings.
+struct Cadence {
+    int idle;
+    int busy;
+};
+constexpr Cadence kOffsetsEvery{10, 30};
+constexpr Cadence kOverridesEvery{10, 20};
 
 const char* name_of(State state) {
     switch (state) {
@@ -41,7 +46,21 @@ State state_of(MachinePhase phase) {
     }
 }
 
-bool is_at_rest(State state) { return state == State::Idle || state == State::Alarm || state == State::Hold; }
+/// Whether a cycle is in progress, as grbl counts them: a hold is one, an alarm is none.
+bool is_busy(State state) {
+    switch (state) {
+        case State::Run:
+        case State::Hold:
+        case State::HoldEnding:
+        case State::Jog:
+        case State::Home: return true;
+        default: return false;
+    }
+}
+
+bool is_in_program(State state) { return state == State::Run || state == State::Hold || state == State::HoldEnding; }
+
+int reports_until(const Cadence& cadence, State state) { return (is_busy(state) ? cadence.busy : cadence.idle) - 1; }
 
 /// The letters of the field A; empty if all devices are off.
 std::string accessories_of(const ProgramDevices& devices) {
@@ -87,7 +106,7 @@ std::string StatusReport::text(const MachineView& view, State state, const std::
     if ((options.mask & 2) != 0) {
         text += fmt::format("|Bf:{},{}", kPlannerLines - std::min(kPlannerLines, view.lines), room);
     }
-    if (view.line && state == State::Run) { text += fmt::format("|Ln:{}", *view.line); }
+    if (view.line && is_in_program(state)) { text += fmt::format("|Ln:{}", *view.line); }
     text += "|FS:" + number(options.inches ? view.feed_mm_min / kInch_mm : view.feed_mm_min, 0) + "," +
             number(view.devices.spindle_rpm, 0);
     const std::string accessories = accessories_of(view.devices);
@@ -96,14 +115,14 @@ std::string StatusReport::text(const MachineView& view, State state, const std::
         view.overrides.rapid_percent != overrides_.rapid_percent || accessories != accessories_) {
         overrides_due_ = 0;
     }
-    const int every = is_at_rest(state) ? kEvery : kEveryMoving;
     if (offsets_due_-- <= 0) {
-        offsets_due_ = every - 1;
-        if (overrides_due_ == 0) { overrides_due_ = 1; }  // a report has only one of the two, as in grbl
+        offsets_due_ = reports_until(kOffsetsEvery, state);
+        overrides_due_ = std::max(overrides_due_, 1);  // a report has only one of the two, as in grbl
         offset_mm_ = offset_mm;
         text += "|WCO:" + places_text(offset_mm, options.inches);
-    } else if (overrides_due_-- <= 0) {
-        overrides_due_ = every - 1;
+    }
+    if (overrides_due_-- <= 0) {
+        overrides_due_ = reports_until(kOverridesEvery, state);
         overrides_ = view.overrides;
         accessories_ = accessories;
         text += fmt::format("|Ov:{},{},100", view.overrides.feed_percent, view.overrides.rapid_percent);

@@ -67,8 +67,8 @@ TEST_F(Devices, TakeTheToolThatALineBeforeHasSelected) {
 
 TEST_F(Devices, AreInTheStatusBesideTheOverrides) {
     (void)status();
-    EXPECT_EQ(status(), "<Idle|MPos:10.000,20.000,30.000|FS:0,0>");
     EXPECT_EQ(status(), "<Idle|MPos:10.000,20.000,30.000|FS:0,0|Ov:100,100,100>");
+    EXPECT_EQ(status(), "<Idle|MPos:10.000,20.000,30.000|FS:0,0>");
     turn({.spindle = Spindle::Forward, .spindle_rpm = 11'999.6, .mist = true, .flood = true});
     EXPECT_EQ(status(), "<Idle|MPos:10.000,20.000,30.000|FS:0,12000|Ov:100,100,100|A:SFM>") << "a change comes at once";
     EXPECT_EQ(status(), "<Idle|MPos:10.000,20.000,30.000|FS:0,12000>");

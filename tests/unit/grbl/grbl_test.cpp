@@ -38,8 +38,8 @@ TEST_F(Sender, HasRealTimeBytesTakenOutOfALine) {
 
 TEST_F(Sender, LearnsWhereTheMachineIs) {
     EXPECT_EQ(status(), "<Idle|MPos:10.000,20.000,30.000|FS:0,0|WCO:0.000,0.000,0.000>");
-    EXPECT_EQ(status(), "<Idle|MPos:10.000,20.000,30.000|FS:0,0>");
     EXPECT_EQ(status(), "<Idle|MPos:10.000,20.000,30.000|FS:0,0|Ov:100,100,100>");
+    EXPECT_EQ(status(), "<Idle|MPos:10.000,20.000,30.000|FS:0,0>");
     view.values.systems[0].origin = {1, 2, 3};
     view.feed_mm_min = 599.7;
     view.line = 7;
@@ -47,7 +47,29 @@ TEST_F(Sender, LearnsWhereTheMachineIs) {
     EXPECT_EQ(status(), "<Run|MPos:10.000,20.000,30.000|Ln:7|FS:600,0|WCO:1.000,2.000,3.000>");
     EXPECT_THAT(send("$10=2\n$13=1\n"), ElementsAre("ok", "ok"));
     EXPECT_THAT(status(), StartsWith("<Run|WPos:0.3543,0.7087,1.0630|Bf:128,4096|Ln:7|FS:24,0"));
+    change(MachinePhase::Holding);
+    EXPECT_THAT(status(), HasSubstr("|Ln:7|")) << "the line in which it is held";
     EXPECT_THAT(send("?????"), testing::SizeIs(1)) << "a flood is one question";
+}
+
+TEST_F(Sender, GetsOffsetsAndOverridesAsOftenAsFromGrbl) {
+    const auto distances_of = [&](const std::string& field) {
+        std::vector<int> distances;
+        for (int k = 0, last = -1; k < 70; ++k) {
+            if (status().find(field) == std::string::npos) { continue; }
+            if (last >= 0) { distances.push_back(k - last); }
+            last = k;
+        }
+        return distances;
+    };
+    EXPECT_THAT(distances_of("|WCO:"), testing::Each(10));
+    EXPECT_THAT(distances_of("|Ov:"), testing::Each(10));
+    for (const MachinePhase phase : {MachinePhase::Running, MachinePhase::Holding, MachinePhase::Homing}) {
+        change(phase);
+        for (int k = 0; k < 30; ++k) { (void)status(); }
+        EXPECT_THAT(distances_of("|WCO:"), testing::AllOf(testing::SizeIs(testing::Ge(1)), testing::Each(30)));
+        EXPECT_THAT(distances_of("|Ov:"), testing::AllOf(testing::SizeIs(testing::Ge(2)), testing::Each(20)));
+    }
 }
 
 TEST_F(Sender, SeesEachStateByItsName) {

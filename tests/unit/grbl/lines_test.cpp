@@ -225,6 +225,17 @@ TEST_F(Lines, NameThemselvesInTheStatus) {
     EXPECT_THAT(status(), Not(HasSubstr("|Ln:")));
 }
 
+TEST_F(Lines, AreCountedWithinTheirProgramWhereTheyHaveNoNumber) {
+    for (int repeated = 0; repeated < 2; ++repeated) {
+        sender->send("G90\nG1 X30 F1200\nG1 Y30\nX5\nY5\nM2\n");
+        pass(0.8);
+        EXPECT_THAT(status(), HasSubstr("|Ln:2|")) << "the line in motion, not the last received";
+        pass(1);
+        EXPECT_THAT(status(), HasSubstr("|Ln:3|"));
+        ASSERT_TRUE(becomes_idle(20));
+    }
+}
+
 TEST_F(Lines, ADwellAndAPauseAreAnsweredBehindThem) {
     sender->send("G1 X10 F1200\nG4 P0.5\nG1 X12\nM0\nG1 X14\n");
     pass(0.3);

@@ -85,15 +85,15 @@ public:
         lines_.pass(*machine_.state(), rests(), now);
         if (const auto why = lines_.take_loss()) { grbl_.abort(*why); }
         answer();
-        MachineView view = view_of(machine_.machine(), *machine_.state(), axes());
-        lines_.report(*machine_.state(), view);
-        grbl_.see(view);
+        see();
         carry_out();
         text_ += grbl_.take_output();
     }
     /// The answers since the last call.
     std::string take_text() { return std::exchange(text_, {}); }
     const std::string& text() const { return text_; }
+    gcode::KeptValues values;  // the machine's offsets and tools
+
     /// The sender's process ends.
     void leave() {
         grbl_.leave();
@@ -101,6 +101,12 @@ public:
     }
 
 private:
+    void see() {
+        MachineView view = view_of(machine_.machine(), *machine_.state(), axes());
+        view.values = values;
+        lines_.report(*machine_.state(), view);
+        grbl_.see(view);
+    }
     std::vector<const AxisState*> axes() const {
         std::vector<const AxisState*> axes;
         for (const auto& axis : machine_.axis_states()) { axes.push_back(axis ? &*axis : nullptr); }
@@ -124,6 +130,10 @@ private:
             case Request::Kind::Resume: return lines_.resume(now);
             case Request::Kind::Stop: return lines_.stop(now);
             case Request::Kind::Override: (void)machine_.turn(request.overrides); return;
+            case Request::Kind::SetValues:
+                values = request.values;
+                see();
+                break;
             case Request::Kind::Reset: (void)machine_.command(CommandKind::Reset); break;
             case Request::Kind::RunLine:
                 lines_.take(request.number, std::move(request.line));
