@@ -99,7 +99,8 @@ const std::vector<Api::Row>& Api::rows() {
 Api::Api(const ApiParts& parts, AccessRules rules)
     : parts_(parts),
       access_(std::move(rules)),
-      stream_names_(fmt::format("s{}-", monotonic_now().count() & 0xffffff)) {}
+      stream_names_(fmt::format("s{}-", monotonic_now().count() & 0xffffff)),
+      mdi_(parts.machine) {}
 
 std::size_t Api::body_limit(const Request& head) const {
     const bool is_program = head.path == "/api/program" && head.method == "POST" && !access_.refuse_foreign(head) &&
@@ -184,16 +185,16 @@ void Api::show_machine(Request&&, const Answer& answer) {
     answer(json_response(machine_document(parts_.machine, parts_.version)));
 }
 
-void Api::show_state(Request&&, const Answer& answer) {
+nlohmann::json Api::state_of(const Snapshot& snapshot) const {
     const auto loaded = parts_.desk.loaded();
-    answer(json_response(
-        state_document(*parts_.port.snapshot(), parts_.machine, loaded ? loaded->facts.get() : nullptr, viewers_)));
+    return state_document(snapshot, parts_.machine, loaded ? loaded->facts.get() : nullptr, mdi_.modes(), viewers_);
 }
 
+void Api::show_state(Request&&, const Answer& answer) { answer(json_response(state_of(*parts_.port.snapshot()))); }
+
 void Api::publish(const Snapshot& snapshot) {
-    if (viewers_ == 0) { return; }
-    const auto loaded = parts_.desk.loaded();
-    parts_.log.publish(state_document(snapshot, parts_.machine, loaded ? loaded->facts.get() : nullptr, viewers_));
+    mdi_.see(snapshot);
+    if (viewers_ > 0) { parts_.log.publish(state_of(snapshot)); }
 }
 
 void Api::open_events(Request&& request, const Answer& answer) {
@@ -222,9 +223,8 @@ void Api::open_events(Request&& request, const Answer& answer) {
 
 void Api::show_mdi(Request&&, const Answer& answer) {
     Json lines = Json::array();
-    const std::lock_guard lock(lines_mutex_);
-    for (const auto& [line, accepted] : lines_) { lines.push_back({{"line", line}, {"accepted", accepted}}); }
-    answer(json_response({{"lines", lines}}));
+    for (const auto& [line, accepted] : mdi_.lines()) { lines.push_back({{"line", line}, {"accepted", accepted}}); }
+    answer(json_response({{"lines", lines}, {"modes", mdi_.modes().words}}));
 }
 
 }  // namespace lockstep::web

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <atomic>
-#include <deque>
-#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +12,7 @@
 #include "clients/web/api/report_files.hpp"
 #include "clients/web/http/message.hpp"
 #include "clients/web/machine/port.hpp"
+#include "clients/web/program/mdi_session.hpp"
 #include "clients/web/program/program_desk.hpp"
 #include "clients/web/state/event_log.hpp"
 
@@ -37,7 +36,7 @@ public:
     std::size_t body_limit(const Request& head) const override;
     void handle(Request&& request, const Answer& answer) override;
 
-    /// Adds the state to the event log, if there are viewers. May be called from any thread.
+    /// Takes the machine's state, and adds it to the event log if there are viewers. May be called from any thread.
     void publish(const Snapshot& snapshot);
     std::size_t viewers() const { return viewers_; }
 
@@ -70,7 +69,7 @@ private:
     void run(const RunOrder& order, const Done& done);
     void run_line(const MdiOrder& order, const Done& done);
     void touch(const TouchOrder& order, const Done& done);
-    void note_line(const std::string& line, bool accepted);
+    nlohmann::json state_of(const Snapshot& snapshot) const;
 
     ApiParts parts_;
     Access access_;
@@ -78,8 +77,7 @@ private:
     std::string stream_names_;  // each begins with this
     std::uint64_t last_stream_ = 0;
     std::atomic<std::size_t> viewers_ = 0;
-    std::mutex lines_mutex_;
-    std::deque<std::pair<std::string, bool>> lines_;  // of mdi, and whether each was accepted
+    MdiSession mdi_;
 };
 
 }  // namespace lockstep::web

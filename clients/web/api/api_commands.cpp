@@ -9,7 +9,6 @@
 namespace lockstep::web {
 namespace {
 
-constexpr std::size_t kMostLines = 100;  // of mdi that are kept
 constexpr std::size_t kMaxKey_bytes = 64;
 
 Problem replayed(const std::string& key) {
@@ -74,7 +73,12 @@ void Api::carry_out(const Order& order, const Done& done) {
     const auto change = [&](const auto& edit) {
         parts_.port.change_values([edit](const gcode::KeptValues& values) { return edited(edit, values); }, done);
     };
-    if (const auto* command = std::get_if<Command>(&order)) { parts_.port.command(*command, done); }
+    if (const auto* command = std::get_if<Command>(&order)) {
+        parts_.port.command(*command, [this, kind = command->kind, done](Outcome&& outcome) {
+            if (outcome && kind == CommandKind::Reset) { mdi_.reset(); }
+            done(std::move(outcome));
+        });
+    }
     if (const auto* jog = std::get_if<JogOrder>(&order)) { parts_.port.jog(*jog, done); }
     if (const auto* program = std::get_if<RunOrder>(&order)) { run(*program, done); }
     if (const auto* line = std::get_if<MdiOrder>(&order)) { run_line(*line, done); }
@@ -97,24 +101,31 @@ void Api::run(const RunOrder& order, const Done& done) {
         if (!start) { return done(std::unexpected(start.error())); }
         auto ready = ready_program(*loaded, parts_.machine, *start);
         if (!ready) { return done(std::unexpected(ready.error())); }
-        parts_.port.run(*std::move(ready), done);
+        parts_.port.run(*std::move(ready), [this, done](Outcome&& outcome) {
+            if (outcome) { mdi_.end_program(); }
+            done(std::move(outcome));
+        });
     });
     if (!taken) { done(std::unexpected(too_busy())); }
 }
 
 void Api::run_line(const MdiOrder& order, const Done& done) {
     const auto noted = [this, line = order.line, done](Outcome&& outcome) {
-        note_line(line, outcome.has_value());
+        mdi_.note(line, outcome.has_value());
+        if (outcome) { outcome->modes = mdi_.modes().words; }
         done(std::move(outcome));
     };
     const bool taken = parts_.desk.add([this, line = order.line, noted] {
         const auto start = real_start(*parts_.port.snapshot(), parts_.machine);
         if (!start) { return noted(std::unexpected(start.error())); }
-        auto program = load_program(line, "mdi", 0, parts_.machine, *start);
+        auto program = mdi_.read(line, *start);
         if (!program) { return noted(std::unexpected(program.error())); }
-        auto ready = ready_program(*program, parts_.machine, *start);
-        if (!ready) { return noted(std::unexpected(ready.error())); }
-        parts_.port.run(*std::move(ready), noted);
+        const auto answered = [this, noted](Outcome&& outcome) {
+            mdi_.answer(outcome.has_value());
+            noted(std::move(outcome));
+        };
+        if (!*program) { return answered(Accepted{}); }
+        parts_.port.run(**std::move(program), answered);
     });
     if (!taken) { done(std::unexpected(too_busy())); }
 }
@@ -127,12 +138,6 @@ void Api::touch(const TouchOrder& order, const Done& done) {
             return edited(order, values, parts_.machine, place);
         },
         done);
-}
-
-void Api::note_line(const std::string& line, bool accepted) {
-    const std::lock_guard lock(lines_mutex_);
-    lines_.emplace_back(line, accepted);
-    if (lines_.size() > kMostLines) { lines_.pop_front(); }
 }
 
 }  // namespace lockstep::web

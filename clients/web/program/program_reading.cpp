@@ -41,17 +41,6 @@ std::string in_words(const Diagnostic& error) {
     return fmt::format("line {}, column {}: {}", error.line, error.column, error.message);
 }
 
-Problem wrong_program(const Diagnostics& errors) {
-    const std::string more = errors.size() > 1 ? fmt::format(", and {} more", errors.size() - 1) : "";
-    return {.status = 422,
-            .code = "bad-program",
-            .title = "the program has errors",
-            .detail = errors.empty() ? "" : in_words(errors.front()) + more,
-            .place = "body",
-            .remedy = "correct the lines and send it again",
-            .errors = errors};
-}
-
 GcodeSetup setup_of(const std::string& name, const MachineConfig& machine, const ProgramStart& start) {
     // Uses only the last part of the program's name: subroutines come only from the machine's directory.
     const std::filesystem::path directory =
@@ -75,16 +64,6 @@ std::shared_ptr<const ProgramFacts> facts_of(std::string_view text, const std::s
         if (facts->notes.size() < kMostNotes) { facts->notes.push_back({note.line, note.text}); }
     }
     return facts;
-}
-
-Session::Feed feed_of(Program&& program) {
-    return [blocks = std::make_shared<const std::vector<Block>>(std::move(program.blocks)),
-            next = std::size_t{0}](ProgramSender& sender) mutable {
-        for (std::size_t n = sender.free_blocks(); n > 0 && next < blocks->size(); --n) {
-            sender.append((*blocks)[next++]);
-        }
-        if (next == blocks->size()) { sender.end(); }
-    };
 }
 
 /// Reads the text from a file in memory, which ends with its last reader.
@@ -120,6 +99,27 @@ std::expected<void, Problem> check_phase(const Snapshot& snapshot) {
 }
 
 }  // namespace
+
+Problem wrong_program(const Diagnostics& errors) {
+    const std::string more = errors.size() > 1 ? fmt::format(", and {} more", errors.size() - 1) : "";
+    return {.status = 422,
+            .code = "bad-program",
+            .title = "the program has errors",
+            .detail = errors.empty() ? "" : in_words(errors.front()) + more,
+            .place = "body",
+            .remedy = "correct the lines and send it again",
+            .errors = errors};
+}
+
+Session::Feed feed_of(std::vector<Block>&& blocks) {
+    return [blocks = std::make_shared<const std::vector<Block>>(std::move(blocks)),
+            next = std::size_t{0}](ProgramSender& sender) mutable {
+        for (std::size_t n = sender.free_blocks(); n > 0 && next < blocks->size(); --n) {
+            sender.append((*blocks)[next++]);
+        }
+        if (next == blocks->size()) { sender.end(); }
+    };
+}
 
 ProgramStart checked_start(const Snapshot& snapshot, const MachineConfig& machine) {
     ProgramStart start{parked_mm(machine), snapshot.values.value_or(RevisedValues{})};
@@ -174,7 +174,7 @@ std::expected<ReadyProgram, Problem> ready_program(const LoadedProgram& program,
     gcode::ProgramValues values{.revision = start.values.revision, .after = {}};
     if (reading->values != start.values.values) { values.after = std::move(reading->values); }
     const ProgramHead head = reading->program.head();
-    return ReadyProgram{head, std::move(values), feed_of(std::move(reading->program)), program.facts};
+    return ReadyProgram{head, std::move(values), feed_of(std::move(reading->program.blocks)), program.facts};
 }
 
 }  // namespace lockstep::web

@@ -48,4 +48,9 @@ struct ReadyProgram {
 std::expected<ReadyProgram, Problem> ready_program(const LoadedProgram& program, const MachineConfig& machine,
                                                    const ProgramStart& start);
 
+/// Passes the blocks to a session's sender as it has room for them.
+Session::Feed feed_of(std::vector<Block>&& blocks);
+/// 422 with the errors.
+Problem wrong_program(const Diagnostics& errors);
+
 }  // namespace lockstep::web

@@ -243,6 +243,7 @@ std::expected<Order, Problem> read_order(std::string_view verb, std::string_view
 Json accepted_json(const Accepted& accepted) {
     Json json{{"accepted", true}, {"job", accepted.job ? Json(*accepted.job) : Json()}};
     if (accepted.jogging) { json["jogging"] = *accepted.jogging; }
+    if (accepted.modes) { json["modes"] = *accepted.modes; }
     return json;
 }
 

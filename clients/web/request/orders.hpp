@@ -72,6 +72,7 @@ std::expected<Order, Problem> read_order(std::string_view verb, std::string_view
 struct Accepted {
     std::optional<std::uint64_t> job;
     std::optional<bool> jogging;
+    std::optional<std::vector<std::string>> modes;  // of mdi, behind the line
 };
 using Outcome = std::expected<Accepted, Problem>;
 using Done = std::function<void(Outcome&& outcome)>;

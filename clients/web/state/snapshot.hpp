@@ -57,6 +57,12 @@ struct Writer {
     bool is_this_server = false;
 };
 
+/// The modes with which the next line of mdi begins.
+struct LineModes {
+    std::vector<std::string> words;  // "G0", "G54" and so on
+    std::size_t system = 0;          // 0 is G54
+};
+
 struct Snapshot {
     nanoseconds time{};  // when it was taken
     std::optional<Seen<MachineState>> machine;

@@ -92,7 +92,7 @@ json place_json(const gcode::Point& point, const MachineConfig& machine) {
     return place;
 }
 
-json offsets_json(const Snapshot& snapshot, const MachineConfig& machine) {
+json offsets_json(const Snapshot& snapshot, const MachineConfig& machine, const LineModes& modes) {
     if (!snapshot.values) { return {}; }
     const gcode::KeptValues& values = snapshot.values->values;
     json systems = json::object();
@@ -101,7 +101,7 @@ json offsets_json(const Snapshot& snapshot, const MachineConfig& machine) {
                                       {"rotation_deg", values.systems[i].rotation}};
     }
     return {{"revision", snapshot.values->revision},
-            {"active", name_of_system(0)},
+            {"active", name_of_system(modes.system)},
             {"systems", systems},
             {"g92", values.g92_applies ? place_json(values.g92, machine) : json()}};
 }
@@ -135,7 +135,7 @@ json program_json(const ProgramFacts& program) {
 }
 
 json state_document(const Snapshot& snapshot, const MachineConfig& machine, const ProgramFacts* loaded,
-                    std::size_t viewers) {
+                    const LineModes& modes, std::size_t viewers) {
     const Overrides overrides = snapshot.machine ? snapshot.machine->value.overrides : Overrides{};
     return {{"machine", machine.name},
             {"mode", snapshot.is_silent || !snapshot.machine ? "Unreachable" : name_of(snapshot.machine->value.phase)},
@@ -146,10 +146,11 @@ json state_document(const Snapshot& snapshot, const MachineConfig& machine, cons
             {"override", {{"feed_percent", overrides.feed_percent}, {"rapid_percent", overrides.rapid_percent}}},
             {"alarms", alarm_list(snapshot, machine)},
             {"axes", axes_document(snapshot, machine)},
-            {"offsets", offsets_json(snapshot, machine)},
+            {"offsets", offsets_json(snapshot, machine, modes)},
             {"tools", tools_json(snapshot, machine)},
             {"devices", snapshot.machine ? devices_document(snapshot.machine->value.devices) : json()},
             {"writer", snapshot.writer ? writer_json(*snapshot.writer) : json()},
+            {"modes", modes.words},
             {"viewers", viewers}};
 }
 

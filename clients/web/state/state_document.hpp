@@ -10,7 +10,7 @@ namespace lockstep::web {
 
 /// `loaded`: null for none. `viewers`: open event streams.
 nlohmann::json state_document(const Snapshot& snapshot, const MachineConfig& machine, const ProgramFacts* loaded,
-                              std::size_t viewers);
+                              const LineModes& modes, std::size_t viewers);
 
 /// The schema LoadedProgram.
 nlohmann::json program_json(const ProgramFacts& program);

@@ -133,6 +133,38 @@ def check_values(client):
     expect(client.command("offset", {"system": "G54", "origin": {"X": 0}}).status == 200, "no offset")
 
 
+def check_mdi(client):
+    """Modes and parameters hold from line to line, and are shown; M2, a program and a reset end them."""
+    def give(line):
+        answer = client.command("mdi", {"line": line})
+        expect(answer.status == 200, f"{line}: {answer.body}")
+        job = answer.json()["job"]
+        if job is not None:
+            client.await_state(lambda s: s["mode"] == "Idle" and s["job"]["number"] == job and s["job"]["outcome"] == "Done"
+                               and all(axis["at_rest"] for axis in s["axes"].values()))
+        return answer.json()
+
+    begin = client.state()["modes"]
+    expect("G90" in begin and "G54" in begin and "G21" in begin, begin)
+    expect(give("#1=5 #<x>=3")["job"] is None, "a parameter alone begins no job")
+    give("G0 X#1 Y#<x>")
+    client.await_state(lambda s: abs(s["axes"]["X"]["position"] - 5) < 0.02 and abs(s["axes"]["Y"]["position"] - 3) < 0.02)
+    answer = give("G91 G55 F600")
+    expect({"G91", "G55", "F600"} <= set(answer["modes"]), answer)
+    expect(client.state()["modes"] == answer["modes"] == client.get("/api/mdi").json()["modes"], client.state())
+    expect(client.state()["offsets"]["active"] == "G55", client.state()["offsets"])
+    give("G1 X1")
+    give("X1")
+    client.await_state(lambda s: abs(s["axes"]["X"]["position"] - 7) < 0.02)
+    refused(client.command("mdi", {"line": "o100 repeat [3]"}), 422, "bad-program")
+    give("M2")
+    expect("G90" in client.state()["modes"] and "G54" in client.state()["modes"], client.state()["modes"])
+    give("G91")
+    client.request("POST", "/api/program?name=short", "G0 X5\nM2\n")
+    expect(client.command("run").status == 200, "not begun")
+    client.await_state(lambda s: s["mode"] == "Idle" and "G90" in s["modes"])
+
+
 def check_jog(client):
     """A jog moves while it is renewed. Without renewal or page it stops by itself. A late renewal starts nothing."""
     jog = {"jogs": [{"axis": "X", "velocity": 20}], "stream": "none", "press": 0}
@@ -213,7 +245,7 @@ def check_loss(machine, client):
 def main():
     with served() as (machine, client):
         for check in (lambda c: check_session(c, machine.tokens), check_headers, check_bad_input, check_replay, check_motion,
-                      check_hold, check_values, check_jog, check_stop, check_viewers, lambda c: check_loss(machine, c)):
+                      check_hold, check_values, check_mdi, check_jog, check_stop, check_viewers, lambda c: check_loss(machine, c)):
             begin = time.monotonic()
             check(client)
             print(f"{getattr(check, '__name__', '')}: {time.monotonic() - begin:.1f} s", flush=True)

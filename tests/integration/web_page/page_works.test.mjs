@@ -260,6 +260,9 @@ describe("settings", () => {
   test("lines of MDI are kept, and Escape in a field takes the change back", async () => {
     const page = await enter();
     await page.getByRole("tab", { name: "MDI" }).click();
+    machine.state.modes = ["G1", "G55", "G17", "G21", "G91", "G94", "M5", "M9", "T0", "F600", "S0"];
+    await page.getByText("Modes of the next line:").waitFor();
+    await until("modes", async () => (await page.locator(".mdi-modes").textContent()) === "G1 G55 G17 G21 G91 G94 M5 M9 T0 F600 S0");
     await page.getByLabel("One line of G-code").fill("G0 X7");
     await page.keyboard.press("Enter");
     await until("mdi", () => machine.commands.some(({ verb, body }) => verb === "mdi" && body.line === "G0 X7"));

@@ -60,7 +60,8 @@ export class StandInMachine {
     override: { feed_percent: 100, rapid_percent: 100 }, alarms: [], axes: { X: axisState(5), Y: axisState(5), Z: axisState(58) },
     offsets: { revision: 1, active: "G54", systems: Object.fromEntries(MACHINE.coordinate_systems.map((s) => [s, { origin: {}, rotation_deg: 0 }])), g92: null },
     tools: { 1: { pocket: 1, offset: { Z: 42.5 }, diameter: 6 }, 2: { pocket: 2, offset: { Z: 38.1 }, diameter: 3 } }, 
-    devices: { spindle: { direction: "stopped", rpm: 0 }, mist: false, flood: false, tool: null, outputs: [] }, writer: null, viewers: 1,
+    devices: { spindle: { direction: "stopped", rpm: 0 }, mist: false, flood: false, tool: null, outputs: [] }, writer: null,
+    modes: ["G80", "G54", "G17", "G21", "G90", "G94", "M5", "M9", "T0", "F0", "S0"], viewers: 1,
   };
 
   load(name, segments) {

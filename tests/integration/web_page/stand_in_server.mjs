@@ -91,7 +91,7 @@ export class StandInServer {
     if (pathname === "/api/machine") return this.json(response, MACHINE);
     if (pathname === "/api/state") return this.json(response, machine.state);
     if (pathname === "/api/events") return this.events(response);
-    if (pathname === "/api/mdi") return this.json(response, { lines: [{ line: "G0 X5 Y5", accepted: true }, { line: "G1 X500 F600", accepted: false }] });
+    if (pathname === "/api/mdi") return this.json(response, { lines: [{ line: "G0 X5 Y5", accepted: true }, { line: "G1 X500 F600", accepted: false }], modes: this.machine.state.modes });
     if (pathname === "/api/reports") return this.json(response, { files: [{ name: "plate.html", kind: "report", bytes: 182_333, modified: "2026-01-05T10:00:00Z" }, { name: "incident-3.flight", kind: "incident", bytes: 65_536, modified: "2026-01-04T16:30:00Z" }] });
     if (pathname === "/api/program/path") return machine.program ? response.writeHead(200, { "Content-Type": "application/octet-stream" }).end(encodePath(machine.program.points)) : this.problem(response, 404, "no-program", "No program is loaded");
     if (pathname === "/api/program" && request.method === "GET") return machine.program ? response.writeHead(200, { "Content-Type": "text/plain" }).end(machine.program.text) : this.problem(response, 404, "no-program", "No program is loaded");

@@ -36,8 +36,8 @@ TEST(DevicesDocument, ShowsWhatIsOn) {
 TEST(DevicesDocument, IsPartOfTheStateOnceItIsReceived) {
     Snapshot snapshot = snapshot_at_rest();
     snapshot.machine->value.devices.flood = true;
-    EXPECT_EQ(state_document(snapshot, two_axes(), nullptr, 1)["devices"]["flood"], true);
-    EXPECT_TRUE(state_document({.axes = {{}, {}}}, two_axes(), nullptr, 1)["devices"].is_null());
+    EXPECT_EQ(state_document(snapshot, two_axes(), nullptr, {}, 1)["devices"]["flood"], true);
+    EXPECT_TRUE(state_document({.axes = {{}, {}}}, two_axes(), nullptr, {}, 1)["devices"].is_null());
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 using Json = nlohmann::json;
 
 Json document(const Snapshot& snapshot, const ProgramFacts* loaded = nullptr) {
-    return state_document(snapshot, two_axes(), loaded, 3);
+    return state_document(snapshot, two_axes(), loaded, {{"G1", "G55", "G91"}, 1}, 3);
 }
 
 std::vector<std::string> alarms(const Snapshot& snapshot) {
@@ -31,6 +31,8 @@ TEST(StateDocument, ShowsAMachineAtRest) {
     EXPECT_EQ(json["alarms"], Json::array());
     for (const char* none : {"job", "program", "hold", "writer"}) { EXPECT_TRUE(json[none].is_null()) << none; }
     EXPECT_EQ(json["axes"]["X"]["homed"], true);
+    EXPECT_EQ(json["modes"], Json({"G1", "G55", "G91"}));
+    EXPECT_EQ(json["offsets"]["active"], "G55") << "that of the modes";
     EXPECT_EQ(json["offsets"]["revision"], 7);
     EXPECT_EQ(json["offsets"]["systems"].size(), 9u);
 }

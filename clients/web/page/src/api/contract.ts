@@ -167,6 +167,7 @@ export interface State {
   tools?: Maybe<Record<string, Tool>>;
   devices?: Maybe<Devices>;
   writer?: Maybe<Writer>;
+  modes: string[];
   viewers: number;
 }
 

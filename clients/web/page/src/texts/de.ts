@@ -81,7 +81,7 @@ export const de: Texts = {
   },
   mdi: {
     title: "MDI", label: "Eine Zeile G-Code", send: "Senden", placeholder: "G0 X10 Y10", history: "Frühere Zeilen", accepted: "angenommen", refused: "abgelehnt",
-    keys: "Pfeil auf und ab: frühere Zeilen",
+    keys: "Pfeil auf und ab: frühere Zeilen", modes: "Modi der nächsten Zeile:",
   },
   offsets: {
     title: "Nullpunkte", system: "System", active: "aktiv", touch: "{axis} hier auf 0", edit: "{system}, {axis}", rotation: "Drehung",

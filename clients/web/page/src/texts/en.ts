@@ -80,7 +80,7 @@ export const en = {
   },
   mdi: {
     title: "MDI", label: "One line of G-code", send: "Send", placeholder: "G0 X10 Y10", history: "Earlier lines", accepted: "accepted", refused: "refused",
-    keys: "Arrow up and down: earlier lines",
+    keys: "Arrow up and down: earlier lines", modes: "Modes of the next line:",
   },
   offsets: {
     title: "Offsets", system: "System", active: "active", touch: "Set {axis} to 0 here", edit: "{system}, {axis}", rotation: "Rotation",

@@ -1,6 +1,6 @@
 // One line of G-code at a time, and the list of earlier lines.
 import { mdiLines } from "../api/client";
-import { h, setAttribute, show } from "../dom/element";
+import { h, setAttribute, setText, show } from "../dom/element";
 import { History } from "../mdi/history";
 import { t } from "../texts";
 import type { Give } from "./command_button";
@@ -10,6 +10,7 @@ export class MdiTab implements View {
   readonly element: HTMLElement;
   private readonly input: HTMLInputElement;
   private readonly send: HTMLButtonElement;
+  private readonly modes = h("output", { class: "mdi-modes", for: "mdi", "aria-label": t.mdi.modes });
   private readonly list = h("ol", { class: "mdi-lines", reversed: true, "aria-label": t.mdi.history });
   private history = new History();
 
@@ -24,6 +25,7 @@ export class MdiTab implements View {
         event.preventDefault();
         void this.submit();
       } } }, h("label", { for: "mdi" }, t.mdi.label), this.input, this.send),
+      h("p", {}, h("span", { class: "soft" }, t.mdi.modes), " ", this.modes),
       h("p", { class: "soft" }, t.mdi.keys), this.list);
     void this.fetch();
   }
@@ -31,6 +33,7 @@ export class MdiTab implements View {
   show({ state, role }: Model): void {
     show(this.element.querySelector("form")!, role === "operate");
     setAttribute(this.send, "disabled", state.mode !== "Idle");
+    setText(this.modes, state.modes.join(" "));
   }
 
   private walk(event: KeyboardEvent): void {

@@ -1,0 +1,105 @@
+// Lines that are given one by one keep their modes and parameters.
+#include "clients/web/program/mdi_session.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/web/some_snapshot.hpp"
+
+namespace lockstep::web {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::ElementsAre;
+
+class Mdi : public testing::Test {
+protected:
+    /// Gives the line to a machine that accepts it.
+    std::optional<ReadyProgram> give(const std::string& line) {
+        auto read = mdi.read(line, real_start(snapshot, two_axes()).value());
+        EXPECT_TRUE(read) << line;
+        mdi.answer(true);
+        return read ? *std::move(read) : std::nullopt;
+    }
+    std::vector<std::string> words() const { return mdi.modes().words; }
+
+    Snapshot snapshot = snapshot_at_rest();
+    MdiSession mdi{two_axes()};
+};
+
+TEST_F(Mdi, AWrongLineIsRefusedWithItsColumn) {
+    const auto read = mdi.read("G0 X9999", real_start(snapshot, two_axes()).value());
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().status, 422);
+    EXPECT_EQ(read.error().errors[0].column, 4);
+    EXPECT_TRUE(mdi.read("G0 X9", real_start(snapshot, two_axes()).value())) << "it leaves nothing behind";
+}
+
+TEST_F(Mdi, ALineThatMovesNothingNeedsNoJob) {
+    EXPECT_FALSE(give("#1=50 G91 G55 F600"));
+    EXPECT_THAT(words(), AllOf(Contains("G91"), Contains("G55"), Contains("F600")));
+    EXPECT_EQ(mdi.modes().system, 1U);
+    const auto offsets = give("G10 L2 P2 X10");
+    ASSERT_TRUE(offsets) << "the machine stores them";
+    EXPECT_EQ(offsets->values.after->systems[1].origin[0], 10);
+    EXPECT_TRUE(give("G90 G0 X[#1+1]")) << "the parameter holds";
+}
+
+TEST_F(Mdi, ALineThatTheMachineRefusesLeavesNothing) {
+    ASSERT_TRUE(mdi.read("G91 G0 X1", real_start(snapshot, two_axes()).value()));
+    mdi.answer(false);
+    EXPECT_THAT(words(), Contains("G90"));
+}
+
+TEST_F(Mdi, TheNextLineWaitsForTheAnswerToTheOneBefore) {
+    ASSERT_TRUE(mdi.read("G91", real_start(snapshot, two_axes()).value()));
+    const auto second = mdi.read("G0 X1", real_start(snapshot, two_axes()).value());
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().status, 409);
+}
+
+TEST_F(Mdi, ModesEndWithM2AProgramAFaultAndAReset) {
+    const std::vector<std::string> begin = words();
+    EXPECT_THAT(begin, ElementsAre("G80", "G54", "G17", "G21", "G90", "G94", "M5", "M9", "T0", "F0", "S0"));
+    const auto fault = [&] {
+        snapshot.machine->value.phase = MachinePhase::Fault;
+        mdi.see(snapshot);
+        snapshot.machine->value.phase = MachinePhase::Idle;
+    };
+    const std::vector<std::function<void()>> ends{[&] { give("M2"); }, [&] { give("M30"); }, [&] { mdi.end_program(); },
+                                                  fault, [&] { mdi.reset(); }};
+    for (const auto& end : ends) {
+        give("G91 G55 F600");
+        EXPECT_NE(words(), begin);
+        end();
+        EXPECT_EQ(words(), begin);
+    }
+}
+
+TEST_F(Mdi, AResetDropsTheLineThatWaits) {
+    ASSERT_TRUE(mdi.read("G91 G0 X1", real_start(snapshot, two_axes()).value()));
+    mdi.reset();
+    mdi.answer(true);
+    EXPECT_THAT(words(), Contains("G90"));
+}
+
+TEST_F(Mdi, SpindleAndCoolantAreAsTheMachineReports) {
+    snapshot.machine->value.devices = {.spindle = ProgramDevices::Spindle::Forward, .flood = true};
+    mdi.see(snapshot);
+    EXPECT_THAT(words(), AllOf(Contains("M3"), Contains("M8")));
+    snapshot.machine->value.devices = {};
+    mdi.see(snapshot);
+    EXPECT_THAT(words(), AllOf(Contains("M5"), Contains("M9")));
+}
+
+TEST_F(Mdi, TheOldestLinesAreForgotten) {
+    for (std::size_t k = 0; k <= MdiSession::kMostLines; ++k) { mdi.note("G0 X" + std::to_string(k), k % 2 == 0); }
+    const auto lines = mdi.lines();
+    EXPECT_EQ(lines.size(), MdiSession::kMostLines);
+    EXPECT_EQ(lines.front(), std::pair(std::string("G0 X1"), false));
+    EXPECT_EQ(lines.back(), std::pair(std::string("G0 X100"), true));
+}
+
+}  // namespace
+}  // namespace lockstep::web
