@@ -1,5 +1,6 @@
 #include "clients/lockstep/send/file_lines.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "clients/sender/line_text.hpp"
@@ -12,17 +13,28 @@ std::expected<FileLines, Diagnostic> FileLines::open(const std::string& path) {
     return FileLines(*std::move(reader));
 }
 
+/// A % ends the program, unless it is the first line that is not empty.
+bool FileLines::is_end(std::string_view raw, std::string_view text) {
+    const std::string_view line = raw.substr(std::min(raw.find_first_not_of(" \t\r"), raw.size()));
+    const bool is_behind_first = has_begun_ && line.starts_with('%');
+    has_begun_ = has_begun_ || line.starts_with('%') || !text.empty();
+    return is_behind_first || sender::ends_program(text);
+}
+
+/// What stands behind the end of the program is no part of it, as in `lockstep run`.
 std::expected<std::optional<sender::Line>, Diagnostic> FileLines::next() {
-    for (;;) {
+    while (!is_at_end_) {
         const auto read = reader_.next();
         if (!read) { return std::unexpected(Diagnostic{.message = read.error()}); }
         if (read->state == LineReader::State::Ends) { is_at_end_ = true; }
         if (read->state != LineReader::State::Line) { return std::nullopt; }
         ++number_;
         auto text = sender::line_to_send(read->line);
+        is_at_end_ = text && is_end(read->line, *text);
         if (!text) { return std::unexpected(Diagnostic{number_, 1, text.error()}); }
         if (!text->empty()) { return sender::Line{number_, *std::move(text)}; }
     }
+    return std::nullopt;
 }
 
 std::optional<Diagnostic> FileLines::check(const std::string& path) {

@@ -4,6 +4,7 @@
 #include <expected>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "clients/sender/line_flow.hpp"
 #include "services/files/diagnostic.hpp"
@@ -27,7 +28,10 @@ public:
 private:
     explicit FileLines(LineReader reader) : reader_(std::move(reader)) {}
 
+    bool is_end(std::string_view raw, std::string_view text);
+
     LineReader reader_;
+    bool has_begun_ = false;
     int number_ = 0;
     bool is_at_end_ = false;
 };

@@ -64,9 +64,9 @@ private:
                 return sender_.stop({.line = if_positive(line.error().line), .text = line.error().message},
                                     monotonic_now());
             }
-            if (lines_.is_at_end()) { sender_.end(); }
+            if (*line) { sender_.add((*line)->number, std::move((*line)->text)); }
+            if (lines_.is_at_end()) { return sender_.end(); }
             if (!*line) { return; }
-            sender_.add((*line)->number, std::move((*line)->text));
         }
     }
     bool is_held() const { return sender_.status().starts_with("Hold") || sender_.status().starts_with("Door"); }

@@ -219,5 +219,14 @@ TEST(LineToSend, IsSentAloneIfTheControllerStoresSomething) {
     for (const char* line : {"G1 X10", "G28", "G100"}) { EXPECT_FALSE(is_sent_alone(line)) << line; }
 }
 
+TEST(LineToSend, KnowsTheEndOfItsProgram) {
+    for (const char* line : {"M2", "m30", "N90 M02", "G0 X1 M 3 0", "M9M2"}) {
+        EXPECT_TRUE(ends_program(line)) << line;
+    }
+    for (const char* line : {"M3", "M20", "M300", "M2.1", "/M2", "#<m2>=5", "G0 X2"}) {
+        EXPECT_FALSE(ends_program(line)) << line;
+    }
+}
+
 }  // namespace
 }  // namespace lockstep::sender

@@ -56,6 +56,24 @@ TEST_F(GrblSender, StreamsLinesHoldsResumesAndResets) {
     EXPECT_TRUE(eventually([&] { return steps_of_x() == 30 * 80 && status().phase() == "Idle"; }));
 }
 
+TEST_F(GrblSender, KeepsParametersAndModesUntilAReset) {
+    ASSERT_EQ(run_lockstep({"home"}).code, 0);
+    Sender sender = connected();
+    EXPECT_TRUE(eventually([&] { return sender.status().starts_with("Idle"); }));
+    EXPECT_TRUE(sender.answers("#1=50", "ok"));
+    EXPECT_TRUE(sender.answers("G0 X#1", "ok"));
+    EXPECT_TRUE(eventually([&] { return steps_of_x() == 50 * 80 && status().phase() == "Idle"; }));
+    sender.send("#<x>=20\nG91 F3000\nG1 X#<x>\nX#<x>\n");  // in one packet
+    EXPECT_TRUE(eventually([&] { return steps_of_x() == 90 * 80 && status().phase() == "Idle"; }));
+    EXPECT_TRUE(sender.answers("o100 repeat [3]", "needs the lines that follow it"));
+    EXPECT_TRUE(sender.receives("error:20"));
+    EXPECT_TRUE(sender.answers("X1", "within O100 REPEAT"));
+    sender.send("\x18");
+    EXPECT_TRUE(sender.receives("Grbl 1.1h"));
+    EXPECT_TRUE(sender.answers("G0 X#1", "ok"));
+    EXPECT_TRUE(eventually([&] { return steps_of_x() == 0 && status().phase() == "Idle"; }));
+}
+
 TEST_F(GrblSender, LeavesAndItsJogBrakes) {
     ASSERT_EQ(run_lockstep({"home"}).code, 0);
     {

@@ -57,6 +57,25 @@ TEST_F(SentProgram, IsRunToItsEndAndEveryStepIsAsPlanned) {
     expect_verified();
 }
 
+TEST_F(SentProgram, EndsWhereTheSameFileEndsByRun) {
+    const std::string file =
+        write("parameters.gcode",
+              "%\n#1=50 (the width)\n#<step>=[#1/4]\nG21 G90 G0 X#1 Y0\nG91\n"
+              "G1 X-#<step> F3000\nX0.004\nX0.004\nX0.004\nX0.004\nG10 L2 P1 X3\nG90 G0 Y[#5420/10]\n"
+              "M2\n%\nG0 X0 Y0\n");
+    ASSERT_EQ(run_lockstep({"home"}).code, 0);
+    ASSERT_EQ(run_lockstep({"run", file}).code, 0);
+    const std::vector<std::int64_t> by_run{status().axes(0).position_steps(), status().axes(1).position_steps()};
+    EXPECT_EQ(by_run[0], 3001) << "37.516 mm";
+    for (const char* way : {"--lines", "--json"}) {
+        ASSERT_EQ(run_lockstep({"offsets", "clear", "G54"}).code, 0);
+        const Ran ran = run_lockstep({"send", file, "--port", terminal_, way});
+        ASSERT_EQ(ran.code, 0) << ran.err << ran.out;
+        EXPECT_EQ(status().axes(0).position_steps(), by_run[0]) << way;
+        EXPECT_EQ(status().axes(1).position_steps(), by_run[1]) << way;
+    }
+}
+
 TEST_F(SentProgram, StopsAtALineThatIsRefusedAndNamesIt) {
     const std::string file = write("wrong.gcode", "$H\nG21 G90\nG1 X30 F600\nG41 D1\nG1 X200\n");
     const Ran ran = run_lockstep({"send", file, "--port", terminal_});
