@@ -1,6 +1,5 @@
 #include "clients/channel/listener.hpp"
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
 #include <netdb.h>
 #include <netinet/in.h>
@@ -12,6 +11,7 @@
 #include <cstring>
 #include <memory>
 
+#include "clients/channel/peer.hpp"
 #include "services/files/descriptor.hpp"
 
 namespace lockstep {
@@ -21,14 +21,6 @@ constexpr int kBacklog = 128;
 constexpr int kHostPatience_ms = 10'000;
 constexpr int kProbeAfter_s = 4;
 constexpr int kProbeAgainAfter_s = 2;
-
-bool is_loopback(const sockaddr* address) {
-    if (address->sa_family == AF_INET) {
-        const auto* four = std::bit_cast<const sockaddr_in*>(address);
-        return (ntohl(four->sin_addr.s_addr) >> 24) == 127;
-    }
-    return IN6_IS_ADDR_LOOPBACK(&std::bit_cast<const sockaddr_in6*>(address)->sin6_addr);
-}
 
 std::uint16_t port_of(int socket) {
     sockaddr_storage bound{};

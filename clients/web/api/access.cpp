@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/parse_number.hpp"
+
 namespace lockstep::web {
 namespace {
 
@@ -27,13 +29,42 @@ std::optional<Role> role_among(const Tokens& tokens, std::string_view given) {
     return std::nullopt;
 }
 
-/// Returns the host without the port, an IPv6 address without its brackets.
-std::string_view host_of(std::string_view text) {
-    if (text.starts_with('[')) {
-        const std::size_t end = text.find(']');
-        return end == std::string_view::npos ? text : text.substr(1, end - 1);
+/// Returns the host in lower case without the port, an IPv6 address without its brackets. Empty if the text has
+/// anything else. The port may be any, because a tunnel has its own.
+std::string host_of(std::string_view text) {
+    const bool is_six = text.starts_with('[');
+    const std::size_t end = is_six ? text.find(']') : text.find(':');
+    if (is_six && end == std::string_view::npos) { return ""; }
+    const std::string_view rest = end == std::string_view::npos ? "" : text.substr(is_six ? end + 1 : end);
+    if (!rest.empty() && (rest.front() != ':' || parse_number<std::uint16_t>(rest.substr(1)).value_or(0) == 0)) {
+        return "";
     }
-    return text.substr(0, text.find(':'));
+    return lower_case(is_six ? text.substr(1, end - 1) : text.substr(0, end));
+}
+
+bool has_proof(const Request& request, const std::string& cookie_name) {
+    return request.header("authorization") != nullptr || request.cookie(cookie_name);
+}
+
+Problem without_session() {
+    return {.status = 401,
+            .code = "no-session",
+            .title = "the request is not signed in",
+            .detail = "the request has no valid session and no valid token",
+            .place = "authorization",
+            .limit = "Authorization: Bearer TOKEN, or the cookie of POST /api/session",
+            .remedy = "open the address that lockstep-web printed at its start"};
+}
+
+Problem too_many_wrong() {
+    return {.status = 429,
+            .code = "too-many-tokens",
+            .title = "too many wrong tokens",
+            .detail = fmt::format("{} wrong tokens came from this address within a minute", WrongTokens::kMost),
+            .limit = fmt::format("{} a minute", WrongTokens::kMost),
+            .remedy =
+                "wait a minute, then use the address that lockstep-web printed; hold, stop and estop with the "
+                "right token are accepted at any time"};
 }
 
 Problem foreign(const std::string& header, const std::string& value, const std::string& limit) {
@@ -56,12 +87,15 @@ std::string_view name_of(Role role) { return role == Role::Operate ? "operate" :
 Access::Access(AccessRules rules)
     : rules_(std::move(rules)),
       cookie_name_(fmt::format("lockstep_session_{}", rules_.port)),
-      cookies_{hash_of("cookie " + rules_.tokens.view), hash_of("cookie " + rules_.tokens.operate)} {}
+      cookies_{hash_of("cookie " + rules_.tokens.view), hash_of("cookie " + rules_.tokens.operate)} {
+    std::ranges::transform(rules_.hosts, rules_.hosts.begin(), &lower_case);
+}
 
 std::optional<Problem> Access::refuse_foreign(const Request& request) const {
     const std::string* host = request.header("host");
     const std::string given = host == nullptr ? "" : *host;
-    if (std::ranges::find(rules_.hosts, host_of(given)) == rules_.hosts.end()) {
+    const std::string name = host_of(given);
+    if (name.empty() || std::ranges::find(rules_.hosts, name) == rules_.hosts.end()) {
         return foreign("host", given, fmt::format("{}", fmt::join(rules_.hosts, ", ")));
     }
     const std::string* origin = request.header("origin");
@@ -70,7 +104,7 @@ std::optional<Problem> Access::refuse_foreign(const Request& request) const {
     return std::nullopt;
 }
 
-std::optional<Role> Access::role_of(const Request& request) const {
+std::optional<Role> Access::proven(const Request& request) const {
     constexpr std::string_view kScheme = "Bearer ";
     const std::string* authorization = request.header("authorization");
     if (authorization != nullptr) {
@@ -81,19 +115,27 @@ std::optional<Role> Access::role_of(const Request& request) const {
     return cookie ? role_among(cookies_, *cookie) : std::nullopt;
 }
 
-std::expected<Role, Problem> Access::try_token(std::string_view token, std::chrono::nanoseconds now) {
-    while (!wrong_.empty() && now - wrong_.front() > kWrongTokensWithin) { wrong_.pop_front(); }
-    if (wrong_.size() >= kMostWrongTokens) {
-        return std::unexpected(Problem{.status = 429,
-                                       .code = "too-many-tokens",
-                                       .title = "too many wrong tokens",
-                                       .detail = fmt::format("{} wrong tokens arrived within a minute", wrong_.size()),
-                                       .limit = fmt::format("{} a minute", kMostWrongTokens),
-                                       .remedy = "wait a minute, then use the address that lockstep-web printed"});
+std::optional<Role> Access::role_of(const Request& request, std::chrono::nanoseconds now) const {
+    const bool is_token = request.header("authorization") != nullptr;
+    return is_token && wrong_.is_locked(request.peer, now) ? std::nullopt : proven(request);
+}
+
+std::expected<Role, Problem> Access::admit(const Request& request, bool is_stop, std::chrono::nanoseconds now) {
+    const auto role = is_stop ? proven(request) : role_of(request, now);
+    if (role) { return *role; }
+    if (has_proof(request, cookie_name_)) {
+        if (wrong_.is_locked(request.peer, now)) { return std::unexpected(too_many_wrong()); }
+        wrong_.note(request.peer, now);
     }
+    return std::unexpected(without_session());
+}
+
+std::expected<Role, Problem> Access::try_token(std::string_view token, const std::string& peer,
+                                               std::chrono::nanoseconds now) {
+    if (wrong_.is_locked(peer, now)) { return std::unexpected(too_many_wrong()); }
     const auto role = role_among(rules_.tokens, token);
     if (role) { return *role; }
-    wrong_.push_back(now);
+    wrong_.note(peer, now);
     return std::unexpected(
         Problem{.status = 401,
                 .code = "wrong-token",

@@ -4,13 +4,13 @@
 
 #include <chrono>
 #include <cstdint>
-#include <deque>
 #include <expected>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "clients/web/api/wrong_tokens.hpp"
 #include "clients/web/http/message.hpp"
 #include "clients/web/request/problem.hpp"
 
@@ -33,29 +33,33 @@ struct AccessRules {
 
 class Access {
 public:
-    static constexpr std::size_t kMostWrongTokens = 10;  // in kWrongTokensWithin, of all clients together
-    static constexpr std::chrono::seconds kWrongTokensWithin{60};
-
     explicit Access(AccessRules rules);
 
     /// Refuses (403) a request that another site's page sent, or that came under another host name.
     std::optional<Problem> refuse_foreign(const Request& request) const;
-    /// The role by the request's cookie or Authorization header; nullopt if it has neither, or a wrong one.
-    std::optional<Role> role_of(const Request& request) const;
-    /// Fails with 401 for a wrong token, with 429 after too many wrong ones.
-    std::expected<Role, Problem> try_token(std::string_view token, std::chrono::nanoseconds now);
+    /// The role by the request's cookie or Authorization header; nullopt if it has neither, or a wrong one, or a token
+    /// while its address is locked.
+    std::optional<Role> role_of(const Request& request, std::chrono::nanoseconds now) const;
+    /// The same, and counts a wrong cookie or token. Fails with 401, or with 429 while the address is locked. The right
+    /// token of a stop is accepted nevertheless, and so is the cookie of a page that is signed in.
+    std::expected<Role, Problem> admit(const Request& request, bool is_stop, std::chrono::nanoseconds now);
+    /// Exchanges a token for its role. Fails with 401 for a wrong token, with 429 while the address is locked.
+    std::expected<Role, Problem> try_token(std::string_view token, const std::string& peer,
+                                           std::chrono::nanoseconds now);
 
     /// The value of a Set-Cookie header.
     std::string cookie_for(Role role) const;
     std::string removed_cookie() const;
 
 private:
+    /// The role by the request's cookie or token, whether or not its address is locked.
+    std::optional<Role> proven(const Request& request) const;
     std::string attributes() const;
 
     AccessRules rules_;
     std::string cookie_name_;  // has the port, because browsers share cookies among a host's ports
     Tokens cookies_;           // a hash of each token
-    std::deque<std::chrono::nanoseconds> wrong_;
+    WrongTokens wrong_;
 };
 
 }  // namespace lockstep::web

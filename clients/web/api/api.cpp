@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "clients/web/request/body_reader.hpp"
+#include "clients/web/request/head_check.hpp"
 #include "clients/web/state/event_stream.hpp"
 #include "clients/web/state/limits.hpp"
 #include "clients/web/state/machine_document.hpp"
@@ -41,16 +42,6 @@ Problem wrong_method(const Request& request, const std::string& allowed) {
             .remedy = "see openapi.yaml"};
 }
 
-Problem without_session() {
-    return {.status = 401,
-            .code = "no-session",
-            .title = "the request is not signed in",
-            .detail = "the request has no valid session and no valid token",
-            .place = "authorization",
-            .limit = "Authorization: Bearer TOKEN, or the cookie of POST /api/session",
-            .remedy = "open the address that lockstep-web printed at its start"};
-}
-
 Problem only_views() {
     return {.status = 403,
             .code = "view-only",
@@ -71,6 +62,17 @@ Problem too_long(std::size_t limit) {
         .place = "body",
         .limit = fmt::format("{} bytes", limit),
         .remedy = limit == kMaxProgram_bytes ? "run a longer program with: lockstep run FILE" : "send a shorter body"};
+}
+
+Response refusal_of_access(const Problem& problem) {
+    Response response = to_response(problem);
+    if (problem.status == 401) { response.headers.emplace_back("WWW-Authenticate", "Bearer"); }
+    return response;
+}
+
+/// A request that only makes the machine safer.
+bool is_stop(std::string_view path) {
+    return path == "/api/commands/hold" || path == "/api/commands/stop" || path == "/api/commands/estop";
 }
 
 bool is_changing(const Request& request) { return request.method != "GET" && request.method != "HEAD"; }
@@ -102,10 +104,11 @@ Api::Api(const ApiParts& parts, AccessRules rules)
       stream_names_(fmt::format("s{}-", monotonic_now().count() & 0xffffff)),
       mdi_(parts.machine) {}
 
-std::size_t Api::body_limit(const Request& head) const {
-    const bool is_program = head.path == "/api/program" && head.method == "POST" && !access_.refuse_foreign(head) &&
-                            access_.role_of(head) == Role::Operate;
-    return is_program ? kMaxProgram_bytes : kMaxBody_bytes;
+Intake Api::intake(const Request& head) const {
+    if (refuse_head(head) || access_.refuse_foreign(head)) { return {.is_refused = true}; }
+    const auto role = access_.role_of(head, monotonic_now());
+    const bool is_program = head.path == "/api/program" && head.method == "POST" && role == Role::Operate;
+    return {.body_limit_bytes = is_program ? kMaxProgram_bytes : kMaxBody_bytes, .is_signed_in = role.has_value()};
 }
 
 /// Adds the headers of every response, which tell a browser what it may do with it.
@@ -127,6 +130,11 @@ void Api::handle(Request&& request, const Answer& answer) {
 }
 
 void Api::serve(Request&& request, const Answer& answer) {
+    if (const auto unclear = refuse_head(request)) {
+        Response response = to_response(*unclear);
+        response.headers.emplace_back("Connection", "close");
+        return answer(std::move(response));
+    }
     if (const auto foreign = access_.refuse_foreign(request)) { return answer(to_response(*foreign)); }
     std::string allowed;
     const Row* row = nullptr;
@@ -144,15 +152,13 @@ void Api::serve(Request&& request, const Answer& answer) {
         response.headers.emplace_back("Allow", allowed);
         return answer(std::move(response));
     }
-    const auto role = access_.role_of(request);
-    if (!row->is_open && !role) {
-        Response response = to_response(without_session());
-        response.headers.emplace_back("WWW-Authenticate", "Bearer");
-        return answer(std::move(response));
+    if (!row->is_open) {
+        const auto role = access_.admit(request, is_stop(request.path), monotonic_now());
+        if (!role) { return answer(refusal_of_access(role.error())); }
+        const bool is_session = row->path == "/api/session";
+        if (is_changing(request) && !is_session && *role != Role::Operate) { return answer(to_response(only_views())); }
     }
-    const bool is_session = row->path == "/api/session";
-    if (is_changing(request) && !is_session && role != Role::Operate) { return answer(to_response(only_views())); }
-    if (request.is_too_long) { return answer(to_response(too_long(body_limit(request)))); }
+    if (request.is_too_long) { return answer(to_response(too_long(intake(request).body_limit_bytes))); }
     (this->*row->route)(std::move(request), answer);
 }
 
@@ -166,7 +172,7 @@ void Api::open_session(Request&& request, const Answer& answer) {
     const std::string token = reader.text("token", 200).value_or("");
     reader.finish();
     if (problem) { return answer(to_response(*problem)); }
-    const auto role = access_.try_token(token, monotonic_now());
+    const auto role = access_.try_token(token, request.peer, monotonic_now());
     if (!role) { return answer(to_response(role.error())); }
     Response response = json_response({{"role", name_of(*role)}});
     response.headers.emplace_back("Set-Cookie", access_.cookie_for(*role));
@@ -174,7 +180,7 @@ void Api::open_session(Request&& request, const Answer& answer) {
 }
 
 void Api::show_session(Request&& request, const Answer& answer) {
-    answer(json_response({{"role", name_of(*access_.role_of(request))}}));
+    answer(json_response({{"role", name_of(*access_.role_of(request, monotonic_now()))}}));
 }
 
 void Api::close_session(Request&&, const Answer& answer) {
@@ -206,19 +212,36 @@ void Api::open_events(Request&& request, const Answer& answer) {
                                    .limit = std::to_string(kMaxViewers),
                                    .remedy = "close another page"}));
     }
-    const bool may_operate = access_.role_of(request) == Role::Operate;
-    ++viewers_;
+    const bool may_operate = access_.role_of(request, monotonic_now()) == Role::Operate;
+    const std::string name = stream_names_ + std::to_string(++last_stream_);
+    note_begin(name);
     parts_.port.begin_stream(may_operate);
     publish(*parts_.port.snapshot());
     const std::string* last = request.header("last-event-id");
-    const std::string name = stream_names_ + std::to_string(++last_stream_);
     auto stream = std::make_shared<EventStream>(parts_.log, parts_.log.place_after(last == nullptr ? "" : *last), name,
                                                 &monotonic_now, [this, name, may_operate] {
-                                                    --viewers_;
+                                                    note_end(name);
                                                     parts_.port.end_stream(name, may_operate);
                                                 });
     answer({.body = std::shared_ptr<ByteStream>(std::move(stream)),
             .headers = {{"Content-Type", "text/event-stream"}, {"X-Accel-Buffering", "no"}}});
+}
+
+void Api::note_begin(const std::string& stream) {
+    const std::lock_guard lock(streams_mutex_);
+    streams_.insert(stream);
+    viewers_ = streams_.size();
+}
+
+void Api::note_end(const std::string& stream) {
+    const std::lock_guard lock(streams_mutex_);
+    streams_.erase(stream);
+    viewers_ = streams_.size();
+}
+
+bool Api::is_open(const std::string& stream) {
+    const std::lock_guard lock(streams_mutex_);
+    return streams_.contains(stream);
 }
 
 void Api::show_mdi(Request&&, const Answer& answer) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <atomic>
+#include <mutex>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,7 +35,7 @@ class Api : public Handler {
 public:
     Api(const ApiParts& parts, AccessRules rules);
 
-    std::size_t body_limit(const Request& head) const override;
+    Intake intake(const Request& head) const override;
     void handle(Request&& request, const Answer& answer) override;
 
     /// Takes the machine's state, and adds it to the event log if there are viewers. May be called from any thread.
@@ -70,13 +72,18 @@ private:
     void run_line(const MdiOrder& order, const Done& done);
     void touch(const TouchOrder& order, const Done& done);
     nlohmann::json state_of(const Snapshot& snapshot) const;
+    void note_begin(const std::string& stream);
+    void note_end(const std::string& stream);
+    bool is_open(const std::string& stream);
 
     ApiParts parts_;
     Access access_;
     ReplayGuard replays_;
     std::string stream_names_;  // each begins with this
     std::uint64_t last_stream_ = 0;
-    std::atomic<std::size_t> viewers_ = 0;
+    std::mutex streams_mutex_;
+    std::set<std::string> streams_;         // the names of those that are open
+    std::atomic<std::size_t> viewers_ = 0;  // the number of streams_
     MdiSession mdi_;
 };
 

@@ -51,6 +51,17 @@ Problem other_program(std::uint64_t wanted, std::uint64_t loaded) {
             .remedy = "check the loaded program, then run it"};
 }
 
+Problem closed_stream(const std::string& name) {
+    return {.status = 409,
+            .code = "stream-closed",
+            .title = "the jog names no open event stream",
+            .detail = "the event stream '" + name + "' is not open",
+            .place = "/stream",
+            .value = name,
+            .limit = "the name that the first event of an open stream of GET /api/events gives",
+            .remedy = "open an event stream and name it, or leave the name out"};
+}
+
 }  // namespace
 
 void Api::take_command(Request&& request, const Answer& answer) {
@@ -58,6 +69,10 @@ void Api::take_command(Request&& request, const Answer& answer) {
     const std::string verb = request.path.substr(request.path.rfind('/') + 1);
     const auto order = read_order(verb, request.body, parts_.machine);
     if (!order) { return answer(to_response(order.error())); }
+    const auto* jog = std::get_if<JogOrder>(&*order);
+    if (jog != nullptr && !jog->jogs.empty() && !jog->stream.empty() && !is_open(jog->stream)) {
+        return answer(to_response(closed_stream(jog->stream)));
+    }
     if (const std::string* key = request.header("idempotency-key")) {
         if (key->empty() || key->size() > kMaxKey_bytes) {
             return answer(to_response(wrong_value(400, "idempotency-key", key->substr(0, 100), "1 to 64 characters")));

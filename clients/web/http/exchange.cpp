@@ -2,29 +2,17 @@
 
 #include <sys/socket.h>
 
-#include <algorithm>
 #include <cstdlib>
 
+#include "clients/web/http/head_reader.hpp"
 #include "clients/web/http/server.hpp"
+#include "services/runtime/clock.hpp"
 
 namespace lockstep::web {
 namespace {
 
 constexpr std::size_t kStreamBlock_bytes = 16 * 1024;
 constexpr int kStreamBuffer_bytes = 64 * 1024;  // in the kernel, for a viewer that reads slowly
-
-MHD_Result take_header(void* headers, MHD_ValueKind, const char* name, const char* value) {
-    std::string small(name);
-    std::ranges::transform(small, small.begin(),
-                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    static_cast<std::map<std::string, std::string>*>(headers)->emplace(small, value == nullptr ? "" : value);
-    return MHD_YES;
-}
-
-MHD_Result take_argument(void* query, MHD_ValueKind, const char* name, const char* value) {
-    (*static_cast<std::map<std::string, std::string>*>(query))[name] = value == nullptr ? "" : value;
-    return MHD_YES;
-}
 
 ssize_t read_from(void* exchange, std::uint64_t, char* into, std::size_t size) {
     return static_cast<Exchange*>(exchange)->read_stream(into, size);
@@ -38,6 +26,13 @@ MHD_Response* response_of(const SharedText& text) {
                                                                   free_text, new SharedText(text));
 }
 
+std::size_t size_of(const Response& response) {
+    if (const auto* text = std::get_if<SharedText>(&response.body)) { return (*text)->size(); }
+    if (const auto* text = std::get_if<std::string_view>(&response.body)) { return text->size(); }
+    const auto* text = std::get_if<std::string>(&response.body);
+    return text == nullptr ? 0 : text->size();
+}
+
 void keep_little(MHD_Connection* connection) {
     const auto* info = MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CONNECTION_FD);
     if (info == nullptr) { return; }
@@ -46,14 +41,18 @@ void keep_little(MHD_Connection* connection) {
 
 }  // namespace
 
-MHD_Result Exchange::begin(const char* path, const char* method) {
-    request_.path = path;
-    request_.method = method;
-    MHD_get_connection_values(connection_, MHD_HEADER_KIND, take_header, &request_.headers);
-    MHD_get_connection_values(connection_, MHD_GET_ARGUMENT_KIND, take_argument, &request_.query);
-    body_limit_ = handler_.body_limit(request_);
+void Exchange::wait(Waits what, std::size_t bytes) { limits_.wait(connection_, what, bytes, monotonic_now()); }
+
+MHD_Result Exchange::begin(const char* path, const char* method, const char* version) {
+    has_begun_ = true;
+    read_head(connection_, path, method, version, request_);
+    const Intake intake = handler_.intake(request_);
+    body_limit_bytes_ = intake.body_limit_bytes;
+    wait(Waits::ForBody, body_limit_bytes_);
+    if (intake.is_signed_in) { limits_.sign_in(connection_); }
+    if (intake.is_refused) { return give_to_handler(); }
     const std::string* length = request_.header("content-length");
-    const bool is_long = length != nullptr && std::strtoull(length->c_str(), nullptr, 10) > body_limit_;
+    const bool is_long = length != nullptr && std::strtoull(length->c_str(), nullptr, 10) > body_limit_bytes_;
     if (!is_long || request_.header("expect") == nullptr) { return MHD_YES; }
     request_.is_too_long = true;  // the client waits for a response before it sends the body
     return give_to_handler();
@@ -61,7 +60,7 @@ MHD_Result Exchange::begin(const char* path, const char* method) {
 
 MHD_Result Exchange::take_body(const char* bytes, std::size_t* size) {
     received_ += *size;
-    if (received_ <= body_limit_) {
+    if (received_ <= body_limit_bytes_) {
         request_.body.append(bytes, *size);
     } else if (!request_.is_too_long) {
         request_.is_too_long = true;
@@ -80,6 +79,7 @@ MHD_Result Exchange::proceed() {
 
 MHD_Result Exchange::give_to_handler() {
     is_handled_ = true;
+    wait(Waits::ForServer, 0);
     handler_.handle(std::move(request_), [weak = weak_from_this()](Response&& response) {
         if (const auto exchange = weak.lock()) { exchange->answer(std::move(response)); }
     });
@@ -123,6 +123,7 @@ MHD_Result Exchange::queue(const Response& response) {
     for (const auto& [name, value] : response.headers) {
         (void)MHD_add_response_header(made_response, name.c_str(), value.c_str());
     }
+    if (!stream_) { wait(Waits::ForReader, size_of(response)); }
     const MHD_Result queued = MHD_queue_response(connection_, static_cast<unsigned>(response.status), made_response);
     MHD_destroy_response(made_response);
     return queued;
@@ -153,6 +154,7 @@ void Exchange::end() {
     const std::lock_guard lock(mutex_);
     is_over_ = true;
     if (stream_) { stream_->end(); }
+    wait(Waits::ForHead, 0);
 }
 
 void Exchange::release() {

@@ -1,5 +1,7 @@
 #include "clients/web/http/message.hpp"
 
+#include <algorithm>
+
 namespace lockstep::web {
 namespace {
 
@@ -10,6 +12,18 @@ std::string_view trimmed(std::string_view text) {
 }
 
 }  // namespace
+
+std::string lower_case(std::string_view text) {
+    std::string lower(text);
+    std::ranges::transform(lower, lower.begin(),
+                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return lower;
+}
+
+void Request::add_header(std::string_view name, std::string_view value) {
+    const std::string small = lower_case(name);
+    if (!headers.emplace(small, value).second) { repeated.insert(small); }
+}
 
 const std::string* Request::header(std::string_view name) const {
     const auto found = headers.find(std::string(name));

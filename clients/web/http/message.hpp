@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,13 +16,23 @@
 
 namespace lockstep::web {
 
+/// ASCII letters only.
+std::string lower_case(std::string_view text);
+
 struct Request {
     std::string method;
+    std::string target;                          // the path and the query, as they came
+    std::string version;                         // such as HTTP/1.1
     std::string path;                            // decoded, without the query
     std::map<std::string, std::string> query;    // decoded; the last value of a repeated name
     std::map<std::string, std::string> headers;  // names in lower case; the first value of a repeated name
+    std::set<std::string> repeated;              // the names of headers that came more than once
+    bool has_plain_lines = true;                 // each header has one line that ends with CR LF, without a zero
+    std::string peer;                            // the address of the other side, as peer_address() returns it
     std::string body;
     bool is_too_long = false;  // the body exceeded its limit and was not kept
+
+    void add_header(std::string_view name, std::string_view value);
 
     /// Returns null if the request has none.
     const std::string* header(std::string_view name) const;
@@ -53,12 +64,18 @@ struct Response {
 /// ended.
 using Answer = std::function<void(Response&& response)>;
 
-/// Handles a server's requests. Both functions are called in the server's thread and must return at once.
+/// How a server takes a request, decided when its head has come.
+struct Intake {
+    std::size_t body_limit_bytes = 0;  // more are not kept
+    bool is_signed_in = false;         // the request has a valid token
+    bool is_refused = false;  // it is handled at once, without its body, and its connection ends with the answer
+};
+
+/// Handles a server's requests. All functions are called in the server's thread and must return at once.
 class Handler {
 public:
     virtual ~Handler() = default;
-    /// Returns how many bytes of the request's body are kept.
-    virtual std::size_t body_limit(const Request& head) const = 0;
+    virtual Intake intake(const Request& head) const = 0;
     virtual void handle(Request&& request, const Answer& answer) = 0;
 };
 

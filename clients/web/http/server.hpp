@@ -6,6 +6,7 @@
 #include <string>
 
 #include "clients/channel/listener.hpp"
+#include "clients/web/http/connection_limits.hpp"
 #include "clients/web/http/message.hpp"
 
 namespace lockstep::web {
@@ -19,8 +20,8 @@ struct TlsFiles {
 
 class Server {
 public:
-    static constexpr unsigned kMaxConnections = 256;
-    static constexpr unsigned kIdleSeconds = 20;                       // after them a connection is closed
+    /// ConnectionLimits closes connections before the library would refuse new ones: these are that many more.
+    static constexpr unsigned kMaxConnections = ConnectionLimits::kMostUnknown + ConnectionLimits::kMostSignedIn + 128;
     static constexpr std::size_t kMostDiscarded = 256U * 1024 * 1024;  // of a body beyond its limit, before its answer
 
     /// Serves until the object is destroyed. `handler` must outlive it. The error says why it cannot serve.
@@ -30,8 +31,8 @@ public:
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
 
-    /// Lets every stream read again, and closes the connections of those that are behind. May be called from any
-    /// thread.
+    /// Lets every stream read again, and closes the connections of those that are behind, and those whose time is over.
+    /// Call it several times a second, from any thread.
     void wake_streams();
 
 private:

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "core/protocol/needs_lease.hpp"
 #include "services/runtime/clock.hpp"
 
 namespace lockstep::web {
@@ -12,6 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t kMostActions = 64;  // that wait
+constexpr std::size_t kMostStops = 16;    // that may wait in addition
 constexpr nanoseconds kLoop = 10ms;
 constexpr nanoseconds kBusyLoop = 5ms;  // while something is under way
 
@@ -40,10 +42,10 @@ MachineLoop::~MachineLoop() {
     thread_.join();
 }
 
-void MachineLoop::add(Action action, const Done& done) {
+void MachineLoop::add(Action action, const Done& done, bool is_stop) {
     {
         const std::lock_guard lock(mutex_);
-        if (actions_.size() < kMostActions) {
+        if (actions_.size() < kMostActions + (is_stop ? kMostStops : 0)) {
             actions_.push_back(std::move(action));
             return;
         }
@@ -52,7 +54,8 @@ void MachineLoop::add(Action action, const Done& done) {
 }
 
 void MachineLoop::command(const Command& command, Done done) {
-    add([this, command, done] { start(std::make_unique<CommandTask>(command, shown(done)), done); }, done);
+    add([this, command, done] { start(std::make_unique<CommandTask>(command, shown(done)), done); }, done,
+        !needs_lease(command));
 }
 
 void MachineLoop::jog(const JogOrder& order, Done done) {
@@ -163,7 +166,7 @@ void MachineLoop::start(std::unique_ptr<Task> task, const Done& done) {
     if (task->sends() && is_sending()) {
         return done(std::unexpected(refused(FaultCode::Busy, "this server is sending a program")));
     }
-    if (tasks_.is_full()) { return done(std::unexpected(too_many())); }
+    if (tasks_.is_full(task->lease() == Task::Lease::NotNeeded)) { return done(std::unexpected(too_many())); }
     tasks_.add(std::move(task), monotonic_now());
 }
 

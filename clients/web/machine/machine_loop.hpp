@@ -40,7 +40,8 @@ public:
 private:
     using Action = std::function<void()>;
     /// Refuses with `done` if too many actions wait already.
-    void add(Action action, const Done& done);
+    /// `is_stop`: it has a place even if too many others wait.
+    void add(Action action, const Done& done, bool is_stop = false);
     void work(const std::stop_token& stop);
     void take_actions();
     void start(std::unique_ptr<Task> task, const Done& done);

@@ -12,8 +12,9 @@ namespace lockstep::web {
 class TaskQueue {
 public:
     static constexpr std::size_t kMost = 64;
+    static constexpr std::size_t kMostStops = 16;  // in addition, of tasks that need no lease
 
-    bool is_full() const { return tasks_.size() >= kMost; }
+    bool is_full(bool is_stop) const { return tasks_.size() >= kMost + (is_stop ? kMostStops : 0); }
     bool is_empty() const { return tasks_.empty(); }
     void add(std::unique_ptr<Task> task, nanoseconds now) { tasks_.push_back({std::move(task), now}); }
     void poll(Session& session, const SessionLease& lease, nanoseconds now);

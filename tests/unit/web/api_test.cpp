@@ -4,49 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/unit/web/some_snapshot.hpp"
+#include <array>
+
+#include "tests/unit/web/noting_port.hpp"
 
 namespace lockstep::web {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-class NotingPort : public MachinePort {
-public:
-    void command(const Command& command, Done done) override {
-        asked.push_back("command " + std::to_string(static_cast<int>(command.kind)));
-        done(Accepted{});
-    }
-    void jog(const JogOrder& order, Done done) override {
-        asked.push_back("jog " + order.stream);
-        done(Accepted{.jogging = true});
-    }
-    void run(ReadyProgram&&, Done done) override { done(Accepted{.job = 1}); }
-    void change_values(ValuesTask::Change, Done done) override {
-        asked.emplace_back("values");
-        done(Accepted{});
-    }
-    void take_lease(Done done) override {
-        asked.emplace_back("take");
-        done(Accepted{});
-    }
-    void give_lease(Done done) override {
-        asked.emplace_back("give");
-        done(std::unexpected(unanswered("nobody")));
-    }
-    void begin_stream(bool may_operate) override { operators += may_operate ? 1 : 0; }
-    void end_stream(const std::string& name, bool may_operate) override {
-        asked.push_back("end " + name.substr(name.find('-')));
-        operators -= may_operate ? 1 : 0;
-    }
-    std::shared_ptr<const Snapshot> snapshot() const override {
-        return std::make_shared<const Snapshot>(snapshot_at_rest());
-    }
-
-    std::vector<std::string> asked;
-    int operators = 0;
-};
 
 class Interface : public testing::Test {
 protected:
@@ -57,7 +23,12 @@ protected:
         if (!token.empty()) { headers.emplace("authorization", "Bearer " + token); }
         if (!body.empty()) { headers.emplace("content-type", "application/json"); }
         Response given;
-        api.handle({.method = method, .path = path, .headers = std::move(headers), .body = body},
+        api.handle({.method = method,
+                    .target = path,
+                    .version = "HTTP/1.1",
+                    .path = path,
+                    .headers = std::move(headers),
+                    .body = body},
                    [&given](Response&& response) { given = std::move(response); });
         return given;
     }
@@ -114,10 +85,10 @@ TEST_F(Interface, AnotherPageIsRefusedBeforeItsToken) {
 
 TEST_F(Interface, CommandsReachTheMachineInTheirOrder) {
     EXPECT_EQ(ask("POST", "/api/commands/take").status, 200);
-    EXPECT_EQ(ask("POST", "/api/commands/jog", R"({"jogs":[{"axis":"X","velocity":1}],"stream":"s"})").status, 200);
+    EXPECT_EQ(ask("POST", "/api/commands/jog", R"({"jogs":[{"axis":"X","velocity":1}]})").status, 200);
     EXPECT_EQ(ask("POST", "/api/commands/tool", R"({"number":1,"pocket":2})").status, 200);
     EXPECT_EQ(ask("POST", "/api/commands/give").status, 503) << "the machine's answer is the answer";
-    EXPECT_THAT(port.asked, ElementsAre("take", "jog s", "values", "give"));
+    EXPECT_THAT(port.asked, ElementsAre("take", "jog ", "values", "give"));
 }
 
 TEST_F(Interface, AReplayedCommandIsNotCarriedOutAgain) {
@@ -144,12 +115,18 @@ TEST_F(Interface, UnknownPathsAndMethodsAreNamed) {
 
 TEST_F(Interface, OnlyAnOperatorsProgramMayBeLong) {
     const auto limit = [&](const char* path, const char* token, const char* host) {
-        return api.body_limit({.method = "POST", .path = path, .headers = {{"host", host}, {"authorization", token}}});
+        return api
+            .intake({.method = "POST",
+                     .target = path,
+                     .version = "HTTP/1.1",
+                     .path = path,
+                     .headers = {{"host", host}, {"authorization", token}}})
+            .body_limit_bytes;
     };
     const std::size_t small = limit("/api/commands/stop", "Bearer operate-token-0123", "localhost");
     EXPECT_GT(limit("/api/program", "Bearer operate-token-0123", "localhost"), 100 * small);
     EXPECT_EQ(limit("/api/program", "Bearer view-token-0123456", "localhost"), small);
-    EXPECT_EQ(limit("/api/program", "Bearer operate-token-0123", "evil.example"), small);
+    EXPECT_EQ(limit("/api/program", "Bearer operate-token-0123", "evil.example"), 0U);
 }
 
 TEST_F(Interface, AStreamCountsAsAViewerUntilItEnds) {
@@ -162,6 +139,55 @@ TEST_F(Interface, AStreamCountsAsAViewerUntilItEnds) {
         EXPECT_EQ(port.operators, 0);
     }
     EXPECT_THAT(port.asked, ElementsAre("end -1", "end -2"));
+}
+
+TEST_F(Interface, AJogMayNameOnlyAnOpenStream) {
+    const Response events = ask("GET", "/api/events");
+    const auto stream = std::get<std::shared_ptr<ByteStream>>(events.body);
+    std::array<char, 200> first{};
+    const std::string text(first.data(), stream->read(first).value());
+    const std::size_t begin = text.find("{\"stream\":\"") + 11;
+    const std::string name = text.substr(begin, text.find('"', begin) - begin);
+    const auto jog = [&](const std::string& jogs, const std::string& to) {
+        return ask("POST", "/api/commands/jog", R"({"jogs":)" + jogs + R"(,"stream":")" + to + "\"}");
+    };
+    const std::string press = R"([{"axis":"X","velocity":1}])";
+    EXPECT_EQ(jog(press, name).status, 200) << text;
+    EXPECT_EQ(code(jog(press, name + "0")), "stream-closed");
+    stream->end();
+    const Response closed = jog(press, name);
+    EXPECT_EQ(closed.status, 409);
+    EXPECT_EQ(code(closed), "stream-closed");
+    EXPECT_EQ(jog("[]", name).status, 200) << "a release is never refused";
+    EXPECT_THAT(port.asked, ElementsAre("jog " + name, HasSubstr("end"), "jog " + name));
+}
+
+TEST_F(Interface, WrongTokensLockTheirAddressOutOfAllButStops) {
+    for (int i = 0; i < 10; ++i) { EXPECT_EQ(ask("GET", "/api/state", "", "wrong").status, 401); }
+    for (const char* path : {"/api/state", "/api/session", "/api/events"}) {
+        EXPECT_EQ(code(ask("GET", path)), "too-many-tokens") << path;
+    }
+    EXPECT_EQ(code(ask("POST", "/api/session", R"({"token":"operate-token-0123"})", "")), "too-many-tokens");
+    EXPECT_EQ(code(ask("POST", "/api/commands/run")), "too-many-tokens");
+    for (const char* stop : {"hold", "stop", "estop"}) {
+        EXPECT_EQ(ask("POST", std::string("/api/commands/") + stop).status, 200) << stop;
+        EXPECT_EQ(ask("POST", std::string("/api/commands/") + stop, "", "wrong").status, 429) << stop;
+    }
+    EXPECT_EQ(ask("GET", "/").status, 200) << "the page itself needs no token";
+}
+
+TEST_F(Interface, AnUnclearHeadIsRefusedBeforeItsTokenAndEndsItsConnection) {
+    Request request{
+        .method = "POST", .target = "/api/commands/stop", .version = "HTTP/1.1", .path = "/api/commands/stop"};
+    for (const char* host : {"localhost", "evil.example"}) { request.add_header("Host", host); }
+    request.add_header("Authorization", "Bearer operate-token-0123");
+    EXPECT_TRUE(api.intake(request).is_refused);
+    Response given;
+    api.handle(std::move(request), [&given](Response&& response) { given = std::move(response); });
+    EXPECT_EQ(given.status, 400);
+    EXPECT_EQ(code(given), "bad-head");
+    EXPECT_EQ(header(given, "Connection"), "close");
+    EXPECT_TRUE(port.asked.empty());
 }
 
 TEST_F(Interface, EveryResponseTellsABrowserWhatItMayDo) {
