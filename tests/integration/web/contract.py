@@ -6,8 +6,9 @@ import re
 import jsonschema
 import yaml
 
-# Every path may refuse a request from elsewhere, and a method that it does not have.
-EVERYWHERE = {403: "foreign-", 405: "wrong-method"}
+# Every path may refuse a request from elsewhere, a method that it does not have, a head that is not clear, and a client
+# that sent too many wrong tokens.
+EVERYWHERE = {400: "bad-head", 403: "foreign-", 405: "wrong-method", 429: "too-many-tokens", 505: "bad-head"}
 
 
 class Contract:

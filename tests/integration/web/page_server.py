@@ -167,7 +167,9 @@ def check_mdi(client):
 
 def check_jog(client):
     """A jog moves while it is renewed. Without renewal or page it stops by itself. A late renewal starts nothing."""
-    jog = {"jogs": [{"axis": "X", "velocity": 20}], "stream": "none", "press": 0}
+    streams = [Events(client), Events(client)]
+    own, other = (stream.next()[1]["stream"] for stream in streams)
+    jog = {"jogs": [{"axis": "X", "velocity": 20}], "stream": own, "press": 0}
     for _ in range(200):  # a host that stalls for longer than a jog lasts without a renewal ends it
         answer = client.command("jog", jog)
         if answer.status != 200 or not answer.json()["jogging"]:
@@ -177,9 +179,11 @@ def check_jog(client):
         time.sleep(0.05)
     else:
         expect(False, "it does not move")
-    refused(client.command("jog", {"jogs": [{"axis": "Y", "velocity": 5}], "stream": "other"}), 409, "busy")
+    refused(client.command("jog", {"jogs": [{"axis": "Y", "velocity": 5}], "stream": other}), 409, "busy")
     client.await_state(lambda s: s["mode"] == "Idle" and s["axes"]["X"]["at_rest"], 10)
     refused(client.command("jog", jog), 409, "jog-over")
+    for stream in streams:
+        stream.close()
 
     events = Events(client)
     name = events.next()[1]["stream"]
@@ -188,6 +192,8 @@ def check_jog(client):
     events.close()
     client.await_state(lambda s: s["viewers"] == 0, 10)
     client.await_state(lambda s: s["mode"] == "Idle" and s["axes"]["X"]["at_rest"], 10)
+    for closed in (name, "none"):
+        refused(client.command("jog", {**jog, "stream": closed, "press": 2}), 409, "stream-closed")
 
     jog = {"jogs": [{"axis": "X", "velocity": 10}], "press": 7}
     expect(client.command("jog", jog).status == 200, "no jog")

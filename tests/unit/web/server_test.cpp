@@ -13,6 +13,7 @@
 #include <bit>
 #include <chrono>
 #include <random>
+#include <thread>
 
 #include "clients/channel/bytes.hpp"
 #include "clients/web/api/api.hpp"
@@ -54,6 +55,8 @@ protected:
     static void send_to(const Descriptor& connection, const std::string& bytes) {
         (void)send(connection.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
     }
+    /// The server has neither sent anything nor closed the connection.
+    static bool is_open(const Descriptor& connection) { return wait_for(connection.get(), POLLIN, 0) == 0; }
     /// Everything that comes until the server closes the connection.
     static std::string all_of(const Descriptor& connection) {
         std::string text;
@@ -85,6 +88,12 @@ protected:
             {.tokens = {.view = "view-token-0123456", .operate = "operate-token-0123"}, .hosts = {"localhost"}}};
     Listener listener = listening();
     std::unique_ptr<Server> server = *Server::start(listener, {}, api);
+    std::jthread waking{[this](const std::stop_token& stop) {  // as the machine's thread does it
+        while (!stop.stop_requested()) {
+            server->wake_streams();
+            std::this_thread::sleep_for(50ms);
+        }
+    }};
 };
 
 const std::string kToken = "Authorization: Bearer operate-token-0123";
@@ -111,7 +120,6 @@ TEST_F(OverSockets, ManyConnectionsThatSendNothingDoNotKeepAStopOut) {
     EXPECT_THAT(answer_to(last_request("estop"), 3), StartsWith("HTTP/1.1 200"));
     EXPECT_LT(std::chrono::steady_clock::now() - begin, 5s);
     EXPECT_THAT(asked(), ElementsAre(number_of(CommandKind::Stop), number_of(CommandKind::EmergencyStop)));
-    const auto is_open = [](const Descriptor& one) { return wait_for(one.get(), POLLIN, 0) == 0; };
     EXPECT_LE(static_cast<std::size_t>(std::ranges::count_if(silent, is_open)), ConnectionLimits::kMostUnknown);
 }
 
@@ -126,6 +134,28 @@ TEST_F(OverSockets, AnswersClientsOfAllSortsThatAreClear) {
                           "\r\nContent-Length: 2\r\n\r\n{}"),
                 HasSubstr(" 200 "));
     EXPECT_THAT(asked(), ElementsAre(number_of(CommandKind::Stop)));
+}
+
+TEST_F(OverSockets, EndsAConnectionThatSendsOrReadsTooSlowly) {
+    const std::string stop = "POST /api/commands/stop HTTP/1.1\r\nHost: localhost\r\n" + kJson;
+    std::vector<Descriptor> slow;
+    for (const std::string& begin :
+         {std::string(), "POST /api/comm" + std::string(), stop, stop + "Content-Length: 100\r\n\r\n{",
+          stop + kToken + "\r\nContent-Length: 100\r\n\r\n{",
+          stop + "Transfer-Encoding: chunked\r\n\r\nffffffffffffffff\r\n{"}) {
+        slow.push_back(connected());
+        send_to(slow.back(), begin);
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    while (std::ranges::any_of(slow, is_open) && std::chrono::steady_clock::now() - begin < 2 * kPatience) {
+        for (std::size_t i = 1; i < slow.size(); ++i) {
+            if (is_open(slow[i])) { send_to(slow[i], " "); }
+        }
+        std::this_thread::sleep_for(200ms);
+    }
+    EXPECT_TRUE(std::ranges::none_of(slow, is_open));
+    EXPECT_GE(std::chrono::steady_clock::now() - begin, ConnectionLimits::kPatience - 1s) << "each has its time";
+    EXPECT_THAT(asked(), IsEmpty());
 }
 
 TEST_F(OverSockets, RefusesChunksThatAreNone) {
