@@ -22,8 +22,6 @@ std::unexpected<std::string> failure(const std::string& what) {
 
 }  // namespace
 
-bool has_waiting(const Descriptor& listener) { return wait_for(listener.get(), POLLIN, 0) != 0; }
-
 std::optional<Descriptor> accept_from(const Descriptor& listener) {
     Descriptor connection(accept4(listener.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
     if (!connection.is_open()) { return std::nullopt; }

@@ -9,8 +9,6 @@
 
 namespace lockstep::grbl {
 
-/// Whether a connection waits.
-bool has_waiting(const Descriptor& listener);
 /// Accepts a waiting connection; nullopt if none waits.
 std::optional<Descriptor> accept_from(const Descriptor& listener);
 /// The address of the other side; empty if not known.

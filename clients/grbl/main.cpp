@@ -6,6 +6,7 @@
 
 #include "clients/channel/listener.hpp"
 #include "clients/grbl/channel.hpp"
+#include "clients/grbl/lobby.hpp"
 #include "clients/grbl/machine_link.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/output.hpp"
@@ -18,6 +19,8 @@ namespace {
 
 using namespace lockstep;
 using namespace std::chrono_literals;
+
+constexpr auto kSilence = 30s;  // after it, an idle sender that sends nothing gives way to another
 
 struct Options {
     std::string machine_file;
@@ -55,15 +58,15 @@ void carry_out(grbl::MachineLink& link, grbl::Grbl& protocol) {
 
 /// The places at which senders connect.
 struct Doors {
-    Descriptor listener;
+    grbl::Lobby lobby;
     std::optional<grbl::Terminal> terminal;
 
-    bool has_next() const { return grbl::has_waiting(listener) || (terminal && terminal->is_used()); }
+    bool has_next() { return lobby.has_speaker() || (terminal && terminal->is_used()); }
 };
 
 /// Call when a sender has left. Waits until the machine has run the lines that it has begun, and spindle and coolant
 /// are switched off. Returns true if the next sender came before they were switched off.
-bool see_off(grbl::MachineLink& link, grbl::Grbl& protocol, const Doors& doors, const StopSignal& stop) {
+bool see_off(grbl::MachineLink& link, grbl::Grbl& protocol, Doors& doors, const StopSignal& stop) {
     protocol.leave();
     link.leave();
     const auto begin = monotonic_now();
@@ -80,7 +83,7 @@ bool see_off(grbl::MachineLink& link, grbl::Grbl& protocol, const Doors& doors, 
 
 /// Serves one sender until it leaves, a signal comes, or the machine's configuration changes. `is_to_switch_off`: the
 /// previous sender left spindle or coolant on. Returns whether this sender did.
-bool serve(const Descriptor& sender, const Doors& doors, bool is_to_switch_off, const ChosenMachine& machine,
+bool serve(const Descriptor& sender, bool is_greeted, Doors& doors, bool is_to_switch_off, const ChosenMachine& machine,
            Session& session, const Options& options, const StopSignal& stop) {
     grbl::SettingsStore settings(machine);
     grbl::MachineLink link(session, settings, options.take);
@@ -89,35 +92,40 @@ bool serve(const Descriptor& sender, const Doors& doors, bool is_to_switch_off, 
     if (is_to_switch_off) { protocol.switch_off_at_rest(); }
     Renewal renewal(options.machine_file);
     link.pass(50ms, protocol);
-    protocol.greet();
+    is_greeted ? protocol.begin() : protocol.greet();
+    auto heard = monotonic_now();
     while (!stop.requested()) {
         const auto bytes = read_from(sender, 2ms);
         if (!bytes) { break; }
+        if (!bytes->empty()) { heard = monotonic_now(); }
         protocol.receive(*bytes);
         carry_out(link, protocol);
         link.pass(2ms, protocol);
         if (!write_to(sender, protocol.take_output()) || renewal.is_due(session)) { break; }
-        if (const auto second = grbl::accept_from(doors.listener)) {
-            (void)write_to(*second, "[MSG:another sender is connected]\r\n");
+        if (monotonic_now() - heard < kSilence || !link.is_idle()) {
+            doors.lobby.turn_away("[MSG:another sender is connected]\r\n");
+        } else if (doors.lobby.has_speaker()) {
+            (void)write_to(sender, "[MSG:another sender has connected while this one was silent]\r\n");
+            break;
         }
     }
     return see_off(link, protocol, doors, stop);
 }
 
 /// Serves senders one after another until a signal comes or the machine's configuration changes.
-void serve_all(const Doors& doors, const ChosenMachine& machine, Session& session, const Options& options,
+void serve_all(Doors& doors, const ChosenMachine& machine, Session& session, const Options& options,
                const StopSignal& stop) {
     Renewal renewal(options.machine_file);
     bool is_to_switch_off = false;
     while (!stop.requested() && !renewal.is_due(session)) {
-        if (const auto sender = grbl::accept_from(doors.listener)) {
+        if (const auto sender = doors.lobby.take_speaker()) {
             session.write_as(writer_at(grbl::peer_of(*sender)));
-            is_to_switch_off = serve(*sender, doors, is_to_switch_off, machine, session, options, stop);
+            is_to_switch_off = serve(*sender, true, doors, is_to_switch_off, machine, session, options, stop);
         }
         if (doors.terminal && doors.terminal->is_used()) {
             session.write_as(writer_at(options.terminal));
             is_to_switch_off =
-                serve(doors.terminal->descriptor(), doors, is_to_switch_off, machine, session, options, stop);
+                serve(doors.terminal->descriptor(), false, doors, is_to_switch_off, machine, session, options, stop);
         }
         session.receive(20ms);
     }
@@ -129,7 +137,7 @@ int run(const Options& options) {
     if (!machine) { return output.fail(machine.error()); }
     const auto listener = listen_at(options.address, options.port);
     if (!listener) { return output.fail(failed(listener.error())); }
-    Doors doors{.listener = Descriptor(listener->socket), .terminal = {}};
+    Doors doors{.lobby = grbl::Lobby(Descriptor(listener->socket)), .terminal = {}};
     if (!options.terminal.empty()) {
         auto opened = grbl::Terminal::open(options.terminal);
         if (!opened) { return output.fail(failed(opened.error())); }

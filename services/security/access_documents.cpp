@@ -1,6 +1,7 @@
 #include "services/security/access_documents.hpp"
 
 #include <algorithm>
+#include <ctime>
 
 #include "services/wire/dds/partitions.hpp"
 
@@ -30,6 +31,26 @@ std::string rule(const char* what, const Member& member, const std::vector<Role>
     return element(what, element("topics", topics) + element("partitions", places));
 }
 
+constexpr const char* kTimeFormat = "%Y-%m-%dT%H:%M:%S";  // in UTC
+
+std::string xml_time(std::chrono::sys_seconds time) {
+    const std::time_t seconds = time.time_since_epoch().count();
+    std::tm parts{};
+    gmtime_r(&seconds, &parts);
+    char text[32];
+    (void)std::strftime(text, sizeof text, kTimeFormat, &parts);
+    return text;
+}
+
+std::optional<std::chrono::sys_seconds> time_in(const std::string& xml, const std::string& name) {
+    const std::size_t at = xml.find("<" + name + ">");
+    std::tm parts{};
+    if (at == xml.npos || strptime(xml.c_str() + at + name.size() + 2, kTimeFormat, &parts) == nullptr) {
+        return std::nullopt;
+    }
+    return std::chrono::sys_seconds(std::chrono::seconds(timegm(&parts)));
+}
+
 }  // namespace
 
 std::string governance_xml(const MachineConfig& machine) {
@@ -57,12 +78,18 @@ std::string allow_rule_xml(const MachineConfig& machine, const Member& member) {
 }
 
 std::string permissions_xml(const MachineConfig& machine, const Member& member, const std::string& subject,
-                            const Validity& validity) {
+                            const Period& valid) {
     const std::string grant =
         element("subject_name", subject) +
-        element("validity", element("not_before", validity.from) + element("not_after", validity.until)) +
+        element("validity", element("not_before", xml_time(valid.from)) + element("not_after", xml_time(valid.until))) +
         allow_rule_xml(machine, member) + element("default", "DENY");
     return kHead + element("permissions", "<grant name=\"" + member.name + "\">\n" + grant + "</grant>\n") + "</dds>\n";
+}
+
+std::optional<Period> period_in(const std::string& permissions_xml) {
+    const auto from = time_in(permissions_xml, "not_before");
+    const auto until = time_in(permissions_xml, "not_after");
+    return from && until ? std::optional(Period{*from, *until}) : std::nullopt;
 }
 
 }  // namespace lockstep

@@ -1,9 +1,11 @@
 // Makes the two documents of DDS Security's access control, as XML to be signed (OMG DDS Security 1.1, 9.4.1).
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "core/machine.hpp"
+#include "services/security/certificates.hpp"
 #include "services/security/rights.hpp"
 
 namespace lockstep {
@@ -13,17 +15,15 @@ namespace lockstep {
 /// another's name.
 std::string governance_xml(const MachineConfig& machine);
 
-struct Validity {
-    std::string from;   // UTC, such as 2030-01-31T00:00:00
-    std::string until;  // the same
-};
-
 /// Returns the core of the permissions: the topics that one member may write and read.
 std::string allow_rule_xml(const MachineConfig& machine, const Member& member);
 
 /// Returns a member's permissions, which deny everything else. `subject` is the certificate's subject in the format of
 /// RFC 2253.
 std::string permissions_xml(const MachineConfig& machine, const Member& member, const std::string& subject,
-                            const Validity& validity);
+                            const Period& valid);
+
+/// Returns the period for which permissions_xml() made the permissions; nullopt if it finds none.
+std::optional<Period> period_in(const std::string& permissions_xml);
 
 }  // namespace lockstep

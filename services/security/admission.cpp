@@ -12,7 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::chrono::days kNearEnd{30};
 constexpr mode_t kForbidden = S_IRWXO | S_IWGRP | S_IXGRP;  // the services' group may read
 
 /// Checks one file after the other and notes the errors.
@@ -39,19 +38,40 @@ public:
         if (::stat(path.c_str(), &facts) != 0 || (facts.st_mode & (S_IWOTH | S_IWGRP)) == 0) { return; }
         wrong(path, "other users may replace the files in this directory", "chmod go-w " + path.string());
     }
-    void look_at_dates(const fs::path& path, std::chrono::sys_seconds now) {
-        if (!check_.certificate) { return; }
-        const auto [from, until] = std::pair(check_.certificate->from, check_.certificate->until);
-        if (now < from) { wrong(path, "is valid only from " + time_text(from), "set this host's clock"); }
-        if (now >= until) { wrong(path, "expired on " + time_text(until), kRenew); }
-        if (now < until && until - now < kNearEnd) {
-            check_.warnings.push_back(path.string() + ": expires on " + time_text(until) + "; " + kRenew);
+    /// Notes how long a file is valid. `what`: "the certificate of axis-X".
+    void date(const fs::path& path, const std::string& what, const std::optional<Period>& valid) {
+        if (!valid) { return; }
+        if (!latest_ || valid->from > latest_->valid.from) { latest_ = {path, what, *valid}; }
+        if (!earliest_ || valid->until < earliest_->valid.until) { earliest_ = {path, what, *valid}; }
+    }
+    /// Reports the file that expires first, and the one that is valid last.
+    void look_at_dates(std::chrono::sys_seconds now) {
+        if (!latest_ || !earliest_) { return; }
+        check_.until = earliest_->valid.until;
+        const std::string clock = "; this host's clock says " + time_text(now);
+        if (now < latest_->valid.from) {
+            wrong(latest_->path, latest_->what + " is valid only from " + time_text(latest_->valid.from) + clock,
+                  "set this host's clock");
+        }
+        const std::string end = time_text(*check_.until);
+        if (now >= *check_.until) {
+            wrong(earliest_->path, earliest_->what + " expired on " + end + clock,
+                  std::string(kRenew) + "; if that clock is wrong, set it");
+        } else if (*check_.until - now < kNearEnd) {
+            check_.warnings.push_back(earliest_->path.string() + ": " + earliest_->what + " expires on " + end +
+                                      "; then " + member_.name +
+                                      " can no longer join, and leaves a machine that is up; " + kRenew);
         }
     }
     void certificate(const fs::path& path, const std::string& pem) {
         auto facts = read_certificate(pem);
         if (!facts) { return wrong(path, facts.error(), kRenew); }
         check_.certificate = *std::move(facts);
+        date(path, "the certificate of " + member_.name, check_.certificate->valid);
+    }
+    void authority(const fs::path& path, const std::string& what, const std::string& pem) {
+        const auto facts = read_certificate(pem);
+        if (facts) { date(path, what, facts->valid); }
     }
     template <typename Outcome>
     void require(const fs::path& path, const Outcome& outcome) {
@@ -76,9 +96,16 @@ private:
                                 what + "; " + remedy);
     }
 
+    struct Dated {
+        fs::path path;
+        std::string what;
+        Period valid;
+    };
     const MachineConfig& machine_;
     const Member& member_;
     MemberCheck check_;
+    std::optional<Dated> latest_;    // the file that is valid last
+    std::optional<Dated> earliest_;  // the file that expires first
 };
 
 }  // namespace
@@ -97,7 +124,13 @@ MemberCheck check_member(const MachineConfig& machine, const fs::path& directory
     look.look_at_key_mode(files.private_key);
     for (const char* ca : {"identity-ca.key", "permissions-ca.key"}) { look.look_at_key_mode(directory / "ca" / ca); }
     if (!certificate.empty()) { look.certificate(files.certificate, certificate); }
-    look.look_at_dates(files.certificate, now);
+    look.authority(files.identity_ca, "the certificate of the authority for identities", identity_ca);
+    look.authority(files.permissions_ca, "the certificate of the authority for permissions", permissions_ca);
+    const auto signed_permissions = signed_content(permissions, permissions_ca);
+    if (signed_permissions) {
+        look.date(files.permissions, "the permissions of " + member.name, period_in(*signed_permissions));
+    }
+    look.look_at_dates(now);
     if (!certificate.empty() && !identity_ca.empty()) {
         look.require(files.certificate, check_certificate(certificate, identity_ca));
     }
@@ -107,8 +140,7 @@ MemberCheck check_member(const MachineConfig& machine, const fs::path& directory
         look.require_content(files.governance, signed_content(governance, permissions_ca), governance_xml(machine));
     }
     if (!permissions.empty()) {
-        look.require_content(files.permissions, signed_content(permissions, permissions_ca),
-                             allow_rule_xml(machine, member));
+        look.require_content(files.permissions, signed_permissions, allow_rule_xml(machine, member));
     }
     return look.done();
 }

@@ -16,10 +16,13 @@
 
 namespace lockstep {
 
+inline constexpr std::chrono::days kNearEnd{30};
+
 struct MemberCheck {
     std::vector<std::string> errors;    // each names the file and the remedy
-    std::vector<std::string> warnings;  // a near expiry
+    std::vector<std::string> warnings;  // one of the files expires within kNearEnd
     std::optional<CertificateFacts> certificate;
+    std::optional<std::chrono::sys_seconds> until;  // when the first of the member's files expires
 };
 
 MemberCheck check_member(const MachineConfig& machine, const std::filesystem::path& directory, const Member& member,

@@ -74,14 +74,16 @@ bool set_serial(X509* certificate) {
     return number && BN_to_ASN1_INTEGER(number.get(), X509_get_serialNumber(certificate)) != nullptr;
 }
 
-/// The certificate is valid from one day ago, since hosts' clocks differ.
-bool fill(X509* certificate, const Subject& subject, EVP_PKEY* key, X509* issuer, std::chrono::days valid) {
-    constexpr long kDay_s = 86400;
+bool set_time(ASN1_TIME* time, std::chrono::sys_seconds to) {
+    return ASN1_TIME_set(time, to.time_since_epoch().count()) != nullptr;
+}
+
+bool fill(X509* certificate, const Subject& subject, EVP_PKEY* key, X509* issuer, const Period& valid) {
     X509_NAME* name = X509_get_subject_name(certificate);
     return X509_set_version(certificate, kVersion3) == 1 && set_serial(certificate) &&
-           X509_gmtime_adj(X509_getm_notBefore(certificate), -kDay_s) != nullptr &&
-           X509_time_adj_ex(X509_getm_notAfter(certificate), static_cast<int>(valid.count()), 0, nullptr) != nullptr &&
-           add_name(name, "O", subject.organization) && add_name(name, "CN", subject.name) &&
+           set_time(X509_getm_notBefore(certificate), valid.from) &&
+           set_time(X509_getm_notAfter(certificate), valid.until) && add_name(name, "O", subject.organization) &&
+           add_name(name, "CN", subject.name) &&
            X509_set_issuer_name(certificate, X509_get_subject_name(issuer)) == 1 &&
            X509_set_pubkey(certificate, key) == 1;
 }
@@ -126,7 +128,7 @@ struct Signer::Parts {
 namespace {
 
 /// `authority` is null for a self-signed certificate.
-std::expected<Signer, std::string> make(const Subject& subject, const Signer* authority, std::chrono::days valid) {
+std::expected<Signer, std::string> make(const Subject& subject, const Signer* authority, const Period& valid) {
     auto parts = std::make_shared<Signer::Parts>();
     parts->key.reset(EVP_EC_gen("P-256"));
     parts->certificate.reset(X509_new());
@@ -155,11 +157,16 @@ std::string Signer::key_pem() const {
     return text_of(out);
 }
 
-std::expected<Signer, std::string> make_authority(const Subject& subject, std::chrono::days valid) {
+Period valid_for(std::chrono::days days) {
+    const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+    return {now - std::chrono::days(1), now + days};
+}
+
+std::expected<Signer, std::string> make_authority(const Subject& subject, const Period& valid) {
     return make(subject, nullptr, valid);
 }
 
-std::expected<Signer, std::string> issue(const Subject& subject, const Signer& authority, std::chrono::days valid) {
+std::expected<Signer, std::string> issue(const Subject& subject, const Signer& authority, const Period& valid) {
     return make(subject, &authority, valid);
 }
 
@@ -184,6 +191,7 @@ std::expected<std::string, std::string> signed_content(const std::string& signed
     if (!signature || !authority || !store || X509_STORE_add_cert(store.get(), authority.get()) != 1) {
         return failed("is not a signed document");
     }
+    X509_STORE_set_flags(store.get(), X509_V_FLAG_NO_CHECK_TIME);
     const Bio out = writer();
     if (PKCS7_verify(signature.get(), nullptr, store.get(), content, out.get(), PKCS7_TEXT) != 1) {
         return failed("the signature is not valid");
@@ -196,10 +204,10 @@ std::expected<std::string, std::string> signed_content(const std::string& signed
 std::expected<CertificateFacts, std::string> read_certificate(const std::string& pem) {
     const Certificate certificate = certificate_of(pem);
     if (!certificate) { return failed("is not a certificate in PEM"); }
-    return CertificateFacts{.subject = subject_of(certificate.get()),
-                            .fingerprint = fingerprint_of(certificate.get()),
-                            .from = time_of(X509_get0_notBefore(certificate.get())),
-                            .until = time_of(X509_get0_notAfter(certificate.get()))};
+    return CertificateFacts{
+        .subject = subject_of(certificate.get()),
+        .fingerprint = fingerprint_of(certificate.get()),
+        .valid = {time_of(X509_get0_notBefore(certificate.get())), time_of(X509_get0_notAfter(certificate.get()))}};
 }
 
 std::expected<void, std::string> check_certificate(const std::string& pem, const std::string& authority_pem) {

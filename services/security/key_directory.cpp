@@ -35,22 +35,19 @@ private:
     std::expected<void, std::string> done_;
 };
 
-std::string xml_time(std::chrono::sys_seconds time) { return time_text(time).substr(0, 19); }
-
 void write_member(Writing& writing, const MachineConfig& machine, const Member& member, const Signer& identity_ca,
-                  const Signer& permissions_ca, std::chrono::days valid) {
+                  const Signer& permissions_ca, const Period& valid) {
     const auto signer = issue({machine.name, member.name}, identity_ca, valid);
     if (!signer) { return writing.file(member.name + ".pem", std::unexpected(signer.error()), kPublic); }
     const auto facts = read_certificate(signer->certificate_pem());
-    const Validity validity{xml_time(facts->from), xml_time(facts->until)};
     writing.file(member.name + ".pem", signer->certificate_pem(), kPublic);
     writing.file(member.name + ".key", signer->key_pem(), kPrivate);
-    writing.file(member.name + ".p7s", sign(permissions_xml(machine, member, facts->subject, validity), permissions_ca),
-                 kPublic);
+    writing.file(member.name + ".p7s",
+                 sign(permissions_xml(machine, member, facts->subject, facts->valid), permissions_ca), kPublic);
 }
 
 std::expected<void, std::string> write_all(const MachineConfig& machine, const fs::path& directory,
-                                           std::chrono::days valid) {
+                                           const Period& valid) {
     const auto identity_ca = make_authority({machine.name, "identities"}, valid);
     const auto permissions_ca = make_authority({machine.name, "permissions"}, valid);
     if (!identity_ca) { return std::unexpected(identity_ca.error()); }
@@ -118,7 +115,7 @@ Credentials credentials_in(const fs::path& directory, const Member& member) {
 }
 
 std::expected<MadeKeys, std::string> make_keys(const MachineConfig& machine, const fs::path& directory,
-                                               std::chrono::days valid, bool replace) {
+                                               const Period& valid, bool replace) {
     std::error_code error;
     const bool is_occupied = fs::exists(directory, error) && !fs::is_empty(directory, error);
     if (is_occupied && !replace) {

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "core/machine.hpp"
+#include "services/security/certificates.hpp"
 #include "services/security/rights.hpp"
 #include "services/wire/dds/participant.hpp"
 
@@ -29,6 +30,6 @@ struct MadeKeys {
 /// Makes the keys of all members_of(machine), either completely or not at all. Error: the directory is not empty and
 /// `replace` is not set; or the file and the reason.
 std::expected<MadeKeys, std::string> make_keys(const MachineConfig& machine, const std::filesystem::path& directory,
-                                               std::chrono::days valid, bool replace);
+                                               const Period& valid, bool replace);
 
 }  // namespace lockstep

@@ -1,4 +1,4 @@
-# short_fuzz(NAME RUNS NUMBER SOURCES ... SEEDS ...) adds a test that gives tests/fuzz/NAME.cpp the texts that libFuzzer
+# short_fuzz(NAME RUNS NUMBER SOURCES ... SEEDS ... [LIBS ...]) adds a test that gives tests/fuzz/NAME.cpp the texts that libFuzzer
 # makes of the seeds. The number of texts and the random seed are fixed, so every run is the same. Only these sources
 # are built with clang and its sanitizers. tests/fuzz/run searches for longer.
 find_program(FUZZ_CLANG clang++-19)
@@ -10,7 +10,8 @@ function(short_fuzz target)
   if(NOT FUZZ_CLANG)
     return()
   endif()
-  cmake_parse_arguments(ARG "" "RUNS" "SOURCES;SEEDS" ${ARGN})
+  cmake_parse_arguments(ARG "" "RUNS" "SOURCES;SEEDS;LIBS" ${ARGN})
+  list(TRANSFORM ARG_LIBS PREPEND -l)
   set(sanitize -fsanitize=address,undefined -fno-sanitize-recover=all)
   set(program ${CMAKE_CURRENT_BINARY_DIR}/fuzz_${target})
   set(all ${program}.cpp)  # one file, since the headers take most of the compiler's time
@@ -22,7 +23,7 @@ function(short_fuzz target)
     COMMAND ${CMAKE_CXX_COMPILER_LAUNCHER} ${FUZZ_CLANG} -std=c++23 -O1 -g1 -I${PROJECT_SOURCE_DIR} ${sanitize}
             -fsanitize=fuzzer-no-link -MD -MF ${program}.d -c ${all} -o ${program}.o)
   add_custom_command(OUTPUT ${program} DEPENDS ${program}.o
-    COMMAND ${FUZZ_CLANG} ${sanitize} -fsanitize=fuzzer ${program}.o -lfmt -o ${program})
+    COMMAND ${FUZZ_CLANG} ${sanitize} -fsanitize=fuzzer ${program}.o -lfmt ${ARG_LIBS} -o ${program})
   add_custom_target(short_fuzz_${target} ALL DEPENDS ${program})
   list(JOIN ARG_SEEDS "," seeds)
   add_test(NAME fuzz.${target} COMMAND ${program} -seed_inputs=${seeds} -seed=1 -runs=${ARG_RUNS} -max_len=4096 -timeout=60

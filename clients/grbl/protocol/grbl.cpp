@@ -10,7 +10,6 @@
 namespace lockstep::grbl {
 namespace {
 
-constexpr const char* kGreeting = "Grbl 1.1h ['$' for help]";
 // Real-time bytes.
 constexpr unsigned char kSoftReset = 0x18;
 constexpr unsigned char kDoor = 0x84;
@@ -41,6 +40,10 @@ Grbl::Grbl(const MachineConfig& machine, std::string version)
 void Grbl::greet() {
     output_ += "\r\n";
     say(kGreeting);
+    begin();
+}
+
+void Grbl::begin() {
     report_.restart();
     if (state() == State::Alarm) { say("[MSG:'$H'|'$X' to unlock]"); }
 }

@@ -18,13 +18,17 @@
 
 namespace lockstep::grbl {
 
+inline constexpr const char* kGreeting = "Grbl 1.1h ['$' for help]";
+
 class Grbl {
 public:
     /// `version`: Lockstep's version, for $I.
     Grbl(const MachineConfig& machine, std::string version);
 
-    /// Greets a sender that has connected.
+    /// Greets a sender that has connected, and begins.
     void greet();
+    /// Begins with a sender that was greeted when it connected.
+    void begin();
     void receive(std::string_view bytes);
     /// Sets the current state of the machine.
     void see(const MachineView& view);

@@ -24,8 +24,8 @@ proto::MemberKeys member_keys(const Member& member, const MemberCheck& check, st
     if (!check.certificate) { return keys; }
     keys.set_subject(check.certificate->subject);
     keys.set_fingerprint(check.certificate->fingerprint);
-    keys.set_until(time_text(check.certificate->until));
-    keys.set_days_left(static_cast<int>(std::chrono::floor<std::chrono::days>(check.certificate->until - now).count()));
+    keys.set_until(time_text(*check.until));
+    keys.set_days_left(static_cast<int>(std::chrono::floor<std::chrono::days>(*check.until - now).count()));
     return keys;
 }
 

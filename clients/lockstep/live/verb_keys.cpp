@@ -76,7 +76,7 @@ ExitCode make(const KeysOptions& options) {
     const auto keys = choose_keys(options);
     if (!keys) { return output.fail(keys.error()); }
     const MachineConfig& machine = keys->machine.config;
-    const auto made = make_keys(machine, keys->directory, std::chrono::days(options.days), options.force);
+    const auto made = make_keys(machine, keys->directory, valid_for(std::chrono::days(options.days)), options.force);
     if (!made) { return output.fail(failed(made.error())); }
     proto::KeysReport report = keys_report(machine, keys->directory);
     if (!made->replaced.empty()) { report.set_replaced(made->replaced); }

@@ -27,8 +27,8 @@ bool make_benchmark_keys(const NetworkConfig& network, const std::filesystem::pa
     machine.name = "benchmark";
     machine.network = network;
     constexpr std::chrono::days kValid{1};
-    if (!make_keys(machine, directory, kValid, false)) { return false; }
-    const auto authority = make_authority({machine.name, "permissions"}, kValid);
+    if (!make_keys(machine, directory, valid_for(kValid), false)) { return false; }
+    const auto authority = make_authority({machine.name, "permissions"}, valid_for(kValid));
     const std::string subject = "CN=client,O=" + machine.name;
     const Credentials files = benchmark_credentials(directory);
     std::ofstream(files.permissions_ca) << authority->certificate_pem();

@@ -22,22 +22,21 @@ protected:
     /// Keys for the same names, from the foreign peer's own authority.
     fs::path forged_keys() const {
         const fs::path forged = folder() / "forged";
-        EXPECT_TRUE(make_keys(config(), forged, std::chrono::days(30), false));
+        EXPECT_TRUE(make_keys(config(), forged, valid_for(std::chrono::days(30)), false));
         return forged;
     }
     /// A member's true certificate and key, with permissions that the peer signed itself.
     fs::path keys_with_own_permissions(const std::string& member, const std::string& as) const {
         const fs::path mixed = folder() / "mixed";
-        EXPECT_TRUE(make_keys(config(), mixed, std::chrono::days(30), false));
+        EXPECT_TRUE(make_keys(config(), mixed, valid_for(std::chrono::days(30)), false));
         for (const char* file : {".pem", ".key"}) {
             fs::copy_file(keys() / (member + file), mixed / (member + file), fs::copy_options::overwrite_existing);
         }
         fs::copy_file(keys() / "identity-ca.pem", mixed / "identity-ca.pem", fs::copy_options::overwrite_existing);
         const MachineConfig machine = config();
-        const auto own = make_authority({machine.name, "permissions"}, std::chrono::days(30));
-        const std::string wanted =
-            permissions_xml(machine, {as, Role::Client, {}}, "CN=" + member + ",O=" + machine.name,
-                            {"2020-01-01T00:00:00", "2100-01-01T00:00:00"});
+        const auto own = make_authority({machine.name, "permissions"}, valid_for(std::chrono::days(30)));
+        const std::string wanted = permissions_xml(
+            machine, {as, Role::Client, {}}, "CN=" + member + ",O=" + machine.name, valid_for(std::chrono::days(30)));
         std::ofstream(mixed / "permissions-ca.pem") << own->certificate_pem();
         std::ofstream(mixed / "governance.p7s") << sign(governance_xml(machine), *own).value();
         std::ofstream(mixed / (member + ".p7s")) << sign(wanted, *own).value();

@@ -31,7 +31,7 @@ protected:
 
     fs::path keys() const { return machine_.security.directory; }
     void make(std::chrono::days valid = std::chrono::days(365)) const {
-        const auto made = make_keys(machine_, keys(), valid, false);
+        const auto made = make_keys(machine_, keys(), valid_for(valid), false);
         ASSERT_TRUE(made) << made.error();
     }
     std::vector<std::string> errors_of(const Member& member, std::chrono::days later = {}) const {
@@ -99,7 +99,7 @@ TEST_F(Keys, ExpireOnTheirDateAndWarnBefore) {
 
 TEST_F(Keys, OfAnotherRunAreNotMixed) {
     make();
-    ASSERT_TRUE(make_keys(machine_, folder_ / "others", std::chrono::days(365), false));
+    ASSERT_TRUE(make_keys(machine_, folder_ / "others", valid_for(std::chrono::days(365)), false));
     for (const char* file : {"client.pem", "client.p7s"}) {
         fs::copy_file(folder_ / "others" / file, keys() / file, fs::copy_options::overwrite_existing);
     }
@@ -119,11 +119,11 @@ TEST_F(Keys, AreMadeForOneMachineAndItsOrderOfAxes) {
 
 TEST_F(Keys, AreNeverOverwrittenUnasked) {
     make();
-    const auto again = make_keys(machine_, keys(), std::chrono::days(1), false);
+    const auto again = make_keys(machine_, keys(), valid_for(std::chrono::days(1)), false);
     ASSERT_FALSE(again);
     EXPECT_THAT(again.error(), HasSubstr("--force"));
     EXPECT_THAT(errors_of(client_member()), IsEmpty());
-    const auto replaced = make_keys(machine_, keys(), std::chrono::days(365), true);
+    const auto replaced = make_keys(machine_, keys(), valid_for(std::chrono::days(365)), true);
     ASSERT_TRUE(replaced) << replaced.error();
     EXPECT_TRUE(fs::exists(fs::path(replaced->replaced) / "ca" / "identity-ca.key")) << "nothing is lost";
 }

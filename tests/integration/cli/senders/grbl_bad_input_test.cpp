@@ -74,6 +74,30 @@ TEST_F(BrokenSender, BesideAnotherDoesNotDisturbItsMotion) {
     goes_on(sender, 30);
 }
 
+TEST_F(BrokenSender, ThatSendsNothingKeepsNoOtherOut) {
+    ASSERT_EQ(run_lockstep({"home"}).code, 0);
+    std::vector<Sender> silent;
+    for (int i = 0; i < 200; ++i) {
+        silent.push_back(connected());
+        if (i % 50 > 0) { continue; }
+        Sender sender = connected();
+        EXPECT_TRUE(eventually([&] { return sender.status().starts_with("Idle"); })) << "beside " << i + 1;
+    }
+}
+
+TEST_F(BrokenSender, ThatFallsSilentGivesWayToAnother) {
+    Sender silent = ready();
+    {
+        auto second = Sender::over_tcp();
+        ASSERT_TRUE(second);
+        EXPECT_TRUE(second->receives("another sender is connected"));
+    }
+    std::this_thread::sleep_for(31s);
+    Sender second = connected();
+    EXPECT_TRUE(eventually([&] { return second.status().starts_with("Idle"); }));
+    EXPECT_TRUE(silent.receives("another sender has connected while this one was silent"));
+}
+
 TEST_F(BrokenSender, ThatSendsAMegabyteInOneLineDoesNotDisturbItsMotion) {
     Sender sender = ready();
     begin_rows(sender, 3);
