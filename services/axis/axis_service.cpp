@@ -106,7 +106,7 @@ public:
         tend_network(now);
         end_if_coordinator_clock_restarted();
         report_waiting(now);
-        log_unauthenticated_peers(begun);
+        log_security(begun);
         meter_.loop_took({(monotonic_now() - begun).count() / setup_.machine.tick_ns});
         say_health(skipped_loops);
         return end_reason_.empty();

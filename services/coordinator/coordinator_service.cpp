@@ -82,7 +82,7 @@ public:
         log_writer();
         tend_network(now);
         report_waiting(now);
-        log_unauthenticated_peers(monotonic_now());
+        log_security(monotonic_now());
         return !out.must_quit;
     }
 

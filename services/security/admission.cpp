@@ -146,7 +146,7 @@ MemberCheck check_member(const MachineConfig& machine, const fs::path& directory
 }
 
 std::expected<Admission, std::string> admit(const MachineConfig& machine, const Member& member) {
-    Admission admission{.membership = {.axis = member.axis, .credentials = {}}, .warnings = {}};
+    Admission admission{.membership = {.axis = member.axis, .credentials = {}}, .warnings = {}, .until = {}};
     if (!machine.security.enabled()) { return admission; }
     keep_openssl_alive();
     const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
@@ -154,6 +154,7 @@ std::expected<Admission, std::string> admit(const MachineConfig& machine, const 
     if (!check.errors.empty()) { return std::unexpected(check.errors.front()); }
     admission.membership.credentials = credentials_in(machine.security.directory, member);
     admission.warnings = std::move(check.warnings);
+    admission.until = check.until;
     return admission;
 }
 

@@ -31,6 +31,7 @@ MemberCheck check_member(const MachineConfig& machine, const std::filesystem::pa
 struct Admission {
     Membership membership;
     std::vector<std::string> warnings;
+    std::optional<std::chrono::sys_seconds> until;  // when the first of its files expires; nullopt without security
 };
 
 /// Admits a member with the files that the machine's configuration names. Without security no files are needed. Error:

@@ -15,7 +15,8 @@ namespace lockstep {
 /// Call it after open_log. Error: as admit.
 std::expected<Membership, std::string> admit_service(const MachineConfig& machine, const Member& member);
 
-/// Call it in each loop. Writes unauthenticated peers to the log.
-void log_unauthenticated_peers(std::chrono::nanoseconds now);
+/// Call it in each loop. Writes unauthenticated peers to the log, and the end of this process's keys: once a day in the
+/// last thirty days, and when they have expired.
+void log_security(std::chrono::nanoseconds now);
 
 }  // namespace lockstep

@@ -5,13 +5,16 @@
 #include <filesystem>
 #include <fstream>
 
+#include "services/security/access_documents.hpp"
 #include "services/security/admission.hpp"
+#include "services/security/expiry_watch.hpp"
 #include "services/security/key_directory.hpp"
 
 namespace lockstep {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -95,6 +98,74 @@ TEST_F(Keys, ExpireOnTheirDateAndWarnBefore) {
                 ElementsAre(HasSubstr("expires on")));
     EXPECT_THAT(errors_of(client_member(), std::chrono::days(101)), ElementsAre(HasSubstr("expired on")));
     EXPECT_THAT(errors_of(client_member(), std::chrono::days(-3)), ElementsAre(HasSubstr("set this host's clock")));
+}
+
+TEST_F(Keys, NameWhatExpiredTheClockAndTheRemedy) {
+    make(std::chrono::days(100));
+    const auto expired = errors_of(axis_member(machine_, 0), std::chrono::days(101));
+    ASSERT_EQ(expired.size(), 1U);
+    EXPECT_THAT(expired[0],
+                AllOf(HasSubstr("the certificate of axis-X expired on 20"), HasSubstr("this host's clock says 20"),
+                      HasSubstr("lockstep keys make --force"), HasSubstr("if that clock is wrong, set it")));
+    const auto early = errors_of(axis_member(machine_, 0), -std::chrono::days(10 * 365));
+    ASSERT_EQ(early.size(), 1U);
+    EXPECT_THAT(early[0], AllOf(HasSubstr("the certificate of axis-X is valid only from 20"),
+                                HasSubstr("this host's clock says 20"), HasSubstr("set this host's clock")));
+}
+
+TEST_F(Keys, AreValidFromTheFirstSecondToTheLast) {
+    const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+    const Period valid{now - std::chrono::hours(1), now + std::chrono::hours(1)};
+    ASSERT_TRUE(make_keys(machine_, keys(), valid, false));
+    const auto errors_at = [&](std::chrono::sys_seconds time) {
+        return check_member(machine_, keys(), client_member(), time).errors;
+    };
+    EXPECT_THAT(errors_at(valid.from), IsEmpty());
+    EXPECT_THAT(errors_at(valid.from - std::chrono::seconds(1)), ElementsAre(HasSubstr("valid only from")));
+    EXPECT_THAT(errors_at(valid.until - std::chrono::seconds(1)), IsEmpty());
+    EXPECT_THAT(errors_at(valid.until), ElementsAre(HasSubstr("expired on")));
+    EXPECT_EQ(admit(machine_, client_member())->until, valid.until);
+}
+
+/// The authorities and the permissions have ends of their own if they were made in another way.
+TEST_F(Keys, AreJudgedByTheFileThatExpiresFirst) {
+    make(std::chrono::days(365));
+    const Period soon = valid_for(std::chrono::days(50));
+    const auto authority = make_authority({machine_.name, "permissions"}, valid_for(std::chrono::days(365)));
+    const std::string permissions = permissions_xml(machine_, client_member(), "CN=client,O=mill", soon);
+    EXPECT_EQ(period_in(permissions)->until, soon.until);
+    EXPECT_EQ(period_in(permissions)->from, soon.from);
+    std::ofstream(keys() / "permissions-ca.pem") << authority->certificate_pem();
+    std::ofstream(keys() / "governance.p7s") << sign(governance_xml(machine_), *authority).value();
+    std::ofstream(keys() / "client.p7s") << sign(permissions, *authority).value();
+    EXPECT_THAT(errors_of(client_member()), IsEmpty());
+    EXPECT_THAT(errors_of(client_member(), std::chrono::days(51)),
+                ElementsAre(AllOf(HasSubstr("client.p7s: the permissions of client expired on"))));
+
+    const auto short_lived = make_authority({machine_.name, "permissions"}, valid_for(std::chrono::days(20)));
+    std::ofstream(keys() / "permissions-ca.pem") << short_lived->certificate_pem();
+    std::ofstream(keys() / "governance.p7s") << sign(governance_xml(machine_), *short_lived).value();
+    std::ofstream(keys() / "client.p7s") << sign(permissions, *short_lived).value();
+    EXPECT_THAT(
+        errors_of(client_member(), std::chrono::days(21)),
+        ElementsAre(HasSubstr("permissions-ca.pem: the certificate of the authority for permissions expired on")))
+        << "and its signatures are not called wrong";
+}
+
+TEST(ExpiryWatch, RemindsOnceADayInTheLastMonthAndOnceAtTheEnd) {
+    const std::chrono::sys_seconds until(std::chrono::days(20000));
+    ExpiryWatch watch("axis-X", until);
+    EXPECT_FALSE(watch.due(until - std::chrono::days(31)));
+    int reminders = 0;
+    for (auto now = until - std::chrono::days(30); now < until; now += std::chrono::minutes(10)) {
+        const auto text = watch.due(now);
+        reminders += text ? 1 : 0;
+        if (text) { EXPECT_THAT(*text, HasSubstr("the keys of axis-X expire on 2024-10-04T00:00:00Z")); }
+    }
+    EXPECT_EQ(reminders, 30);
+    EXPECT_THAT(watch.due(until).value(),
+                AllOf(HasSubstr("the keys of axis-X expired on"), HasSubstr("keys make --force")));
+    EXPECT_FALSE(watch.due(until + std::chrono::days(100)));
 }
 
 TEST_F(Keys, OfAnotherRunAreNotMixed) {
