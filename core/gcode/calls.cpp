@@ -8,14 +8,19 @@
 namespace lockstep::gcode {
 namespace {
 
-std::string shown_call(const std::string& label) { return "o<" + label + "> call"; }
+std::string shown_call(const OWord& word) { return "o<" + *word.label + "> call"; }
 
 }  // namespace
 
 Result Interpreter::call(Reader& reader, const OWord& word) {
+    if (!word.label) { return std::unexpected(word.label.error()); }
     std::array<double, kArguments> arguments{};
     std::size_t count = 0;
-    while (reader.peek() == '[') {
+    while (!reader.done() && (reader.peek() == '[' || reader.peek() == '(')) {
+        if (reader.peek() == '(') {
+            reader.skip_comment();
+            continue;
+        }
         const std::size_t place = reader.place();
         const double value = reader.expression();
         if (count == kArguments) {
@@ -24,11 +29,11 @@ Result Interpreter::call(Reader& reader, const OWord& word) {
         if (!reader.error()) { arguments[count++] = value; }
     }
     if (auto empty = rest_is_empty(reader); !empty) { return empty; }
-    if (!subroutines_.contains(word.label)) {
+    if (!subroutines_.contains(*word.label)) {
         if (auto found = find_subroutine(word); !found) { return found; }
     }
     if (calls_ >= setup_.limits.call_depth) {
-        return error(word.place, shown_call(word.label) + " is nested deeper than " +
+        return error(word.place, shown_call(word) + " is nested deeper than " +
                                      std::to_string(setup_.limits.call_depth) +
                                      " calls; check that it ends before it calls itself again");
     }
@@ -37,7 +42,7 @@ Result Interpreter::call(Reader& reader, const OWord& word) {
     returned_ = 0;
     parameters_.enter(arguments);
     frames_.push_back(
-        {.body = &subroutines_.find(word.label)->second, .next = 1, .is_call = true, .kept = {}, .repeats = {}});
+        {.body = &subroutines_.find(*word.label)->second, .next = 1, .is_call = true, .kept = {}, .repeats = {}});
     return {};
 }
 
@@ -83,31 +88,31 @@ struct Interpreter::SubroutineText {
 
 /// Searches as LinuxCNC does: in a file of its name, otherwise behind the call.
 Result Interpreter::find_subroutine(const OWord& word) {
-    const auto text = setup_.find_subroutine ? setup_.find_subroutine(word.label) : std::nullopt;
+    const auto text = setup_.find_subroutine ? setup_.find_subroutine(*word.label) : std::nullopt;
     return text ? load(word, *text) : load_later(word);
 }
 
 /// Loads a file with the subroutine's name. The file may contain other subroutines too.
 Result Interpreter::load(const OWord& word, std::string_view text) {
-    const std::string file = word.label + ".ngc";
+    const std::string file = *word.label + ".ngc";
     if (const auto wrong = keep_subroutines({.text = text, .only = {}, .file = file})) {
         return error(word.place, file + ", line " + std::to_string(wrong->line) + ", column " +
                                      std::to_string(wrong->column) + ": " + wrong->message);
     }
-    if (subroutines_.contains(word.label)) { return {}; }
-    return error(word.place, file + " does not contain o<" + word.label + "> sub; name the subroutine like its file");
+    if (subroutines_.contains(*word.label)) { return {}; }
+    return error(word.place, file + " does not contain o<" + *word.label + "> sub; name the subroutine like its file");
 }
 
 Result Interpreter::load_later(const OWord& word) {
     auto wrong =
-        keep_subroutines({.text = setup_.program, .first_line = program_line_ + 1, .only = word.label, .file = {}});
+        keep_subroutines({.text = setup_.program, .first_line = program_line_ + 1, .only = *word.label, .file = {}});
     if (wrong) { return std::unexpected(*std::move(wrong)); }
-    if (subroutines_.contains(word.label)) {
-        called_early_.insert(word.label);
+    if (subroutines_.contains(*word.label)) {
+        called_early_.insert(*word.label);
         return {};
     }
-    return error(word.place, shown_call(word.label) + " calls a subroutine that does not exist; define it" +
-                                 (setup_.find_subroutine ? ", or add a file " + word.label + ".ngc" : ""));
+    return error(word.place, shown_call(word) + " calls a subroutine that does not exist; define it" +
+                                 (setup_.find_subroutine ? ", or add a file " + *word.label + ".ngc" : ""));
 }
 
 /// Stores the subroutines of a text. Ignores errors outside them.
@@ -122,7 +127,8 @@ std::optional<GcodeError> Interpreter::keep_subroutines(const SubroutineText& so
         OWord word;
         if (!wrong && skip_head(line, reader) && reader.peek() == 'O') { word = read_o_word(reader); }
         if (!wrong) { wrong = reader.error(); }
-        const bool begins = word.keyword == Keyword::Sub && (source.only.empty() || word.label == source.only);
+        const bool begins =
+            word.keyword == Keyword::Sub && word.label && (source.only.empty() || *word.label == source.only);
         if (!recorder.active() && (wrong || !begins)) {
             wrong.reset();
             return true;

@@ -119,9 +119,9 @@ Result Interpreter::assign() {
 }
 
 Result Interpreter::keep(const OWord& word, std::string_view text) {
-    if (word.keyword == Keyword::Sub && called_early_.contains(word.label)) {
+    if (word.keyword == Keyword::Sub && word.label && called_early_.contains(*word.label)) {
         return error(word.place,
-                     "the subroutine " + word.label +
+                     "the subroutine " + *word.label +
                          " is defined after its call, in lines that the program runs; define it before the call, "
                          "or after M2");
     }
@@ -139,6 +139,7 @@ Result Interpreter::do_o_word(Reader& reader, const OWord& word) {
         if (auto called = call(reader, word); !called) { return called; }
         return do_frames();
     }
+    if (word.keyword == Keyword::Number) { return rest_is_empty(reader); }
     return keep(word, line_.raw());
 }
 

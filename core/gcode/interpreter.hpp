@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/gcode/block.hpp"
@@ -72,6 +73,7 @@ private:
     Result do_frames();
     Result do_kept(Frame& frame, const KeptLine& line);
     Result do_flow(Frame& frame, std::size_t at, Reader& reader);
+    Result note_opening(const OWord& word);
     Result choose_branch(Frame& frame);
     Result go_round(Frame& frame, std::size_t at, Reader& reader);
     Result count_lines();
@@ -99,7 +101,13 @@ private:
     Recorder recorder_;
     std::map<std::string, Body, std::less<>> subroutines_;
     std::set<std::string, std::less<>> called_early_;  // subroutines that are behind their first call
-    int program_line_ = 0;                             // the last line taken of the program itself
+    struct Opening {
+        Keyword keyword;
+        int line;
+    };
+    /// What has opened a branch or a loop with a label. Each subroutine has labels of its own.
+    std::map<std::pair<std::string, std::string>, Opening> openings_;
+    int program_line_ = 0;  // the last line taken of the program itself
     std::vector<Frame> frames_;
     int calls_ = 0;
     std::int64_t repeated_lines_ = 0;

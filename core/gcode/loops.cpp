@@ -41,7 +41,27 @@ Result Interpreter::do_kept(Frame& frame, const KeptLine& kept) {
     const OWord word = read_o_word(reader);
     if (reader.error()) { return std::unexpected(*reader.error()); }
     if (kept.keyword == Keyword::Call) { return call(reader, word); }
+    if (opens(kept.keyword)) {
+        if (auto noted = note_opening(word); !noted) { return noted; }
+    }
     return do_flow(frame, at, reader);
+}
+
+/// A label opens one thing only, of those that run. A do loop may open the label of another do loop again.
+Result Interpreter::note_opening(const OWord& word) {
+    if (!word.label) { return std::unexpected(word.label.error()); }
+    std::string subroutine;
+    for (const Frame& frame : frames_) { subroutine = frame.is_call ? frame.body->label : subroutine; }
+    const auto [before, is_new] =
+        openings_.try_emplace({std::move(subroutine), *word.label}, Opening{word.keyword, line_.number()});
+    const bool is_do_again = word.keyword == Keyword::Do && before->second.keyword == Keyword::Do;
+    if (!is_new && before->second.line != line_.number() && !is_do_again) {
+        return error(word.place, shown_label(word) + " is the label of an earlier O-word, in line " +
+                                     std::to_string(before->second.line) + "; use another label");
+    }
+    if (openings_.size() <= setup_.limits.kept_lines) { return {}; }
+    return error(word.place, shown_label(word) + " is one of more than " + std::to_string(setup_.limits.kept_lines) +
+                                 " labels that the program computes; use fewer");
 }
 
 Result Interpreter::rest_is_empty(Reader& reader) const {

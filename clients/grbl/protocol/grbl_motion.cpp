@@ -11,9 +11,9 @@ namespace lockstep::grbl {
 namespace {
 
 Refused in_refused(const gcode::OWord& body) {
-    return {Error::Unsupported, "this line is within " + gcode::shown_word(body.keyword, body.label) +
+    return {Error::Unsupported, "this line is within " + gcode::shown_word(body) +
                                     ", which was refused, so it is not run either; send the end " +
-                                    gcode::shown_word(gcode::end_of(body.keyword), body.label) + ", or a reset"};
+                                    gcode::shown_word(body, gcode::end_of(body.keyword)) + ", or a reset"};
 }
 
 }  // namespace

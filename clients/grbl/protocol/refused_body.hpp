@@ -16,11 +16,11 @@ public:
     std::optional<gcode::OWord> take(std::string_view line) {
         const auto word = gcode::find_o_word(line);
         if (!open_) {
-            if (word && gcode::opens(word->keyword)) { open_ = word; }
+            if (word && (gcode::opens(word->keyword) || word->keyword == gcode::Keyword::Sub)) { open_ = word; }
             return std::nullopt;
         }
         const auto body = open_;
-        if (word && word->label == body->label && word->keyword == gcode::end_of(body->keyword)) { open_.reset(); }
+        if (word && gcode::same_label(*word, *body) && word->keyword == gcode::end_of(body->keyword)) { open_.reset(); }
         return body;
     }
     void clear() { open_.reset(); }

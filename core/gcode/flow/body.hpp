@@ -2,8 +2,9 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
+#include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,8 +24,8 @@ struct KeptLine {
 };
 
 struct Body {
-    std::string label;
-    std::string file;  // of the subroutine, if it is in a file
+    std::string label;  // of a subroutine
+    std::string file;   // of the subroutine, if it is in a file
     std::vector<KeptLine> lines;
 };
 
@@ -46,8 +47,7 @@ public:
 
 private:
     struct Open {
-        Keyword keyword;
-        std::string label;
+        OWord word;
         std::size_t line;
         std::vector<std::size_t> branches;  // lines that wait for the next branch
         std::vector<std::size_t> exits;     // lines that wait for the end
@@ -55,6 +55,7 @@ private:
     };
 
     std::optional<std::string> open(const OWord& word);
+    std::optional<std::string> open_subroutine(const OWord& word);
     std::optional<std::string> branch(const OWord& word);
     std::optional<std::string> close(const OWord& word);
     std::optional<std::string> leave(const OWord& word);
@@ -63,7 +64,7 @@ private:
 
     Body body_;
     std::vector<Open> open_;
-    std::map<std::pair<std::string, std::string>, Keyword> labels_;  // the keyword that each has opened, by subroutine
+    std::set<std::string, std::less<>> subroutines_;  // the labels of all that have been opened
 };
 
 }  // namespace lockstep::gcode

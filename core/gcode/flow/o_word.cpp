@@ -29,17 +29,34 @@ constexpr std::array kKeywords{
     Named{"CONTINUE", Keyword::Continue},
 };
 
-std::string read_label(Reader& reader) {
-    if (reader.peek() == '<') { return reader.name(); }
+std::expected<std::string, GcodeError> read_number(Reader& reader) {
     const std::size_t begin = reader.place();
     const double number = reader.value();
-    if (reader.error()) { return {}; }
     const double whole = std::round(number);
-    if (std::abs(number - whole) > 1e-4 || whole < 0 || whole > 1e9) {
+    if (!reader.error() && (std::abs(number - whole) > 1e-4 || whole < 0 || whole > 1e9)) {
         reader.fail(begin, "O" + number_text(number) + " is not a label; write a whole number from 0, or <name>");
-        return {};
     }
+    if (reader.error()) { return std::unexpected(*reader.error()); }
     return std::to_string(static_cast<long long>(whole));
+}
+
+void read_label(Reader& reader, OWord& word) {
+    if (reader.peek() == '<') {
+        word.label = reader.name();
+        word.written = "<" + *word.label + ">";
+        return;
+    }
+    Reader evaluation = reader;
+    word.label = read_number(evaluation);
+    word.written = reader.skip_value();
+    if (word.label && is_of_number(word.written.front())) { word.written = *word.label; }
+}
+
+Keyword read_keyword(Reader& reader) {
+    for (const auto& entry : kKeywords) {
+        if (reader.take(entry.name)) { return entry.meaning; }
+    }
+    return reader.done() || reader.peek() == '(' ? Keyword::Number : Keyword::None;
 }
 
 }  // namespace
@@ -49,11 +66,6 @@ std::string_view name_of(Keyword keyword) {
         if (entry.meaning == keyword) { return entry.name; }
     }
     return "";
-}
-
-bool opens(Keyword keyword) {
-    return keyword == Keyword::Sub || keyword == Keyword::If || keyword == Keyword::While || keyword == Keyword::Do ||
-           keyword == Keyword::Repeat;
 }
 
 Keyword end_of(Keyword keyword) {
@@ -66,14 +78,11 @@ Keyword end_of(Keyword keyword) {
     }
 }
 
-std::string shown_label(const std::string& label) {
-    const bool is_number = std::ranges::all_of(label, [](char c) { return c >= '0' && c <= '9'; });
-    return is_number ? "O" + label : "O<" + label + ">";
+std::string shown_word(const OWord& word, Keyword keyword) {
+    return shown_label(word) + " " + std::string(name_of(keyword));
 }
 
-std::string shown_word(Keyword keyword, const std::string& label) {
-    return shown_label(label) + " " + std::string(name_of(keyword));
-}
+std::string shown_word(const OWord& word) { return shown_word(word, word.keyword); }
 
 std::optional<OWord> find_o_word(std::string_view raw) {
     Line line;
@@ -92,20 +101,23 @@ std::optional<OWord> find_o_word(std::string_view raw) {
     return reader.error() ? std::nullopt : std::optional(std::move(word));
 }
 
+bool same_label(const OWord& a, const OWord& b) {
+    return a.written == b.written || (a.label && b.label && *a.label == *b.label);
+}
+
 OWord read_o_word(Reader& reader) {
-    OWord word{.label = {}, .place = reader.place()};
+    OWord word{.written = {}, .place = reader.place(), .label = {}};
     reader.next();
-    word.label = read_label(reader);
+    read_label(reader, word);
     if (reader.error()) { return word; }
-    for (const auto& entry : kKeywords) {
-        if (reader.take(entry.name)) {
-            word.keyword = entry.meaning;
-            return word;
-        }
+    word.keyword = read_keyword(reader);
+    const bool is_unknown = word.keyword == Keyword::None || word.keyword == Keyword::Number;
+    if (is_unknown && !word.label) { reader.fail(word.label.error()); }
+    if (word.keyword == Keyword::None) {
+        reader.fail(reader.place(),
+                    "the O-word has no keyword; write sub, call, return, if, while, do, repeat, break, "
+                    "continue, or the end of one of them");
     }
-    reader.fail(reader.place(),
-                "the O-word has no keyword; write sub, call, return, if, while, do, repeat, break, "
-                "continue, or the end of one of them");
     return word;
 }
 

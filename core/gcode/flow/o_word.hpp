@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <expected>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@ namespace lockstep::gcode {
 
 enum class Keyword : std::uint8_t {
     None,
+    Number,  // the label alone: a program's number, which does nothing
     Sub,
     EndSub,
     Call,
@@ -30,20 +32,31 @@ enum class Keyword : std::uint8_t {
 };
 
 std::string_view name_of(Keyword keyword);
-/// Whether the keyword begins a subroutine, a loop or branches.
-bool opens(Keyword keyword);
+/// Whether it begins a branch or a loop. A while that ends a do loop has this keyword too.
+constexpr bool opens(Keyword keyword) {
+    return keyword == Keyword::If || keyword == Keyword::While || keyword == Keyword::Do || keyword == Keyword::Repeat;
+}
 /// The keyword that ends what `keyword` opens.
 Keyword end_of(Keyword keyword);
-/// "O100", or "O<name>".
-std::string shown_label(const std::string& label);
-/// "O100 WHILE".
-std::string shown_word(Keyword keyword, const std::string& label);
 
 struct OWord {
     Keyword keyword = Keyword::None;
-    std::string label;      // of digits, or a name in small letters
+    std::string written;    // the label as digits, as <name>, or as the expression that computes it
     std::size_t place = 0;  // of the O, in the line
+    /// Digits, or a name in small letters. An error if the label's parameters have no value yet: a body is stored
+    /// before it runs.
+    std::expected<std::string, GcodeError> label;
 };
+
+/// The O and the label as written.
+inline std::string shown_label(const OWord& word) { return "O" + word.written; }
+
+/// "O100 WHILE".
+std::string shown_word(const OWord& word, Keyword keyword);
+std::string shown_word(const OWord& word);
+
+/// Whether two O-words of a body have the same label, as far as that is known before the body runs.
+bool same_label(const OWord& a, const OWord& b);
 
 /// Reads from the O to the end of the keyword. Arguments or a condition behind it are not read.
 OWord read_o_word(Reader& reader);

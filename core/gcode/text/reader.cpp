@@ -11,10 +11,15 @@ namespace {
 
 constexpr char small(char c) { return is_letter(c) ? static_cast<char>(c - 'A' + 'a') : c; }
 
+bool is_parameter(double number) {
+    const double whole = std::round(number);
+    return std::abs(number - whole) <= 1e-4 && whole >= 1 && whole <= kMaxParameter;
+}
+
 }  // namespace
 
-void Reader::fail(std::size_t place, std::string message) {
-    if (!error_) { error_ = line_.error(place, std::move(message)); }
+void Reader::fail(GcodeError error) {
+    if (!error_) { error_ = std::move(error); }
     at_ = line_.text().size();
 }
 
@@ -78,16 +83,36 @@ double Reader::number() {
     return result;
 }
 
+std::string Reader::skip_value() {
+    const std::size_t begin = at_;
+    at_ = end_of_value(begin);
+    return std::string(line_.text().substr(begin, at_ - begin));
+}
+
+std::size_t Reader::end_of_value(std::size_t place) const {
+    while (line_.at(place) == '-' || line_.at(place) == '+' || line_.at(place) == '#') { ++place; }
+    const std::string_view text = line_.text();
+    if (line_.at(place) == '<') { return std::min(text.find('>', place), text.size() - 1) + 1; }
+    if (const auto function = find_function(text.substr(std::min(place, text.size())))) {
+        place += function->name.size();
+    }
+    for (int depth = 0; place < text.size(); ++place) {
+        const char c = text[place];
+        depth += c == '[' ? 1 : c == ']' ? -1 : 0;
+        if (depth == 0 && !is_of_number(c)) { return c == ']' ? place + 1 : place; }
+    }
+    return place;
+}
+
 int Reader::parameter_number() {
     const std::size_t begin = at_;
     const double number = value();
-    const double whole = std::round(number);
-    if (std::abs(number - whole) > 1e-4 || whole < 1 || whole > kMaxParameter) {
+    if (!is_parameter(number)) {
         fail(begin, "#" + number_text(number) + " is not a parameter; its number must be from 1 to " +
                         std::to_string(kMaxParameter));
         return 1;
     }
-    return static_cast<int>(whole);
+    return static_cast<int>(std::round(number));
 }
 
 std::string Reader::name() {
@@ -179,15 +204,16 @@ double Reader::arc_tangent() {
     return std::atan2(y, x) * kDegrees;
 }
 
+/// Every numbered parameter exists. A named one exists after its assignment.
 double Reader::exists() {
     const std::size_t begin = at_++;  // value() has seen the [
-    if (!take('#') || peek() != '<') {
-        fail(begin, "EXISTS needs a named parameter; write EXISTS[#<name>]");
+    if (!take('#')) {
+        fail(begin, "EXISTS needs a parameter; write EXISTS[#<name>] or EXISTS[#1]");
         return 0;
     }
-    const std::string called = name();
+    const bool found = peek() == '<' ? parameters_.named(name()).has_value() : is_parameter(value());
     if (!take(']')) { fail(at_, "EXISTS is not closed; write ]"); }
-    return parameters_.named(called) ? 1 : 0;
+    return found ? 1 : 0;
 }
 
 }  // namespace lockstep::gcode

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "core/gcode/text/functions.hpp"
 #include "core/gcode/text/line.hpp"
@@ -28,6 +29,8 @@ public:
     bool take(std::string_view word);
     void skip_comment() { at_ = line_.end_of_comment(at_); }
     void go_to(std::size_t place) { at_ = place; }
+    /// Goes behind a value without computing it, and returns its text.
+    std::string skip_value();
 
     /// The value of the word with its letter at `letter_at`.
     double word_value(std::size_t letter_at);
@@ -39,10 +42,12 @@ public:
     /// The number of a parameter, behind its #.
     int parameter_number();
 
-    void fail(std::size_t place, std::string message);
+    void fail(std::size_t place, std::string message) { fail(line_.error(place, std::move(message))); }
+    void fail(GcodeError error);
     const std::optional<GcodeError>& error() const { return error_; }
 
 private:
+    std::size_t end_of_value(std::size_t place) const;
     double number();
     double parameter();
     double function_value(Named<Function> function);

@@ -27,7 +27,6 @@ constexpr std::array kRefused{
     Exception{"gridprobe.ngc", "G38.2 needs a probe"},
     Exception{"lathe_g7x_face_boring.ngc", "G72 is for lathes"},
     Exception{"lathe_g7x_quadrants.ngc", "G70 is for lathes"},
-    Exception{"remap-subroutines/qt_auto_probe_tool.ngc", "O175 is the label of an earlier O-word; use another label"},
     Exception{"smartprobe.ngc", "G38.5 needs a probe"},
     Exception{"threading.ngc", "G33 needs a spindle encoder"},
     Exception{"x-trim.ngc", "G38.2 needs a probe"},

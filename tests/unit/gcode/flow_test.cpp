@@ -35,6 +35,14 @@ TEST(GcodeExpressions, HaveFunctions) {
     EXPECT_DOUBLE_EQ(value("EXISTS[#<nothing>]"), 0);
 }
 
+TEST(GcodeExpressions, ExistsTakesNumberedParametersToo) {
+    EXPECT_DOUBLE_EQ(value("[EXISTS[#1] + EXISTS[#5601]]"), 2);
+    EXPECT_DOUBLE_EQ(value("[EXISTS[#0] + EXISTS[#5602] + EXISTS[#-1]]"), 0);
+    EXPECT_THAT(messages("#2=31 #<a>=1\n(debug,#1)\no1 if [EXISTS[##2] AND EXISTS[#<a>]]\n(debug,a)\no1 endif\n"),
+                ElementsAre("0.000000", "a"));
+    EXPECT_THAT(run("G0 X[EXISTS[1]]\n").error->message, HasSubstr("write EXISTS[#<name>] or EXISTS[#1]"));
+}
+
 TEST(GcodeParameters, TakeTheirValueBehindTheWholeLine) {
     EXPECT_THAT(messages("#1=2 #2=#1\n(debug,#1 #2)\n"), ElementsAre("2.000000 0.000000"));
     EXPECT_THAT(messages("#<a b>=4\n(debug,#<AB>)\n"), ElementsAre("4.000000"));
@@ -102,6 +110,65 @@ TEST(GcodeFlow, OneLabelOpensOneThing) {
                 HasSubstr("the label of an earlier O-word"));
     EXPECT_THAT(run("o2 if [1]\no2 endif\no2 do\no2 while [0]\n").error->message,
                 HasSubstr("the label of an earlier O-word"));
+}
+
+TEST(GcodeFlow, LabelOfABranchThatDoesNotRunMayBeUsedAgain) {
+    constexpr std::string_view kText =
+        "o1 if [#1 EQ 1]\no2 if [1]\n(debug,a)\no2 endif\no1 else\no2 repeat [2]\n(debug,b)\no2 endrepeat\no1 endif\n";
+    EXPECT_THAT(messages("#1=1\n" + std::string(kText)), ElementsAre("a"));
+    EXPECT_THAT(messages("#1=2\n" + std::string(kText)), ElementsAre("b", "b"));
+    const Ran both = run("o9 while [#1 LT 2]\n#1=[#1+1]\n" + std::string(kText) + "o9 endwhile\n");
+    ASSERT_TRUE(both.error);
+    EXPECT_EQ(both.error->line, 8);
+    EXPECT_THAT(both.error->message, HasSubstr("O2 is the label of an earlier O-word, in line 4"));
+}
+
+TEST(GcodeFlow, LabelsAreComputedWhenTheyRun) {
+    const std::string subroutines = "o100 sub\n(debug,a)\no100 endsub\no101 sub\n(debug,b)\no101 endsub\n";
+    EXPECT_THAT(messages(subroutines + "o1 while [#1 LT 2]\n#<s>=[100+#1]\no#<s> call\n#1=[#1+1]\no1 endwhile\n"),
+                ElementsAre("a", "b"));
+    EXPECT_THAT(messages(subroutines + "o<m> sub\n#<s>=101\no#<s> call\no<m> endsub\no<m> call\n"), ElementsAre("b"));
+    EXPECT_THAT(messages("o<m> sub\no#<_l> if [1]\n(debug,#1)\no#<_l> endif\no<m> endsub\n#<_l>=5\no<m> call [3]\n"),
+                ElementsAre("3.000000"));
+    EXPECT_THAT(messages("o<m> sub\no[#1+100] repeat [#1]\n(debug,#1)\no[#1+100] endrepeat\no<m> endsub\n"
+                         "o<m> call [1]\no<m> call [2]\n"),
+                ElementsAre("1.000000", "2.000000", "2.000000"));
+}
+
+TEST(GcodeFlow, ComputedLabelMayEndWhatANumberBegan) {
+    EXPECT_THAT(messages("#1=4\no[#1+1] if [1]\n(debug,a)\no5 endif\no6 do\n(debug,b)\no[2*3] while [0]\n"),
+                ElementsAre("a", "b"));
+}
+
+TEST(GcodeFlow, LabelWithoutAValueIsRefusedWhereItRuns) {
+    const Ran ran = run("o<m> sub\nG0 X1\no#<none> call\no<m> endsub\no<m> call\n");
+    ASSERT_TRUE(ran.error);
+    EXPECT_EQ(ran.error->line, 3);
+    EXPECT_THAT(ran.error->message, HasSubstr("#<none> has no value"));
+    EXPECT_THAT(run("o#<none> sub\no#<none> endsub\n").error->message, HasSubstr("#<none> has no value"));
+    EXPECT_THAT(run("o[1+ call\n").error->message, HasSubstr("where a number, #, [ or a function is expected"));
+}
+
+TEST(GcodeFlow, LabelsThatAProgramComputesAreLimited) {
+    gcode::Setup setup;
+    setup.limits.kept_lines = 100;
+    EXPECT_THAT(run("o1 while [1]\n#1=[#1+1]\no[#1+1] if [1]\no[#1+1] endif\no1 endwhile\n", setup).error->message,
+                HasSubstr("more than 100 labels"));
+}
+
+TEST(GcodeFlow, ProgramNumberAloneOnItsLineDoesNothing) {
+    EXPECT_THAT(messages("%\nO0001 (PLATE)\nN5 o1\n(debug,a)\nM30\n%\ntext (\n"), ElementsAre("a"));
+    EXPECT_THAT(messages("O1\no1 repeat [2]\nO[3+4] ; a note\n(debug,a)\no1 endrepeat\no<x>\nM2\n"),
+                ElementsAre("a", "a"));
+    EXPECT_THAT(run("O1 G0 X1\n").error->message, HasSubstr("has no keyword"));
+    EXPECT_THAT(run("o1 sub\nO7\no1 endsub\n").error->message, HasSubstr("write call behind it"));
+}
+
+TEST(GcodeFlow, CommentsMayBeBetweenTheArgumentsOfACall) {
+    const std::string subroutine = "o<a> sub\n(debug,#1 #2 #3)\no<a> endsub\n";
+    EXPECT_THAT(messages(subroutine + "o<a> call [1] (c) [2]\no<a> call (b)[1](c)(d) [2] (e) [3] ; f\n"),
+                ElementsAre("1.000000 2.000000 0.000000", "1.000000 2.000000 3.000000"));
+    EXPECT_THAT(run(subroutine + "o<a> call [1] (c) 2\n").error->message, HasSubstr("nothing may follow"));
 }
 
 TEST(GcodeFlow, LabelOfADoLoopMayOpenAnother) {
