@@ -13,12 +13,9 @@ constexpr double kQuarterTurn = std::numbers::pi / 2;
 constexpr double kWhole = 2 * std::numbers::pi;
 constexpr double kSameAngle = 1e-9;  // rad; ends closer than this make a whole turn, as in core/path/arc_cutter.cpp
 constexpr double kMostChords = 100'000;
+constexpr double kMostErrors = 100;  // times ArcTolerance::error_mm
 
-// The radii at the ends may differ by kRadiusError_mm, or by kRadiusErrorShare of the radius up to kMostRadiusError_mm.
-constexpr double kMostRadiusError_mm = 1.27;
-constexpr double kRadiusError_mm = 0.0127;
-constexpr double kRadiusErrorShare = 0.001;
-constexpr double kLeastRadius_mm = 1e-6;
+double in_micrometres(double mm) { return std::round(mm * 1e4) / 1e4; }
 
 }  // namespace
 
@@ -48,7 +45,7 @@ double ArcPath::length_mm() const {
 }
 
 double ArcPath::at(std::size_t axis, double share) const {
-    const double radius = radius_begin_ + (radius_end_ - radius_begin_) * share;
+    const double radius = radius_at(share);
     if (axis == shape_.first) { return shape_.centre_first_mm + radius * std::cos(angle_at(share)); }
     if (axis == shape_.second) { return shape_.centre_second_mm + radius * std::sin(angle_at(share)); }
     return from_[axis] + (to_[axis] - from_[axis]) * share;
@@ -61,6 +58,33 @@ std::vector<double> ArcPath::at(double share) const {
     return place;
 }
 
+double ArcPath::slope(std::size_t axis, double share) const {
+    if (axis != shape_.first && axis != shape_.second) { return to_[axis] - from_[axis]; }
+    const double angle = angle_at(share);
+    const double turn = sign() * sweep_ * radius_at(share);
+    const double change = radius_end_ - radius_begin_;
+    return axis == shape_.first ? change * std::cos(angle) - turn * std::sin(angle)
+                                : change * std::sin(angle) + turn * std::cos(angle);
+}
+
+std::pair<double, double> ArcPath::direction(double share) const {
+    const double x = slope(shape_.first, share);
+    const double y = slope(shape_.second, share);
+    return {x / std::hypot(x, y), y / std::hypot(x, y)};
+}
+
+/// The share of the angle at which a spiral is farthest in an axis's direction, which it crosses at `angle`.
+double ArcPath::extreme(double angle) const {
+    constexpr int kCorrections = 20;
+    const double change = radius_end_ - radius_begin_;
+    double share = (angle - begin_) / (sign() * sweep_);
+    for (int k = 0; k < kCorrections && change != 0; ++k) {
+        const double ahead = std::atan2(change, sweep_ * radius_at(std::clamp(share, 0.0, 1.0)));
+        share = (angle - begin_) / (sign() * sweep_) + ahead / sweep_;
+    }
+    return share;
+}
+
 /// The extremes are at the ends, or where the arc crosses the axis's direction from the centre. It is enough to look at
 /// the first and the last turn.
 std::pair<double, double> ArcPath::extent(std::size_t axis) const {
@@ -71,38 +95,44 @@ std::pair<double, double> ArcPath::extent(std::size_t axis) const {
     const double offset = axis == shape_.first ? 0 : kQuarterTurn;
     const double first = std::ceil((begin_ - offset) / turn);
     const auto note = [&](double crossing) {
-        const double share = ((crossing * turn + offset) - begin_) / (angle_at(1) - begin_);
+        const double share = extreme(crossing * turn + offset);
         if (share < 0 || share > 1) { return; }
         least = std::min(least, at(axis, share));
         greatest = std::max(greatest, at(axis, share));
     };
     const double last = first + std::floor(sweep_ / kQuarterTurn);
-    for (int k = 0; k <= 4; ++k) {
+    for (int k = -1; k <= 4; ++k) {
         note(first + k);
         note(last - k);
     }
     return {least, greatest};
 }
 
-/// A chord over the angle a deviates from its arc by r (1 - cos(a/2)).
+/// A chord over the angle a deviates from its arc by r (1 - cos(a/2)). A radius that changes by c per rad adds 2 c to
+/// r.
 void ArcPath::each_chord(double tolerance_mm,
                          const std::function<void(const std::vector<double>& to_mm)>& visit) const {
-    const double radius = std::max({radius_begin_, radius_end_, kLeastRadius_mm});
+    const double change = std::abs(radius_end_ - radius_begin_) / sweep_;
+    const double radius = std::max({radius_begin_, radius_end_, kWidestArc.least_radius_mm}) + 2 * change;
     const double share = std::clamp(1 - tolerance_mm / radius, 0.0, 1 - 1e-15);
     const double chords = std::clamp(std::ceil(sweep_ / (2 * std::acos(share))), 1.0, kMostChords);
     for (std::int64_t k = 1; k < static_cast<std::int64_t>(chords); ++k) { visit(at(static_cast<double>(k) / chords)); }
     visit({to_.begin(), to_.end()});
 }
 
-std::string why_no_arc(double begin, double end) {
-    if (!(begin >= kLeastRadius_mm) || !(end >= kLeastRadius_mm)) {
-        return "has a radius of 0; its centre is where it starts or ends";
+std::string why_no_arc(double begin, double end, const ArcTolerance& tolerance) {
+    if (!(std::min(begin, end) >= tolerance.least_radius_mm)) {
+        return "has a radius of " + number_text(std::min(begin, end)) + " mm, which must be at least " +
+               number_text(tolerance.least_radius_mm) + " mm; its centre is where it starts or ends";
     }
     const double error = std::abs(begin - end);
-    const bool is_far = error > kRadiusErrorShare * std::max(begin, end);
-    if (error <= kMostRadiusError_mm && (error <= kRadiusError_mm || !is_far)) { return {}; }
+    const bool is_far = error > tolerance.share * std::max(begin, end);
+    const double most = kMostErrors * tolerance.error_mm;
+    if (error <= most && (error <= tolerance.error_mm || !is_far)) { return {}; }
+    const double share_mm = std::min(tolerance.share * std::max(begin, end), most);
     return "does not close: its radius is " + number_text(begin) + " mm at the start and " + number_text(end) +
-           " mm at the end; correct the centre or the end";
+           " mm at the end, which may differ by " +
+           number_text(in_micrometres(std::max(tolerance.error_mm, share_mm))) + " mm; correct the centre or the end";
 }
 
 void each_chord(const ProgramMove& move, std::span<const double> from_mm, double tolerance_mm,

@@ -27,15 +27,18 @@ public:
     /// The length of the path of all axes. For a spiral it is computed with the mean radius.
     double length_mm() const;
     /// The length of the path in the plane only.
-    double plane_length_mm() const { return sweep_ * (radius_begin_ + radius_end_) / 2; }
+    double plane_length_mm() const {
+        return std::hypot(sweep_ * (radius_begin_ + radius_end_) / 2, radius_end_ - radius_begin_);
+    }
     /// The place of an axis at a share of the angle, from 0 to 1.
     double at(std::size_t axis, double share) const;
     std::vector<double> at(double share) const;
     /// The least and the greatest place of an axis.
     std::pair<double, double> extent(std::size_t axis) const;
-    /// The direction of travel at a share of the angle: its unit vector along the plane's first and second axis.
-    double turn_first(double share) const { return -sign() * std::sin(angle_at(share)); }
-    double turn_second(double share) const { return sign() * std::cos(angle_at(share)); }
+    /// The derivative of an axis's place with respect to the share of the angle, in mm.
+    double slope(std::size_t axis, double share) const;
+    /// The direction of travel in the plane, of length 1, along its first and its second axis.
+    std::pair<double, double> direction(double share) const;
 
     /// Visits the end of each chord in order; the last is the arc's end. A chord deviates by at most the tolerance.
     void each_chord(double tolerance_mm, const std::function<void(const std::vector<double>& to_mm)>& visit) const;
@@ -43,6 +46,8 @@ public:
 private:
     double sign() const { return shape_.is_clockwise ? -1 : 1; }
     double angle_at(double share) const { return begin_ + sign() * sweep_ * share; }
+    double radius_at(double share) const { return radius_begin_ + (radius_end_ - radius_begin_) * share; }
+    double extreme(double angle) const;
 
     ArcShape shape_;
     std::span<const double> from_;
@@ -53,9 +58,18 @@ private:
     double sweep_ = 0;
 };
 
+/// The radii of an arc's ends may differ by `error_mm`, or by `share` of the greater one up to 100 times `error_mm`.
+struct ArcTolerance {
+    double least_radius_mm;
+    double error_mm;
+    double share;
+};
+/// LinuxCNC's tolerance for programs in inches, which is the wider one, with room for rounding.
+inline constexpr ArcTolerance kWidestArc{.least_radius_mm = 1e-6, .error_mm = 0.0719, .share = 0.00101};
+
 /// Returns why an arc with these distances (mm) of its ends from the centre cannot be run, such as "does not close:
-/// ...": a radius is 0, or the two differ by more than LinuxCNC's tolerances. Returns an empty text if it can be run.
-std::string why_no_arc(double radius_begin, double radius_end);
+/// ...". Returns an empty text if it can be run.
+std::string why_no_arc(double radius_begin, double radius_end, const ArcTolerance& tolerance = kWidestArc);
 inline std::string why_no_arc(const ArcPath& arc) { return why_no_arc(arc.radius_begin(), arc.radius_end()); }
 
 /// Visits the ends of the chords of a move. A straight move is one chord.

@@ -9,7 +9,7 @@ namespace lockstep {
 namespace {
 
 constexpr double kTolerance_steps = 0.1;  // of the pieces, in addition to half a step of the pulses
-constexpr double kPieceError = 0.008;     // times the radius and the cube of the angle
+constexpr double kPieceError = 0.008;     // times the cube of the angle, and the radius and its change in 3 rad
 constexpr double kLeastRadius_steps = 0.25;
 constexpr double kSameDirection = 1e-9;  // sine: ends that are closer make a whole circle
 constexpr double kQuarter = 1.5707963267948966;
@@ -53,13 +53,16 @@ bool ArcCutter::begin(const PathSetup& setup, const ArcShape& arc, const ArcEnds
     begin_ = direction(setup, from_, radius_begin_);
     end_ = direction(setup, to_, radius_end_);
     const double least_mm = kLeastRadius_steps / scale(setup);
-    if (!(radius_begin_ > least_mm) || !(radius_end_ > least_mm)) { return false; }
+    if (!(std::min(radius_begin_, radius_end_) > 0) || std::max(radius_begin_, radius_end_) <= least_mm) {
+        return false;
+    }
     quarters_ = quarters_between(begin_, end_);
     part_ = angle_between(turned(begin_, quarters_), end_);
     has_part_ = part_ > kSameDirection;
     ends_whole_ = !has_part_;
     all_ = quarters_ + 4 * (arc_.turns - 1);
     sweep_ = all_ * kQuarter + (has_part_ ? part_ : 0);
+    bent_ = std::max(radius_begin_, radius_end_) + 3 * std::abs(radius_end_ - radius_begin_) / sweep_;
     off_ = at_;
     for (std::size_t i = 0; i < off_.size(); ++i) {
         off_[i] -= from_[i];
@@ -118,11 +121,10 @@ int ArcCutter::quarters_between(Direction a, Direction b) {
 
 /// Halves the part while it is too long for one piece.
 void ArcCutter::halve(const PathSetup& setup, const Part& part, PathTrail& out) {
-    const double radius = std::max(radius_begin_, radius_end_);
     const double angle = part.angle;
     const double half = part.done + angle / 2;
     const Direction middle = between(part.a, part.b);
-    const double error = kPieceError * radius * scale(setup) * angle * angle * angle;
+    const double error = kPieceError * bent_ * scale(setup) * angle * angle * angle;
     if (error > tolerance(part.done / sweep_, angle / sweep_)) {
         halve(setup, {part.a, middle, part.done, angle / 2, false}, out);
         halve(setup, {middle, part.b, half, angle / 2, part.is_last}, out);

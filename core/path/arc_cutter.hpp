@@ -1,8 +1,8 @@
 // Cuts arcs, helices and spirals into quadratic pieces.
 //
-// A quadratic through the ends and the middle of an arc deviates from it by 0.008 r angle^3. Angles are halved until
-// that is within the tolerance. This needs only sums, products, quotients and roots, so the pieces are the same on
-// every machine.
+// A quadratic through the ends and the middle of an arc deviates from it by 0.008 r angle^3. In a spiral whose radius
+// changes by c per rad, r is at most the greater radius and 3 c. Angles are halved until that is within the tolerance.
+// This needs only sums, products, quotients and roots, so the pieces are the same on every machine.
 #pragma once
 
 #include "core/path/path_setup.hpp"
@@ -23,7 +23,7 @@ class ArcCutter {
 public:
     /// A cutter with nothing to cut.
     ArcCutter() = default;
-    /// Returns false and has nothing to cut if the arc's radius is a quarter of a step or less; then a straight line is
+    /// Returns false and has nothing to cut if the arc's radii are a quarter of a step or less; then a straight line is
     /// good enough.
     bool begin(const PathSetup& setup, const ArcShape& arc, const ArcEnds& ends, const MoveSettings& settings,
                std::uint32_t block);
@@ -87,6 +87,7 @@ private:
     double radius_begin_ = 0;  // mm
     double radius_end_ = 0;    // mm
     double sweep_ = 0;         // rad, of the whole arc
+    double bent_ = 0;          // mm, for the deviation of its pieces
     AxisVector off_;           // the place of the axes at the begin minus the programmed begin
     bool is_off_ = false;
     double along_ = 0;  // mm of the arc before the next piece

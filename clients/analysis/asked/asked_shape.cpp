@@ -36,18 +36,14 @@ double AskedShape::of_line(std::span<const double> at_mm) const {
 double AskedShape::of_arc(std::span<const double> at_mm) {
     constexpr int kCorrections = 2;
     const ArcPath arc(*arc_, from_, to_);
-    const double radius_change = arc.radius_end() - arc.radius_begin();
     double squares = 0;
     for (int pass = 0;; ++pass) {
-        const double turn = arc.sweep() * (arc.radius_begin() + radius_change * share_);
         double along = 0;
         double speed = 0;  // the square of the tangent, per share
         squares = 0;
         for (std::size_t i = 0; i < from_.size(); ++i) {
             const double off = at_mm[i] - arc.at(i, share_);
-            double tangent = to_[i] - from_[i];
-            if (i == arc_->first) { tangent = turn * arc.turn_first(share_); }
-            if (i == arc_->second) { tangent = turn * arc.turn_second(share_); }
+            const double tangent = arc.slope(i, share_);
             along += off * tangent;
             speed += tangent * tangent;
             squares += off * off;

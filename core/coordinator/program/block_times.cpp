@@ -58,8 +58,9 @@ void BlockTimes::add_arc(const ArcPath& arc, std::pair<std::size_t, std::size_t>
     }
     std::vector<double> ends = begins;
     const auto turn = [&](std::vector<double>& direction, double share) {
-        direction[first] = in_plane * arc.turn_first(share);  // NOLINT(clang-analyzer-core.NullDereference): see check
-        direction[second] = in_plane * arc.turn_second(share);
+        const auto [x, y] = arc.direction(share);
+        direction[first] = in_plane * x;  // NOLINT(clang-analyzer-core.NullDereference): see check
+        direction[second] = in_plane * y;
     };
     turn(begins, 0);
     turn(ends, 1);

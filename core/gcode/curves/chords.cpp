@@ -68,9 +68,11 @@ Cylinder cylinder_of(const Arc& arc, const Point& from) {
     return result;
 }
 
-/// A chord over the angle a deviates from its arc by r (1 - cos(a/2)).
+/// A chord over the angle a deviates from its arc by r (1 - cos(a/2)). A radius that changes by c per rad adds 2 c to
+/// r.
 double chords_of(const Cylinder& cylinder, double tolerance) {
-    const double radius = std::max(cylinder.begins, cylinder.ends);
+    const double change = std::abs((cylinder.ends - cylinder.begins) / cylinder.sweep);
+    const double radius = std::max(cylinder.begins, cylinder.ends) + 2 * change;
     const double share = std::clamp(1 - tolerance / radius, 0.0, 1 - 1e-15);
     return std::ceil(std::abs(cylinder.sweep) / (2 * std::acos(share)));
 }

@@ -13,6 +13,11 @@ namespace {
 // LinuxCNC's tolerance: the radius of an R arc may be too small for its chord by this much.
 constexpr double kChordError_mm = 0.00127;
 constexpr double kLeastRadius_mm = 1e-6;
+// LinuxCNC's tolerances of centres: the greatest rounding of centres and ends to 0.01 mm or 0.001 inches.
+constexpr ArcTolerance kInMillimetres{
+    .least_radius_mm = kChordError_mm, .error_mm = 0.02 * std::numbers::sqrt2, .share = 0.001};
+constexpr ArcTolerance kInInches{
+    .least_radius_mm = kChordError_mm, .error_mm = 0.002 * std::numbers::sqrt2 * 25.4, .share = 0.001};
 
 constexpr char letter_of(std::size_t axis) { return "IJK"[axis]; }
 
@@ -67,7 +72,8 @@ std::expected<Flat, GcodeError> centre_by_offsets(const Context& context, PlaneA
 }
 
 Result check_radii(const Context& context, Flat from, Flat centre, Flat to) {
-    const std::string why = why_no_arc(length_of(from - centre), length_of(to - centre));
+    const ArcTolerance& tolerance = context.state.modal.inches ? kInInches : kInMillimetres;
+    const std::string why = why_no_arc(length_of(from - centre), length_of(to - centre), tolerance);
     return why.empty() ? Result{} : context.refuse_motion(" " + why);
 }
 
@@ -132,11 +138,11 @@ Result arc(Context& context) {
     ArcMove move{.target = context.target(), .centre = {}, .turns = context.motion == 30 ? *turns : -*turns};
     const Flat from = in_plane(axes, context.state.program);
     const Flat to = in_plane(axes, move.target);
-    const auto centre =
-        context.block.has('R') ? centre_by_radius(context, from, to) : centre_by_offsets(context, axes, from);
+    const bool has_radius = context.block.has('R');
+    const auto centre = has_radius ? centre_by_radius(context, from, to) : centre_by_offsets(context, axes, from);
     if (!centre) { return std::unexpected(centre.error()); }
     move.centre = *centre;
-    if (auto checked = check_radii(context, from, *centre, to); !checked) { return checked; }
+    if (auto checked = check_radii(context, from, *centre, to); !has_radius && !checked) { return checked; }
     if (is_offset(context.state)) { return compensated_arc(context, move); }
     move_arc(context, move);
     return {};

@@ -78,6 +78,13 @@ std::string LineMaker::arc_by_radius() {
     return text + " R" + (one_in(3) ? "-" : "") + std::to_string(least + 0.01 + drawn(0, 30));
 }
 
+/// How much the radius at the end differs, as a share: mostly a little less than an arc may have.
+double LineMaker::other_radius(double radius) {
+    const double least = (inches_ ? 0.002 : 0.02) * std::sqrt(2);
+    const double allowed = std::max(least, std::min(radius / 1000, 100 * least));
+    return (one_in(20) ? 1.03 : 0.97) * drawn(-1, 1) * allowed / radius;
+}
+
 /// An arc by radius, or by a centre and an angle that give its end.
 std::string LineMaker::arc() {
     constexpr std::array<std::array<int, 3>, 3> kAxes{{{0, 1, 2}, {2, 0, 1}, {1, 2, 0}}};
@@ -86,11 +93,13 @@ std::string LineMaker::arc() {
     if (one_in(3)) {
         text += arc_by_radius();
     } else {
-        const double i = drawn(1, 20);
-        const double j = drawn(-20, 20);
+        const double size = one_in(4) ? 80 : 1;
+        const double i = size * drawn(1, 20);
+        const double j = size * drawn(-20, 20);
         const double angle = drawn(0.1, 6);
-        const double x = i - (i * std::cos(angle) - j * std::sin(angle));
-        const double y = j - (i * std::sin(angle) + j * std::cos(angle));
+        const double ends = one_in(2) ? 1 + other_radius(std::hypot(i, j)) : 1;
+        const double x = i - ends * (i * std::cos(angle) - j * std::sin(angle));
+        const double y = j - ends * (i * std::sin(angle) + j * std::cos(angle));
         if (!one_in(4)) { text += end_word("XYZ"[axes[0]], axes[0], x) + end_word("XYZ"[axes[1]], axes[1], y); }
         text += centre_word("IJK"[axes[0]], axes[0], i) + centre_word("IJK"[axes[1]], axes[1], j);
     }

@@ -39,6 +39,7 @@ private:
     std::string centre_word(char letter, int axis, double offset);
     std::string end_word(char letter, int axis, double offset);
     std::string arc_by_radius();
+    double other_radius(double radius);
     std::string compensated();
     std::string cycle();
     std::string spline();

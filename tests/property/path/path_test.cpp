@@ -66,6 +66,7 @@ TEST_P(RandomPath, HasTailsThatEndOnThePath) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomPath, testing::Range<std::uint64_t>(1, 25));
+INSTANTIATE_TEST_SUITE_P(Spirals, RandomPath, testing::Range(kFirstWithSpirals, kFirstWithSpirals + 5));
 /// One axis. Its shortest moves there and back are joined to a piece in which it does not move.
 INSTANTIATE_TEST_SUITE_P(ThereAndBack, RandomPath, testing::Values(61));
 

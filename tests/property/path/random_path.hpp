@@ -46,8 +46,9 @@ struct RandomCase {
     TestProgram program;
 };
 
-/// Some moves become arcs, helices and whole turns with the same ends, and some keep their feed with any override.
-inline void bend(TestProgram& program, Random& random) {
+/// Some moves become arcs, helices and whole turns with the same ends, and some keep their feed with any override. The
+/// radius of an arc changes by up to `spiral_mm`.
+inline void bend(TestProgram& program, Random& random, double spiral_mm) {
     Place from(program.moves.front().to.size(), 0);
     for (TestMove& move : program.moves) {
         move.settings.is_feed_fixed = random() % 10 == 0;
@@ -65,12 +66,17 @@ inline void bend(TestProgram& program, Random& random) {
                                 .is_clockwise = random() % 2 == 0,
                                 .turns = random() % 10 == 0 ? 2 : 1};
         }
+        if (move.arc && spiral_mm > 0) {
+            move.arc->centre_first_mm += x / std::hypot(x, y) * log_uniform(random, 0.0001, spiral_mm) / 2;
+            move.arc->centre_second_mm += y / std::hypot(x, y) * log_uniform(random, 0.0001, spiral_mm) / 2;
+        }
         from = move.to;
     }
 }
 
-/// Programs from this seed on have arcs.
+/// Programs from these seeds on have arcs; their radii change.
 inline constexpr std::uint64_t kFirstWithArcs = 10'000;
+inline constexpr std::uint64_t kFirstWithSpirals = 20'000;
 
 inline RandomCase random_case(std::uint64_t seed) {
     Random random(seed);
@@ -79,7 +85,8 @@ inline RandomCase random_case(std::uint64_t seed) {
         const Ticks frame{random() % 3 == 0 ? 5'000 : 230'000};
         RandomCase arcs{setup_of(random_axes(random, axes), frame), random_program(random, axes, random() % 2 == 0)};
         arcs.program.moves.resize(std::min<std::size_t>(arcs.program.moves.size(), 300));
-        bend(arcs.program, random);
+        constexpr double kMostSpiral_mm = 0.0719;  // of a program in inches
+        bend(arcs.program, random, seed >= kFirstWithSpirals ? kMostSpiral_mm : 0);
         return arcs;
     }
     const std::size_t axes = 1 + random() % 4;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "clients/analysis/log/recorded_program.hpp"
 #include "tests/unit/analysis/log_makers.hpp"
@@ -60,6 +61,21 @@ TEST(AskedShapeTest, MeasuresTheDistanceFromTheCircle) {
         const std::vector<double> place{40 + (kRadius_mm + off) * std::cos(angle),
                                         40 + (kRadius_mm + off) * std::sin(angle)};
         EXPECT_NEAR(std::sqrt(shape.square_of_distance(place)), off, 1e-5) << degree;
+    }
+}
+
+TEST(AskedShapeTest, MeasuresTheDistanceFromASpiral) {
+    for (const auto& [begin, end, sweep] : {std::tuple{7000.0, 7007.0, 0.001}, std::tuple{25.0, 25.028, 3.0}}) {
+        const std::vector<double> from{begin, 0};
+        const std::vector<double> to{end * std::cos(sweep), end * std::sin(sweep)};
+        const ArcPath path({}, from, to);
+        AskedShape shape(from, to, ArcShape{});
+        for (int k = 100; k < 900; ++k) {
+            const auto [x, y] = path.direction(k / 1e3);
+            const double off = k % 3 == 0 ? 0.02 : 0;
+            const std::vector<double> place{path.at(0, k / 1e3) - off * y, path.at(1, k / 1e3) + off * x};
+            EXPECT_NEAR(std::sqrt(shape.square_of_distance(place)), off, 1e-4) << begin << " " << k;
+        }
     }
 }
 

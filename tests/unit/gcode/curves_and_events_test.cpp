@@ -83,8 +83,8 @@ TEST(GcodeCurves, ASplineBecomesArcsThatMeetInTheSameDirection) {
         EXPECT_DOUBLE_EQ(arc.feed_mm_s, 10);
         ASSERT_TRUE(arc.arc) << i;
         const ArcPath path(*arc.arc, move(blocks[i - 1]).target_mm, arc.target_mm);
-        EXPECT_NEAR(std::atan2(path.turn_second(0), path.turn_first(0)), heading, 1e-6) << i;
-        heading = std::atan2(path.turn_second(1), path.turn_first(1));
+        EXPECT_NEAR(std::atan2(path.slope(1, 0), path.slope(0, 0)), heading, 1e-6) << i;
+        heading = std::atan2(path.slope(1, 1), path.slope(0, 1));
     }
     EXPECT_NEAR(heading, -std::atan2(30, 15), 1e-6);
 }

@@ -51,6 +51,31 @@ TEST(GcodeArcs, OfInchesAreInMillimetres) {
     EXPECT_DOUBLE_EQ(arc.feed, 25.4);
 }
 
+std::string arc_with_radii(const char* units, double begin, double end) {
+    return std::string(units) + " G2 X" + std::to_string(begin) + " Y" + std::to_string(end) + " I" +
+           std::to_string(begin) + " F100\n";
+}
+
+TEST(GcodeArcs, MayHaveRadiiThatDifferAsMuchAsInLinuxCnc) {
+    struct Radii {
+        const char* units;
+        double begin;
+        double most;
+        double more;
+    };
+    for (const Radii& radii :
+         {Radii{"G21", 25, 25.028, 25.0284}, Radii{"G21", 25, 24.972, 24.9716}, Radii{"G21", 1270, 1271.27, 1271.28},
+          Radii{"G21", 4000, 4002.82, 4002.84}, Radii{"G20", 1, 1.0028, 1.0029}, Radii{"G20", 50, 50.05, 50.051},
+          Radii{"G20", 400, 400.28, 400.285}, Radii{"G21", 0.02, 0.0013, 0.0012}}) {
+        const Arc arc = only_arc(arc_with_radii(radii.units, radii.begin, radii.most));
+        const double mm = radii.units == std::string_view("G20") ? 25.4 : 1;
+        EXPECT_DOUBLE_EQ(arc.target[1], radii.most * mm) << "the programmed end";
+        EXPECT_FALSE(run(arc_with_radii(radii.units, radii.begin, radii.more)).error == std::nullopt) << radii.more;
+    }
+    EXPECT_THAT(run(arc_with_radii("G21", 25, 25.03)).error->message,
+                testing::HasSubstr("25 mm at the start and 25.03 mm at the end, which may differ by 0.0283 mm"));
+}
+
 /// The greatest distance of chords' ends and middles from a circle about (0, 0).
 double greatest_error(const std::vector<Point>& ends, Point from, double radius) {
     double error = 0;

@@ -88,6 +88,42 @@ TEST(ArcCutter, SpiralsWhereTheRadiiDiffer) {
     EXPECT_NEAR(last.place(0, last.length), 8 * 80, 1e-9);
 }
 
+/// The greatest distance of the pieces from the spiral about (0, 0) from (begin, 0), in mm.
+double deviation_from_spiral(const std::vector<Quadratic>& pieces, double begin, double end, double sweep) {
+    double greatest = 0;
+    for (const Quadratic& piece : pieces) {
+        for (const double share : {0.0, 0.2, 0.5, 0.8, 1.0}) {
+            const double x = piece.place(0, share * piece.length) / 80;
+            const double y = piece.place(1, share * piece.length) / 80;
+            double least = std::hypot(x - begin, y);
+            for (int k = 0; k <= 20'000; ++k) {
+                const double angle = sweep * k / 20'000;
+                const double radius = begin + (end - begin) * k / 20'000;
+                least = std::min(least, std::hypot(x - radius * std::cos(angle), y - radius * std::sin(angle)));
+            }
+            greatest = std::max(greatest, least);
+        }
+    }
+    return greatest;
+}
+
+TEST(ArcCutter, FollowsEachSpiralThatAProgramMayHave) {
+    struct Spiral {
+        double begin;
+        double end;
+        double sweep;
+    };
+    for (const Spiral& spiral : {Spiral{25, 25.0282, 1}, Spiral{1000, 1001.27, 0.5}, Spiral{0.0013, 0.073, 1.5},
+                                 Spiral{0.073, 0.0013, 3}, Spiral{1000, 1001, 0.001}, Spiral{0.02, 0.09, 6}}) {
+        const std::vector<double> to{spiral.end * std::cos(spiral.sweep), spiral.end * std::sin(spiral.sweep), 0};
+        const std::vector<Quadratic> pieces = cut({{}, to}, {spiral.begin, 0, 0});
+        EXPECT_LT(80 * deviation_from_spiral(pieces, spiral.begin, spiral.end, spiral.sweep), 0.11) << spiral.begin;
+        const Quadratic& last = pieces.back();
+        EXPECT_NEAR(last.place(0, last.length), to[0] * 80, 1e-9);
+        EXPECT_NEAR(last.place(1, last.length), to[1] * 80, 1e-9);
+    }
+}
+
 TEST(ArcCutter, LeavesAnArcWithARadiusBelowTheStepsToALine) {
     PathTrail trail;
     const AxisVector from = mill_setup().to_steps(std::vector<double>{0, 0, 0});
