@@ -81,8 +81,8 @@ void Interpreter::unwind() {
 /// A text with subroutines: a file, or the rest of the program.
 struct Interpreter::SubroutineText {
     std::string_view text;
-    int first_line = 1;
-    std::string only;  // the subroutine to store; empty: all
+    int first_line = 1;  // the number of its first line
+    std::string only;    // the subroutine to store; empty: all
     std::string file;
 };
 
@@ -103,9 +103,34 @@ Result Interpreter::load(const OWord& word, std::string_view text) {
     return error(word.place, file + " does not contain o<" + *word.label + "> sub; name the subroutine like its file");
 }
 
+/// Finds the lines of the program that begin subroutines.
+void Interpreter::find_beginnings() {
+    Line line;
+    for_each_line(setup_.program, [&](std::string_view text, int number) {
+        if (line.read(text, number)) { return true; }
+        Reader reader(line, parameters_);
+        if (!skip_head(line, reader) || reader.peek() != 'O') { return true; }
+        const OWord word = read_o_word(reader);
+        if (word.keyword == Keyword::Sub && word.label) {
+            beginnings_[*word.label].push_back({number, static_cast<std::size_t>(text.data() - setup_.program.data())});
+        }
+        return true;
+    });
+}
+
+/// The program from the first subroutine of this label behind the present line.
+Interpreter::SubroutineText Interpreter::text_behind(const std::string& label) {
+    if (!std::exchange(has_beginnings_, true)) { find_beginnings(); }
+    for (const Beginning& beginning : beginnings_[label]) {
+        if (beginning.line <= program_line_) { continue; }
+        return {
+            .text = setup_.program.substr(beginning.place), .first_line = beginning.line, .only = label, .file = {}};
+    }
+    return {.text = {}, .only = label, .file = {}};
+}
+
 Result Interpreter::load_later(const OWord& word) {
-    auto wrong =
-        keep_subroutines({.text = setup_.program, .first_line = program_line_ + 1, .only = *word.label, .file = {}});
+    auto wrong = keep_subroutines(text_behind(*word.label));
     if (wrong) { return std::unexpected(*std::move(wrong)); }
     if (subroutines_.contains(*word.label)) {
         called_early_.insert(*word.label);
@@ -121,8 +146,7 @@ std::optional<GcodeError> Interpreter::keep_subroutines(const SubroutineText& so
     Line line;
     std::optional<GcodeError> wrong;
     for_each_line(source.text, [&](std::string_view text, int number) {
-        if (number < source.first_line) { return true; }
-        wrong = line.read(text, number);
+        wrong = line.read(text, number + source.first_line - 1);
         Reader reader(line, parameters_);
         OWord word;
         if (!wrong && skip_head(line, reader) && reader.peek() == 'O') { word = read_o_word(reader); }

@@ -3,6 +3,7 @@
 // While compensation is on, the places of State are programmed ones. The place of the tool's centre is here.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -24,6 +25,9 @@ struct CutMove {
     double feed = 0;
     bool rapid = false;
 };
+
+/// The greatest number of motions and events in one place of the plane.
+inline constexpr std::size_t kMostWaiting = 10'000;
 
 /// The waiting motion, or a motion or an event after it.
 struct Waiting {

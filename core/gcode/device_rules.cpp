@@ -28,8 +28,15 @@ void ProgramBuilder::device_event(WordRule rule, const char* what, const char* k
     append(event);
 }
 
+/// A loop may print without end.
+void ProgramBuilder::note_message(const std::string& text) {
+    constexpr std::size_t kMostNotes = 10'000;
+    if (notes_.size() < kMostNotes) { return notes_.push_back({line_, text}); }
+    note("more", "the program has more messages; only the first " + std::to_string(kMostNotes) + " are listed");
+}
+
 void ProgramBuilder::change_tool(int tool) {
-    notes_.push_back({line_, "tool change: put in tool " + std::to_string(tool)});
+    note_message("tool change: put in tool " + std::to_string(tool));
     if (setup_.unassigned.tool_change == ToolChange::Pause) { append(Pause{}); }
     append(ProgramEvent{.kind = Kind::Tool, .index = tool});
 }
@@ -87,8 +94,8 @@ void ProgramBuilder::event(const Event& event) {
         case EventKind::FeedHold:
             if (event.value != 0) { return; }
             return note("M53", "M53 P0 has no effect: feed hold stays on");
-        case EventKind::Message: notes_.push_back({line_, "message: " + event.text}); return;
-        case EventKind::Print: notes_.push_back({line_, "print: " + event.text}); return;
+        case EventKind::Message: return note_message("message: " + event.text);
+        case EventKind::Print: return note_message("print: " + event.text);
         default: return;
     }
 }

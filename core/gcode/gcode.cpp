@@ -38,6 +38,7 @@ public:
         if (error.repeats && std::exchange(repeated_, true)) { return; }
         errors_.push_back(error);
     }
+    void stop() { interpreter_.stop(); }
     const gcode::Interpreter& interpreter() const { return interpreter_; }
     std::vector<GcodeError>& errors() { return errors_; }
 
@@ -56,6 +57,7 @@ std::expected<GcodeReading, std::vector<GcodeError>> read_gcode(std::string_view
     GcodeReader reader(text, setup, [&](const gcode::Action& action, int line) {
         builder.take(action, line, reading->interpreter());
         for (const GcodeError& error : builder.take_errors()) { reading->report(error); }
+        if (builder.is_full()) { reading->stop(); }
     });
     reading = &reader;
     reader.read(kNoEnd, [&](int) {

@@ -20,6 +20,7 @@ struct GcodeStream::Parts {
         for (GcodeError& error : builder.take_errors()) {
             if (!wrong) { wrong = std::move(error); }
         }
+        if (builder.is_full()) { interpreter.stop(); }
     }
     std::expected<void, GcodeError> outcome(const gcode::Result& done) {
         if (!wrong && !done) { wrong = done.error(); }

@@ -10,7 +10,11 @@ namespace lockstep::gcode {
 Interpreter::Interpreter(Setup setup, State state, Sink sink)
     : setup_(std::move(setup)),
       state_(std::move(state)),
-      sink_(std::move(sink)),
+      sink_([this, take = std::move(sink)](const Action& action, int line) {
+          idle_lines_ = 0;
+          repeated_lines_ += frames_.empty() ? 0 : 1;
+          take(action, line);
+      }),
       parameters_(state_.parameters, *this) {
     begin(state_);
 }
@@ -102,6 +106,13 @@ Result Interpreter::do_plain(Reader& reader) {
     }
     Context here = context();
     auto done = run_block(here);
+    if (done && state_.cutter.waiting.size() > kMostWaiting) {
+        done =
+            error(0, "more than " + std::to_string(kMostWaiting) +
+                         " blocks in sequence do not move in the plane of cutter compensation; write G40 before them");
+        state_.cutter.waiting.clear();
+        leave_compensation(here);
+    }
     const bool is_comment = line_.at(0) == '(' && line_.end_of_comment(0) == line_.text().size();
     begun_ = begun_ || !is_comment;
     ended_ = ended_ || here.ended;

@@ -35,8 +35,10 @@ public:
     Result finish();
     /// The O-word whose end has not been read yet, such as "o100 while"; nullopt if there is none.
     std::optional<std::string> open_word() const { return recorder_.open_word(); }
-    /// True after M2, M30 or the second %. Later lines are ignored.
+    /// True after M2, M30, the second % or stop(). Later lines are ignored.
     bool ended() const { return ended_; }
+    /// Ends the program behind the present line, also if that is in a loop.
+    void stop() { ended_ = true; }
 
     const State& state() const { return state_; }
     /// For an interpreter that continues with the next line. Call between two lines.
@@ -85,6 +87,8 @@ private:
     Result load(const OWord& word, std::string_view text);
     Result load_later(const OWord& word);
     struct SubroutineText;
+    SubroutineText text_behind(const std::string& label);
+    void find_beginnings();
     std::optional<GcodeError> keep_subroutines(const SubroutineText& source);
     void end_call();
     void unwind();
@@ -101,6 +105,13 @@ private:
     Recorder recorder_;
     std::map<std::string, Body, std::less<>> subroutines_;
     std::set<std::string, std::less<>> called_early_;  // subroutines that are behind their first call
+    /// A line of the program that begins a subroutine, and the place of its text in the program.
+    struct Beginning {
+        int line;
+        std::size_t place;
+    };
+    std::map<std::string, std::vector<Beginning>, std::less<>> beginnings_;  // by label
+    bool has_beginnings_ = false;
     struct Opening {
         Keyword keyword;
         int line;
@@ -110,7 +121,8 @@ private:
     int program_line_ = 0;  // the last line taken of the program itself
     std::vector<Frame> frames_;
     int calls_ = 0;
-    std::int64_t repeated_lines_ = 0;
+    std::int64_t repeated_lines_ = 0;  // and the actions of them
+    std::int64_t idle_lines_ = 0;      // since the last action
     std::size_t kept_lines_ = 0;
     double returned_ = 0;
     bool has_returned_ = false;

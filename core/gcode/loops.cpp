@@ -26,6 +26,10 @@ Result Interpreter::do_frames() {
 }
 
 Result Interpreter::count_lines() {
+    if (++idle_lines_ > setup_.limits.idle_lines) {
+        return error(0, "loops and subroutines ran " + std::to_string(setup_.limits.idle_lines) +
+                            " lines without a motion or an event; check that each loop ends");
+    }
     if (++repeated_lines_ <= setup_.limits.repeated_lines) { return {}; }
     return error(0, "loops and subroutines ran more than " + std::to_string(setup_.limits.repeated_lines) +
                         " lines; check that each loop ends");
@@ -111,6 +115,7 @@ Result Interpreter::choose_branch(Frame& frame) {
         const KeptLine& line = frame.body->lines[frame.next];
         if (line.keyword == Keyword::EndIf) { return {}; }
         if (auto wrong = line_.read(line.text, line.number)) { return std::unexpected(*std::move(wrong)); }
+        if (auto counted = count_lines(); !counted) { return counted; }
         ++frame.next;
         if (line.keyword == Keyword::Else) { return {}; }
         Reader reader(line_, parameters_);

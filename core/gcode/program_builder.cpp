@@ -239,6 +239,7 @@ void ProgramBuilder::append(decltype(lockstep::Block::action) action) {
         program_.blocks.push_back({.line = line_, .action = std::move(action)});
         return;
     }
+    is_full_ = true;
     errors_.push_back({line_, 1,
                        "the program has more than " + std::to_string(kMaxProgramBlocks) + " blocks; split it in two",
                        true});

@@ -43,6 +43,9 @@ public:
     /// The errors of the actions since the last call.
     std::vector<GcodeError> take_errors() { return std::exchange(errors_, {}); }
 
+    /// The program has too many blocks. No more are kept.
+    bool is_full() const { return is_full_; }
+
     ProgramHead head() const { return program_.head(); }
     /// The blocks and notes since the last call.
     std::vector<lockstep::Block> take_blocks() { return std::exchange(program_.blocks, {}); }
@@ -66,6 +69,7 @@ private:
     /// Appends the event of a word for a device, unless the word is refused.
     void device_event(WordRule rule, const char* what, const char* key, const ProgramEvent& event);
     void note(const std::string& kind, const std::string& text);
+    void note_message(const std::string& text);
     void append(decltype(lockstep::Block::action) action);
     void fail(std::size_t axis, const std::string& message);
     void fail(const std::string& message);
@@ -78,6 +82,7 @@ private:
     std::vector<double> position_;
     Point at_{};
     std::vector<GcodeError> errors_;
+    bool is_full_ = false;
     int line_ = 0;
     std::set<std::size_t> outside_;      // axes named in this line's errors
     std::uint32_t events_together_ = 0;  // events since the last block of another kind

@@ -11,8 +11,7 @@ namespace lockstep::gcode {
 namespace {
 
 constexpr double kLeastLength_mm = 1e-9;
-constexpr double kSweepTolerance = 0.1;       // radians: corners too small to be rounded may lengthen an arc by this
-constexpr std::size_t kMostWaiting = 10'000;  // motions and events in one place of the plane
+constexpr double kSweepTolerance = 0.1;  // radians: corners too small to be rounded may lengthen an arc by this
 
 void set_in_plane(PlaneAxes axes, Point& point, Flat place) {
     point[axes.first] = place.x;

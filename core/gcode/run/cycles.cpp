@@ -8,7 +8,7 @@ namespace lockstep::gcode {
 namespace {
 
 constexpr double kPeckClearance_mm = 0.254;  // 0.010 inches, as in LinuxCNC
-constexpr std::size_t kMostPecks = 100'000;
+constexpr int kMostStrokes = 100'000;        // of a block: pecks times repeats
 
 /// A cycle's heights along the plane's normal, in the program's coordinates.
 struct Cycle {
@@ -90,8 +90,11 @@ Result set_heights(Context& context, Cycle& cycle) {
     if (cycle.clear < cycle.bottom) {
         return context.refuse_motion(" has its bottom above R; lower the bottom, or raise R");
     }
-    if (cycle.peck > 0 && (cycle.clear - cycle.bottom) / cycle.peck > kMostPecks) {
-        return context.refuse('Q', " makes more than " + std::to_string(kMostPecks) + " pecks; write a larger one");
+    const double strokes = cycle.peck > 0 ? (cycle.clear - cycle.bottom) / cycle.peck + 1 : 1;
+    if (strokes * cycle.repeats > kMostStrokes) {
+        const std::string most = " makes more than " + std::to_string(kMostStrokes);
+        return cycle.repeats == 1 ? context.refuse('Q', most + " pecks; write a larger one")
+                                  : context.refuse('L', most + " strokes in one block; write a smaller one");
     }
     cycle.retract = modal.retract_to_start ? std::max(kept.start, cycle.clear) : cycle.clear;
     return {};

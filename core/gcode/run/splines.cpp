@@ -98,6 +98,8 @@ Result quadratic_spline(Context& context) {
 
 namespace {
 
+constexpr std::size_t kMostControls = 5'000;
+
 Result begin_nurbs(Context& context) {
     SplineWords& words = context.state.spline;
     const auto order = context.block.has('L') ? whole(context.block['L']) : std::optional(3);
@@ -140,6 +142,10 @@ Result nurbs(Context& context) {
     const double weight = block.find('P').value_or(block.has(Group::Motion) ? 1 : 0);
     if (!(weight > 0)) { return context.refuse_motion(" needs the weight of each point; write P, above 0"); }
     SplineWords& words = context.state.spline;
+    if (words.nurbs->controls.size() >= kMostControls) {
+        return context.refuse_motion(" has more than " + std::to_string(kMostControls) +
+                                     " points; divide the curve with G5.3");
+    }
     const Point end = context.target();  // in G91 relative to the begin of the curve
     words.end = end;
     words.nurbs->controls.push_back(control_at(context, {end[0], end[1]}, weight));
