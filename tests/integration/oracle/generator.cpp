@@ -13,6 +13,7 @@ public:
 
     std::string make() {
         text_ = lines_.one_in(3) ? "%\n" : "";
+        if (lines_.one_in(3)) { add("O000" + std::to_string(lines_.below(9)) + (lines_.one_in(2) ? " (PART)" : "")); }
         text_ += "#1=3 #2=4 #4=5\n#<name>=1.5\nG0\n";
         if (!is_plain_ && !lines_.changes_units() && lines_.one_in(3)) { text_ += "T2 M6\nG43\n"; }
         if (lines_.one_in(2)) { subroutine(); }
@@ -41,7 +42,11 @@ private:
         if (lines_.one_in(3)) { add(LineMaker::report()); }
     }
 
-    std::string label() { return "o" + std::to_string(++labels_); }
+    std::string label() {
+        const std::string number = std::to_string(++labels_);
+        if (!lines_.one_in(4)) { return "o" + number; }
+        return lines_.one_in(2) ? "o[" + number + " + #2 * 0]" : "o[#4 * 0 + " + number + "]";
+    }
 
     void flow(int depth) {
         lines_.set_nested(true);
@@ -65,7 +70,11 @@ private:
                 add(name + " endrepeat");
                 break;
             case 3: count_down(name, depth); break;
-            default: add("o<part> call [" + lines_.value(1, 9) + "] [" + lines_.value(1, 9) + "]");
+            default: {
+                const std::string comment = lines_.one_in(2) ? "(c)" : "";
+                add("o<part> call " + comment + "[" + lines_.value(1, 9) + "]" + comment + " [" + lines_.value(1, 9) +
+                    "]");
+            }
         }
         lines_.set_nested(depth > 0);
     }
@@ -78,6 +87,7 @@ private:
     }
 
     void branch(const std::string& name, int depth) {
+        if (lines_.one_in(3)) { return same_label_twice(name); }
         add(name + " if [#1 gt " + lines_.value(-9, 9) + "]");
         some(depth + 1);
         if (lines_.one_in(2)) {
@@ -89,6 +99,19 @@ private:
             some(depth + 1);
         }
         add(name + " endif");
+    }
+
+    /// Only one of the two inner branches runs.
+    void same_label_twice(const std::string& name) {
+        const std::string inner = label();
+        const std::string condition = " if [exists[#" + std::to_string(lines_.below(2)) + "]]";
+        add(name + " if [#1 gt " + lines_.value(-9, 9) + "]");
+        for (const char* next : {" else", " endif"}) {
+            add(inner + condition);
+            one_level(0);
+            add(inner + " endif");
+            add(name + next);
+        }
     }
 
     void count_down(const std::string& name, int depth) {

@@ -252,7 +252,8 @@ std::string LineMaker::event() {
 }
 
 std::string LineMaker::assignment() {
-    switch (below(9)) {
+    switch (below(10)) {
+        case 9: return "#3=[exists[#1] + exists[#5602] + exists[##2] + exists[#<name>]] (debug,#3)";
         case 0: return "#1=" + value(-20, 20) + " #2=#1";
         case 1: return "#<name>=[#1 + " + value(-2, 2) + "] (debug,#<name>)";
         case 2: return "#3=atan[" + value(1, 9) + "]/[" + value(-9, 9) + "] (debug,#3)";

@@ -9,7 +9,7 @@
 // each item says what our interpreter does, then what rs274 does:
 // - F in the block of G20 or G21 counts in the new units, as in grbl. rs274 counts it in the old units.
 // - A canned cycle crosses at the greater of two heights, as LinuxCNC's documentation says. Where R changes between
-//   cycles without G80, rs274 crosses aslant, or goes down first.
+//   cycles without G80, or G98 follows G99, rs274 crosses aslant, or goes down first.
 // - A rotation (G10 L2 R) while G92 holds keeps the axes where they stand. rs274 turns the G92 offsets as well, and
 //   then moves axes that the block does not name.
 // - Tool lengths keep their size over G20 and G21. rs274 takes their number as one of the new units. The same holds for
