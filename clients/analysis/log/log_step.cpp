@@ -1,6 +1,8 @@
 #include "clients/analysis/log/log_step.hpp"
 
 #include <cstdlib>
+#include <utility>
+#include <vector>
 
 namespace lockstep::analysis {
 namespace {
@@ -28,16 +30,20 @@ std::expected<StepBatch, std::string> to_batch(const step_batch_t& message) {
                     .ahead_first = {message.ahead_first},
                     .ahead_last = {message.ahead_last},
                     .clock_error = {message.clock_error}};
-    batch.steps.reserve(message.delta_ticks.size());
+    std::vector<StepEdge> steps(message.delta_ticks.size());
     Tick tick{message.first_tick};
-    for (std::size_t i = 0; i < message.delta_ticks.size(); ++i) {
-        const bool rises = i == 0 ? message.delta_ticks[i] == 0 : message.delta_ticks[i] > 0;
-        if (!rises) { return std::unexpected("the ticks of a message's steps do not rise"); }
+    bool rises = steps.empty() || message.delta_ticks[0] == 0;
+    bool has_directions = true;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
         const std::int8_t direction = message.direction[i];
-        if (direction != 1 && direction != -1) { return std::unexpected("a step is neither forward nor backward"); }
+        rises = rises && (message.delta_ticks[i] > 0 || i == 0);
+        has_directions = has_directions && (direction == 1 || direction == -1);
         tick += Ticks{message.delta_ticks[i]};
-        batch.steps.push_back({tick, direction});
+        steps[i] = {tick, direction};
     }
+    if (!rises) { return std::unexpected("the ticks of a message's steps do not rise"); }
+    if (!has_directions) { return std::unexpected("a step is neither forward nor backward"); }
+    batch.steps = std::move(steps);
     if (!batch.steps.empty() && !clocks_agree(batch.machine_time())) {
         return std::unexpected("the clocks of a message of steps differ by an impossible amount");
     }
@@ -47,10 +53,12 @@ std::expected<StepBatch, std::string> to_batch(const step_batch_t& message) {
 StepBatch in_machine_time(StepBatch batch) {
     if (batch.steps.empty() || (batch.ahead_first == Ticks{} && batch.ahead_last == Ticks{})) { return batch; }
     const ClockStretch time = batch.machine_time();
-    for (StepEdge& step : batch.steps) {
+    std::vector<StepEdge> steps(batch.steps.begin(), batch.steps.end());
+    for (StepEdge& step : steps) {
         batch.device_ticks.push_back(step.tick);
         step.tick = time.at(step.tick);
     }
+    batch.steps = std::move(steps);
     batch.ahead_first = batch.ahead_last = {};
     return batch;
 }

@@ -73,9 +73,9 @@ public:
     }
     /// The machine time commanded for a ready step.
     Tick commanded_at(Tick tick) const { return commanded_.at(tick); }
-    /// Passes some of the ready steps.
-    void pass(std::size_t steps) {
-        for (const StepEdge& edge : std::span(made_).subspan(passed_, steps)) { count_ += edge.direction; }
+    /// Passes some of the ready steps, after which the position is `count`.
+    void pass(std::size_t steps, std::int64_t count) {
+        count_ = count;
         passed_ += steps;
     }
     /// The machine time commanded for the next step. There must be a next step.

@@ -15,10 +15,7 @@ constexpr std::size_t kGivenUpKept = 64;
 std::size_t content_of(const StepBatch& batch) {
     ContentHash hash;
     hash.add(batch.position_before_steps).add(batch.ahead_first.value).add(batch.ahead_last.value);
-    for (std::size_t i = 0; i < batch.steps.size(); ++i) {
-        hash.add(2 * batch.device_tick(i).value + (batch.steps[i].direction > 0 ? 1 : 0));
-    }
-    return hash.value();
+    return hash.add(static_cast<std::int64_t>(batch.steps.content())).value();
 }
 
 }  // namespace
@@ -119,7 +116,7 @@ void StepStream::deliver(const StepBatch& batch) {
     if (batch.steps.empty()) { return; }
     close_break(batch.steps.front().tick);
     for (StepListener* listener : listeners_) { listener->on_batch(batch); }
-    for (const StepEdge& step : batch.steps) { *position_ += step.direction; }
+    *position_ += batch.steps.change();
     counts_.steps += static_cast<std::int64_t>(batch.steps.size());
     last_tick_ = batch.steps.back().tick;
 }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "clients/analysis/log/content_memory.hpp"
+#include "clients/analysis/log/step_edges.hpp"
 #include "core/clock/clock_view.hpp"
 #include "core/step/segment.hpp"
 #include "core/units.hpp"
@@ -26,7 +27,7 @@ struct StepBatch {
     std::int64_t incarnation = 0;  // of the axis's process; each process counts its batches from 0
     std::int64_t sequence = 0;     // without gaps
     std::int64_t position_before_steps = 0;
-    std::vector<StepEdge> steps;
+    StepEdges steps;
     Ticks ahead_first{};  // machine time minus device time, at the first step
     Ticks ahead_last{};
     Ticks clock_error{};             // of machine time, in both directions

@@ -223,7 +223,7 @@ void AxisCheck::note_equal(std::size_t steps) {
     if (follower_ != nullptr) {
         for (std::size_t i = 0; i < steps; ++i) { pass_step(true); }
     } else {
-        maker_->pass(steps);
+        maker_->pass(steps, waiting_.batch().count_after(steps));
         findings_.steps += static_cast<std::int64_t>(steps);
     }
     waiting_.pass(steps);

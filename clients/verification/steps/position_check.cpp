@@ -32,9 +32,7 @@ std::optional<std::string> PositionCheck::take(const analysis::StepBatch& batch,
     const ClockStretch time = batch.machine_time();
     const Tick last = time.at(batch.steps.back().tick);
     const Ticks reach = slot + batch.clock_error;
-    std::int64_t count = batch.position_before_steps;
-    for (const StepEdge& step : batch.steps) { count += step.direction; }
-    newest_ = Stand{last, count};
+    newest_ = Stand{last, batch.position_before_steps + batch.steps.change()};
     recent_.push_back({batch, time, 0, batch.position_before_steps});
     std::optional<std::string> wrong;
     for (; !waiting_.empty() && waiting_.front().tick + reach <= last; waiting_.pop_front()) {
@@ -46,14 +44,19 @@ std::optional<std::string> PositionCheck::take(const analysis::StepBatch& batch,
     return wrong;
 }
 
+bool PositionCheck::Recent::pass_before(Tick tick) {
+    const auto is_before = [&](const StepEdge& step) { return time.at(step.tick) < tick; };
+    const auto* const next = std::partition_point(batch.steps.begin() + passed, batch.steps.end(), is_before);
+    const auto now = static_cast<std::size_t>(next - batch.steps.begin());
+    count += batch.steps.change(passed, now);
+    return std::exchange(passed, now) != now;
+}
+
 /// Passes the steps before a time.
 void PositionCheck::pass_before(Tick tick) {
     while (!recent_.empty()) {
         Recent& first = recent_.front();
-        while (!first.is_passed() && first.next() < tick) {
-            stand_ = Stand{first.next(), first.count + first.batch.steps[first.passed].direction};
-            first.pass();
-        }
+        if (first.pass_before(tick)) { stand_ = Stand{first.last(), first.count}; }
         if (!first.is_passed()) { return; }
         recent_.pop_front();
     }

@@ -55,8 +55,10 @@ private:
         std::int64_t count = 0;  // after them
 
         bool is_passed() const { return passed == batch.steps.size(); }
-        Tick next() const { return time.at(batch.steps[passed].tick); }
-        void pass() { count += batch.steps[passed++].direction; }
+        /// Passes the steps before a time. Returns false if there is none.
+        bool pass_before(Tick tick);
+        /// The newest step passed.
+        Tick last() const { return time.at(batch.steps[passed - 1].tick); }
     };
     /// The axis stands at `count` from a time on, until the first recent step.
     struct Stand {

@@ -34,8 +34,10 @@ public:
         const StepEdge& edge = batch_.steps[passed_];
         return {edge, count_ + edge.direction, batch_.incarnation, time_.at(edge.tick), batch_.clock_error};
     }
+    /// The position after the next `steps` of them.
+    std::int64_t count_after(std::size_t steps) const { return count_ + batch_.steps.change(passed_, passed_ + steps); }
     void pass(std::size_t steps) {
-        for (const StepEdge& edge : edges().first(steps)) { count_ += edge.direction; }
+        count_ = count_after(steps);
         passed_ += steps;
     }
 

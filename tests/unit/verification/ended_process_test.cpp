@@ -36,11 +36,11 @@ protected:
     }
     /// The first steps of a run, as published by its process.
     analysis::StepBatch published(const analysis::Run& run, int count) {
-        analysis::StepBatch batch{run.incarnation, batches_++, run.from.count(), {}};
+        std::vector<StepEdge> steps;
         for (StepMaker maker(run); count-- > 0 && maker.next() != nullptr; maker.pass()) {
-            batch.steps.push_back(*maker.next());
+            steps.push_back(*maker.next());
         }
-        return batch;
+        return {run.incarnation, batches_++, run.from.count(), std::move(steps)};
     }
     /// Another process moves the axis later, from its own position on.
     void another_process_moves() {
@@ -86,7 +86,9 @@ TEST_F(EndedProcess, StepsThatLackTheirRunAndAreNotThoseOfThePlanAreADifference)
     check.take(published(frame(1), kSteps));
     check.take(frame(1));
     auto batch = published(frame(2), 30);
-    batch.steps[20].tick += Ticks{1};
+    std::vector<StepEdge> steps(batch.steps.begin(), batch.steps.end());
+    steps[20].tick += Ticks{1};
+    batch.steps = std::move(steps);
     check.take(batch);
     another_process_moves();
     check.finish(none_ended, {});
@@ -130,7 +132,7 @@ TEST_F(EndedProcess, StepsRecordedByTheSuccessorAreComparedWithThePlan) {
     analysis::StepBatch found = published(frame(2), kSteps);
     found.incarnation = 8;
     found.position_before_steps += 40;
-    found.steps.erase(found.steps.begin(), found.steps.begin() + 40);
+    found.steps = std::vector<StepEdge>(found.steps.begin() + 40, found.steps.end());
     check.take(found);
     check.finish([](std::int64_t incarnation) { return incarnation == 7; }, {});
     EXPECT_FALSE(findings.difference) << findings.difference->text;
