@@ -83,7 +83,7 @@ std::expected<Analysis, std::string> analyze_log(const std::filesystem::path& lo
     for (const auto& directory : {options.csv_dir, options.svg_dir}) {
         if (auto made = make_directory(directory); !made) { return std::unexpected(made.error()); }
     }
-    Recorder recorder;
+    Recorder recorder(options);
     StageThread recording(recorder);
     LateMeter late(recording);
     StageThread comparing(late);

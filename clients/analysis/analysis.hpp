@@ -127,6 +127,7 @@ struct Analysis {
 struct AnalysisOptions {
     std::optional<std::filesystem::path> csv_dir;  // created if missing
     std::optional<std::filesystem::path> svg_dir;
+    bool curves = true;                    // courses over time and paths, for pictures and the report page
     std::optional<std::string> machine;    // the machine to analyze if the log has several; else the first one
     std::function<void(double)> progress;  // called with 0 ... 1 from time to time
 };

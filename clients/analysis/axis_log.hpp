@@ -36,13 +36,11 @@ struct LateFigures {
     TickHistogram amounts;
     Course course;
 
-    void add(LateSteps late_steps) {
-        for_equally_late(late_steps, [this](std::span<const LateStep> equal) {
-            const Ticks late = equal.front().late;
-            amounts.add(late, std::ssize(equal));
-            course.add_equal(static_cast<double>(late.value), equal.size(),
-                             [&](std::size_t i) { return equal[i].commanded + late; });
-        });
+    void add(const EquallyLate& steps, bool keeps_course) {
+        amounts.add(steps.late, std::ssize(steps.steps));
+        if (!keeps_course) { return; }
+        course.add_equal(static_cast<double>(steps.late.value), steps.steps.size(),
+                         [&](std::size_t i) { return steps.steps[i].tick; });
     }
 };
 
@@ -50,7 +48,10 @@ class AxisLog {
 public:
     static constexpr std::string_view kPositionsHeader = "tick,position_steps,position_mm,velocity_mm_per_s";
 
-    explicit AxisLog(std::string name) : name_(std::move(name)) {}
+    /// `keeps_curves`: the courses over time and the trace are wanted.
+    AxisLog(std::string name, bool keeps_curves) : name_(std::move(name)), statistics_(keeps_curves) {
+        if (keeps_curves) { stream_.listen(trace_); }
+    }
     AxisLog(const AxisLog&) = delete;
     AxisLog& operator=(const AxisLog&) = delete;
 
@@ -116,7 +117,7 @@ private:
     std::optional<PositionSample> origin_;  // the first with the newest zero, until steps with it are recorded
     std::optional<PositionSample> farthest_position_;  // since the last message of steps
     std::optional<double> steps_per_mm_;
-    StepStream stream_{{&statistics_, &trace_}};
+    StepStream stream_{{&statistics_}};
 };
 
 /// The minimum number of steps that an axis made and the log lacks.

@@ -25,11 +25,10 @@ void Recorder::on_axis(const std::string& name) {
 }
 
 void Recorder::on_measured(std::size_t lane, const SharedSteps& steps) {
-    if (!steps->steps.empty()) {
-        auto& seen = lanes_[lane].seen_us;
-        seen = std::max(seen.value_or(0), analysis_.microseconds_at(steps->steps.back().tick));
-    }
-    newest_ = std::max(newest_, steps->steps.back().tick);
+    const Tick newest = steps->edges.back().tick;
+    auto& seen = lanes_[lane].seen_us;
+    seen = std::max(seen.value_or(0), analysis_.microseconds_at(newest));
+    newest_ = std::max(newest_, newest);
     merge_.take(lane, steps);
     settle();
 }
@@ -122,7 +121,7 @@ void Recorder::begin_job(const RecordedJob& message, JobLog& record, LogPlace pl
         if (planned) { analysis_.tolerance_mm = std::max(analysis_.tolerance_mm, planned->tolerance_mm()); }
         planned ? void(asked = std::move(*planned)) : void(record.unplannable = planned.error());
     }
-    if (program && record.is_on_a_line() && !message.has_program_of(latest_program_)) {
+    if (options_.curves && program && record.is_on_a_line() && !message.has_program_of(latest_program_)) {
         keep_asked_way(*program);
         latest_program_ = message;
     }
@@ -131,10 +130,10 @@ void Recorder::begin_job(const RecordedJob& message, JobLog& record, LogPlace pl
 }
 
 void Recorder::on_late(const std::string& axis, const SharedLate& steps) {
-    if (!steps->steps.empty()) { waiting_late_.push_back({axis, steps}); }
+    if (!steps->groups.empty()) { waiting_late_.push_back({axis, steps}); }
     const auto lane = std::ranges::find(lanes_, axis, &Lane::axis);
     if (lane == lanes_.end()) { return; }
-    lane->late.add(steps->all());
+    for (const EquallyLate& group : steps->groups) { lane->late.add(group, options_.curves); }
 }
 
 bool Recorder::is_during(Tick tick, const JobLog& job) const {
@@ -217,9 +216,10 @@ void Recorder::settle() {
 }
 
 void Recorder::settle_late(Tick end) {
-    for (; !waiting_late_.empty() && waiting_late_.front().steps->steps.back().commanded < end;
-         waiting_late_.pop_front()) {
-        moves_.on_late(waiting_late_.front().axis, waiting_late_.front().steps->all());
+    const auto is_over = [&](const EquallyLate& last) { return last.commanded(last.steps.size() - 1) < end; };
+    for (; !waiting_late_.empty() && is_over(waiting_late_.front().steps->groups.back()); waiting_late_.pop_front()) {
+        const WaitingLate& first = waiting_late_.front();
+        for (const EquallyLate& group : first.steps->groups) { moves_.on_late(first.axis, group); }
     }
 }
 

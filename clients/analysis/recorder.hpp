@@ -19,7 +19,8 @@ namespace lockstep::analysis {
 
 class Recorder final : public SortedListener {
 public:
-    Recorder() = default;
+    /// `options` must outlive this object.
+    explicit Recorder(const AnalysisOptions& options) : options_(options) {}
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
 
@@ -54,13 +55,15 @@ private:
     void note_moves(JobLog& job, const JobMoves& moves);
     void note_move(JobLog& job, MoveLog move);
 
+    const AnalysisOptions& options_;
     EventLog events_;
     ProgramEventLog program_events_;
     using Names = std::vector<std::string>;
     MoveMeter moves_{[this](std::size_t job, const Names& axes, JobMoves& moves) {
-        note_unknown(analysis_.jobs[job], axes, moves);
-        note_moves(analysis_.jobs[job], moves);
-    }};
+                         note_unknown(analysis_.jobs[job], axes, moves);
+                         note_moves(analysis_.jobs[job], moves);
+                     },
+                     options_.curves};
     struct WaitingLate {
         std::string axis;
         SharedLate steps;

@@ -8,13 +8,13 @@
 
 namespace lockstep::analysis {
 
-void Sorter::on_steps(const step_batch_t& message, LogPlace place) {
+void Sorter::take(const StepMessage& message, LogPlace place) {
     Lane* of = lane(message.machine, message.axis, place);
     if (of == nullptr) { return; }
-    auto batch = to_batch(message);
+    const auto& batch = message.batch;
     if (!batch) { return on_damage(place, batch.error()); }
-    end_.saw(RecordKind::Steps, message.machine, message.axis, message.incarnation, message.sequence);
-    of->log->take(in_machine_time(std::move(*batch)));
+    end_.saw(RecordKind::Steps, message.machine, message.axis, batch->incarnation, batch->sequence);
+    of->log->take(in_machine_time(*batch));
 }
 
 void Sorter::on_position(const axis_position_t& message, LogPlace place) {
@@ -43,13 +43,13 @@ void Sorter::on_health(const axis_health_t& message, LogPlace place) {
     if (message.setpoints > 0) { of->log->take_slack({Tick{message.tick}, message.setpoint_slack_min_ms}); }
 }
 
-void Sorter::on_run(const run_t& message, LogPlace place) {
+void Sorter::take(const RunMessage& message, LogPlace place) {
     const Lane* of = lane(message.machine, message.axis, place);
     if (of == nullptr) { return; }
     ++runs_;
-    const auto run = to_run(message);
+    const auto& run = message.run;
     if (!run) { return on_damage(place, run.error()); }
-    end_.saw(RecordKind::Run, message.machine, message.axis, message.incarnation, message.sequence);
+    end_.saw(RecordKind::Run, message.machine, message.axis, run->incarnation, run->sequence);
     of->log->take(*run);
     listener_.on_run(of->number, *run);
 }
@@ -110,7 +110,7 @@ Sorter::Lane* Sorter::lane(const std::string& machine, const std::string& axis, 
         on_damage(place, "more axes than a machine can have");
         return nullptr;
     }
-    Lane lane{.number = lanes_.size(), .log = std::make_unique<AxisLog>(axis)};
+    Lane lane{.number = lanes_.size(), .log = std::make_unique<AxisLog>(axis, options_.curves)};
     lane.log->set_listener(listener_, lane.number);
     if (options_.csv_dir) { note_error(lane.log->write_csv(*options_.csv_dir)); }
     listener_.on_axis(axis);

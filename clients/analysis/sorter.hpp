@@ -10,6 +10,7 @@
 
 #include "clients/analysis/analysis.hpp"
 #include "clients/analysis/log/log_read.hpp"
+#include "clients/analysis/log/log_step.hpp"
 #include "clients/analysis/log/message_numbers.hpp"
 #include "clients/analysis/log/record_end.hpp"
 #include "clients/analysis/measure/sorted_log.hpp"
@@ -23,10 +24,12 @@ public:
     Sorter(const Sorter&) = delete;
     Sorter& operator=(const Sorter&) = delete;
 
-    void on_steps(const step_batch_t& message, LogPlace place) override;
+    void on_steps(const step_batch_t& message, LogPlace place) override { take(to_step_message(message), place); }
+    void take(const StepMessage& message, LogPlace place);
     void on_position(const axis_position_t& message, LogPlace place) override;
     void on_health(const axis_health_t& message, LogPlace place) override;
-    void on_run(const run_t& message, LogPlace place) override;
+    void on_run(const run_t& message, LogPlace place) override { take(to_run_message(message), place); }
+    void take(const RunMessage& message, LogPlace place);
     void on_job(const RecordedJob& message, LogPlace place) override;
     void on_event(const program_event_t& message, LogPlace place) override;
     void on_program_part(const program_part_t& message, LogPlace place) override;

@@ -2,29 +2,20 @@
 // the work. A StageThread between two stages makes both work in parallel.
 #pragma once
 
-#include <condition_variable>
 #include <cstddef>
-#include <deque>
-#include <functional>
-#include <mutex>
-#include <thread>
-#include <vector>
+#include <string>
 
 #include "clients/analysis/measure/sorted_log.hpp"
+#include "clients/analysis/work_thread.hpp"
 
 namespace lockstep::analysis {
 
 class StageThread final : public SortedListener {
 public:
-    /// The number of calls in a batch, and the maximum number of batches in the queue. They bound the memory.
-    static constexpr std::size_t kTogether = 16;
-    static constexpr std::size_t kMaxWaiting = 4;
-
     /// The other thread uses `listener` until finish().
-    explicit StageThread(SortedListener& listener);
+    explicit StageThread(SortedListener& listener) : listener_(listener) {}
     StageThread(const StageThread&) = delete;
     StageThread& operator=(const StageThread&) = delete;
-    ~StageThread() override { finish(); }
 
     void on_axis(const std::string& name) override;
     void on_measured(std::size_t lane, const SharedSteps& steps) override;
@@ -36,23 +27,11 @@ public:
     void on_late(const std::string& axis, const SharedLate& steps) override;
 
     /// Waits until all calls are passed on.
-    void finish();
+    void finish() { work_.finish(); }
 
 private:
-    using Call = std::move_only_function<void(SortedListener&)>;
-    using Batch = std::vector<Call>;
-
-    void add(Call call);
-    void hand_over();
-    Batch next();  // empty after the last one
-    void run(SortedListener& listener);
-
-    Batch batch_;
-    std::mutex mutex_;
-    std::condition_variable changed_;
-    std::deque<Batch> waiting_;
-    bool done_ = false;
-    std::jthread thread_;
+    SortedListener& listener_;
+    WorkThread work_;
 };
 
 }  // namespace lockstep::analysis

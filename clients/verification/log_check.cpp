@@ -38,29 +38,29 @@ LogCheck::Machine::Machine(Findings& findings)
                      bool is_behind_gap) { std::visit([&](const auto& of) { jobs.take(of, is_behind_gap); }, record); },
               [this](const JobRecord& other) { jobs.contradict(other); }) {}
 
-void LogCheck::on_steps(const step_batch_t& message, analysis::LogPlace place) {
+void LogCheck::take(const analysis::StepMessage& message, analysis::LogPlace place) {
     Axis* to = axis(message.machine, message.axis, place);
     if (to == nullptr) { return; }
-    auto batch = analysis::to_batch(message);
+    const auto& batch = message.batch;
     if (!batch) { return on_damage(place, batch.error()); }
     Machine& of = machines_.find(message.machine)->second;
-    end_.saw(RecordKind::Steps, message.machine, message.axis, message.incarnation, message.sequence);
-    to->begin(message.utime, message.sequence == 0);
-    of.note_message(*to, message.incarnation, message.utime);
+    end_.saw(RecordKind::Steps, message.machine, message.axis, batch->incarnation, batch->sequence);
+    to->begin(message.utime, batch->sequence == 0);
+    of.note_message(*to, batch->incarnation, message.utime);
     of.note_motion(*to);
-    to->check.take(std::move(*batch));
+    to->check.take(*batch);
 }
 
-void LogCheck::on_run(const run_t& message, analysis::LogPlace place) {
+void LogCheck::take(const analysis::RunMessage& message, analysis::LogPlace place) {
     Axis* to = axis(message.machine, message.axis, place);
     if (to == nullptr) { return; }
-    auto run = analysis::to_run(message);
+    const auto& run = message.run;
     if (!run) { return on_damage(place, run.error()); }
-    end_.saw(RecordKind::Run, message.machine, message.axis, message.incarnation, message.sequence);
+    end_.saw(RecordKind::Run, message.machine, message.axis, run->incarnation, run->sequence);
     Machine& of = machines_.find(message.machine)->second;
     of.note_motion(*to);
     if (to->began_before_log(message)) { to->check.began_before_log(*run); }
-    to->runs.take(std::move(*run));
+    to->runs.take(*run);
 }
 
 void LogCheck::on_health(const axis_health_t& message, analysis::LogPlace /*place*/) {
@@ -246,7 +246,7 @@ void LogCheck::Axis::begin(std::int64_t utime, bool is_its_first) {
 
 /// A run is published at its end, with the time of its start. If the log has the axis's first messages, it has all
 /// runs.
-bool LogCheck::Axis::began_before_log(const run_t& message) const {
+bool LogCheck::Axis::began_before_log(const analysis::RunMessage& message) const {
     return is_late && (!first_us || message.utime < *first_us + kStall_us);
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "clients/analysis/log/log_read.hpp"
+#include "clients/analysis/log/log_step.hpp"
 #include "clients/analysis/log/message_numbers.hpp"
 #include "clients/verification/activity.hpp"
 #include "clients/verification/jobs/job_check.hpp"
@@ -29,9 +30,15 @@ public:
     /// Compares steps with runs, which are accepted as recorded; the follower checks the runs.
     explicit LogCheck(MakeFollower make_follower) : make_follower_(std::move(make_follower)) {}
 
-    void on_steps(const step_batch_t& message, analysis::LogPlace place) override;
+    void on_steps(const step_batch_t& message, analysis::LogPlace place) override {
+        take(analysis::to_step_message(message), place);
+    }
+    void take(const analysis::StepMessage& message, analysis::LogPlace place);
     void on_position(const axis_position_t& message, analysis::LogPlace place) override;
-    void on_run(const run_t& message, analysis::LogPlace place) override;
+    void on_run(const run_t& message, analysis::LogPlace place) override {
+        take(analysis::to_run_message(message), place);
+    }
+    void take(const analysis::RunMessage& message, analysis::LogPlace place);
     void on_job(const analysis::RecordedJob& message, analysis::LogPlace place) override;
     void on_event(const program_event_t& message, analysis::LogPlace place) override;
     void on_health(const axis_health_t& message, analysis::LogPlace place) override;
@@ -54,7 +61,7 @@ private:
         /// Call it for each of the axis's messages, with the time at which it was published. `is_its_first`: the
         /// message is the first of its kind.
         void begin(std::int64_t utime, bool is_its_first);
-        bool began_before_log(const run_t& message) const;
+        bool began_before_log(const analysis::RunMessage& message) const;
         std::optional<std::int64_t> first_us;  // when the axis was first received
         bool is_late = true;                   // the log lacks its first messages
         AxisActivity last;

@@ -10,22 +10,26 @@ AskedShape::AskedShape(std::vector<double> from_mm, std::vector<double> to_mm, s
     : from_(std::move(from_mm)), to_(std::move(to_mm)), arc_(arc) {
     double squares = 0;
     for (std::size_t i = 0; i < from_.size(); ++i) {
-        direction_.push_back(to_[i] - from_[i]);
-        squares += direction_[i] * direction_[i];
+        line_.push_back({from_[i], to_[i] - from_[i]});
+        squares += line_[i].direction * line_[i].direction;
     }
     length_ = std::sqrt(squares);
-    for (double& part : direction_) { part = length_ > 0 ? part / length_ : 0; }
+    for (Line& axis : line_) { axis.direction = length_ > 0 ? axis.direction / length_ : 0; }
 }
 
 double AskedShape::square_of_distance(std::span<const double> at_mm) { return arc_ ? of_arc(at_mm) : of_line(at_mm); }
 
-double AskedShape::of_line(std::span<const double> at_mm) const {
+double AskedShape::along(std::span<const double> at_mm) const {
     double along = 0;
-    for (std::size_t i = 0; i < from_.size(); ++i) { along += (at_mm[i] - from_[i]) * direction_[i]; }
-    along = std::clamp(along, 0.0, length_);
+    for (std::size_t i = 0; i < line_.size(); ++i) { along += (at_mm[i] - line_[i].from) * line_[i].direction; }
+    return along;
+}
+
+double AskedShape::of_line(std::span<const double> at_mm) const {
+    const double along = std::clamp(this->along(at_mm), 0.0, length_);
     double squares = 0;
-    for (std::size_t i = 0; i < from_.size(); ++i) {
-        const double off = at_mm[i] - from_[i] - along * direction_[i];
+    for (std::size_t i = 0; i < line_.size(); ++i) {
+        const double off = at_mm[i] - line_[i].from - along * line_[i].direction;
         squares += off * off;
     }
     return squares;

@@ -19,6 +19,12 @@ public:
     /// The square of the distance of a place from the curve, in mm^2. For arcs the nearest point is sought from the
     /// one before, so successive places should be near each other.
     double square_of_distance(std::span<const double> at_mm);
+    bool is_line() const { return !arc_; }
+    double length() const { return length_; }
+    /// Of a line: the part of an axis in its unit vector, and the distance of a place's foot from its beginning.
+    double direction(std::size_t axis) const { return line_[axis].direction; }
+    double from(std::size_t axis) const { return line_[axis].from; }
+    double along(std::span<const double> at_mm) const;
 
 private:
     double of_line(std::span<const double> at_mm) const;
@@ -26,8 +32,12 @@ private:
 
     std::vector<double> from_;
     std::vector<double> to_;
-    std::vector<double> direction_;  // of a line, as a unit vector
-    double length_ = 0;              // of a line
+    struct Line {  // of an axis
+        double from = 0;
+        double direction = 0;  // of the unit vector
+    };
+    std::vector<Line> line_;
+    double length_ = 0;  // of the line
     std::optional<ArcShape> arc_;
     double share_ = 0;  // of the arc, at the nearest point found last
 };

@@ -50,6 +50,10 @@ std::expected<StepBatch, std::string> to_batch(const step_batch_t& message) {
     return batch;
 }
 
+StepMessage to_step_message(const step_batch_t& message) {
+    return {message.machine, message.axis, message.utime, to_batch(message)};
+}
+
 StepBatch in_machine_time(StepBatch batch) {
     if (batch.steps.empty() || (batch.ahead_first == Ticks{} && batch.ahead_last == Ticks{})) { return batch; }
     const ClockStretch time = batch.machine_time();

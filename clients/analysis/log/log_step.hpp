@@ -24,6 +24,15 @@ constexpr bool is_message_number(std::int64_t number) { return number >= 0 && is
 /// than +1 and -1, numbers that are too large, or clocks that differ by more than 1 %.
 std::expected<StepBatch, std::string> to_batch(const step_batch_t& message);
 
+/// A message of steps and what it contains, converted once for all readers.
+struct StepMessage {
+    std::string machine;
+    std::string axis;
+    std::int64_t utime = 0;
+    std::expected<StepBatch, std::string> batch;
+};
+StepMessage to_step_message(const step_batch_t& message);
+
 /// Returns the same steps in machine time, exact within the batch's clock_error.
 StepBatch in_machine_time(StepBatch batch);
 

@@ -60,6 +60,10 @@ std::expected<Run, std::string> to_run(const run_t& message) {
     return run;
 }
 
+RunMessage to_run_message(const run_t& message) {
+    return {message.machine, message.axis, message.utime, to_run(message)};
+}
+
 std::string name_of(const Run& run) {
     std::string frame = fmt::format("{} {}", run.tail ? "tail of frame" : "frame", run.frame);
     if (run.epoch != 0) { return frame; }

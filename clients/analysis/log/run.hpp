@@ -44,6 +44,15 @@ struct Run {
 /// The error names the impossible value: a piece that no engine executes, or a number that is too large.
 std::expected<Run, std::string> to_run(const run_t& message);
 
+/// A message of a run and what it contains, converted once for all readers.
+struct RunMessage {
+    std::string machine;
+    std::string axis;
+    std::int64_t utime = 0;
+    std::expected<Run, std::string> run;
+};
+RunMessage to_run_message(const run_t& message);
+
 /// "frame 12", "tail of frame 12", or "run 3, frame 1 of the axis's own move" outside any epoch.
 std::string name_of(const Run& run);
 

@@ -12,15 +12,20 @@ void AxisStatistics::on_batch(const StepBatch& batch) {
     if (!first_) { begin(batch.steps.front(), batch.position_before_steps); }
     std::int64_t position = batch.position_before_steps;
     const auto measured = std::make_shared<MeasuredSteps>();
-    measured->steps.resize(batch.steps.size());
+    measured->edges = batch.steps;
+    measured->position_before = position;
+    measured->rates.resize(batch.steps.size());
     measured->clock_error = batch.clock_error;
+    const bool joins = std::exchange(joined_, true) && last_;
+    Tick before = joins ? last_->tick : batch.steps.front().tick;
     for (std::size_t i = 0; i < batch.steps.size(); ++i) {
         const StepEdge edge = batch.steps[i];
         position += edge.direction;
-        show_rest(edge.tick);
-        measure(edge, batch.device_tick(i), position, measured->steps[i]);
-        last_ = {edge.tick, position};
+        if (edge.tick - before > SpeedMeter::kRest) { show_rest(before, edge.tick); }
+        measured->rates[i] = measure(edge, batch.device_tick(i));
+        before = edge.tick;
     }
+    last_ = {before, position};
     steps_ += static_cast<std::int64_t>(batch.steps.size());
     clock_error_ = std::max(clock_error_, batch.clock_error);
     if (listener_ != nullptr) { listener_->on_measured(lane_, measured); }
@@ -53,17 +58,14 @@ void AxisStatistics::begin(StepEdge edge, std::int64_t position_before) {
 }
 
 /// Speed and acceleration are by the device's clock, which the motor follows; their times are machine time.
-void AxisStatistics::measure(StepEdge edge, Tick by_device, std::int64_t position, MeasuredStep& step) {
+inline StepRates AxisStatistics::measure(StepEdge edge, Tick by_device) {
     const auto speed = meter_.step({by_device, edge.direction});
     const auto& acceleration = meter_.acceleration();
     const Ticks ahead = edge.tick - by_device;
-    if (speed) { speed_.add({speed->at + ahead, speed->value}); }
-    if (acceleration) { acceleration_.add({acceleration->at + ahead, acceleration->value}); }
-    step.tick = edge.tick;
-    step.count = position;
-    step.direction = edge.direction;
-    step.steps_per_tick = speed ? static_cast<float>(std::abs(speed->value)) : 0;
-    step.steps_per_tick2 = acceleration ? static_cast<float>(std::abs(acceleration->value)) : 0;
+    if (speed && keeps_curves_) { speed_.add({speed->at + ahead, speed->value}); }
+    if (acceleration && keeps_curves_) { acceleration_.add({acceleration->at + ahead, acceleration->value}); }
+    return {speed ? static_cast<float>(std::abs(speed->value)) : 0,
+            acceleration ? static_cast<float>(std::abs(acceleration->value)) : 0};
 }
 
 void AxisStatistics::stand_at(Tick tick) {
@@ -72,9 +74,8 @@ void AxisStatistics::stand_at(Tick tick) {
 }
 
 /// Speed and acceleration are 0 during a rest. Where steps are missing they are unknown.
-void AxisStatistics::show_rest(Tick until) {
-    if (!std::exchange(joined_, true) || !last_ || until - last_->tick <= SpeedMeter::kRest) { return; }
-    stand_at(last_->tick);
+void AxisStatistics::show_rest(Tick from, Tick until) {
+    stand_at(from);
     stand_at(until);
 }
 

@@ -22,6 +22,9 @@ class AxisStatistics final : public StepListener {
 public:
     static constexpr std::size_t kBreaksKept = 1000;
 
+    /// `keeps_curves`: speed() and acceleration() are wanted.
+    explicit AxisStatistics(bool keeps_curves = true) : keeps_curves_(keeps_curves) {}
+
     /// Passes each step to `listener` too, with its measured values.
     void set_listener(MeasuredListener& listener, std::size_t lane) {
         listener_ = &listener;
@@ -53,10 +56,11 @@ public:
 
 private:
     void begin(StepEdge edge, std::int64_t position_before);
-    void measure(StepEdge edge, Tick by_device, std::int64_t position, MeasuredStep& step);
+    StepRates measure(StepEdge edge, Tick by_device);
     void stand_at(Tick tick);
-    void show_rest(Tick until);
+    void show_rest(Tick from, Tick until);
 
+    bool keeps_curves_;
     SpeedMeter meter_;
     Course speed_;
     Course acceleration_;

@@ -9,18 +9,17 @@ namespace lockstep::analysis {
 namespace {
 
 /// The number of steps, counted from the first, that are in the cursor's move. The first step is in it.
-std::size_t steps_in_move(const MoveCursor& cursor, std::span<const LateStep> steps) {
-    const LateStep& first = steps.front();
-    const std::int64_t way = (steps.back().count - first.count) * first.direction;
-    if (way + 1 == std::ssize(steps)) {  // no step reverses
-        const std::int64_t in_stroke = std::min(way + 1, cursor.steps_from(first.count - first.direction));
+std::size_t steps_in_move(const MoveCursor& cursor, const EquallyLate& late) {
+    if (late.is_one_way()) {
+        const std::int64_t in_stroke = std::min(std::ssize(late.steps), cursor.steps_from(late.before));
         return static_cast<std::size_t>(std::max<std::int64_t>(1, in_stroke));
     }
-    const auto is_elsewhere = [&](const LateStep& step) {
-        return !cursor.is_in_stroke(step.count - step.direction, step.direction);
-    };
-    return std::max<std::size_t>(1,
-                                 static_cast<std::size_t>(std::ranges::find_if(steps, is_elsewhere) - steps.begin()));
+    std::int64_t count = late.before;
+    std::size_t steps = 0;
+    for (; steps < late.steps.size() && cursor.is_in_stroke(count, late.steps[steps].direction); ++steps) {
+        count += late.steps[steps].direction;
+    }
+    return std::max<std::size_t>(1, steps);
 }
 
 }  // namespace
@@ -72,7 +71,9 @@ JobMoves::JobMoves(AskedPath asked, bool on_a_line)
 
 void JobMoves::begin(std::size_t move) {
     current_ = move;
-    if (on_a_line_) { shape_ = asked_.shape(move); }
+    if (!on_a_line_) { return; }
+    shape_ = asked_.shape(move);
+    line_.forget();
 }
 
 /// The square of the distance from the axes' place to the curve. Near the joint of two moves, one axis may be in a
@@ -80,6 +81,7 @@ void JobMoves::begin(std::size_t move) {
 double JobMoves::square_of_distance_mm2() {
     constexpr std::size_t kBack = 8;
     double least = shape_.square_of_distance(at_mm_);
+    line_.set(shape_, at_mm_, least);
     for (std::size_t back = 1; back <= std::min(kBack, current_) && least > near_mm2_; ++back) {
         least = std::min(least, asked_.shape(current_ - back).square_of_distance(at_mm_));
     }
@@ -90,19 +92,27 @@ void JobMoves::take(std::size_t axis, const MeasuredStep& step) {
     if (asked_.size() == 0) { return; }
     MoveCursor& cursor = made_cursor_[axis];
     const std::size_t move_before = cursor.move();
-    if (cursor.find(asked_, axis, step.count - step.direction, step.direction, slack(cursor.move(), axis))) {
+    const auto beyond = [&] { return slack(cursor.move(), axis); };
+    if (cursor.find(asked_, axis, step.count - step.direction, step.direction, beyond)) {
         take_in(cursor.move(), axis, step);
     } else {
         ++unasked_steps_;
     }
     const bool is_next = std::exchange(counts_[axis], step.count) == step.count - step.direction;
-    at_mm_[axis] = static_cast<double>(step.count) * asked_.mm_per_step(axis);
+    const double mm_per_step = asked_.mm_per_step(axis);
+    const double before_mm = std::exchange(at_mm_[axis], static_cast<double>(step.count) * mm_per_step);
     if (!on_a_line_) { return; }
-    if (!is_next) { forget_distances(move_before); }
+    Made& made = made_[current_];
+    const bool is_farther = line_.may_be_farther(shape_, axis, before_mm, step.direction * mm_per_step,
+                                                 static_cast<double>(made.largest_square_mm2));
+    if (!is_next) {
+        line_.forget();
+        forget_distances(move_before);
+    }
     if (step.tick < newest_) { return forget_distances(std::min(cursor.move(), current_)); }
-    newest_ = made_[current_].newest = step.tick;
-    float& largest = made_[current_].largest_square_mm2;
-    largest = std::max(largest, static_cast<float>(square_of_distance_mm2()));
+    newest_ = made.newest = step.tick;
+    if (!is_farther && is_next) { return; }
+    made.largest_square_mm2 = std::max(made.largest_square_mm2, static_cast<float>(square_of_distance_mm2()));
 }
 
 /// Called if later steps of other axes were compared with an outdated position of this axis.
@@ -137,33 +147,30 @@ void JobMoves::take_in(std::size_t move, std::size_t axis, const MeasuredStep& s
     const bool is_lead = axis == asked_.lead(move);
     if (is_lead && made_[move].first == kNever) { made_[move].first = step.tick; }
     if (move >= details_.size()) { return; }
-    Peak& peak = details_[move].peaks[axis];
-    peak.steps_per_tick = std::max(peak.steps_per_tick, static_cast<float>(step.steps_per_tick));
-    peak.steps_per_tick2 = std::max(peak.steps_per_tick2, static_cast<float>(step.steps_per_tick2));
+    StepRates& peak = details_[move].peaks[axis];
+    peak.steps_per_tick = std::max(peak.steps_per_tick, step.rates.steps_per_tick);
+    peak.steps_per_tick2 = std::max(peak.steps_per_tick2, step.rates.steps_per_tick2);
     if (is_lead) { details_[move].last = step.tick; }
 }
 
-void JobMoves::Details::add(std::span<const LateStep> equally_late) {
-    const Ticks amount = equally_late.front().late;
-    earliest = late.empty() ? amount : std::min(earliest, amount);
-    latest = late.empty() ? amount : std::max(latest, amount);
-    late.add(amount, std::ssize(equally_late));
+void JobMoves::Details::add(const EquallyLate& steps) {
+    earliest = late.empty() ? steps.late : std::min(earliest, steps.late);
+    latest = late.empty() ? steps.late : std::max(latest, steps.late);
+    late.add(steps.late, std::ssize(steps.steps));
 }
 
-void JobMoves::take(std::size_t axis, LateSteps late) {
+void JobMoves::take(std::size_t axis, EquallyLate late) {
     if (asked_.size() == 0) { return; }
     MoveCursor& cursor = late_cursor_[axis];
-    while (!late.steps.empty()) {
-        const LateStep& first = late.steps.front();
-        const bool found =
-            cursor.find(asked_, axis, first.count - first.direction, first.direction, slack(cursor.move(), axis));
-        const std::size_t count = found ? steps_in_move(cursor, late.steps) : 1;
-        if (found) {
-            for_equally_late(late.first(count), [&](std::span<const LateStep> equal) {
-                late_.add(equal.front().late, std::ssize(equal));
-                if (cursor.move() < details_.size()) { details_[cursor.move()].add(equal); }
-            });
+    const auto beyond = [&] { return slack(cursor.move(), axis); };
+    while (true) {
+        const bool is_found = cursor.find(asked_, axis, late.before, late.steps.front().direction, beyond);
+        const std::size_t count = is_found ? steps_in_move(cursor, late) : 1;
+        if (is_found) {
+            late_.add(late.late, static_cast<std::int64_t>(count));
+            if (cursor.move() < details_.size()) { details_[cursor.move()].add(late.first(count)); }
         }
+        if (count == late.steps.size()) { return; }
         late = late.behind(count);
     }
 }

@@ -14,6 +14,7 @@
 
 #include "clients/analysis/asked/asked_path.hpp"
 #include "clients/analysis/measure/lateness.hpp"
+#include "clients/analysis/measure/line_distance.hpp"
 #include "clients/analysis/measure/measured_step.hpp"
 #include "clients/analysis/measure/tick_histogram.hpp"
 
@@ -50,9 +51,10 @@ class MoveCursor {
 public:
     /// Goes to the stroke in which an axis steps from `count` in `direction`. Returns false if none of the next kReach
     /// strokes is it.
-    /// `beyond`: steps by which a reversal may be later than planned.
-    bool find(const AskedPath& asked, std::size_t axis, std::int64_t count, int direction, std::int64_t beyond) {
-        return is_in_stroke(count, direction) || find_next(asked, axis, count, direction, beyond);
+    /// `beyond()`: steps by which a reversal may be later than planned.
+    template <typename Beyond>
+    bool find(const AskedPath& asked, std::size_t axis, std::int64_t count, int direction, Beyond&& beyond) {
+        return is_in_stroke(count, direction) || find_next(asked, axis, count, direction, beyond());
     }
     bool is_in_stroke(std::int64_t count, int direction) const { return stroke_.has(count, direction); }
     /// The number of steps from `count` to the end of the stroke.
@@ -81,7 +83,7 @@ public:
     bool is_on_a_line() const { return on_a_line_ && asked_.size() > 0; }
     /// Call in the order of time. A step that comes late makes the distances since its move unknown.
     void take(std::size_t axis, const MeasuredStep& step);
-    void take(std::size_t axis, LateSteps late);
+    void take(std::size_t axis, EquallyLate late);
 
     /// From here on the path is planned again, behind a hold or an override.
     void plan_again() { is_planned_again_ = true; }
@@ -109,17 +111,13 @@ private:
         float largest_square_mm2 = 0;   // of the distance from the line
         bool is_distance_known = true;  // false if steps came late or are missing
     };
-    struct Peak {
-        float steps_per_tick = 0;
-        float steps_per_tick2 = 0;
-    };
     struct Details {
         Tick last;  // of the lead axis's steps
         TickHistogram late;
         Ticks earliest;  // smallest lateness of its steps
         Ticks latest;
-        std::vector<Peak> peaks;  // by axis
-        void add(std::span<const LateStep> equally_late);
+        std::vector<StepRates> peaks;  // by axis
+        void add(const EquallyLate& steps);
     };
     void take_in(std::size_t move, std::size_t axis, const MeasuredStep& step);
     void begin(std::size_t move);
@@ -145,6 +143,7 @@ private:
     std::vector<std::int64_t> counts_;  // of each axis, after its newest step
     std::vector<double> at_mm_;         // the same, in mm
     AskedShape shape_;                  // of the current move
+    LineDistance line_;                 // from it
     double near_mm2_ = 0;               // the square of a step of each axis
     std::int64_t unasked_steps_ = 0;
 };

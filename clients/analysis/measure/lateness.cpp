@@ -7,15 +7,27 @@
 namespace lockstep::analysis {
 namespace {
 
-/// The number of steps of a run that does not reverse.
-std::size_t likely_steps(const Run& run) {
-    return static_cast<std::size_t>(std::abs(run.to().count() - run.from.count()));
+std::int64_t change_of(std::span<const StepEdge> steps) {
+    std::int64_t change = 0;
+    for (const StepEdge& step : steps) { change += step.direction; }
+    return change;
 }
 
 }  // namespace
 
+EquallyLate EquallyLate::first(std::size_t count) const {
+    const auto part = steps.first(count);
+    return {part, before, is_one_way() ? std::ssize(part) * part[0].direction : change_of(part), late, error};
+}
+
+EquallyLate EquallyLate::behind(std::size_t count) const {
+    const std::int64_t passed = first(count).change;
+    return {steps.subspan(count), before + passed, change - passed, late, error};
+}
+
 void Lateness::take(SharedSteps steps) {
-    last_tick_ = std::max(last_tick_.value_or(steps->steps.back().tick), steps->steps.back().tick);
+    const Tick newest = steps->edges.back().tick;
+    last_tick_ = std::max(last_tick_.value_or(newest), newest);
     seen_.add(std::move(steps));
     settle();
     while (seen_.size() > kMaxSeen) { seen_.pop(); }
@@ -59,30 +71,49 @@ void Lateness::compare_first() {
     if (run.epoch != 0) { on_run_(run, std::move(late)); }
 }
 
+/// Whether the first step in the log is the next step of the run.
+bool Lateness::is_next(StepMaker& maker) const {
+    const StepEdge* next = maker.next();
+    const MeasuredStep seen = seen_.front();
+    return next != nullptr && seen.direction == next->direction && seen.count == maker.count() + next->direction &&
+           std::abs((seen.tick - maker.commanded()).value) < kPatience.value;
+}
+
 /// Compares the run's steps up to the first one that is not in the log.
 LateRun Lateness::compare(StepMaker maker) {
-    LateRun run;
-    std::vector<LateStep>& steps = run.steps;
-    const auto is_next = [&](const MeasuredStep& seen) {
-        const StepEdge* next = maker.next();
-        return next != nullptr && seen.direction == next->direction && seen.count == maker.count() + next->direction &&
-               std::abs((seen.tick - maker.commanded()).value) < kPatience.value;
-    };
-    while (!seen_.empty() && seen_.front().tick < maker.run().commanded_start() && !is_next(seen_.front())) {
+    while (!seen_.empty() && seen_.tick() < maker.run().commanded_start() && !is_next(maker)) {
         seen_.pop();  // steps of runs that are not in the log
     }
-    steps.reserve(std::min(seen_.size(), likely_steps(maker.run())));
-    for (; !seen_.empty() && is_next(seen_.front()); seen_.pop(), maker.pass()) {
-        const MeasuredStep& seen = seen_.front();
-        LateStep& step = steps.emplace_back();
-        step.commanded = maker.commanded();
-        step.late = seen.tick - step.commanded;
-        run.are_equally_late = run.are_equally_late && step.late == steps.front().late;
-        step.error = seen_.clock_error();
-        step.count = seen.count;
-        step.direction = seen.direction;
-    }
+    LateRun run;
+    while (compare_ready(maker, run)) {}
     return run;
+}
+
+/// Compares the steps of one message with those that are made at once. Returns false behind the last equal step.
+bool Lateness::compare_ready(StepMaker& maker, LateRun& run) {
+    if (seen_.empty() || !is_next(maker)) { return false; }
+    const std::span<const StepEdge> made = maker.ready();
+    const std::span<const StepEdge> seen = seen_.ready();
+    const std::size_t most = std::min(made.size(), seen.size());
+    run.messages.push_back(seen_.batch());
+    std::int64_t count = maker.count();
+    std::size_t equal = 0;
+    while (equal < most) {
+        const Ticks late = seen[equal].tick - maker.commanded_at(made[equal].tick);
+        if (std::abs(late.value) >= kPatience.value) { break; }
+        const std::size_t from = equal;
+        const std::int64_t before = count;
+        for (; equal < most && seen[equal].direction == made[equal].direction &&
+               seen[equal].tick - maker.commanded_at(made[equal].tick) == late;
+             ++equal) {
+            count += made[equal].direction;
+        }
+        if (equal == from) { break; }
+        run.groups.push_back({seen.subspan(from, equal - from), before, count - before, late, seen_.clock_error()});
+    }
+    maker.pass(equal, count);
+    seen_.pop(equal, count);
+    return equal == most;
 }
 
 }  // namespace lockstep::analysis

@@ -18,41 +18,25 @@
 
 namespace lockstep::analysis {
 
-struct LateStep {
-    Tick commanded;
-    Ticks late;              // negative: early
-    Ticks error;             // uncertainty of `late`
-    std::int64_t count = 0;  // after the step, machine coordinates
-    std::int8_t direction = 0;
+/// Consecutive steps of one run and one message that are equally late.
+struct EquallyLate {
+    std::span<const StepEdge> steps;  // in machine time, as they were made; at least one
+    std::int64_t before = 0;          // the position before them, machine coordinates
+    std::int64_t change = 0;          // of the position by them
+    Ticks late;                       // negative: early
+    Ticks error;                      // uncertainty of `late`
+
+    Tick commanded(std::size_t step) const { return steps[step].tick - late; }
+    bool is_one_way() const { return change == std::ssize(steps) || -change == std::ssize(steps); }
+    /// The first `count` steps, and the others. `count`: at least one, and not all for behind().
+    EquallyLate first(std::size_t count) const;
+    EquallyLate behind(std::size_t count) const;
 };
 
-/// Some steps of one run, in the order of the commanded ticks.
-struct LateSteps {
-    std::span<const LateStep> steps;
-    bool are_equally_late = false;  // known to be equally late, usually by 0 ticks
-
-    LateSteps first(std::size_t count) const { return {steps.first(count), are_equally_late}; }
-    LateSteps behind(std::size_t count) const { return {steps.subspan(count), are_equally_late}; }
-};
-
-/// Calls on_equal(steps) for each group of consecutive steps that are equally late.
-template <typename OnEqual>
-void for_equally_late(LateSteps late, OnEqual&& on_equal) {
-    while (!late.steps.empty()) {
-        const auto differs = [&](const LateStep& step) { return step.late != late.steps.front().late; };
-        const auto end = late.are_equally_late ? late.steps.end() : std::ranges::find_if(late.steps, differs);
-        const auto count = static_cast<std::size_t>(end - late.steps.begin());
-        on_equal(late.steps.first(count));
-        late = late.behind(count);
-    }
-}
-
-/// All steps of one run. Any thread may read it.
+/// The steps of one run. Any thread may read it.
 struct LateRun {
-    std::vector<LateStep> steps;
-    bool are_equally_late = true;
-
-    LateSteps all() const { return {steps, are_equally_late}; }
+    std::vector<StepEdges> messages;  // that contain the steps
+    std::vector<EquallyLate> groups;  // in the order of the commanded ticks
 };
 using SharedLate = std::shared_ptr<const LateRun>;
 
@@ -82,6 +66,8 @@ public:
 private:
     void settle();
     Tick first_end() const;
+    bool is_next(StepMaker& maker) const;
+    bool compare_ready(StepMaker& maker, LateRun& run);
     void compare_first();
     LateRun compare(StepMaker maker);
 

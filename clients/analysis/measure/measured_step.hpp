@@ -1,4 +1,4 @@
-// A step with its measured values, passed from the stream of one axis to the stages for all axes.
+// Steps with their measured values, passed from the stream of one axis to the stages for all axes.
 #pragma once
 
 #include <cstddef>
@@ -6,21 +6,29 @@
 #include <memory>
 #include <vector>
 
+#include "clients/analysis/log/step_edges.hpp"
 #include "core/units.hpp"
 
 namespace lockstep::analysis {
 
+/// At a step, without sign; 0 if too few steps are known.
+struct StepRates {
+    float steps_per_tick = 0;
+    float steps_per_tick2 = 0;
+};
+
 struct MeasuredStep {
     Tick tick;
-    std::int64_t count = 0;    // after the step, machine coordinates
-    float steps_per_tick = 0;  // without sign; 0 if too few steps are known
-    float steps_per_tick2 = 0;
+    std::int64_t count = 0;  // after the step, machine coordinates
     std::int8_t direction = 0;
+    StepRates rates;
 };
 
 /// Steps in order. Their ticks are machine time within clock_error.
 struct MeasuredSteps {
-    std::vector<MeasuredStep> steps;  // at least one
+    StepEdges edges;  // at least one
+    std::int64_t position_before = 0;
+    std::vector<StepRates> rates;  // of each step
     Ticks clock_error;
 };
 

@@ -38,7 +38,7 @@ void MoveMeter::plan_again(std::size_t number) {
 
 void MoveMeter::take(std::size_t lane, const MeasuredStep& step) {
     Job* job = job_at(step.tick);
-    trace(job, lane, step);
+    if (keeps_plane_) { trace(job, lane, step); }
     if (job == nullptr) {
         ++steps_of_no_job_;
         return;
@@ -53,15 +53,15 @@ void MoveMeter::trace(const Job* job, std::size_t lane, const MeasuredStep& step
     if (const auto in_plane = lanes_[lane].in_plane) { plane_.step(*in_plane, step.count, step.direction); }
 }
 
-void MoveMeter::on_late(const std::string& axis, LateSteps late) {
-    while (!late.steps.empty()) {
-        const auto& steps = late.steps;
-        Job* job = job_at(steps.front().commanded);
-        const auto is_of_job = [&](const LateStep& step) { return job_at(step.commanded) == job; };
-        const auto end = is_of_job(steps.back()) ? steps.end() : std::ranges::find_if_not(steps, is_of_job);
-        const auto count = static_cast<std::size_t>(end - steps.begin());
+void MoveMeter::on_late(const std::string& axis, EquallyLate late) {
+    while (true) {
+        const std::size_t all = late.steps.size();
+        Job* job = job_at(late.commanded(0));
+        std::size_t count = job_at(late.commanded(all - 1)) == job ? all : 1;
+        while (count < all && job_at(late.commanded(count)) == job) { ++count; }
         const auto number = job != nullptr ? job->axis(axis) : std::nullopt;
         if (number) { job->moves.take(*number, late.first(count)); }
+        if (count == all) { return; }
         late = late.behind(count);
     }
 }

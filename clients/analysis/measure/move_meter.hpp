@@ -22,7 +22,8 @@ public:
 
     /// Called when a job is over, with the number given to begin(), the axes of its machine, and its moves.
     using OnJob = std::function<void(std::size_t number, const std::vector<std::string>& axes, JobMoves&)>;
-    explicit MoveMeter(OnJob on_job) : on_job_(std::move(on_job)) {}
+    /// `keeps_plane`: plane() is wanted.
+    MoveMeter(OnJob on_job, bool keeps_plane) : on_job_(std::move(on_job)), keeps_plane_(keeps_plane) {}
 
     /// Sets the name of a lane's axis.
     void name_lane(std::size_t lane, const std::string& axis);
@@ -35,7 +36,7 @@ public:
     /// The path of axes X and Y, in steps. It contains the jobs in which axes move together, or all steps if there is
     /// no such job.
     const PlaneTrace& plane() const { return plane_; }
-    void on_late(const std::string& axis, LateSteps late);
+    void on_late(const std::string& axis, EquallyLate late);
     /// Steps made before the first job began.
     std::int64_t steps_of_no_job() const { return steps_of_no_job_; }
     /// Call once, at the end.
@@ -66,6 +67,7 @@ private:
     void end_first();
 
     OnJob on_job_;
+    bool keeps_plane_;
     std::vector<Lane> lanes_;
     std::vector<Job> jobs_;  // in the order they began
     PlaneTrace plane_;

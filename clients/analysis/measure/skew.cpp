@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <span>
 
 namespace lockstep::analysis {
 namespace {
@@ -15,6 +16,20 @@ Ticks quantile(const std::map<Ticks, std::int64_t>& amounts, std::int64_t all, s
     }
     return {};
 }
+
+/// The group of a step, for steps in order.
+class GroupCursor {
+public:
+    explicit GroupCursor(std::span<const EquallyLate> groups) : group_(groups.begin()), end_(group_->steps.size()) {}
+    void go_to(std::size_t step) {
+        while (step >= end_) { end_ += (++group_)->steps.size(); }
+    }
+    const EquallyLate* operator->() const { return &*group_; }
+
+private:
+    std::span<const EquallyLate>::iterator group_;
+    std::size_t end_;  // one more than the number of its last step
+};
 
 }  // namespace
 
@@ -51,30 +66,70 @@ bool SkewMeter::all_are_past_first_frame() const {
 
 void SkewMeter::take_first_frame() {
     const Steps steps = std::move(frames_.extract(frames_.begin()).mapped());
-    for (auto first = steps.begin(); first != steps.end(); ++first) {
-        for (auto second = std::next(first); second != steps.end(); ++second) { take_pair(*first, *second); }
+    std::vector<AxisSteps> axes;
+    for (const auto& axis : steps) {
+        if (!axis.second->groups.empty()) { axes.push_back(steps_of(axis)); }
+    }
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        for (std::size_t j = i + 1; j < axes.size(); ++j) { take_pair(axes[i], axes[j]); }
     }
 }
 
+SkewMeter::AxisSteps SkewMeter::steps_of(const Steps::value_type& axis) {
+    const auto& groups = axis.second->groups;
+    AxisSteps all{.axis = axis.first, .late = axis.second, .commanded = {}};
+    for (const EquallyLate& group : groups) {
+        const bool is_alike = group.late == groups.front().late && group.error == groups.front().error;
+        all.are_equally_late = all.are_equally_late && is_alike;
+        const std::size_t before = all.commanded.size();
+        all.commanded.resize(before + group.steps.size());
+        for (std::size_t i = 0; i < group.steps.size(); ++i) { all.commanded[before + i] = group.commanded(i); }
+    }
+    return all;
+}
+
+void SkewMeter::take_pair(const AxisSteps& a, const AxisSteps& b) {
+    Amounts& amounts = skews_[{a.axis, b.axis}];
+    if (!a.are_equally_late || !b.are_equally_late) { return take_steps(a, b, amounts); }
+    const EquallyLate& of_a = a.late->groups.front();
+    const EquallyLate& of_b = b.late->groups.front();
+    amounts.times[length_of(of_a.late - of_b.late)] += ticks_of_both(a.commanded, b.commanded);
+    amounts.error = std::max(amounts.error, of_a.error + of_b.error);
+}
+
+/// The number of different commanded ticks of two axes, from the instant on at which both have a step.
+std::int64_t SkewMeter::ticks_of_both(std::span<const Tick> a, std::span<const Tick> b) {
+    const Tick from = std::max(a.front(), b.front());
+    const Tick* at_a = a.data() + (std::ranges::lower_bound(a, from) - a.begin());
+    const Tick* at_b = b.data() + (std::ranges::lower_bound(b, from) - b.begin());
+    const Tick* const end_a = a.data() + a.size();
+    const Tick* const end_b = b.data() + b.size();
+    std::int64_t ticks = (end_a - at_a) + (end_b - at_b);
+    while (at_a != end_a && at_b != end_b) {  // without other branches, which would be mispredicted
+        const Tick of_a = *at_a;
+        const Tick of_b = *at_b;
+        ticks -= static_cast<std::int64_t>(of_a == of_b);
+        at_a += static_cast<std::ptrdiff_t>(of_a <= of_b);
+        at_b += static_cast<std::ptrdiff_t>(of_b <= of_a);
+    }
+    return ticks;
+}
+
 /// Goes through both axes' steps in the order of the commanded ticks.
-void SkewMeter::take_pair(const Steps::value_type& first, const Steps::value_type& second) {
-    const auto& a = first.second->steps;
-    const auto& b = second.second->steps;
-    if (a.empty() || b.empty()) { return; }
-    Amounts& amounts = skews_[{first.first, second.first}];
+void SkewMeter::take_steps(const AxisSteps& a, const AxisSteps& b, Amounts& amounts) {
     auto same = amounts.times.end();  // the amount found last, since most are the same
-    const LateStep* newest_a = nullptr;
-    const LateStep* newest_b = nullptr;
-    for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();) {
-        const bool is_a = j == b.size() || (i < a.size() && a[i].commanded <= b[j].commanded);
-        const bool is_b = i == a.size() || (j < b.size() && b[j].commanded <= a[i].commanded);
-        if (is_a) { newest_a = &a[i++]; }
-        if (is_b) { newest_b = &b[j++]; }
-        if (newest_a == nullptr || newest_b == nullptr) { continue; }
-        const Ticks found = length_of(newest_a->late - newest_b->late);
+    GroupCursor at_a(a.late->groups);
+    GroupCursor at_b(b.late->groups);
+    for (std::size_t i = 0, j = 0; i < a.commanded.size() || j < b.commanded.size();) {
+        const bool is_a = j == b.commanded.size() || (i < a.commanded.size() && a.commanded[i] <= b.commanded[j]);
+        const bool is_b = i == a.commanded.size() || (j < b.commanded.size() && b.commanded[j] <= a.commanded[i]);
+        if (is_a) { at_a.go_to(i++); }
+        if (is_b) { at_b.go_to(j++); }
+        if (i == 0 || j == 0) { continue; }
+        const Ticks found = length_of(at_a->late - at_b->late);
         if (same == amounts.times.end() || same->first != found) { same = amounts.times.try_emplace(found).first; }
         ++same->second;
-        amounts.error = std::max(amounts.error, newest_a->error + newest_b->error);
+        amounts.error = std::max(amounts.error, at_a->error + at_b->error);
     }
 }
 

@@ -64,8 +64,18 @@ private:
         Ticks error;
     };
 
+    /// An axis's steps of a frame.
+    struct AxisSteps {
+        std::string axis;
+        SharedLate late;
+        std::vector<Tick> commanded;  // in order
+        bool are_equally_late = true;
+    };
+    static AxisSteps steps_of(const Steps::value_type& axis);
+    static std::int64_t ticks_of_both(std::span<const Tick> a, std::span<const Tick> b);
+    static void take_steps(const AxisSteps& a, const AxisSteps& b, Amounts& amounts);
     static PairSkew summary_of(const std::pair<std::string, std::string>& axes, const Amounts& amounts);
-    void take_pair(const Steps::value_type& first, const Steps::value_type& second);
+    void take_pair(const AxisSteps& a, const AxisSteps& b);
 
     OnLate on_late_;
     std::map<std::string, std::unique_ptr<Lateness>> axes_;

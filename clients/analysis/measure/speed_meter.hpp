@@ -44,15 +44,12 @@ private:
     static constexpr Ticks kAccelerationWindow{10'000};
     static constexpr std::size_t kKept = 2'048;
 
-    /// A step of this motion, and the window of acceleration that it completed.
-    struct Past {
-        Tick tick;
-        Tick window_from;
-        double window_speed = 0;
-        bool is_window = false;
+    /// The window of acceleration that ends with a step.
+    struct Window {
+        Tick from;
+        double speed = 0;
     };
 
-    bool is_wide(std::size_t first, Ticks least) const;
     bool narrow(std::size_t& first, Ticks least) const;
     double speed_since(std::size_t first) const;
     std::optional<Sample> measure_speed();
@@ -64,7 +61,8 @@ private:
         return static_cast<double>(from.value) / 2 + static_cast<double>(to.value) / 2;
     }
 
-    std::vector<Past> past_;       // the newest steps of this motion, with which a window may still begin
+    std::vector<Tick> past_;       // the newest steps of this motion, with which a window may still begin
+    std::vector<Window> windows_;  // of these steps; as many last ones as have one
     std::size_t room_ = kKept;     // maximum size of past_ before the oldest are dropped
     std::size_t speed_first_ = 0;  // begin of the windows that end with the newest step
     std::size_t late_first_ = 0;
@@ -76,10 +74,10 @@ private:
 };
 
 inline std::optional<Sample> SpeedMeter::step(StepEdge edge) {
-    const bool rested = !past_.empty() && edge.tick - past_.back().tick > kRest;
+    const bool rested = !past_.empty() && edge.tick - past_.back() > kRest;
     if (rested || edge.direction != direction_) { begin_stretch(edge, rested); }
     if (past_.size() == room_) { forget(); }
-    past_.push_back({.tick = edge.tick, .window_from = {}});
+    past_.push_back(edge.tick);
     measure_acceleration();
     return measure_speed();
 }
@@ -89,41 +87,38 @@ inline std::optional<Sample> SpeedMeter::measure_speed() {
     measured_ = true;
     const double speed = speed_since(speed_first_);
     peak_speed_ = std::max(peak_speed_, speed);
-    const Tick first = past_[speed_first_].tick;
-    return Sample{first + Ticks{(past_.back().tick - first).value / 2}, direction_ * speed};
+    const Tick first = past_[speed_first_];
+    return Sample{first + Ticks{(past_.back() - first).value / 2}, direction_ * speed};
 }
 
 /// The later window ends with the newest step. The earlier window ends with the first step of the later one.
 inline void SpeedMeter::measure_acceleration() {
     acceleration_.reset();
     if (!narrow(late_first_, kAccelerationWindow)) { return; }
-    Past& late = past_.back();
-    const Past& early = past_[late_first_];
-    late.window_from = early.tick;
-    late.window_speed = speed_since(late_first_);
-    late.is_window = true;
-    if (!early.is_window) { return; }
-    const double time = middle(late.window_from, late.tick) - middle(early.window_from, early.tick);
-    const double acceleration = (late.window_speed - early.window_speed) / time;
-    acceleration_ = Sample{early.tick, direction_ * acceleration};
+    const Tick newest = past_.back();
+    const Tick between = past_[late_first_];
+    const Window& late = windows_.emplace_back(between, speed_since(late_first_));
+    const std::size_t behind = past_.size() - late_first_;  // how many windows end with the step between or later
+    if (windows_.size() < behind) { return; }
+    const Window& early = windows_[windows_.size() - behind];
+    const double time = middle(late.from, newest) - middle(early.from, between);
+    const double acceleration = (late.speed - early.speed) / time;
+    acceleration_ = Sample{between, direction_ * acceleration};
     peak_acceleration_ = std::max(peak_acceleration_, std::abs(acceleration));
-}
-
-/// Whether the steps from `first` to the newest are enough for a window.
-inline bool SpeedMeter::is_wide(std::size_t first, Ticks least) const {
-    return past_.size() > first + kLeastSteps && past_.back().tick - past_[first].tick >= least;
 }
 
 /// Moves the window's first step as late as possible. Returns false if there is no window yet.
 inline bool SpeedMeter::narrow(std::size_t& first, Ticks least) const {
-    if (!is_wide(first, least)) { return false; }
-    while (is_wide(first + 1, least)) { ++first; }
+    if (past_.size() <= kLeastSteps) { return false; }
+    const std::size_t most = past_.size() - 1 - kLeastSteps;  // the latest step with which a window may begin
+    const Tick latest = past_.back() - least;
+    if (first > most || past_[first] > latest) { return false; }
+    while (first < most && past_[first + 1] <= latest) { ++first; }
     return true;
 }
 
 inline double SpeedMeter::speed_since(std::size_t first) const {
-    return static_cast<double>(past_.size() - 1 - first) /
-           static_cast<double>((past_.back().tick - past_[first].tick).value);
+    return static_cast<double>(past_.size() - 1 - first) / static_cast<double>((past_.back() - past_[first]).value);
 }
 
 }  // namespace lockstep::analysis

@@ -12,17 +12,18 @@ std::size_t StepMerge::add_lane() {
 
 void StepMerge::take(std::size_t number, SharedSteps steps) {
     Lane& lane = lanes_[number];
-    const MeasuredStep& newest = steps->steps.back();
-    lane.delivered_until = std::max(lane.delivered_until, newest.tick);
-    const MeasuredStep& oldest = steps->steps.front();
-    const bool joins = lane.has_steps || !lane.has_count || lane.count == oldest.count - oldest.direction;
-    lane.known_from = joins ? std::min(lane.known_from, oldest.tick) : oldest.tick;
+    const StepEdges& edges = steps->edges;
+    const Tick newest = edges.back().tick;
+    lane.delivered_until = std::max(lane.delivered_until, newest);
+    const Tick oldest = edges.front().tick;
+    const bool joins = lane.has_steps || !lane.has_count || lane.count == steps->position_before;
+    lane.known_from = joins ? std::min(lane.known_from, oldest) : oldest;
     lane.has_steps = true;
-    lane.known_until = std::max(lane.known_until, newest.tick);
-    lane.count = newest.count;
+    lane.known_until = std::max(lane.known_until, newest);
+    lane.count = steps->position_before + edges.change();
     lane.has_count = lane.is_awaited = true;
     lane.lacks_steps = false;
-    waiting_ += steps->steps.size();
+    waiting_ += edges.size();
     lane.steps.add(std::move(steps));
 }
 

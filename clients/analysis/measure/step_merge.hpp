@@ -97,7 +97,7 @@ void StepMerge::deliver_before(Tick end, OnStep& on_step) {
 
 inline void StepMerge::look_at(std::size_t lane, Tick end) {
     const StepQueue& steps = lanes_[lane].steps;
-    next_[lane] = !steps.empty() && steps.front().tick < end ? steps.front().tick : kNever;
+    next_[lane] = !steps.empty() && steps.tick() < end ? steps.tick() : kNever;
 }
 
 inline StepMerge::Turn StepMerge::next_turn() const {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/unit/analysis/step_makers.hpp"
+
 namespace lockstep::analysis {
 namespace {
 
@@ -13,9 +15,8 @@ protected:
     /// Forward steps, the first at `first`, up to `end`, exclusive.
     static SharedSteps steps(std::int64_t first, std::int64_t interval, std::int64_t end) {
         MeasuredSteps made;
-        for (std::int64_t tick = first; tick < end; tick += interval) {
-            made.steps.push_back({.tick = {tick}, .count = (tick - first) / interval + 1, .direction = 1});
-        }
+        made.edges = test::even_steps(first, interval, static_cast<int>((end - first + interval - 1) / interval));
+        made.rates.resize(made.edges.size());
         return std::make_shared<MeasuredSteps>(std::move(made));
     }
     std::size_t settled() {
