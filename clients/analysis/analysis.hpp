@@ -127,9 +127,11 @@ struct Analysis {
 struct AnalysisOptions {
     std::optional<std::filesystem::path> csv_dir;  // created if missing
     std::optional<std::filesystem::path> svg_dir;
-    bool curves = true;                    // courses over time and paths, for pictures and the report page
+    bool curves = true;                    // whether to keep them, for the report page; pictures always have them
     std::optional<std::string> machine;    // the machine to analyze if the log has several; else the first one
     std::function<void(double)> progress;  // called with 0 ... 1 from time to time
+
+    bool keeps_curves() const { return curves || svg_dir; }
 };
 
 /// The error is a sentence for the user. The log is missing, a directory, empty or not a log, or a file or directory

@@ -81,8 +81,8 @@ drawing::AxisCurve speed_curve(const Analysis& analysis, const AxisLog& axis) {
 
 drawing::AxisCurve position_curve(const Analysis& analysis, const AxisLog& axis) {
     Scaled out = scaled(analysis, axis);
-    if (!axis.statistics().first()) { return std::move(out.curve); }
     const auto& knots = axis.trace().knots();
+    if (knots.empty()) { return std::move(out.curve); }
     out.add(*analysis.first_tick(), knots.front().position_steps * out.length_per_step);
     for (std::size_t i = 0; i < knots.size(); ++i) {
         if (i > 0 && !knots[i].joined) { out.add(knots[i].tick, kNone); }

@@ -121,7 +121,7 @@ void Recorder::begin_job(const RecordedJob& message, JobLog& record, LogPlace pl
         if (planned) { analysis_.tolerance_mm = std::max(analysis_.tolerance_mm, planned->tolerance_mm()); }
         planned ? void(asked = std::move(*planned)) : void(record.unplannable = planned.error());
     }
-    if (options_.curves && program && record.is_on_a_line() && !message.has_program_of(latest_program_)) {
+    if (options_.keeps_curves() && program && record.is_on_a_line() && !message.has_program_of(latest_program_)) {
         keep_asked_way(*program);
         latest_program_ = message;
     }
@@ -133,7 +133,7 @@ void Recorder::on_late(const std::string& axis, const SharedLate& steps) {
     if (!steps->groups.empty()) { waiting_late_.push_back({axis, steps}); }
     const auto lane = std::ranges::find(lanes_, axis, &Lane::axis);
     if (lane == lanes_.end()) { return; }
-    for (const EquallyLate& group : steps->groups) { lane->late.add(group, options_.curves); }
+    for (const EquallyLate& group : steps->groups) { lane->late.add(group, options_.keeps_curves()); }
 }
 
 bool Recorder::is_during(Tick tick, const JobLog& job) const {

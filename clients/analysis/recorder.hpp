@@ -63,7 +63,7 @@ private:
                          note_unknown(analysis_.jobs[job], axes, moves);
                          note_moves(analysis_.jobs[job], moves);
                      },
-                     options_.curves};
+                     options_.keeps_curves()};
     struct WaitingLate {
         std::string axis;
         SharedLate steps;

@@ -110,7 +110,7 @@ Sorter::Lane* Sorter::lane(const std::string& machine, const std::string& axis, 
         on_damage(place, "more axes than a machine can have");
         return nullptr;
     }
-    Lane lane{.number = lanes_.size(), .log = std::make_unique<AxisLog>(axis, options_.curves)};
+    Lane lane{.number = lanes_.size(), .log = std::make_unique<AxisLog>(axis, options_.keeps_curves())};
     lane.log->set_listener(listener_, lane.number);
     if (options_.csv_dir) { note_error(lane.log->write_csv(*options_.csv_dir)); }
     listener_.on_axis(axis);

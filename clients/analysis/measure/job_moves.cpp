@@ -60,7 +60,8 @@ JobMoves::JobMoves(AskedPath asked, bool on_a_line)
       made_(asked_.size()),
       made_steps_(asked_.size() * asked_.axes()) {
     if (asked_.size() == 0) { return; }
-    while (asked_.details(details_.size()) != nullptr) { details_.emplace_back().peaks.resize(asked_.axes()); }
+    while (asked_.details(details_.size()) != nullptr) { details_.emplace_back(); }
+    peaks_.resize(details_.size() * asked_.axes());
     for (std::size_t axis = 0; axis < asked_.axes(); ++axis) {
         counts_.push_back(asked_.start(axis));
         at_mm_.push_back(static_cast<double>(counts_.back()) * asked_.mm_per_step(axis));
@@ -143,11 +144,12 @@ std::int64_t JobMoves::moves_without_distance() const {
 
 void JobMoves::take_in(std::size_t move, std::size_t axis, const MeasuredStep& step) {
     if (move > current_) { begin(move); }
-    ++made_steps_[move * asked_.axes() + axis];
+    const std::size_t place = move * asked_.axes() + axis;
+    ++made_steps_[place];
     const bool is_lead = axis == asked_.lead(move);
     if (is_lead && made_[move].first == kNever) { made_[move].first = step.tick; }
     if (move >= details_.size()) { return; }
-    StepRates& peak = details_[move].peaks[axis];
+    StepRates& peak = peaks_[place];
     peak.steps_per_tick = std::max(peak.steps_per_tick, step.rates.steps_per_tick);
     peak.steps_per_tick2 = std::max(peak.steps_per_tick2, step.rates.steps_per_tick2);
     if (is_lead) { details_[move].last = step.tick; }
@@ -211,8 +213,8 @@ void JobMoves::add_details(std::size_t number, MoveLog& log) const {
         log.made = made.last - *log.first + asked.planned - asked.stepping;
     }
     for (std::size_t axis = 0; axis < asked_.axes(); ++axis) {
-        log.axes[axis].peak_steps_per_tick = made.peaks[axis].steps_per_tick;
-        log.axes[axis].peak_steps_per_tick2 = made.peaks[axis].steps_per_tick2;
+        log.axes[axis].peak_steps_per_tick = peaks_[number * asked_.axes() + axis].steps_per_tick;
+        log.axes[axis].peak_steps_per_tick2 = peaks_[number * asked_.axes() + axis].steps_per_tick2;
     }
 }
 

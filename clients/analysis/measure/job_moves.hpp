@@ -116,7 +116,6 @@ private:
         TickHistogram late;
         Ticks earliest;  // smallest lateness of its steps
         Ticks latest;
-        std::vector<StepRates> peaks;  // by axis
         void add(const EquallyLate& steps);
     };
     void take_in(std::size_t move, std::size_t axis, const MeasuredStep& step);
@@ -137,6 +136,7 @@ private:
     std::vector<Made> made_;                // by move
     std::vector<std::int64_t> made_steps_;  // by move and axis
     std::vector<Details> details_;          // of the first moves only
+    std::vector<StepRates> peaks_;          // of these moves, by move and axis
     TickHistogram late_;
     std::size_t current_ = 0;
     Tick newest_;                       // of the steps so far

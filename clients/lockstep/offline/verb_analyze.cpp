@@ -53,11 +53,13 @@ std::filesystem::path page_path(const AnalyzeOptions& options) {
     return path.replace_extension(".html");
 }
 
+bool wants_page(const AnalyzeOptions& options) { return !options.html.empty() || !(options.no_html || options.json); }
+
 /// Returns the path of the written page, or an empty path if none was written. Fails only if the page was requested.
 std::expected<std::filesystem::path, std::string> write_page(const AnalyzeOptions& options,
                                                              const analysis::Analysis& found, Output& output) {
+    if (!wants_page(options)) { return std::filesystem::path(); }
     const bool asked = !options.html.empty();
-    if (!asked && (options.no_html || options.json)) { return std::filesystem::path(); }
     auto path = page_path(options);
     std::string problem;
     if (!analysis::may_replace(path)) {
@@ -80,6 +82,7 @@ ExitCode analyze_log(const AnalyzeOptions& options) {
     analysis::AnalysisOptions what;
     if (!options.svg_dir.empty()) { what.svg_dir = options.svg_dir; }
     if (!options.csv_dir.empty()) { what.csv_dir = options.csv_dir; }
+    what.curves = wants_page(options);
     what.progress = output.percent_on_terminal("reading");
     const auto found = analysis::analyze_log(options.log, what);
     if (!found) { return output.fail(bad_input(found.error())); }

@@ -82,6 +82,7 @@ bool read_bytes(const fs::path& path) {
 }
 
 bool analyze(const fs::path& path) { return analysis::analyze_log(path).has_value(); }
+bool analyze_without_page(const fs::path& path) { return analysis::analyze_log(path, {.curves = false}).has_value(); }
 bool verify(const fs::path& path) { return verification::verify_log(path).has_value(); }
 bool merge_two(const fs::path& path) {
     NoSink nowhere;
@@ -93,6 +94,10 @@ BENCHMARK_CAPTURE(with_log, log_bytes, read_bytes)
     ->MeasureProcessCPUTime()
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(with_log, log_analyze, analyze)
+    ->UseRealTime()
+    ->MeasureProcessCPUTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(with_log, log_analyze_without_page, analyze_without_page)
     ->UseRealTime()
     ->MeasureProcessCPUTime()
     ->Unit(benchmark::kMillisecond);

@@ -225,6 +225,17 @@ TEST_F(AnalysisTest, DrawsThreeWellFormedFigures) {
     EXPECT_NE(text_of(directory / "xy.svg").find("commanded path"), std::string::npos);
 }
 
+TEST_F(AnalysisTest, ReportsTheSameWithoutCurves) {
+    record_right_angle(log, 0.5);
+    const auto with = analyze_log(log);
+    const auto without = analyze_log(log, {.curves = false});
+    ASSERT_TRUE(with && without);
+    EXPECT_EQ(to_report(*with).DebugString(), to_report(*without).DebugString());
+    EXPECT_FALSE(with->axes.at(0)->trace().knots().empty());
+    EXPECT_TRUE(without->axes.at(0)->trace().knots().empty());
+    EXPECT_TRUE(without->stepped_ways.front().empty());
+}
+
 TEST_F(AnalysisTest, DrawsPositionsWithoutAPlane) {
     {
         LogMaker maker(log);
