@@ -24,7 +24,7 @@ PATH = re.compile(rf"`((?:{FOLDERS})/[\w./@-]*)`")
 NAME = re.compile(r"`([\w-]+\.(?:hpp|cpp|inc|py|proto|idl|lcm|pml|js))`")
 FUNCTION = re.compile(rf"`((?:{FOLDERS})/[\w./-]+)`:\s+`([A-Za-z_][\w:]*)`")
 TYPE = re.compile(r"`([A-Z][a-z]+[A-Z]\w*(?:::\w+)?)`")
-CONSTANT = re.compile(r"(\d[\d,]*)( [KM]iB)?[^|`()]* \(`(k[A-Z]\w*)`\)")
+CONSTANT = re.compile(r"(\d[\d,]*)( [KM]iB)?[^|`()\d]* \(`(k[A-Z]\w*)`\)")
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
 
 

@@ -28,7 +28,7 @@ std::string text_of(const OwnMoveError& error, const AxisConfig& axis, std::int6
         return "axis " + axis.name + " cannot move in a given time by method " + std::string(name_of(other->method)) +
                "; omit the time, or configure method RANADE";
     }
-    if (const auto* slow = std::get_if<TooSlow>(&error)) {
+    if (const auto* slow = std::get_if<BelowLeastSpeed>(&error)) {
         return "axis " + axis.name + ": " + short_number(to_mm(axis, static_cast<double>(move.steps))) +
                " mm must take at most " + short_number(slow->most_s) + " s; that is the least speed, a step in " +
                short_number(1 / kLeastSpeed_steps_per_s) + " s";
@@ -48,7 +48,7 @@ std::expected<OwnPieces, OwnMoveError> OwnPieces::plan(const AxisConfig& axis, s
                                                        const OwnMoveRequest& move, BeginSteps begin_steps) {
     const double most_s = static_cast<double>(move.steps) / kLeastSpeed_steps_per_s;
     if (move.ticks && static_cast<double>(move.ticks->value) * static_cast<double>(tick_ns) * 1e-9 > most_s) {
-        return std::unexpected(TooSlow{most_s});
+        return std::unexpected(BelowLeastSpeed{most_s});
     }
     if (method == StepMethod::Ranade) { return planned(axis, tick_ns, move); }
     if (!move.ticks) { return stepped(axis, tick_ns, method, move, begin_steps); }

@@ -1,5 +1,5 @@
-// Half a step at the start velocity lasts longer than the frames that are kept ahead and the silence that is allowed. An
-// axis that rests between two steps waits so long before it starts.
+// Half a step at the start velocity lasts longer than the frames that are kept ahead and the silence that is allowed.
+// An axis that rests between two steps waits so long before it starts.
 #include "tests/unit/virtual/rig.hpp"
 
 namespace lockstep {
