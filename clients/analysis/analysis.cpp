@@ -11,7 +11,7 @@
 #include "clients/analysis/plane_path.hpp"
 #include "clients/analysis/recorder.hpp"
 #include "clients/analysis/sorter.hpp"
-#include "clients/analysis/stage_thread.hpp"
+#include "clients/analysis/stages/stage_thread.hpp"
 
 namespace lockstep::analysis {
 namespace {

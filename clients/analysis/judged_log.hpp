@@ -7,7 +7,7 @@
 
 #include "clients/analysis/log/log_read.hpp"
 #include "clients/analysis/sorter.hpp"
-#include "clients/analysis/work_thread.hpp"
+#include "clients/analysis/stages/work_thread.hpp"
 #include "clients/verification/log_check.hpp"
 
 namespace lockstep::analysis {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "clients/analysis/log/job_of.hpp"
 #include "clients/analysis/log/run.hpp"
 #include "clients/analysis/plane_path.hpp"
 #include "services/documents/machine_file.hpp"
@@ -84,22 +85,13 @@ void Recorder::on_damage(LogPlace place, const std::string& what) { note_damage(
 
 /// Returns null if there are more jobs than are kept.
 JobLog* Recorder::job(const job_t& message) {
-    const auto number = static_cast<std::uint64_t>(message.job);
-    const auto known = std::ranges::find_if(analysis_.jobs.rbegin(), analysis_.jobs.rend(), [&](const JobLog& job) {
-        return job.coordinator == message.coordinator && job.job == number;
-    });
-    if (known != analysis_.jobs.rend()) { return &*known; }
-    if (message.event != "begun") {  // after a takeover another coordinator continues the job
-        const auto open = std::ranges::find_if(analysis_.jobs.rbegin(), analysis_.jobs.rend(), [&](const JobLog& job) {
-            return job.job == number && job.begun_us && !job.ended_us;
-        });
-        if (open != analysis_.jobs.rend()) { return &*open; }
-    }
+    if (JobLog* known = job_of(analysis_.jobs, message)) { return known; }
     if (analysis_.jobs.size() == Analysis::kJobsKept) {
         analysis_.jobs_not_kept += message.event == "begun" ? 1 : 0;
         return nullptr;
     }
-    analysis_.jobs.push_back({.coordinator = message.coordinator, .job = number, .kind = message.kind});
+    analysis_.jobs.push_back(
+        {.coordinator = message.coordinator, .job = static_cast<std::uint64_t>(message.job), .kind = message.kind});
     return &analysis_.jobs.back();
 }
 

@@ -1,6 +1,7 @@
 #include "clients/merge/missing.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "clients/analysis/log/log_step.hpp"
 #include "services/documents/machine_file.hpp"
@@ -64,8 +65,7 @@ public:
     void on_batch(const StepBatch& batch) override {
         if (awaits_end_) { record.missing_steps.back().to_step = batch.position_before_steps; }
         awaits_end_ = false;
-        position_ = batch.position_before_steps;
-        for (const StepEdge& step : batch.steps) { *position_ += step.direction; }
+        position_ = batch.position_before_steps + batch.steps.change();
     }
 
     void on_contradiction(const analysis::Contradiction& what) override {
@@ -126,10 +126,11 @@ void MissingWatch::take(const MessageId& id, const std::vector<std::uint8_t>& da
     if (kind == RecordKind::Run) { ++axis(known->second.machine, known->second.axis).record.runs; }
 }
 
-/// The machine's file is in the message with which a job begins.
+/// The machine's file is in the message with which a job begins. Most jobs have the file of the job before.
 void MissingWatch::note_machine(const std::vector<std::uint8_t>& data) {
     const auto job = decode_lcm<job_t>(data);
     if (!job || job->config.empty()) { return; }
+    if (std::exchange(newest_config_[job->machine], job->config) == job->config) { return; }
     const auto machine = parse_machine(job->config);
     if (machine) { axes_wanted_[job->machine] = machine->axis_names(); }
 }

@@ -94,6 +94,7 @@ private:
     std::map<Whose, analysis::NumberSet> seen_;
     std::map<std::pair<std::string, std::string>, std::unique_ptr<Axis>> axes_;  // by machine and name
     std::map<Whose, analysis::RecordingProcess> processes_;                      // the process that published them
+    std::map<std::string, std::string> newest_config_;                           // the file of each machine
     std::map<std::string, std::vector<std::string>> axes_wanted_;                // by machine
     std::set<std::pair<std::string, std::string>> marked_;                       // machines and axes that marks name
     analysis::RecordEndCheck marks_;

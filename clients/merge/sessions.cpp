@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "clients/analysis/log/job_of.hpp"
 #include "clients/analysis/log/record_end.hpp"
 #include "services/wire/lcm/lcm_channels.hpp"
 #include "services/wire/lcm/lcm_decode.hpp"
@@ -91,15 +92,11 @@ std::vector<JobSpan> spans_of(std::vector<job_t> events) {
     std::ranges::stable_sort(events, {}, &job_t::utime);
     std::vector<JobSpan> spans;
     for (const job_t& event : events) {
-        if (event.event == "begun") {
-            spans.push_back({event.job, event.utime, {}, event.coordinator, {}});
-            continue;
-        }
-        const auto its = std::ranges::find(spans.rbegin(), spans.rend(), event.job, &JobSpan::job);
-        if (its != spans.rend() && !its->ended_us) { its->ended_us = event.utime; }
+        JobSpan* its = analysis::job_of(spans, event);  // several logs may contain the same job
+        const bool begins = event.event == "begun";
+        if (begins && its == nullptr) { spans.push_back({event.job, event.utime, {}, event.coordinator, {}}); }
+        if (!begins && its != nullptr && !its->ended_us) { its->ended_us = event.utime; }
     }
-    const auto same = [](const JobSpan& a, const JobSpan& b) { return a.job == b.job && a.begun_us == b.begun_us; };
-    spans.erase(std::unique(spans.begin(), spans.end(), same), spans.end());  // several logs contain the same job
     return spans;
 }
 

@@ -12,11 +12,6 @@
 
 namespace lockstep::verification {
 
-/// "1 step", "2 steps".
-inline std::string plural(std::int64_t count, const std::string& one) {
-    return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
-}
-
 /// A difference between the log and its required content.
 struct Difference {
     std::string text;                   // the difference, with the values on both sides

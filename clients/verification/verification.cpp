@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "clients/text/numbers.hpp"
 #include "clients/verification/log_check.hpp"
 
 namespace lockstep::verification {

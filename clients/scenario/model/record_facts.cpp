@@ -3,13 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 #include "clients/analysis/log/log_read.hpp"
+#include "clients/verification/steps/run_stream.hpp"
 
 namespace lockstep::scenario {
 namespace {
 
 using analysis::LogPlace;
+using verification::RunStream;
 
 class FactListener final : public analysis::LogListener {
 public:
@@ -23,17 +27,34 @@ public:
         was_at_rest_[message.axis] = rests;
     }
     void on_run(const run_t& message, LogPlace /*place*/) override {
-        if (message.epoch == 0) { return; }  // a move of the axis on its own
-        facts.epochs[static_cast<Epoch>(message.epoch)][message.axis] = {static_cast<FrameNumber>(message.frame),
-                                                                         message.tail != 0};
+        if (auto run = analysis::to_run(message)) { runs_of(message.axis).take(std::move(*run)); }
     }
     void on_steps(const step_batch_t& /*message*/, LogPlace /*place*/) override {}
     void on_job(const analysis::RecordedJob& /*message*/, LogPlace /*place*/) override {}
     void on_foreign(std::string_view /*channel*/) override {}
     void on_damage(LogPlace /*place*/, std::string /*what*/) override {}
 
+    /// Call once, at the end of the log.
+    void finish() {
+        for (auto& [axis, runs] : runs_) { runs->finish(); }
+    }
+
 private:
+    /// The runs of an axis in the order of their numbers: records may come late or twice.
+    RunStream& runs_of(const std::string& axis) {
+        auto& runs = runs_[axis];
+        const auto note_end = [this, axis](const analysis::Run& run) {
+            if (run.epoch != 0) { facts.epochs[run.epoch][axis] = {run.frame, run.tail}; }  // 0: its own move
+        };
+        const auto on_missing = [](std::int64_t /*from*/, std::int64_t /*end*/) {};
+        if (!runs) {
+            runs = std::make_unique<RunStream>(note_end, on_missing, [](const analysis::Run& /*other*/) {});
+        }
+        return *runs;
+    }
+
     std::map<std::string, bool> was_at_rest_;
+    std::map<std::string, std::unique_ptr<RunStream>> runs_;  // by axis
 };
 
 std::string rest_text(const std::string& axis, const EpochEnd& end) {
@@ -81,6 +102,7 @@ std::expected<RecordFacts, std::string> record_facts(const std::filesystem::path
     FactListener listener;
     const auto read = analysis::read_log(log, listener);
     if (!read) { return std::unexpected(read.error()); }
+    listener.finish();
     return std::move(listener.facts);
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "clients/analysis/log/record_end.hpp"
+#include "clients/text/numbers.hpp"
 #include "services/record/step_batcher.hpp"
 
 namespace lockstep::verification {

@@ -113,8 +113,8 @@ class Composed:
         killed may be missing."""
         client = by or self.client
         deadline = time.monotonic() + 20
-        exact = r"^exact: (\d+) steps"
-        as_planned = r"^(?:exact|unknown): .*?(\d+) steps"
+        exact = r"^exact: (\d[\d ]*) steps"
+        as_planned = r"^(?:exact|unknown): (?:.*: )?(\d[\d ]*) steps"
         while True:
             code, output = client("sh", "-c", script)
             found = re.search(as_planned if killed else exact, output, re.MULTILINE)
@@ -122,7 +122,7 @@ class Composed:
                 break
             time.sleep(0.5)
         self.expect(found, f"lockstep verify: exit code {code}: {output}")
-        return int(found.group(1)) if found else 0
+        return int(found.group(1).replace(" ", "")) if found else 0
 
     def inspect(self, part):
         return json.loads(self.podman.ask("inspect", self.container(part))[1])[0]

@@ -341,6 +341,19 @@ TEST_F(Sessions, LogsWithoutMarksAreAlwaysMerged) {
     EXPECT_EQ(choose({folder}).logs.size(), 3U);
 }
 
+TEST_F(Sessions, AJobInSeveralLogsIsOneWithItsEnd) {
+    for (const char* name : {"first.lcm", "second.lcm"}) {
+        auto writer = LogWriter::open(folder / name).value();
+        write_job(writer, 1, 0, "begun", 1000);
+        write_job(writer, 1, 1, "ended", 1500);
+        ASSERT_TRUE(writer.flush());
+    }
+    const ChosenLogs chosen = choose({folder});
+    ASSERT_EQ(chosen.jobs.size(), 1U);
+    EXPECT_EQ(chosen.jobs.front().ended_us, 1500);
+    EXPECT_EQ(span_of_job(chosen.jobs, 1)->until_us, 501'500) << "half a second after its end";
+}
+
 TEST_F(Sessions, AJobIsTakenFromTheEndOfTheOneBeforeToTheBeginningOfTheNext) {
     auto writer = LogWriter::open(folder / "jobs.lcm").value();
     std::uint64_t sequence = 0;

@@ -167,7 +167,7 @@ TEST_F(EndedProcess, NoProcessHoldsMoreStepsThanAMessageTakes) {
     another_process_moves();
     check.finish(none_ended, {});
     ASSERT_TRUE(findings.difference);
-    EXPECT_THAT(findings.difference->text, HasSubstr("2100 steps after"));
+    EXPECT_THAT(findings.difference->text, HasSubstr("2 100 steps after"));
 }
 
 TEST_F(EndedProcess, WithoutASuccessorAMissingStepIsADifference) {

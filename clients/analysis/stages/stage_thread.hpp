@@ -6,7 +6,7 @@
 #include <string>
 
 #include "clients/analysis/measure/sorted_log.hpp"
-#include "clients/analysis/work_thread.hpp"
+#include "clients/analysis/stages/work_thread.hpp"
 
 namespace lockstep::analysis {
 

@@ -1,4 +1,4 @@
-#include "clients/analysis/work_thread.hpp"
+#include "clients/analysis/stages/work_thread.hpp"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "clients/analysis/stage_thread.hpp"
+#include "clients/analysis/stages/stage_thread.hpp"
 
 namespace lockstep::analysis {
 
