@@ -48,7 +48,7 @@ endif()
 install(DIRECTORY ${MANUAL}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT lockstep OPTIONAL)
 
 install(FILES deploy/systemd/lockstep-coordinator.service deploy/systemd/lockstep-axis@.service
-  deploy/systemd/lockstep-logger.service deploy/systemd/lockstep-web.service
+  deploy/systemd/lockstep-grbl.service deploy/systemd/lockstep-logger.service deploy/systemd/lockstep-web.service
   DESTINATION lib/systemd/system COMPONENT lockstep)
 
 # Installs core, the simulated device and the driver of its registers, with headers where their #include lines find
