@@ -147,6 +147,16 @@ double nearest_in_travel(const AxisConfig& axis, double mm) {
     return std::min(std::max(mm, axis.position_min_mm), axis.position_max_mm);
 }
 
+/// 0, unless the axis would then cross most of its travel after homing, as a Z that homes at the top would. Then beside
+/// the switch. `homing` has all other values.
+double usual_park(const HomingConfig& homing, const AxisConfig& axis) {
+    const double zero = nearest_in_travel(axis, 0);
+    const double middle = (axis.position_min_mm + axis.position_max_mm) / 2;
+    if (homing.toward_min ? zero <= middle : zero >= middle) { return zero; }
+    const double pulloff = homing.toward_min ? homing.pulloff_mm : -homing.pulloff_mm;
+    return nearest_in_travel(axis, homing.switch_position_mm + pulloff);
+}
+
 HomingConfig read_homing(const proto::Homing& message, const AxisConfig& axis) {
     const double travel = axis.position_max_mm - axis.position_min_mm;
     HomingConfig homing;
@@ -164,7 +174,7 @@ HomingConfig read_homing(const proto::Homing& message, const AxisConfig& axis) {
     homing.switch_position_mm = message.has_switch_position_mm() ? message.switch_position_mm()
                                 : homing.toward_min              ? axis.position_min_mm
                                                                  : axis.position_max_mm;
-    homing.park_mm = message.has_park_mm() ? message.park_mm() : nearest_in_travel(axis, 0);
+    homing.park_mm = message.has_park_mm() ? message.park_mm() : usual_park(homing, axis);
     return homing;
 }
 

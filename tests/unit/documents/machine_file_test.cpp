@@ -102,7 +102,22 @@ TEST(MachineFile, HomingDefaultsFollowTheAxis) {
     const HomingConfig upward = parse(axis_with("homing { toward_min: false }")).axes.at(0).homing;
     EXPECT_EQ(upward.switch_position_mm, 200);
     EXPECT_EQ(parse(with("min_mm: 0", "min_mm: 50")).axes.at(0).homing.park_mm, 50);
+    EXPECT_EQ(config_hash(parse(kShortest)), config_hash(parse(axis_with("homing { park_mm: 0 }"))));
     EXPECT_EQ(parse(with("max_mm: 200", "max_mm: 10")).axes.at(0).homing.pulloff_mm, 1);
+}
+
+TEST(MachineFile, ParksBesideTheSwitchWhereZeroIsAtTheOtherEndOfTravel) {
+    const auto park = [](const std::string& homing, const std::string& min, const std::string& max) {
+        std::string text = axis_with(homing);
+        text.replace(text.find("position_min_mm: 0"), 18, "position_min_mm: " + min);
+        text.replace(text.find("position_max_mm: 200"), 20, "position_max_mm: " + max);
+        return parse(text).axes.at(0).homing.park_mm;
+    };
+    EXPECT_EQ(park("homing { toward_min: false }", "0", "200"), 198);
+    EXPECT_EQ(park("homing { toward_min: false pulloff_mm: 5 switch_position_mm: 201 }", "0", "200"), 196);
+    EXPECT_EQ(park("homing { toward_min: false }", "-200", "0"), 0) << "zero is at the switch";
+    EXPECT_EQ(park("homing { toward_min: true }", "-200", "0"), -198);
+    EXPECT_EQ(park("homing { toward_min: true }", "-200", "200"), 0);
 }
 
 TEST(MachineFile, OwnMovesUseTheNamedMethod) {
