@@ -146,14 +146,13 @@ MemberCheck check_member(const MachineConfig& machine, const fs::path& directory
 }
 
 std::expected<Admission, std::string> admit(const MachineConfig& machine, const Member& member) {
-    Admission admission{.membership = {.axis = member.axis, .credentials = {}}, .warnings = {}, .until = {}};
+    Admission admission{.membership = {.axis = member.axis, .credentials = {}}, .until = {}};
     if (!machine.security.enabled()) { return admission; }
     keep_openssl_alive();
     const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
-    MemberCheck check = check_member(machine, machine.security.directory, member, now);
+    const MemberCheck check = check_member(machine, machine.security.directory, member, now);
     if (!check.errors.empty()) { return std::unexpected(check.errors.front()); }
     admission.membership.credentials = credentials_in(machine.security.directory, member);
-    admission.warnings = std::move(check.warnings);
     admission.until = check.until;
     return admission;
 }

@@ -30,7 +30,6 @@ MemberCheck check_member(const MachineConfig& machine, const std::filesystem::pa
 
 struct Admission {
     Membership membership;
-    std::vector<std::string> warnings;
     std::optional<std::chrono::sys_seconds> until;  // when the first of its files expires; nullopt without security
 };
 

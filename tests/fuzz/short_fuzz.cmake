@@ -1,5 +1,5 @@
-# short_fuzz(NAME RUNS NUMBER SOURCES ... SEEDS ... [LIBS ...]) adds a test that gives tests/fuzz/NAME.cpp the texts that libFuzzer
-# makes of the seeds. The number of texts and the random seed are fixed, so every run is the same. Only these sources
+# short_fuzz(NAME RUNS NUMBER SOURCES ... SEEDS ... [LIBS ...]) adds a test that gives tests/fuzz/NAME.cpp the texts that
+# libFuzzer makes of the seeds. The number of texts and the random seed are fixed, so every run is the same. Only these sources
 # are built with clang and its sanitizers. tests/fuzz/run searches for longer.
 find_program(FUZZ_CLANG clang++-19)
 if(NOT FUZZ_CLANG)
