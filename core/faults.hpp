@@ -122,6 +122,8 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
       "make room on the coordinator's disk; continue from the line that lockstep status names: lockstep run FILE --from-line LINE", {}) \
     X(ProgramCutShort, 145, "program-cut-short", "the program's sender could not read it to its end", \
       "see the sender's message; continue from its line: lockstep run FILE --from-line LINE", {}) \
+    X(AwayFromPause, 146, "away-from-pause", "axes were moved in the pause, and the job goes on only from where it paused", \
+      "let them return by a resume, which first shows the way", either(Remedy::Resume, Remedy::Stop)) \
     X(WriterHeld, 150, "writer-held", "another writer has the machine; other clients can only watch, hold and stop it", \
       "wait until the writer gives it back; or take it over: give the command again with --take", {})
 // clang-format on

@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "core/pause.hpp"
+
 namespace lockstep {
 
 inline constexpr std::size_t kMaxProgramBlocks = 1'000'000;
@@ -58,9 +60,6 @@ struct ProgramMove {
 struct Dwell {
     double seconds = 0;
 };
-
-/// Rest until a person resumes (M0).
-struct Pause {};
 
 /// Come to rest, then continue without a resume. A sender that has no more blocks for now sends it as the last one.
 struct Settle {};

@@ -201,7 +201,7 @@ CommandResult Coordinator::carry_out(const Command& command, CoordinatorLoop& lo
         case CommandKind::Run: return jobs_.run(command, loop);
         case CommandKind::Hold: return jobs_.interrupt(Intent::Hold, loop);
         case CommandKind::Stop: return jobs_.interrupt(Intent::Stop, loop);
-        case CommandKind::Resume: return jobs_.resume(loop);
+        case CommandKind::Resume: return jobs_.resume(command.returns, loop);
         case CommandKind::Reset: return reset(loop);
         case CommandKind::EmergencyStop: return stop_at_once(loop);
         case CommandKind::MoveOwn: return jobs_.move_own(command, loop);
@@ -257,6 +257,7 @@ void Coordinator::report(CoordinatorLoop& loop) const {
              .axes_present = axes_.present(loop.slot),
              .config_hash = config_hash_,
              .lease = std::move(state.lease),
+             .pause = std::move(state.pause),
              .rests = std::move(state.rests)};
     state.lease = lease_.held();
     state.rests.clear();

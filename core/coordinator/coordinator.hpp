@@ -31,6 +31,8 @@ public:
     MachinePhase phase() const { return condition_.phase(); }
     /// A job is in motion, held, or inherited by a takeover.
     bool has_job() const { return jobs_.has_any(); }
+    /// A job waits for a person, and nothing moves.
+    bool is_paused() const { return condition_.phase() == MachinePhase::Paused; }
     bool owns_machine() const { return ownership_.owns(); }
     /// Whether this writer may send programs and edits now. A standby refuses nothing, because the owner does.
     CommandResult check_writer(std::uint64_t writer, Tick now) const { return lease_.check(writer, now); }

@@ -1,4 +1,7 @@
 // ProgramBuilder: handles words that move no axis.
+#include <charconv>
+#include <utility>
+
 #include "core/gcode/program_builder.hpp"
 
 namespace lockstep::gcode {
@@ -35,9 +38,33 @@ void ProgramBuilder::note_message(const std::string& text) {
     note("more", "the program has more messages; only the first " + std::to_string(kMostNotes) + " are listed");
 }
 
+/// The text is the comment on the pause's line, otherwise the program's last message since the pause before, otherwise
+/// the comment that names the tool.
+void ProgramBuilder::pause(PauseReason reason, int tool) {
+    Pause pause{.reason = reason, .tool = tool, .text = std::exchange(message_, {})};
+    if (remark_line_ == line_ && !remark_.empty()) { pause.text = remark_; }
+    const auto name = tool_names_.find(tool);
+    const bool lacks_name = reason == PauseReason::ToolChange && pause.text.empty() && name != tool_names_.end();
+    if (lacks_name) { pause.text = name->second; }
+    append(std::move(pause));
+}
+
+/// Lists of tools at the beginning of a program name each tool in a comment: (T2 6 mm end mill).
+void ProgramBuilder::remark(const std::string& text) {
+    remark_ = pause_text(text);
+    remark_line_ = line_;
+    if (remark_.size() < 2 || remark_[0] != 'T') { return; }
+    int tool = 0;
+    const char* const end = remark_.data() + remark_.size();
+    const auto read = std::from_chars(remark_.data() + 1, end, tool);
+    const std::size_t name = remark_.find_first_not_of(" :=-", static_cast<std::size_t>(read.ptr - remark_.data()));
+    const bool has_name = read.ec == std::errc{} && name != remark_.npos && read.ptr != &remark_[name];
+    if (has_name && tool_names_.size() < kMaxTools) { tool_names_.try_emplace(tool, remark_.substr(name)); }
+}
+
 void ProgramBuilder::change_tool(int tool) {
     note_message("tool change: put in tool " + std::to_string(tool));
-    if (setup_.unassigned.tool_change == ToolChange::Pause) { append(Pause{}); }
+    if (setup_.unassigned.tool_change == ToolChange::Pause) { pause(PauseReason::ToolChange, tool); }
     append(ProgramEvent{.kind = Kind::Tool, .index = tool});
 }
 
@@ -63,9 +90,10 @@ void ProgramBuilder::event(const Event& event) {
         device_event(rules.outputs, "an output", "outputs", {.kind = kind, .index = event.index, .value = event.value});
     };
     switch (event.kind) {
-        case EventKind::Stop: return append(Pause{});
+        case EventKind::Stop: return pause(PauseReason::ProgramStop);
+        case EventKind::PalletChange: return pause(PauseReason::PalletChange);
         case EventKind::OptionalStop:
-            if (setup_.switches.pause_at_m1) { append(Pause{}); }
+            if (setup_.switches.pause_at_m1) { pause(PauseReason::OptionalStop); }
             return;
         case EventKind::End: return end();
         case EventKind::ToolChange: return change_tool(event.index);
@@ -94,7 +122,8 @@ void ProgramBuilder::event(const Event& event) {
         case EventKind::FeedHold:
             if (event.value != 0) { return; }
             return note("M53", "M53 P0 has no effect: feed hold stays on");
-        case EventKind::Message: return note_message("message: " + event.text);
+        case EventKind::Message: message_ = pause_text(event.text); return note_message("message: " + event.text);
+        case EventKind::Remark: return remark(event.text);
         case EventKind::Print: return note_message("print: " + event.text);
         default: return;
     }

@@ -11,6 +11,11 @@ std::optional<Point> unless(const Point& usual, const Point& place) {
     return place == usual ? std::nullopt : std::optional(place);
 }
 
+template <typename Value>
+void take_change(const Value& before, const Value& left, Value& now) {
+    if (left != before) { now = left; }
+}
+
 }  // namespace
 
 void set_kept_values(State& state, const KeptValues& values, const Point& park) {
@@ -38,6 +43,24 @@ KeptValues kept_values(const State& state, const Point& park) {
     values.second_home = unless(park, place_of(parameters, kSecondHomeParameter));
     values.tools = state.tools;
     return values;
+}
+
+KeptValues merged(const KeptValues& before, const KeptValues& left, KeptValues now) {
+    for (std::size_t i = 0; i < kSystems; ++i) { take_change(before.systems[i], left.systems[i], now.systems[i]); }
+    if (left.g92 != before.g92 || left.g92_applies != before.g92_applies) {
+        now.g92 = left.g92;
+        now.g92_applies = left.g92_applies;
+    }
+    take_change(before.home, left.home, now.home);
+    take_change(before.second_home, left.second_home, now.second_home);
+    for (const auto& [number, tool] : before.tools) {
+        if (!left.tools.contains(number)) { now.tools.erase(number); }
+    }
+    for (const auto& [number, tool] : left.tools) {
+        const auto known = before.tools.find(number);
+        if (known == before.tools.end() || known->second != tool) { now.tools.insert_or_assign(number, tool); }
+    }
+    return now;
 }
 
 }  // namespace lockstep::gcode

@@ -37,6 +37,9 @@ struct KeptValues {
 void set_kept_values(State& state, const KeptValues& values, const Point& park);
 KeptValues kept_values(const State& state, const Point& park);
 
+/// Returns `now` with all that `left` has changed since `before`.
+KeptValues merged(const KeptValues& before, const KeptValues& left, KeptValues now);
+
 /// The values with which a program was read, and those that it leaves.
 struct ProgramValues {
     std::uint64_t revision = 0;       // of the machine's values with which it was read

@@ -64,8 +64,9 @@ struct Dwell {
 };
 
 enum class EventKind : std::uint8_t {
-    Stop,            // M0 M60
+    Stop,            // M0
     OptionalStop,    // M1
+    PalletChange,    // M60
     End,             // M2 M30 %
     ToolSelect,      // T: index
     ToolChange,      // M6: index
@@ -87,6 +88,7 @@ enum class EventKind : std::uint8_t {
     FeedHold,      // M53
     PathMode,      // G61 G61.1 G64: index is 610, 611 or 640; value: its P
     Message,       // (MSG, ) (DEBUG, )
+    Remark,        // any other comment
     Print,         // (PRINT, )
 };
 

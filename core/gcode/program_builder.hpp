@@ -2,6 +2,7 @@
 // rules to words that move no axis.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -34,7 +35,9 @@ public:
     explicit ProgramBuilder(const GcodeSetup& setup);
 
     /// Sets the devices' state before the first action. The program's end also switches off devices that are on then.
-    void begin(const Modal& modal) {
+    /// `message`: the last message before, for the next pause.
+    void begin(const Modal& modal, std::string message = {}) {
+        message_ = std::move(message);
         spindle_turns_ = modal.spindle != Turning::Stopped;
         coolant_flows_ = modal.mist || modal.flood;
     }
@@ -51,6 +54,9 @@ public:
     std::vector<lockstep::Block> take_blocks() { return std::exchange(program_.blocks, {}); }
     std::vector<GcodeNote> take_notes() { return std::exchange(notes_, {}); }
 
+    /// The last message since the last pause.
+    const std::string& message() const { return message_; }
+
     GcodeReading reading() && { return {std::move(program_), std::move(notes_), {}}; }
 
 private:
@@ -64,6 +70,8 @@ private:
     void event(const Event& event);
     void end();
     void change_tool(int tool);
+    void pause(PauseReason reason, int tool = 0);
+    void remark(const std::string& text);
     /// Reports the word as an error if its rule refuses it.
     bool is_refused(WordRule rule, const char* what, const char* key);
     /// Appends the event of a word for a device, unless the word is refused.
@@ -86,6 +94,10 @@ private:
     int line_ = 0;
     std::set<std::size_t> outside_;      // axes named in this line's errors
     std::uint32_t events_together_ = 0;  // events since the last block of another kind
+    std::string message_;                // the last one since the last pause
+    std::string remark_;                 // the last comment, on line remark_line_
+    int remark_line_ = 0;
+    std::map<int, std::string> tool_names_;  // by comments
     bool spindle_turns_ = false;
     bool coolant_flows_ = false;
     const Interpreter* interpreter_ = nullptr;

@@ -12,6 +12,7 @@
 #include "core/faults.hpp"
 #include "core/overrides.hpp"
 #include "core/path_place.hpp"
+#include "core/pause.hpp"
 #include "core/program.hpp"
 #include "core/program_devices.hpp"
 #include "core/protocol/lease_holder.hpp"
@@ -152,8 +153,8 @@ enum class MachinePhase : std::uint8_t {
 enum class JobOutcome : std::uint8_t { Done, Stopped, Failed };
 
 /// MoveOwn: axes move to their places, each by itself, not coordinated. Jog: axes move by themselves while clients hold
-/// their keys.
-enum class JobKind : std::uint8_t { Home, Move, Run, MoveOwn, Jog };
+/// their keys. Return: axes go back to the place of a pause. Jog and Return may be a part of another job's pause.
+enum class JobKind : std::uint8_t { Home, Move, Run, MoveOwn, Jog, Return };
 
 /// Hashes the positions of all axes into 64 bits. Two different places have the same digest only once in 2^64 cases.
 constexpr std::uint64_t digest_of(std::span<const Position> positions) {
@@ -174,6 +175,13 @@ struct FrameRest {
     bool last = false;         // the epoch ends with it
     std::uint64_t digest = 0;  // digest_of the positions at which the axes then rest
     bool operator==(const FrameRest&) const = default;
+};
+
+/// A job that waits for a person. Meanwhile axes may be jogged. Before the job goes on, they return to `place`.
+struct MachinePause {
+    Pause why;
+    StaticVector<std::int64_t, kMaxAxes> place;  // of each axis of the machine, in steps: where the job goes on
+    bool operator==(const MachinePause&) const = default;
 };
 
 /// The state of the machine that the coordinator publishes once a slot. It also carries the coordinator's veto.
@@ -198,8 +206,9 @@ struct MachineState {
     Overrides overrides;       // for what is planned from now on
     AxisSet axes_present = 0;  // the axes that the coordinator receives
     std::uint64_t config_hash = 0;
-    ProgramDevices devices;          // as the words of programs have switched them
-    std::optional<HeldLease> lease;  // the writer's; empty: every client may give commands
+    ProgramDevices devices;             // as the words of programs have switched them
+    std::optional<HeldLease> lease;     // the writer's; empty: every client may give commands
+    std::optional<MachinePause> pause;  // of the job; present also while axes are jogged and return in the pause
     // What another coordinator needs to continue the job in motion:
     JobKind job_kind = JobKind::Run;
     std::optional<std::uint64_t> program;  // Command::program of the job; nullopt: none is in motion
@@ -269,6 +278,7 @@ struct Command {
     std::vector<JogAxis> jogs;         // Jog: all axes that the client jogs from now on; empty: it releases them
     LeaseHolder writer;                // the sender; its name and host only in TakeLease
     bool takes_over = false;           // TakeLease: even from another writer
+    bool returns = false;              // Resume: axes that were jogged in a pause first return to its place
     bool operator==(const Command&) const = default;
 };
 

@@ -43,7 +43,7 @@ constexpr std::string_view name_of(AxisCommandKind kind) {
 
 /// As records and reports name them.
 constexpr std::string_view name_of(JobKind kind) {
-    return detail::pick_name(std::array<std::string_view, 5>{"home", "move", "run", "own-move", "jog"}, kind);
+    return detail::pick_name(std::array<std::string_view, 6>{"home", "move", "run", "own-move", "jog", "return"}, kind);
 }
 
 /// As records and reports name them.

@@ -128,7 +128,8 @@ private:
         if (chunk.index == 0) {
             if (auto may = coordinator_.check_writer(chunk.writer, looped_); !may) { return may; }
         }
-        const auto accepted = values_.accept(chunk, part, {coordinator_.owns_machine(), coordinator_.has_job()});
+        const auto accepted = values_.accept(
+            chunk, part, {coordinator_.owns_machine(), coordinator_.has_job(), coordinator_.is_paused()});
         return accepted ? CommandResult{} : refuse(FaultCode::BadProgram, text_of(accepted.error()));
     }
 

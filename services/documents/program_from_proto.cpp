@@ -102,6 +102,20 @@ Refusal check_event(const proto::ProgramEvent& event) {
     return {};
 }
 
+Refusal check_pause(const proto::Pause& pause) {
+    if (!proto::Pause::Reason_IsValid(pause.reason())) {
+        return fmt::format("the pause's reason is unknown: {}", int{pause.reason()});
+    }
+    if (pause.tool() < 0 || pause.tool() > kMaxTool) {
+        return fmt::format("the pause's tool is {}; it must be from 0 to {}", pause.tool(), kMaxTool);
+    }
+    if (pause.text().size() > kMaxPauseText) {
+        return "the length of the pause's text is " + at_most(pause.text().size(), kMaxPauseText);
+    }
+    if (pause.text() != pause_text(pause.text())) { return "the pause's text is not printable ASCII"; }
+    return {};
+}
+
 Refusal check_block(const proto::Block& block, const proto::Program& message, std::size_t axes) {
     if (block.line() < 0) { return fmt::format("the line is {}; lines are numbered from 1", block.line()); }
     if (block.has_move()) { return check_move(block.move(), message, axes); }
@@ -110,6 +124,7 @@ Refusal check_block(const proto::Block& block, const proto::Program& message, st
         return "the dwell is " + number_text(block.dwell().seconds()) + " s; it must be from 0 to " +
                number_text(kMaxDwell_s);
     }
+    if (block.has_pause()) { return check_pause(block.pause()); }
     if (block.action_case() == proto::Block::ACTION_NOT_SET) { return "the action is missing or unknown"; }
     return {};
 }
@@ -138,6 +153,9 @@ Block read_block(const proto::Block& message) {
                                    .is_feed_fixed = move.feed_fixed()};
     } else if (message.has_dwell()) {
         block.action = Dwell{message.dwell().seconds()};
+    } else if (message.has_pause()) {
+        const proto::Pause& pause = message.pause();
+        block.action = Pause{static_cast<PauseReason>(pause.reason()), pause.tool(), pause.text()};
     } else if (message.has_settle()) {
         block.action = Settle{};
     } else if (message.has_event()) {

@@ -7,6 +7,8 @@ static_assert(static_cast<int>(PathMode::ExactStop) == proto::EXACT_STOP && prot
 static_assert(static_cast<int>(ProgramEvent::Kind::Tool) == proto::ProgramEvent::TOOL &&
               ProgramEvent::kKinds == proto::ProgramEvent::Kind_ARRAYSIZE);
 
+static_assert(static_cast<int>(PauseReason::Hold) == proto::Pause::Reason_ARRAYSIZE);  // not of a program
+
 struct ActionWriter {
     proto::Block& block;
 
@@ -21,7 +23,12 @@ struct ActionWriter {
         message.set_feed_fixed(move.is_feed_fixed);
     }
     void operator()(const Dwell& dwell) const { block.mutable_dwell()->set_seconds(dwell.seconds); }
-    void operator()(const Pause&) const { block.mutable_pause(); }
+    void operator()(const Pause& pause) const {
+        proto::Pause& message = *block.mutable_pause();
+        message.set_reason(static_cast<proto::Pause::Reason>(pause.reason));
+        message.set_tool(pause.tool);
+        message.set_text(pause.text);
+    }
     void operator()(const Settle&) const { block.mutable_settle(); }
     void operator()(const ProgramEvent& event) const {
         proto::ProgramEvent& message = *block.mutable_event();

@@ -42,6 +42,13 @@ std::optional<Order> lease(const Json& body, const MachineConfig&, std::optional
     return LeaseOrder{takes};
 }
 
+std::optional<Order> resume(const Json& body, const MachineConfig&, std::optional<Problem>& problem) {
+    BodyReader reader(body, "", problem);
+    const bool returns = reader.flag("return").value_or(false);
+    reader.finish();
+    return Command{.kind = CommandKind::Resume, .returns = returns};
+}
+
 std::optional<Order> home(const Json& body, const MachineConfig& machine, std::optional<Problem>& problem) {
     BodyReader reader(body, "", problem);
     Command command{.kind = CommandKind::Home};
@@ -191,7 +198,7 @@ const std::vector<std::pair<std::string, Read>>& readers() {
         {"home", home},
         {"run", run},
         {"hold", plain<CommandKind::Hold>},
-        {"resume", plain<CommandKind::Resume>},
+        {"resume", resume},
         {"stop", plain<CommandKind::Stop>},
         {"estop", plain<CommandKind::EmergencyStop>},
         {"reset", plain<CommandKind::Reset>},

@@ -5,6 +5,7 @@
 #include "clients/web/state/alarm_list.hpp"
 #include "clients/web/state/axis_document.hpp"
 #include "clients/web/state/devices_document.hpp"
+#include "clients/web/state/pause_document.hpp"
 #include "clients/web/state/writer_document.hpp"
 #include "core/gcode/motion.hpp"
 #include "core/gcode/system_names.hpp"
@@ -23,6 +24,7 @@ const char* kind_name(JobKind kind) {
         case JobKind::Move: return "move";
         case JobKind::Run: return "run";
         case JobKind::MoveOwn: return "own-move";
+        case JobKind::Return: return "return";
         case JobKind::Jog: break;
     }
     return "jog";
@@ -143,6 +145,7 @@ json state_document(const Snapshot& snapshot, const MachineConfig& machine, cons
             {"job", job_json(snapshot)},
             {"program", loaded != nullptr ? program_json(*loaded) : json()},
             {"hold", hold_json(snapshot)},
+            {"pause", pause_document(snapshot, machine)},
             {"override", {{"feed_percent", overrides.feed_percent}, {"rapid_percent", overrides.rapid_percent}}},
             {"alarms", alarm_list(snapshot, machine)},
             {"axes", axes_document(snapshot, machine)},

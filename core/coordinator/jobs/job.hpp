@@ -27,8 +27,10 @@ public:
     std::uint64_t begin(const Term& term) {
         begun_in_ = term;
         fault_ = FaultCode::None;
-        return ++number_;
+        return number_ = ++newest_;
     }
+    /// Returns the number of a job in the pause of the last one, which stays the last one.
+    std::uint64_t begin_in_pause() { return ++newest_; }
     void end(JobOutcome outcome) { outcome_ = outcome; }
     /// The job ended early at this line: by a takeover, or because its program ended early.
     void cut(std::optional<std::int32_t> line, FaultCode why = FaultCode::None) {
@@ -39,7 +41,7 @@ public:
     }
     /// Takes count and outcome from the last owner.
     void inherit(const MachineState& last) {
-        number_ = last.job;
+        number_ = newest_ = last.job;
         begun_in_ = last.job_begun;
         outcome_ = last.outcome;
         cut_job_ = 0;
@@ -52,7 +54,8 @@ public:
     FaultCode fault() const { return fault_; }
 
 private:
-    std::uint64_t number_ = 0;
+    std::uint64_t newest_ = 0;  // of all jobs
+    std::uint64_t number_ = 0;  // of the last job that began outside of a pause
     Term begun_in_;
     std::optional<JobOutcome> outcome_;  // of the last job that ended
     std::uint64_t cut_job_ = 0;

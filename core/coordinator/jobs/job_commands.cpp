@@ -1,8 +1,11 @@
 // Commands of clients to the job: carried out, or refused with the reason and the remedy.
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 #include "core/check.hpp"
 #include "core/coordinator/jobs/job_runner.hpp"
+#include "core/coordinator/path/return_way.hpp"
 
 namespace lockstep {
 namespace {
@@ -58,6 +61,17 @@ void JobRunner::begin(JobKind kind, const Command& command, const AxisCounts& st
                              .start_counts = start_counts});
 }
 
+void JobRunner::begin_in_pause(JobKind kind, std::shared_ptr<const KnownProgram> program,
+                               const AxisCounts& start_counts, CoordinatorLoop& loop) {
+    paused_ = std::exchange(
+        job_, MachineJob{.number = count_.begin_in_pause(), .kind = kind, .program_id = {}, .program = program});
+    loop.out.jobs.push_back({.kind = JobEvent::Kind::Begun,
+                             .job = job_->number,
+                             .job_kind = kind,
+                             .program = std::move(program),
+                             .start_counts = start_counts});
+}
+
 CommandResult JobRunner::home(const Command& command, CoordinatorLoop& loop) {
     if (auto ready = check_ready(loop, in_motion()); !ready) { return ready; }
     const AxisSet all = all_axes(loop.axes.size());
@@ -103,13 +117,18 @@ CommandResult JobRunner::move_own(const Command& command, CoordinatorLoop& loop)
 /// Several clients may jog different axes in one job. A release is accepted in any state of the machine.
 CommandResult JobRunner::jog(const Command& command, CoordinatorLoop& loop) {
     if (!is_jogging() && command.jogs.empty()) { return {}; }
-    const CommandResult ready = is_jogging() ? check_present(loop) : check_ready(loop, in_motion());
+    const CommandResult ready = check_jog(loop);
     if (!ready && !command.jogs.empty()) { return ready; }
     if (auto pressed = jogs_.press(command, loop); !pressed || is_jogging()) { return pressed; }
     intent_ = Intent::GoOn;
-    begin(JobKind::Jog, command, {}, loop);
+    job_ ? begin_in_pause(JobKind::Jog, nullptr, {}, loop) : begin(JobKind::Jog, command, {}, loop);
     loop.enter(MachinePhase::Jogging);
     return {};
+}
+
+/// Axes may also be jogged in a pause.
+CommandResult JobRunner::check_jog(const CoordinatorLoop& loop) const {
+    return is_jogging() || is_paused(loop) ? check_present(loop) : check_ready(loop, in_motion());
 }
 
 CommandResult JobRunner::interrupt(Intent intent, CoordinatorLoop& loop) {
@@ -145,13 +164,47 @@ CommandResult JobRunner::interrupt_alone(Intent intent, CoordinatorLoop& loop) {
     return {};
 }
 
-CommandResult JobRunner::resume(CoordinatorLoop& loop) {
+/// The job goes on only from where it paused, because its next move begins there.
+CommandResult JobRunner::check_place(const CoordinatorLoop& loop) const {
+    if (loop.axes.counts() == path_.place()) { return {}; }
+    const Program way = return_way(loop.machine, loop.axes.counts(), path_.place());
+    return refuse(FaultCode::AwayFromPause,
+                  "axes were moved in the pause; the job goes on from where it paused. Way back: " + text_of_way(way) +
+                      ". Let the machine return on this way and go on: lockstep resume --yes");
+}
+
+CommandResult JobRunner::begin_return(CoordinatorLoop& loop) {
+    const AxisCounts here = loop.axes.counts();
+    const Program way = return_way(loop.machine, here, path_.place());
+    if (auto fits = path_.planner().check_start(way.head(), here); !fits) {
+        return refuse(fits.error().fault, fits.error().text);
+    }
+    auto program = KnownProgram::begin(loop.machine, way.head(),
+                                       std::make_unique<MemoryRows>(KnownProgram::row_width(way.head())));
+    check(program.has_value(), "the way back names axes of the machine");
+    if (const auto taken = program->append(way.blocks); !taken) {
+        return refuse(taken.error().why, taken.error().text);
+    }
+    program->end();
+    intent_ = Intent::GoOn;
+    begin_in_pause(JobKind::Return, std::make_shared<KnownProgram>(*std::move(program)), here, loop);
+    path_.load_return(*job_, here);
+    follow(path_.begin_leg(loop), loop);
+    return {};
+}
+
+CommandResult JobRunner::resume(bool returns, CoordinatorLoop& loop) {
     if (loop.condition.phase() == MachinePhase::Fault) { return refuse_in_fault(loop.condition.fault()); }
     if (!loop.condition.is_held()) { return refuse(FaultCode::NothingToDo, "no job is held or paused"); }
     if (auto present = check_present(loop); !present) { return present; }
     if (auto clocks = check_clocks(loop); !clocks) { return clocks; }
     const bool is_paused = loop.condition.phase() == MachinePhase::Paused;
-    follow(is_paused ? path_.begin_leg(loop) : path_.go_on(loop), loop);
+    if (!is_paused) {
+        follow(path_.go_on(loop), loop);
+        return {};
+    }
+    if (auto placed = check_place(loop); !placed) { return returns ? begin_return(loop) : placed; }
+    follow(path_.begin_leg(loop), loop);
     return {};
 }
 

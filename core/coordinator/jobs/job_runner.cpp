@@ -1,5 +1,7 @@
 #include "core/coordinator/jobs/job_runner.hpp"
 
+#include <utility>
+
 #include "core/check.hpp"
 
 namespace lockstep {
@@ -87,6 +89,7 @@ void JobRunner::settle(const EpochEnd& end_of_epoch, CoordinatorLoop& loop) {
     }
     if (intent_ == Intent::Stop) { return end(JobOutcome::Stopped, loop); }
     if (intent_ == Intent::GoOn) { return follow(path_.end_leg(loop), loop); }
+    if (returns()) { return end(JobOutcome::Stopped, loop); }
     path_.hold_behind_leg();
     loop.enter(MachinePhase::Paused);
 }
@@ -94,6 +97,7 @@ void JobRunner::settle(const EpochEnd& end_of_epoch, CoordinatorLoop& loop) {
 void JobRunner::interrupted(const EpochEnd& end_of_epoch, CoordinatorLoop& loop) {
     path_.interrupt(end_of_epoch);
     if (intent_ == Intent::Stop) { return end(JobOutcome::Stopped, loop); }
+    if (intent_ == Intent::Hold && returns()) { return end(JobOutcome::Stopped, loop); }
     if (intent_ == Intent::Hold) { return loop.enter(MachinePhase::Holding); }
     const bool lacks_blocks = path_.waits_for_blocks();
     loop.notice({lacks_blocks ? CoordinatorNotice::Kind::ProgramLate : CoordinatorNotice::Kind::Interrupted,
@@ -130,6 +134,7 @@ void JobRunner::end_program(CoordinatorLoop& loop) {
 
 void JobRunner::end(JobOutcome outcome, CoordinatorLoop& loop) {
     if (!job_) { return; }
+    if (is_in_pause()) { return end_in_pause(outcome, loop); }
     if (outcome != JobOutcome::Done) { path_.events().switch_off(job_->number, loop); }
     loop.out.jobs.push_back({.kind = JobEvent::Kind::Ended,
                              .job = job_->number,
@@ -139,6 +144,21 @@ void JobRunner::end(JobOutcome outcome, CoordinatorLoop& loop) {
     job_.reset();
     count_.end(outcome);
     loop.enter(MachinePhase::Idle);
+}
+
+/// The paused job waits again, or goes on after a whole return. A return that is stopped, and a failure, end it as
+/// well.
+void JobRunner::end_in_pause(JobOutcome outcome, CoordinatorLoop& loop) {
+    const bool was_return = returns();
+    const bool ends_all = outcome == JobOutcome::Failed || (was_return && intent_ == Intent::Stop);
+    loop.out.jobs.push_back(
+        {.kind = JobEvent::Kind::Ended, .job = job_->number, .job_kind = job_->kind, .outcome = outcome});
+    job_ = std::exchange(paused_, std::nullopt);
+    path_.take_up();
+    intent_ = Intent::GoOn;
+    if (ends_all) { return end(outcome, loop); }
+    if (was_return && outcome == JobOutcome::Done) { return follow(path_.begin_leg(loop), loop); }
+    loop.enter(MachinePhase::Paused);
 }
 
 void JobRunner::end_failed(CoordinatorLoop& loop) {
@@ -198,10 +218,19 @@ void JobRunner::drop(CoordinatorLoop& loop) {
 void JobRunner::stand_down() {
     if (job_) { count_.end(JobOutcome::Stopped); }
     job_.reset();
+    paused_.reset();
     inherited_.forget();
     path_.give_up_epoch();
     jogs_.release_all();
     intent_ = Intent::GoOn;
+}
+
+/// Reuses the memory of the last state's pause.
+void JobRunner::report_pause(MachineState& state, const CoordinatorLoop& loop) const {
+    if (!is_in_pause() && !is_paused(loop)) { return state.pause.reset(); }
+    if (!state.pause) { state.pause.emplace(); }
+    state.pause->why = path_.pause();
+    state.pause->place = path_.place();
 }
 
 void JobRunner::report(MachineState& state, const CoordinatorLoop& loop) const {
@@ -211,6 +240,7 @@ void JobRunner::report(MachineState& state, const CoordinatorLoop& loop) const {
     state.line = count_.line();
     state.job_fault = count_.fault();
     path_.report_epoch(state);
+    report_pause(state, loop);
     if (job_ && job_->kind == JobKind::MoveOwn) {
         state.progress = own_.progress(loop.axes);
         state.remaining_s = own_.remaining_s(loop.now, loop.machine);

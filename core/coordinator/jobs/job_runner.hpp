@@ -27,7 +27,8 @@ public:
     /// Takes a repeated command. Returns false if its jog is over.
     bool renew_jog(const Command& command, const CoordinatorLoop& loop) { return jogs_.renew(command, loop); }
     CommandResult interrupt(Intent intent, CoordinatorLoop& loop);
-    CommandResult resume(CoordinatorLoop& loop);
+    /// `returns`: axes that were jogged in the pause first return to its place.
+    CommandResult resume(bool returns, CoordinatorLoop& loop);
     /// May be called at any time. Overrides hold until they are changed again.
     CommandResult turn(const Command& command, const CoordinatorLoop& loop);
 
@@ -52,6 +53,8 @@ public:
     void note_interrupt(Slot now) { inherited_.note_interrupt(now); }
 
     bool exists() const { return job_.has_value(); }
+    /// A job waits for a person, and nothing moves.
+    static bool is_paused(const CoordinatorLoop& loop) { return loop.condition.phase() == MachinePhase::Paused; }
     /// Also true for a job that this coordinator has taken over and not continued yet.
     bool has_any() const { return exists() || inherited_.exists(); }
     /// An epoch of frames is in progress.
@@ -65,9 +68,18 @@ public:
     void report(MachineState& state, const CoordinatorLoop& loop) const;
 
 private:
+    /// The job in progress takes place in the pause of another.
+    bool is_in_pause() const { return paused_.has_value(); }
+    bool returns() const { return job_ && job_->kind == JobKind::Return; }
     bool has_jog() const { return job_ && job_->kind == JobKind::Jog; }
     bool axes_move_alone() const { return job_ && job_->is_alone(); }
     void begin(JobKind kind, const Command& command, const AxisCounts& start_counts, CoordinatorLoop& loop);
+    void begin_in_pause(JobKind kind, std::shared_ptr<const KnownProgram> program, const AxisCounts& start_counts,
+                        CoordinatorLoop& loop);
+    CommandResult check_jog(const CoordinatorLoop& loop) const;
+    CommandResult check_place(const CoordinatorLoop& loop) const;
+    CommandResult begin_return(CoordinatorLoop& loop);
+    void end_in_pause(JobOutcome outcome, CoordinatorLoop& loop);
     void home_next_group(CoordinatorLoop& loop);
     void advance_path(CoordinatorLoop& loop);
     void advance_homing(CoordinatorLoop& loop);
@@ -81,11 +93,13 @@ private:
     void end(JobOutcome outcome, CoordinatorLoop& loop);
     void end_program(CoordinatorLoop& loop);
     void end_failed(CoordinatorLoop& loop);
+    void report_pause(MachineState& state, const CoordinatorLoop& loop) const;
     void cut_inherited(TakeoverDoubt doubt, CoordinatorLoop& loop);
 
     BeginSteps begin_steps_;
     JobCount count_;
     std::optional<MachineJob> job_;
+    std::optional<MachineJob> paused_;  // the job in whose pause job_ takes place
     Intent intent_ = Intent::GoOn;
     PathJob path_;
     HomingSequence homing_;

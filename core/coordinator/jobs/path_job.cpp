@@ -9,6 +9,12 @@
 namespace lockstep {
 
 void PathJob::load(const MachineJob& job, const AxisCounts& start) {
+    aside_.reset();
+    events_.begin();
+    begin(job, start);
+}
+
+void PathJob::begin(const MachineJob& job, const AxisCounts& start) {
     job_ = job;
     next_ = 0;
     from_ = start;
@@ -17,7 +23,22 @@ void PathJob::load(const MachineJob& job, const AxisCounts& start) {
     leg_done_.reset();
     fruitless_ = 0;
     has_moved_ = false;
-    events_.begin();
+}
+
+void PathJob::load_return(const MachineJob& back, const AxisCounts& start) {
+    aside_ = {job_, has_moved_, next_, from_, progress_};
+    begin(back, start);
+}
+
+/// Nothing else is lost: a job in its pause goes on with its next leg.
+void PathJob::take_up() {
+    if (!aside_) { return; }
+    job_ = std::move(aside_->job);
+    has_moved_ = aside_->has_moved;
+    next_ = aside_->next;
+    from_ = aside_->from;
+    progress_ = aside_->progress;
+    aside_.reset();
 }
 
 void PathJob::load(const MachineJob& job, const JobRest& rest, double progress, std::uint32_t events_from) {
@@ -59,6 +80,7 @@ std::optional<LegEnd> PathJob::end_of_empty_leg() const {
 bool PathJob::pass_leg(const LegEnd& end) {
     next_ = end.kind == LegEnd::Kind::Program ? end.block : end.block + 1;
     from_ = end.to;
+    pause_ = end.pause;
     return end.kind == LegEnd::Kind::Pause;
 }
 
@@ -212,12 +234,17 @@ void PathJob::report_progress(MachineState& state) const {
     state.line = line(state.tick);
     state.remaining_s = seconds_left(state.tick);
     state.progress = progress_.share();
+    if (aside_) {
+        state.remaining_s += aside_->job.program->seconds_from({aside_->next, {}}) / overrides_.feed();
+        state.progress = aside_->progress.share();
+    }
     state.lacks_blocks = runner_.source()->lacks_blocks();
 }
 
-/// The LAI method plans a block in parts, and a place on the program does not say in which part it is.
+/// The LAI method plans a block in parts, and a place on the program does not say in which part it is. No other
+/// coordinator continues a return.
 void PathJob::report_rests(MachineState& state, const AxisRoster& axes) const {
-    if (!knows_places_) { return; }
+    if (!knows_places_ || aside_) { return; }
     FrameNumber oldest = runner_.sent();
     for (const AxisView& view : axes.views()) {
         const bool follows = view.state && view.state->epoch == runner_.epoch();

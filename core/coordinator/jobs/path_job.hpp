@@ -31,6 +31,10 @@ public:
 
     /// Replaces the last job.
     void load(const MachineJob& job, const AxisCounts& start);
+    /// Call it in a pause: a return replaces the job until take_up().
+    void load_return(const MachineJob& back, const AxisCounts& start);
+    /// The job that paused is loaded again, as it was in its pause.
+    void take_up();
     /// `events_from`: the events before this block have been published.
     void load(const MachineJob& job, const JobRest& rest, double progress, std::uint32_t events_from);
     Next begin_leg(CoordinatorLoop& loop);
@@ -38,7 +42,12 @@ public:
     Next go_on(CoordinatorLoop& loop);
     Next end_leg(CoordinatorLoop& loop);
     /// The leg has ended, and the next one must not begin yet.
-    void hold_behind_leg() { (void)pass_leg(runner_.source()->end()); }
+    void hold_behind_leg() {
+        if (!pass_leg(runner_.source()->end())) { pause_ = {.reason = PauseReason::Hold}; }
+    }
+    /// Why the job pauses, and where it goes on. Only meaningful in a pause.
+    const Pause& pause() const { return pause_; }
+    const AxisCounts& place() const { return aside_ ? aside_->from : from_; }
 
     /// Call it in each slot of an epoch. Sends frames. Returns how the epoch ended, once it has.
     std::optional<EpochEnd> advance(CoordinatorLoop& loop);
@@ -72,6 +81,7 @@ public:
     std::optional<std::int32_t> line(Tick now) const { return runner_.source()->line_of(runner_.place_at(now).block); }
 
 private:
+    void begin(const MachineJob& job, const AxisCounts& start);
     bool pass_leg(const LegEnd& end);
     void pass_events(const LegEnd& end, CoordinatorLoop& loop);
     ProgramEvents::Of of() const { return {job_.number, has_moved_ ? runner_.epoch() : 0}; }
@@ -102,10 +112,21 @@ private:
     std::uint32_t next_ = 0;  // the first block of the next leg, or of the one in progress
     AxisCounts from_;         // where that leg begins
     PathProgress progress_;
+    Pause pause_;                     // after the last leg
     PathPlace resume_;                // where the epoch begins; held or interrupted: where the next one begins
     AxisPositions positions_;         // where the axes rest there, exactly; empty: on whole steps
     std::optional<LegEnd> leg_done_;  // the leg's end, if the last owner reached it
     int fruitless_ = 0;               // interruptions in a row without a frame that was run
+
+    /// Of a job in its pause, while another is loaded.
+    struct Aside {
+        MachineJob job;
+        bool has_moved = false;
+        std::uint32_t next = 0;
+        AxisCounts from;
+        PathProgress progress;
+    };
+    std::optional<Aside> aside_;
 };
 
 }  // namespace lockstep

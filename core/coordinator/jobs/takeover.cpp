@@ -64,7 +64,7 @@ std::expected<LegEnd, TakeoverDoubt> end_behind(const KnownProgram& program, con
         if (program.ends_before(end.block)) { return end; }
         const Block* const next = program.block(end.block);
         if (next == nullptr) { return Doubt(TakeoverDoubt::UnknownProgram); }
-        end.kind = end_by(*next);
+        note_end(*next, end);
         if (ends_leg(*next)) { return end; }
         if (planner.moves(*next, program.places(), at)) { return Doubt(TakeoverDoubt::OtherPlan); }
     }

@@ -20,6 +20,7 @@ struct LegEnd {
     Kind kind = Kind::Program;
     std::uint32_t block = 0;  // the first block after the path; at the program's end there is no such block
     AxisCounts to;            // of all axes of the machine, whole steps
+    Pause pause;              // of Kind::Pause
 };
 
 class FrameSource {

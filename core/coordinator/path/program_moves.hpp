@@ -42,7 +42,7 @@ public:
     /// The next block was not at hand.
     bool is_starved() const { return is_starved_; }
     /// Where the leg ended.
-    LegEnd end() const { return {end_, next_, to_}; }
+    LegEnd end() const { return {end_, next_, to_, pause_}; }
 
 private:
     template <typename Planner>
@@ -60,6 +60,7 @@ private:
     bool has_moved_ = false;  // a move of the leg was read
     bool is_starved_ = false;
     LegEnd::Kind end_ = LegEnd::Kind::Program;
+    Pause pause_;    // of end_
     AxisCounts to_;  // where the last block read leads to, whole steps
     AxisVector at_;  // the same, exactly
 };
@@ -82,7 +83,10 @@ ProgramMoves::Read ProgramMoves::read(Planner& planner) {
     const Block* const block = program_->block(next_);
     is_starved_ = block == nullptr;
     if (block == nullptr) { return {}; }
-    if (ends_leg(*block)) { return finish(end_by(*block), planner); }
+    if (ends_leg(*block)) {
+        if (const auto* pause = std::get_if<Pause>(&block->action)) { pause_ = *pause; }
+        return finish(end_by(*block), planner);
+    }
     const auto* move = std::get_if<ProgramMove>(&block->action);
     if (move != nullptr && move->arc && !has_moved_ && !begin_at_place(planner)) { return {}; }
     const std::uint32_t number = next_++;

@@ -184,7 +184,7 @@ std::unique_ptr<FrameSource> ProgramPlanner::frames(std::shared_ptr<const Progra
     LegEnd end{.block = first, .to = from};
     for (; !program->ends_before(end.block); ++end.block) {
         const Block& block = check_found(program->block(end.block), "a program that is planned as a whole is known");
-        end.kind = end_by(block);
+        note_end(block, end);
         if (ends_leg(block)) { break; }
         if (const auto* event = std::get_if<ProgramEvent>(&block.action)) {
             events.add({end.block, block.line, *event});

@@ -38,6 +38,11 @@ inline LegEnd::Kind end_by(const Block& block) {
     if (std::holds_alternative<Pause>(block.action)) { return LegEnd::Kind::Pause; }
     return std::holds_alternative<Settle>(block.action) ? LegEnd::Kind::Settle : LegEnd::Kind::Program;
 }
+/// Sets how the leg ends, if it ends before `block`.
+inline void note_end(const Block& block, LegEnd& end) {
+    end.kind = end_by(block);
+    if (const auto* pause = std::get_if<Pause>(&block.action)) { end.pause = *pause; }
+}
 inline bool ends_leg(const Block& block) { return end_by(block) != LegEnd::Kind::Program; }
 
 /// The machine's side of planning: limits and scales of all axes.

@@ -1,5 +1,6 @@
 #include "core/coordinator/program/block_row.hpp"
 
+#include <algorithm>
 #include <cstdint>
 
 #include "core/axis_set.hpp"
@@ -50,6 +51,8 @@ struct Row {
 };
 
 struct RowMaker {
+    PauseTexts& texts;
+
     Row operator()(const ProgramMove& move) const {
         Row row{.kind = move.arc     ? RowKind::Arc
                         : move.rapid ? RowKind::Rapid
@@ -62,7 +65,12 @@ struct RowMaker {
         return row;
     }
     Row operator()(const Dwell& dwell) const { return {.kind = RowKind::Dwell, .amount = dwell.seconds}; }
-    Row operator()(const Pause&) const { return {.kind = RowKind::Pause}; }
+    Row operator()(const Pause& pause) const {
+        return {.kind = RowKind::Pause,
+                .amount = static_cast<double>(pause.tool),
+                .details = static_cast<std::int64_t>(pause.reason),
+                .other = static_cast<double>(texts.keep(pause.text))};
+    }
     Row operator()(const Settle&) const { return {.kind = RowKind::Settle}; }
     Row operator()(const ProgramEvent& event) const {
         return {.kind = RowKind::Event,
@@ -90,10 +98,16 @@ void read_move(RowKind kind, std::span<const double> row, ProgramMove& move) {
     arc.turns = static_cast<std::int32_t>(details.take(kMaxTurns + 1));
 }
 
-Block other_block(RowKind kind, std::optional<std::int32_t> line, std::span<const double> row) {
+Pause pause_of(std::span<const double> row, const PauseTexts& texts) {
+    return {static_cast<PauseReason>(row[2]), static_cast<std::int32_t>(row[1]),
+            texts.text_of(static_cast<std::int64_t>(row[3]))};
+}
+
+Block other_block(RowKind kind, std::optional<std::int32_t> line, std::span<const double> row,
+                  const PauseTexts& texts) {
     switch (kind) {
         case RowKind::Dwell: return {line, Dwell{row[1]}};
-        case RowKind::Pause: return {line, Pause{}};
+        case RowKind::Pause: return {line, pause_of(row, texts)};
         case RowKind::Settle: return {line, Settle{}};
         default: break;
     }
@@ -102,19 +116,33 @@ Block other_block(RowKind kind, std::optional<std::int32_t> line, std::span<cons
 
 }  // namespace
 
-void append_row(const Block& block, std::span<const double> place_mm, std::vector<double>& rows) {
-    const Row row = std::visit(RowMaker{}, block.action);
+std::int64_t PauseTexts::keep(const std::string& text) {
+    if (text.empty()) { return 0; }
+    const auto known = std::ranges::find(texts_, text);
+    if (known != texts_.end()) { return known - texts_.begin() + 1; }
+    if (texts_.size() == kMost) { return 0; }
+    texts_.push_back(text.substr(0, kMaxPauseText));
+    return std::ssize(texts_);
+}
+
+const std::string& PauseTexts::text_of(std::int64_t number) const {
+    static const std::string kNone;
+    return number == 0 ? kNone : texts_[static_cast<std::size_t>(number - 1)];
+}
+
+void append_row(const Block& block, std::span<const double> place_mm, PauseTexts& texts, std::vector<double>& rows) {
+    const Row row = std::visit(RowMaker{texts}, block.action);
     rows.push_back(static_cast<double>(kRowKinds * block.line.value_or(0) + static_cast<std::int64_t>(row.kind)));
     rows.insert(rows.end(), {row.amount, static_cast<double>(row.details), row.other, row.centre[0], row.centre[1]});
     rows.insert(rows.end(), place_mm.begin(), place_mm.end());
 }
 
-const Block& RowReader::read(std::span<const double> row) {
+const Block& RowReader::read(std::span<const double> row, const PauseTexts& texts) {
     Packed head{static_cast<std::int64_t>(row[0])};
     const auto kind = static_cast<RowKind>(head.take(kRowKinds));
     const auto line = if_positive(static_cast<std::int32_t>(head.value));
     if (kind != RowKind::Move && kind != RowKind::Rapid && kind != RowKind::Arc) {
-        return other_ = other_block(kind, line, row);
+        return other_ = other_block(kind, line, row, texts);
     }
     move_.line = line;
     read_move(kind, row, std::get<ProgramMove>(move_.action));

@@ -70,7 +70,7 @@ void KnownProgram::take(const Block& block) {
         legs_.push_back(known_ + static_cast<std::uint32_t>(taken_.size() / row_.size()) + 1);
         if (legs_.size() > kLegsKept) { legs_.pop_front(); }
     }
-    append_row(block, at_mm_, taken_);
+    append_row(block, at_mm_, texts_, taken_);
     last_line_ = block.line;
 }
 
@@ -113,7 +113,9 @@ void KnownProgram::cut(ProgramCut cut) {
 
 bool KnownProgram::read(std::uint32_t number) const { return number < known_ && rows_->read(number, row_); }
 
-const Block* KnownProgram::block(std::uint32_t number) const { return read(number) ? &reader_.read(row_) : nullptr; }
+const Block* KnownProgram::block(std::uint32_t number) const {
+    return read(number) ? &reader_.read(row_, texts_) : nullptr;
+}
 
 std::optional<std::span<const double>> KnownProgram::place_before(std::uint32_t number) const {
     if (number == 0) { return head_.start_mm; }

@@ -92,6 +92,7 @@ private:
     std::optional<std::int32_t> last_line_;
     std::uint32_t events_together_ = 0;  // events since the last block that was no event
     std::optional<double> known_share_;
+    PauseTexts texts_;
     std::vector<double> at_mm_;        // places after the last known block
     std::deque<std::uint32_t> legs_;   // the first blocks of the newest legs
     std::vector<double> taken_;        // rows of the blocks being taken

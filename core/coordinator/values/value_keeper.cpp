@@ -4,7 +4,7 @@ namespace lockstep {
 
 std::string text_of(const ValuesRefusal& refusal) {
     if (refusal.why == ValuesRefusal::Why::JobInProgress) {
-        return "a job in progress uses these values; wait until it has ended, or: lockstep stop";
+        return "a job in progress uses these values; wait until it pauses (M0, M6) or has ended, or: lockstep stop";
     }
     return "the machine's offsets or tools have changed since this was read: revision " + std::to_string(refusal.read) +
            ", now " + std::to_string(refusal.now) + "; give the command again";
@@ -23,7 +23,7 @@ std::expected<void, ValuesRefusal> ValueKeeper::accept(std::uint64_t program, co
 
 std::expected<void, ValuesRefusal> ValueKeeper::edit(const gcode::ProgramValues& values, Circumstances now) {
     if (!now.owns_machine || !values.after) { return {}; }
-    if (now.has_job) { return std::unexpected(ValuesRefusal{ValuesRefusal::Why::JobInProgress}); }
+    if (now.has_job && !now.is_paused) { return std::unexpected(ValuesRefusal{ValuesRefusal::Why::JobInProgress}); }
     change(*values.after);
     return {};
 }
@@ -36,14 +36,18 @@ void ValueKeeper::note_left(std::uint64_t program, const gcode::KeptValues& afte
 }
 
 void ValueKeeper::take(const JobEvent& event) {
+    if (event.job_kind == JobKind::Jog || event.job_kind == JobKind::Return) { return; }  // perhaps in another's pause
     if (event.kind == JobEvent::Kind::Begun) { running_.reset(); }
     if (!event.program_id) { return; }
     const std::uint64_t program = *event.program_id;
-    if (event.kind == JobEvent::Kind::Begun) { running_ = Arrived{program, revision_, after(program)}; }
+    if (event.kind == JobEvent::Kind::Begun) {
+        running_ = Arrived{program, revision_, after(program)};
+        began_ = values_;
+    }
     if (event.kind != JobEvent::Kind::Ended) { return; }
     const auto running = std::exchange(running_, std::nullopt);
     const auto left = running && running->program == program ? running->after : after(program);
-    if (event.outcome == JobOutcome::Done && left) { change(*left); }
+    if (event.outcome == JobOutcome::Done && left) { change(running ? gcode::merged(began_, *left, values_) : *left); }
 }
 
 void ValueKeeper::follow(std::uint64_t revision, gcode::KeptValues values) {

@@ -1,7 +1,9 @@
 // The machine's values that outlive programs: which program may use them, and when one changes them.
 //
 // A program is read with the values of one revision. It is refused at any other, because its places would be wrong. The
-// values that it leaves become the machine's when it has reached its end. A program that was stopped leaves none.
+// values that it leaves become the machine's when it has reached its end. A program that was stopped leaves none. In
+// a pause a person may change values. The rest of the program keeps its places, because they are machine coordinates.
+// At its end only the values that the program itself changed become the machine's.
 #pragma once
 
 #include <cstdint>
@@ -43,6 +45,7 @@ public:
     struct Circumstances {
         bool owns_machine = true;  // otherwise the owner decides, and this coordinator may have to continue the program
         bool has_job = false;      // a job is in motion, held, or inherited by a takeover
+        bool is_paused = false;    // that job waits for a person, and nothing moves
     };
     /// Call it when a program or its first part has arrived.
     std::expected<void, ValuesRefusal> accept(std::uint64_t program, const gcode::ProgramValues& values,
@@ -73,6 +76,7 @@ private:
     std::uint64_t changes_ = 0;
     std::deque<Arrived> arrived_;     // the newest last
     std::optional<Arrived> running_;  // of the job in progress
+    gcode::KeptValues began_;         // the values with which it began
 };
 
 }  // namespace lockstep

@@ -91,19 +91,27 @@ std::string message_text(const Context& context, std::string_view text) {
     return result;
 }
 
+/// The text is of no effect, but it may tell a person what to do at a pause.
+Result remark(Context& context, std::string_view text) {
+    context.emit(Event{EventKind::Remark, 0, 0, std::string(text)});
+    return {};
+}
+
 Result comment(Context& context) {
     if (!context.block.comment) { return {}; }
     const std::size_t begin = *context.block.comment + 1;
     const std::size_t end = context.line.end_of_comment(begin) - 1;
     std::string_view text = context.line.text().substr(begin, end - begin);
     const std::size_t comma = text.find(',');
-    if (comma == std::string_view::npos) { return {}; }
+    if (comma == std::string_view::npos) { return remark(context, text); }
+    const std::string_view whole_text = text;
     std::string kind = small(text.substr(0, comma));
     std::erase_if(kind, [](char c) { return c == ' ' || c == '\t'; });
     text.remove_prefix(comma + 1);
     if (kind == "msg") { context.emit(Event{EventKind::Message, 0, 0, std::string(text)}); }
     if (kind == "debug") { context.emit(Event{EventKind::Message, 0, 0, message_text(context, text)}); }
     if (kind == "print") { context.emit(Event{EventKind::Print, 0, 0, message_text(context, text)}); }
+    if (kind != "msg" && kind != "debug" && kind != "print") { return remark(context, whole_text); }
     return {};
 }
 
@@ -201,8 +209,8 @@ Result dwell(Context& context) {
 Result stop(Context& context) {
     State& state = context.state;
     switch (context.block.code(Group::Stop)) {
-        case 0:
-        case 600: context.event(EventKind::Stop); break;
+        case 0: context.event(EventKind::Stop); break;
+        case 600: context.event(EventKind::PalletChange); break;
         case 10: context.event(EventKind::OptionalStop); break;
         case 20:
         case 300: {

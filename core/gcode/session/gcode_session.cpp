@@ -24,11 +24,12 @@ GcodeError needs_lines(const std::string& what) {
 /// One line on its way through an interpreter.
 class Reading {
 public:
-    Reading(const GcodeSetup& setup, gcode::Memory before)
+    /// `message`: the last one before, for the next pause.
+    Reading(const GcodeSetup& setup, gcode::Memory before, const std::string& message)
         : builder_(setup),
           interpreter_(gcode::interpreter_setup(setup), std::move(before),
                        [this](const gcode::Action& action, int line) { take(action, line); }) {
-        builder_.begin(interpreter_.state().modal);
+        builder_.begin(interpreter_.state().modal, message);
     }
 
     std::expected<SessionLine, GcodeError> read(std::string_view line) {
@@ -47,6 +48,7 @@ public:
                            .values = {},
                            .changes_values = false,
                            .ends_program = ends_program_,
+                           .message = builder_.message(),
                            .after = interpreter_.memory()};
     }
 
@@ -71,6 +73,7 @@ GcodeSession::GcodeSession(GcodeSetup setup, const MachineConfig& machine, int f
 
 void GcodeSession::reset() {
     memory_ = {};
+    message_.clear();
     place_mm_.reset();
     values_.reset();
     end_program();
@@ -122,7 +125,7 @@ std::expected<SessionLine, GcodeError> GcodeSession::read(std::string_view line,
     GcodeSetup setup = setup_;
     for (std::size_t i = 0; i < setup.axes.size(); ++i) { setup.axes[i].start_mm = from_mm[i]; }
     const gcode::KeptValues values = gcode::kept_values(before.state, park_);
-    auto read = Reading(setup, std::move(before)).read(line);
+    auto read = Reading(setup, std::move(before), message_).read(line);
     if (!read) { return read; }
     read->place_mm = end_of(read->blocks, from_mm);
     gcode::KeptValues after = gcode::kept_values(read->after.state, park_);
@@ -133,6 +136,7 @@ std::expected<SessionLine, GcodeError> GcodeSession::read(std::string_view line,
 
 void GcodeSession::commit(SessionLine& line) {
     memory_ = std::move(line.after);
+    message_ = line.message;
     place_mm_ = line.place_mm;
     values_ = line.values;
     if (line.ends_program) { end_program(); }

@@ -36,6 +36,7 @@ struct SessionLine {
     gcode::KeptValues values;      // after the line
     bool changes_values = false;
     bool ends_program = false;  // M2, M30
+    std::string message;        // for commit(): for the next pause
     gcode::Memory after;        // for commit()
 };
 
@@ -69,6 +70,7 @@ private:
     int first_motion_;
     gcode::Point park_;
     gcode::Memory memory_;
+    std::string message_;                          // the last one since the last pause
     std::optional<std::vector<double>> place_mm_;  // exact, where the last line ends
     std::optional<gcode::KeptValues> values_;      // that memory_ contains
 };

@@ -49,6 +49,7 @@ struct MachineStateMessage : lockstep_wire_MachineState {
     MachineStateMessage() : lockstep_wire_MachineState{} {}
     MachineStateMessage(MachineStateMessage&&) = default;
     std::vector<lockstep_wire_FrameRest> rest_storage;
+    std::vector<std::int64_t> place_storage;
 };
 
 /// A command and the array it points to; not copyable either.

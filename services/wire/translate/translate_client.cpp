@@ -30,7 +30,8 @@ CommandMessage to_wire(const Command& command) {
             .writer = command.writer.id,
             .writer_name = {},
             .writer_host = {},
-            .takes_over = command.takes_over};
+            .takes_over = command.takes_over,
+            .returns = command.returns};
     write_text(command.writer.name, wire.writer_name);
     write_text(command.writer.host, wire.writer_host);
     for (const JogAxis& jog : command.jogs) {
@@ -68,7 +69,8 @@ FromWire<Command> from_wire(const lockstep_wire_Command& wire) {
                    .rapid_percent = if_positive(wire.rapid_percent),
                    .jogs = std::move(jogs),
                    .writer = std::move(writer),
-                   .takes_over = wire.takes_over};
+                   .takes_over = wire.takes_over,
+                   .returns = wire.returns};
 }
 
 lockstep_wire_ProgramChunk to_wire(const ProgramChunk& chunk) {

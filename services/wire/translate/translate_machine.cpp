@@ -9,6 +9,9 @@ namespace lockstep {
 
 static_assert(lockstep_wire_MACHINE_JOGGING == static_cast<int>(MachinePhase::Jogging));
 static_assert(lockstep_wire_JOB_FAILED == static_cast<int>(JobOutcome::Failed));
+static_assert(lockstep_wire_PAUSE_HOLD == static_cast<int>(PauseReason::Hold));
+static_assert(lockstep_wire_MAX_PAUSE_BYTES == kMaxPauseText && lockstep_wire_MAX_PLACES == kMaxAxes);
+static_assert(lockstep_wire_MAX_HOLDER_BYTES == kMaxWriterBytes);
 static_assert(lockstep_wire_SPINDLE_REVERSE == static_cast<int>(ProgramDevices::Spindle::Reverse));
 
 namespace {
@@ -25,6 +28,33 @@ lockstep_wire_FrameRest rest_to_wire(const FrameRest& rest) {
 FrameRest rest_from_wire(const lockstep_wire_FrameRest& wire) {
     const Int128 along = Int128{wire.along_high} * kOneStep + Int128{wire.along_low};
     return {wire.frame, {wire.block, {along}}, wire.last, wire.digest};
+}
+
+std::span<const std::int64_t> places_of(const lockstep_wire_MachineState& wire) {
+    return {wire.pause_place._buffer, wire.pause_place._length};
+}
+
+void pause_to_wire(const MachinePause& pause, MachineStateMessage& message) {
+    message.pause_reason = static_cast<lockstep_wire_PauseReason>(pause.why.reason);
+    message.pause_tool = pause.why.tool;
+    write_text(pause.why.text, message.pause_text);
+    message.place_storage.assign(pause.place.begin(), pause.place.end());
+    const auto size = static_cast<std::uint32_t>(message.place_storage.size());
+    message.pause_place = {
+        ._maximum = size, ._length = size, ._buffer = message.place_storage.data(), ._release = false};
+}
+
+void pause_from_wire(const lockstep_wire_MachineState& wire, std::optional<MachinePause>& into, Checks& check) {
+    const auto reason = check.choice("pause_reason", wire.pause_reason, PauseReason::Hold);
+    const std::string_view text = read_text("pause_text", wire.pause_text, check);
+    if (!check.passed()) { return; }
+    if (!wire.has_pause) { return into.reset(); }
+    MachinePause& pause = into ? *into : into.emplace();
+    pause.why.reason = reason;
+    pause.why.tool = wire.pause_tool;
+    pause.why.text = text;
+    pause.place.clear();
+    for (const std::int64_t steps : places_of(wire)) { pause.place.append(steps); }
 }
 
 ProgramDevices devices_from_wire(const lockstep_wire_MachineState& wire, Checks& check) {
@@ -46,11 +76,14 @@ void check_numbers(const lockstep_wire_MachineState& wire, Checks& check) {
     check.within<int>("feed_percent", wire.feed_percent, Overrides::kLeast, Overrides::kMost);
     check.within<int>("rapid_percent", wire.rapid_percent, Overrides::kLeast, Overrides::kMost);
     check.far("writer_since", wire.writer_since);
+    check.within<std::int32_t>("pause_tool", wire.pause_tool, 0, kMaxTool);
+    check.within<std::size_t>("the number of places", wire.pause_place._length, 0, kMaxAxes);
     check.within<std::size_t>("the number of rests", wire.rests._length, 0, lockstep_wire_MAX_RESTS);
     if (!check.passed()) { return; }
     for (const auto& rest : std::span(wire.rests._buffer, wire.rests._length)) {
         check.far("a rest's place", rest.along_high);
     }
+    for (const std::int64_t steps : places_of(wire)) { check.far("a pause's place", steps); }
 }
 
 }  // namespace
@@ -99,6 +132,11 @@ void to_wire(const MachineState& state, MachineStateMessage& message) {
             .writer_name = {},
             .writer_host = {},
             .writer_since = state.lease ? state.lease->since.value : 0,
+            .has_pause = state.pause.has_value(),
+            .pause_reason = {},
+            .pause_tool = 0,
+            .pause_text = {},
+            .pause_place = {},
             .is_run = state.job_kind == JobKind::Run,
             .program = state.program.value_or(0),
             .events_from = state.events_from,
@@ -112,6 +150,7 @@ void to_wire(const MachineState& state, MachineStateMessage& message) {
         write_text(state.lease->writer.name, wire.writer_name);
         write_text(state.lease->writer.host, wire.writer_host);
     }
+    if (state.pause) { pause_to_wire(*state.pause, message); }
     message.rest_storage.clear();
     for (const FrameRest& rest : state.rests) { message.rest_storage.push_back(rest_to_wire(rest)); }
     const auto size = static_cast<std::uint32_t>(message.rest_storage.size());
@@ -132,6 +171,7 @@ std::expected<void, std::string> from_wire(const lockstep_wire_MachineState& wir
     const ProgramDevices devices = devices_from_wire(wire, check);
     const std::string_view writer_name = read_text("writer_name", wire.writer_name, check);
     const std::string_view writer_host = read_text("writer_host", wire.writer_host, check);
+    pause_from_wire(wire, into.pause, check);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
     const auto fault = static_cast<FaultCode>(wire.fault);
     into = {.term = {wire.term, wire.coordinator},
@@ -156,6 +196,7 @@ std::expected<void, std::string> from_wire(const lockstep_wire_MachineState& wir
             .config_hash = wire.config_hash,
             .devices = devices,
             .lease = std::move(into.lease),
+            .pause = std::move(into.pause),
             .job_kind = wire.is_run ? JobKind::Run : JobKind::Move,
             .program = if_positive(wire.program),
             .events_from = wire.events_from,

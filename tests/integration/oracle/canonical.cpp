@@ -304,7 +304,8 @@ void CallList::take_event(const gcode::Event& event) {
     using gcode::EventKind;
     const double index = event.index;
     switch (event.kind) {
-        case EventKind::Stop: return add("stop");
+        case EventKind::Stop:
+        case EventKind::PalletChange: return add("stop");
         case EventKind::OptionalStop: return add("optional stop");
         case EventKind::ToolSelect: return add("select", {index});
         case EventKind::ToolChange: return add("change", {index});

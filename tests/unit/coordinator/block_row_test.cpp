@@ -8,9 +8,10 @@ namespace {
 
 Block through_a_row(const Block& block, const std::vector<double>& place) {
     std::vector<double> row;
-    append_row(block, place, row);
+    PauseTexts texts;
+    append_row(block, place, texts, row);
     EXPECT_EQ(row.size(), row_width(place.size()));
-    return RowReader().read(row);
+    return RowReader().read(row, texts);
 }
 
 TEST(BlockRow, KeepsAllOfAMove) {
@@ -38,8 +39,20 @@ TEST(BlockRow, KeepsEventsDwellsAndRests) {
     const ProgramEvent event{.kind = ProgramEvent::Kind::AnalogOutput, .index = kMaxEventIndex, .value = -0.25};
     EXPECT_EQ(std::get<ProgramEvent>(through_a_row({7, event}, {1}).action), event);
     EXPECT_EQ(std::get<Dwell>(through_a_row({7, Dwell{0.5}}, {1}).action).seconds, 0.5);
-    EXPECT_TRUE(std::holds_alternative<Pause>(through_a_row({7, Pause{}}, {1}).action));
+    const Pause change{.reason = PauseReason::ToolChange, .tool = kMaxTool, .text = "6 mm end mill"};
+    EXPECT_EQ(std::get<Pause>(through_a_row({7, change}, {1}).action), change);
+    EXPECT_EQ(std::get<Pause>(through_a_row({7, Pause{}}, {1}).action), Pause{});
     EXPECT_TRUE(std::holds_alternative<Settle>(through_a_row({7, Settle{}}, {1}).action));
+}
+
+TEST(BlockRow, KeepsALimitedNumberOfTextsOfPauses) {
+    PauseTexts texts;
+    for (std::size_t k = 0; k < PauseTexts::kMost; ++k) {
+        EXPECT_EQ(texts.keep("text " + std::to_string(k)), static_cast<std::int64_t>(k + 1));
+    }
+    EXPECT_EQ(texts.keep("one more"), 0);
+    EXPECT_EQ(texts.text_of(texts.keep("text 7")), "text 7");
+    EXPECT_EQ(texts.text_of(0), "");
 }
 
 }  // namespace

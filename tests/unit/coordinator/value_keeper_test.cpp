@@ -60,6 +60,32 @@ TEST(ValueKeeper, AnEditWhileAJobIsInProgressIsRefused) {
     EXPECT_EQ(keeper.values(), with_x(1));
 }
 
+TEST(ValueKeeper, InAPauseAPersonMayTouchOff) {
+    ValueKeeper keeper(3, with_x(1));
+    ASSERT_TRUE(keeper.accept(7, {3, {}}, {}));
+    keeper.take(begun(7));
+    ASSERT_TRUE(keeper.accept(8, edit(2), {.has_job = true, .is_paused = true}));
+    EXPECT_EQ(keeper.values(), with_x(2));
+    keeper.take(ended(7, JobOutcome::Done));
+    EXPECT_EQ(keeper.values(), with_x(2));
+}
+
+TEST(ValueKeeper, OnlyWhatTheProgramItselfChangedReplacesAChangeInItsPause) {
+    ValueKeeper keeper(3, with_x(1));
+    gcode::KeptValues left = with_x(1);
+    left.systems[1].origin[1] = 5;
+    left.tools[4].diameter = 6;
+    ASSERT_TRUE(keeper.accept(7, {3, left}, {}));
+    keeper.take(begun(7));
+    ASSERT_TRUE(keeper.accept(8, edit(2), {.has_job = true, .is_paused = true}));
+    keeper.take({.kind = JobEvent::Kind::Begun, .job_kind = JobKind::Jog});
+    keeper.take({.kind = JobEvent::Kind::Ended, .job_kind = JobKind::Jog});
+    keeper.take(ended(7, JobOutcome::Done));
+    EXPECT_EQ(keeper.values().systems[0].origin[0], 2) << "touched off in the pause";
+    EXPECT_EQ(keeper.values().systems[1].origin[1], 5) << "by the program";
+    EXPECT_EQ(keeper.values().tools.at(4).diameter, 6);
+}
+
 TEST(ValueKeeper, AProgramThatArrivedDuringAJobIsForgottenIfTheJobChangesTheValues) {
     ValueKeeper keeper(3, with_x(1));
     ASSERT_TRUE(keeper.accept(7, {3, with_x(2)}, {}));

@@ -33,7 +33,7 @@ Program example() {
             .blocks = {{1, ProgramMove{{10, 20}, 0, true}},
                        {2, ProgramMove{{0.1, 1e-9}, 12.5, false}},
                        {{}, Dwell{0.25}},
-                       {4, Pause{}},
+                       {4, Pause{PauseReason::ToolChange, 2, "6 mm end mill"}},
                        {5, an_arc()},
                        {6, ProgramEvent{ProgramEvent::Kind::AnalogOutput, 3, -0.5}}}};
 }
@@ -55,6 +55,9 @@ void expect_same(const Program& one, const Program& other) {
             EXPECT_EQ(move->mode, same.mode);
             EXPECT_EQ(move->tolerance_mm, same.tolerance_mm);
             EXPECT_EQ(move->is_feed_fixed, same.is_feed_fixed);
+        }
+        if (const auto* pause = std::get_if<Pause>(&one.blocks[i].action)) {
+            EXPECT_EQ(*pause, std::get<Pause>(other.blocks[i].action));
         }
         if (const auto* event = std::get_if<ProgramEvent>(&one.blocks[i].action)) {
             EXPECT_EQ(*event, std::get<ProgramEvent>(other.blocks[i].action));

@@ -109,6 +109,39 @@ TEST(Gcode, M0PausesAndM1OnlyWithOptionalStop) {
     EXPECT_TRUE(std::holds_alternative<Pause>(program.blocks[1].action));
 }
 
+Pause pause_of(std::string_view text) {
+    GcodeSetup setup = three_axes();
+    setup.switches.pause_at_m1 = true;
+    for (const Block& block : parse(text, setup).blocks) {
+        if (const auto* pause = std::get_if<Pause>(&block.action)) { return *pause; }
+    }
+    return {.text = "no pause"};
+}
+
+TEST(Gcode, APauseCarriesItsReasonToolAndText) {
+    EXPECT_EQ(pause_of("M0\n"), (Pause{PauseReason::ProgramStop, 0, ""}));
+    EXPECT_EQ(pause_of("M1\n"), (Pause{PauseReason::OptionalStop, 0, ""}));
+    EXPECT_EQ(pause_of("M60\n"), (Pause{PauseReason::PalletChange, 0, ""}));
+    EXPECT_EQ(pause_of("T2 M6\n"), (Pause{PauseReason::ToolChange, 2, ""}));
+    EXPECT_EQ(pause_of("M0 (turn the part over)\n").text, "turn the part over");
+    EXPECT_EQ(pause_of("(MSG, turn the part over)\nG0 X1\nM0\n").text, "turn the part over");
+    EXPECT_EQ(pause_of("(MSG, turn it)\nM0 (comment, with a comma)\n").text, "comment, with a comma");
+    EXPECT_EQ(pause_of("(drill the holes)\nM0\n").text, "") << "a comment on another line is not about the pause";
+}
+
+TEST(Gcode, AToolChangeNamesTheToolByTheProgramsComments) {
+    EXPECT_EQ(pause_of("T2 M6 (6 mm end mill)\n").text, "6 mm end mill");
+    EXPECT_EQ(pause_of("(T1 3 mm drill)\n(T2  D=6. - flat end mill)\nT2 M6\n").text, "D=6. - flat end mill");
+    EXPECT_EQ(pause_of("(T1 3 mm drill)\nT2 M6\n").text, "");
+    EXPECT_EQ(pause_of("(Two passes)\n(T)\n(T2x)\n(T2)\nT2 M6\n").text, "");
+}
+
+TEST(Gcode, AMessageIsOfOnePause) {
+    const Program program = parse("(MSG, first)\nM0\nG0 X1\nM0\n", three_axes());
+    EXPECT_EQ(std::get<Pause>(program.blocks[0].action).text, "first");
+    EXPECT_EQ(std::get<Pause>(program.blocks[2].action).text, "");
+}
+
 TEST(Gcode, AMotionInAStopsBlockComesFirst) {
     const Program program = parse("G0 X1 M0\n");
     ASSERT_EQ(program.blocks.size(), 2U);

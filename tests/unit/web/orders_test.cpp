@@ -39,6 +39,13 @@ TEST(Orders, PlainCommandsTakeAnEmptyBodyAndNoMembers) {
     EXPECT_FALSE(order<LeaseOrder>("give", "").takes);
 }
 
+TEST(Orders, AResumeMayReturn) {
+    EXPECT_FALSE(order<Command>("resume", "{}").returns);
+    EXPECT_FALSE(order<Command>("resume", R"({"return":false})").returns);
+    EXPECT_TRUE(order<Command>("resume", R"({"return":true})").returns);
+    EXPECT_EQ(refusal("resume", R"({"return":1})"), "400 /return");
+}
+
 TEST(Orders, AnUnknownVerbIsRefusedWithTheKnownOnes) {
     const auto read = read_order("fly", "{}", two_axes());
     ASSERT_FALSE(read);

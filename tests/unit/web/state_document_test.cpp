@@ -66,6 +66,19 @@ TEST(StateDocument, PlacesAndVelocitiesAreInTheAxisUnit) {
     EXPECT_EQ(x["velocity"], 0.0);
 }
 
+TEST(StateDocument, SaysWhyTheJobWaitsAndTheWayBackToItsPlace) {
+    Snapshot snapshot = snapshot_at_rest();
+    EXPECT_TRUE(document(snapshot)["pause"].is_null());
+    snapshot.machine->value.pause = MachinePause{{PauseReason::ToolChange, 2, "6 mm end mill"}, {0, 0}};
+    EXPECT_EQ(document(snapshot)["pause"],
+              (Json{{"reason", "tool-change"}, {"tool", 2}, {"message", "6 mm end mill"}, {"way", Json::array()}}));
+    snapshot.axes[0].state->value.position = Position::steps(800);
+    EXPECT_EQ(document(snapshot)["pause"]["way"], (Json::array({{{"X", 0.0}}})));
+    snapshot.machine->value.pause->why = {};
+    EXPECT_EQ(document(snapshot)["pause"]["reason"], "program-stop");
+    EXPECT_TRUE(document(snapshot)["pause"]["tool"].is_null());
+}
+
 TEST(StateDocument, NamesTheWriter) {
     Snapshot snapshot = snapshot_at_rest();
     snapshot.writer = Writer{"anna", "bench", std::chrono::system_clock::time_point(1'700'000'000s), false};

@@ -195,6 +195,20 @@ TEST(HostileMachineState, AWritersNameCannotCommandATerminal) {
     expect_refused(static_cast<const lockstep_wire_MachineState&>(wire), "writer_name");
 }
 
+TEST(HostileMachineState, APausesTextCannotCommandATerminal) {
+    auto wire = to_wire(MachineState{.pause = MachinePause{{PauseReason::ToolChange, 2, "end mill"}, {1, 2}}});
+    const auto& read = static_cast<const lockstep_wire_MachineState&>(wire);
+    EXPECT_TRUE(from_wire(read));
+    std::strcpy(wire.pause_text, "end\x1b[2J");
+    expect_refused(read, "pause_text");
+    std::strcpy(wire.pause_text, "end mill");
+    wire.pause_tool = -1;
+    expect_refused(read, "pause_tool");
+    wire.pause_tool = 2;
+    wire.pause_place._length = kMaxAxes + 1;
+    expect_refused(read, "number of places");
+}
+
 TEST(HostileChunk, IsRefused) {
     const ProgramChunk good{.index = 0, .count = 1, .bytes = {1, 2, 3}};
     auto wire = to_wire(good);

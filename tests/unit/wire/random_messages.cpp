@@ -135,6 +135,7 @@ MachineState RandomMessages::machine_state() {
             .config_hash = bits(),
             .devices = devices(),
             .lease = maybe(HeldLease{writer(), {far()}}),
+            .pause = maybe(pause()),
             .job_kind = coin() ? JobKind::Run : JobKind::Move,
             .program = maybe(bits()),
             .events_from = static_cast<std::uint32_t>(bits()),
@@ -142,6 +143,15 @@ MachineState RandomMessages::machine_state() {
             .published = {.job_events = bits(), .program_parts = bits()},
             .lost_records = bits(),
             .process = {.reopened = bits(), .lost_log_lines = bits()}};
+}
+
+MachinePause RandomMessages::pause() {
+    MachinePause pause{.why = {.reason = static_cast<PauseReason>(index(5)),
+                               .tool = static_cast<std::int32_t>(between(0, kMaxTool)),
+                               .text = std::string(index(kMaxPauseText + 1), 'p')},
+                       .place = {}};
+    for (std::size_t i = index(kMaxAxes + 1); i > 0; --i) { pause.place.append(far()); }
+    return pause;
 }
 
 LeaseHolder RandomMessages::writer() {

@@ -20,6 +20,7 @@ public:
     ClockReply clock_reply();
     MachineState machine_state();
     std::vector<FrameRest> rests();
+    MachinePause pause();
     LeaseHolder writer();
     std::vector<JogAxis> jogs();
     Command command();

@@ -19,6 +19,7 @@ Frame full_frame() {
 MachineState running_state() {
     const LeaseHolder writer{7, "a writer with a rather long name", "a-host-with-a-rather-long-name"};
     MachineState state{.phase = MachinePhase::Running, .lease = HeldLease{writer, {5}}};
+    state.pause = MachinePause{{PauseReason::ToolChange, 2, "a tool with a rather long name"}, {1, 2, 3}};
     for (FrameNumber frame = 1; frame <= 12; ++frame) { state.rests.push_back({.frame = frame}); }
     return state;
 }
