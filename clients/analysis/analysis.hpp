@@ -33,12 +33,13 @@ namespace lockstep::analysis {
 struct JobLog {
     std::int64_t coordinator = 0;
     std::uint64_t job = 0;
-    std::string kind;     // home, move, run, own-move
+    std::string kind;     // home, move, run, own-move, jog, return
     std::string outcome;  // done, stopped, failed; empty: the log ends before the job does
     std::optional<std::int64_t> begun_us;
     std::optional<std::int64_t> ended_us;
-    std::string name;                        // of the program; empty for homing
-    std::int64_t epochs = 0;                 // motions from rest to rest that its axes ran together
+    std::optional<std::size_t> is_in_pause_of;  // place in Analysis::jobs of the job in whose pause it takes place
+    std::string name;                           // of the program; empty for homing
+    std::int64_t epochs = 0;                    // motions from rest to rest that its axes ran together
     std::int64_t legs = 0;                   // motions from rest to rest as planned; further epochs are interruptions
     std::optional<std::string> unplannable;  // why the commanded motion is not known
     std::int64_t move_count = 0;

@@ -72,6 +72,7 @@ void Recorder::on_job(const RecordedJob& message, LogPlace place) {
         program_events_.end(message);
         record->ended_us = message.utime;
         record->outcome = message.outcome;
+        if (record->is_in_pause_of) { moves_.go_on(*record->is_in_pause_of, analysis_.tick_at(message.utime)); }
     } else {
         on_damage(place, "a job's event is neither begun, epoch, override nor ended");
     }
@@ -82,6 +83,17 @@ void Recorder::on_event(const program_event_t& message, const ProgramEvent& even
 }
 
 void Recorder::on_damage(LogPlace place, const std::string& what) { note_damage(analysis_.damages, place, what); }
+
+/// Axes may be jogged in the pause of a job, and return in it. Returns the number of that job's log.
+std::optional<std::size_t> Recorder::paused_by(const JobLog& begun) const {
+    if (begun.kind != "jog" && begun.kind != "return") { return std::nullopt; }
+    for (std::size_t i = analysis_.jobs.size(); i-- > 0;) {
+        const JobLog& job = analysis_.jobs[i];
+        const bool waits = job.coordinator == begun.coordinator && job.begun_us && !job.ended_us && &job != &begun;
+        if (waits && job.kind != "jog" && job.kind != "return") { return number_of(job); }
+    }
+    return std::nullopt;
+}
 
 /// Returns null if there are more jobs than are kept.
 JobLog* Recorder::job(const job_t& message) {
@@ -98,8 +110,9 @@ JobLog* Recorder::job(const job_t& message) {
 void Recorder::begin_job(const RecordedJob& message, JobLog& record, LogPlace place) {
     if (record.begun_us) { return; }  // a repeat
     record.begun_us = message.utime;
+    record.is_in_pause_of = paused_by(record);
     const auto program = read_documents(message, place);
-    if (program) { program_events_.begin(message, *program); }
+    if (program && !record.is_in_pause_of) { program_events_.begin(message, *program); }
     if (!message.lacks.empty()) { record.unplannable = message.lacks; }
     if (!analysis_.config) { return; }
     AskedPath asked;

@@ -47,6 +47,7 @@ private:
 
     JobLog* job(const job_t& message);
     std::size_t number_of(const JobLog& job) const { return static_cast<std::size_t>(&job - analysis_.jobs.data()); }
+    std::optional<std::size_t> paused_by(const JobLog& begun) const;
     void begin_job(const RecordedJob& message, JobLog& job, LogPlace place);
     std::shared_ptr<const RecordedProgram> read_documents(const RecordedJob& message, LogPlace place);
     bool is_during(Tick tick, const JobLog& job) const;

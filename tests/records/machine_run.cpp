@@ -111,6 +111,15 @@ void MachineRun::reset() {
 
 void MachineRun::resume() { command(CommandKind::Resume); }
 
+void MachineRun::return_and_resume() {
+    const Command back{.client = 3, .sequence = ++jogs_, .kind = CommandKind::Resume, .returns = true};
+    for (int tries = 0; tries < 50 && !is(MachinePhase::Running); ++tries) {
+        vm_.send(back);
+        wait_ms(10);
+    }
+    if (!is(MachinePhase::Running)) { throw std::runtime_error("the axes do not return"); }
+}
+
 void MachineRun::home() { home(0); }
 
 void MachineRun::home(AxisSet axes) {
@@ -200,7 +209,7 @@ void MachineRun::jog(std::uint32_t axis, double speed_mm_s, std::int64_t ms) {
         wait_ms(10);
     }
     wait_ms(300);
-    to_rest();
+    await([&] { return is(MachinePhase::Idle) || is(MachinePhase::Fault) || is(MachinePhase::Paused); }, "came to rest");
 }
 
 void MachineRun::restart(std::size_t process, std::int64_t ms) {

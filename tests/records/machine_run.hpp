@@ -59,6 +59,8 @@ public:
     void turn(const Overrides& overrides);
     void hold();
     void resume();
+    /// Resumes a pause in which axes were jogged: they return.
+    void return_and_resume();
     /// After a fault.
     void reset();
     /// Goes on until the machine rests without a job.

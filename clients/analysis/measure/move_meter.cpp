@@ -24,10 +24,33 @@ void MoveMeter::name_lane(std::size_t lane, const std::string& axis) {
 
 void MoveMeter::begin(std::size_t number, Tick from, const MachineConfig& machine, JobMoves moves) {
     if (jobs_.size() == kJobsOpen) { end_first(); }
-    Job job{
-        .number = number, .from = from, .axes = machine.axis_names(), .moves = std::move(moves), .axis_of_lane = {}};
+    begin_turn({from, number});
+    Job job{.number = number, .axes = machine.axis_names(), .moves = std::move(moves), .axis_of_lane = {}};
     for (const Lane& lane : lanes_) { job.axis_of_lane.push_back(job.axis(lane.axis)); }
     jobs_.push_back(std::move(job));
+}
+
+void MoveMeter::go_on(std::size_t number, Tick from) {
+    const auto job = std::ranges::find(jobs_, number, &Job::number);
+    if (job == jobs_.end()) { return; }
+    std::rotate(job, job + 1, jobs_.end());
+    begin_turn({from, number});
+}
+
+void MoveMeter::begin_turn(const Turn& turn) {
+    if (turns_.size() == kTurnsKept) { turns_.erase(turns_.begin()); }
+    turns_.push_back(turn);
+}
+
+MoveMeter::Job* MoveMeter::job_of(std::size_t number) {
+    const auto job = std::ranges::find(jobs_, number, &Job::number);
+    return job == jobs_.end() ? nullptr : &*job;
+}
+
+MoveMeter::Job* MoveMeter::job_at(Tick tick) {
+    auto turn = turns_.rbegin();
+    while (turn != turns_.rend() && turn->from > tick) { ++turn; }
+    return turn == turns_.rend() ? nullptr : job_of(turn->number);
 }
 
 void MoveMeter::plan_again(std::size_t number) {

@@ -27,8 +27,10 @@ public:
 
     /// Sets the name of a lane's axis.
     void name_lane(std::size_t lane, const std::string& axis);
-    /// Begins a job. All steps from `from` on belong to it, until the next job begins.
+    /// Begins a job. All steps from `from` on belong to it, until the next job begins, or one goes on.
     void begin(std::size_t number, Tick from, const MachineConfig& machine, JobMoves moves);
+    /// A job in the pause of this one has ended. All steps from `from` on belong to this one again.
+    void go_on(std::size_t number, Tick from);
     /// The path of this job is planned again, behind a hold or an override.
     void plan_again(std::size_t number);
     /// Takes the steps of all axes in the order of their ticks.
@@ -49,7 +51,6 @@ private:
     };
     struct Job {
         std::size_t number = 0;
-        Tick from;
         std::vector<std::string> axes;
         JobMoves moves;
         std::vector<std::optional<std::size_t>> axis_of_lane;
@@ -57,19 +58,24 @@ private:
         std::optional<std::size_t> axis(const std::string& name) const;
     };
 
-    /// The latest job that has begun by `tick`, or null.
-    Job* job_at(Tick tick) {
-        auto job = jobs_.rbegin();
-        while (job != jobs_.rend() && job->from > tick) { ++job; }
-        return job == jobs_.rend() ? nullptr : &*job;
-    }
+    /// From here on steps belong to the job.
+    struct Turn {
+        Tick from;
+        std::size_t number = 0;
+    };
+    /// Null before the first job, and for a job that is over.
+    Job* job_at(Tick tick);
+    Job* job_of(std::size_t number);
+    void begin_turn(const Turn& turn);
     void trace(const Job* job, std::size_t lane, const MeasuredStep& step);
     void end_first();
 
     OnJob on_job_;
     bool keeps_plane_;
     std::vector<Lane> lanes_;
-    std::vector<Job> jobs_;  // in the order they began
+    static constexpr std::size_t kTurnsKept = 4 * kJobsOpen;
+    std::vector<Job> jobs_;    // in the order of their last turns
+    std::vector<Turn> turns_;  // the newest, in the order of time
     PlaneTrace plane_;
     bool plane_is_of_jobs_ = false;
     std::int64_t steps_of_no_job_ = 0;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "clients/verification/jobs/record_text.hpp"
 #include "services/documents/machine_file.hpp"
@@ -37,6 +38,7 @@ void JobProgress::lose(const OrderedRecord& record) {
                     record.is_of_event ? "an event" : "\"" + record.event + "\"", number_of(record)));
     lose_epoch();
     job_.reset();
+    paused_.reset();
     if (record.event == "begun") { return; }
     job_ = Job{.coordinator = record.coordinator,
                .number = record.job,
@@ -69,7 +71,15 @@ void JobProgress::note_owner(const RecordedJob& record) {
     findings_.notes.push_back(job_->label + ": another coordinator has taken over and continued it");
 }
 
+/// Axes may be jogged in the pause of a job, and return in it.
+bool JobProgress::begins_in_pause(const OrderedRecord& record) const {
+    const bool may_be = record.kind == "jog" || record.kind == "return";
+    return may_be && job_ && job_->coordinator == record.coordinator && !job_->is_in_pause;
+}
+
 void JobProgress::begin(const OrderedRecord& record) {
+    const bool is_in_pause = begins_in_pause(record);
+    if (is_in_pause) { paused_ = std::exchange(job_, std::nullopt); }
     if (job_ && job_->coordinator == record.coordinator) {
         return differ(job_->label + ": the log has no end of it, though " + number_of(record) + " begins");
     }
@@ -78,12 +88,16 @@ void JobProgress::begin(const OrderedRecord& record) {
     }
     job_ =
         Job{.coordinator = record.coordinator, .number = record.job, .label = number_of(record) + ", " + record.kind};
-    events_.begin(record.coordinator, record.job, job_->label, nullptr);
+    job_->is_in_pause = is_in_pause;
+    if (!is_in_pause) {
+        paused_.reset();
+        events_.begin(record.coordinator, record.job, job_->label, nullptr);
+    }
     if (!record.has_program() || record.kind == "own-move") { return; }  // axes on their own make no epoch
     if (!record.lacks.empty()) {
         findings_.add_missing(job_->label + ": its program is not known: " + record.lacks);
         job_->is_lost = true;
-        return events_.leave();
+        return is_in_pause ? void() : events_.leave();
     }
     const auto machine = parse_machine(record.config);
     const auto program = record.read_program();
@@ -96,6 +110,7 @@ void JobProgress::begin(const OrderedRecord& record) {
     auto replay = JobReplay::plan(*machine, *program, record.start_count);
     if (!replay) { return differ(job_->label + ": it cannot be planned again: " + replay.error()); }
     job_->replay = std::move(*replay);
+    if (is_in_pause) { return; }  // a return has no events
     events_.begin(record.coordinator, record.job, job_->label, job_->replay->program());
     if (record.is_behind_gap) { events_.leave(); }  // events at rest may come before the job's begin
 }
@@ -132,8 +147,10 @@ void JobProgress::begin_epoch(const RecordedJob& record) {
         questions_.ask_motion({text + ", as no run before is in the log", {}, {}, {}, job_->label});
         return leave_job_plan(epoch);
     }
-    events_.check_rest(start->place.block, start->place.block);
-    events_.begin_epoch(epoch, record.coordinator);
+    if (!job_->is_in_pause) {
+        events_.check_rest(start->place.block, start->place.block);
+        events_.begin_epoch(epoch, record.coordinator);
+    }
     const AxisPositions at = start->at;
     const MachineConfig& machine = job_->replay->machine();
     epoch_.emplace(machine, EpochReplay(machine, epoch, std::move(*start), overrides, {record.start_tick}), at);
@@ -155,9 +172,9 @@ void JobProgress::end(const RecordedJob& record) {
     if (!is_of_job(record)) {
         return differ("the log has the end of " + number_of(record) + ", but not its beginning");
     }
-    if (job_->is_lost) { return job_.reset(); }
-    Job job = *std::exchange(job_, std::nullopt);
-    if (!job.replay) { return events_.end(record.outcome == "done"); }
+    Job job = *std::exchange(job_, std::exchange(paused_, std::nullopt));
+    if (job.is_lost) { return; }
+    if (!job.replay) { return job.is_in_pause ? void() : events_.end(record.outcome == "done"); }
     const auto left = job.replay->next();
     if (record.outcome == "failed") {
         findings_.notes.push_back(job.label + " failed" + (job.broken.empty() ? "" : ": " + job.broken) +
@@ -167,11 +184,12 @@ void JobProgress::end(const RecordedJob& record) {
     } else if (record.outcome == "done" && job.ran == FrameNumber{0}) {
         const std::string text = job.label + " is recorded as done, but no run of its last motion is in the log";
         questions_.ask_motion({text, {}, {}, {}, job.label});
-        return events_.leave();
+        return job.is_in_pause ? void() : events_.leave();
     } else if (record.outcome == "done" && left) {
         return differ(job.label + " is recorded as done, but its program continues at " + text_of(left->place));
     }
     ++findings_.jobs;
+    if (job.is_in_pause) { return; }
     if (!job.broken.empty()) { return events_.leave(); }
     const std::uint32_t rest = job.replay->moves_from();
     events_.check_rest(record.outcome == "done" ? rest : 0, rest);
@@ -235,6 +253,7 @@ void JobProgress::check_epoch(bool lacks_events) {
     const bool is_whole = end.kind == EpochEnd::Kind::Complete;
     const std::uint32_t rests_before = is_whole ? epoch_->replay().source()->end().block : end.place.block;
     job_->replay->ended(end, epoch_->replay().source());
+    if (job_->is_in_pause) { return; }
     events_.check_motion(epoch_->replay().take_events(end.ran), lacks_events);
     events_.check_rest(lacks_events ? 0 : rests_before, job_->replay->moves_from());
 }

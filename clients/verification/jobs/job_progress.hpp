@@ -76,10 +76,12 @@ private:
         bool is_lost = false;             // records of it are missing, so its plan is not known
         std::string broken;               // why the runs are not the whole plan; empty if they are
         std::string broken_axis;
+        bool is_in_pause = false;  // it takes place in the pause of another job
     };
 
     void note_owner(const RecordedJob& record);
     void begin(const OrderedRecord& record);
+    bool begins_in_pause(const OrderedRecord& record) const;
     void begin_epoch(const RecordedJob& record);
     void turn(const RecordedJob& record);
     void end(const RecordedJob& record);
@@ -98,6 +100,7 @@ private:
     EventCheck& events_;
     OpenQuestions& questions_;
     std::optional<Job> job_;
+    std::optional<Job> paused_;  // the job in whose pause job_ takes place
     std::optional<EpochCheck> epoch_;
     std::deque<Epoch> lost_epochs_;                       // the newest whose plan is not known
     std::deque<std::pair<Epoch, std::string>> labels_;    // of the newest epochs

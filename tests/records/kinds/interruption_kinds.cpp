@@ -86,6 +86,13 @@ std::vector<RecordKind> interruption_kinds() {
                    run.reach(MachinePhase::Paused);
                    run.resume();
                }),
+        driven("jogs_in_a_pause", "G0 X40 Y10\nM0\nG0 X5 Y5\n",
+               [](MachineRun& run) {
+                   run.reach(MachinePhase::Paused);
+                   run.jog(0, 12, 400);
+                   run.jog(1, 8, 300);
+                   run.return_and_resume();
+               }),
         driven("events", events, [](MachineRun&) {}),
         driven("override_in_motion", kSquare, turn_often),
         driven("override_in_arcs", kArcs, turn_often),
