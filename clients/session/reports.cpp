@@ -6,6 +6,7 @@
 
 #include "clients/session/health_report.hpp"
 #include "clients/text/format.hpp"
+#include "core/coordinator/path/return_way.hpp"
 #include "core/protocol/names.hpp"
 #include "services/flight/incident_file.hpp"
 #include "services/runtime/clock.hpp"
@@ -106,6 +107,39 @@ proto::AxisStatus axis_status(const AxisConfig& axis, std::int64_t tick_ns, cons
     return status;
 }
 
+std::optional<Program> way_back(const Session& session) {
+    const MachineConfig& machine = session.config();
+    const auto& received = session.state();
+    if (!received || !received->state.pause) { return std::nullopt; }
+    const auto& place = received->state.pause->place;
+    std::vector<std::int64_t> here;
+    for (std::size_t i = 0; i < machine.axes.size() && session.axis(i); ++i) {
+        here.push_back(session.axis(i)->state.position.count());
+    }
+    if (here.size() != machine.axes.size() || place.size() != here.size()) { return std::nullopt; }
+    Program way = return_way(machine, here, {place.begin(), place.end()});
+    return way.blocks.empty() ? std::nullopt : std::optional(std::move(way));
+}
+
+std::optional<proto::PauseReport> pause_report(const Session& session) {
+    const auto& received = session.state();
+    if (!received || !received->state.pause) { return std::nullopt; }
+    const MachinePause& pause = *received->state.pause;
+    proto::PauseReport report;
+    report.set_reason(std::string(name_of(pause.why.reason)));
+    if (pause.why.reason == PauseReason::ToolChange) { report.set_tool(pause.why.tool); }
+    report.set_message(pause.why.text);
+    report.set_text(text_of(pause.why));
+    const auto& axes = session.config().axes;
+    for (std::size_t i = 0; i < std::min(axes.size(), pause.place.size()); ++i) {
+        AxisState at;
+        at.position = Position::steps(pause.place[i]);
+        *report.add_place() = place_of(axes[i], at);
+    }
+    if (const auto way = way_back(session)) { report.set_way_back(text_of_way(*way)); }
+    return report;
+}
+
 proto::StatusReport status_report(const Session& session) {
     proto::StatusReport report;
     const MachineConfig& machine = session.config();
@@ -117,6 +151,7 @@ proto::StatusReport status_report(const Session& session) {
         report.set_lost_log_lines(received->state.process.lost_log_lines);
         report.set_age_ms(static_cast<double>((monotonic_now() - received->time).count()) * 1e-6);
     }
+    if (auto pause = pause_report(session)) { *report.mutable_pause() = *std::move(pause); }
     report.set_standby(session.has_standby());
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         const auto& axis = session.axis(i);

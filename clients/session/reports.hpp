@@ -27,6 +27,12 @@ std::optional<proto::DevicesReport> devices_report(const ProgramDevices& devices
 /// The newest state of an axis; for an axis that was never received, only its name.
 proto::AxisStatus axis_status(const AxisConfig& axis, std::int64_t tick_ns, const AxisState* state, bool present);
 
+/// The way back to the place of the pause, by the newest states. Nullopt if there is no pause, the axes are there, or
+/// an axis was never received.
+std::optional<Program> way_back(const Session& session);
+/// Nullopt without a pause.
+std::optional<proto::PauseReport> pause_report(const Session& session);
+
 proto::StatusReport status_report(const Session& session);
 
 /// Adds the directory of incident files of this host's flight recorders; reads the directory.

@@ -91,6 +91,15 @@ std::string process_lines(const proto::StatusReport& status) {
                       [](const Health& health) { return health.lost_log_lines(); });
 }
 
+/// Why the job waits, and what may be done in the pause. Empty without a pause.
+std::string pause_lines(const proto::StatusReport& status) {
+    if (!status.has_pause()) { return ""; }
+    const proto::PauseReport& pause = status.pause();
+    std::string text = wrapped("paused: " + pause.text(), 80, "  ") + "\n";
+    if (pause.has_way_back()) { text += wrapped("axes were moved; way back: " + pause.way_back(), 80, "  ") + "\n"; }
+    return text + "in the pause: lockstep jog, lockstep touch; go on: lockstep resume; end the job: lockstep stop\n";
+}
+
 /// Empty while every client may give commands.
 std::string writer_line(const proto::StatusReport& status) {
     const std::string writer = writer_text(status);
@@ -115,7 +124,8 @@ std::string age_text(const proto::StatusReport& status) {
 }
 
 std::string status_text(const proto::StatusReport& status) {
-    std::string text = headline(status) + row("axis", "position mm", "velocity mm/s", "state", "homed");
+    std::string text =
+        headline(status) + pause_lines(status) + row("axis", "position mm", "velocity mm/s", "state", "homed");
     for (const proto::AxisStatus& axis : status.axes()) { text += axis_row(axis); }
     if (const std::string turned = overrides_text(status); !turned.empty()) { text += "overrides: " + turned + "\n"; }
     if (const std::string on = devices_text(status); !on.empty()) {

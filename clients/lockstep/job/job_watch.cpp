@@ -104,13 +104,26 @@ void JobWatch::print_phase(const MachineState& state) {
         runs_it_ = state.term;
         output_.print("another coordinator has taken over and continues the job" + at_line);
     }
-    const bool rests = state.phase == MachinePhase::Holding || state.phase == MachinePhase::Paused;
+    if (state.pause) { return print_pause(state, at_line); }
+    printed_pause_.reset();
+    const bool rests = state.phase == MachinePhase::Holding;
     if (rests && state.phase != printed_) {
-        const std::string how = state.phase == MachinePhase::Paused ? "paused" : "held";
-        output_.print(how + at_line + ": continue with: lockstep resume; end the job with: lockstep stop");
+        output_.print("held" + at_line + ": continue with: lockstep resume; end the job with: lockstep stop");
     }
     printed_ = state.phase;
     if (!rests) { print_progress(); }
+}
+
+/// A pause lasts while axes are jogged and return in it.
+void JobWatch::print_pause(const MachineState& state, const std::string& at_line) {
+    const bool returns = state.phase == MachinePhase::Running;
+    if (returns && printed_ != state.phase) { output_.print("returning to the place of the pause"); }
+    printed_ = state.phase;
+    if (printed_pause_ == state.pause->why) { return; }
+    printed_pause_ = state.pause->why;
+    output_.print("paused" + at_line + ": " + text_of(state.pause->why) +
+                  "\ncontinue with: lockstep resume; end the job with: lockstep stop; jog and touch off in the pause "
+                  "with: lockstep jog, lockstep touch");
 }
 
 void JobWatch::print_progress() {

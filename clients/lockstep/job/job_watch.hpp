@@ -37,6 +37,7 @@ private:
     std::expected<void, Failure> send_stop();
     void print_lost_lease();
     void print_phase(const MachineState& state);
+    void print_pause(const MachineState& state, const std::string& at_line);
     void print_progress();
 
     Session& session_;
@@ -54,6 +55,7 @@ private:
     std::optional<std::chrono::nanoseconds> rest_asked_;  // when the latest of both was sent
     std::optional<std::int32_t> line_;                    // the last line in motion
     std::optional<MachinePhase> printed_;
+    std::optional<Pause> printed_pause_;
 };
 
 }  // namespace lockstep

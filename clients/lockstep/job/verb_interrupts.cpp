@@ -1,6 +1,7 @@
 // lockstep hold, resume, stop, estop, reset
 #include <array>
 
+#include "clients/lockstep/job/confirm.hpp"
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/session/command_effect.hpp"
@@ -12,11 +13,16 @@
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/format.hpp"
 #include "clients/text/output.hpp"
+#include "core/coordinator/path/return_way.hpp"
 #include "core/protocol/names.hpp"
 #include "idl/proto/report.pb.h"
 
 namespace lockstep {
 namespace {
+
+struct InterruptOptions : LiveOptions {
+    bool yes = false;  // resume: return without asking
+};
 
 struct Interrupt {
     const char* name;
@@ -28,7 +34,10 @@ struct Interrupt {
 constexpr std::array kInterrupts{
     Interrupt{"hold", CommandKind::Hold, "bring the machine to rest on its path; the job can be resumed",
               "continue with: lockstep resume; end the job with: lockstep stop"},
-    Interrupt{"resume", CommandKind::Resume, "continue a job that is held or paused", "watch it with: lockstep watch"},
+    Interrupt{"resume", CommandKind::Resume,
+              "continue a job that is held or paused\n"
+              "Axes that were jogged in the pause return first.",
+              "watch it with: lockstep watch"},
     Interrupt{"stop", CommandKind::Stop, "bring the machine to rest on its path, and end the job", ""},
     Interrupt{"estop", CommandKind::EmergencyStop,
               "stop all pulses at once, also without a coordinator\n"
@@ -65,7 +74,21 @@ ExitCode report_outcome(Session& session, const Interrupt& interrupt, const Repl
     return kExitDone;
 }
 
-ExitCode interrupt_machine(const LiveOptions& options, const Interrupt& interrupt) {
+/// Axes that were jogged in a pause first return to its place. A person must confirm the way, or a script pass --yes.
+std::expected<bool, Failure> confirm_return(const InterruptOptions& options, Session& session, Output& output) {
+    session.await_axes();
+    const auto way = way_back(session);
+    if (!way) { return false; }
+    output.print("axes were moved in the pause; the machine first returns to its place: " + text_of_way(*way));
+    if (options.yes) { return true; }
+    const auto confirmed = confirm_motion(options.json, output,
+                                          "axes were moved in the pause, and without a terminal resume cannot ask "
+                                          "whether the machine may return to its place (" +
+                                              text_of_way(*way) + "): check the way, then add --yes");
+    return confirmed ? std::expected<bool, Failure>(true) : std::unexpected(confirmed.error());
+}
+
+ExitCode interrupt_machine(const InterruptOptions& options, const Interrupt& interrupt) {
     Output output(options.json);
     const auto machine = choose_machine(options.machine_file);
     if (!machine) { return output.fail(machine.error()); }
@@ -75,7 +98,13 @@ ExitCode interrupt_machine(const LiveOptions& options, const Interrupt& interrup
     if (!is_everybodys(interrupt)) { turn.emplace(*session, options.take); }
     if (turn && !turn->answer()) { return output.fail(turn->answer().error()); }
     if (turn && turn->is_refused()) { return print_refusal(*turn->answer(), output); }
-    const auto reply = session->command({.kind = interrupt.command});
+    Command command{.kind = interrupt.command};
+    if (interrupt.command == CommandKind::Resume) {
+        const auto returns = confirm_return(options, *session, output);
+        if (!returns) { return output.fail(returns.error()); }
+        command.returns = *returns;
+    }
+    const auto reply = session->command(command);
     if (!reply) { return output.fail(reply.error()); }
     return report_outcome(*session, interrupt, *reply, output);
 }
@@ -120,7 +149,11 @@ ExitCode stop_at_once(const LiveOptions& options, const Interrupt& interrupt) {
 void add_interrupts(Verb command) {
     for (const Interrupt& interrupt : kInterrupts) {
         const Verb verb = command.add_verb(interrupt.name, interrupt.what);
-        const auto options = std::make_shared<LiveOptions>();
+        const auto options = std::make_shared<InterruptOptions>();
+        if (interrupt.command == CommandKind::Resume) {
+            verb.add_flag("--yes", options->yes,
+                          "if axes were moved in the pause: let the machine return to its place without asking");
+        }
         if (!is_everybodys(interrupt)) { add_take(verb, *options); }
         add_live_options(verb, *options);
         verb.footer(footer(std::string("  lockstep ") + interrupt.name + "\n"));

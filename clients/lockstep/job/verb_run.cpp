@@ -1,10 +1,8 @@
 // lockstep run
 #include <fmt/format.h>
-#include <unistd.h>
-
-#include <iostream>
 
 #include "clients/lockstep/job/approach_text.hpp"
+#include "clients/lockstep/job/confirm.hpp"
 #include "clients/lockstep/job/job.hpp"
 #include "clients/lockstep/job/restart.hpp"
 #include "clients/lockstep/live_options.hpp"
@@ -105,16 +103,9 @@ std::expected<Chosen, Failure> choose(const RunOptions& options, std::string_vie
 /// A restart moves the machine before the program does. A person must confirm the approach, or a script pass --yes.
 std::expected<void, Failure> confirm(const RunOptions& options, const Output& output) {
     if (options.yes || !options.is_restart()) { return {}; }
-    if (options.json || !output.is_terminal() || isatty(STDIN_FILENO) != 1) {
-        return std::unexpected(
-            bad_input("--from-line first moves the machine to where that line begins, and without a terminal it cannot "
-                      "ask: check it with --dry-run, then add --yes"));
-    }
-    std::cout << "begin? [y/N] " << std::flush;
-    std::string answer;
-    std::getline(std::cin, answer);
-    if (answer == "y" || answer == "yes") { return {}; }
-    return std::unexpected(failed("nothing was begun; to begin, answer y, or add --yes"));
+    return confirm_motion(options.json, output,
+                          "--from-line first moves the machine to where that line begins, and without a terminal it "
+                          "cannot ask: check it with --dry-run, then add --yes");
 }
 
 /// Whether the program is read while it runs. A short file is read and checked as a whole before anything moves.

@@ -5,6 +5,7 @@
 #include "clients/session/refusal.hpp"
 #include "clients/session/session.hpp"
 #include "clients/supervisor/machine_choice.hpp"
+#include "clients/text/format.hpp"
 #include "clients/text/output.hpp"
 #include "idl/proto/values.pb.h"
 
@@ -15,6 +16,16 @@ std::expected<Session, Failure> open(const LiveOptions& options, Purpose purpose
     const auto machine = choose_machine(options.machine_file);
     if (!machine) { return std::unexpected(machine.error()); }
     return Session::open(*machine, purpose);
+}
+
+/// The rest of a paused program is in machine coordinates already.
+void note_paused_job(const Session& session, Output& output) {
+    if (!session.state() || !session.state()->state.pause) { return; }
+    output.print(
+        wrapped("the rest of the paused job does not use the new values: it goes to the places with which it "
+                "was read. To run the rest with the new values: lockstep stop; lockstep run FILE --from-line "
+                "LINE",
+                80, ""));
 }
 
 ExitCode print(const Session& session, const RevisedValues& values, ValuesText text, Output& output) {
@@ -50,6 +61,7 @@ ExitCode change_values_here(const LiveOptions& options, ValuesText text, const C
     if (!turn.answer()) { return output.fail(turn.answer().error()); }
     if (turn.is_refused()) { return print_refusal(*turn.answer(), output); }
     if (const auto stored = store_values(*session, *values, wanted); !stored) { return output.fail(stored.error()); }
+    note_paused_job(*session, output);
     return print(*session, *values, text, output);
 }
 

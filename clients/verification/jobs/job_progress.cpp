@@ -266,7 +266,7 @@ void JobProgress::break_off(const Shortfall& shortfall) {
 // ---- The end of the log ------------------------------------------------------------------------------------------
 
 void JobProgress::leave_in_motion() {
-    if (epoch_) { events_.check_motion(epoch_->replay().take_events(epoch_->ran()), true); }
+    if (epoch_ && !job_->is_in_pause) { events_.check_motion(epoch_->replay().take_events(epoch_->ran()), true); }
     const auto& last = findings_.last_tick;
     findings_.add_unknown(fmt::format("the log ends before {} does; the steps up to {} are compared", job_->label,
                                       last ? fmt::format("tick {}", last->value) : "there"));

@@ -3,16 +3,19 @@
 #include <signal.h>
 
 #include "tests/integration/cli/own_machine.hpp"
+#include "tests/integration/cli/terminal.hpp"
 #include "tests/integration/wire/eventually.hpp"
 
 namespace lockstep {
 namespace {
 
+using testing::AllOf;
 using testing::ContainsRegex;
 using testing::HasSubstr;
 
 constexpr const char* kSquare = "G21 G90\nG0 X20 Y0\nG1 X60 F9000\nG1 Y40\nG1 X20\nG1 Y0\nM2\n";
 constexpr const char* kLong = "G21 G90\nG1 X150 Y20 F600\nG1 X20 Y0\nM2\n";
+constexpr const char* kToolChange = "G21 G90\nG0 X20 Y0\n(MSG, 6 mm end mill)\nT2 M6\nG1 X30 F9000\nM2\n";
 constexpr const char* kPaused = "G21 G90\nG0 X20 Y0\nM0\nG1 X30 F9000\nM2\n";
 
 class Motion : public OwnMachine {
@@ -200,6 +203,31 @@ TEST_F(Motion, PausesAndReportsHowToContinue) {
     EXPECT_EQ(status().phase(), "Paused");
     EXPECT_EQ(run_lockstep({"resume"}).code, 0);
     EXPECT_EQ(run.wait().code, 0);
+}
+
+TEST_F(Motion, AToolChangeSaysWhatToDoAndTheAxesReturnAfterAJog) {
+    ChildProcess run(LOCKSTEP_COMMAND, {"run", write("change.gcode", kToolChange)});
+    const std::string what = "change to tool 2: 6 mm end mill";
+    ASSERT_TRUE(eventually([&] { return run.out().find(what) != std::string::npos; })) << run.out();
+    EXPECT_EQ(status().pause().text(), what);
+    EXPECT_THAT(run_lockstep({"status"}).out, HasSubstr("paused: " + what));
+    const Ran jogged = run_lockstep({"jog", "X+", "--speed", "20", "--distance", "5"});
+    EXPECT_EQ(jogged.code, 0) << jogged.err;
+    EXPECT_EQ(status().phase(), "Paused");
+    EXPECT_EQ(status().pause().way_back(), "X to 20 mm");
+    const Ran touched = run_lockstep({"touch", "Y=0"});
+    EXPECT_EQ(touched.code, 0) << touched.err;
+    EXPECT_THAT(touched.out, HasSubstr("does not use the new values"));
+    const Ran unasked = run_lockstep({"resume"});
+    EXPECT_EQ(unasked.code, 2);
+    EXPECT_THAT(unasked.err, AllOf(HasSubstr("X to 20 mm"), HasSubstr("--yes")));
+    Terminal asked("resume");
+    EXPECT_TRUE(asked.shows("X to 20 mm"));
+    EXPECT_TRUE(asked.shows("begin? [y/N]"));
+    asked.type("y\n");
+    EXPECT_EQ(run.wait().code, 0);
+    EXPECT_THAT(run.out(), HasSubstr("returning to the place of the pause"));
+    EXPECT_EQ(status().axes(0).position_mm(), 30);
 }
 
 TEST_F(Motion, ContinuesFromALineAfterAStop) {
