@@ -3,6 +3,8 @@
 #include <utility>
 
 #include "clients/session/control/store_values.hpp"
+#include "clients/session/reports.hpp"
+#include "core/coordinator/path/return_way.hpp"
 #include "services/runtime/clock.hpp"
 
 namespace lockstep::grbl {
@@ -203,6 +205,7 @@ MachineView MachineLink::view() {
     }
     MachineView view = view_of(session_.config(), state->state, axes);
     view.is_received = is_received;
+    if (const auto way = way_back(session_)) { view.way_back = text_of_way(*way); }
     if (const auto values = session_.newest_values()) { values_ = values->values; }
     view.values = values_;
     lines_.report(state->state, view);

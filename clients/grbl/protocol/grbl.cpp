@@ -60,7 +60,9 @@ void Grbl::receive(std::string_view bytes) {
 void Grbl::see(const MachineView& view) {
     const bool had_fault = view_.is_received && view_.phase == MachinePhase::Fault;
     const bool has_fault = view.is_received && view.phase == MachinePhase::Fault;
+    const bool pauses_anew = view.is_received && view.pause && view.pause != view_.pause;
     view_ = view;
+    if (pauses_anew) { say_pause(); }
     if (waits_for_ && waits_for_line_) { view_.lines = std::max<std::size_t>(view_.lines, 1); }
     if (has_fault && !had_fault) {
         say(fmt::format("ALARM:{}", alarm_of(view.fault)));
@@ -101,9 +103,7 @@ void Grbl::do_real_time(unsigned char byte) {
         case '?': return say(report_.text(view_, state(), lines_.offset_mm(values()), bytes_.room(), options_));
         case '!':
         case kDoor: return hold();
-        case '~':
-            if (state() == State::Hold) { (void)ask(Request::Kind::Resume); }
-            return;
+        case '~': return resume();
         case kSoftReset: return soft_reset();
         case kCancelJog:
             if (has_jog_) { hold(); }
@@ -119,6 +119,22 @@ void Grbl::do_real_time(unsigned char byte) {
         default: return;  // for devices that the machine does not have, or meaningless
     }
     turn(overrides);
+}
+
+/// A sender cannot show and confirm the way back to the place of a pause.
+void Grbl::resume() {
+    if (state() != State::Hold) { return; }
+    if (view_.way_back.empty()) { return void(ask(Request::Kind::Resume)); }
+    say_message("axes were moved in the pause; way back: " + view_.way_back +
+                "; go back by jogs, or let them return and go on: lockstep resume --yes, or Resume on the page");
+}
+
+/// Tells a person why the machine waits. The person who gave a hold knows it.
+void Grbl::say_pause() {
+    if (view_.pause->reason == PauseReason::Hold) { return; }
+    std::string text = text_of(*view_.pause);
+    text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+    say_message(text);
 }
 
 /// Stores the request in the view, so that a repeated step counts from it before the machine reports it.

@@ -55,6 +55,8 @@ private:
     void soft_reset();
     void forget_lines();
     void hold();
+    void resume();
+    void say_pause();
     void stop();
     void turn(const Overrides& overrides);
 

@@ -133,7 +133,8 @@ void Grbl::raise_alarm(int number, const std::string& why) {
 }
 
 void Grbl::do_jog(std::string_view text) {
-    if (state() != State::Idle) { return refuse(Error::NotIdle); }
+    const bool is_in_pause = state() == State::Hold && view_.pause;
+    if (state() != State::Idle && !is_in_pause) { return refuse(Error::NotIdle); }
     const JogModes modes{lines_.inches(), lines_.relative(), lines_.offset_mm(values())};
     auto jogs = read_jog(text, machine_, view_.axes, modes);
     if (!jogs) { return refuse(jogs.error().error, jogs.error().text); }

@@ -13,6 +13,7 @@ MachineView view_of(const MachineConfig& machine, const MachineState& state,
     view.line = state.line;
     view.overrides = state.overrides;
     view.devices = state.devices;
+    if (state.pause) { view.pause = state.pause->why; }
     double squares = 0;
     for (std::size_t i = 0; i < axes.size(); ++i) {
         const AxisConfig& config = machine.axes[i];

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "core/faults.hpp"
@@ -31,6 +33,8 @@ struct MachineView {
     Overrides overrides;
     ProgramDevices devices;
     gcode::KeptValues values;
+    std::optional<Pause> pause;  // the job waits for a person
+    std::string way_back;        // to the place of the pause; empty if the axes are there
     // About the sender's accepted lines:
     std::size_t lines = 0;     // number of lines not run yet
     bool is_held = false;      // they wait for a resume, and the machine has not begun them

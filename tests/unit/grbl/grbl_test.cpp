@@ -176,6 +176,36 @@ TEST_F(Sender, ReadsTheOffsets) {
     EXPECT_THAT(lines(), ElementsAre("[MSG:Restoring defaults]", "ok"));
 }
 
+TEST_F(Sender, IsToldWhyTheMachinePausesInThatMoment) {
+    view.pause = Pause{PauseReason::ToolChange, 2, "6 mm end mill"};
+    change(MachinePhase::Paused);
+    EXPECT_THAT(lines(), ElementsAre("[MSG:Change to tool 2: 6 mm end mill]"));
+    change(MachinePhase::Paused);
+    EXPECT_THAT(lines(), IsEmpty()) << "once";
+    (void)send("~");
+    EXPECT_THAT(asked(), ElementsAre(Kind::Resume));
+    view.pause.reset();
+    change(MachinePhase::Running);
+    view.pause = Pause{};
+    change(MachinePhase::Paused);
+    EXPECT_THAT(lines(), ElementsAre("[MSG:Program stop]"));
+}
+
+TEST_F(Sender, JogsInAPauseAndResumesOnlyAtItsPlace) {
+    view.pause = Pause{};
+    change(MachinePhase::Paused);
+    (void)lines();
+    (void)send("$J=G91 X5 F600\n");
+    EXPECT_THAT(asked(), ElementsAre(Kind::Jog));
+    grbl.answer(requests.back().number, {.is_done = true});
+    grbl.end_jog();
+    (void)lines();
+    view.way_back = "X to 10 mm";
+    change(MachinePhase::Paused);
+    EXPECT_THAT(send("~"), ElementsAre(HasSubstr("way back: X to 10 mm; go back by jogs, or let them return")));
+    EXPECT_THAT(asked(), IsEmpty());
+}
+
 TEST_F(Sender, HoldsResumesAndStops) {
     EXPECT_THAT(send("!~\x18"), ElementsAre("", StartsWith("Grbl 1.1h")));
     EXPECT_THAT(asked(), ElementsAre()) << "nothing moves";

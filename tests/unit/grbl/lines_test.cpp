@@ -250,6 +250,17 @@ TEST_F(Lines, ADwellAndAPauseAreAnsweredBehindThem) {
     EXPECT_EQ(count(answers(), "ok"), 2);
 }
 
+TEST_F(Lines, TheSenderIsToldWhyItsJobPausesWhenTheMachineHasComeToThePause) {
+    sender->send("(MSG, turn the part over)\nG1 X12 F600\nM0\nG1 X14\n");
+    pass(0.3);
+    EXPECT_EQ(sender->text().find("Program stop"), std::string::npos) << "it still moves";
+    ASSERT_TRUE(passes_until([&] { return vm.state()->phase == MachinePhase::Paused; }, 5)) << describe();
+    pass(0.1);
+    EXPECT_NE(sender->text().find("[MSG:Program stop: turn the part over]"), std::string::npos) << sender->text();
+    sender->send("~");
+    ASSERT_TRUE(becomes_idle(5));
+}
+
 TEST_F(Lines, AStopByAnotherClientIsAnAlarmAndTheRestIsRefused) {
     sender->send(zigzag(0, 200));
     pass(1);
