@@ -4,7 +4,7 @@ import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, afterEach, before, beforeEach, describe, test } from "node:test";
-import { DESKTOP, openBrowser, openPage, shown } from "./browser.mjs";
+import { DESKTOP, openBrowser, openPage, PHONE, shown } from "./browser.mjs";
 import { lockstep, Server, startLockstep } from "./real_machine.mjs";
 import { pause, until } from "./waiting.mjs";
 
@@ -117,6 +117,41 @@ describe("the emergency stop", () => {
     await mode(page, "Idle");
     await runLong(page);
   });
+});
+
+const CHANGE = "G21 G90\nG0 X50 Y30\nT2 M6 (6 mm end mill)\nG1 X60 F1200\nM2\n";
+
+describe("a pause", () => {
+  for (const [where, options] of [["a desktop", DESKTOP], ["a phone", PHONE]]) {
+    test(`says what to do, and the machine returns on the way that a person confirms, on ${where}`, async () => {
+      const page = await enter("operate", options);
+      await server.load("change.gcode", CHANGE);
+      assert.equal((await server.command("run")).status, 200);
+      const banner = page.locator(".pause-banner");
+      await banner.locator(".pause-title", { hasText: /^Change to tool 2: 6 mm end mill$/ }).waitFor();
+      const jog = page.getByRole("button", { name: "Jog X plus" });
+      await jog.scrollIntoViewIfNeeded();
+      await until("a jog in the pause", async () => {
+        await jog.dispatchEvent("pointerdown", { button: 0, pointerId: 1 });
+        await pause(300);
+        await jog.dispatchEvent("pointerup", { button: 0, pointerId: 1 });
+        return (await server.state()).axes.X.position > 50.5;
+      });
+      await server.becomes("a pause again", (state) => state.mode === "Paused" && state.pause.way.length === 1);
+      assert.equal((await server.command("resume")).status, 409);
+      const dialog = page.getByRole("dialog", { name: "Return and resume" });
+      await banner.getByRole("button", { name: "Resume" }).click();
+      await dialog.locator("li", { hasText: /^X to 50\.000$/ }).waitFor();
+      await dialog.getByRole("button", { name: "Cancel" }).click();
+      assert.equal((await server.state()).mode, "Paused");
+      await banner.getByRole("button", { name: "Resume" }).click();
+      await dialog.getByRole("button", { name: "Return and resume" }).click();
+      const { axes, pause: left } = await server.becomes("done", (state) => state.job.outcome === "Done");
+      assert.ok(Math.abs(axes.X.position - 60) < 0.02, JSON.stringify(axes));
+      assert.equal(left, null);
+      await banner.waitFor({ state: "hidden" });
+    });
+  }
 });
 
 describe("a jog", () => {

@@ -1,14 +1,16 @@
 import { describe, expect, test } from "vitest";
-import type { MachineAxis, Offsets } from "../../../clients/web/page/src/api/contract";
+import type { MachineAxis, Offsets, Pause } from "../../../clients/web/page/src/api/contract";
 import { noAnswer, problemOf } from "../../../clients/web/page/src/api/result";
 import { Trace } from "../../../clients/web/page/src/chart/trace";
 import { History, MOST_LINES } from "../../../clients/web/page/src/mdi/history";
+import { fixed } from "../../../clients/web/page/src/format/numbers";
 import { timeOfDay } from "../../../clients/web/page/src/format/times";
 import { unitTexts } from "../../../clients/web/page/src/format/units";
 import { deviceTexts } from "../../../clients/web/page/src/state/device_texts";
 import { groupedAlarms } from "../../../clients/web/page/src/state/grouped_alarms";
 import { otherWriter } from "../../../clients/web/page/src/state/other_writer";
 import { pageRemedy } from "../../../clients/web/page/src/state/page_remedy";
+import { mayHandle, pauseText, wayTexts } from "../../../clients/web/page/src/state/pause_texts";
 import { shownMode } from "../../../clients/web/page/src/state/shown_mode";
 import { en } from "../../../clients/web/page/src/texts/en";
 import { workPlace } from "../../../clients/web/page/src/views/axis_places";
@@ -29,6 +31,27 @@ describe("work coordinates", () => {
 
   test("leave an unknown position unknown", () => {
     expect(workPlace({ X: undefined, Y: 1 }, offsets)).toEqual({ X: undefined, Y: -19 });
+  });
+});
+
+describe("a pause", () => {
+  const change: Pause = { reason: "tool-change", tool: 2, message: "6 mm end mill", way: [{ Z: 20 }, { X: 30, Y: 5.5 }, { Z: -1.5 }] };
+
+  test("says what to do", () => {
+    expect(pauseText(change, en)).toBe("Change to tool 2: 6 mm end mill");
+    expect(pauseText({ ...change, tool: 0, message: "" }, en)).toBe("Take out the tool");
+    expect(pauseText({ reason: "program-stop", message: "turn it over", way: [] }, en)).toBe("Program stop: turn it over");
+  });
+
+  test("lists the moves back to its place", () => {
+    expect(wayTexts(change, en)).toEqual(["Z to 20.000", "X to 30.000, Y to 5.500", "Z to −1.500"].map((text) => text.replace("−", fixed(-1, 0)[0]!)));
+  });
+
+  test("lets a person jog and touch off, and a hold within a move does not", () => {
+    expect(mayHandle({ mode: "Paused", pause: change })).toBe(true);
+    expect(mayHandle({ mode: "Holding", pause: null })).toBe(false);
+    expect(mayHandle({ mode: "Running", pause: change })).toBe(false);
+    expect(mayHandle({ mode: "Idle" })).toBe(true);
   });
 });
 

@@ -48,7 +48,7 @@ function run(place: HTMLElement, machine: Machine, role: Role): void {
     document.documentElement.dataset["shown"] = "yes";
   };
   setInterval(show, SHOWN_EVERY_MS);
-  listenToShortcuts(page.give, () => role === "operate");
+  listenToShortcuts(page.give, page.resume, () => role === "operate");
   void stream.run();
 }
 

@@ -153,6 +153,14 @@ export interface Writer {
   is_this_server: boolean;
 }
 
+export interface Pause {
+  reason: "program-stop" | "optional-stop" | "tool-change" | "pallet-change" | "hold";
+  tool?: Maybe<number>;
+  message: string;
+  /** The moves back to where the job goes on, in machine coordinates; empty if no axis was moved. */
+  way: Record<string, number>[];
+}
+
 export interface State {
   machine: string;
   mode: Mode;
@@ -160,6 +168,7 @@ export interface State {
   job?: Maybe<Job>;
   program?: Maybe<LoadedProgram>;
   hold?: Maybe<{ state: "braking" | "held"; line?: Maybe<number> }>;
+  pause?: Maybe<Pause>;
   override: { feed_percent: number; rapid_percent: number };
   alarms?: Maybe<Alarm[]>;
   axes: Record<string, AxisState>;

@@ -4,7 +4,7 @@ import type { Texts } from "./en";
 export const de: Texts = {
   page: {
     title: "Lockstep", skip: "Zu den Bedienelementen der Maschine",
-    theme: "Dunkel oder hell", language: "English", keys: "Tasten", close: "Schließen", dismiss: "Ausblenden", loading: "Verbinde …",
+    theme: "Dunkel oder hell", language: "English", keys: "Tasten", close: "Schließen", cancel: "Abbrechen", dismiss: "Ausblenden", loading: "Verbinde …",
   },
   signIn: {
     token: "Schlüssel", submit: "Anmelden", leave: "Abmelden",
@@ -72,6 +72,16 @@ export const de: Texts = {
     title: "Vom Programm befohlen", forward: "Spindel rechts {rpm} 1/min", reverse: "Spindel links {rpm} 1/min", mist: "Nebel", flood: "Kühlmittel",
     tool: "Werkzeug {number}", output: "Ausgang {number}", notConnected: "nichts ist angeschlossen",
   },
+  pause: {
+    reason: {
+      "program-stop": "Programmhalt", "optional-stop": "Wahlweiser Halt", "tool-change": "Werkzeug wechseln", "pallet-change": "Palette wechseln", hold: "Angehalten",
+    },
+    tool: "Wechsle zu Werkzeug {tool}", noTool: "Nimm das Werkzeug heraus", move: "{axis} nach {to}", title: "Zurückfahren und weiter",
+    hint: "Der Auftrag wartet. Achsen dürfen von Hand gefahren und genullt werden; dann Weiter.",
+    away: "Achsen wurden bewegt. Bei Weiter fährt die Maschine erst dorthin zurück, wo der Auftrag wartet; der Weg wird vorher gezeigt.",
+    returning: "Die Maschine fährt dorthin zurück, wo der Auftrag wartet.", confirm: "Zurückfahren und weiter",
+    explain: "Achsen wurden in der Pause bewegt. Die Maschine fährt im Eilgang zurück, in Maschinenkoordinaten, und der Auftrag geht weiter:",
+  },
   overrides: { title: "Anpassung", feed: "Vorschub", rapid: "Eilgang", normal: "100 %", unit: "%" },
   program: {
     title: "Programm", load: "Programm laden", drop: "Lege eine G-Code-Datei hier ab, oder wähle eine mit „Programm laden“.", checking: "Prüfe …", none: "Kein Programm ist geladen.",
@@ -86,6 +96,7 @@ export const de: Texts = {
   offsets: {
     title: "Nullpunkte", system: "System", active: "aktiv", touch: "{axis} hier auf 0", edit: "{system}, {axis}", rotation: "Drehung",
     g92: "G92", none: "Noch nicht empfangen",
+    pause: "Der Rest des wartenden Auftrags behält die Orte, mit denen er geladen wurde. Mit neuen Nullpunkten: stoppen, neu laden und ab seiner Zeile starten.",
   },
   tools: {
     title: "Werkzeuge", number: "Nr.", pocket: "Platz", length: "Länge Z", diameter: "Durchmesser", add: "Speichern", remove: "Werkzeug {number} entfernen",

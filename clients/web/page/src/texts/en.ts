@@ -3,7 +3,7 @@
 export const en = {
   page: {
     title: "Lockstep", skip: "Skip to the machine's controls",
-    theme: "Dark or light", language: "Deutsch", keys: "Keys", close: "Close", dismiss: "Dismiss", loading: "Connecting …",
+    theme: "Dark or light", language: "Deutsch", keys: "Keys", close: "Close", cancel: "Cancel", dismiss: "Dismiss", loading: "Connecting …",
   },
   signIn: {
     token: "Token", submit: "Sign in", leave: "Sign out",
@@ -71,6 +71,16 @@ export const en = {
     title: "Commanded by the program", forward: "Spindle forward {rpm} rpm", reverse: "Spindle reverse {rpm} rpm", mist: "Mist", flood: "Flood",
     tool: "Tool {number}", output: "Output {number}", notConnected: "nothing is connected",
   },
+  pause: {
+    reason: {
+      "program-stop": "Program stop", "optional-stop": "Optional stop", "tool-change": "Change the tool", "pallet-change": "Change the pallet", hold: "Held",
+    },
+    tool: "Change to tool {tool}", noTool: "Take out the tool", move: "{axis} to {to}", title: "Return and resume",
+    hint: "The job waits. Axes may be jogged and touched off; then resume.",
+    away: "Axes were moved. At Resume the machine first returns to where the job paused; the way is shown before.",
+    returning: "The machine returns to where the job paused.", confirm: "Return and resume",
+    explain: "Axes were moved in the pause. The machine returns as fast as its rapid moves, in machine coordinates, and the job goes on:",
+  },
   overrides: { title: "Overrides", feed: "Feed", rapid: "Rapid", normal: "100 %", unit: "%" },
   program: {
     title: "Program", load: "Load program", drop: "Drop a G-code file here, or choose one with Load program.", checking: "Checking …", none: "No program is loaded.",
@@ -85,6 +95,7 @@ export const en = {
   offsets: {
     title: "Offsets", system: "System", active: "active", touch: "Set {axis} to 0 here", edit: "{system}, {axis}", rotation: "Rotation",
     g92: "G92", none: "Not received yet",
+    pause: "The rest of the paused job keeps the places with which it was loaded. To run it with new offsets: stop, load it again, and run it from its line.",
   },
   tools: {
     title: "Tools", number: "No.", pocket: "Pocket", length: "Length Z", diameter: "Diameter", add: "Save tool", remove: "Remove tool {number}",

@@ -5,6 +5,7 @@ import { ICONS } from "../dom/icons";
 import { percent } from "../format/numbers";
 import { duration } from "../format/times";
 import { ageNow, freshness } from "../state/freshness";
+import { pauseText } from "../state/pause_texts";
 import { fill, t } from "../texts";
 import { button, type Give } from "./command_button";
 import type { Model, View } from "./view";
@@ -15,8 +16,9 @@ export function jobName({ name, kind, number }: Job): string {
 }
 
 /** What the job does now, in a few words. */
-export function jobSentence(job: Job, hold: State["hold"]): string {
+export function jobSentence(job: Job, hold: State["hold"], pause?: State["pause"]): string {
   if (job.outcome) return t.job.outcome[job.outcome];
+  if (pause) return pauseText(pause, t);
   if (hold?.state === "braking") return t.job.braking;
   if (hold) return fill(t.job.held, { line: hold.line ?? "–" });
   if (job.waits_for_program) return t.job.waits;
@@ -45,7 +47,7 @@ export class JobCard implements View {
     const job = state.job ?? undefined;
     this.program = state.program?.id;
     setText(this.name, job === undefined ? t.job.none : jobName(job));
-    setText(this.sentence, job === undefined ? "" : jobSentence(job, state.hold));
+    setText(this.sentence, job === undefined ? "" : jobSentence(job, state.hold, state.pause));
     setAttribute(this.sentence, "data-look", job?.outcome === "Failed" ? "bad" : undefined);
     const old = ageNow(state.link.age_ms ?? undefined, model.contact_ms, model.now_ms);
     setAttribute(this.element, "data-fresh", freshness(old) === "live" ? "live" : "stale");

@@ -6,6 +6,7 @@ import { fixed } from "../format/numbers";
 import { jogAxes, jogVelocity, keyDirections } from "../jog/directions";
 import type { Direction } from "../jog/dead_man";
 import { Jogger } from "../jog/jogger";
+import { mayHandle } from "../state/pause_texts";
 import { fill, t } from "../texts";
 import type { Report } from "./command_button";
 import type { Model, View } from "./view";
@@ -47,7 +48,7 @@ export class JogPad implements View {
 
   show(model: Model): void {
     this.model = model;
-    const mayJog = model.isConnected && ["Idle", "Jogging"].includes(model.state.mode);
+    const mayJog = model.isConnected && (mayHandle(model.state) || model.state.mode === "Jogging");
     show(this.element, model.role === "operate");
     if (!mayJog) this.jogger.releaseAll("refused");
     for (const { button, axis } of this.buttons) setAttribute(button, "disabled", !mayJog || this.velocity(axis) === undefined);

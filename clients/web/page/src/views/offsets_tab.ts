@@ -2,6 +2,7 @@
 import type { Machine } from "../api/contract";
 import { h, setAttribute, setText, show } from "../dom/element";
 import { fixed } from "../format/numbers";
+import { mayHandle } from "../state/pause_texts";
 import { fill, t } from "../texts";
 import type { Give } from "./command_button";
 import { NumberCell } from "./number_cell";
@@ -15,6 +16,7 @@ export class OffsetsTab implements View {
   private readonly touch: HTMLElement;
   private readonly system: HTMLSelectElement;
   private readonly g92 = h("p", { class: "soft" });
+  private readonly pauseNote = h("p", { class: "soft", hidden: true }, t.offsets.pause);
 
   constructor(machine: Machine, give: Give) {
     const axes = machine.axes.map((axis) => axis.name);
@@ -24,7 +26,7 @@ export class OffsetsTab implements View {
     } }, fill(t.offsets.touch, { axis })));
     this.touch = h("div", { class: "touch" }, h("label", { for: "touch-system" }, t.offsets.system), this.system, ...this.touches);
     const body = machine.coordinate_systems.map((system) => this.row(system, axes, give));
-    this.element = h("div", { class: "offsets" }, this.touch,
+    this.element = h("div", { class: "offsets" }, this.touch, this.pauseNote,
       h("div", { class: "wide", tabindex: 0, role: "region", "aria-label": t.offsets.title }, h("table", {},
         h("thead", {}, h("tr", {}, h("th", { scope: "col" }, t.offsets.system),
           ...axes.map((axis) => h("th", { scope: "col" }, axis)), h("th", { scope: "col" }, t.offsets.rotation))),
@@ -34,12 +36,13 @@ export class OffsetsTab implements View {
 
   show({ state, role }: Model): void {
     const offsets = state.offsets ?? undefined;
-    const mayEdit = role === "operate" && state.mode === "Idle" && offsets !== undefined;
+    const mayEdit = role === "operate" && mayHandle(state) && offsets !== undefined;
     for (const { system, axis, cell } of this.cells) {
       const known = offsets?.systems[system];
       cell.show((axis === "" ? known?.rotation_deg : known?.origin?.[axis]) ?? 0, mayEdit);
     }
     for (const [name, row] of this.rows) setAttribute(row, "aria-current", name === offsets?.active ? "true" : undefined);
+    show(this.pauseNote, Boolean(state.pause));
     show(this.touch, role === "operate");
     this.touches.forEach((button) => setAttribute(button, "disabled", !mayEdit));
     const g92 = Object.entries(offsets?.g92 ?? {}).map(([axis, value]) => `${axis} ${fixed(value, 3)}`);

@@ -16,6 +16,7 @@ import { Notices } from "./notices";
 import { OffsetsTab } from "./offsets_tab";
 import { Overrides } from "./overrides";
 import { PathView } from "./path_view";
+import { PauseBanner } from "./pause_banner";
 import { ProgramTab } from "./program_tab";
 import { ReportsTab } from "./reports_tab";
 import { SafetyBar } from "./safety_bar";
@@ -28,14 +29,18 @@ import { WriterBanner } from "./writer_banner";
 
 export class Page {
   readonly give: Give;
+  readonly resume: () => void;
   private readonly views: View[];
 
   constructor(place: HTMLElement, machine: Machine, stream: () => string) {
     const notices = new Notices();
     const report: Report = notices.report;
-    this.give = giver(report);
+    const give = giver(report);
+    const pause = new PauseBanner(give);
+    this.give = give;
+    this.resume = () => pause.resume();
     const keys = keysDialog();
-    const safety = new SafetyBar(this.give);
+    const safety = new SafetyBar(give, this.resume);
     const header = new Header(() => keys.showModal(), () => void leave(report), safety.element);
     const [banner, writer, alarms] = [new LinkBanner(), new WriterBanner(this.give), new Alarms()];
     const [axes, jog] = [new Axes(machine, this.give), new JogPad(machine, stream, report)];
@@ -48,15 +53,15 @@ export class Page {
       { id: "offsets", title: t.offsets.title, content: offsets.element }, { id: "tools", title: t.tools.title, content: tools.element },
       { id: "reports", title: t.reports.title, content: reports.element },
     ]);
-    this.views = [header, safety, banner, writer, alarms, axes, jog, path, strip, job, devices, overrides, program, mdi, offsets, tools, reports];
+    this.views = [header, safety, banner, writer, pause, alarms, axes, jog, path, strip, job, devices, overrides, program, mdi, offsets, tools, reports];
     place.replaceChildren(
       h("a", { class: "skip", href: "#main" }, t.page.skip), header.element,
       h("main", { id: "main", tabindex: -1 },
-        h("div", { class: "top" }, banner.element, writer.element, alarms.element),
+        h("div", { class: "top" }, banner.element, writer.element, pause.element, alarms.element),
         h("div", { class: "left" }, axes.element, jog.element),
         h("div", { class: "middle" }, path.element, strip.element),
         h("div", { class: "right" }, h("div", { class: "job-area" }, job.element, devices.element, overrides.element), tabs.element)),
-      notices.element, keys);
+      notices.element, keys, pause.dialog);
   }
 
   show(model: Model): void {

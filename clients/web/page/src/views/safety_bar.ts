@@ -14,9 +14,9 @@ export class SafetyBar implements View {
   private readonly stop: HTMLButtonElement;
   private readonly reset: HTMLButtonElement;
 
-  constructor(give: Give) {
+  constructor(give: Give, resume: () => void) {
     this.hold = button(t.commands.hold, ICONS.pause, "action", () => void give("hold"));
-    this.resume = button(t.commands.resume, ICONS.play, "action good", () => void give("resume"));
+    this.resume = button(t.commands.resume, ICONS.play, "action good", resume);
     this.stop = button(t.commands.stop, ICONS.stop, "action", () => void give("stop"));
     this.reset = button(t.commands.reset, ICONS.reset, "action", () => void give("reset"));
     this.element = h("div", { class: "safety", role: "group", "aria-label": t.commands.stops },

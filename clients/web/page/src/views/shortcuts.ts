@@ -8,13 +8,17 @@ export function shortcutVerb(event: Pick<KeyboardEvent, "key" | "repeat" | "ctrl
   return VERBS[event.key];
 }
 
-/** @param mayOperate whether this page may give commands. An open dialog keeps Escape for itself. */
-export function listenToShortcuts(give: Give, mayOperate: () => boolean): void {
+/**
+ * @param resume continues a job, and may ask first
+ * @param mayOperate whether this page may give commands. An open dialog keeps Escape for itself.
+ */
+export function listenToShortcuts(give: Give, resume: () => void, mayOperate: () => boolean): void {
   addEventListener("keydown", (event) => {
     const verb = shortcutVerb(event);
     if (verb === undefined || !mayOperate()) return;
     if (event.key === "Escape" && document.querySelector("dialog[open]") !== null) return;
     event.preventDefault();
-    void give(verb);
+    if (verb === "resume") resume();
+    else void give(verb);
   });
 }
