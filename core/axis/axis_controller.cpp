@@ -223,7 +223,8 @@ AxisState AxisController::state(const AxisLoop& loop, Ticks clock_error) const {
             .clock_error = clock_error,
             .term = owner_.term(),
             .hears_owner = owner_.receives_owner(loop.slot),
-            .unproved = condition_.position.unproved()};
+            .unproved = condition_.position.unproved(),
+            .switches = {device.limit_min, device.limit_max, device.home}};
 }
 
 }  // namespace lockstep

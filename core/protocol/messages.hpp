@@ -75,6 +75,15 @@ struct Frame {
 enum class AxisPhase : std::uint8_t { Initialize, Standby, Accelerate, Cruise, Decelerate, Stop, Fault };
 
 /// The state that an axis publishes once a slot. Others know nothing else of the axis.
+/// The inputs of an axis's device. True: the switch is closed.
+struct Switches {
+    bool limit_min = false;
+    bool limit_max = false;
+    bool home = false;
+    bool any() const { return limit_min || limit_max || home; }
+    bool operator==(const Switches&) const = default;
+};
+
 struct AxisState {
     Identity identity = 0;
     std::uint32_t axis = 0;  // its place in the configuration
@@ -99,6 +108,7 @@ struct AxisState {
     Term term;                                  // of the owner it follows; never lower than before
     bool hears_owner = false;                   // it received its owner within silence_slots
     FaultCode unproved = FaultCode::None;       // why it did not know its position at its start; None: it knows it now
+    Switches switches;
     bool operator==(const AxisState&) const = default;
 };
 

@@ -24,6 +24,8 @@ MachineView view_of(const MachineConfig& machine, const MachineState& state,
         }
         const AxisState& axis = *axes[i];
         view.axes.push_back({to_mm(config, static_cast<double>(axis.position.count())), axis.homed, axis.at_rest});
+        const char letter = config.name.front();  // Y2 is a second Y
+        if (axis.switches.any() && !view.closed_switches.contains(letter)) { view.closed_switches += letter; }
         const double mm_min = axis.velocity.steps_per_tick() * machine.ticks_per_second() / config.steps_per_mm * 60;
         squares += mm_min * mm_min;
     }

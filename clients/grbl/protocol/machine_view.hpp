@@ -29,6 +29,7 @@ struct MachineView {
     FaultCode fault = FaultCode::None;
     std::vector<AxisPlace> axes;       // in the configuration's order
     double feed_mm_min = 0;            // of all axes together, now
+    std::string closed_switches;       // the letters of the axes with a closed limit or home switch
     std::optional<std::int32_t> line;  // of the program in motion, or the N word of the sender's line
     Overrides overrides;
     ProgramDevices devices;

@@ -7,6 +7,20 @@ namespace lockstep {
 constexpr std::int64_t kLongestClockError = std::int64_t{1} << 62;
 constexpr std::uint64_t kMostOrders = std::uint64_t{1} << 62;  // leaves room for later numbers
 
+namespace {
+
+// Bits of AxisState.switches, as in axis.idl.
+constexpr std::uint16_t kLimitMinBit = 1;
+constexpr std::uint16_t kLimitMaxBit = 2;
+constexpr std::uint16_t kHomeBit = 4;
+
+std::uint16_t to_bits(const Switches& switches) {
+    return static_cast<std::uint16_t>((switches.limit_min ? kLimitMinBit : 0) |
+                                      (switches.limit_max ? kLimitMaxBit : 0) | (switches.home ? kHomeBit : 0));
+}
+
+}  // namespace
+
 // The enumerations on the wire have the same order as those in core.
 static_assert(lockstep_wire_AXIS_FAULT == static_cast<int>(AxisPhase::Fault));
 static_assert(lockstep_wire_AXIS_JOG == static_cast<int>(AxisCommandKind::Jog));
@@ -37,7 +51,8 @@ lockstep_wire_AxisState to_wire(const AxisState& state) {
             .term = state.term.number,
             .coordinator = state.term.coordinator,
             .hears_owner = state.hears_owner,
-            .unproved = static_cast<std::uint16_t>(state.unproved)};
+            .unproved = static_cast<std::uint16_t>(state.unproved),
+            .switches = to_bits(state.switches)};
 }
 
 FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
@@ -74,7 +89,10 @@ FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
                      .clock_error = {wire.clock_error_ticks},
                      .term = {wire.term, wire.coordinator},
                      .hears_owner = wire.hears_owner,
-                     .unproved = static_cast<FaultCode>(wire.unproved)};
+                     .unproved = static_cast<FaultCode>(wire.unproved),
+                     .switches = {.limit_min = (wire.switches & kLimitMinBit) != 0,
+                                  .limit_max = (wire.switches & kLimitMaxBit) != 0,
+                                  .home = (wire.switches & kHomeBit) != 0}};
 }
 
 lockstep_wire_AxisCommand to_wire(const AxisCommand& command) {

@@ -52,6 +52,15 @@ TEST_F(Sender, LearnsWhereTheMachineIs) {
     EXPECT_THAT(send("?????"), testing::SizeIs(1)) << "a flood is one question";
 }
 
+TEST_F(Sender, SeesWhichSwitchesAreClosed) {
+    view.closed_switches = "XZ";
+    grbl.see(view);
+    EXPECT_EQ(status(), "<Idle|MPos:10.000,20.000,30.000|FS:0,0|Pn:XZ|WCO:0.000,0.000,0.000>");
+    view.closed_switches = "";
+    grbl.see(view);
+    EXPECT_THAT(status(), testing::Not(HasSubstr("|Pn:")));
+}
+
 TEST_F(Sender, GetsOffsetsAndOverridesAsOftenAsFromGrbl) {
     const auto distances_of = [&](const std::string& field) {
         std::vector<int> distances;

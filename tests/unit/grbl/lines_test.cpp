@@ -225,6 +225,14 @@ TEST_F(Lines, NameThemselvesInTheStatus) {
     EXPECT_THAT(status(), Not(HasSubstr("|Ln:")));
 }
 
+TEST_F(Lines, TheHomeSwitchIsInTheStatusWhileItIsClosed) {
+    EXPECT_THAT(status(), Not(HasSubstr("|Pn:")));
+    (void)vm.command(CommandKind::Home, axis_bit(kY));
+    EXPECT_TRUE(passes_until([&] { return status().find("|Pn:Y") != std::string::npos; }, 10));
+    EXPECT_TRUE(becomes_idle(20));
+    EXPECT_THAT(status(), Not(HasSubstr("|Pn:")));
+}
+
 TEST_F(Lines, AreCountedWithinTheirProgramWhereTheyHaveNoNumber) {
     for (int repeated = 0; repeated < 2; ++repeated) {
         sender->send("G90\nG1 X30 F1200\nG1 Y30\nX5\nY5\nM2\n");

@@ -24,6 +24,7 @@ TEST(Messages, OfAnAxisThatNobodyFilledInSayNothing) {
     EXPECT_EQ(axis.refused_frames, 0u);
     EXPECT_FALSE(axis.hears_owner);
     EXPECT_EQ(axis.unproved, FaultCode::None);
+    EXPECT_FALSE(axis.switches.any());
     EXPECT_EQ(axis.term, Term{});
     EXPECT_EQ(axis.term.number, 0u) << "nobody's";
     EXPECT_EQ(axis.term.coordinator, 0u);

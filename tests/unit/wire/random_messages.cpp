@@ -41,7 +41,8 @@ AxisState RandomMessages::axis_state() {
             .clock_error = {between(0, std::int64_t{1} << 62)},
             .term = term(),
             .hears_owner = coin(),
-            .unproved = fault()};
+            .unproved = fault(),
+            .switches = {coin(), coin(), coin()}};
 }
 
 AxisHealth RandomMessages::axis_health() {
