@@ -34,6 +34,7 @@ void SpeedWindow::restart(const Overrides& overrides, const PathSpot& begin) {
     first_ = final_ = 0;
     pending_.reset();
     before_.reset();
+    joint_.reset();
     due_ = kLeastPass;
     end_cap_ = 0;
     is_finished_ = false;
@@ -110,30 +111,32 @@ struct SpeedWindow::FastPassage {
     }
 };
 
-SpeedWindow::FastPassage SpeedWindow::fast_passage(const JoinedPiece& piece, const Quadratic* before,
-                                                   const Quadratic* next) const {
+SpeedWindow::FastPassage SpeedWindow::fast_passage(const JoinedPiece& piece, const Neighbours& beside) const {
     const Quadratic& shape = piece.shape;
-    const Interval whole{.kind = IntervalKind::Curved, .from = before == nullptr ? begin_u_ : 0, .to = shape.length};
+    const double from = beside.before == nullptr ? begin_u_ : 0;
+    const Interval whole{.kind = IntervalKind::Curved, .from = from, .to = shape.length};
     const double top = IntervalBounds(setup_, piece, whole).cap(overrides_);
     double path_acceleration = kMost;
     for (std::size_t i = 0; i < setup_.axes(); ++i) {
         const double slope = std::abs(shape.slope.begin()[i]);
         if (slope > kNothing) { path_acceleration = std::min(path_acceleration, weaker(setup_.limits[i]) / slope); }
     }
-    const double w0 = std::min({joint(before, &shape).cap, top, piece.begin_cap});
-    const double w1 = std::min({joint(&shape, next).cap, top, piece.end_cap});
+    const double w0 = std::min({beside.begin.cap, top, piece.begin_cap});
+    const double w1 = std::min({beside.end.cap, top, piece.end_cap});
     return {w0, w1, top, path_acceleration, whole.length()};
 }
 
 /// Jumps from and to rest are not counted here. Each piece recovers half of the other jumps at its ends, so that jumps
 /// never add up to more than one. If the piece is too short for that on an axis, the turns of its joints are charged as
 /// bend of this axis, spread over the piece.
-void SpeedWindow::charge(JoinedPiece& piece, const Quadratic* before, const Quadratic* next) const {
+void SpeedWindow::charge(JoinedPiece& piece, const Neighbours& beside) const {
+    const Quadratic* const before = beside.before;
+    const Quadratic* const next = beside.next;
     const Quadratic& shape = piece.shape;
-    const FastPassage fast = fast_passage(piece, before, next);
+    const FastPassage fast = fast_passage(piece, beside);
     const double length = shape.length - (before == nullptr ? begin_u_ : 0);
-    const bool follows = before != nullptr && before->length > 0;
-    const bool goes_on = next != nullptr && next->length > 0;
+    const bool follows = beside.follows();
+    const bool goes_on = beside.goes_on();
     piece.is_charged = false;
     piece.charged = shape.bend;
     for (std::size_t i = 0; i < setup_.axes(); ++i) {
@@ -150,20 +153,21 @@ void SpeedWindow::charge(JoinedPiece& piece, const Quadratic* before, const Quad
 
 /// Slows the joints in place of the charge, if that takes less time. This is so for a long piece with a joint from
 /// which one axis recovers slowly: the charge would slow the whole piece.
-void SpeedWindow::slow_joints(JoinedPiece& piece, const Quadratic* before, const Quadratic* next) const {
-    const double from = before == nullptr ? begin_u_ : 0;
+void SpeedWindow::slow_joints(JoinedPiece& piece, const Neighbours& beside) const {
+    const double from = beside.before == nullptr ? begin_u_ : 0;
     const Interval whole{.kind = IntervalKind::Curved, .from = from, .to = piece.shape.length};
     const double charged_ticks = whole.length() / std::sqrt(IntervalBounds(setup_, piece, whole).cap(overrides_));
-    const FastPassage fast = fast_passage(piece, before, next);
-    JoinedPiece slowed{.shape = piece.shape};
+    const FastPassage fast = fast_passage(piece, beside);
+    JoinedPiece slowed;
+    slowed.shape = piece.shape;
     double share = 1;
     for (int halves = 0; halves < kMostHalves; ++halves) {
         share /= 2;
-        if (before != nullptr && before->length > 0) { slowed.begin_cap = share * fast.v0 * fast.v0; }
-        if (next != nullptr && next->length > 0) { slowed.end_cap = share * fast.v1 * fast.v1; }
-        charge(slowed, before, next);
+        if (beside.follows()) { slowed.begin_cap = share * fast.v0 * fast.v0; }
+        if (beside.goes_on()) { slowed.end_cap = share * fast.v1 * fast.v1; }
+        charge(slowed, beside);
         if (slowed.is_charged) { continue; }
-        if (kWorthSlowing * fast_passage(slowed, before, next).ticks() < charged_ticks) { piece = slowed; }
+        if (kWorthSlowing * fast_passage(slowed, beside).ticks() < charged_ticks) { piece = slowed; }
         return;
     }
 }
@@ -174,13 +178,16 @@ void SpeedWindow::close_pending(const Quadratic* next) {
         ++first_piece_;
         return;
     }
-    JoinedPiece piece{.shape = *pending_};
-    if (piece.shape.length > 0) { charge(piece, before(), next); }
-    if (piece.is_charged && piece.shape.is_straight) { slow_joints(piece, before(), next); }
-    Joint begin = joint(before(), &*pending_);
+    JoinedPiece piece;
+    piece.shape = *pending_;
+    const Neighbours beside{before(), next, joint_ ? *joint_ : joint(before(), &*pending_), joint(&*pending_, next)};
+    if (piece.shape.length > 0) { charge(piece, beside); }
+    if (piece.is_charged && piece.shape.is_straight) { slow_joints(piece, beside); }
+    Joint begin = beside.begin;
     begin.cap = std::min({begin.cap, piece.begin_cap, pieces_.empty() ? kMost : pieces_.back().end_cap});
-    cut_piece(piece, begin, next);
+    cut_piece(piece, begin, beside.end);
     before_ = pending_;
+    joint_ = beside.end;
 }
 
 /// Whether the path begins at the end of the piece. If the machine must rest there, the shortest remainder counts.
@@ -191,13 +198,13 @@ bool SpeedWindow::is_passed(const Quadratic& piece, const Quadratic* next) const
 }
 
 /// Whether the piece may be faster than both of its ends.
-bool SpeedWindow::is_slow_at_ends(const JoinedPiece& piece, const Joint& begin, const Quadratic* next) const {
+bool SpeedWindow::is_slow_at_ends(const JoinedPiece& piece, const Joint& begin, const Joint& end) const {
     const Interval whole{.from = before_ ? 0 : begin_u_, .to = piece.shape.length};
     const double top = IntervalBounds(setup_, piece, whole).cap(overrides_);
-    return begin.cap < top && std::min(joint(&piece.shape, next).cap, piece.end_cap) < top;
+    return begin.cap < top && std::min(end.cap, piece.end_cap) < top;
 }
 
-void SpeedWindow::cut_piece(const JoinedPiece& piece, const Joint& begin, const Quadratic* next) {
+void SpeedWindow::cut_piece(const JoinedPiece& piece, const Joint& begin, const Joint& end) {
     const Quadratic& shape = piece.shape;
     const double from = before_ ? 0 : begin_u_;
     const double length = shape.length - from;
@@ -220,7 +227,7 @@ void SpeedWindow::cut_piece(const JoinedPiece& piece, const Joint& begin, const 
         const double by_length = length / kMaxInterval_mm;
         const double by_turn = turn_of(shape, length, setup_.steps_per_mm) / kMaxTurn;
         parts = 1 + static_cast<std::size_t>(std::max(by_length, by_turn));
-        if (parts < kLeastParts && (shape.is_straight || is_slow_at_ends(piece, begin, next))) { parts = kLeastParts; }
+        if (parts < kLeastParts && (shape.is_straight || is_slow_at_ends(piece, begin, end))) { parts = kLeastParts; }
     }
     for (std::size_t k = 0; k < parts; ++k) {
         part.from = from + length * static_cast<double>(k) / static_cast<double>(parts);

@@ -80,6 +80,16 @@ private:
         double cap = 0;  // w
         double turn = 0;
     };
+    /// Where a piece begins and ends. A null neighbour means that the machine rests there.
+    struct Neighbours {
+        const Quadratic* before = nullptr;
+        const Quadratic* next = nullptr;
+        Joint begin;
+        Joint end;
+
+        bool follows() const { return before != nullptr && before->length > 0; }
+        bool goes_on() const { return next != nullptr && next->length > 0; }
+    };
     struct FastPassage;
 
     const Quadratic* before() const { return before_ ? &*before_ : nullptr; }
@@ -87,11 +97,11 @@ private:
     void close_end();
     bool is_passed(const Quadratic& piece, const Quadratic* next) const;
     Joint joint(const Quadratic* before, const Quadratic* after) const;
-    FastPassage fast_passage(const JoinedPiece& piece, const Quadratic* before, const Quadratic* next) const;
-    void charge(JoinedPiece& piece, const Quadratic* before, const Quadratic* next) const;
-    void slow_joints(JoinedPiece& piece, const Quadratic* before, const Quadratic* next) const;
-    bool is_slow_at_ends(const JoinedPiece& piece, const Joint& begin, const Quadratic* next) const;
-    void cut_piece(const JoinedPiece& piece, const Joint& begin, const Quadratic* next);
+    FastPassage fast_passage(const JoinedPiece& piece, const Neighbours& beside) const;
+    void charge(JoinedPiece& piece, const Neighbours& beside) const;
+    void slow_joints(JoinedPiece& piece, const Neighbours& beside) const;
+    bool is_slow_at_ends(const JoinedPiece& piece, const Joint& begin, const Joint& end) const;
+    void cut_piece(const JoinedPiece& piece, const Joint& begin, const Joint& end);
     void look_ahead();
     bool may_rise(std::size_t piece) const;
     void turn_piece(std::size_t number, bool is_under_way);
@@ -108,6 +118,7 @@ private:
     std::size_t first_piece_ = 0;
     std::optional<Quadratic> pending_;  // the last piece; the next one is not known
     std::optional<Quadratic> before_;   // the piece before that
+    std::optional<Joint> joint_;        // of these two, if it is known
     ReusedQueue<Quadratic> ahead_;      // recut_behind: the pieces to cut again, the last one first
     std::size_t final_ = 0;             // all intervals before this one are final
     std::size_t due_ = kLeastPass;      // a pass runs when this many are not final

@@ -34,7 +34,7 @@ bool SpeedWindow::may_rise(std::size_t piece) const {
     JoinedPiece turned = begun;
     const Quadratic* before = k > 0 ? &pieces_[k - 1].shape : nullptr;
     const Quadratic* next = k + 1 < pieces_.size() ? &pieces_[k + 1].shape : pending_ ? &*pending_ : nullptr;
-    charge(turned, before, next);
+    charge(turned, {before, next, joint(before, &turned.shape), joint(&turned.shape, next)});
     const auto is_paid = [&](std::size_t axis, const JoinedPiece& as) {
         return as.is_charged && as.charged.begin()[axis] != as.shape.bend.begin()[axis];
     };
@@ -67,6 +67,7 @@ void SpeedWindow::recut_behind(std::size_t piece) {
     while (interval(end() - 1).piece > piece) { intervals_.truncate(intervals_.size() - 1); }
     final_ = std::min(final_, end());
     before_ = pieces_.back().shape;
+    joint_.reset();
     pending_.reset();
     for (; !ahead_.empty(); ahead_.pop_back()) { add(ahead_.back()); }
 }
