@@ -209,7 +209,8 @@ void MachineRun::jog(std::uint32_t axis, double speed_mm_s, std::int64_t ms) {
         wait_ms(10);
     }
     wait_ms(300);
-    await([&] { return is(MachinePhase::Idle) || is(MachinePhase::Fault) || is(MachinePhase::Paused); }, "came to rest");
+    await([&] { return is(MachinePhase::Idle) || is(MachinePhase::Fault) || is(MachinePhase::Paused); },
+          "came to rest");
 }
 
 void MachineRun::restart(std::size_t process, std::int64_t ms) {

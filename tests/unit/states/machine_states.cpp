@@ -97,6 +97,26 @@ void paused(Walker& m) {
     expect_phase(m, MachinePhase::Paused);
 }
 
+void paused_away(Walker& m) {
+    paused(m);
+    EXPECT_EQ(m.jog(7, 3, 2).status, ReplyStatus::Accepted);
+    expect_phase(m, MachinePhase::Paused);
+}
+
+void jogging_in_a_pause(Walker& m) {
+    paused(m);
+    EXPECT_EQ(m.jog(7, {}, 0.4).status, ReplyStatus::Accepted);
+    EXPECT_EQ(m.vm.state()->phase, MachinePhase::Jogging);
+}
+
+void returning(Walker& m) {
+    paused(m);
+    EXPECT_EQ(m.jog(7, 60, 9).status, ReplyStatus::Accepted);
+    EXPECT_EQ(m.resume_and_return().status, ReplyStatus::Accepted);
+    m.wait(0.1);
+    EXPECT_EQ(m.vm.state()->phase, MachinePhase::Running);
+}
+
 void own_move(Walker& m) {
     m.home();
     ASSERT_EQ(m.go(CommandKind::MoveOwn, 95, 80, 0).status, ReplyStatus::Accepted);
@@ -378,6 +398,9 @@ const std::vector<MachineSituation>& situations() {
         {"holding", holding, on_one_clock},
         {"resuming", resuming, on_one_clock},
         {"paused (M0)", paused, on_one_clock},
+        {"paused, axes moved in the pause", paused_away, on_one_clock},
+        {"paused, jogging", jogging_in_a_pause, on_one_clock},
+        {"paused, returning to its place", returning, on_one_clock},
         {"own move", own_move, on_one_clock},
         {"own move, stopping", own_move_that_stops, on_one_clock},
         {"jogging", jogging, on_one_clock},

@@ -11,6 +11,7 @@ constexpr double kJobWithin_s = 60;  // for homing, and for any job of these tes
 constexpr int kRounds = 8;           // of remedies, at most, until a job runs
 constexpr std::uint64_t kNotSent = 999;
 constexpr Identity kJogger = 60;
+constexpr Identity kResumer = 61;
 constexpr double kJog_mm = 1;
 
 bool is_begun(CommandKind kind) {
@@ -47,6 +48,7 @@ Reply Walker::jog(Identity client, std::optional<double> distance_mm, double sec
     const Reply reply = *jogger.reply();
     if (reply.status == ReplyStatus::Refused) { return reply; }
     const auto goes_on = [&] { return vm.state()->job < reply.job || vm.state()->phase == MachinePhase::Jogging; };
+    pass(vm, {&jogger}, Ticks{20'000});  // in a pause the state has the same job before and after
     while (vm.now() < end && goes_on()) { pass(vm, {&jogger}, Ticks{20'000}); }
     return reply;
 }
@@ -82,6 +84,20 @@ std::string Walker::state_text() const {
     return text;
 }
 
+/// As a person who confirms the way back.
+Reply Walker::resume_and_return() {
+    const Command command{.client = kResumer, .sequence = ++resumes_, .kind = CommandKind::Resume, .returns = true};
+    const Reply* reply = nullptr;
+    for (int tries = 0; tries < 8 && reply == nullptr; ++tries) {
+        vm.send(command);
+        wait(0.1);
+        for (const Reply& one : vm.replies()) {
+            if (one.client == kResumer && one.sequence == resumes_) { reply = &one; }
+        }
+    }
+    return reply == nullptr ? Reply{.status = ReplyStatus::Refused, .text = "no reply"} : *reply;
+}
+
 Reply Walker::put(const Question& question) {
     if (question.kind == CommandKind::Override) {
         const auto sequence = vm.turn({question.feed_percent, 100});
@@ -99,6 +115,7 @@ Reply Walker::put(const Question& question) {
 Answer Walker::answer_to(const Question& question) {
     const std::uint64_t jobs = vm.state()->job;
     const bool had_job = !vm.state()->outcome && jobs > 0;
+    jogged_in_pause_ = vm.state()->pause && vm.state()->phase == MachinePhase::Jogging;
     const Reply reply = put(question);
     EXPECT_NE(reply.text, "no reply") << "it is answered in time";
     if (reply.status == ReplyStatus::Refused) {
@@ -117,7 +134,7 @@ Answer Walker::answer_to(const Question& question) {
 }
 
 void Walker::expect_effect(const Question& question, const Reply& reply, std::uint64_t jobs_before) {
-    const bool ends_job = question.kind == CommandKind::Stop || question.kind == CommandKind::Reset;
+    bool ends_job = question.kind == CommandKind::Stop || question.kind == CommandKind::Reset;
     if (question.kind == CommandKind::Override) {
         wait(0.01);
         EXPECT_EQ(vm.state()->overrides.feed_percent, question.feed_percent);
@@ -128,10 +145,19 @@ void Walker::expect_effect(const Question& question, const Reply& reply, std::ui
         EXPECT_TRUE(vm.state()->phase == MachinePhase::Running || vm.state()->outcome) << state_text();
         return;
     }
+    if (question.kind == CommandKind::Jog && vm.state()->pause) {
+        EXPECT_TRUE(settles(kJobWithin_s)) << state_text();
+        EXPECT_EQ(vm.state()->phase, MachinePhase::Paused) << "the job waits as before";
+        return;
+    }
     EXPECT_TRUE(settles(is_begun(question.kind) ? kJobWithin_s : kRestWithin_s)) << state_text();
     if (is_begun(question.kind)) {
         EXPECT_GT(reply.job, jobs_before);
         EXPECT_TRUE(vm.state()->outcome && vm.state()->job == reply.job) << "it ran to its end: " << state_text();
+    }
+    if (ends_job && jogged_in_pause_) {
+        EXPECT_EQ(vm.state()->phase, MachinePhase::Paused) << "it ends the jog, and the job waits as before";
+        ends_job = false;
     }
     if (ends_job) { EXPECT_TRUE(vm.state()->outcome || vm.state()->job == 0) << "no job is left: " << state_text(); }
     if (question.kind == CommandKind::EmergencyStop) { EXPECT_EQ(vm.state()->phase, MachinePhase::Fault); }
@@ -161,7 +187,10 @@ void Walker::carry_out(Remedy remedy) {
     switch (remedy) {
         case Remedy::Wait: EXPECT_TRUE(settles(kJobWithin_s)) << state_text(); break;
         case Remedy::Home: must_be_accepted(CommandKind::Home); break;
-        case Remedy::Resume: must_be_accepted(CommandKind::Resume); break;
+        case Remedy::Resume:
+            EXPECT_EQ(resume_and_return().status, ReplyStatus::Accepted) << state_text();
+            EXPECT_TRUE(settles(kJobWithin_s)) << state_text();
+            break;
         case Remedy::Stop: must_be_accepted(CommandKind::Stop); break;
         case Remedy::Reset: must_be_accepted(CommandKind::Reset); break;
         case Remedy::Status:

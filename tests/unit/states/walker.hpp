@@ -34,6 +34,8 @@ public:
     using Rig::wait;
     /// A job of one straight line from the axes' positions; if `pauses`, it pauses before the line.
     Reply go(CommandKind kind, double x_mm, double y_mm, double feed_mm_s, bool pauses = false);
+    /// Continues a job; axes that were jogged in its pause first return.
+    Reply resume_and_return();
     void inject(VirtualFault fault, double seconds);
     /// Jogs X by a client that renews the jog for `seconds` or until it ends.
     Reply jog(Identity client, std::optional<double> distance_mm, double seconds);
@@ -63,6 +65,8 @@ private:
     void expect_effect(const Question& question, const Reply& reply, std::uint64_t jobs_before);
 
     std::uint64_t programs_ = 0;
+    std::uint64_t resumes_ = 0;
+    bool jogged_in_pause_ = false;  // when the last command was sent
     bool is_program_delayed_ = false;
 };
 
