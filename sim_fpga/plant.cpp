@@ -1,7 +1,9 @@
 #include "sim_fpga/plant.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace lockstep {
 namespace {
@@ -22,10 +24,32 @@ Plant::Plant(const AxisConfig& axis, std::int64_t tick_ns)
     home_toward_min_ = axis.homing.toward_min;
     const double home = steps_to(axis.homing.switch_position_mm);
     home_at_ = home_toward_min_ ? steps_down(home) : steps_up(home);
+    keep_limits_open(axis);
 
     const double tick_s = static_cast<double>(tick_ns) * 1e-9;
     max_acceleration_ = axis.plant.max_torque_accel_mm_s2 * steps_per_mm_ * tick_s * tick_s;
     max_gap_ = axis.plant.max_jump_mm_s * steps_per_mm_ * tick_s + std::sqrt(2 * max_acceleration_);
+}
+
+/// The places that the axis must reach, in steps since power-up. After homing the axis counts from its switch, so an
+/// end of travel is a number of whole steps from there.
+void Plant::keep_limits_open(const AxisConfig& axis) {
+    const auto counted = [&](double mm) {
+        return home_at_ + to_steps(axis, mm) - to_steps(axis, axis.homing.switch_position_mm);
+    };
+    const std::array<std::pair<double, std::int64_t>, 4> places{
+        {{start_mm_, 0},
+         {axis.homing.switch_position_mm, home_at_},
+         {axis.position_min_mm, counted(axis.position_min_mm)},
+         {axis.position_max_mm, counted(axis.position_max_mm)}}};
+    for (const auto& [mm, steps] : places) {
+        if (mm > axis.position_min_mm - axis.plant.travel_margin_mm) {
+            limit_min_at_ = std::min(limit_min_at_, steps - 1);
+        }
+        if (mm < axis.position_max_mm + axis.plant.travel_margin_mm) {
+            limit_max_at_ = std::max(limit_max_at_, steps + 1);
+        }
+    }
 }
 
 /// A pulse occurs where the commanded position crosses a half: half a step before its count, in its direction.

@@ -65,6 +65,9 @@ public:
 private:
     static constexpr Ticks kWindow{256};
 
+    /// A limit switch closes at least a step beyond every place that is within the limit switches, even if both are
+    /// within one step.
+    void keep_limits_open(const AxisConfig& axis);
     void evaluate(StepEdge edge);
 
     double steps_per_mm_;

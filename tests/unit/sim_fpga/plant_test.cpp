@@ -21,6 +21,41 @@ AxisConfig axis() {
     return result;
 }
 
+/// The switches at a count of the machine after homing.
+PlantInputs inputs_at(const AxisConfig& axis, std::int64_t count) {
+    Plant plant(axis, 1000);
+    const std::int64_t from = to_steps(axis, axis.homing.switch_position_mm);
+    while (plant.inputs().home) { plant.push(1); }
+    while (!plant.inputs().home) { plant.push(-1); }
+    plant.push(count - from);
+    return plant.inputs();
+}
+
+TEST(LimitSwitches, AreOpenAtTheEndsOfTravelOffTheStepGrid) {
+    for (const double margin : {1e-9, 0.001, 0.02}) {
+        for (int i = 0; i < 40; ++i) {
+            AxisConfig off = axis();
+            off.position_min_mm = 0.003 + i * 0.0007;
+            off.position_max_mm = 10.0041 - i * 0.0009;
+            off.homing.switch_position_mm = off.position_min_mm;
+            off.plant.start_position_mm = 5.0017 + i * 0.0011;
+            off.plant.travel_margin_mm = margin;
+            const PlantInputs at_min = inputs_at(off, to_steps(off, off.position_min_mm));
+            const PlantInputs at_max = inputs_at(off, to_steps(off, off.position_max_mm));
+            EXPECT_FALSE(at_min.limit_min || at_min.limit_max || at_max.limit_min || at_max.limit_max)
+                << margin << " " << i;
+            EXPECT_TRUE(inputs_at(off, to_steps(off, off.position_max_mm) + 4).limit_max);
+        }
+    }
+}
+
+TEST(LimitSwitches, AreOpenAtPowerUpWithinOneStepOfThem) {
+    AxisConfig coarse = axis();
+    coarse.steps_per_mm = 0.001;
+    coarse.plant.start_position_mm = -1.9;
+    EXPECT_FALSE(Plant(coarse, 1000).inputs().limit_min);
+}
+
 TEST(Motor, LosesNothingAtTheVeryLimitsOfItsTorqueAndJump) {
     EXPECT_EQ(steps_lost(axis(), trapezoid(kJump, 500, kAccel, 0.2)), 0);
     EXPECT_EQ(steps_lost(axis(), trapezoid(-kJump, -500, kAccel, 0.2)), 0);
