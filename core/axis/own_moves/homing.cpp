@@ -20,7 +20,8 @@ HomingStep Homing::begin(bool home_closed) {
 HomingStep Homing::search(HomingStage stage) {
     stage_ = stage;
     const double travel_mm = axis_.position_max_mm - axis_.position_min_mm;
-    const std::int64_t reach = toward_switch(2 * (travel_mm + axis_.homing.pulloff_mm));  // also from beyond the travel
+    const double beyond_mm = std::max(travel_mm + axis_.homing.pulloff_mm, 2 * axis_.plant.travel_margin_mm);
+    const std::int64_t reach = toward_switch(travel_mm + axis_.homing.pulloff_mm + beyond_mm);
     const double speed = axis_.homing.search_velocity_mm_s;
     if (stage == HomingStage::Release) { return {.move = LocalMove{-reach, speed, Trigger::HomeOpens}}; }
     return {.move = LocalMove{reach, speed, Trigger::HomeCloses}};
