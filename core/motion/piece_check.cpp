@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/step/executable.hpp"
+
 namespace lockstep {
 namespace {
 
 constexpr double kCheckRounding = 1e-6;     // relative: rounding of doubles to integers
 constexpr double kSpeedRounding = 0x1p-46;  // steps per tick: rounding of the speeds at a piece's ends
-
-/// The longest piece for which exact arithmetic is guaranteed.
-constexpr std::int64_t kMaxPieceTicks = std::int64_t{1} << 42;
 
 /// The speed by which the acceleration of one tick can exceed a limit where two pieces meet, in steps per tick.
 double one_tick(const AxisLimits& limits) { return 2 * std::max(limits.max_acceleration, limits.max_deceleration); }
@@ -42,7 +41,8 @@ bool within_strain(const Strain& strain, const AxisLimits& limits) {
 FaultCode check_pieces(std::span<const Piece> pieces, const AxisLimits& limits, MotionPoint& point) {
     const double steepest = std::max(limits.max_acceleration, limits.max_deceleration);
     for (const Piece& piece : pieces) {
-        if (piece.ticks.value <= 0 || piece.ticks.value > kMaxPieceTicks) { return FaultCode::BadProgram; }
+        if (piece.ticks.value <= 0 || piece.ticks > kMaxPieceTicks) { return FaultCode::BadProgram; }
+        if (!executable(piece)) { return FaultCode::FrameBeyondLimits; }
         const double a = piece.acceleration.steps_per_tick2();
         const double before = piece.velocity.steps_per_tick() + a / 2;
         const auto ticks = static_cast<double>(piece.ticks.value);

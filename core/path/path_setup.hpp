@@ -13,7 +13,7 @@
 namespace lockstep {
 
 struct PathSetup {
-    std::vector<AxisLimits> limits;            // of frames: frame_limits_of
+    std::vector<AxisLimits> limits;            // of frames: frame_limits_of, as planned_limits
     std::vector<double> steps_per_mm;          // or per degree
     Ticks frame_ticks;                         // a frame's length: pieces end at the edges of frames
     std::size_t body_pieces = kMaxBodyPieces;  // for which a frame has room, for each axis
@@ -34,11 +34,24 @@ struct PathSetup {
     }
 };
 
+/// An axis that would reach its start velocity within a few ticks accelerates less. Otherwise a rounding to whole ticks
+/// could change its speed by more than the start velocity, and no motion from rest would keep the limits. Its speed
+/// leaves room for rounding below the greatest speed that a device can execute.
+inline AxisLimits planned_limits(AxisLimits axis) {
+    constexpr double kTicks = 8;
+    axis.max_velocity = std::min(axis.max_velocity, kMaxPlannedStepsPerTick);
+    axis.start_velocity = std::min(axis.start_velocity, kMaxPlannedStepsPerTick);
+    axis.max_acceleration = std::min(axis.max_acceleration, axis.start_velocity / kTicks);
+    axis.max_deceleration = std::min(axis.max_deceleration, axis.start_velocity / kTicks);
+    return axis;
+}
+
 inline PathSetup path_setup_of(const MachineConfig& machine) {
     PathSetup setup{.limits = frame_limits_of(machine),
                     .steps_per_mm = {},
                     .frame_ticks = machine.frame_ticks(),
                     .body_pieces = static_cast<std::size_t>(body_pieces(machine.timing))};
+    for (AxisLimits& axis : setup.limits) { axis = planned_limits(axis); }
     for (const AxisConfig& axis : machine.axes) { setup.steps_per_mm.push_back(axis.steps_per_mm); }
     return setup;
 }

@@ -58,7 +58,8 @@ std::expected<OwnPieces, OwnMoveError> OwnPieces::plan(const AxisConfig& axis, s
 std::expected<OwnPieces, OwnMoveError> OwnPieces::planned(const AxisConfig& axis, std::int64_t tick_ns,
                                                           const OwnMoveRequest& move) {
     const AxisLimits of_axis = limits_of(axis, tick_ns);
-    const double speed = move.speed_mm_s * axis.steps_per_mm * static_cast<double>(tick_ns) * 1e-9;
+    const double speed =
+        std::min(move.speed_mm_s * axis.steps_per_mm * static_cast<double>(tick_ns) * 1e-9, kMaxPlannedStepsPerTick);
     const PathLimits limits{std::min(of_axis.start_velocity, speed), speed, of_axis.max_acceleration,
                             of_axis.max_deceleration};
     const Displacement way = Displacement::steps(move.steps);
