@@ -20,6 +20,14 @@ StepMove for_lai(StepMove move) {
     return move;
 }
 
+/// Spielauer: waits are rounded down to whole counts, which would exceed the speed. So it gets the next lower speed
+/// whose wait is whole.
+StepMove for_spielauer(StepMove move) {
+    const double timer_hz = SpielauerParameters{}.timer_hz;
+    move.max = timer_hz / std::ceil(timer_hz / move.max * (1 - 1e-9));
+    return move;
+}
+
 /// Lam: the counter begins at its own delay.
 StepMove for_lam(StepMove move) {
     move.start = 0;
@@ -56,7 +64,7 @@ Begun begun(std::expected<Steps, StepError> steps) {
 Begun begin_steps(StepMethod method, const StepMove& move) {
     switch (method) {
         case StepMethod::Ranade: break;
-        case StepMethod::Spielauer: return begun(SpielauerSteps::of(move, Fit::Nearest));
+        case StepMethod::Spielauer: return begun(SpielauerSteps::of(for_spielauer(move), Fit::Nearest));
         case StepMethod::Lai: return begun(LaiSteps::of(for_lai(move), Fit::Nearest));
         case StepMethod::Lam: return begun(LamSteps::of(for_lam(move), Fit::Nearest));
         case StepMethod::Carrica: return begun(CarricaSteps::of(for_carrica(move), Fit::Nearest));
