@@ -3,7 +3,7 @@
 namespace lockstep::analysis {
 
 void SpeedMeter::interrupt() {
-    if (past_.size() > 1 && !measured_) { peak_speed_ = std::max(peak_speed_, speed_since(0)); }
+    if (past_.size() > 1 && !measured_) { peak_speed_ = std::max(peak_speed_, least_speed_since(0)); }
     past_.clear();
     windows_.clear();
     measured_ = false;

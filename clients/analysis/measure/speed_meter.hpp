@@ -8,7 +8,8 @@
 //   acceleration  (speed in one window - speed in the previous window) / (time between their middles), with windows of
 //                 at least 8 steps and 10 000 ticks. Rounding is then at most 2e-8 of the speed, per tick. A permitted
 //                 jump of speed inside a window counts as acceleration spread over the window.
-// A motion from rest to rest or between reversals that is shorter than a window counts as one window.
+// A motion from rest to rest or between reversals that is shorter than a window counts as one window. Rounding may have
+// shortened it by a tick, which matters in so few ticks, so its speed is that of a tick more.
 #pragma once
 
 #include <algorithm>
@@ -52,6 +53,7 @@ private:
 
     bool narrow(std::size_t& first, Ticks least) const;
     double speed_since(std::size_t first) const;
+    double least_speed_since(std::size_t first) const;
     std::optional<Sample> measure_speed();
     void measure_acceleration();
     void begin_stretch(StepEdge edge, bool rested);
@@ -119,6 +121,11 @@ inline bool SpeedMeter::narrow(std::size_t& first, Ticks least) const {
 
 inline double SpeedMeter::speed_since(std::size_t first) const {
     return static_cast<double>(past_.size() - 1 - first) / static_cast<double>((past_.back() - past_[first]).value);
+}
+
+inline double SpeedMeter::least_speed_since(std::size_t first) const {
+    return static_cast<double>(past_.size() - 1 - first) /
+           static_cast<double>((past_.back().tick - past_[first].tick).value + 1);
 }
 
 }  // namespace lockstep::analysis
