@@ -11,6 +11,8 @@ namespace lockstep {
 
 /// Entries of a device's segment ring (sim_fpga/registers.json).
 inline constexpr int kDeviceRingEntries = 1024;
+/// Entries of a device's capture ring: steps whose times it keeps until the axis's process reads them.
+inline constexpr int kDeviceCaptureEntries = 65'536;
 /// The greatest number of frames that an axis keeps.
 inline constexpr std::size_t kMaxFramesKept = 16;
 /// A frame is fitted to its device's clock. This can add one piece to its body and one to its tail.

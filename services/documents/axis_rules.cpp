@@ -7,6 +7,8 @@
 #include "core/methods/suits.hpp"
 #include "core/motion/step_source.hpp"
 #include "core/program.hpp"
+#include "core/protocol/frame_room.hpp"
+#include "services/documents/axis_ranges.hpp"
 #include "services/documents/machine_rules.hpp"
 #include "services/documents/names.hpp"
 #include "services/documents/problem_list.hpp"
@@ -14,12 +16,9 @@
 namespace lockstep {
 namespace {
 
-constexpr double kMinStepsPerMm = 1e-3;
-constexpr double kMaxStepsPerMm = 1e6;
-constexpr double kMinSpeed_mm_s = 1e-3;
-constexpr double kMaxSpeed_mm_s = 1e6;
-constexpr double kMinAccel_mm_s2 = 1e-3;
-constexpr double kMaxAccel_mm_s2 = 1e9;
+using namespace axis_ranges;
+
+constexpr double kMinTravelSteps = 4;    // for homing: off the switch and back
 constexpr double kMaxRampSeconds = 600;  // slower is a mistake in the units
 constexpr double kMaxSteps = 0x1p40;     // within the range where plans in double are exact
 
@@ -36,6 +35,7 @@ public:
         check_ramp("max_decel_mm_s2", axis_.max_decel_mm_s2);
         check_travel();
         check_homing_speeds();
+        check_capture();
         check_unhomed_jog();
         check_homing_places();
         check_plant();
@@ -91,7 +91,7 @@ private:
         if (axis_.unhomed_jog_mm_s) { speed("unhomed_jog_mm_s", *axis_.unhomed_jog_mm_s); }
         if (axis_.safe_height_mm) { place("safe_height_mm", *axis_.safe_height_mm); }
         place("plant.start_position_mm", axis_.plant.start_position_mm);
-        length("plant.travel_margin_mm", axis_.plant.travel_margin_mm);
+        problems_.require_range("plant.travel_margin_mm", axis_.plant.travel_margin_mm, kMinMargin_mm, kMaxPlace_mm);
         accel("plant.max_torque_accel_mm_s2", axis_.plant.max_torque_accel_mm_s2);
         speed("plant.max_jump_mm_s", axis_.plant.max_jump_mm_s);
     }
@@ -108,12 +108,25 @@ private:
                                       ", or decrease tick_ns or steps_per_mm");
     }
 
+    /// The device keeps the times of steps until the process, which may stall, reads them.
+    void check_capture() {
+        const ProtocolTiming& t = machine_.timing;
+        const double longest_s = 1e-6 * static_cast<double>(t.slot_us) * (t.stall_slots + 1);
+        const double most = kDeviceCaptureEntries / longest_s / axis_.steps_per_mm;
+        problems_.require_between(
+            {"max_velocity_mm_s", "steps_per_mm"}, axis_.max_velocity_mm_s <= most,
+            "max_velocity_mm_s is " + number_text(axis_.max_velocity_mm_s) + ": in timing.stall_slots + 1 slots of " +
+                number_text(longest_s) + " s together, the axis would make more than the " +
+                number_text(kDeviceCaptureEntries) + " steps that its device can record; it must be at most " +
+                number_text(most) + ", or decrease timing.slot_us or timing.stall_slots");
+    }
+
     void check_ramp(std::string_view key, double value) {
         const std::string what = std::string(key) + " is " + number_text(value);
         const double most = kMaxStepsPerTick / (tick_s() * tick_s() * axis_.steps_per_mm);
-        problems_.require_between(
-            {key, "steps_per_mm"}, value <= most,
-            what + ", which reaches full speed within a tick; it must be at most " + number_text(most));
+        problems_.require_between({key, "steps_per_mm"}, value <= most,
+                                  what + ", which reaches full speed within a tick; it must be at most " +
+                                      number_text(most) + "; decrease it or tick_ns");
         const double least = axis_.max_velocity_mm_s / kMaxRampSeconds;
         problems_.require_between({key, "max_velocity_mm_s"}, value >= least,
                                   what + ", so max_velocity_mm_s would take more than " + number_text(kMaxRampSeconds) +
@@ -125,6 +138,12 @@ private:
                                   "position_max_mm is " + number_text(axis_.position_max_mm) +
                                       ", not above position_min_mm " + number_text(axis_.position_min_mm) +
                                       "; increase it");
+        const double travel_steps = (axis_.position_max_mm - axis_.position_min_mm) * axis_.steps_per_mm;
+        problems_.require_between(
+            {"position_max_mm", "position_min_mm", "steps_per_mm"}, travel_steps >= kMinTravelSteps,
+            "position_max_mm is " + number_text(axis_.position_max_mm) + ", " + number_text(travel_steps) +
+                " steps above position_min_mm; it must be at least " + number_text(kMinTravelSteps) +
+                " steps above it: increase position_max_mm or steps_per_mm");
         check_steps("position_min_mm", axis_.position_min_mm);
         check_steps("position_max_mm", axis_.position_max_mm);
     }

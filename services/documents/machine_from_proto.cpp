@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "services/documents/axis_ranges.hpp"
 #include "services/documents/machine_proto.hpp"
 
 namespace lockstep {
@@ -157,6 +158,9 @@ double usual_park(const HomingConfig& homing, const AxisConfig& axis) {
     return nearest_in_travel(axis, homing.switch_position_mm + pulloff);
 }
 
+/// 0 if the file has no valid scale.
+double step_mm(const AxisConfig& axis) { return axis.steps_per_mm > 0 ? 1 / axis.steps_per_mm : 0; }
+
 HomingConfig read_homing(const proto::Homing& message, const AxisConfig& axis) {
     const double travel = axis.position_max_mm - axis.position_min_mm;
     HomingConfig homing;
@@ -164,10 +168,13 @@ HomingConfig read_homing(const proto::Homing& message, const AxisConfig& axis) {
     homing.toward_min = message.has_toward_min() ? message.toward_min() : homing.toward_min;
     homing.search_velocity_mm_s =
         message.has_search_velocity_mm_s() ? message.search_velocity_mm_s() : axis.start_velocity_mm_s;
-    homing.latch_velocity_mm_s = message.has_latch_velocity_mm_s() ? message.latch_velocity_mm_s()
-                                                                   : homing.search_velocity_mm_s * kDefaultLatchShare;
-    homing.pulloff_mm =
-        message.has_pulloff_mm() ? message.pulloff_mm() : std::min(kDefaultPulloff_mm, travel * kDefaultPulloffShare);
+    homing.latch_velocity_mm_s =
+        message.has_latch_velocity_mm_s()
+            ? message.latch_velocity_mm_s()
+            : std::max(homing.search_velocity_mm_s * kDefaultLatchShare, axis_ranges::kMinSpeed_mm_s);
+    homing.pulloff_mm = message.has_pulloff_mm()
+                            ? message.pulloff_mm()
+                            : std::max(std::min(kDefaultPulloff_mm, travel * kDefaultPulloffShare), step_mm(axis));
     homing.touch_tolerance_mm = message.has_touch_tolerance_mm()
                                     ? message.touch_tolerance_mm()
                                     : std::min(kDefaultTouchTolerance_mm, homing.pulloff_mm / 2);
@@ -179,15 +186,17 @@ HomingConfig read_homing(const proto::Homing& message, const AxisConfig& axis) {
 }
 
 PlantConfig read_plant(const proto::Plant& message, const AxisConfig& axis) {
+    const double hardest = std::max(axis.max_accel_mm_s2, axis.max_decel_mm_s2);
     return {
         .start_position_mm = message.has_start_position_mm() ? message.start_position_mm()
                                                              : (axis.position_min_mm + axis.position_max_mm) / 2,
         .travel_margin_mm = message.has_travel_margin_mm() ? message.travel_margin_mm() : kDefaultTravelMargin_mm,
         .max_torque_accel_mm_s2 = message.has_max_torque_accel_mm_s2()
                                       ? message.max_torque_accel_mm_s2()
-                                      : kDefaultPlantReserve * std::max(axis.max_accel_mm_s2, axis.max_decel_mm_s2),
-        .max_jump_mm_s =
-            message.has_max_jump_mm_s() ? message.max_jump_mm_s() : kDefaultPlantReserve * axis.start_velocity_mm_s,
+                                      : std::min(kDefaultPlantReserve * hardest, axis_ranges::kMaxAccel_mm_s2),
+        .max_jump_mm_s = message.has_max_jump_mm_s()
+                             ? message.max_jump_mm_s()
+                             : std::min(kDefaultPlantReserve * axis.start_velocity_mm_s, axis_ranges::kMaxSpeed_mm_s),
     };
 }
 

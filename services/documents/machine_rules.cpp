@@ -16,6 +16,7 @@ namespace lockstep {
 namespace {
 
 constexpr int kMaxSlots = 10'000;
+constexpr std::int64_t kLeastClockTicks = 16;
 constexpr std::uint32_t kMaxDomain = 232;  // the last domain with ports below 65536 (DDS interoperability, 9.6.1)
 constexpr std::size_t kMaxInterfaceName = 64;
 constexpr std::size_t kMaxPeers = 64;
@@ -59,7 +60,8 @@ void check_protocol(const ProtocolTiming& t, ProblemList& problems) {
 
 /// Checks the limit of the clock error. In the setpoint protocol a hop must cover twice this error and the network's
 /// delay.
-void check_clocks(const ProtocolTiming& t, ProblemList& problems) {
+void check_clocks(const MachineConfig& machine, ProblemList& problems) {
+    const ProtocolTiming& t = machine.timing;
     if (t.time_source == TimeSource::Shared) { return; }
     const std::int64_t most = t.most_clock_error_us();
     problems.require_between(
@@ -69,6 +71,13 @@ void check_clocks(const ProtocolTiming& t, ProblemList& problems) {
             "timing.clock_error_limit_us is {}; it must be from 1 to {} (a quarter of slot_us); decrease it, or "
             "increase slot_us",
             t.clock_error_limit_us, most));
+    if (t.time_source != TimeSource::Network) { return; }
+    const std::int64_t least = (kLeastClockTicks * machine.tick_ns + 999) / 1000;
+    problems.require_between(
+        {"timing.clock_error_limit_us", "timing.slot_us", "tick_ns"}, t.clock_error_limit_us >= least,
+        fmt::format("timing.clock_error_limit_us is {}; it must be at least {}, {} ticks of {} ns, because clocks are "
+                    "measured in ticks; increase it and timing.slot_us, or decrease tick_ns",
+                    t.clock_error_limit_us, least, kLeastClockTicks, machine.tick_ns));
 }
 
 bool is_interface_name(std::string_view name) {
@@ -178,7 +187,7 @@ std::vector<Problem> machine_problems(const MachineConfig& machine) {
     problems.require_range("tick_ns", static_cast<double>(machine.tick_ns), 100, 1e6);
     check_timing(machine, problems);
     check_protocol(machine.timing, problems);
-    check_clocks(machine.timing, problems);
+    check_clocks(machine, problems);
     check_network(machine.network, problems);
     check_directory("security.directory", machine.security.directory, problems);
     check_record(machine.record, problems);
