@@ -1,5 +1,6 @@
 #include "tests/records/machine_run.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -10,6 +11,8 @@ namespace lockstep::records {
 namespace {
 
 constexpr Ticks kLongest{300'000'000};
+constexpr std::int64_t kLongestSlots = 30'000;
+constexpr std::int64_t kReplySlots = 20;
 
 std::string axis_text(const std::string& name, int steps_per_mm, int max_mm) {
     return "axis { name: \"" + name + "\" steps_per_mm: " + std::to_string(steps_per_mm) +
@@ -66,7 +69,9 @@ MachineRun::MachineRun(const VirtualOptions& options) : vm_(options), recorder_(
 }
 
 void MachineRun::await(const std::function<bool()>& done, const std::string& what) {
-    if (!vm_.advance_until(done, kLongest)) { throw std::runtime_error("the machine never " + what); }
+    if (!vm_.advance_until(done, std::max(kLongest, slots(kLongestSlots)))) {
+        throw std::runtime_error("the machine never " + what);
+    }
 }
 
 void MachineRun::reach(MachinePhase phase) {
@@ -77,6 +82,14 @@ void MachineRun::to_rest() {
     await([&] { return is(MachinePhase::Idle) || is(MachinePhase::Fault); }, "came to rest");
 }
 
+void MachineRun::require_success(const std::string& what) const {
+    const MachineState& state = *vm_.state();
+    const FaultCode fault = state.fault != FaultCode::None ? state.fault : state.job_fault;
+    if (is(MachinePhase::Idle) && fault == FaultCode::None) { return; }
+    const FaultText* text = find_fault(fault);
+    throw std::runtime_error(what + " failed: " + (text != nullptr ? std::string(text->name) : "no fault"));
+}
+
 void MachineRun::wait_ms(std::int64_t ms) {
     vm_.advance_until([] { return false; }, Ticks{ms * 1'000'000 / vm_.machine().tick_ns});
 }
@@ -84,7 +97,7 @@ void MachineRun::wait_ms(std::int64_t ms) {
 void MachineRun::command(CommandKind kind, std::uint64_t program, AxisSet axes) {
     const std::uint64_t sequence = vm_.command(kind, axes, program);
     for (int tries = 0; tries < 50; ++tries, vm_.repeat_command()) {
-        if (!vm_.advance_until([&] { return vm_.reply_to(sequence) != nullptr; }, Ticks{200'000})) { continue; }
+        if (!vm_.advance_until([&] { return vm_.reply_to(sequence) != nullptr; }, slots(kReplySlots))) { continue; }
         const Reply reply = *vm_.reply_to(sequence);
         if (reply.status == ReplyStatus::Refused) { throw std::runtime_error("a command is refused: " + reply.text); }
         const Tick answered = vm_.now();  // the state shows the effect of the command after this
@@ -125,7 +138,7 @@ void MachineRun::home() { home(0); }
 void MachineRun::home(AxisSet axes) {
     command(CommandKind::Home, 0, axes);
     to_rest();
-    if (!is(MachinePhase::Idle)) { throw std::runtime_error("homing failed"); }
+    require_success("homing");
 }
 
 std::vector<double> MachineRun::here_mm() const {
@@ -194,6 +207,15 @@ void MachineRun::move(std::string_view gcode) {
 void MachineRun::begin_own(std::string_view gcode) {
     vm_.give_program(++programs_, program_of(gcode));
     begin_job(CommandKind::MoveOwn);
+}
+
+void MachineRun::move(const MoveOptions& move) {
+    auto program = move_program(vm_.machine(), here_mm(), move);
+    if (!program) { throw std::runtime_error("a move is refused: " + program.error()); }
+    vm_.give_program(++programs_, *program);
+    begin_job(move.own ? CommandKind::MoveOwn : CommandKind::Move);
+    to_rest();
+    require_success("a move");
 }
 
 void MachineRun::move_own(std::string_view gcode) {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "clients/session/move_program.hpp"
 #include "clients/simulation/machine_recorder.hpp"
 #include "core/machine.hpp"
 #include "core/program.hpp"
@@ -48,6 +49,7 @@ public:
     void begin(const Program& program);
     /// A single move, without the program's pauses.
     void move(std::string_view gcode);
+    void move(const MoveOptions& move);
     /// The axes move to a place, each on its own.
     void move_own(std::string_view gcode);
     void begin_own(std::string_view gcode);
@@ -65,6 +67,8 @@ public:
     void reset();
     /// Goes on until the machine rests without a job.
     void to_rest();
+    /// Throws if the machine has a fault, or its last job has.
+    void require_success(const std::string& what) const;
     /// The process ends now; a new one starts after `ms`.
     void restart(std::size_t process, std::int64_t ms);
 
@@ -76,6 +80,7 @@ private:
     void begin_job(CommandKind kind);
     bool is(MachinePhase phase) const { return vm_.state() && vm_.state()->phase == phase; }
     void await(const std::function<bool()>& done, const std::string& what);
+    Ticks slots(std::int64_t count) const { return vm_.machine().slot_ticks() * count; }
     std::vector<double> here_mm() const;
 
     MemorySink sink_;
