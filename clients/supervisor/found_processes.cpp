@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
+#include <optional>
 
 #include "clients/supervisor/service_lines.hpp"
 #include "clients/supervisor/state_directory.hpp"
@@ -27,6 +29,33 @@ std::vector<pid_t> all_processes() {
         if (const auto pid = parse_number<pid_t>(entry.path().filename().string())) { pids.push_back(*pid); }
     }
     return pids;
+}
+
+/// 0 if it is not known.
+pid_t parent_of(pid_t pid) {
+    std::ifstream status(fmt::format("/proc/{}/status", pid));
+    for (std::string line; std::getline(status, line);) {
+        if (!line.starts_with("PPid:")) { continue; }
+        const std::size_t number = line.find_first_of("0123456789");
+        return number == std::string::npos ? 0 : parse_number<pid_t>(line.substr(number)).value_or(0);
+    }
+    return 0;
+}
+
+bool is_lockstep(pid_t pid) {
+    return std::ranges::any_of(command_line_of(pid),
+                               [](const std::string& word) { return fs::path(word).filename() == "lockstep"; });
+}
+
+/// Adds the supervisors that started the found services.
+void add_parents(std::vector<ProcessRecord>& found) {
+    const std::vector<ProcessRecord> services = found;
+    for (const ProcessRecord& service : services) {
+        const pid_t parent = parent_of(*service.pid);
+        const bool is_found = std::ranges::find(found, std::optional(parent), &ProcessRecord::pid) != found.end();
+        if (parent <= 1 || parent == getpid() || is_found || !is_lockstep(parent)) { continue; }
+        if (const auto start = start_of(parent)) { found.push_back({kSupervisor, parent, *start}); }
+    }
 }
 
 bool has_open(pid_t pid, const fs::path& file) {
@@ -62,7 +91,22 @@ std::vector<ProcessRecord> found_processes(const fs::path& machine_file, const f
         if (name.empty() && has_open(pid, lock)) { name = kSupervisor; }
         if (!name.empty()) { found.push_back({name, pid, *start}); }
     }
+    add_parents(found);
     return found;
+}
+
+std::vector<std::string> found_machines(const fs::path& root) {
+    std::vector<std::string> names;
+    for (const pid_t pid : all_processes()) {
+        const std::vector<std::string> words = command_line_of(pid);
+        const fs::path file = value_of(words, "--machine");
+        if (file.parent_path().parent_path() != root || service_name(words, file).empty()) { continue; }
+        const std::string name = file.parent_path().filename().string();
+        const bool is_new =
+            StateDirectory(name).machine_file() == file && std::ranges::find(names, name) == names.end();
+        if (is_new) { names.push_back(name); }
+    }
+    return names;
 }
 
 }  // namespace lockstep

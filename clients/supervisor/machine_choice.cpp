@@ -48,6 +48,12 @@ std::expected<ChosenMachine, Failure> choose_machine(const std::string& option) 
     const bool is_installed = std::filesystem::exists(kInstalledMachine, error);
     auto file = choose_file(option, std::getenv("LOCKSTEP_MACHINE"), up, is_installed ? kInstalledMachine : "");
     if (!file) { return std::unexpected(file.error()); }
+    const StateDirectory lost(file->parent_path().filename().string());
+    if (*file == lost.machine_file() && lost.is_lost()) {
+        return std::unexpected(failed("machine '" + file->parent_path().filename().string() + "' is up, but " +
+                                      lost.record_trouble().value_or("its state directory is not there") +
+                                      "; name its configuration file with --machine FILE, or end it: lockstep down"));
+    }
     return read_machine(*file);
 }
 

@@ -86,10 +86,19 @@ std::vector<ProcessRecord> StateDirectory::running() const {
 
 std::optional<std::string> StateDirectory::record_trouble() const {
     std::error_code error;
-    if (!fs::exists(lock_file(), error)) { return std::nullopt; }
+    if (!fs::exists(lock_file(), error)) { return is_lost() ? std::optional(lost_text()) : std::nullopt; }
     if (!fs::exists(processes_file(), error)) { return processes_file().string() + " is not there"; }
     if (is_damaged(text_of(processes_file()))) { return processes_file().string() + " is damaged"; }
     return std::nullopt;
+}
+
+bool StateDirectory::is_lost() const {
+    std::error_code error;
+    return !fs::exists(lock_file(), error) && !found_processes(machine_file(), lock_file()).empty();
+}
+
+std::string StateDirectory::lost_text() const {
+    return "its state directory " + path_.string() + " was moved or removed while its processes run";
 }
 
 void StateDirectory::forget_processes() const {
@@ -103,6 +112,9 @@ std::vector<std::string> machines_up() {
     for (const auto& entry : fs::directory_iterator(state_root(), error)) {
         const std::string name = entry.path().filename().string();
         if (!StateDirectory(name).running().empty()) { names.push_back(name); }
+    }
+    for (const std::string& name : found_machines(state_root())) {
+        if (std::ranges::find(names, name) == names.end()) { names.push_back(name); }
     }
     std::ranges::sort(names);
     return names;

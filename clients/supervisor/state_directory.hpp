@@ -49,15 +49,19 @@ public:
     std::vector<ProcessRecord> running() const;
     /// Why the record is unreliable; nullopt if it is reliable or the machine was never up.
     std::optional<std::string> record_trouble() const;
+    /// Whether processes of the machine run with this directory, but it was moved or removed.
+    bool is_lost() const;
     void forget_processes() const;
 
 private:
+    std::string lost_text() const;
     std::filesystem::path processes_file() const { return path_ / "processes"; }
     std::filesystem::path lock_file() const { return path_ / "lock"; }
     std::filesystem::path path_;
 };
 
-/// The names, in order, of the machines that are up on this host and use this state root.
+/// The names, in order, of the machines that are up on this host and use this state root, also of those whose state
+/// directory was moved or removed.
 std::vector<std::string> machines_up();
 
 /// The last lines of a file, each indented; empty if there are none.

@@ -54,25 +54,35 @@ ExitCode report_done(const std::string& text, Output& output) {
     return kExitDone;
 }
 
-ExitCode down_here(const LiveOptions& options, Output& output) {
-    const bool is_named = !options.machine_file.empty() || std::getenv("LOCKSTEP_MACHINE") != nullptr;
-    if (!is_named && machines_up().empty()) { return report_done("no machine is up on this host", output); }
-    const auto machine = choose_machine(options.machine_file);
-    if (!machine) { return output.fail(machine.error()); }
-    const StateDirectory state(machine->config.name);
-    const auto trouble = state.record_trouble();
-    if (state.running().empty()) {
-        return report_done("no process of machine '" + machine->config.name + "' is up on this host", output);
+/// Without the supervisor's record, those that the process table shows.
+ExitCode end_processes(const std::string& machine, Output& output) {
+    const StateDirectory state(machine);
+    if (const auto trouble = state.record_trouble()) {
+        output.warn(*trouble + ": this command ends the processes that the host's process table shows");
     }
-    if (trouble) { output.warn(*trouble + ": this command ends the processes that the host's process table shows"); }
-    bring_to_rest(*machine, output);
     const TakenDown taken = take_down(state);
     if (taken.left.empty()) {
-        return report_done(
-            fmt::format("machine '{}' is down; ended {}", machine->config.name, fmt::join(taken.ended, ", ")), output);
+        return report_done(fmt::format("machine '{}' is down; ended {}", machine, fmt::join(taken.ended, ", ")),
+                           output);
     }
     return output.fail(failed(fmt::format("could not end {} of machine '{}'; see {}/processes",
-                                          fmt::join(taken.left, ", "), machine->config.name, state.path().string())));
+                                          fmt::join(taken.left, ", "), machine, state.path().string())));
+}
+
+ExitCode down_here(const LiveOptions& options, Output& output) {
+    const bool is_named = !options.machine_file.empty() || std::getenv("LOCKSTEP_MACHINE") != nullptr;
+    if (!is_named) {
+        const std::vector<std::string> up = machines_up();
+        if (up.empty()) { return report_done("no machine is up on this host", output); }
+        if (up.size() == 1 && StateDirectory(up.front()).is_lost()) { return end_processes(up.front(), output); }
+    }
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return output.fail(machine.error()); }
+    if (StateDirectory(machine->config.name).running().empty()) {
+        return report_done("no process of machine '" + machine->config.name + "' is up on this host", output);
+    }
+    bring_to_rest(*machine, output);
+    return end_processes(machine->config.name, output);
 }
 
 ExitCode down(const DownOptions& options) {

@@ -35,6 +35,31 @@ TEST_F(Processes, AreStartedOnce) {
     EXPECT_EQ(status().phase(), "Idle");
 }
 
+TEST_F(Processes, AreFoundWhenTheirStateDirectoryIsMovedAway) {
+    bring_up();
+    const std::vector<ProcessRecord> running = state().running();
+    std::filesystem::rename(state().path(), folder() / "moved");
+    const Ran again = run_lockstep({"up"});
+    EXPECT_EQ(again.code, 1);
+    EXPECT_THAT(again.err, AllOf(HasSubstr("is already up"), HasSubstr("coordinator"), HasSubstr("supervisor"),
+                                 HasSubstr(state().path().string() + " was moved or removed")));
+    const Ran down = run_lockstep({"down"});
+    EXPECT_EQ(down.code, 0) << down.err;
+    EXPECT_THAT(down.err, HasSubstr(state().path().string() + " was moved or removed"));
+    EXPECT_THAT(down.out, AllOf(HasSubstr("is down"), HasSubstr("supervisor"), HasSubstr("axis-X")));
+    for (const ProcessRecord& process : running) { EXPECT_FALSE(is_running(process)) << process.name; }
+    bring_up();
+}
+
+TEST_F(Processes, AreFoundWhenTheirStateDirectoryIsRemoved) {
+    bring_up();
+    std::filesystem::remove_all(state().path());
+    const Ran down = run_lockstep({"down"});
+    EXPECT_EQ(down.code, 0) << down.err;
+    EXPECT_THAT(down.out, AllOf(HasSubstr("is down"), HasSubstr("supervisor")));
+    EXPECT_THAT(run_lockstep({"down"}).out, HasSubstr("no process of machine"));
+}
+
 /// The second process has its own state directory, as on another host: the lock of the first does not stop it.
 TEST_F(Processes, AJobIsExactThoughASecondProcessOfAnAxisStarts) {
     bring_up();
