@@ -69,6 +69,11 @@ void Output::report(const google::protobuf::Message& message) {
     if (json_) { std::cout << report_json(message) << std::flush; }
 }
 
+void Output::report(const google::protobuf::Message& message, const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings) { warn("warning: " + warning); }
+    if (json_) { std::cout << report_json(message, warnings) << std::flush; }
+}
+
 ExitCode Output::fail(const Failure& failure) {
     clear_progress();
     if (json_) {

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "clients/text/failure.hpp"
 
@@ -26,6 +27,8 @@ public:
     void warn(const std::string& line);
     /// Prints the JSON report. Does nothing in text mode, where the verb prints its own text.
     void report(const google::protobuf::Message& message);
+    /// The same with warnings, in either form: the JSON report lists them in `warnings`.
+    void report(const google::protobuf::Message& message, const std::vector<std::string>& warnings);
     /// Reports the failure in either form; returns its exit code.
     ExitCode fail(const Failure& failure);
 

@@ -3,6 +3,8 @@
 #include <google/protobuf/stubs/logging.h>
 #include <google/protobuf/util/json_util.h>
 
+#include "idl/proto/report.pb.h"
+
 namespace lockstep {
 
 std::string report_json(const google::protobuf::Message& report) {
@@ -14,6 +16,17 @@ std::string report_json(const google::protobuf::Message& report) {
     std::string text;
     (void)google::protobuf::util::MessageToJsonString(report, &text, options);  // fails only for Any
     return text;
+}
+
+std::string report_json(const google::protobuf::Message& report, const std::vector<std::string>& warnings) {
+    std::string text = report_json(report);
+    if (warnings.empty()) { return text; }
+    proto::Warnings message;
+    for (const std::string& warning : warnings) { message.add_warnings(warning); }
+    const std::string list = report_json(message);
+    const std::size_t end = text.find_last_not_of("}\n ");  // of the last value, or the opening brace
+    const std::string separator = text[end] == '{' ? "" : ",";
+    return text.substr(0, end + 1) + separator + list.substr(list.find('{') + 1);
 }
 
 }  // namespace lockstep

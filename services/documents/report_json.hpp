@@ -4,10 +4,14 @@
 #include <google/protobuf/message.h>
 
 #include <string>
+#include <vector>
 
 namespace lockstep {
 
 /// The text is indented, with a newline at the end.
 std::string report_json(const google::protobuf::Message& report);
+
+/// The same with the key `warnings`, a list of texts, at its end. Without warnings the key is absent.
+std::string report_json(const google::protobuf::Message& report, const std::vector<std::string>& warnings);
 
 }  // namespace lockstep

@@ -14,6 +14,7 @@
 #include "clients/supervisor/other_hosts.hpp"
 #include "clients/supervisor/page.hpp"
 #include "clients/supervisor/take_down.hpp"
+#include "services/documents/machine_warnings.hpp"
 #include "services/network/host_name.hpp"
 
 namespace lockstep {
@@ -49,7 +50,7 @@ void print_page(const OwnParts& parts, const StateDirectory& state, Output& outp
 
 ExitCode report_up(const Session& session, const StateDirectory& state, Output& output) {
     const proto::StatusReport report = status_report(session);
-    output.report(report);
+    output.report(report, machine_warnings(session.config()));
     const bool is_spread = hosts_of(session.config()).size() > 1;
     output.print("machine '" + report.machine() + "' is up; its logs are in " + state.path().string() +
                  (is_spread ? ", on each host" : ""));
@@ -61,7 +62,7 @@ ExitCode report_up(const Session& session, const StateDirectory& state, Output& 
 ExitCode report_part_up(const Session& session, const Placement& placed, const StateDirectory& state, Output& output) {
     proto::StatusReport report = status_report(session);
     add_awaited(session, report);
-    output.report(report);
+    output.report(report, machine_warnings(session.config()));
     if (!placed.empty()) {
         output.print("machine '" + report.machine() + "': " + names_here(session.config(), placed) +
                      " up on this host, " + host_name() + "; logs in " + state.path().string());

@@ -10,6 +10,7 @@
 #include "clients/text/output.hpp"
 #include "core/axis_unit.hpp"
 #include "services/documents/machine_proto.hpp"
+#include "services/documents/machine_warnings.hpp"
 
 namespace lockstep {
 namespace {
@@ -34,7 +35,7 @@ ExitCode check(const CheckOptions& options) {
     output.print(
         fmt::format("{}: ok: machine '{}', axes: {}", machine->file.string(), config.name, config.axes.size()));
     for (const AxisConfig& axis : config.axes) { output.print(axis_line(axis)); }
-    output.report(machine_to_proto(config));
+    output.report(machine_to_proto(config), machine_warnings(config));
     return kExitDone;
 }
 
@@ -45,7 +46,7 @@ void add_machine(Verb command) {
     verb.footer(group_footer("  lockstep machine check mill.textproto\n", "machine check"));
     const Verb part = verb.add_verb("check",
                                     "read the whole file and report everything that is wrong with it; "
-                                    "needs no running machine");
+                                    "warn of axes that no program can move; needs no running machine");
     const auto options = std::make_shared<CheckOptions>();
     part.add_option("file", options->file, "the machine's configuration file; default: the file that other verbs use");
     part.add_flag("--json", options->json, "print the configuration with every default as JSON instead of text");

@@ -55,6 +55,19 @@ TEST_F(BadInput, InAMachineFileIsFoundByTheVerbThatOnlyChecksIt) {
     EXPECT_EQ(machine.axis_size(), 2);
 }
 
+TEST_F(BadInput, AnAxisThatNoProgramMovesIsAWarningInEitherForm) {
+    const std::string odd =
+        write("odd.textproto",
+              "name: \"odd\" axis { name: \"E\" steps_per_mm: 80 start_velocity_mm_s: 10 "
+              "max_velocity_mm_s: 150 max_accel_mm_s2: 1500 position_min_mm: 0 position_max_mm: 9 }");
+    const Ran text = run_lockstep({"machine", "check", odd});
+    EXPECT_EQ(text.code, 0);
+    EXPECT_THAT(text.err, HasSubstr("axis E: no word of G-code names it"));
+    const Ran json = run_lockstep({"machine", "check", odd, "--json"});
+    EXPECT_EQ(json.code, 0);
+    EXPECT_THAT(json.out, HasSubstr("\"warnings\": [\n  \"axis E: no word of G-code names it"));
+}
+
 TEST_F(BadInput, IsReportedAsJsonOnRequest) {
     const auto usage = run_lockstep({"run", "--json"}).json<proto::ErrorReport>();
     EXPECT_THAT(usage.errors(0).message(), HasSubstr("file is required"));

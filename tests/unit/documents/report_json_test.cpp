@@ -22,6 +22,14 @@ TEST(ReportJson, KeysAreThoseOfTheSchemaAndZerosAreWritten) {
     EXPECT_EQ(json.back(), '\n');
 }
 
+TEST(ReportJson, WarningsAreAListAtTheEnd) {
+    proto::PlanReport report;
+    report.set_program("plate.gcode");
+    EXPECT_EQ(report_json(report, {}), report_json(report));
+    const std::string json = report_json(report, {"axis \"E\"", "b"});
+    EXPECT_THAT(json, HasSubstr(",\n \"warnings\": [\n  \"axis \\\"E\\\"\",\n  \"b\"\n ]\n}\n"));
+}
+
 TEST(ReportJson, UnknownValuesAreLeftOutAndZerosAreNot) {
     proto::StatusReport report;
     EXPECT_THAT(report_json(report), Not(HasSubstr("progress")));
