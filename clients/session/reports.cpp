@@ -153,6 +153,7 @@ proto::StatusReport status_report(const Session& session) {
     }
     if (auto pause = pause_report(session)) { *report.mutable_pause() = *std::move(pause); }
     report.set_standby(session.has_standby());
+    report.set_unsaved_values(session.values_unsaved_since().has_value());
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         const auto& axis = session.axis(i);
         *report.add_axes() =

@@ -9,6 +9,7 @@
 #include "core/protocol/rules.hpp"
 #include "services/documents/placement.hpp"
 #include "services/documents/program_document.hpp"
+#include "services/documents/values/values_trouble.hpp"
 #include "services/network/host_name.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/security/admission.hpp"
@@ -158,7 +159,9 @@ void Session::take_messages() {
     });
     viewer_bus().values.take([&](MachineValues&& values) {
         const bool is_older = values_ && values.term < values_->term;
-        if (!is_older) { values_ = std::move(values); }
+        if (is_older) { return; }
+        values_ = std::move(values);
+        unsaved_since_ = values_->on_disk ? std::nullopt : std::optional(unsaved_since_.value_or(now));
     });
     if (!std::holds_alternative<ClientBus>(bus_)) { return; }
     client_bus().replies.take([&](Reply&& reply) {
@@ -221,6 +224,7 @@ Failure Session::silent() const {
                            (waiting.empty() ? "" : "; axes that wait for it: " + waiting));
     }
     const std::string start = "lockstep up --machine " + machine_.file.string();
+    if (const auto why = values_file_trouble(config().name)) { return unreachable(none + "; " + *why); }
     const std::string received = received_axes();
     if (received.empty()) { return unreachable(none + "; to start the machine: " + start); }
     return unreachable(none + ", but messages are received from its axes (" + received +
@@ -336,6 +340,10 @@ void Session::feed_and_send() {
         chunk.writer = lease_.writer().id;
         (void)client_bus().chunks.write(chunk);
     }
+}
+
+void Session::await_values(nanoseconds patience) {
+    (void)receive_until(patience, [this] { return values_.has_value(); });
 }
 
 std::expected<RevisedValues, Failure> Session::values() {

@@ -157,6 +157,11 @@ public:
     /// Waits until the coordinator reports that this revision, or a later one, is on its disk. Fails if it does not
     /// report that in time.
     std::expected<void, Failure> await_kept(std::uint64_t revision);
+    /// Since when the values that are received, offsets and tools, are not on the coordinator's disk; nullopt: they
+    /// are, or none are received. After a change this lasts some milliseconds.
+    std::optional<std::chrono::nanoseconds> values_unsaved_since() const { return unsaved_since_; }
+    /// Returns at once if values are received, otherwise waits at most `patience`.
+    void await_values(std::chrono::nanoseconds patience);
     bool is_kept(std::uint64_t revision) const { return values_ && values_->revision >= revision && values_->on_disk; }
 
 private:
@@ -186,6 +191,7 @@ private:
     std::optional<Received<MachineState>> standby_;
     std::optional<Reader<PublishedEvent>> events_;
     std::optional<MachineValues> values_;  // the owner's
+    std::optional<std::chrono::nanoseconds> unsaved_since_;
     std::vector<std::optional<Received<AxisState>>> axes_;
     std::vector<std::optional<AxisHealth>> healths_;
     std::map<std::uint64_t, Reply> replies_;  // to this client, not read yet

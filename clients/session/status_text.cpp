@@ -8,6 +8,7 @@
 #include "clients/session/record_loss.hpp"
 #include "clients/session/reports.hpp"
 #include "clients/text/format.hpp"
+#include "services/documents/values/values_trouble.hpp"
 
 namespace lockstep {
 namespace {
@@ -143,6 +144,9 @@ std::string status_text(const proto::StatusReport& status) {
         if (axis.has_fault() && !is_printed) { text += fault_text(axis.fault()) + "\n"; }
     }
     if (const std::string lost = record_loss_text(status); !lost.empty()) { text += wrapped(lost, 80, "  ") + "\n"; }
+    if (status.unsaved_values()) {
+        text += wrapped(std::string(kUnsavedValues) + "; " + kUnsavedValuesRemedy, 80, "  ") + "\n";
+    }
     text += process_lines(status);
     if (status.has_incidents()) { text += incidents_text(status.incidents()); }
     return text;

@@ -16,6 +16,7 @@
 #include "services/coordinator/values_store.hpp"
 #include "services/documents/edit/kept_settings.hpp"
 #include "services/documents/machine_file.hpp"
+#include "services/documents/values/values_trouble.hpp"
 #include "services/files/directories.hpp"
 #include "services/flight/check_report.hpp"
 #include "services/flight/flight_recorder.hpp"
@@ -362,8 +363,8 @@ int serve_coordinator(const CoordinatorServiceOptions& options) {
     if (!loaded->settings.empty()) { log_info(settings_notice(loaded->settings)); }
     auto values = read_values(values_file(machine.name));
     if (!values) {
-        log_error(to_text(values_file(machine.name).string(), values.error()) +
-                  "correct the file, or remove it to begin without offsets and tools");
+        log_error(
+            values_file_trouble(machine.name).value_or("the file of offsets and tools changed while it was read"));
         return kServiceBadInput;
     }
     return run(options, machine, *std::move(values));

@@ -23,6 +23,7 @@ ExitCode status(const LiveOptions& options) {
     if (!session) { return output.fail(session.error()); }
     session->await_axes();
     session->await_healths(1s);
+    session->await_values(1s);
     if (session->config_differs()) {
         output.warn("the coordinator runs another configuration than this command reads");
     }

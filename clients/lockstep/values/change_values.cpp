@@ -8,6 +8,7 @@
 #include "clients/text/format.hpp"
 #include "clients/text/output.hpp"
 #include "idl/proto/values.pb.h"
+#include "services/documents/values/values_trouble.hpp"
 
 namespace lockstep {
 namespace {
@@ -29,7 +30,11 @@ void note_paused_job(const Session& session, Output& output) {
 }
 
 ExitCode print(const Session& session, const RevisedValues& values, ValuesText text, Output& output) {
-    output.report(values_to_proto(values));
+    std::vector<std::string> warnings;
+    if (session.values_unsaved_since()) {
+        warnings.push_back(std::string(kUnsavedValues) + "; " + kUnsavedValuesRemedy);
+    }
+    output.report(values_to_proto(values), warnings);
     output.print(text(session.config(), values.values));
     return kExitDone;
 }

@@ -190,6 +190,7 @@ Snapshot MachineLoop::taken() const {
         snapshot.axes.push_back(axis);
     }
     snapshot.values = session_.newest_values();
+    snapshot.values_unsaved_since = session_.values_unsaved_since();
     snapshot.job = job_;
     snapshot.writer = lease_.writer();
     return snapshot;

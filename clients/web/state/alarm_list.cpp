@@ -6,11 +6,14 @@
 #include <cmath>
 
 #include "core/number_text.hpp"
+#include "services/documents/values/values_trouble.hpp"
 
 namespace lockstep::web {
 namespace {
 
 using nlohmann::json;
+
+constexpr std::chrono::seconds kTimeToSave{2};  // of values, on a disk that works
 
 json as_alarm(json fault, const char* severity) {
     fault["severity"] = severity;
@@ -113,6 +116,9 @@ json alarm_list(const Snapshot& snapshot, const MachineConfig& machine) {
         alarms.push_back(own_alarm("lost-records", "",
                                    fmt::format("{} messages of the record could not be written or sent", lost),
                                    "see the logs, and check whether a disk is full"));
+    }
+    if (snapshot.values_unsaved_since && snapshot.time - *snapshot.values_unsaved_since > kTimeToSave) {
+        alarms.push_back(own_alarm("unsaved-values", "", kUnsavedValues, kUnsavedValuesRemedy));
     }
     return alarms;
 }

@@ -71,6 +71,7 @@ struct Snapshot {
     bool config_differs = false;
     std::vector<AxisSnapshot> axes;  // in the order of the configuration
     std::optional<RevisedValues> values;
+    std::optional<nanoseconds> values_unsaved_since;  // not on the coordinator's disk since then; none: they are
     std::optional<OwnJob> job;
     std::optional<Writer> writer;
 };

@@ -118,7 +118,10 @@ TEST_F(Values, OfADamagedFileAreRefusedWithTheRemedy) {
     std::ofstream(file) << "revision: 1\nsystem { name: \"G5";
     const Ran up = run_lockstep({"up"});
     EXPECT_NE(up.code, 0);
-    EXPECT_THAT(up.out + up.err, AllOf(HasSubstr("values.textproto:2:"), HasSubstr("or remove it to begin without")));
+    const auto names_it = AllOf(HasSubstr("values.textproto:2:"), HasSubstr("or remove it to begin without"));
+    EXPECT_THAT(up.out + up.err, names_it);
+    for (const char* verb : {"status", "offsets"}) { EXPECT_THAT(run_lockstep({verb}).err, names_it); }
+    EXPECT_THAT(run_lockstep({"status", "--json"}).out, HasSubstr("values.textproto:2:"));
     std::filesystem::remove(file);
     bring_up();
     EXPECT_EQ(kept().system_size(), 0);
@@ -131,9 +134,17 @@ TEST_F(Values, ThatCannotBeWrittenAreReported) {
     EXPECT_EQ(set.code, 1);
     EXPECT_THAT(set.err, HasSubstr("they may be lost when the coordinator ends"));
     EXPECT_THAT(text_of_log("coordinator"), HasSubstr("the machine's offsets and tools are not kept"));
-    EXPECT_EQ(kept().system_size(), 1) << "they are used";
+    EXPECT_THAT(text_of_log("coordinator"), HasSubstr("make room on the disk"));
+    const Ran listed = offsets({});
+    EXPECT_THAT(listed.out, HasSubstr("G54")) << "they are used";
+    EXPECT_THAT(listed.err, AllOf(HasSubstr("not on the coordinator's disk"), HasSubstr("make room on the disk")));
+    EXPECT_THAT(offsets({"--json"}).out, AllOf(HasSubstr("\"G54\""), HasSubstr("\"warnings\"")));
+    EXPECT_TRUE(status().unsaved_values());
+    EXPECT_THAT(run_lockstep({"status"}).out, HasSubstr("not on the coordinator's disk"));
     std::filesystem::remove(file);
     EXPECT_TRUE(eventually([&] { return read_values(file)->revision == 1; })) << "the write is repeated";
+    EXPECT_TRUE(eventually([&] { return !status().unsaved_values(); }));
+    EXPECT_THAT(offsets({"--json"}).out, testing::Not(HasSubstr("warnings")));
 }
 
 }  // namespace

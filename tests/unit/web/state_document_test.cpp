@@ -37,6 +37,15 @@ TEST(StateDocument, ShowsAMachineAtRest) {
     EXPECT_EQ(json["offsets"]["systems"].size(), 9u);
 }
 
+TEST(StateDocument, WarnsOfValuesThatAreNotOnTheDiskForSeconds) {
+    Snapshot snapshot = snapshot_at_rest();
+    snapshot.values_unsaved_since = 99s;
+    EXPECT_TRUE(alarms(snapshot).empty()) << "a change needs some time";
+    snapshot.values_unsaved_since = 97s;
+    EXPECT_EQ(alarms(snapshot), std::vector<std::string>{"unsaved-values"});
+    EXPECT_FALSE(document(snapshot)["alarms"][0]["remedy"].get<std::string>().empty());
+}
+
 TEST(StateDocument, AMachineThatWasNeverReceivedIsUnreachable) {
     const Json json = document({.axes = {{}, {}}});
     EXPECT_EQ(json["mode"], "Unreachable");
