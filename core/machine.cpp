@@ -25,8 +25,6 @@ AxisLimits limits_of(const AxisConfig& axis, std::int64_t tick_ns) {
 
 std::int64_t to_steps(const AxisConfig& axis, double mm) { return std::llround(mm * axis.steps_per_mm); }
 
-double least_speed_mm_s(const AxisConfig& axis) { return kLeastSpeed_steps_per_s / axis.steps_per_mm; }
-
 double to_mm(const AxisConfig& axis, double steps) { return steps / axis.steps_per_mm; }
 
 }  // namespace lockstep

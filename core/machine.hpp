@@ -152,9 +152,4 @@ AxisLimits limits_of(const AxisConfig& axis, std::int64_t tick_ns);
 std::int64_t to_steps(const AxisConfig& axis, double mm);
 double to_mm(const AxisConfig& axis, double steps);
 
-/// The least speed of a jog, and of a move of the axis on its own in a given time: a step in 1000 s. At any speed a
-/// stop ends the motion as soon; a slower speed is an error of its writer.
-inline constexpr double kLeastSpeed_steps_per_s = 1e-3;
-double least_speed_mm_s(const AxisConfig& axis);
-
 }  // namespace lockstep

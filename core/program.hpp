@@ -15,6 +15,10 @@ namespace lockstep {
 
 inline constexpr std::size_t kMaxProgramBlocks = 1'000'000;
 inline constexpr double kMaxFeed_mm_s = 1e6;
+/// The least speed that may be asked for: of a feed, a jog, or an own move in a given time. deg/s for rotary axes.
+inline constexpr double kLeastSpeed_mm_s = 1e-5;
+/// The longest time of a motion that an axis makes by itself. Plans of more ticks would not be exact.
+inline constexpr double kLongestMotion_s = 30.0 * 86'400;
 inline constexpr double kMaxPlace_mm = 1e6;  // either way
 inline constexpr double kMaxDwell_s = 86'400;
 

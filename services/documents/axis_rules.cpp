@@ -34,6 +34,7 @@ public:
         check_ramp("max_accel_mm_s2", axis_.max_accel_mm_s2);
         check_ramp("max_decel_mm_s2", axis_.max_decel_mm_s2);
         check_travel();
+        check_durations();
         check_homing_speeds();
         check_capture();
         check_unhomed_jog();
@@ -131,6 +132,20 @@ private:
         problems_.require_between({key, "max_velocity_mm_s"}, value >= least,
                                   what + ", so max_velocity_mm_s would take more than " + number_text(kMaxRampSeconds) +
                                       " s; it must be at least " + number_text(least));
+    }
+
+    /// A motion that lasts longer cannot be planned exactly. A search goes twice over the travel at most.
+    void check_durations() {
+        const double travel_mm = axis_.position_max_mm - axis_.position_min_mm;
+        const double least = 2 * travel_mm / kLongestMotion_s;
+        const auto check = [&](std::string_view key, double speed_mm_s) {
+            problems_.require_between({key, "position_max_mm", "position_min_mm"}, speed_mm_s >= least,
+                                      std::string(key) + " is " + number_text(speed_mm_s) +
+                                          ", so twice the travel would take more than 30 days; it must be at least " +
+                                          number_text(least));
+        };
+        check("max_velocity_mm_s", axis_.max_velocity_mm_s);
+        check("homing.search_velocity_mm_s", axis_.homing.search_velocity_mm_s);
     }
 
     void check_travel() {

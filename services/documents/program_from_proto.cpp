@@ -79,9 +79,9 @@ Refusal check_arc(const proto::ProgramMove& move, std::size_t axes) {
 
 Refusal check_move(const proto::ProgramMove& move, const proto::Program& message, std::size_t axes) {
     if (Refusal refusal = check_places(move.target_mm(), message, axes)) { return "the target " + *refusal; }
-    if (!move.rapid() && !(move.feed_mm_s() > 0 && move.feed_mm_s() <= kMaxFeed_mm_s)) {
-        return "the feed is " + number_text(move.feed_mm_s()) + " mm/s; it must be above 0 and at most " +
-               number_text(kMaxFeed_mm_s);
+    if (!move.rapid() && !(move.feed_mm_s() >= kLeastSpeed_mm_s && move.feed_mm_s() <= kMaxFeed_mm_s)) {
+        return "the feed is " + number_text(move.feed_mm_s()) + " mm/s; it must be from " +
+               number_text(kLeastSpeed_mm_s) + " to " + number_text(kMaxFeed_mm_s);
     }
     if (!proto::PathMode_IsValid(move.mode())) { return fmt::format("the path mode is unknown: {}", int{move.mode()}); }
     if (!(move.tolerance_mm() >= 0 && move.tolerance_mm() <= kMaxTolerance_mm)) {

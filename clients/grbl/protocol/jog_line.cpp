@@ -9,6 +9,8 @@
 #include <string>
 
 #include "clients/grbl/protocol/number.hpp"
+#include "core/number_text.hpp"
+#include "core/program.hpp"
 
 namespace lockstep::grbl {
 namespace {
@@ -132,6 +134,11 @@ std::expected<std::vector<JogAxis>, Refused> read_jog(std::string_view text, con
     double speed = feed->second * (words->inches.value_or(modes.inches) ? kInch_mm : 1) / 60;
     for (const Way& way : *ways) {
         speed = std::min(speed, machine.axes[way.axis].max_velocity_mm_s * length / std::abs(way.mm));
+    }
+    if (std::ranges::any_of(*ways,
+                            [&](const Way& way) { return speed * std::abs(way.mm) / length < kLeastSpeed_mm_s; })) {
+        return Refusal({Error::NoFeed, "F is too slow; each axis must move at " + short_number(kLeastSpeed_mm_s * 60) +
+                                           " mm/min or more"});
     }
     std::vector<JogAxis> jogs;
     for (const Way& way : *ways) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "clients/session/move_program.hpp"
+#include "core/coordinator/jobs/jogs.hpp"
 #include "core/number_text.hpp"
 
 namespace lockstep {
@@ -21,10 +22,7 @@ std::expected<JogAxis, std::string> jog_axis(const MachineConfig& machine, const
     if (!axis) { return std::unexpected(axis.error()); }
     const AxisConfig& config = machine.axes[*axis];
     const double speed = options.speed_mm_s.value_or(usual_jog_speed(config));
-    if (!(speed > 0 && speed <= config.max_velocity_mm_s)) {
-        return std::unexpected("axis " + config.name + ": a jog speed must be above 0 and at most max_velocity_mm_s " +
-                               short_number(config.max_velocity_mm_s) + "; it is " + short_number(speed) + " mm/s");
-    }
+    if (!is_jog_speed(config, speed)) { return std::unexpected(jog_speed_text(config, speed)); }
     return JogAxis{.axis = static_cast<std::uint32_t>(*axis),
                    .speed_mm_s = direction == '+' ? speed : -speed,
                    .distance_mm = options.distance_mm};

@@ -14,32 +14,29 @@ struct Brake {
     double entry = 0;  // steps per tick
     double exit = 0;
 
-    double ticks(Displacement from) const { return std::ceil(2 * (to - from).as_steps() / (entry + exit)); }
+    double ticks_over(double steps) const { return 2 * steps / (entry + exit); }
 };
 
-/// Plans to rest between two steps, from the speed that the axis can drop suddenly.
-Brake plan_soonest_brake(Displacement from, double speed, double jump, std::int64_t last_step,
-                         const AxisLimits& limits) {
-    Brake brake{.to = from, .entry = speed, .exit = std::min(speed, jump)};
-    const double way = (speed * speed - brake.exit * brake.exit) / (2 * limits.max_deceleration);
-    brake.to =
-        std::min(Displacement{from.raw + static_cast<Int128>(std::ceil(way * 0x1p64))}, Displacement::steps(last_step));
-    return brake;
-}
-
-/// Plans to rest on the first whole step that can be reached, but never beyond the move's last step. If there is enough
-/// distance, the speed falls at the end from half of the start velocity to 0. The other half is left for uneven pulses
-/// of a method. Near its last step a move is planned to slow down to the start velocity only. There the final speed
-/// follows from the distance s that remains: its square is v^2 - 2 d s, and it is at most the start velocity. If the
-/// speed is still too high, because a method rounds, it first drops suddenly, within the start velocity. `jump`: what
-/// the method's pulses have left of the start velocity.
-Brake plan_whole_brake(Displacement from, double speed, double jump, std::int64_t last_step, const AxisLimits& limits) {
+/// Plans to rest on the first whole step that can be reached, but never beyond the move's last step. A slow axis would
+/// reach it much later than it can brake. If that takes more than `to_whole_step` longer, it rests where it has braked,
+/// between two steps. No pulse is missing or left over there, because a pulse is made where the position crosses a
+/// half, and the next motion begins on the whole step that was counted last. If there is enough distance, the speed
+/// falls at the end from half of the start velocity to 0. The other half is left for uneven pulses of a method. Near
+/// its last step a move is planned to slow down to the start velocity only. There the final speed follows from the
+/// distance s that remains: its square is v^2 - 2 d s, and it is at most the start velocity. If the speed is still too
+/// high, because a method rounds, it first drops suddenly, within the start velocity. `jumped`: the part of the start
+/// velocity that the method's pulses have just used up.
+Brake plan_brake(Displacement from, double speed, double jumped, std::int64_t last_step, const AxisLimits& limits,
+                 Ticks to_whole_step) {
     const double d = limits.max_deceleration;
+    const double jump = std::max(0.0, limits.start_velocity - jumped);
     Brake brake{.entry = speed, .exit = std::min({speed, limits.start_velocity / 2, jump})};
     const double way = (speed * speed - brake.exit * brake.exit) / (2 * d) + 2 * speed;  // not shorter than two ticks
     const Int128 end = from.raw + static_cast<Int128>(std::ceil(way * 0x1p64));
     const Int128 whole = (end + kOneStep - 1) / kOneStep * kOneStep;
     brake.to = std::min(Displacement{whole}, Displacement::steps(last_step));
+    const Displacement beyond = brake.to - Displacement{end};
+    if (brake.ticks_over(beyond.as_steps()) > static_cast<double>(to_whole_step.value)) { brake.to = {end}; }
     const double left = std::max(0.0, (brake.to - from).as_steps());
     const double needed = std::sqrt(std::max(0.0, speed * speed - 2 * d * left));
     if (needed <= jump) { brake.exit = std::max(brake.exit, needed); }
@@ -48,19 +45,16 @@ Brake plan_whole_brake(Displacement from, double speed, double jump, std::int64_
     return brake;
 }
 
-Brake plan_brake(Displacement from, double speed, double jumped, std::int64_t last_step, Ticks most_longer,
-                 const AxisLimits& limits) {
-    const double jump = std::max(0.0, limits.start_velocity - jumped);
-    const Brake whole = plan_whole_brake(from, speed, jump, last_step, limits);
-    const Brake soonest = plan_soonest_brake(from, speed, jump, last_step, limits);
-    const bool is_soon = whole.ticks(from) <= soonest.ticks(from) + static_cast<double>(most_longer.value);
-    return is_soon ? whole : soonest;
-}
-
 }  // namespace
 
-OwnMove::OwnMove(OwnPieces pieces, const Place& place, const AxisLimits& limits, Ticks span)
-    : pieces_(std::move(pieces)), place_(place), limits_(limits), span_(span), end_(place.start), at_(place.from) {}
+OwnMove::OwnMove(OwnPieces pieces, const Place& place, const AxisLimits& limits, Ticks span, Ticks to_whole_step)
+    : pieces_(std::move(pieces)),
+      place_(place),
+      limits_(limits),
+      span_(span),
+      to_whole_step_(to_whole_step),
+      end_(place.start),
+      at_(place.from) {}
 
 HeldFrame OwnMove::next() {
     HeldFrame frame{.number = ++made_, .start = end_};
@@ -90,10 +84,10 @@ void OwnMove::fill_body(HeldFrame& frame) {
 /// The tail is one piece of constant deceleration. Its ticks are rounded up, and its velocity is solved for the exact
 /// end.
 void OwnMove::fill_tail(HeldFrame& frame) const {
-    const Brake brake = plan_brake(gone_, speed_, fastest_ - speed_, place_.steps, span_ * kTailFrames, limits_);
+    const Brake brake = plan_brake(gone_, speed_, fastest_ - speed_, place_.steps, limits_, to_whole_step_);
     const Displacement way = brake.to - gone_;
     if (way.raw <= 0) { return; }
-    const double ticks = brake.ticks(gone_);
+    const double ticks = std::ceil(brake.ticks_over(way.as_steps()));
     const Piece piece = solve_piece(Position{}, Position{way.raw}, {static_cast<std::int64_t>(ticks)},
                                     (brake.exit - brake.entry) / ticks);
     frame.track.tail.append(directed(piece));

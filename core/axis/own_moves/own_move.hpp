@@ -1,9 +1,8 @@
 // A move of one axis by itself, as frames for its device. Each frame has a tail from its end to rest.
 //
 // A device that gets no further frame in time runs the tail of the last one. It comes to rest within limits, not beyond
-// the move's end, and on a whole step if that takes little time. A slow axis stops between two steps instead. Its count
-// of steps is its position, and its next move begins on that whole step. So an axis's process may stall, and a move may
-// be halted at any frame and at any speed.
+// the move's end: on a whole step if it reaches one soon, otherwise between two steps. So an axis's process may stall,
+// and a move may be halted at any frame, within the same time at every speed.
 #pragma once
 
 #include "core/axis/device/held_frames.hpp"
@@ -19,11 +18,9 @@ public:
         std::int64_t steps = 0;  // > 0
         Tick start;
     };
-    /// Frames last little longer than `span`, and have at most as many pieces as a frame holds.
-    OwnMove(OwnPieces pieces, const Place& place, const AxisLimits& limits, Ticks span);
-
-    /// By how much a tail may last longer than the deceleration that stops between two steps, in frames.
-    static constexpr std::int64_t kTailFrames = 4;
+    /// Frames last at most three times as long as `span`, and have at most as many pieces as a frame holds. A tail
+    /// lasts at most `to_whole_step` longer than braking does.
+    OwnMove(OwnPieces pieces, const Place& place, const AxisLimits& limits, Ticks span, Ticks to_whole_step);
 
     /// The next frame, numbered from 1. Must not be called when all frames are made.
     HeldFrame next();
@@ -42,6 +39,7 @@ private:
     Place place_;
     AxisLimits limits_;
     Ticks span_;
+    Ticks to_whole_step_;
     FrameNumber made_ = 0;
     Tick end_;
     Position at_;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/axis/own_moves/own_pieces.hpp"
+#include "core/program.hpp"
 
 namespace lockstep {
 namespace {
@@ -14,6 +15,7 @@ constexpr std::int64_t kFrame_ns = 5'000'000;
 // A jog has short frames, so that it ends with its renewals, and a short lead, so that it begins soon.
 constexpr std::int64_t kJogFrame_ns = 2'000'000;
 constexpr std::int64_t kJogLead_ns = 8'000'000;
+constexpr std::int64_t kToWholeStep_ns = 10'000'000;  // how much longer than braking a halt may take
 
 }  // namespace
 
@@ -27,6 +29,8 @@ OwnMoves::OwnMoves(std::size_t axis, const MachineConfig& machine, BeginSteps be
       jog_hold_(machine.jog_hold_ticks()),
       jog_frame_{kJogFrame_ns / machine.tick_ns},
       jog_lead_{kJogLead_ns / machine.tick_ns},
+      to_whole_step_{kToWholeStep_ns / machine.tick_ns},
+      half_step_{static_cast<std::int64_t>(std::ceil(0.5 / limits_.start_velocity))},
       begin_steps_(begin_steps),
       homing_(axis_) {}
 
@@ -78,7 +82,7 @@ FaultCode OwnMoves::jog_refusal_of(const AxisCommand& order, bool is_resting, co
     if (!is_resting || loop.device.status().moving) { return FaultCode::Busy; }
     if (loop.condition.phases.has_fault()) { return FaultCode::InFault; }
     if (!loop.device.is_present()) { return FaultCode::DeviceMissing; }
-    if (!(order.speed_mm_s >= least_speed_mm_s(axis_))) { return FaultCode::BadProgram; }
+    if (order.speed_mm_s < kLeastSpeed_mm_s) { return FaultCode::BadProgram; }
     if (!loop.condition.position.homed()) { return axis_.unhomed_jog_mm_s ? FaultCode::None : FaultCode::NotHomed; }
     const bool is_within = order.target_steps >= limits_.min_steps && order.target_steps <= limits_.max_steps;
     return is_within ? FaultCode::None : FaultCode::OutsideTravel;
@@ -94,7 +98,8 @@ void OwnMoves::start_jog(const LocalMove& move, Tick until, AxisLoop& loop) {
     const std::int64_t count = loop.device.status().position.count();
     const Position from = rest_position(count - loop.condition.position.zero_count(), move.steps < 0);
     auto pieces = OwnPieces::plan(axis_, tick_ns_, StepMethod::Ranade, {std::abs(move.steps), move.speed_mm_s}, {});
-    OwnMove frames(std::move(*pieces), {from, move.steps < 0, std::abs(move.steps), start}, limits_, jog_frame_);
+    OwnMove frames(std::move(*pieces), {from, move.steps < 0, std::abs(move.steps), start}, limits_, jog_frame_,
+                   to_whole_step_);
     run_.emplace(move, std::move(frames), count + move.steps, 0, ahead_);
     run_->allow_until(std::min(until, loop.now + jog_hold_));
     between_steps_.reset();
@@ -115,18 +120,15 @@ OwnMove OwnMoves::frames_of(const LocalMove& move, Position from, Tick start) co
     if (!pieces) {
         pieces = OwnPieces::plan(axis_, tick_ns_, StepMethod::Ranade, {request.steps, move.speed_mm_s}, begin_steps_);
     }
-    return OwnMove(std::move(*pieces), {from, move.steps < 0, request.steps, start}, limits_, frame_);
+    return OwnMove(std::move(*pieces), {from, move.steps < 0, request.steps, start}, limits_, frame_, to_whole_step_);
 }
 
-/// After a rest between two steps the last pulse may be just over, but the next run starts from the whole step. So it
-/// starts after the time of half a step.
+/// A run that a switch or a halt ended between two steps may have ended right behind a pulse, but the next run starts
+/// from the whole step. So it starts after the time of half a step.
 Tick OwnMoves::earliest_start(const AxisLoop& loop) {
     const Position here = loop.device.status().position;
     if (here == rest_position(here.count(), false) || here == rest_position(here.count(), true)) { return loop.now; }
-    if (!between_steps_ || between_steps_->at != here) {
-        const Ticks half_step{static_cast<std::int64_t>(std::ceil(0.5 / limits_.start_velocity))};
-        between_steps_ = {here, loop.now + half_step};
-    }
+    if (!between_steps_ || between_steps_->at != here) { between_steps_ = {here, loop.now + half_step_}; }
     return between_steps_->start;
 }
 

@@ -61,6 +61,8 @@ private:
     Ticks jog_hold_;
     Ticks jog_frame_;
     Ticks jog_lead_;  // time from the order to the first frame's start
+    Ticks to_whole_step_;
+    Ticks half_step_;  // the time of half a step at the start velocity
     /// A rest between two steps, and when a run may start from there.
     struct BetweenSteps {
         Position at;

@@ -6,6 +6,7 @@
 
 #include "core/motion/interpolate.hpp"
 #include "core/number_text.hpp"
+#include "core/program.hpp"
 
 namespace lockstep {
 namespace {
@@ -20,6 +21,18 @@ std::string text_in_time(const Infeasible& lack, const AxisConfig& axis, std::in
            " is at most " + short_number(std::max(0.0, to_mm(axis, lack.longest.as_steps()))) + " mm";
 }
 
+/// A plan in the time that was asked for.
+std::expected<Profile, OwnMoveError> profile_in_time(const AxisConfig& axis, std::int64_t tick_ns,
+                                                     const OwnMoveRequest& move, const PathLimits& limits) {
+    const double most_s = std::min(kLongestMotion_s, to_mm(axis, static_cast<double>(move.steps)) / kLeastSpeed_mm_s);
+    if (static_cast<double>(move.ticks->value) * static_cast<double>(tick_ns) * 1e-9 > most_s) {
+        return std::unexpected(TooSlow{most_s});
+    }
+    auto profile = plan_in_time(Displacement::steps(move.steps), *move.ticks, limits);
+    if (!profile) { return std::unexpected(profile.error()); }
+    return *profile;
+}
+
 }  // namespace
 
 std::string text_of(const OwnMoveError& error, const AxisConfig& axis, std::int64_t tick_ns,
@@ -28,10 +41,10 @@ std::string text_of(const OwnMoveError& error, const AxisConfig& axis, std::int6
         return "axis " + axis.name + " cannot move in a given time by method " + std::string(name_of(other->method)) +
                "; omit the time, or configure method RANADE";
     }
-    if (const auto* slow = std::get_if<BelowLeastSpeed>(&error)) {
-        return "axis " + axis.name + ": " + short_number(to_mm(axis, static_cast<double>(move.steps))) +
-               " mm must take at most " + short_number(slow->most_s) + " s; that is the least speed, a step in " +
-               short_number(1 / kLeastSpeed_steps_per_s) + " s";
+    if (const auto* slow = std::get_if<TooSlow>(&error)) {
+        return "axis " + axis.name + " would be slower than " + short_number(kLeastSpeed_mm_s) +
+               " mm/s: " + short_number(to_mm(axis, static_cast<double>(move.steps))) + " mm may take at most " +
+               short_number(slow->most_s) + " s";
     }
     if (const auto* lack = std::get_if<Infeasible>(&error)) { return text_in_time(*lack, axis, tick_ns, move); }
     return "axis " + axis.name + ": " + text_of(std::get<StepError>(error));
@@ -46,10 +59,6 @@ StepMove step_move_of(const AxisConfig& axis, const OwnMoveRequest& move) {
 
 std::expected<OwnPieces, OwnMoveError> OwnPieces::plan(const AxisConfig& axis, std::int64_t tick_ns, StepMethod method,
                                                        const OwnMoveRequest& move, BeginSteps begin_steps) {
-    const double most_s = static_cast<double>(move.steps) / kLeastSpeed_steps_per_s;
-    if (move.ticks && static_cast<double>(move.ticks->value) * static_cast<double>(tick_ns) * 1e-9 > most_s) {
-        return std::unexpected(BelowLeastSpeed{most_s});
-    }
     if (method == StepMethod::Ranade) { return planned(axis, tick_ns, move); }
     if (!move.ticks) { return stepped(axis, tick_ns, method, move, begin_steps); }
     return std::unexpected(NotInTime{method});
@@ -58,15 +67,14 @@ std::expected<OwnPieces, OwnMoveError> OwnPieces::plan(const AxisConfig& axis, s
 std::expected<OwnPieces, OwnMoveError> OwnPieces::planned(const AxisConfig& axis, std::int64_t tick_ns,
                                                           const OwnMoveRequest& move) {
     const AxisLimits of_axis = limits_of(axis, tick_ns);
-    const double speed =
-        std::min(move.speed_mm_s * axis.steps_per_mm * static_cast<double>(tick_ns) * 1e-9, kMaxPlannedStepsPerTick);
+    const double speed = move.speed_mm_s * axis.steps_per_mm * static_cast<double>(tick_ns) * 1e-9;
     const PathLimits limits{std::min(of_axis.start_velocity, speed), speed, of_axis.max_acceleration,
                             of_axis.max_deceleration};
     const Displacement way = Displacement::steps(move.steps);
     Profile profile;
     if (!move.ticks) {
         profile = plan_fastest({{}, way, limits.start_velocity, limits.start_velocity, limits});
-    } else if (auto in_time = plan_in_time(way, *move.ticks, limits)) {
+    } else if (auto in_time = profile_in_time(axis, tick_ns, move, limits)) {
         profile = *in_time;
     } else {
         return std::unexpected(in_time.error());
@@ -86,24 +94,22 @@ std::expected<OwnPieces, OwnMoveError> OwnPieces::stepped(const AxisConfig& axis
     return OwnPieces(Stepped{std::move(*source), watch, ticks_per_s, move.steps});
 }
 
-/// A long piece is cut at any tick, which changes none of its steps.
+/// A cut changes no step, also between two of them: the rest begins at the velocity that the register has there.
 std::optional<Piece> OwnPieces::next(Ticks most) {
-    std::optional<Piece> piece = std::exchange(rest_, std::nullopt);
-    if (!piece) {
-        piece = std::visit([most](auto& maker) { return maker.next(most); }, maker_);
-    }
+    auto piece = rest_ ? std::exchange(rest_, std::nullopt)
+                       : std::visit([most](auto& maker) { return maker.next(most); }, maker_);
     if (!piece || piece->ticks <= most + most) { return piece; }
-    const Velocity then{static_cast<std::int64_t>(piece->velocity_after(most))};
-    rest_ = Piece{piece->ticks - most, then, piece->acceleration};
+    const auto velocity = static_cast<std::int64_t>(piece->velocity_after(most));
+    rest_ = Piece{piece->ticks - most, {velocity}, piece->acceleration};
     piece->ticks = most;
     return piece;
 }
 
-bool OwnPieces::done() const {
-    return !rest_ && std::visit([](const auto& maker) { return maker.done(); }, maker_);
+bool OwnPieces::is_made() const {
+    return std::visit([](const auto& maker) { return maker.done(); }, maker_);
 }
 
-bool OwnPieces::broken() const {
+bool OwnPieces::is_breached() const {
     return std::visit([](const auto& maker) { return maker.broken(); }, maker_);
 }
 

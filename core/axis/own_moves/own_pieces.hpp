@@ -32,12 +32,12 @@ struct OwnMoveRequest {
 struct NotInTime {
     StepMethod method;
 };
-/// The move would be slower than the least speed.
-struct BelowLeastSpeed {
-    double most_s;  // the longest duration of this distance
+/// The move would be slower than kLeastSpeed_mm_s, or last longer than kLongestMotion_s.
+struct TooSlow {
+    double most_s = 0;  // the longest duration of this move
 };
 /// Why a move cannot be made.
-using OwnMoveError = std::variant<NotInTime, BelowLeastSpeed, Infeasible, StepError>;
+using OwnMoveError = std::variant<NotInTime, TooSlow, Infeasible, StepError>;
 
 /// Says why the move is impossible and what would be possible, in the user's units.
 std::string text_of(const OwnMoveError& error, const AxisConfig& axis, std::int64_t tick_ns,
@@ -52,13 +52,13 @@ public:
     static std::expected<OwnPieces, OwnMoveError> plan(const AxisConfig& axis, std::int64_t tick_ns, StepMethod method,
                                                        const OwnMoveRequest& move, BeginSteps begin_steps);
 
-    /// Returns the next piece, which lasts at most twice as long as `most`. Returns nullopt after the last piece, or if
-    /// the next step would break the axis's limits.
+    /// Returns the next piece. It lasts at most twice as long as `most`, at every speed. Returns nullopt after the last
+    /// piece, or if the next step would break the axis's limits.
     std::optional<Piece> next(Ticks most);
     /// Whether all pieces are made, so that the move ends on its last whole step.
-    bool done() const;
+    bool done() const { return !rest_ && is_made(); }
     /// The method would break the axis's limits, so the move ends early.
-    bool broken() const;
+    bool broken() const { return !rest_ && is_breached(); }
 
 private:
     /// A profile's pieces.
@@ -95,8 +95,11 @@ private:
                                                           StepMethod method, const OwnMoveRequest& move,
                                                           BeginSteps begin_steps);
 
+    bool is_made() const;
+    bool is_breached() const;
+
     Maker maker_;
-    std::optional<Piece> rest_;  // of a piece that was cut
+    std::optional<Piece> rest_;  // of the piece returned last
 };
 
 }  // namespace lockstep

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/number_text.hpp"
+#include "core/program.hpp"
 
 namespace lockstep {
 namespace {
@@ -20,19 +21,27 @@ CommandResult check_homed(const AxisConfig& axis, const AxisState& state) {
 
 CommandResult check_speed(const AxisConfig& axis, double speed_mm_s) {
     const double speed = std::abs(speed_mm_s);
-    if (speed >= least_speed_mm_s(axis) && speed <= axis.max_velocity_mm_s) { return {}; }
-    return refuse(FaultCode::BadProgram, "axis " + axis.name + ": a jog speed must be at least " +
-                                             short_number(least_speed_mm_s(axis)) + " and at most max_velocity_mm_s " +
-                                             short_number(axis.max_velocity_mm_s) + "; it is " + short_number(speed) +
-                                             " mm/s");
+    if (is_jog_speed(axis, speed)) { return {}; }
+    return refuse(FaultCode::BadProgram, jog_speed_text(axis, speed));
 }
 
 }  // namespace
 
+bool is_jog_speed(const AxisConfig& axis, double speed_mm_s) {
+    return speed_mm_s >= kLeastSpeed_mm_s && speed_mm_s <= axis.max_velocity_mm_s;
+}
+
+std::string jog_speed_text(const AxisConfig& axis, double speed_mm_s) {
+    return "axis " + axis.name + ": a jog speed must be from " + short_number(kLeastSpeed_mm_s) +
+           " mm/s to max_velocity_mm_s " + short_number(axis.max_velocity_mm_s) + "; it is " +
+           short_number(speed_mm_s) + " mm/s";
+}
+
 std::int64_t jog_target(const JogAxis& asked, const AxisConfig& axis, const AxisState& state) {
     const std::int64_t here = state.position.count();
     const double travel_mm = axis.position_max_mm - axis.position_min_mm;
-    const double far_mm = std::min(asked.distance_mm.value_or(2 * travel_mm), 2 * travel_mm);
+    const double longest_mm = std::min(2 * travel_mm, std::abs(asked.speed_mm_s) * kLongestMotion_s);
+    const double far_mm = std::min(asked.distance_mm.value_or(longest_mm), longest_mm);
     const std::int64_t steps = std::max<std::int64_t>(1, to_steps(axis, far_mm));
     const std::int64_t target = asked.speed_mm_s < 0 ? here - steps : here + steps;
     if (!state.homed) { return target; }

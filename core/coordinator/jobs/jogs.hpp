@@ -4,11 +4,17 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/coordinator/state/refusal.hpp"
 
 namespace lockstep {
+
+/// Whether an axis may be jogged at this speed, without its sign: from kLeastSpeed_mm_s to its max_velocity_mm_s.
+bool is_jog_speed(const AxisConfig& axis, double speed_mm_s);
+/// Says which speeds are possible.
+std::string jog_speed_text(const AxisConfig& axis, double speed_mm_s);
 
 /// The position, in steps, where a jog ends by itself: after its distance, at most at the end of the travel. An unhomed
 /// axis does not know the ends of its travel.

@@ -8,6 +8,8 @@
 
 #include "core/axis/following/frame_check.hpp"
 #include "core/methods/paper_steps.hpp"
+#include "core/program.hpp"
+#include "core/step/engine.hpp"
 
 namespace lockstep {
 namespace {
@@ -34,7 +36,7 @@ struct ByMethod : testing::TestWithParam<StepMethod> {
     OwnMove move(std::int64_t steps, bool backward) const {
         const OwnMoveRequest request{steps, axis.max_velocity_mm_s};
         return OwnMove(OwnPieces::plan(axis, 1000, GetParam(), request, methods::begin_steps).value(),
-                       {rest_position(0, backward), backward, steps, kStart}, limits, kSpan);
+                       {rest_position(0, backward), backward, steps, kStart}, limits, kSpan, kSpan);
     }
     AxisConfig axis = axis_by(GetParam());
     AxisLimits limits = limits_of(axis, 1000);
@@ -92,6 +94,46 @@ TEST_P(ByMethod, EveryTailRestsWithinTheLimitsAndNotBeyondTheMove) {
     }
 }
 
+TEST_P(ByMethod, FramesAndTailsAreShortAtEverySpeed) {
+    constexpr std::int64_t kSteps = 40;
+    int speeds = 0;
+    for (double speed_mm_s = kLeastSpeed_mm_s; speed_mm_s < axis.max_velocity_mm_s; speed_mm_s *= 10) {
+        auto pieces = OwnPieces::plan(axis, 1000, GetParam(), {kSteps, speed_mm_s}, methods::begin_steps);
+        if (!pieces) { continue; }  // a method may have a greater least speed; the axis then uses Ranade's
+        ++speeds;
+        const double least_ticks = 1e6 / (speed_mm_s * axis.steps_per_mm);
+        OwnMove frames(std::move(*pieces), {rest_position(0, false), false, kSteps, kStart}, limits, kSpan, kSpan);
+        for (int k = 0; k < 300 && !frames.all_made(); ++k) {
+            const HeldFrame frame = frames.next();
+            EXPECT_LE(frame.ticks.value, 3 * kSpan.value) << speed_mm_s;
+            const double braking = limits.start_velocity / limits.max_deceleration + 4;
+            EXPECT_LE(static_cast<double>(total_ticks(frame.track.tail).value),
+                      braking + static_cast<double>(kSpan.value) + std::min(least_ticks, 1.0 * kSpan.value))
+                << speed_mm_s << " frame " << frame.number;
+        }
+    }
+    EXPECT_GT(speeds, 0);
+}
+
+TEST_P(ByMethod, ACutBetweenTwoStepsChangesNoStep) {
+    for (const double speed_mm_s : {0.02, 0.3, 5.0}) {
+        const auto steps_cut_after = [&](Ticks most) {
+            std::vector<Tick> steps;
+            auto pieces = OwnPieces::plan(axis, 1000, GetParam(), {60, speed_mm_s}, methods::begin_steps);
+            if (!pieces) { return steps; }
+            StepEngine engine(Tick{}, rest_position(0, false));
+            while (const auto piece = pieces->next(most)) {
+                EXPECT_LE(piece->ticks, most + most);
+                engine.begin(*piece);
+                engine.run(engine.now() + piece->ticks, [&](StepEdge edge) { steps.push_back(edge.tick); });
+            }
+            EXPECT_EQ(steps.size(), 60u);
+            return steps;
+        };
+        EXPECT_EQ(steps_cut_after(Ticks{5'000}), steps_cut_after(Ticks{100'000'000})) << speed_mm_s;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, ByMethod,
                          testing::Values(StepMethod::Ranade, StepMethod::Spielauer, StepMethod::Lai, StepMethod::Lam,
                                          StepMethod::Carrica),
@@ -103,7 +145,8 @@ TEST(OwnPieces, StopBeforeAPieceThatBreaksTheLimits) {
     const AxisLimits limits = limits_of(axis, 1000);
     auto pieces = OwnPieces::plan(axis, 1000, StepMethod::Lam, {1'000, axis.max_velocity_mm_s}, methods::begin_steps);
     ASSERT_TRUE(pieces);
-    OwnMove frames(std::move(*pieces), {rest_position(0, false), false, 1'000, Tick{0}}, limits, Ticks{12'000});
+    OwnMove frames(std::move(*pieces), {rest_position(0, false), false, 1'000, Tick{0}}, limits, Ticks{12'000},
+                   Ticks{12'000});
     Position rest;
     while (!frames.all_made()) {
         const HeldFrame frame = frames.next();
@@ -123,6 +166,18 @@ TEST(OwnPieces, OnlyRanadeMovesInAGivenTime) {
                                        methods::begin_steps);
     ASSERT_FALSE(other);
     EXPECT_EQ(std::get<NotInTime>(other.error()).method, StepMethod::Lai);
+}
+
+TEST(OwnPieces, RefuseATimeThatWouldBeTooSlow) {
+    const AxisConfig axis = axis_by(StepMethod::Ranade);
+    const auto in_s = [&](double seconds) {
+        const OwnMoveRequest request{4, 150, Ticks{static_cast<std::int64_t>(seconds * 1e6)}};  // 0.05 mm
+        const auto pieces = OwnPieces::plan(axis, 1000, StepMethod::Ranade, request, methods::begin_steps);
+        return pieces ? std::string() : text_of(pieces.error(), axis, 1000, request);
+    };
+    EXPECT_EQ(in_s(600), "");
+    EXPECT_EQ(in_s(4'999), "");
+    EXPECT_EQ(in_s(5'001), "axis X would be slower than 1e-05 mm/s: 0.05 mm may take at most 5000 s");
 }
 
 }  // namespace

@@ -245,6 +245,17 @@ TEST_F(Sender, TurnsTheOverrides) {
     EXPECT_EQ(requests.back().overrides, Overrides{});
 }
 
+TEST_F(Sender, AJogThatWouldBeTooSlowIsRefused) {
+    for (const char* line : {"$J=G91 X3 F0.0005\n", "$J=G91 X3 F0.00000000000001\n", "$J=G91 X3 Y0.1 F0.01\n"}) {
+        EXPECT_THAT(send(line),
+                    ElementsAre("[MSG:F is too slow; each axis must move at 0.0006 mm/min or more]", "error:22"))
+            << line;
+        EXPECT_THAT(asked(), ElementsAre());
+    }
+    EXPECT_THAT(send("$J=G91 X3 F0.0007\n"), ElementsAre());
+    EXPECT_THAT(asked(), ElementsAre(Kind::Jog));
+}
+
 TEST_F(Sender, JogsAndCancels) {
     EXPECT_THAT(send("$J=G91 X3 Y4 F600\n"), ElementsAre());
     ASSERT_THAT(asked(), ElementsAre(Kind::Jog));

@@ -38,7 +38,8 @@ TEST(JogWords, ThatMakeNoSenseAreRefusedWithTheReason) {
     EXPECT_NE(refusal({.words = {"Q+"}}).find("Q"), std::string::npos);
     EXPECT_NE(refusal({.words = {"X+", "X-"}}).find("twice"), std::string::npos);
     EXPECT_NE(refusal({.words = {"Z+"}, .speed_mm_s = 5}).find("max_velocity_mm_s 4"), std::string::npos);
-    EXPECT_NE(refusal({.words = {"X+"}, .speed_mm_s = 0}).find("above 0"), std::string::npos);
+    EXPECT_NE(refusal({.words = {"X+"}, .speed_mm_s = 0}).find("from 1e-05 mm/s to"), std::string::npos);
+    EXPECT_NE(refusal({.words = {"X+"}, .speed_mm_s = 1e-320}).find("from 1e-05 mm/s to"), std::string::npos);
     EXPECT_NE(refusal({.words = {"X+"}, .distance_mm = -1}).find("above 0"), std::string::npos);
 }
 
