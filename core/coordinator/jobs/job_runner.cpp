@@ -249,6 +249,8 @@ void JobRunner::report(MachineState& state, const CoordinatorLoop& loop) const {
         state.line = inherited_.last().line;
         state.progress = inherited_.last().progress;
     }
+    if (state.phase == MachinePhase::Holding) { path_.report_held(state); }
+    if (state.phase == MachinePhase::Paused) { path_.report_paused(state); }
     if (!path_.is_moving()) { return; }
     path_.report_progress(state);
     if (intent_ == Intent::GoOn) { path_.report_rests(state, loop.axes); }

@@ -211,12 +211,12 @@ Subticks PathJob::into_path(Tick now) const {
 }
 
 /// Considers the feed override, but not that the axes' limits may allow less than the feed.
-double PathJob::seconds_left(Tick now) const {
-    return runner_.source()->seconds_from(runner_.place_at(now)) / overrides_.feed();
+double PathJob::seconds_left(const PathPlace& place) const {
+    return runner_.source()->seconds_from(place) / overrides_.feed();
 }
 
 void PathJob::note_progress(const CoordinatorLoop& loop) {
-    const double ticks = seconds_left(loop.now) * loop.machine.ticks_per_second();
+    const double ticks = seconds_left(runner_.place_at(loop.now)) * loop.machine.ticks_per_second();
     progress_.note(into_path(loop.now), subticks(Ticks{std::llround(ticks)}));
     job_.program->release_before(runner_.place_at(loop.now).block);
 }
@@ -231,14 +231,29 @@ void PathJob::report_epoch(MachineState& state) const {
 }
 
 void PathJob::report_progress(MachineState& state) const {
-    state.line = line(state.tick);
-    state.remaining_s = seconds_left(state.tick);
+    const PathPlace place = runner_.place_at(state.tick);
+    state.line = runner_.source()->line_of(place.block);
+    state.remaining_s = seconds_left(place);
     state.progress = progress_.share();
     if (aside_) {
         state.remaining_s += aside_->job.program->seconds_from({aside_->next, {}}) / overrides_.feed();
         state.progress = aside_->progress.share();
     }
     state.lacks_blocks = runner_.source()->lacks_blocks();
+}
+
+void PathJob::report_held(MachineState& state) const {
+    state.line = runner_.source()->line_of(resume_.block);
+    state.remaining_s = seconds_left(resume_);
+    state.progress = progress_.share();
+}
+
+/// The program may have paused before anything moved, so that no leg is loaded.
+void PathJob::report_paused(MachineState& state) const {
+    const Block* const pause = next_ > 0 ? job_.program->block(next_ - 1) : nullptr;
+    if (pause != nullptr) { state.line = pause->line; }
+    state.remaining_s = job_.program->seconds_from({next_, {}}) / overrides_.feed();
+    state.progress = progress_.share();
 }
 
 /// The LAI method plans a block in parts, and a place on the program does not say in which part it is. No other

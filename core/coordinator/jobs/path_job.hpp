@@ -75,6 +75,9 @@ public:
     /// Reports the epoch in progress, or the last one.
     void report_epoch(MachineState& state) const;
     void report_progress(MachineState& state) const;
+    /// The same where the job rests: held on the path, or paused behind a leg.
+    void report_held(MachineState& state) const;
+    void report_paused(MachineState& state) const;
     /// For another coordinator that may continue the job.
     void report_rests(MachineState& state, const AxisRoster& axes) const;
     /// The line of the program at which the job is.
@@ -91,7 +94,7 @@ private:
     void note_start(CoordinatorLoop& loop);
     Epoch next_epoch(const CoordinatorLoop& loop);
     Subticks into_path(Tick now) const;
-    double seconds_left(Tick now) const;
+    double seconds_left(const PathPlace& place) const;
 
     static constexpr int kMaxFruitless = 3;
 

@@ -82,6 +82,46 @@ TEST_F(Rig, AStopIsOnThePathAndTheMachineIsReadyAgain) {
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{500, 500}));
 }
 
+TEST_F(Rig, AHeldJobKeepsItsLineItsProgressAndItsTimeLeft) {
+    home();
+    Program program = program_of({{60, 40}, {90, 70}}, 30);
+    program.blocks[0].line = 7;
+    program.blocks[1].line = 8;
+    ASSERT_EQ(run(program).status, ReplyStatus::Accepted);
+    wait(1);
+    const MachineState moving = *vm.state();
+    ASSERT_EQ(ask(CommandKind::Hold).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Holding, 3)) << describe();
+    wait(0.5);
+    const MachineState held = *vm.state();
+    EXPECT_EQ(held.line, 7);
+    EXPECT_GE(held.progress, moving.progress);
+    EXPECT_NEAR(held.progress, 0.35, 0.15);
+    EXPECT_LT(held.remaining_s, moving.remaining_s);
+    EXPECT_NEAR(held.remaining_s, moving.remaining_s - 0.2, 0.2);
+    wait(1);
+    EXPECT_EQ(vm.state()->progress, held.progress);
+    EXPECT_EQ(vm.state()->remaining_s, held.remaining_s) << "nothing moves";
+}
+
+TEST_F(Rig, APausedJobKeepsTheLineOfItsPauseItsProgressAndItsTimeLeft) {
+    home();
+    Program program = program_of({{35, 5}, {65, 5}}, 30);
+    program.blocks.insert(program.blocks.begin() + 1, {.line = 5, .action = Pause{}});
+    program.blocks.insert(program.blocks.begin(), {.line = 2, .action = Pause{}});
+    ASSERT_EQ(run(program).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Paused, 3)) << describe();
+    EXPECT_EQ(vm.state()->line, 2);
+    EXPECT_EQ(vm.state()->progress, 0);
+    EXPECT_NEAR(vm.state()->remaining_s, 2, 0.5);
+    ASSERT_EQ(ask(CommandKind::Resume).status, ReplyStatus::Accepted);
+    wait(0.5);
+    ASSERT_TRUE(reaches(MachinePhase::Paused, 5)) << describe();
+    EXPECT_EQ(vm.state()->line, 5);
+    EXPECT_NEAR(vm.state()->progress, 0.5, 0.1);
+    EXPECT_NEAR(vm.state()->remaining_s, 1, 0.3);
+}
+
 TEST_F(Rig, AHoldBeginsSoonAndAResumeEndsAtTheProgramsEnd) {
     home();
     ASSERT_EQ(run(program_of({{85, 45}, {20, 60}}, 40)).status, ReplyStatus::Accepted);
