@@ -4,7 +4,7 @@
 
 #include "idl/proto/position.pb.h"
 #include "services/documents/fnv.hpp"
-#include "services/documents/text_source.hpp"
+#include "services/documents/text/text_source.hpp"
 
 namespace lockstep {
 namespace {

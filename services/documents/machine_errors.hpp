@@ -4,7 +4,7 @@
 #include <string>
 
 #include "services/documents/machine_proto.hpp"
-#include "services/documents/text_source.hpp"
+#include "services/documents/text/text_source.hpp"
 #include "services/files/diagnostic.hpp"
 
 namespace lockstep {

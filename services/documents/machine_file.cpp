@@ -5,7 +5,7 @@
 #include "services/documents/fnv.hpp"
 #include "services/documents/machine_errors.hpp"
 #include "services/documents/machine_proto.hpp"
-#include "services/documents/text_source.hpp"
+#include "services/documents/text/text_source.hpp"
 #include "services/files/text_file.hpp"
 
 namespace lockstep {

@@ -4,7 +4,7 @@
 #include <google/protobuf/stubs/logging.h>
 
 #include "services/documents/program_proto.hpp"
-#include "services/documents/text_source.hpp"
+#include "services/documents/text/text_source.hpp"
 #include "services/documents/values/values_document.hpp"
 
 namespace lockstep {

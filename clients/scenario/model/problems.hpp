@@ -10,7 +10,7 @@
 
 #include "clients/scenario/model/scenario.hpp"
 #include "core/number_text.hpp"
-#include "services/documents/text_source.hpp"
+#include "services/documents/text/text_source.hpp"
 
 namespace lockstep::scenario {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "clients/scenario/model/scenario.hpp"
-#include "services/documents/text_source.hpp"
+#include "services/documents/text/text_source.hpp"
 
 namespace lockstep::scenario {
 

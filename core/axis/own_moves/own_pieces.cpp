@@ -26,7 +26,7 @@ std::expected<Profile, OwnMoveError> profile_in_time(const AxisConfig& axis, std
                                                      const OwnMoveRequest& move, const PathLimits& limits) {
     const double most_s = std::min(kLongestMotion_s, to_mm(axis, static_cast<double>(move.steps)) / kLeastSpeed_mm_s);
     if (static_cast<double>(move.ticks->value) * static_cast<double>(tick_ns) * 1e-9 > most_s) {
-        return std::unexpected(TooSlow{most_s});
+        return std::unexpected(BelowLeastSpeed{most_s});
     }
     auto profile = plan_in_time(Displacement::steps(move.steps), *move.ticks, limits);
     if (!profile) { return std::unexpected(profile.error()); }
@@ -41,7 +41,7 @@ std::string text_of(const OwnMoveError& error, const AxisConfig& axis, std::int6
         return "axis " + axis.name + " cannot move in a given time by method " + std::string(name_of(other->method)) +
                "; omit the time, or configure method RANADE";
     }
-    if (const auto* slow = std::get_if<TooSlow>(&error)) {
+    if (const auto* slow = std::get_if<BelowLeastSpeed>(&error)) {
         return "axis " + axis.name + " would be slower than " + short_number(kLeastSpeed_mm_s) +
                " mm/s: " + short_number(to_mm(axis, static_cast<double>(move.steps))) + " mm may take at most " +
                short_number(slow->most_s) + " s";
@@ -67,7 +67,8 @@ std::expected<OwnPieces, OwnMoveError> OwnPieces::plan(const AxisConfig& axis, s
 std::expected<OwnPieces, OwnMoveError> OwnPieces::planned(const AxisConfig& axis, std::int64_t tick_ns,
                                                           const OwnMoveRequest& move) {
     const AxisLimits of_axis = limits_of(axis, tick_ns);
-    const double speed = move.speed_mm_s * axis.steps_per_mm * static_cast<double>(tick_ns) * 1e-9;
+    const double speed =
+        std::min(move.speed_mm_s * axis.steps_per_mm * static_cast<double>(tick_ns) * 1e-9, kMaxPlannedStepsPerTick);
     const PathLimits limits{std::min(of_axis.start_velocity, speed), speed, of_axis.max_acceleration,
                             of_axis.max_deceleration};
     const Displacement way = Displacement::steps(move.steps);

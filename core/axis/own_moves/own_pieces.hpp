@@ -33,11 +33,11 @@ struct NotInTime {
     StepMethod method;
 };
 /// The move would be slower than kLeastSpeed_mm_s, or last longer than kLongestMotion_s.
-struct TooSlow {
+struct BelowLeastSpeed {
     double most_s = 0;  // the longest duration of this move
 };
 /// Why a move cannot be made.
-using OwnMoveError = std::variant<NotInTime, TooSlow, Infeasible, StepError>;
+using OwnMoveError = std::variant<NotInTime, BelowLeastSpeed, Infeasible, StepError>;
 
 /// Says why the move is impossible and what would be possible, in the user's units.
 std::string text_of(const OwnMoveError& error, const AxisConfig& axis, std::int64_t tick_ns,

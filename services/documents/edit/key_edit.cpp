@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "idl/proto/machine.pb.h"
-#include "services/documents/text_source.hpp"
+#include "services/documents/text/text_source.hpp"
 
 namespace lockstep {
 namespace {

@@ -3,7 +3,7 @@
 #include <google/protobuf/stubs/logging.h>
 
 #include "idl/proto/values.pb.h"
-#include "services/documents/text_source.hpp"
+#include "services/documents/text/text_source.hpp"
 #include "services/files/text_file.hpp"
 
 namespace lockstep {

@@ -1,5 +1,5 @@
 // Blocks that are not closed are found with the places of their keys, also in texts with other errors.
-#include "services/documents/block_balance.hpp"
+#include "services/documents/text/block_balance.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "services/documents/block_balance.hpp"
+#include "services/documents/text/block_balance.hpp"
 
 #include <fmt/format.h>
 #include <google/protobuf/io/tokenizer.h>

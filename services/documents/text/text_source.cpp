@@ -1,4 +1,4 @@
-#include "services/documents/text_source.hpp"
+#include "services/documents/text/text_source.hpp"
 
 #include <google/protobuf/io/tokenizer.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "services/documents/block_balance.hpp"
+#include "services/documents/text/block_balance.hpp"
 
 namespace lockstep {
 namespace {
