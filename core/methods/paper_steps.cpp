@@ -25,6 +25,7 @@ StepMove for_lai(StepMove move) {
 StepMove for_spielauer(StepMove move) {
     const double timer_hz = SpielauerParameters{}.timer_hz;
     move.max = timer_hz / std::ceil(timer_hz / move.max * (1 - 1e-9));
+    move.start = 0;
     return move;
 }
 

@@ -8,10 +8,10 @@
 #include "core/motion/step_source.hpp"
 #include "core/program.hpp"
 #include "core/protocol/frame_room.hpp"
-#include "services/documents/axis_ranges.hpp"
 #include "services/documents/machine_rules.hpp"
 #include "services/documents/names.hpp"
 #include "services/documents/problem_list.hpp"
+#include "services/documents/rules/axis_ranges.hpp"
 
 namespace lockstep {
 namespace {
@@ -240,8 +240,8 @@ private:
         problems_.require_between(
             {"plant.start_position_mm", "position_min_mm", "position_max_mm", "plant.travel_margin_mm"},
             at > limit_min() && at < limit_max(),
-            "plant.start_position_mm is " + number_text(at) + ", not between the limit switches at " +
-                number_text(limit_min()) + " and " + number_text(limit_max()));
+            "plant.start_position_mm is " + number_text(at) + ", not between the limit switches; it must be above " +
+                number_text(limit_min()) + " and below " + number_text(limit_max()));
     }
 
     /// Plans a trial move, so it runs only if the limits are valid.

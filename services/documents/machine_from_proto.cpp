@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "services/documents/axis_ranges.hpp"
 #include "services/documents/machine_proto.hpp"
+#include "services/documents/rules/axis_ranges.hpp"
 
 namespace lockstep {
 namespace {

@@ -14,7 +14,7 @@
 #include "clients/supervisor/other_hosts.hpp"
 #include "clients/supervisor/page.hpp"
 #include "clients/supervisor/take_down.hpp"
-#include "services/documents/machine_warnings.hpp"
+#include "services/documents/rules/machine_warnings.hpp"
 #include "services/network/host_name.hpp"
 
 namespace lockstep {

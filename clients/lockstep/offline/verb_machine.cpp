@@ -10,7 +10,7 @@
 #include "clients/text/output.hpp"
 #include "core/axis_unit.hpp"
 #include "services/documents/machine_proto.hpp"
-#include "services/documents/machine_warnings.hpp"
+#include "services/documents/rules/machine_warnings.hpp"
 
 namespace lockstep {
 namespace {

@@ -23,7 +23,7 @@ void read_plain_lines(benchmark::State& bench) {
     const std::string text = plain_lines(kLines);
     double sum = 0;
     for (auto _ : bench) {
-        Interpreter interpreter({}, {},
+        Interpreter interpreter({}, State{},
                                 [&](const Action& action, int) { sum += std::get<Straight>(action).target[0]; });
         for_each_line(text,
                       [&](std::string_view line, int number) { return interpreter.take(line, number).has_value(); });

@@ -1,5 +1,5 @@
 // Warnings of valid configurations.
-#include "services/documents/machine_warnings.hpp"
+#include "services/documents/rules/machine_warnings.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

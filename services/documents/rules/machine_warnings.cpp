@@ -1,4 +1,4 @@
-#include "services/documents/machine_warnings.hpp"
+#include "services/documents/rules/machine_warnings.hpp"
 
 #include <algorithm>
 
