@@ -22,11 +22,15 @@ std::string value_of(const std::vector<std::string>& words, const std::string& o
     return found == words.end() || found + 1 == words.end() ? "" : *(found + 1);
 }
 
+/// The processes of this host, without those in containers, which have process numbers of their own.
 std::vector<pid_t> all_processes() {
     std::vector<pid_t> pids;
     std::error_code error;
+    const fs::path own = fs::read_symlink("/proc/self/ns/pid", error);
     for (const auto& entry : fs::directory_iterator("/proc", error)) {
-        if (const auto pid = parse_number<pid_t>(entry.path().filename().string())) { pids.push_back(*pid); }
+        const auto pid = parse_number<pid_t>(entry.path().filename().string());
+        std::error_code ended;
+        if (pid && fs::read_symlink(entry.path() / "ns/pid", ended) == own) { pids.push_back(*pid); }
     }
     return pids;
 }

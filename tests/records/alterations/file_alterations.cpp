@@ -13,9 +13,10 @@ constexpr Expected kNoLog{kSaysRefused, kSaysRefused, kSaysRefused, kSaysRefused
 
 std::size_t middle_byte(const std::string& bytes) { return bytes.size() / 2; }
 
-/// The first byte of an event behind the middle.
+/// The first byte of a message of steps behind the middle. Its channel's name follows its header.
 std::size_t event_in_the_middle(const std::string& bytes) {
-    return bytes.find(std::string("\xED\xA1\xDA\x01", 4), middle_byte(bytes));
+    const std::size_t name = bytes.find("_STEPS", middle_byte(bytes));
+    return bytes.rfind(std::string("\xED\xA1\xDA\x01", 4), name);
 }
 
 }  // namespace
