@@ -124,8 +124,7 @@ inline double SpeedMeter::speed_since(std::size_t first) const {
 }
 
 inline double SpeedMeter::least_speed_since(std::size_t first) const {
-    return static_cast<double>(past_.size() - 1 - first) /
-           static_cast<double>((past_.back() - past_[first]).value + 1);
+    return static_cast<double>(past_.size() - 1 - first) / static_cast<double>((past_.back() - past_[first]).value + 1);
 }
 
 }  // namespace lockstep::analysis
