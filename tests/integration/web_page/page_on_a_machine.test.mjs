@@ -107,7 +107,7 @@ describe("the emergency stop", () => {
     await button(page, "Emergency stop").click();
     const alarm = page.locator(".alarm.fault", { hasText: "emergency-stopped" });
     await alarm.waitFor(); // one alarm, although each axis has the fault too
-    assert.match(await alarm.locator(".remedy").textContent(), /lockstep reset/);
+    assert.match(await alarm.locator(".remedy").textContent(), /then: Reset/);
     await button(page, "Reset").click();
     await mode(page, "Idle");
     await until("a homed machine", async () => {
