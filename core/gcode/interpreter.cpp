@@ -8,21 +8,18 @@
 namespace lockstep::gcode {
 
 Interpreter::Interpreter(Setup setup, State state, Sink sink)
-    : setup_(std::move(setup)),
-      state_(std::move(state)),
-      sink_([this, take = std::move(sink)](const Action& action, int line) {
-          idle_lines_ = 0;
-          repeated_lines_ += frames_.empty() ? 0 : 1;
-          take(action, line);
-      }),
-      parameters_(state_.parameters, *this) {
+    : Interpreter(std::move(setup), Memory{.state = std::move(state)}, std::move(sink)) {
     begin(state_);
 }
 
 Interpreter::Interpreter(Setup setup, Memory memory, Sink sink)
     : setup_(std::move(setup)),
       state_(std::move(memory.state)),
-      sink_(std::move(sink)),
+      sink_([this, take = std::move(sink)](const Action& action, int line) {
+          idle_lines_ = 0;
+          repeated_lines_ += frames_.empty() ? 0 : 1;
+          take(action, line);
+      }),
       parameters_(state_.parameters, *this, std::move(memory.local)),
       kept_(std::move(memory.kept)),
       returned_(memory.returned),
