@@ -116,7 +116,7 @@ private:
         Keyword keyword;
         int line;
     };
-    /// What has opened a branch or a loop with a label. Each subroutine has labels of its own.
+    /// The keyword that opened a branch or a loop, by its label. Each subroutine has labels of its own.
     std::map<std::pair<std::string, std::string>, Opening> openings_;
     int program_line_ = 0;  // the last line taken of the program itself
     std::vector<Frame> frames_;

@@ -21,7 +21,7 @@ bool FileLines::is_end(std::string_view raw, std::string_view text) {
     return is_behind_first || sender::ends_program(text);
 }
 
-/// What stands behind the end of the program is no part of it, as in `lockstep run`.
+/// Text behind the end of the program is not sent, as `lockstep run` ignores it.
 std::expected<std::optional<sender::Line>, Diagnostic> FileLines::next() {
     while (!is_at_end_) {
         const auto read = reader_.next();

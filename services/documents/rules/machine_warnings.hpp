@@ -1,4 +1,4 @@
-// What a person should know about a configuration that is valid.
+// Warnings about a valid configuration.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What one line leaves behind for the next, and what it does not.
+// A session keeps modes, parameters and offsets from one line to the next.
 #include "core/gcode/session/gcode_session.hpp"
 
 #include <gmock/gmock.h>
