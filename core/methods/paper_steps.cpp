@@ -21,10 +21,10 @@ StepMove for_lai(StepMove move) {
 }
 
 /// Spielauer: waits are rounded down to whole counts, which would exceed the speed. So it gets the next lower speed
-/// whose wait is whole.
+/// whose wait is whole. A speed beyond the timer stays, and is refused.
 StepMove for_spielauer(StepMove move) {
     const double timer_hz = SpielauerParameters{}.timer_hz;
-    move.max = timer_hz / std::ceil(timer_hz / move.max * (1 - 1e-9));
+    if (move.max < timer_hz) { move.max = timer_hz / std::ceil(timer_hz / move.max * (1 - 1e-9)); }
     move.start = 0;
     return move;
 }
