@@ -57,13 +57,17 @@ void JogKeys::take(std::string_view bytes, std::chrono::nanoseconds now) {
 
 void JogKeys::press(std::string_view key, std::chrono::nanoseconds now) {
     if (key == "q" || key == "\x03") { must_quit_ = true; }
-    if (key == " ") { release_all(); }
+    if (key == " ") {
+        release_all();
+        must_stop_ = true;
+    }
     if (key == "+" || key == "-") { change_speed(key == "+"); }
     for (std::size_t i = 0; i < std::min(machine_.axes.size(), kAxisKeys.size()); ++i) {
         if (key != kAxisKeys[i].minus && key != kAxisKeys[i].plus) { continue; }
         const bool is_plus = key == kAxisKeys[i].plus;
         held_.erase({i, !is_plus});
         held_[{i, is_plus}] = now;
+        next_step_ = {i, is_plus};
     }
 }
 
@@ -81,11 +85,21 @@ std::vector<JogAxis> JogKeys::jogs(std::chrono::nanoseconds now) const {
     std::vector<JogAxis> jogs;
     for (const auto& [direction, pressed] : held_) {
         if (now - pressed > kHold) { continue; }
-        const double speed = speed_mm_s(direction.axis);
-        jogs.push_back(
-            {.axis = static_cast<std::uint32_t>(direction.axis), .speed_mm_s = direction.is_plus ? speed : -speed});
+        jogs.push_back(jog_of(direction));
     }
     return jogs;
+}
+
+JogAxis JogKeys::jog_of(const Direction& direction) const {
+    const double speed = speed_mm_s(direction.axis);
+    return {.axis = static_cast<std::uint32_t>(direction.axis),
+            .speed_mm_s = direction.is_plus ? speed : -speed,
+            .distance_mm = step_mm_};
+}
+
+std::optional<JogAxis> JogKeys::take_step() {
+    const auto step = std::exchange(next_step_, std::nullopt);
+    return step ? std::optional(jog_of(*step)) : std::nullopt;
 }
 
 }  // namespace lockstep

@@ -41,9 +41,9 @@ std::string screen_text(const Session& session, const JogKeys& keys, const std::
     if (session.state()) { text += ": " + std::string(name_of(session.state()->state.phase)); }
     text += "\n\n";
     for (std::size_t i = 0; i < session.config().axes.size(); ++i) { text += line_of(session, keys, i); }
-    text +=
-        "\nHold a key to jog; an axis brakes 150 ms after the last repetition of its key.\n"
-        "+ and - change the speed, space releases all, q quits.\n";
+    text += keys.makes_steps() ? "\nEach press of a key is one step; space ends it.\n"
+                               : "\nHold a key to jog; an axis brakes 150 ms after the last repetition of its key.\n";
+    text += "+ and - change the speed, space releases all, q quits.\n";
     return text + (note.empty() ? "" : "\n" + note + "\n");
 }
 
@@ -54,13 +54,26 @@ std::string note_of(const Session& session, const JogLink& link) {
     return reply != nullptr && reply->status == ReplyStatus::Refused ? "refused: " + reply->text : "";
 }
 
+/// A step goes its whole distance, although its key is released. The next one begins when it is complete.
+void follow(JogKeys& keys, JogLink& link, nanoseconds now) {
+    if (!keys.makes_steps()) { return link.press(keys.jogs(now)); }
+    if (keys.take_stop()) { link.release(); }
+    const Reply* reply = link.reply();
+    const bool is_refused = reply != nullptr && reply->status == ReplyStatus::Refused;
+    if (link.is_pressed() && !link.is_over() && !is_refused) { return; }
+    if (const auto step = keys.take_step()) {
+        link.release();
+        link.press({*step});
+    }
+}
+
 }  // namespace
 
 /// If a loop comes late, the keys that it reads were typed long ago, so those of axes count as released; q still quits.
-ExitCode jog_by_keys(Session& session, Output&) {
+ExitCode jog_by_keys(Session& session, std::optional<double> step_mm, Output&) {
     const StopSignal stop;
     const HangUp hang_up;
-    JogKeys keys(session.config());
+    JogKeys keys(session.config(), step_mm);
     JogLink link(session);
     Screen screen;
     nanoseconds drawn{};
@@ -71,7 +84,7 @@ ExitCode jog_by_keys(Session& session, Output&) {
         keys.take(typed, now);
         if (now - last > JogKeys::kHold) { keys.release_all(); }
         last = now;
-        link.press(keys.jogs(now));
+        follow(keys, link, now);
         if (const std::string newest = note_of(session, link); link.is_pressed() || !newest.empty()) { note = newest; }
         if (now - drawn >= kJogRedrawPeriod) {
             drawn = now;

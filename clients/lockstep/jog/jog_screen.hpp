@@ -6,7 +6,8 @@
 
 namespace lockstep {
 
-/// Returns after q or a signal.
-ExitCode jog_by_keys(Session& session, Output& output);
+/// Returns after q or a signal. `step_mm`: each press of a key is a step of this length; nullopt: a key jogs while it
+/// is held.
+ExitCode jog_by_keys(Session& session, std::optional<double> step_mm, Output& output);
 
 }  // namespace lockstep

@@ -135,7 +135,7 @@ ExitCode jog(const JogVerbOptions& options) {
     if (turn.is_refused()) { return print_refusal(*turn.answer(), output); }
     if (!jogs->empty()) { return jog_by_words(*session, options.jog, *jogs, output); }
     session->await_axes();
-    return jog_by_keys(*session, output);
+    return jog_by_keys(*session, options.jog.distance_mm, output);
 }
 
 }  // namespace
@@ -151,7 +151,9 @@ void add_jog(Verb command) {
     verb.add_option("axes", options->jog.words, "an axis and a direction: X+ Y-; default: the keys of the terminal");
     verb.add_option("--speed", options->jog.speed_mm_s,
                     "mm/s of each axis; default: 10, or the axis's maximum if that is less");
-    verb.add_option("--distance", options->jog.distance_mm, "mm of each axis; default: to the end of its travel");
+    verb.add_option(
+        "--distance", options->jog.distance_mm,
+        "mm of each axis; default: to the end of its travel. By keys: the length of the step that each press is");
     add_take(verb, *options);
     add_live_options(verb, *options);
     verb.footer(

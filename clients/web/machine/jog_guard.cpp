@@ -52,6 +52,10 @@ std::expected<JogGuard::Press, Problem> JogGuard::take(const JogOrder& order, Ti
     if (is_over(order)) { return std::unexpected(press_is_over(*order.press)); }
     if (is_other) { return std::unexpected(refused(FaultCode::Busy, "another client jogs the machine")); }
     const Press press = until_ && press_ == order.press ? Press::Renewed : Press::New;
+    if (is_step_ && press == Press::New) {
+        return std::unexpected(refused(FaultCode::Busy, "the step before is in progress; repeat this one later"));
+    }
+    if (press == Press::New) { is_step_ = order.is_step; }
     client_ = order.stream;
     press_ = order.press;
     until_ = now + kJogLife;
@@ -59,13 +63,18 @@ std::expected<JogGuard::Press, Problem> JogGuard::take(const JogOrder& order, Ti
 }
 
 bool JogGuard::runs_out(Time now) {
-    if (!until_ || now < *until_) { return false; }
+    if (!until_ || is_step_ || now < *until_) { return false; }
     end();
     return true;
 }
 
+void JogGuard::complete(Time now) {
+    is_step_ = false;
+    until_ = now + kJogLife;
+}
+
 bool JogGuard::end_stream(const std::string& stream) {
-    if (!until_ || stream.empty() || client_ != stream) { return false; }
+    if (!until_ || stream.empty() || client_ != stream || is_step_) { return false; }
     end();
     return true;
 }
@@ -74,6 +83,7 @@ void JogGuard::end() {
     note_over();
     until_.reset();
     press_.reset();
+    is_step_ = false;
 }
 
 }  // namespace lockstep::web

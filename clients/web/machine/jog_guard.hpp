@@ -20,11 +20,15 @@ public:
     /// The meaning of an accepted order. New: the press of a key, which begins a jog even if an earlier jog has ended
     /// by itself.
     enum class Press : std::uint8_t { New, Renewed, Released };
-    /// Fails if another client jogs, or the order's press is over.
+    /// Fails if another client jogs, the order's press is over, or a step is in progress and the order is another
+    /// press.
     std::expected<Press, Problem> take(const JogOrder& order, Time now);
-    /// Returns true once, when the jog's time is over.
+    /// Returns true once, when the jog's time is over. A step has no such time until it is complete.
     bool runs_out(Time now);
-    /// Returns true if the jog ended with this stream.
+    /// The step in progress has ended. Its client may ask for a while whether it has.
+    void complete(Time now);
+    bool is_step() const { return is_step_; }
+    /// Returns true if the jog ended with this stream. A step goes on.
     bool end_stream(const std::string& stream);
     /// The machine refused the jog, or ended it.
     void end();
@@ -38,6 +42,7 @@ private:
     std::string client_;  // its stream; empty if it names none
     std::optional<std::uint64_t> press_;
     std::optional<Time> until_;                  // nullopt if nobody jogs
+    bool is_step_ = false;                       // a step is in progress
     std::map<std::string, std::uint64_t> over_;  // the last press of each client that is over
     std::deque<std::string> order_;              // the clients in over_, the oldest first
 };

@@ -13,7 +13,7 @@ void JogTurn::take(const JogOrder& order, const Done& done, nanoseconds now) {
     }
     // JogLink ignores a press of the same axes until they are released.
     if (*taken == JogGuard::Press::New && link_.is_over()) { link_.release(); }
-    jogs_ = order.jogs;
+    if (!guard_.is_step() || *taken == JogGuard::Press::New) { jogs_ = order.jogs; }
     waiting_.push_back(done);
 }
 
@@ -31,6 +31,7 @@ void JogTurn::follow(const SessionLease& lease, nanoseconds now) {
     const Reply* reply = link_.reply();
     if (link_.is_pressed() && reply == nullptr) { return; }
     if (link_.is_pressed() && reply->status == ReplyStatus::Refused) { return end(refused(reply->fault, reply->text)); }
+    if (guard_.is_step() && link_.is_over()) { guard_.complete(now); }
     answer(Accepted{.jogging = link_.is_pressed() && !link_.is_over()});
 }
 

@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "clients/web/request/body_reader.hpp"
 #include "core/gcode/kept_values.hpp"
 #include "core/gcode/system_names.hpp"
+#include "core/number_text.hpp"
 #include "core/overrides.hpp"
+#include "core/program.hpp"
 #include "services/documents/names.hpp"
 
 namespace lockstep::web {
@@ -87,9 +90,10 @@ void read_jog(const Json& json, std::size_t i, const MachineConfig& machine, Jog
     const auto velocity = reader.number("velocity", -most, most);
     const auto distance = reader.number("distance", std::numeric_limits<double>::min(), kMostPlace);
     reader.finish();
-    if (velocity == 0.0) {
-        reader.refuse(
-            wrong_value(422, reader.place_of("velocity"), 0, "a number other than 0; to end the jog, remove the axis"));
+    if (velocity && std::abs(*velocity) < kLeastSpeed_mm_s) {
+        reader.refuse(wrong_value(
+            422, reader.place_of("velocity"), *velocity,
+            fmt::format("at least {} either way; to end the jog, remove the axis", short_number(kLeastSpeed_mm_s))));
     }
     if (axis == none || !velocity) { return; }
     const auto is_same = [&](const JogAxis& one) { return one.axis == axis; };
@@ -113,6 +117,11 @@ std::optional<Order> jog(const Json& body, const MachineConfig& machine, std::op
     }
     order.stream = reader.text("stream", 64).value_or("");
     if (const auto press = reader.integer("press", 1, kMaxId)) { order.press = static_cast<std::uint64_t>(*press); }
+    order.is_step = reader.flag("step").value_or(false);
+    for (std::size_t i = 0; order.is_step && i < order.jogs.size(); ++i) {
+        if (order.jogs[i].distance_mm) { continue; }
+        reader.refuse(wrong_value(422, fmt::format("/jogs/{}/distance", i), nullptr, "a distance: the step's length"));
+    }
     reader.finish();
     return order;
 }

@@ -23,6 +23,7 @@ struct JogOrder {
     std::vector<JogAxis> jogs;           // empty to release
     std::string stream;                  // the page's event stream; empty if not named
     std::optional<std::uint64_t> press;  // rises within a client
+    bool is_step = false;                // goes its whole distance, also without renewals
 };
 
 struct RunOrder {

@@ -188,6 +188,41 @@ describe("a jog", () => {
     assert.match(machine.commands[0].body.stream, /^s\d+$/);
   });
 
+  for (const held_ms of [0, 60, 200]) {
+    test(`is one step of exactly its distance for a press of ${held_ms} ms, by button and by key`, async () => {
+      const page = await enter();
+      await button(page, "10").click();
+      const x = () => machine.state.axes.X.position;
+      const arrives = async (at) => {
+        await until(`X at ${at}`, () => machine.state.mode === "Idle" && Math.abs(x() - at) < 1e-9);
+        await page.waitForTimeout(300);
+        assert.ok(Math.abs(x() - at) < 1e-9, `X went on to ${x()}`);
+      };
+      await button(page, "Jog X plus").hover();
+      await page.mouse.down();
+      await page.waitForTimeout(held_ms);
+      await page.mouse.up();
+      await arrives(15);
+      await button(page, "Jog Y plus").focus();
+      await page.keyboard.down("ArrowRight");
+      await page.waitForTimeout(held_ms);
+      await page.keyboard.up("ArrowRight");
+      await arrives(25);
+    });
+  }
+
+  test("repeats its step while it is held", async () => {
+    const page = await enter();
+    await button(page, "1").click();
+    await button(page, "Jog X plus").hover();
+    await page.mouse.down();
+    await until("three steps", () => machine.state.axes.X.position >= 8);
+    await page.mouse.up();
+    await mode(page, "Idle");
+    const { position } = machine.state.axes.X;
+    assert.ok(Math.abs(position - Math.round(position)) < 1e-9, `X is at ${position}`);
+  });
+
   test("by finger on a phone", async () => {
     const page = await enter("operate", PHONE);
     const pad = button(page, "Jog X plus");

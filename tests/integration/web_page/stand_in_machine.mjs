@@ -110,7 +110,10 @@ export class StandInMachine {
   override(body) {
     Object.assign(this.state.override, body);
   }
-  jog({ jogs }) {
+  jog({ jogs, press, step = false }) {
+    if (step && press === this.stepPress) return;
+    this.stepPress = step ? press : undefined;
+    this.left = step ? Object.fromEntries(jogs.map(({ axis, distance }) => [axis, distance])) : {};
     this.jogs = jogs;
     this.state.mode = jogs.length > 0 ? "Jogging" : "Idle";
     this.jogUntil = jogs.length > 0 ? Date.now() + MACHINE.limits.jog_life_ms : 0;
@@ -157,8 +160,17 @@ export class StandInMachine {
     }
   }
   tickJog() {
+    if (this.stepPress !== undefined) return this.tickStep();
     if (Date.now() > this.jogUntil) return this.end();
     for (const { axis: name, velocity } of this.jogs) this.moveAxis(name, Math.min(200, Math.max(0, this.state.axes[name].position + velocity / 10)));
+  }
+  tickStep() {
+    for (const { axis: name, velocity } of this.jogs) {
+      const way = Math.min(this.left[name], Math.abs(velocity) / 10);
+      this.left[name] -= way;
+      this.moveAxis(name, this.state.axes[name].position + Math.sign(velocity) * way);
+    }
+    if (Object.values(this.left).every((left) => left === 0)) this.end();
   }
   moveAxis(name, to) {
     const a = this.state.axes[name], velocity = 10 * (to - a.position);

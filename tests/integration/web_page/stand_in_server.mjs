@@ -101,7 +101,7 @@ export class StandInServer {
     const refused = machine.command(verb, JSON.parse((await bodyOf(request)) || "{}"));
     if (refused) return this.problem(response, refused.status, refused.code, refused.title, refused);
     this.publish();
-    this.json(response, { accepted: true, job: null, ...(verb === "jog" ? { jogging: true } : {}) });
+    this.json(response, { accepted: true, job: null, ...(verb === "jog" ? { jogging: machine.state.mode === "Jogging" } : {}) });
   }
 
   asset(response, name) {

@@ -109,5 +109,21 @@ TEST_F(TypedKeys, OfNoMeaningDoNothing) {
     EXPECT_TRUE(keys.must_quit());
 }
 
+TEST(JogKeys, WithADistanceEachPressIsOneStepAndWhatComesDuringAStepIsOneMore) {
+    const MachineConfig machine = machine_to_jog();
+    JogKeys keys(machine, 0.1);
+    EXPECT_FALSE(keys.take_step());
+    keys.take("\x1b[C", 1s);
+    EXPECT_EQ(keys.take_step(), (JogAxis{0, 10, 0.1}));
+    EXPECT_FALSE(keys.take_step()) << "once";
+    for (int i = 0; i < 20; ++i) { keys.take("\x1b[D", 1s + i * 30ms); }
+    EXPECT_EQ(keys.take_step(), (JogAxis{0, -10, 0.1}));
+    EXPECT_FALSE(keys.take_step()) << "repetitions are not stored up";
+    keys.take("\x1b[C ", 3s);
+    EXPECT_FALSE(keys.take_step()) << "space drops it";
+    EXPECT_TRUE(keys.take_stop());
+    EXPECT_FALSE(keys.take_stop());
+}
+
 }  // namespace
 }  // namespace lockstep

@@ -81,5 +81,30 @@ TEST(JogGuard, ForgetsTheOldestClientsFirst) {
     EXPECT_EQ(guard.take(press("0", 1), 1ms), Press::New) << "bounded memory";
 }
 
+TEST(JogGuard, AStepGoesOnWithoutRenewalsAndWithoutItsStream) {
+    JogGuard guard;
+    JogOrder step = press("a", 1);
+    step.is_step = true;
+    EXPECT_EQ(guard.take(step, 0ms), Press::New);
+    EXPECT_FALSE(guard.runs_out(1h));
+    EXPECT_FALSE(guard.end_stream("a"));
+    EXPECT_EQ(guard.take(step, 1h), Press::Renewed) << "asks whether it is complete";
+    EXPECT_EQ(refusal(guard.take(press("a", 2), 1h)), "busy") << "another press would change its target";
+    guard.complete(1h);
+    EXPECT_EQ(guard.take(step, 1h + 10ms), Press::Renewed);
+    EXPECT_EQ(guard.take(press("a", 2), 1h + 20ms), Press::New);
+    EXPECT_TRUE(guard.runs_out(1h + 20ms + kJogLife)) << "the next one is no step";
+}
+
+TEST(JogGuard, AReleaseEndsAStepToo) {
+    JogGuard guard;
+    JogOrder step = press("a", 1);
+    step.is_step = true;
+    (void)guard.take(step, 0ms);
+    EXPECT_EQ(guard.take(release("a", 1), 1ms), Press::Released);
+    EXPECT_FALSE(guard.is_pressed());
+    EXPECT_FALSE(guard.is_step());
+}
+
 }  // namespace
 }  // namespace lockstep::web

@@ -92,6 +92,12 @@ TEST(Orders, AJogNamesEachAxisOnceWithinItsVelocity) {
     EXPECT_EQ(refusal("jog", R"({"jogs":[{"axis":"X","velocity":1,"distance":0}]})"), "422 /jogs/0/distance");
     EXPECT_EQ(refusal("jog", R"({"jogs":[{"axis":"X","velocity":1},{"axis":"X","velocity":1}]})"), "422 /jogs/1/axis");
     EXPECT_EQ(refusal("jog", R"({"jogs":[],"press":0})"), "422 /press");
+    EXPECT_FALSE(jog.is_step);
+    EXPECT_TRUE(order<JogOrder>("jog", R"({"jogs":[{"axis":"X","velocity":1,"distance":1}],"step":true})").is_step);
+    EXPECT_EQ(refusal("jog", R"({"jogs":[{"axis":"X","velocity":1}],"step":true})"), "422 /jogs/0/distance");
+    EXPECT_EQ(refusal("jog", R"({"jogs":[{"axis":"X","velocity":1e-320}]})"), "422 /jogs/0/velocity");
+    EXPECT_EQ(refusal("jog", R"({"jogs":[{"axis":"X","velocity":-9e-6}]})"), "422 /jogs/0/velocity");
+    EXPECT_EQ(order<JogOrder>("jog", R"({"jogs":[{"axis":"X","velocity":-1e-5}]})").jogs.size(), 1u);
 }
 
 TEST(Orders, MdiIsOneLine) {

@@ -3,6 +3,7 @@ import { command } from "../api/client";
 import type { JogAxis, Problem } from "../api/contract";
 import { JogDeadMan, type Direction, type JogRequest, type ReleaseReason } from "./dead_man";
 import { OneAtATime } from "./one_at_a_time";
+import { JogStepper } from "./stepper";
 
 const TICK_MS = 10;
 
@@ -11,11 +12,14 @@ interface JogBody {
   /** The number of the press. A request that arrives after its release starts nothing. */
   readonly press: number;
   readonly jogs: readonly JogAxis[];
+  readonly step?: boolean;
 }
 
 export interface JogSource {
   /** The axes, speeds and distance that a direction means now. */
   jogs(direction: Direction): JogAxis[];
+  /** Whether a press is one step of the chosen distance. */
+  isStep(): boolean;
   /** The name of the open connection; empty while there is none. */
   stream(): string;
   /** The jog has ended although the key is held. */
@@ -24,6 +28,7 @@ export interface JogSource {
 
 export class Jogger {
   private readonly deadMan: JogDeadMan;
+  private readonly stepper: JogStepper;
   private readonly requests: OneAtATime<JogBody>;
   private jogs: JogAxis[] = [];
   private pressed = 0;
@@ -31,26 +36,33 @@ export class Jogger {
 
   constructor(renew_ms: number, private readonly source: JogSource) {
     this.deadMan = new JogDeadMan(renew_ms);
+    this.stepper = new JogStepper(renew_ms);
     const clock = { after: (ms: number, action: () => void) => {
       const timer = setTimeout(action, ms);
       return () => clearTimeout(timer);
     } };
     this.requests = new OneAtATime((body, signal) => this.send(body, signal), clock, () => this.refused());
-    setInterval(() => this.carryOut(this.deadMan.tick(performance.now())), TICK_MS);
+    setInterval(() => {
+      this.carryOut(this.deadMan.tick(performance.now()));
+      this.carryOut(this.stepper.tick(performance.now()));
+    }, TICK_MS);
     addEventListener("blur", () => this.releaseAll("blur"));
     addEventListener("pagehide", () => this.releaseAll("hidden"));
     document.addEventListener("visibilitychange", () => document.hidden && this.releaseAll("hidden"));
   }
 
   press(holder: string, direction: Direction): void {
-    this.carryOut(this.deadMan.press(holder, direction, performance.now()));
+    if (this.source.isStep() || this.stepper.isStepping()) this.carryOut(this.stepper.press(holder, direction, performance.now()));
+    else this.carryOut(this.deadMan.press(holder, direction, performance.now()));
   }
 
   release(holder: string): void {
+    this.stepper.release(holder);
     this.carryOut(this.deadMan.release(holder, performance.now()));
   }
 
   releaseAll(reason: ReleaseReason): void {
+    this.stepper.releaseAll();
     this.carryOut(this.deadMan.releaseAll(reason, performance.now()));
   }
 
@@ -70,7 +82,8 @@ export class Jogger {
 
   private body(): JogBody {
     const stream = this.source.stream();
-    const body = { press: this.pressed, jogs: this.jogs };
+    const step = this.stepper.isStepping() ? { step: true } : {};
+    const body = { press: this.pressed, jogs: this.jogs, ...step };
     return stream === "" ? body : { stream, ...body };
   }
 
@@ -80,8 +93,11 @@ export class Jogger {
     return answer.ok && answer.value.jogging !== false;
   }
 
+  /** The machine does not move any more: a step is complete, or a jog has ended by itself. */
   private refused(): void {
-    const wasMoving = this.deadMan.isMoving();
+    if (this.stepper.isStepping() && this.problem === undefined) return this.carryOut(this.stepper.complete(performance.now()));
+    const wasMoving = this.deadMan.isMoving() || this.stepper.isStepping();
+    this.stepper.end();
     this.releaseAll("refused");
     if (wasMoving) this.source.ended(this.problem);
   }

@@ -30,6 +30,7 @@ export class JogPad implements View {
   constructor(private readonly machine: Machine, stream: () => string, report: Report) {
     this.jogger = new Jogger(machine.limits.jog_renew_ms, {
       stream,
+      isStep: () => this.distance !== undefined,
       jogs: (direction) => jogAxes(machine, (axis) => this.isHomed(axis), direction, this.share, this.distance),
       ended: (problem) => {
         if (problem !== undefined && problem.code !== JOG_OVER) report({ ok: false, problem });
