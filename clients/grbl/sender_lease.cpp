@@ -16,7 +16,7 @@ std::optional<std::string> SenderLease::pass(bool has_work, std::chrono::nanosec
     if (has_work) { worked_ = now; }
     const bool was_held = std::exchange(is_held_, session_.holds_lease());
     if (was_held && !is_held_) { return session_.lease_reply() ? session_.lease_reply()->text : "the lease is lost"; }
-    if (is_held_ && now - worked_ > kGiveAfter) {
+    if (is_held_ && now - worked_ > kGiveLeaseAfter) {
         session_.give_lease();
         is_held_ = false;
     }

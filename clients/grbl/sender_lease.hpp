@@ -1,5 +1,5 @@
-// The writer's lease of a sender. It is taken before the sender's first work and given back after kGiveAfter without
-// work.
+// The writer's lease of a sender. It is taken before the sender's first work and given back after kGiveLeaseAfter
+// without work.
 #pragma once
 
 #include <chrono>
@@ -21,8 +21,6 @@ public:
     /// Call in each loop. If the lease was lost, returns once a text that names the new writer; else nullopt.
     std::optional<std::string> pass(bool has_work, std::chrono::nanoseconds now);
     void give() { session_.give_lease(); }
-
-    static constexpr std::chrono::seconds kGiveAfter{2};
 
 private:
     Session& session_;

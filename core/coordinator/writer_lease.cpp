@@ -18,6 +18,14 @@ std::string duration_text(std::int64_t seconds) {
 
 std::string name_of(const LeaseHolder& writer) { return writer.name + " on " + writer.host; }
 
+/// The same name on another host is another writer, which a person may not expect.
+std::string hint_for(const LeaseHolder& writer, const LeaseHolder& holder) {
+    if (writer.name != holder.name || writer.host == holder.host) { return ""; }
+    return "; " + writer.name + " on " + writer.host +
+           " is another writer; to be one writer on both hosts, set on each: " + "LOCKSTEP_WRITER=" + holder.name +
+           "@" + holder.host;
+}
+
 }  // namespace
 
 WriterLease::WriterLease(const MachineConfig& machine)
@@ -30,7 +38,9 @@ CommandResult WriterLease::take(const Command& command, Tick now, Slot slot) {
     if (writer.id == 0) { return refuse(FaultCode::BadProgram, "a lease needs a writer's identity"); }
     if (auto may = check_loser(command); !may) { return may; }
     const bool is_mine = held_ && held_->writer.id == writer.id;
-    if (held_ && !is_mine && !command.takes_over) { return check(writer.id, now); }
+    if (held_ && !is_mine && !command.takes_over) {
+        return refuse(FaultCode::WriterHeld, text_of(*held_, now) + hint_for(writer, held_->writer));
+    }
     if (!is_mine) { pass_to(writer, now); }
     note(command, slot);
     return {};

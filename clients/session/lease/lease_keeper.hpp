@@ -10,6 +10,9 @@
 
 namespace lockstep {
 
+/// A client that stays open gives the lease back after this time without work, so that other writers get the machine.
+inline constexpr std::chrono::seconds kGiveLeaseAfter{2};
+
 class LeaseKeeper {
 public:
     LeaseKeeper(Identity client, LeaseHolder writer) : client_(client) { write_as(std::move(writer)); }

@@ -43,6 +43,12 @@ LeaseHolder writer_of(const std::string& name, const std::string& host) {
     return {.id = hash_of(name + '\n' + host) | 1, .name = printable(name), .host = printable(host)};
 }
 
-LeaseHolder login_writer() { return writer_of(login_name(), host_name()); }
+LeaseHolder named_writer(const std::string& value, const std::string& host) {
+    const std::size_t at = value.rfind('@');
+    const bool names_host = at != value.npos && at > 0 && at + 1 < value.size();
+    return names_host ? writer_of(value.substr(0, at), value.substr(at + 1)) : writer_of(value, host);
+}
+
+LeaseHolder login_writer() { return named_writer(login_name(), host_name()); }
 
 }  // namespace lockstep

@@ -105,8 +105,7 @@ void MachineLoop::work(const std::stop_token& stop) {
         take_actions();
         lease_.pass({.wants = jog_.is_pressed() || tasks_.wants_lease(),
                      .takes_over = tasks_.takes_lease(),
-                     .has_work = has_work(),
-                     .is_watched = operators_ > 0},
+                     .has_work = has_work()},
                     monotonic_now());
         jog_.follow(lease_, monotonic_now());
         tasks_.poll(session_, lease_, monotonic_now());

@@ -19,7 +19,7 @@ WriterTurn::Send WriterTurn::ask(bool takes_over) {
 bool WriterTurn::is_over(const Use& use, Time now) const {
     if (gives_) { return true; }
     if (state_ == State::Asked) { return !use.wants; }  // nobody waits for the answer any more
-    return now - used_ > (use.is_watched ? kGiveAfterWatched : kGiveAfter);
+    return now - used_ > kGiveLeaseAfter;
 }
 
 WriterTurn::Send WriterTurn::pass(const Lease& lease, const Use& use, Time now) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 
+#include "clients/session/lease/lease_keeper.hpp"
 #include "core/protocol/messages.hpp"
 
 namespace lockstep::web {
@@ -11,8 +12,6 @@ namespace lockstep::web {
 class WriterTurn {
 public:
     using Time = std::chrono::nanoseconds;
-    static constexpr std::chrono::seconds kGiveAfter{2};          // without work, while no page that operates is open
-    static constexpr std::chrono::seconds kGiveAfterWatched{60};  // without work, while a page that operates is open
     enum class Send : std::uint8_t { Nothing, Ask, TakeOver, Give };
 
     struct Lease {
@@ -23,7 +22,6 @@ public:
         bool wants = false;       // a command waits for the lease
         bool takes_over = false;  // one of them takes it from another writer, too
         bool has_work = false;    // a command, a jog or a job of this server is under way
-        bool is_watched = false;  // a page that may operate is open
     };
 
     /// Call it in each loop. Returns what to send now.

@@ -66,6 +66,20 @@ TEST_F(Lease, NamesHowLongItHasBeenHeldInAUnitThatFits) {
     }
 }
 
+TEST_F(Lease, TheSameNameOnAnotherHostIsToldHowToBeOneWriter) {
+    LeaseHolder there = anna();
+    there.id += 100;
+    there.host = "office";
+    ASSERT_EQ(take(anna(), 1), FaultCode::None);
+    const auto text_for = [&](const LeaseHolder& writer) {
+        const auto taken = lease.take(asking(writer, 2, CommandKind::TakeLease), Tick{slot * 1000}, slot);
+        return taken ? std::string() : taken.error().text;
+    };
+    const std::string one = "LOCKSTEP_WRITER=anna@" + anna().host;
+    EXPECT_NE(text_for(there).find(one), std::string::npos) << text_for(there);
+    EXPECT_EQ(text_for(bert()).find("LOCKSTEP_WRITER"), std::string::npos);
+}
+
 TEST_F(Lease, HoldsAndStopsAreEverybodys) {
     ASSERT_EQ(take(anna(), 1), FaultCode::None);
     for (const CommandKind kind : {CommandKind::Hold, CommandKind::Stop, CommandKind::EmergencyStop}) {

@@ -94,5 +94,13 @@ TEST(LoginWriter, IsTheSameForTheSameNameOnTheSameHost) {
     EXPECT_EQ(writer_of("anna\x1b[2J", "bench").name, "anna?[2J");
 }
 
+TEST(LoginWriter, IsOneOnSeveralHostsIfItNamesTheSameHostOnEach) {
+    EXPECT_EQ(named_writer("anna@shop", "bench"), named_writer("anna@shop", "office"));
+    EXPECT_EQ(named_writer("anna@shop", "bench"), writer_of("anna", "shop"));
+    EXPECT_NE(named_writer("anna", "bench").id, named_writer("anna", "office").id);
+    EXPECT_EQ(named_writer("anna@", "bench").name, "anna@");
+    EXPECT_EQ(named_writer("@shop", "bench").host, "bench");
+}
+
 }  // namespace
 }  // namespace lockstep

@@ -13,7 +13,6 @@ constexpr WriterTurn::Use kIdle{};
 constexpr WriterTurn::Use kWanted{.wants = true, .has_work = true};
 constexpr WriterTurn::Use kTaken{.wants = true, .takes_over = true, .has_work = true};
 constexpr WriterTurn::Use kWorking{.has_work = true};
-constexpr WriterTurn::Use kWatched{.is_watched = true};
 
 class Turn : public testing::Test {
 protected:
@@ -66,7 +65,7 @@ TEST_F(Turn, WithdrawsARequestThatNobodyWaitsFor) {
     EXPECT_EQ(pass(kIdle, 3s), Send::Nothing);
 }
 
-TEST_F(Turn, GivesItBackSoonWhereNobodyCouldGiveMoreWork) {
+TEST_F(Turn, GivesItBackTwoSecondsAfterItsLastWork) {
     hold();
     EXPECT_EQ(pass(kWorking, 100s), Send::Nothing);
     EXPECT_EQ(pass(kIdle, 102s), Send::Nothing);
@@ -74,10 +73,11 @@ TEST_F(Turn, GivesItBackSoonWhereNobodyCouldGiveMoreWork) {
     EXPECT_FALSE(turn.is_held());
 }
 
-TEST_F(Turn, KeepsItForAPersonWhoLooksBetweenTwoCommands) {
+TEST_F(Turn, AsksAgainForTheNextCommandOfAPersonWhoLookedInBetween) {
     hold();
-    EXPECT_EQ(pass(kWatched, 60s), Send::Nothing);
-    EXPECT_EQ(pass(kWatched, 60s + 1ns), Send::Give);
+    EXPECT_EQ(pass(kIdle, 3s), Send::Give);
+    lease = {};
+    EXPECT_EQ(pass(kWanted, 9s), Send::Ask);
 }
 
 TEST_F(Turn, GivesItBackWhenItIsTold) {
