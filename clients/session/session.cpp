@@ -136,7 +136,9 @@ std::vector<PublishedEvent> Session::take_events() {
 void Session::receive(nanoseconds at_most) {
     keep_lease();
     feed_and_send();
+    const nanoseconds begin = monotonic_now();
     (void)viewer_bus().arrivals->wait_for(at_most);
+    clock_.look(begin, monotonic_now(), at_most);
     take_messages();
 }
 
@@ -149,7 +151,9 @@ void Session::take_messages() {
         }
         // Of two coordinators the one with the higher term counts, until it has been silent for 1 s.
         const bool is_lower = state_ && state.term < state_->state.term;
-        if (!is_lower || now - state_->time > 1s) { state_ = {state, now}; }
+        if (is_lower && now - state_->time <= 1s) { return; }
+        state_ = {state, now};
+        heard_ = clock_.passed();
     });
     viewer_bus().states.take([&](AxisState&& state) {
         if (state.axis < axes_.size()) { axes_[state.axis] = {state, now}; }
@@ -167,7 +171,7 @@ void Session::take_messages() {
     client_bus().replies.take([&](Reply&& reply) {
         if (reply.client != client_ || lease_.take_answer(reply)) { return; }
         const bool is_of_program = sender_ && sender_->take_answer(reply);
-        if (is_of_program) { answered_ = now; }
+        if (is_of_program) { answered_ = clock_.passed(); }
         if (!is_of_program) { replies_[reply.sequence] = std::move(reply); }
     });
 }
@@ -187,7 +191,14 @@ bool Session::has_standby() const {
     return standby_ && !is_owner && monotonic_now() - standby_->time <= longest_silence();
 }
 
-bool Session::is_silent() const { return !state_ || monotonic_now() - state_->time > longest_silence() + 2s; }
+bool Session::is_silent() const { return !state_ || running_time() - heard_ > longest_silence() + 2s; }
+
+std::optional<nanoseconds> Session::take_stall() {
+    const auto stall = clock_.stall();
+    if (!stall || !state_ || state_->time < stall->end) { return std::nullopt; }
+    clock_.forget_stall();
+    return stall->lasted;
+}
 
 std::vector<PresentProcess> Session::present() const {
     return std::visit([](const ViewerBus& bus) { return present_processes(bus.participant); }, bus_);
@@ -235,13 +246,15 @@ std::expected<Reply, Failure> Session::command(Command command, const StopSignal
     command.client = client_;
     command.sequence = ++sequence_;
     command.writer.id = lease_.writer().id;
-    nanoseconds deadline = monotonic_now() + (command.program == 0 ? kAnswerPatience : kPlanPatience);
+    nanoseconds deadline = running_time() + (command.program == 0 ? kAnswerPatience : kPlanPatience);
     nanoseconds repeat_at{};
     while (!replies_.contains(command.sequence)) {
         const nanoseconds now = monotonic_now();
-        if (now > deadline) { return std::unexpected(silent()); }
+        if (running_time() > deadline) { return std::unexpected(silent()); }
         const bool is_stopped = stop != nullptr && stop->requested();
-        if (is_stopped && repeat_at != nanoseconds::max()) { deadline = std::min(deadline, now + kAnswerPatience); }
+        if (is_stopped && repeat_at != nanoseconds::max()) {
+            deadline = std::min(deadline, running_time() + kAnswerPatience);
+        }
         if (is_stopped) { repeat_at = nanoseconds::max(); }  // the command may have begun already
         if (now >= repeat_at) {
             (void)client_bus().commands.write(command);
@@ -268,8 +281,8 @@ const Reply* Session::reply_to(const Command& command) const {
 
 std::optional<Reply> Session::stop_at_once(nanoseconds patience) {
     const Command command{client_, ++sequence_, CommandKind::EmergencyStop};
-    const nanoseconds deadline = monotonic_now() + patience;
-    while (!replies_.contains(command.sequence) && monotonic_now() < deadline) {
+    const nanoseconds deadline = running_time() + patience;
+    while (!replies_.contains(command.sequence) && running_time() < deadline) {
         (void)client_bus().commands.write(command);
         receive(20ms);
     }
@@ -323,10 +336,10 @@ void Session::close_stream() {
 
 /// Waits until `done` returns true.
 std::expected<void, Failure> Session::await_parts(const std::function<bool()>& done, const StopSignal* stop) {
-    answered_ = monotonic_now();
+    answered_ = running_time();
     while (!done()) {
         if (stop != nullptr && stop->requested()) { return std::unexpected(failed("interrupted; nothing was begun")); }
-        if (monotonic_now() - *answered_ > kPlanPatience) { return std::unexpected(silent()); }
+        if (running_time() - *answered_ > kPlanPatience) { return std::unexpected(silent()); }
         receive(50ms);
         if (const auto& refusal = sender_->refusal()) { return std::unexpected(failed(refusal->text)); }
     }

@@ -20,6 +20,7 @@
 #include "core/protocol/messages.hpp"
 #include "services/documents/values/values_document.hpp"
 #include "services/runtime/clock.hpp"
+#include "services/runtime/running_clock.hpp"
 #include "services/runtime/stop_signal.hpp"
 #include "services/wire/bus/bus.hpp"
 #include "services/wire/dds/present_processes.hpp"
@@ -64,16 +65,21 @@ public:
     std::vector<PublishedEvent> take_events();
     /// Waits for messages and processes them.
     void receive(std::chrono::nanoseconds at_most);
-    /// Receives until done() returns true, at most for `patience`. Returns whether it did.
+    /// Receives until done() returns true, at most for `patience` of running_time(). Returns whether it did.
     template <typename Done>
     bool receive_until(std::chrono::nanoseconds patience, Done done) {
-        const std::chrono::nanoseconds deadline = monotonic_now() + patience;
+        const std::chrono::nanoseconds deadline = running_time() + patience;
         while (!done()) {
-            if (monotonic_now() >= deadline) { return false; }
+            if (running_time() >= deadline) { return false; }
             receive(std::chrono::milliseconds{20});
         }
         return true;
     }
+
+    /// The time for which this client has looked for messages. Time in which it was itself stopped does not count.
+    std::chrono::nanoseconds running_time() const { return clock_.passed(); }
+    /// Returns once how long this client was stopped, as soon as it has received the coordinator again; else nullopt.
+    std::optional<std::chrono::nanoseconds> take_stall();
 
     const MachineConfig& config() const { return machine_.config; }
     /// True if the coordinator runs another configuration than the client has; its positions and limits may differ.
@@ -87,7 +93,8 @@ public:
     bool axis_present(std::size_t i) const;
     /// Whether a standby coordinator is received.
     bool has_standby() const;
-    /// True if no state of the coordinator came for longer than any stall that the machine's timing allows.
+    /// True if no state of the coordinator came for longer than any stall that the machine's timing allows, while this
+    /// client looked for one.
     bool is_silent() const;
     Failure silent() const;
     /// The machine's processes on the network, also those that publish nothing yet.
@@ -187,6 +194,8 @@ private:
     Identity client_;
     LeaseKeeper lease_;
     std::uint64_t sequence_ = 0;
+    RunningClock clock_;
+    std::chrono::nanoseconds heard_{};             // running_time() at the newest state
     std::optional<Received<MachineState>> state_;  // the owner's
     std::optional<Received<MachineState>> standby_;
     std::optional<Reader<PublishedEvent>> events_;
@@ -198,7 +207,7 @@ private:
     std::uint32_t programs_ = 0;              // sent so far
     std::optional<ProgramSender> sender_;     // of the last program
     Feed feed_;
-    std::optional<std::chrono::nanoseconds> answered_;  // when the coordinator last answered sender_
+    std::optional<std::chrono::nanoseconds> answered_;  // running_time() at the coordinator's last answer to sender_
 };
 
 }  // namespace lockstep

@@ -14,10 +14,10 @@ constexpr nanoseconds kLeasePatience = 3s;
 
 std::expected<Reply, Failure> Session::take_lease(bool takes_over, const StopSignal* stop) {
     ask_for_lease(takes_over);
-    const nanoseconds deadline = monotonic_now() + kLeasePatience;
+    const nanoseconds deadline = running_time() + kLeasePatience;
     while (!lease_.answer()) {
         if (stop != nullptr && stop->requested()) { return std::unexpected(failed("interrupted; nothing was begun")); }
-        if (monotonic_now() > deadline) { return std::unexpected(silent()); }
+        if (running_time() > deadline) { return std::unexpected(silent()); }
         receive(50ms);
     }
     return *lease_.answer();

@@ -41,7 +41,10 @@ std::expected<JobResult, Failure> JobWatch::wait() {
         const bool rests = state.phase == MachinePhase::Holding || state.phase == MachinePhase::Paused;
         if (hang_up_.came() && rests && state.job == number_) { return JobResult::Held; }
         if (auto followed = follow_signals(); !followed) { return std::unexpected(followed.error()); }
-        if (rest_asked_ && monotonic_now() - *rest_asked_ > kRestPatience) { return std::unexpected(restless()); }
+        if (rest_asked_ && session_.running_time() - *rest_asked_ > kRestPatience) {
+            return std::unexpected(restless());
+        }
+        print_stall(state);
         print_lost_lease();
         if (state.job == number_) { print_phase(state); }
     }
@@ -73,7 +76,7 @@ std::expected<void, Failure> JobWatch::follow_signals() {
 
 std::expected<void, Failure> JobWatch::send_hold() {
     hold_sent_ = true;
-    rest_asked_ = monotonic_now();
+    rest_asked_ = session_.running_time();
     const auto reply = session_.command({.kind = CommandKind::Hold});
     if (!reply) { return std::unexpected(reply.error()); }
     return reply->status == ReplyStatus::Accepted ? std::expected<void, Failure>{} : send_stop();
@@ -81,7 +84,7 @@ std::expected<void, Failure> JobWatch::send_hold() {
 
 std::expected<void, Failure> JobWatch::send_stop() {
     stop_sent_ = true;
-    rest_asked_ = monotonic_now();
+    rest_asked_ = session_.running_time();
     output_.print(command_ == CommandKind::Home ? "stopping ..." : "stopping on the path ...");
     const auto reply = session_.command({.kind = CommandKind::Stop});
     if (!reply) { return std::unexpected(reply.error()); }
@@ -89,6 +92,16 @@ std::expected<void, Failure> JobWatch::send_stop() {
     if (reply->status == ReplyStatus::Accepted || has_ended) { return {}; }
     return std::unexpected(failed("the stop was refused: " + reply->text +
                                   "; the machine continues; to stop all pulses at once: lockstep estop"));
+}
+
+/// The coordinator did not wait for this command: the job is where its state says.
+void JobWatch::print_stall(const MachineState& state) {
+    const auto stall = session_.take_stall();
+    if (!stall) { return; }
+    const bool rests = state.phase == MachinePhase::Holding || state.phase == MachinePhase::Paused;
+    output_.print(fmt::format("this command was itself stopped for {:.0f} s, in which it watched nothing; the job {}",
+                              std::chrono::duration<double>(*stall).count(),
+                              rests ? "is held" : "went on and continues"));
 }
 
 void JobWatch::print_lost_lease() {

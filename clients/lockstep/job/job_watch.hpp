@@ -35,6 +35,7 @@ private:
     std::expected<void, Failure> follow_signals();
     std::expected<void, Failure> send_hold();
     std::expected<void, Failure> send_stop();
+    void print_stall(const MachineState& state);
     void print_lost_lease();
     void print_phase(const MachineState& state);
     void print_pause(const MachineState& state, const std::string& at_line);
@@ -52,7 +53,7 @@ private:
     bool has_lease_ = true;
     bool hold_sent_ = false;
     bool stop_sent_ = false;
-    std::optional<std::chrono::nanoseconds> rest_asked_;  // when the latest of both was sent
+    std::optional<std::chrono::nanoseconds> rest_asked_;  // Session::running_time() when the latest of both was sent
     std::optional<std::int32_t> line_;                    // the last line in motion
     std::optional<MachinePhase> printed_;
     std::optional<Pause> printed_pause_;

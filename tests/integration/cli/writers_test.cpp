@@ -3,6 +3,8 @@
 #include <signal.h>
 #include <stdlib.h>
 
+#include <thread>
+
 #include "tests/integration/cli/own_machine.hpp"
 #include "tests/integration/wire/eventually.hpp"
 
@@ -75,6 +77,20 @@ TEST_F(Writers, OnePersonInTwoTerminalsIsOneWriter) {
     EXPECT_EQ(run_lockstep({"resume"}).code, 0);
     EXPECT_TRUE(writer_is("anna")) << "the job's command still has it";
     EXPECT_EQ(job.wait().code, 0);
+}
+
+TEST_F(Writers, ACommandThatWasItselfStoppedLooksAgainBeforeItSpeaks) {
+    ChildProcess job(LOCKSTEP_COMMAND, {"run", write("slow.gcode", "G21 G90\nG1 X85 F300\nM2\n")});
+    ASSERT_TRUE(becomes("Running"));
+    job.signal(SIGSTOP);
+    std::this_thread::sleep_for(std::chrono::seconds{8});
+    EXPECT_EQ(status().phase(), "Running") << "the job runs on";
+    job.signal(SIGCONT);
+    const Ran done = job.wait();
+    EXPECT_EQ(done.code, 0) << done.out << done.err;
+    EXPECT_THAT(done.out, HasSubstr("this command was itself stopped for "));
+    EXPECT_THAT(done.out, HasSubstr("the job went on and continues"));
+    EXPECT_THAT(done.out + done.err, Not(HasSubstr("silent")));
 }
 
 TEST_F(Writers, OneThatIsKilledLosesTheMachineBySilence) {
