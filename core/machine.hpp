@@ -104,6 +104,9 @@ struct WebConfig {
     bool operator==(const WebConfig&) const = default;
 };
 
+/// What happens to a job on a path whose client falls silent.
+enum class UnattendedJob : std::uint8_t { RunsOn, IsHeld };
+
 struct MachineConfig {
     std::string name;
     std::int64_t tick_ns = 1000;
@@ -116,6 +119,7 @@ struct MachineConfig {
     std::string coordinator_host;                  // on which it runs; empty: any host
     RealTimeConfig real_time;
     UnassignedWords unassigned;
+    UnattendedJob unattended_job = UnattendedJob::RunsOn;
     std::string subroutine_directory;  // searched after the program's own; empty: only that
     std::optional<WebConfig> web;      // none: `lockstep up` starts no page
     std::vector<AxisConfig> axes;

@@ -124,7 +124,7 @@ void Coordinator::own(CoordinatorLoop& loop) {
     // After a long stall it publishes nothing before every axis has reported again which owner it follows.
     const Slot missed = gate_.missed(loop.slot);
     if (axes_.is_unsettled(loop.slot)) {
-        if (gate_.enter(loop.slot)) { lease_.tend(loop.slot, missed); }
+        if (gate_.enter(loop.slot)) { tend_lease(missed, loop); }
         return;
     }
     if (condition_.phase() == MachinePhase::Idle && axes_.without_device()) { loop.enter(MachinePhase::Waiting); }
@@ -133,11 +133,15 @@ void Coordinator::own(CoordinatorLoop& loop) {
     jobs_.advance_jogs(loop);
     if (!gate_.enter(loop.slot)) { return; }
     programs_.tend(loop.slot, missed);
-    lease_.tend(loop.slot, missed);
+    tend_lease(missed, loop);
     advance(loop);
     orders_.repeat(axes_, loop.out.axis_commands);
     jobs_.note_progress(loop);
     report(loop);
+}
+
+void Coordinator::tend_lease(Slot missed, CoordinatorLoop& loop) {
+    for (const Identity client : lease_.tend(loop.slot, missed)) { jobs_.lose_client(client, loop); }
 }
 
 void Coordinator::watch_axis(std::size_t axis, CoordinatorLoop& loop) {
@@ -188,7 +192,10 @@ bool Coordinator::answer_about_lease(const Command& command, CoordinatorLoop& lo
     if (command.kind == CommandKind::TakeLease) { result = lease_.take(command, loop.now, loop.slot); }
     const bool is_taken_over = before && lease_.writer() != before;
     if (is_taken_over && jobs_.is_jogging()) { (void)jobs_.interrupt(Intent::Stop, loop); }
-    if (command.kind == CommandKind::GiveLease) { lease_.give(command.client); }
+    if (command.kind == CommandKind::GiveLease) {
+        lease_.give(command.client);
+        jobs_.leave_to_itself(command.client);
+    }
     loop.out.replies.push_back(reply_to(command, result, 0));
     return true;
 }
@@ -201,7 +208,7 @@ CommandResult Coordinator::carry_out(const Command& command, CoordinatorLoop& lo
         case CommandKind::Run: return jobs_.run(command, loop);
         case CommandKind::Hold: return jobs_.interrupt(Intent::Hold, loop);
         case CommandKind::Stop: return jobs_.interrupt(Intent::Stop, loop);
-        case CommandKind::Resume: return jobs_.resume(command.returns, loop);
+        case CommandKind::Resume: return jobs_.resume(command, loop);
         case CommandKind::Reset: return reset(loop);
         case CommandKind::EmergencyStop: return stop_at_once(loop);
         case CommandKind::MoveOwn: return jobs_.move_own(command, loop);

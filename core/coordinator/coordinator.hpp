@@ -54,6 +54,7 @@ private:
 
     // As owner.
     void own(CoordinatorLoop& loop);
+    void tend_lease(Slot missed, CoordinatorLoop& loop);
     void watch_axis(std::size_t axis, CoordinatorLoop& loop);
     void lose_axis(std::size_t axis, CoordinatorLoop& loop);
     void answer(const Command& command, CoordinatorLoop& loop);

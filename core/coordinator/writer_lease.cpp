@@ -31,6 +31,7 @@ std::string hint_for(const LeaseHolder& writer, const LeaseHolder& holder) {
 WriterLease::WriterLease(const MachineConfig& machine)
     : ticks_per_second_(machine.ticks_per_second()), silence_(kLeaseSilence_ms * 1000 / machine.timing.slot_us + 1) {
     members_.reserve(kMostMembers);
+    silent_.reserve(kMostMembers);
 }
 
 CommandResult WriterLease::take(const Command& command, Tick now, Slot slot) {
@@ -89,10 +90,16 @@ std::string WriterLease::text_of(const HeldLease& lease, Tick now) const {
            duration_text(std::max<std::int64_t>(0, seconds));
 }
 
-void WriterLease::tend(Slot slot, Slot missed) {
+const std::vector<Identity>& WriterLease::tend(Slot slot, Slot missed) {
+    silent_.clear();
     for (Member& member : members_) { member.received = std::min(slot, member.received + missed); }
-    std::erase_if(members_, [&](const Member& member) { return slot - member.received > silence_; });
+    std::erase_if(members_, [&](const Member& member) {
+        const bool is_silent = slot - member.received > silence_;
+        if (is_silent && member.client) { silent_.push_back(*member.client); }
+        return is_silent;
+    });
     if (members_.empty()) { held_.reset(); }
+    return silent_;
 }
 
 void WriterLease::adopt(const std::optional<HeldLease>& lease, Slot slot) {

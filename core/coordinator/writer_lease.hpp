@@ -28,8 +28,8 @@ public:
     /// Whether this writer may send programs.
     CommandResult check(std::uint64_t writer, Tick now) const;
     /// Call it once a slot. Removes clients that are silent for kLeaseSilence_ms. `missed`: slots before this one in
-    /// which this process was stalled.
-    void tend(Slot slot, Slot missed);
+    /// which this process was stalled. Returns the removed clients, valid until the next call.
+    const std::vector<Identity>& tend(Slot slot, Slot missed);
     /// Adopts the lease of the last owner after a takeover. It continues if its writer keeps it.
     void adopt(const std::optional<HeldLease>& lease, Slot slot);
     void drop() { adopt({}, 0); }
@@ -60,7 +60,8 @@ private:
     Slot silence_;
     std::optional<HeldLease> held_;
     ClientMemory<Loser> losers_;
-    std::vector<Member> members_;  // its writer's clients, the one received longest ago first
+    std::vector<Identity> silent_;  // removed in the last tend()
+    std::vector<Member> members_;   // its writer's clients, the one received longest ago first
 };
 
 }  // namespace lockstep

@@ -19,6 +19,8 @@ std::optional<FlightKind> kind_of(CoordinatorNotice::Kind kind) {
         case Kind::StoodDown: return FlightKind::StoodDown;
         case Kind::JobCutShort: return FlightKind::JobCutShort;
         case Kind::JobContinued: return FlightKind::JobContinued;
+        case Kind::UnattendedRunsOn:
+        case Kind::UnattendedHeld:
         case Kind::ProgramLate:
         case Kind::ProgramCut: return std::nullopt;
     }

@@ -209,6 +209,16 @@ private:
                                  "the job ended near line {0}, at the end of the blocks received; the axes rest; "
                                  "continue: lockstep run FILE --from-line {0}",
                                  notice.number);
+            case Kind::UnattendedRunsOn:
+                return log_warning(
+                    "the client of job {} fell silent; the job runs on unattended (unattended_job: RUN_ON); hold it: "
+                    "lockstep hold",
+                    notice.number);
+            case Kind::UnattendedHeld:
+                return log_warning(
+                    "the client of job {} fell silent; the job is held (unattended_job: BE_HELD); continue: lockstep "
+                    "resume",
+                    notice.number);
             case Kind::EpochBegun: return log_info("epoch {} begun", notice.number);
             case Kind::Interrupted:
                 return log_event(

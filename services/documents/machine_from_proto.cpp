@@ -258,6 +258,13 @@ MachineDraft machine_from_proto(const proto::Machine& message) {
     draft.machine.coordinator_host = message.coordinator_host();
     draft.machine.real_time = read_real_time(message.real_time());
     draft.machine.unassigned = read_unassigned(message.unassigned(), Reader(draft.missing));
+    if (!proto::UnattendedJob_IsValid(message.unattended_job())) {
+        Reader(draft.missing)
+            .refuse("unattended_job",
+                    fmt::format("unattended_job is {}; it must be RUN_ON or BE_HELD", int{message.unattended_job()}));
+    }
+    const bool is_held = message.unattended_job() == proto::BE_HELD;
+    draft.machine.unattended_job = is_held ? UnattendedJob::IsHeld : UnattendedJob::RunsOn;
     draft.machine.subroutine_directory = message.subroutine_directory();
     draft.machine.web = read_web(message);
     draft.machine.coordination = read_method(message.coordination());

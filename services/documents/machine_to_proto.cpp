@@ -122,6 +122,7 @@ proto::Machine machine_to_proto(const MachineConfig& machine) {
     if (machine.unassigned != UnassignedWords{}) {
         write_unassigned(machine.unassigned, *message.mutable_unassigned());
     }
+    if (machine.unattended_job == UnattendedJob::IsHeld) { message.set_unattended_job(proto::BE_HELD); }
     if (!machine.subroutine_directory.empty()) { message.set_subroutine_directory(machine.subroutine_directory); }
     if (machine.web) { write_web(*machine.web, *message.mutable_web()); }
     message.set_coordination(method_to_proto(machine.coordination));

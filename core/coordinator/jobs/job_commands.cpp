@@ -49,6 +49,7 @@ CommandResult check_lai_moves(const KnownProgram& program, const ProgramPlanner&
 
 void JobRunner::begin(JobKind kind, const Command& command, const AxisCounts& start_counts, CoordinatorLoop& loop) {
     const bool is_path = kind == JobKind::Run || kind == JobKind::Move;
+    client_ = command.client;
     job_ = MachineJob{.number = count_.begin(loop.term),
                       .kind = kind,
                       .program_id = is_path ? std::optional(command.program) : std::nullopt,
@@ -193,17 +194,18 @@ CommandResult JobRunner::begin_return(CoordinatorLoop& loop) {
     return {};
 }
 
-CommandResult JobRunner::resume(bool returns, CoordinatorLoop& loop) {
+CommandResult JobRunner::resume(const Command& command, CoordinatorLoop& loop) {
     if (loop.condition.phase() == MachinePhase::Fault) { return refuse_in_fault(loop.condition.fault()); }
     if (!loop.condition.is_held()) { return refuse(FaultCode::NothingToDo, "no job is held or paused"); }
     if (auto present = check_present(loop); !present) { return present; }
     if (auto clocks = check_clocks(loop); !clocks) { return clocks; }
+    client_ = client_.value_or(command.client);
     const bool is_paused = loop.condition.phase() == MachinePhase::Paused;
     if (!is_paused) {
         follow(path_.go_on(loop), loop);
         return {};
     }
-    if (auto placed = check_place(loop); !placed) { return returns ? begin_return(loop) : placed; }
+    if (auto placed = check_place(loop); !placed) { return command.returns ? begin_return(loop) : placed; }
     follow(path_.begin_leg(loop), loop);
     return {};
 }

@@ -177,6 +177,16 @@ void JobRunner::fail(FaultCode fault, std::size_t axis, CoordinatorLoop& loop) {
     end_failed(loop);
 }
 
+void JobRunner::lose_client(Identity client, CoordinatorLoop& loop) {
+    if (client_ != client) { return; }
+    client_.reset();
+    if (!path_.is_moving() || intent_ != Intent::GoOn) { return; }
+    const bool is_held = loop.machine.unattended_job == UnattendedJob::IsHeld;
+    if (is_held) { (void)interrupt(Intent::Hold, loop); }
+    loop.notice({is_held ? CoordinatorNotice::Kind::UnattendedHeld : CoordinatorNotice::Kind::UnattendedRunsOn,
+                 FaultCode::None, job_->number});
+}
+
 void JobRunner::take_over(const std::optional<MachineState>& last, CoordinatorLoop& loop) {
     if (!last || last->job < count_.number()) { return; }
     count_.inherit(*last);

@@ -27,8 +27,8 @@ public:
     /// Takes a repeated command. Returns false if its jog is over.
     bool renew_jog(const Command& command, const CoordinatorLoop& loop) { return jogs_.renew(command, loop); }
     CommandResult interrupt(Intent intent, CoordinatorLoop& loop);
-    /// `returns`: axes that were jogged in the pause first return to its place.
-    CommandResult resume(bool returns, CoordinatorLoop& loop);
+    /// Axes that were jogged in the pause first return to its place, if the command says so.
+    CommandResult resume(const Command& command, CoordinatorLoop& loop);
     /// May be called at any time. Overrides hold until they are changed again.
     CommandResult turn(const Command& command, const CoordinatorLoop& loop);
 
@@ -38,6 +38,13 @@ public:
     void advance(CoordinatorLoop& loop);
     /// Call it when every axis follows this coordinator and rests. Continues an inherited job.
     void go_on_with_inherited(CoordinatorLoop& loop);
+
+    /// The client with the lease fell silent. Its job on a path runs on or is held, as configured.
+    void lose_client(Identity client, CoordinatorLoop& loop);
+    /// The client has given the lease back: its job runs on without it.
+    void leave_to_itself(Identity client) {
+        if (client_ == client) { client_.reset(); }
+    }
 
     /// A fault during motion first stops the motion on the path. Fault is entered at rest.
     void fail(FaultCode fault, std::size_t axis, CoordinatorLoop& loop);
@@ -100,6 +107,7 @@ private:
     JobCount count_;
     std::optional<MachineJob> job_;
     std::optional<MachineJob> paused_;  // the job in whose pause job_ takes place
+    std::optional<Identity> client_;  // that attends to the job: began it, or resumed it after its loss
     Intent intent_ = Intent::GoOn;
     PathJob path_;
     HomingSequence homing_;

@@ -67,16 +67,18 @@ struct CoordinatorNotice {
         AxisGone,
         Interrupted,
         EpochBegun,
-        Claimed,       // this coordinator owns the machine now
-        StoodDown,     // another coordinator owns the machine
-        JobCutShort,   // by the takeover, at line `number`; `doubt` says why it is not continued
-        JobContinued,  // after the takeover, at line `number`
-        ProgramLate,   // the axes rest on the path after frame `number` and wait for more of the program
-        ProgramCut     // the job ended at line `number`, where its known program ends; `fault` says why
+        Claimed,           // this coordinator owns the machine now
+        StoodDown,         // another coordinator owns the machine
+        JobCutShort,       // by the takeover, at line `number`; `doubt` says why it is not continued
+        JobContinued,      // after the takeover, at line `number`
+        ProgramLate,       // the axes rest on the path after frame `number` and wait for more of the program
+        ProgramCut,        // the job ended at line `number`, where its known program ends; `fault` says why
+        UnattendedRunsOn,  // the client of job `number` fell silent; the job runs on
+        UnattendedHeld     // the same; the job is held
     };
     Kind kind = Kind::Phase;
     FaultCode fault = FaultCode::None;
-    std::uint64_t number = 0;                       // an axis, an epoch, a phase, a term, a line or a frame, by kind
+    std::uint64_t number = 0;  // an axis, an epoch, a phase, a term, a line, a frame or a job, by kind
     TakeoverDoubt doubt = TakeoverDoubt::NotAsked;  // JobCutShort
 };
 

@@ -80,6 +80,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{machine_with("position_directory: \"places\""), 11, 1, "an absolute path"},
         Refusal{machine_with("subroutine_directory: \"parts\""), 11, 1, "an absolute path"},
         Refusal{machine_with("unassigned { spindle: WARN }"), 11, 28, "WARN"},
+        Refusal{machine_with("unattended_job: STOP"), 12, 1, "STOP"},
         Refusal{machine_with("security { directory: \"keys\" }"), 11, 12, "an absolute path"},
         Refusal{machine_with("security { }"), 11, 1, "security.directory is missing"},
         Refusal{machine_with("record { size_limit_mb: 0 }"), 11, 10, "1 to 1000000"},
@@ -155,6 +156,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Refusal{axis_with("homing { search_velocity_mm_s: 11 }"), 10, 12, "the switch stops the pulses at once"},
         Refusal{axis_with("homing { search_velocity_mm_s: 0 }"), 10, 12, "is 0"},
+        Refusal{with("200", "2000", axis_with("homing { search_velocity_mm_s: .001 latch_velocity_mm_s: .001 }")), 10,
+                12, "so twice the travel would take more than 30 days; it must be at least 0.00154"},
         Refusal{axis_with("homing { latch_velocity_mm_s: 10.5 }"), 10, 12, "above homing.search_velocity_mm_s 10"},
         Refusal{axis_with("homing { pulloff_mm: 0 }"), 10, 12, "above 0"},
         Refusal{axis_with("homing { pulloff_mm: .01 }"), 10, 12, "less than a step"},

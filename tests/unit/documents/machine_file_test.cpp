@@ -174,5 +174,15 @@ TEST(MachineFile, TheHashDependsOnTheMeaningNotOnTheText) {
 
 TEST(MachineFile, TheHashIsTheSameOnEveryHost) { EXPECT_EQ(config_hash(parse(kShortest)), 14268460011038206234U); }
 
+TEST(MachineFile, AnUnattendedJobRunsOnUnlessTheFileSaysOtherwise) {
+    const MachineConfig usual = parse(kShortest);
+    EXPECT_EQ(usual.unattended_job, UnattendedJob::RunsOn);
+    EXPECT_EQ(config_hash(parse(machine_with("unattended_job: RUN_ON"))), config_hash(usual));
+    const MachineConfig held = parse(machine_with("unattended_job: BE_HELD"));
+    EXPECT_EQ(held.unattended_job, UnattendedJob::IsHeld);
+    EXPECT_EQ(parse(machine_text(held)).unattended_job, UnattendedJob::IsHeld);
+    EXPECT_NE(config_hash(held), config_hash(usual));
+}
+
 }  // namespace
 }  // namespace lockstep

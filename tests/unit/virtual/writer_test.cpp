@@ -122,6 +122,48 @@ TEST_F(TwoWriters, AWriterThatFallsSilentLosesTheLeaseAndItsJobGoesOn) {
     EXPECT_EQ(code_of(bert.take()), FaultCode::None);
 }
 
+MachineConfig machine_that_holds() {
+    MachineConfig machine = small_machine();
+    machine.unattended_job = UnattendedJob::IsHeld;
+    return machine;
+}
+
+/// The job of a client that falls silent is held.
+class Unattended : public TwoWriters {
+protected:
+    Unattended() : TwoWriters({.machine = machine_that_holds()}) {}
+
+    Reply run_as_anna() {
+        home();
+        (void)anna.take();
+        vm.give_program(700, program_of({{90, 90}}, 5));
+        return anna.ask({.kind = CommandKind::Run, .program = 700});
+    }
+};
+
+TEST_F(Unattended, IsHeldWhenItsClientFallsSilentAndGoesOnWhenAPersonResumesIt) {
+    ASSERT_EQ(code_of(run_as_anna()), FaultCode::None);
+    anna.keep(4);
+    EXPECT_EQ(vm.state()->phase, MachinePhase::Running) << "it is attended";
+    wait(3.6);
+    EXPECT_EQ(vm.state()->phase, MachinePhase::Holding) << describe();
+    EXPECT_EQ(writer(), "nobody");
+    EXPECT_EQ(code_of(bert.ask(CommandKind::Resume)), FaultCode::None);
+    wait(1);
+    EXPECT_EQ(vm.state()->phase, MachinePhase::Running) << "resumed by hand, it runs on";
+    EXPECT_EQ(code_of(bert.ask(CommandKind::Stop)), FaultCode::None);
+}
+
+TEST_F(Unattended, RunsOnIfItsClientLeavesInOrderOrAnotherClientFallsSilent) {
+    ASSERT_EQ(code_of(run_as_anna()), FaultCode::None);
+    (void)anna_too.take();  // and nothing more
+    anna.keep(4);
+    EXPECT_EQ(vm.state()->phase, MachinePhase::Running) << "another client of the same writer fell silent";
+    EXPECT_EQ(code_of(anna.ask(CommandKind::GiveLease)), FaultCode::None);
+    wait(5);
+    EXPECT_EQ(vm.state()->phase, MachinePhase::Running) << describe();
+}
+
 TEST_F(TwoWriters, AJogEndsWhenAnotherTakesTheMachineOver) {
     home();
     Jogger key(vm);
