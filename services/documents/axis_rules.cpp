@@ -139,10 +139,10 @@ private:
         const double travel_mm = axis_.position_max_mm - axis_.position_min_mm;
         const double least = 2 * travel_mm / kLongestMotion_s;
         const auto check = [&](std::string_view key, double speed_mm_s) {
-            problems_.require_between({key, "position_max_mm", "position_min_mm"}, speed_mm_s >= least,
-                                      std::string(key) + " is " + number_text(speed_mm_s) +
-                                          ", so twice the travel would take more than 30 days; it must be at least " +
-                                          number_text(least));
+            problems_.require_between(
+                {key, "position_max_mm", "position_min_mm"}, !(speed_mm_s > 0 && speed_mm_s < least),
+                std::string(key) + " is " + number_text(speed_mm_s) +
+                    ", so twice the travel would take more than 30 days; it must be at least " + number_text(least));
         };
         check("max_velocity_mm_s", axis_.max_velocity_mm_s);
         check("homing.search_velocity_mm_s", axis_.homing.search_velocity_mm_s);

@@ -42,6 +42,26 @@ TEST_F(JogOfARealMachine, GoesTheDistanceAskedForAndIsOnRecord) {
     expect_verified();
 }
 
+TEST_F(JogOfARealMachine, ThatIsSlowerThanAStepInMinutesStopsAndItsRecordIsExact) {
+    const Ran refused = run_lockstep({"jog", "X+", "--speed", "1e-320"});
+    EXPECT_EQ(refused.code, 2) << refused.out << refused.err;
+    EXPECT_THAT(refused.err, HasSubstr("from 1e-05 mm/s"));
+    for (const Words& words :
+         {Words{"jog", "X+", "--speed", "0.0001"}, Words{"move", "--own", "X=5.05", "--in", "600"}}) {
+        ChildProcess client(LOCKSTEP_COMMAND, words);
+        ASSERT_TRUE(eventually([&] { return status().phase() != "Idle"; }));
+        std::this_thread::sleep_for(std::chrono::milliseconds{300});
+        const Ran stop = run_lockstep({"stop"});
+        EXPECT_EQ(stop.code, 0) << stop.out << stop.err;
+        EXPECT_TRUE(becomes("Idle"));
+        (void)client.wait();
+    }
+    EXPECT_TRUE(status().axes(0).homed());
+    EXPECT_EQ(run_lockstep({"jog", "X+", "--distance", "0.5"}).code, 0);
+    EXPECT_EQ(run_lockstep({"move", "--own", "X=20"}).code, 0);
+    expect_verified();
+}
+
 TEST_F(JogOfARealMachine, RestsWhenItsClientIsKilledAndItsRecordIsExact) {
     const std::int64_t before = steps_of_x();
     ChildProcess client(LOCKSTEP_COMMAND, {"jog", "X+", "--speed", "10"});
