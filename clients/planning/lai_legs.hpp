@@ -1,5 +1,5 @@
-// Plans the legs of a program by Lai's method, move by move. Each move goes from rest to rest, so no other one need be
-// in memory.
+// Plans the legs of a program by Lai's method, move by move, without frames. Each move goes from rest to rest, so no
+// other one need be in memory. The cost depends on the moves and not on their duration.
 #pragma once
 
 #include <expected>

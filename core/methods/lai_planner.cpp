@@ -46,6 +46,18 @@ std::int64_t LaiLongAxis::next() {
     return pulses;
 }
 
+/// Each period needs can_fall_behind(speed_) in next().
+std::int64_t LaiLongAxis::steady() const {
+    if (left_over_ == LaiLeftOver::Behind || falling_ || speed_ < top_) { return 0; }
+    const std::int64_t to_fall = falling_distance(speed_ - speeds_.change, lowest_, speeds_.change);
+    return std::max<std::int64_t>(0, remaining_ - to_fall) / speed_;
+}
+
+std::int64_t LaiLongAxis::pass(std::int64_t periods) {
+    remaining_ -= periods * speed_;
+    return periods * speed_;
+}
+
 LaiShortAxis::LaiShortAxis(std::int64_t length, std::int64_t long_length, const LaiSpeeds& speeds, LaiRounding rounding,
                            LaiCompensation compensation)
     : length_(length), long_length_(long_length), speeds_(speeds), rounding_(rounding), compensation_(compensation) {}

@@ -44,6 +44,11 @@ public:
     /// The pulses of the next period; 0 after the whole length.
     std::int64_t next();
     std::int64_t remaining() const { return remaining_; }
+    /// How many of the next periods have as many pulses as the last one, because it has its greatest speed and need not
+    /// fall yet. Always 0 if pulses are left over Behind.
+    std::int64_t steady() const;
+    /// Makes as many periods at once, at most steady(). Returns all their pulses.
+    std::int64_t pass(std::int64_t periods);
 
 private:
     LaiSpeeds speeds_;

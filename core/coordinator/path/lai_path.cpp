@@ -2,36 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <tuple>
 
-#include "core/methods/lai_dda.hpp"
 #include "core/methods/lai_planner.hpp"
 #include "core/number_text.hpp"
 
 namespace lockstep {
 namespace {
 
-constexpr double kLeastPulses = 2;         // of start velocity per period, of acceleration per period and period
-constexpr std::int64_t kStopPeriods = 80;  // speed limit, in changes per period: from higher speeds tails are too long
-
-/// By how many pulses per period the plan changes an axis's speed from one period to the next. It is half of what the
-/// limits allow, because rounding may add one, and tails brake with the other half.
-std::int64_t change_of(const AxisLimits& axis, double period) {
-    const double acceleration = std::min(axis.max_acceleration, axis.max_deceleration);
-    return std::max<std::int64_t>(
-        1, methods::whole_pulses(std::min(acceleration * period * period, axis.start_velocity * period) / 2));
-}
+constexpr double kLeastPulses = 2;  // of start velocity per period, of acceleration per period and period
 
 class LaiPlanner {
 public:
     LaiPlanner(std::span<const AxisLimits> limits, std::span<const double> steps_per_mm, std::int64_t tick_ns,
                Ticks least, LaiFollowing following)
-        : limits_(limits),
-          steps_per_mm_(steps_per_mm),
-          period_{kLaiPeriod_ns / tick_ns},
-          least_(least),
-          published_(following == LaiFollowing::AsPublished) {}
+        : limits_(limits), steps_per_mm_(steps_per_mm), least_(least), periods_(limits, tick_ns, following) {}
 
     /// A dwell, or the rest of a period in which a hold came, as a move from rest to rest.
     void alone(const PathMove& move, Displacement along = {}) { append(plan_alone(move, along, least_)); }
@@ -39,72 +24,21 @@ public:
     /// A straight move from rest to rest, period by period. Its parts are numbered from `part`.
     void straight(const PathMove& move, std::uint32_t part) {
         AxisCounts at = move.from;
-        const methods::LaiSpeeds speeds = speeds_of(move);
-        Followers followers = followers_of(move, speeds);
-        methods::LaiLongAxis lead(move.lead, speeds,
-                                  published_ ? methods::LaiLeftOver::Behind : methods::LaiLeftOver::WithinTheFall);
-        const auto make = [&](std::int64_t pulses, auto of_follower) {
+        periods_.begin(move);
+        while (periods_.next()) {
             AxisCounts to = at;
-            for (std::size_t i = 0; i < followers.size(); ++i) {
-                const std::int64_t made = followers[i] ? of_follower(*followers[i]) : pulses;
-                to[i] += move.to[i] < move.from[i] ? -made : made;
-            }
+            for (std::size_t i = 0; i < limits_.size(); ++i) { to[i] += periods_.pulses()[i]; }
             append(period(move, part++, at, to));
             at = to;
-        };
-        while (lead.remaining() > 0) {
-            const std::int64_t pulses = lead.next();
-            make(pulses, [&](methods::LaiShortAxis& axis) { return axis.follow(pulses); });
-        }
-        while (at != move.to) {
-            make(0, [](methods::LaiShortAxis& axis) { return axis.finish(); });
         }
     }
 
     Path take() { return std::move(path_); }
 
 private:
-    using Followers = std::vector<std::optional<methods::LaiShortAxis>>;
-
     void append(PathMove move) {
         move.start = path_.duration();
         path_.moves.push_back(move);
-    }
-
-    /// A follower for each axis except the long one.
-    Followers followers_of(const PathMove& move, const methods::LaiSpeeds& speeds) const {
-        const auto rounding = published_ ? methods::LaiRounding::InEachPeriod : methods::LaiRounding::FromTheStart;
-        const auto compensation = published_ ? methods::LaiCompensation{} : methods::kUncompensated;
-        Followers followers(limits_.size());
-        bool led = false;
-        for (std::size_t i = 0; i < limits_.size(); ++i) {
-            const std::int64_t length = std::abs(move.to[i] - move.from[i]);
-            if (!led && length == move.lead) {
-                led = true;
-            } else {
-                const std::int64_t fastest = methods::whole_pulses(limits_[i].max_velocity * period());
-                const methods::LaiSpeeds own{.max = std::min(speeds.max, fastest),
-                                             .change = std::min(speeds.change, change_of(limits_[i], period()))};
-                followers[i].emplace(length, move.lead, own, rounding, compensation);
-            }
-        }
-        return followers;
-    }
-
-    /// Speeds of the long axis with which no axis breaks its limits, including the rounding to whole pulses.
-    methods::LaiSpeeds speeds_of(const PathMove& move) const {
-        std::int64_t change = methods::kMaxPeriodPulses;
-        double top = std::min(static_cast<double>(methods::kMaxPeriodPulses), move.asked_velocity() * period());
-        for (std::size_t i = 0; i < limits_.size(); ++i) {
-            const double share = std::abs(move.share(i));
-            if (share == 0) { continue; }
-            change =
-                std::min(change, methods::whole_pulses(static_cast<double>(change_of(limits_[i], period())) / share));
-            if (share < 1) { top = std::min(top, (limits_[i].max_velocity * period() - 1) / share); }
-        }
-        return {.start = 0,
-                .max = std::clamp<std::int64_t>(methods::whole_pulses(top), 1, kStopPeriods * change),
-                .change = change};
     }
 
     /// One period: a straight move at one speed.
@@ -115,24 +49,22 @@ private:
         move.block = whole_move.block;
         move.part = part;
         move.limits = move.own;
+        const auto ticks = static_cast<double>(periods_.period().value);
         for (std::size_t i = 0; i < limits_.size(); ++i) {  // what the changes between periods leave for stops
             const double share = std::abs(move.share(i));
-            const double used = static_cast<double>(change_of(limits_[i], period())) / (period() * period());
+            const double used = static_cast<double>(lai_change_of(limits_[i], periods_.period())) / (ticks * ticks);
             if (share == 0) { continue; }
             move.limits.max_deceleration =
                 std::min(move.limits.max_deceleration, (limits_[i].max_deceleration - used) / share);
         }
-        move.profile = plan_steady({}, Displacement::steps(move.lead), period_);
+        move.profile = plan_steady({}, Displacement::steps(move.lead), periods_.period());
         return move;
     }
 
-    double period() const { return static_cast<double>(period_.value); }
-
     std::span<const AxisLimits> limits_;
     std::span<const double> steps_per_mm_;
-    Ticks period_;
     Ticks least_;
-    bool published_;
+    LaiPeriods periods_;
     Path path_;
 };
 

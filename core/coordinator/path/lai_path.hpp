@@ -18,12 +18,11 @@
 #include <string>
 #include <vector>
 
+#include "core/coordinator/path/lai_periods.hpp"
 #include "core/machine.hpp"
 #include "core/motion/moves.hpp"
 
 namespace lockstep {
-
-inline constexpr std::int64_t kLaiPeriod_ns = 6'500'000;
 
 /// Why a machine cannot make its moves by this method.
 struct LaiLack {
@@ -47,12 +46,6 @@ std::expected<void, LaiLack> suits_lai_path(const MachineConfig& machine);
 
 /// Error: the move is slower than one pulse per period. The error is the least feed, mm/s.
 std::expected<void, double> check_lai_move(const PathMove& move, std::int64_t tick_ns);
-
-/// How short axes follow the long one.
-enum class LaiFollowing {
-    OnTheLine,    // rounded from the start of the move; the deceleration includes the pulses left over
-    AsPublished,  // rounded in each period, with both compensations; pulses left over come after the deceleration
-};
 
 /// Plans moves as make_move makes them, or the rest of a path planned here, its first move from `along` the lead axis
 /// on. If a hold came within a period, the rest of that period is made first, as a separate move.
