@@ -151,7 +151,7 @@ std::optional<ArcShape> ProgramBuilder::shape_of(const Arc& arc) const {
     const bool has_axes = shape.first < places_.size() && shape.second < places_.size();
     const bool is_near =
         std::abs(shape.centre_first_mm) <= kMaxCentre_mm / 2 && std::abs(shape.centre_second_mm) <= kMaxCentre_mm / 2;
-    return has_axes && is_near && shape.turns <= kMaxTurns ? std::optional(shape) : std::nullopt;
+    return has_axes && is_near ? std::optional(shape) : std::nullopt;
 }
 
 void ProgramBuilder::spline(const Spline& spline) {
@@ -163,12 +163,21 @@ void ProgramBuilder::spline(const Spline& spline) {
     cut_into_arcs(spline, from, [&](const Action& part) { take(part, line_, *interpreter_); });
 }
 
+/// An arc of more chords than a program may have blocks is refused before it is cut.
+void ProgramBuilder::arc_as_chords(const Arc& arc) {
+    const Point from = at_;
+    const double chords = chords_in(arc, from, setup_.chord_tolerance_mm);
+    if (chords > static_cast<double>(kMaxProgramBlocks)) {
+        at_ = arc.target;
+        return fail("the arc takes " + number_text(chords) + " chords, but a program has at most " +
+                    std::to_string(kMaxProgramBlocks) + " blocks; write fewer turns");
+    }
+    cut(arc, from, setup_.chord_tolerance_mm, [&](const Point& target) { move(target, arc.feed, false); });
+}
+
 void ProgramBuilder::arc(const Arc& arc) {
     const auto shape = shape_of(arc);
-    if (!shape) {
-        return cut(arc, Point(at_), setup_.chord_tolerance_mm,
-                   [&](const Point& target) { move(target, arc.feed, false); });
-    }
+    if (!shape) { return arc_as_chords(arc); }
     std::vector<double> to = position_;
     for (std::size_t i = 0; i < to.size(); ++i) {
         if (!places_[i] || arc.target[*places_[i]] == at_[*places_[i]]) { continue; }

@@ -62,6 +62,7 @@ public:
 private:
     void move(const Point& target, double feed, bool rapid);
     void arc(const Arc& arc);
+    void arc_as_chords(const Arc& arc);
     void spline(const Spline& spline);
     std::optional<ArcShape> shape_of(const Arc& arc) const;
     ProgramMove move_to(const std::vector<double>& to, double feed, std::optional<ArcShape> arc) const;

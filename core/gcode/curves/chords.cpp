@@ -74,7 +74,7 @@ double chords_of(const Cylinder& cylinder, double tolerance) {
     const double change = std::abs((cylinder.ends - cylinder.begins) / cylinder.sweep);
     const double radius = std::max(cylinder.begins, cylinder.ends) + 2 * change;
     const double share = std::clamp(1 - tolerance / radius, 0.0, 1 - 1e-15);
-    return std::ceil(std::abs(cylinder.sweep) / (2 * std::acos(share)));
+    return std::max(std::ceil(std::abs(cylinder.sweep) / (2 * std::acos(share))), 1.0);
 }
 
 class CurveCutter {
@@ -108,9 +108,13 @@ private:
 
 }  // namespace
 
+double chords_in(const Arc& arc, const Point& from, double tolerance) {
+    return chords_of(cylinder_of(arc, from), tolerance);
+}
+
 void cut(const Arc& arc, const Point& from, double tolerance, const TakeChord& take) {
     const Cylinder cylinder = cylinder_of(arc, from);
-    const double chords = std::max(chords_of(cylinder, tolerance), 1.0);
+    const double chords = chords_of(cylinder, tolerance);
     for (std::int64_t i = 1; static_cast<double>(i) < chords; ++i) {
         const double share = static_cast<double>(i) / chords;
         take(between(from, arc.target, share, cylinder.at(share)));

@@ -12,6 +12,8 @@ using TakeChord = std::function<void(const Point& target)>;
 
 /// `tolerance` is in mm, above 0: the greatest distance of a chord's middle from the curve.
 void cut(const Arc& arc, const Point& from, double tolerance, const TakeChord& take);
+/// How many chords cut() makes of an arc.
+double chords_in(const Arc& arc, const Point& from, double tolerance);
 void cut(const Spline& spline, const Point& from, double tolerance, const TakeChord& take);
 
 }  // namespace lockstep::gcode

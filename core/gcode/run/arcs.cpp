@@ -26,8 +26,9 @@ std::string in_mm(double value) { return number_text(value) + " mm"; }
 std::expected<int, GcodeError> turns_of(const Context& context) {
     if (!context.block.has('P')) { return 1; }
     const auto turns = whole(context.block['P']);
-    if (!turns || *turns < 1) {
-        return context.refuse('P', " is not a number of turns; it must be a whole number from 1");
+    if (!turns || *turns < 1 || *turns > kMaxTurns) {
+        return context.refuse(
+            'P', " is not a number of turns; it must be a whole number from 1 to " + std::to_string(kMaxTurns));
     }
     return *turns;
 }

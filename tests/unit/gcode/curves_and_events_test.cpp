@@ -105,6 +105,26 @@ TEST(GcodeCurves, ASplineThatTouchesTheEndOfTheTravelIsTaken) {
     EXPECT_THAT(error_of("G0 X10 Y190\nG5.1 X30 Y190 I10 J20.01 F600\n"), HasSubstr("outside its travel"));
 }
 
+TEST(GcodeCurves, AnArcHasABoundedNumberOfTurns) {
+    EXPECT_EQ(blocks_of("G0 X50 Y50\nG2 X50 Y50 I2 J0 P100000 F600\n").size(), 2U);
+    EXPECT_THAT(error_of("G0 X50 Y50\nG2 X50 Y50 I2 J0 P100001 F600\n"),
+                HasSubstr("must be a whole number from 1 to 100000"));
+    EXPECT_THAT(error_of("G0 X50 Y50\nG2 X50 Y50 I2 J0 P0 F600\n"), HasSubstr("from 1 to 100000"));
+}
+
+/// The error is the only one: no chord was made.
+TEST(GcodeCurves, RefusesAnArcOfTooManyChordsBeforeItIsCut) {
+    GcodeSetup setup = all_taken();
+    setup.curves_as_chords = true;
+    setup.chord_tolerance_mm = 0.001;
+    const auto read = parse_gcode("G0 X50 Y50\nG2 X50 Y50 I2 J0 P100000 F600\nG1 X51\n", setup);
+    ASSERT_FALSE(read.has_value());
+    ASSERT_EQ(read.error().size(), 1U);
+    EXPECT_EQ(read.error()[0].line, 2);
+    EXPECT_THAT(read.error()[0].message, HasSubstr("chords, but a program has at most 1000000 blocks"));
+    EXPECT_TRUE(parse_gcode("G0 X50 Y50\nG2 X50 Y50 I2 J0 P100 F600\n", setup).has_value());
+}
+
 TEST(GcodeCurves, AMachineForStraightMovesGetsChords) {
     GcodeSetup setup = all_taken();
     setup.curves_as_chords = true;
