@@ -8,14 +8,27 @@
 // With running sums of both integrals the cost of a bend is the same for every length.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
-#include "core/path/path_point.hpp"
+#include "core/path/axis_vector.hpp"
+#include "core/path/primitive.hpp"
 #include "core/path/quadratic.hpp"
 #include "core/path/sliding_vector.hpp"
 
 namespace lockstep {
+
+/// A vertex of a programmed polyline.
+struct PathPoint {
+    AxisVector at;            // steps
+    double along = 0;         // mm from the polyline's start
+    MoveSettings settings;    // of the chord that ends here
+    std::uint32_t block = 0;  // of the program, of the chord that ends here
+    double turn = 0;          // 1 - cosine of the angle between the directions on either side
+    bool is_corner = false;
+    bool is_end = false;  // a piece ends here
+};
 
 class ChordFit {
 public:

@@ -3,12 +3,12 @@
 namespace lockstep {
 
 PathPlanner::PathPlanner(const PathSetup& setup)
-    : setup_(setup), geometry_(setup_), window_(setup_), frames_(setup_, window_, geometry_.trail()) {}
+    : PathInput(setup), setup_(setup), window_(setup_), frames_(setup_, window_, geometry_.trail()) {}
 
 PathPlanner::PathPlanner(const PathPlanner& other)
-    : setup_(other.setup_),
+    : PathInput(other),
+      setup_(other.setup_),
       overrides_(other.overrides_),
-      geometry_(other.geometry_),
       window_(other.window_),
       frames_(other.frames_, setup_, window_, geometry_.trail()),
       start_(other.start_),
@@ -39,17 +39,6 @@ void PathPlanner::seek(const PathPlace& place) {
     if (is_finished_) { window_.finish(); }
 }
 
-void PathPlanner::line_to_steps(const AxisVector& to, const MoveSettings& settings, std::uint32_t block) {
-    geometry_.line(to, settings, block);
-    pass_on();
-}
-
-void PathPlanner::begin_arc_to_steps(const ArcShape& shape, const AxisVector& to, const MoveSettings& settings,
-                                     std::uint32_t block) {
-    geometry_.begin_arc(shape, to, settings, block);
-    pass_on();
-}
-
 void PathPlanner::cut_on() {
     geometry_.cut_on();
     pass_on();
@@ -61,14 +50,7 @@ void PathPlanner::arc_to_steps(const ArcShape& shape, const AxisVector& to, cons
     while (has_more()) { cut_on(); }
 }
 
-void PathPlanner::rest(Ticks ticks, std::uint32_t block) {
-    geometry_.rest(ticks, block);
-    pass_on();
-}
-
-void PathPlanner::finish() {
-    geometry_.finish();
-    pass_on();
+void PathPlanner::end() {
     is_finished_ = true;
     window_.finish();
 }

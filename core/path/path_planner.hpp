@@ -8,11 +8,11 @@
 #include <expected>
 
 #include "core/path/frame_planner.hpp"
-#include "core/path/path_geometry.hpp"
+#include "core/path/path_input.hpp"
 
 namespace lockstep {
 
-class PathPlanner {
+class PathPlanner final : public PathInput {
 public:
     explicit PathPlanner(const PathSetup& setup);
     /// A copy continues in the same way.
@@ -21,8 +21,6 @@ public:
 
     /// Begins a path. The axes rest at `at`.
     void begin(std::span<const Position> at);
-    /// Sets the programmed place at the begin, which is less than a step from the place of rest. Arcs need it.
-    void begin_program_at(const AxisVector& steps) { geometry_.begin_program_at(steps); }
     /// The axes rest at `at`: the place of rest of one of the last kFramesKept frames, or the begin of the path. The
     /// next frame continues from there.
     ///
@@ -30,28 +28,19 @@ public:
     /// in the same way from any place. It makes no frames before that place.
     void resume(const PathPlace& place, std::span<const Position> at);
 
-    /// `block`: the move's number in its program. Numbers ascend.
+    /// The moves of PathInput, and the same with places in mm. An arc is only begun: call cut_on() while there are more
+    /// pieces of it. So an arc of many turns can be planned in little memory.
     void line(const PathLine& line, const MoveSettings& settings, std::uint32_t block) {
         line_to_steps(setup_.to_steps(line.to_mm), settings, block);
     }
-    /// `to` is in steps, also fractional ones. Moves end within the travel. Programmed places may be up to half a step
-    /// beyond it; they determine the shape of an arc.
-    void line_to_steps(const AxisVector& to, const MoveSettings& settings, std::uint32_t block);
+    bool has_more() const { return geometry_.has_more(); }
+    /// Adds the next quarter turn of the arc, or its rest.
+    void cut_on();
+    /// Adds the whole arc.
     void arc(const PathArc& arc, const MoveSettings& settings, std::uint32_t block) {
         arc_to_steps(arc.shape, setup_.to_steps(arc.to_mm), settings, block);
     }
     void arc_to_steps(const ArcShape& shape, const AxisVector& to, const MoveSettings& settings, std::uint32_t block);
-    /// The same, but only begins the arc. Call cut_on() while there are more pieces of it. So an arc of many turns can
-    /// be planned in little memory. The next move cuts what is left of it.
-    void begin_arc_to_steps(const ArcShape& shape, const AxisVector& to, const MoveSettings& settings,
-                            std::uint32_t block);
-    bool has_more() const { return geometry_.has_more(); }
-    /// Adds the next quarter turn of the arc, or its rest.
-    void cut_on();
-    /// The machine rests on whole steps for `ticks`, at least for kLeastRest.
-    void rest(Ticks ticks, std::uint32_t block);
-    /// Ends the path: the machine comes to rest on whole steps at the end of the last move.
-    void finish();
 
     /// Applies new overrides from the next node of the path behind the last frame on. Unless it returns Taken, the
     /// previous ones still hold. If it returns CannotFollow, the axes may be able to follow behind a later frame.
@@ -68,23 +57,21 @@ public:
     const std::vector<MoveBegin>& begins() const { return frames_.begins(); }
     std::int64_t slowed() const { return frames_.slowed(); }
     std::int64_t braked() const { return frames_.braked(); }
-    /// Intervals that wait for their frames, and stored pieces. Memory depends on these.
+    /// Intervals that wait for their frames. Memory depends on these and on kept().
     std::size_t waiting() const { return window_.end() - window_.first(); }
-    std::size_t kept() const { return geometry_.trail().end() - geometry_.trail().first(); }
     /// The place where the path continues has not been read yet.
     bool is_seeking() const { return is_sought_; }
 
-    static constexpr Ticks kLeastRest = PathGeometry::kLeastRest;
     static constexpr std::size_t kFramesKept = 64;  // far more frames than can be in flight
 
 private:
     void seek(const PathPlace& place);
-    void pass_on();
+    void pass_on() override;
+    void end() override;
     void remember(const PathFrame& frame);
 
     PathSetup setup_;
     Overrides overrides_;
-    PathGeometry geometry_;
     SpeedWindow window_;
     FramePlanner frames_;
     PathPlace start_;         // where the path continues

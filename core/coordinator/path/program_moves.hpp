@@ -1,18 +1,13 @@
-// Passes the moves and dwells of a leg's blocks to a planner, in steps.
-//
-// The planner is a PathPlanner or a PathTimer: it has begin_program_at, line_to_steps, begin_arc_to_steps, rest and
-// finish.
+// Passes the moves and dwells of a leg's blocks to a path, in steps.
 #pragma once
 
-#include <cmath>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "core/coordinator/path/frame_source.hpp"
 #include "core/coordinator/path/program_plan.hpp"
-#include "core/path/axis_vector.hpp"
-#include "core/path/primitive.hpp"
+#include "core/path/path_input.hpp"
 #include "core/program_blocks.hpp"
 
 namespace lockstep {
@@ -33,8 +28,7 @@ public:
         bool ends = false;
     };
     /// Reads the next block, or ends the leg. Returns neither if the next block is not at hand.
-    template <typename Planner>
-    Read read(Planner& planner);
+    Read read(PathInput& path);
 
     const ProgramBlocks& program() const { return *program_; }
     /// The number of the next block.
@@ -45,12 +39,9 @@ public:
     LegEnd end() const { return {end_, next_, to_, pause_}; }
 
 private:
-    template <typename Planner>
-    bool begin_at_place(Planner& planner);
-    template <typename Planner>
-    void pass(const ProgramMove& move, std::uint32_t number, Planner& planner);
-    template <typename Planner>
-    Read finish(LegEnd::Kind end, Planner& planner);
+    bool begin_at_place(PathInput& path);
+    void pass(const ProgramMove& move, std::uint32_t number, PathInput& path);
+    Read finish(LegEnd::Kind end, PathInput& path);
 
     std::shared_ptr<const ProgramBlocks> program_;
     std::vector<double> steps_per_mm_;
@@ -64,78 +55,5 @@ private:
     AxisCounts to_;  // where the last block read leads to, whole steps
     AxisVector at_;  // the same, exactly
 };
-
-inline void ProgramMoves::begin(const std::shared_ptr<const ProgramBlocks>& program, std::span<const std::size_t> axes,
-                                std::uint32_t first, const AxisCounts& from) {
-    program_ = program;
-    axes_.assign(axes.begin(), axes.end());
-    next_ = first;
-    has_moved_ = is_starved_ = false;
-    end_ = LegEnd::Kind::Program;
-    to_ = from;
-    at_.clear();
-    for (const std::int64_t count : from) { at_.append(static_cast<double>(count)); }
-}
-
-template <typename Planner>
-ProgramMoves::Read ProgramMoves::read(Planner& planner) {
-    if (program_->ends_before(next_)) { return finish(LegEnd::Kind::Program, planner); }
-    const Block* const block = program_->block(next_);
-    is_starved_ = block == nullptr;
-    if (block == nullptr) { return {}; }
-    if (ends_leg(*block)) {
-        if (const auto* pause = std::get_if<Pause>(&block->action)) { pause_ = *pause; }
-        return finish(end_by(*block), planner);
-    }
-    const auto* move = std::get_if<ProgramMove>(&block->action);
-    if (move != nullptr && move->arc && !has_moved_ && !begin_at_place(planner)) { return {}; }
-    const std::uint32_t number = next_++;
-    if (const auto* dwell = std::get_if<Dwell>(&block->action)) {
-        const Ticks ticks = ticks_of(*dwell, tick_s_);
-        if (ticks > Ticks{}) { planner.rest(ticks, number); }
-    } else if (move != nullptr) {
-        has_moved_ = true;
-        pass(*move, number, planner);
-    }
-    return {block};
-}
-
-/// Begins at the program's exact place. The axes begin on whole steps, less than a step from it. Returns false if the
-/// place is not at hand.
-template <typename Planner>
-bool ProgramMoves::begin_at_place(Planner& planner) {
-    const auto place = program_->place_before(next_);
-    is_starved_ = !place;
-    if (!place) { return false; }
-    AxisVector at = at_;
-    for (std::size_t i = 0; i < axes_.size(); ++i) { at[axes_[i]] = (*place)[i] * steps_per_mm_[axes_[i]]; }
-    planner.begin_program_at(at);
-    return true;
-}
-
-template <typename Planner>
-ProgramMoves::Read ProgramMoves::finish(LegEnd::Kind end, Planner& planner) {
-    planner.finish();
-    end_ = end;
-    is_starved_ = false;
-    return {.ends = true};
-}
-
-template <typename Planner>
-void ProgramMoves::pass(const ProgramMove& move, std::uint32_t number, Planner& planner) {
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
-        at_[axes_[i]] = move.target_mm[i] * steps_per_mm_[axes_[i]];
-        to_[axes_[i]] = std::llround(at_[axes_[i]]);
-    }
-    const MoveSettings settings{.feed_mm_per_tick = move.feed_for(tick_s_),
-                                .mode = move.mode,
-                                .tolerance_mm = move.tolerance_mm,
-                                .is_feed_fixed = move.is_feed_fixed};
-    if (!move.arc) { return planner.line_to_steps(at_, settings, number); }
-    ArcShape arc = *move.arc;
-    arc.first = axes_[arc.first];
-    arc.second = axes_[arc.second];
-    planner.begin_arc_to_steps(arc, at_, settings, number);
-}
 
 }  // namespace lockstep

@@ -23,14 +23,7 @@ void PathTimer::begin(std::span<const Position> at, const Overrides& overrides, 
     turns_.clear();
 }
 
-void PathTimer::line_to_steps(const AxisVector& to, const MoveSettings& settings, std::uint32_t block) {
-    geometry_.line(to, settings, block);
-    pass_on();
-}
-
-void PathTimer::begin_arc_to_steps(const ArcShape& shape, const AxisVector& to, const MoveSettings& settings,
-                                   std::uint32_t block) {
-    geometry_.begin_arc(shape, to, settings, block);
+void PathTimer::pass_arc() {
     turns_.clear();
     while (geometry_.turns_that_repeat() > 0) {
         cut_turn();
@@ -43,14 +36,7 @@ void PathTimer::begin_arc_to_steps(const ArcShape& shape, const AxisVector& to, 
     } while (geometry_.has_more());
 }
 
-void PathTimer::rest(Ticks ticks, std::uint32_t block) {
-    geometry_.rest(ticks, block);
-    pass_on();
-}
-
-void PathTimer::finish() {
-    geometry_.finish();
-    pass_on();
+void PathTimer::end() {
     window_.finish();
     pass_known();
     load_->end(v_);

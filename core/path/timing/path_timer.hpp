@@ -8,31 +8,22 @@
 
 #include <deque>
 
-#include "core/path/path_geometry.hpp"
+#include "core/path/path_input.hpp"
 #include "core/path/timing/path_load.hpp"
 
 namespace lockstep {
 
-class PathTimer {
+class PathTimer final : public PathInput {
 public:
-    explicit PathTimer(const PathSetup& setup) : geometry_(setup), window_(setup) {}
+    explicit PathTimer(const PathSetup& setup) : PathInput(setup), window_(setup) {}
 
-    /// Begins a path. The axes rest at `at`. Figures are added to `load`, which must outlive the path.
+    /// Begins a path, to be followed by the moves of PathInput. The axes rest at `at`. Figures are added to `load`,
+    /// which must outlive the path.
     void begin(std::span<const Position> at, const Overrides& overrides, PathLoad& load);
-    void begin_program_at(const AxisVector& steps) { geometry_.begin_program_at(steps); }
-
-    /// The moves are as in PathPlanner.
-    void line_to_steps(const AxisVector& to, const MoveSettings& settings, std::uint32_t block);
-    void begin_arc_to_steps(const ArcShape& shape, const AxisVector& to, const MoveSettings& settings,
-                            std::uint32_t block);
-    void rest(Ticks ticks, std::uint32_t block);
-    void finish();
-
     /// The time of the path so far, without the part that waits for later moves. After finish() all of it.
     double ticks() const { return ticks_; }
-    /// Intervals and pieces in memory.
+    /// Intervals in memory.
     std::size_t waiting() const { return window_.end() - window_.first(); }
-    std::size_t kept() const { return geometry_.trail().end() - geometry_.trail().first(); }
 
 private:
     /// The begin of a turn of an arc, and its passage.
@@ -45,14 +36,15 @@ private:
         std::int64_t second_steps = 0;
     };
 
-    void pass_on();
+    void pass_on() override;
+    void pass_arc() override;
+    void end() override;
     void pass_known();
     void pass(const Interval& part, double w1);
     void note_turn();
     void cut_turn();
     void skip_turns();
 
-    PathGeometry geometry_;
     SpeedWindow window_;
     PathLoad* load_ = nullptr;
     std::size_t passed_on_ = 0;  // pieces

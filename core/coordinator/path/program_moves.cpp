@@ -1,0 +1,76 @@
+#include "core/coordinator/path/program_moves.hpp"
+
+#include <cmath>
+
+namespace lockstep {
+
+void ProgramMoves::begin(const std::shared_ptr<const ProgramBlocks>& program, std::span<const std::size_t> axes,
+                         std::uint32_t first, const AxisCounts& from) {
+    program_ = program;
+    axes_.assign(axes.begin(), axes.end());
+    next_ = first;
+    has_moved_ = is_starved_ = false;
+    end_ = LegEnd::Kind::Program;
+    to_ = from;
+    at_.clear();
+    for (const std::int64_t count : from) { at_.append(static_cast<double>(count)); }
+}
+
+ProgramMoves::Read ProgramMoves::read(PathInput& path) {
+    if (program_->ends_before(next_)) { return finish(LegEnd::Kind::Program, path); }
+    const Block* const block = program_->block(next_);
+    is_starved_ = block == nullptr;
+    if (block == nullptr) { return {}; }
+    if (ends_leg(*block)) {
+        if (const auto* pause = std::get_if<Pause>(&block->action)) { pause_ = *pause; }
+        return finish(end_by(*block), path);
+    }
+    const auto* move = std::get_if<ProgramMove>(&block->action);
+    if (move != nullptr && move->arc && !has_moved_ && !begin_at_place(path)) { return {}; }
+    const std::uint32_t number = next_++;
+    if (const auto* dwell = std::get_if<Dwell>(&block->action)) {
+        const Ticks ticks = ticks_of(*dwell, tick_s_);
+        if (ticks > Ticks{}) { path.rest(ticks, number); }
+    } else if (move != nullptr) {
+        has_moved_ = true;
+        pass(*move, number, path);
+    }
+    return {block};
+}
+
+/// Begins at the program's exact place. The axes begin on whole steps, less than a step from it. Returns false if the
+/// place is not at hand.
+bool ProgramMoves::begin_at_place(PathInput& path) {
+    const auto place = program_->place_before(next_);
+    is_starved_ = !place;
+    if (!place) { return false; }
+    AxisVector at = at_;
+    for (std::size_t i = 0; i < axes_.size(); ++i) { at[axes_[i]] = (*place)[i] * steps_per_mm_[axes_[i]]; }
+    path.begin_program_at(at);
+    return true;
+}
+
+ProgramMoves::Read ProgramMoves::finish(LegEnd::Kind end, PathInput& path) {
+    path.finish();
+    end_ = end;
+    is_starved_ = false;
+    return {.ends = true};
+}
+
+void ProgramMoves::pass(const ProgramMove& move, std::uint32_t number, PathInput& path) {
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        at_[axes_[i]] = move.target_mm[i] * steps_per_mm_[axes_[i]];
+        to_[axes_[i]] = std::llround(at_[axes_[i]]);
+    }
+    const MoveSettings settings{.feed_mm_per_tick = move.feed_for(tick_s_),
+                                .mode = move.mode,
+                                .tolerance_mm = move.tolerance_mm,
+                                .is_feed_fixed = move.is_feed_fixed};
+    if (!move.arc) { return path.line_to_steps(at_, settings, number); }
+    ArcShape arc = *move.arc;
+    arc.first = axes_[arc.first];
+    arc.second = axes_[arc.second];
+    path.begin_arc_to_steps(arc, at_, settings, number);
+}
+
+}  // namespace lockstep
