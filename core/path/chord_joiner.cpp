@@ -221,10 +221,12 @@ void ChordJoiner::set_tolerance(const MoveSettings& settings) {
 
 /// Drops old points, except those that the search for turns and corners looks back at.
 void ChordJoiner::drop_passed() {
+    constexpr std::size_t kWorthIt = 64;
     const std::size_t used = std::min({start_, behind_, found_ - 1});
+    if (used < kWorthIt) { return; }
     std::size_t first = 0;
     while (first < used && points_[found_].along - points_[first + 1].along >= kLook_mm) { ++first; }
-    if (first < 64) { return; }
+    if (first < kWorthIt) { return; }
     points_.drop_front(first);
     for (std::size_t* index : {&start_, &measured_, &found_, &behind_, &ahead_, &scanned_}) {
         *index -= std::min(*index, first);

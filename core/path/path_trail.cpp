@@ -21,7 +21,7 @@ void PathTrail::clear() {
 }
 
 void PathTrail::mark(double u, std::uint32_t block, double along) {
-    marks_.push_back({{end(), u}, block, way_of(along)});
+    marks_.push_back({{end(), u}, block, along == 0 ? Displacement{} : way_of(along)});
 }
 
 void PathTrail::add_rest(const Quadratic& rest, std::uint32_t block) {

@@ -81,7 +81,8 @@ SpeedWindow::Joint SpeedWindow::joint(const Quadratic* before, const Quadratic* 
     return joint;
 }
 
-/// The passage of a straight piece at the greatest speed by limits and joints. It tells which jumps can be recovered.
+/// The passage of a piece at the greatest speed by limits and joints. It tells which jumps a straight piece can
+/// recover.
 struct SpeedWindow::FastPassage {
     double v0 = 0;  // mm per tick
     double v1 = 0;
@@ -90,12 +91,14 @@ struct SpeedWindow::FastPassage {
     double fall = 0;
     double acceleration = 0;  // mm per tick^2
 
-    FastPassage(double w0, double w1, double top, double a, double length) : acceleration(a) {
+    FastPassage(double w0, double w1, double top, double a, const Interval& whole) : acceleration(a) {
+        const double length = whole.length();
         const double most_change = 2 * a * length;
         w0 = std::min(w0, w1 + most_change);
         w1 = std::min(w1, w0 + most_change);
         v0 = std::sqrt(w0);
         v1 = std::sqrt(w1);
+        if (whole.kind != IntervalKind::Straight) { return; }
         const double peak = std::sqrt(std::max({std::min((w0 + w1) / 2 + a * length, top), w0, w1}));
         rise = (peak - v0) / a;
         fall = std::max(peak - v1, 0.0) / a;
@@ -114,7 +117,8 @@ struct SpeedWindow::FastPassage {
 SpeedWindow::FastPassage SpeedWindow::fast_passage(const JoinedPiece& piece, const Neighbours& beside) const {
     const Quadratic& shape = piece.shape;
     const double from = beside.before == nullptr ? begin_u_ : 0;
-    const Interval whole{.kind = IntervalKind::Curved, .from = from, .to = shape.length};
+    const IntervalKind kind = shape.is_straight ? IntervalKind::Straight : IntervalKind::Curved;
+    const Interval whole{.kind = kind, .from = from, .to = shape.length};
     const double top = IntervalBounds(setup_, piece, whole).cap(overrides_);
     double path_acceleration = kMost;
     for (std::size_t i = 0; i < setup_.axes(); ++i) {
@@ -123,7 +127,7 @@ SpeedWindow::FastPassage SpeedWindow::fast_passage(const JoinedPiece& piece, con
     }
     const double w0 = std::min({beside.begin.cap, top, piece.begin_cap});
     const double w1 = std::min({beside.end.cap, top, piece.end_cap});
-    return {w0, w1, top, path_acceleration, whole.length()};
+    return {w0, w1, top, path_acceleration, whole};
 }
 
 /// Jumps from and to rest are not counted here. Each piece recovers half of the other jumps at its ends, so that jumps
