@@ -136,11 +136,11 @@ TEST(ProgramTime, OfALineIsTheSameHoweverFinelyItIsCut) {
 
 class ManyTurnsTest : public Frames {
 protected:
-    ManyTurnsTest() : Frames(turns()) {}
-    static Program turns() {
+    ManyTurnsTest() : Frames(turns(2000)) {}
+    static Program turns(std::int32_t count) {
         Program program{.name = "turns", .axes = {"X", "Y"}, .start_mm = {0, 0}};
         ProgramMove arc{{20, 20}, 60, false};
-        arc.arc = ArcShape{.centre_first_mm = 30, .centre_second_mm = 20, .turns = 2000};
+        arc.arc = ArcShape{.centre_first_mm = 30, .centre_second_mm = 20, .turns = count};
         program.blocks = {{1, ProgramMove{{20, 20}, 60, false}}, {2, arc}, {3, ProgramMove{{0, 0}, 60, false}}};
         return program;
     }
@@ -161,6 +161,22 @@ TEST_F(ManyTurnsTest, AreReadABoundedAmountAtATime) {
         EXPECT_LT(frames.kept(), 40'000U);
     }
     EXPECT_GT(made, 250U);
+}
+
+/// A slot reads a part of the program. So the machine begins to move after as many slots, whatever the turns.
+TEST_F(ManyTurnsTest, BeginAsSoonAsFewTurns) {
+    const auto begin_of = [this](std::int32_t count) {
+        ProgramFrames frames(machine, std::make_shared<WholeProgram>(std::make_shared<const Program>(turns(count))), 0,
+                             leg.from);
+        frames.resume({0, {}}, std::vector<Position>(2), {});
+        int slots = 0;
+        for (; !frames.is_ready(); ++slots) { EXPECT_TRUE(frames.read()); }
+        return std::pair(slots, frames.kept());
+    };
+    const auto few = begin_of(300);
+    EXPECT_LE(few.first, 10);
+    EXPECT_EQ(begin_of(30'000), few);
+    EXPECT_EQ(begin_of(kMaxTurns), few);
 }
 
 TEST_F(ManyTurnsTest, AreContinuedInTheMiddle) {

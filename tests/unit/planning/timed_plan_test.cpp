@@ -1,9 +1,11 @@
 // A plan without frames has the duration and the figures of the frames that the coordinator makes.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <string_view>
 
 #include "clients/planning/plan_summary.hpp"
 #include "tests/unit/verification/recorded_machine.hpp"
@@ -149,24 +151,42 @@ TEST(TimedPlan, DoesNotDependOnTheDuration) {
     EXPECT_NEAR(long_one->duration_s, 1e5 * 4 * std::numbers::pi / 50, 0.001 * long_one->duration_s);
 }
 
-/// Each move rests at its end, so each is planned alone.
+/// Straight moves of all lengths and speeds, with dwells and pauses.
+std::string random_lines(std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    std::string text = "G21 G90 F3000\n";
+    for (int k = 0; k < 40; ++k) {
+        const double size = std::pow(10, std::uniform_real_distribution<>(-1.5, 1.6)(random));
+        std::uniform_real_distribution<> off(-size, size);
+        text += std::array{"G0", "G1 F600", "G1 F2500", "G1 F9000"}[random() % 4];
+        for (const char axis : std::string_view(random() % 3 == 0 ? "XYZ" : "XY")) {
+            text += std::string(" ") + axis + std::to_string(axis == 'Z' ? 30 + off(random) / 3 : 50 + off(random));
+        }
+        text += random() % 9 == 0 ? "\nG4 P0.1\n" : random() % 15 == 0 ? "\nM0\n" : "\n";
+    }
+    return text;
+}
+
 TEST(TimedPlan, HasTheFiguresOfTheFramesOfLai) {
     MachineConfig machine = example("three-axis");
     machine.coordination = StepMethod::Lai;
-    const std::string text =
-        "G21 G90 F3000\nG0 X50 Y50 Z40\nG1 X60 Y52\nG4 P0.3\nM0\nG1 X59.5 Y53 Z41\nG0 X10\nG1 X10.1 Y53.2\n";
-    const Program program = program_of(machine, text);
-    const auto timed = plan_of(machine, program, {}, {});
-    const auto made = plan_of(machine, program, {}, [](const PlannedFrame&) {});
-    ASSERT_TRUE(timed.has_value() && made.has_value());
-    EXPECT_EQ(timed->duration, made->duration);
-    EXPECT_EQ(timed->pauses, 1);
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        EXPECT_EQ(timed->axes[i].steps, made->axes[i].steps);
-        EXPECT_NEAR(timed->axes[i].peak_velocity_mm_s, made->axes[i].peak_velocity_mm_s, 1e-6);
-        EXPECT_NEAR(timed->axes[i].peak_acceleration_mm_s2, made->axes[i].peak_acceleration_mm_s2, 1e-6);
-        EXPECT_NEAR(timed->axes[i].peak_jump_mm_s, made->axes[i].peak_jump_mm_s, 1e-6);
-        EXPECT_EQ(timed->axes[i].max_mm, made->axes[i].max_mm);
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        SCOPED_TRACE(seed);
+        const Program program = program_of(machine, random_lines(seed));
+        const auto timed = plan_of(machine, program, {}, {});
+        const auto made = plan_of(machine, program, {}, [](const PlannedFrame&) {});
+        ASSERT_TRUE(timed.has_value() && made.has_value());
+        EXPECT_EQ(timed->duration, made->duration);
+        EXPECT_EQ(timed->moves, made->moves);
+        EXPECT_EQ(timed->pauses, made->pauses);
+        for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+            EXPECT_EQ(timed->axes[i].steps, made->axes[i].steps);
+            EXPECT_NEAR(timed->axes[i].peak_velocity_mm_s, made->axes[i].peak_velocity_mm_s, 1e-6);
+            EXPECT_NEAR(timed->axes[i].peak_acceleration_mm_s2, made->axes[i].peak_acceleration_mm_s2, 1e-6);
+            EXPECT_NEAR(timed->axes[i].peak_jump_mm_s, made->axes[i].peak_jump_mm_s, 1e-6);
+            EXPECT_EQ(timed->axes[i].min_mm, made->axes[i].min_mm);
+            EXPECT_EQ(timed->axes[i].max_mm, made->axes[i].max_mm);
+        }
     }
 }
 
