@@ -102,7 +102,7 @@ struct Acceleration {
 
 /// The greatest speed of an axis: one step per two ticks.
 inline constexpr double kMaxStepsPerTick = 0.5;
-/// The greatest speed of a plan, which leaves room for rounding.
-inline constexpr double kMaxPlannedStepsPerTick = kMaxStepsPerTick * (1 - 1e-3);
+/// The greatest speed of a plan: pieces in whole ticks may be a little faster than the path.
+inline constexpr double kMaxPlannedStepsPerTick = kMaxStepsPerTick * 0.98;
 
 }  // namespace lockstep
