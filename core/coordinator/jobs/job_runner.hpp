@@ -107,7 +107,7 @@ private:
     JobCount count_;
     std::optional<MachineJob> job_;
     std::optional<MachineJob> paused_;  // the job in whose pause job_ takes place
-    std::optional<Identity> client_;  // that attends to the job: began it, or resumed it after its loss
+    std::optional<Identity> client_;    // that attends to the job: began it, or resumed it after its loss
     Intent intent_ = Intent::GoOn;
     PathJob path_;
     HomingSequence homing_;

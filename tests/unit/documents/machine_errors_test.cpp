@@ -171,7 +171,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{axis_with("unhomed_jog_mm_s: 11"), 10, 3, "above start_velocity_mm_s 10"},
         Refusal{axis_with("unhomed_jog_mm_s: 0"), 10, 3, "is 0"},
         Refusal{axis_with("safe_height_mm: 201"), 10, 3, "outside the travel; it must be from 0 to 200"},
-        Refusal{axis_with("plant { start_position_mm: 202 }"), 10, 11, "between the limit switches; it must be above -2 and below 202"},
+        Refusal{axis_with("plant { start_position_mm: 202 }"), 10, 11,
+                "between the limit switches; it must be above -2 and below 202"},
         Refusal{axis_with("plant { travel_margin_mm: 0 }"), 10, 11, "from 1e-09 to 1000000"},
         Refusal{axis_with("plant { max_jump_mm_s: nan }"), 10, 11, "nan"}));
 
