@@ -47,7 +47,7 @@ TEST_F(JogOfARealMachine, ThatIsSlowerThanAStepInMinutesStopsAndItsRecordIsExact
     EXPECT_EQ(refused.code, 2) << refused.out << refused.err;
     EXPECT_THAT(refused.err, HasSubstr("from 1e-05 mm/s"));
     for (const Words& words :
-         {Words{"jog", "X+", "--speed", "0.0001"}, Words{"move", "--own", "X=5.05", "--in", "600"}}) {
+         {Words{"jog", "X+", "--speed", "0.0001"}, Words{"move", "--own", "Y=-48.95", "--in", "600"}}) {
         ChildProcess client(LOCKSTEP_COMMAND, words);
         ASSERT_TRUE(eventually([&] { return status().phase() != "Idle"; }));
         std::this_thread::sleep_for(std::chrono::milliseconds{300});
