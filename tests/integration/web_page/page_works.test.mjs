@@ -147,6 +147,19 @@ describe("a jog", () => {
     assert.equal(machine.commands[0].body.press, machine.commands.at(-1).body.press);
   });
 
+  test("that the machine ends says so, and not for ever", async () => {
+    const page = await enter();
+    await button(page, "Jog X plus").hover();
+    await page.mouse.down();
+    await until("X moves", moved);
+    machine.endsJogs = true;
+    const ended = page.getByText("The machine ended the jog. Press again.");
+    await ended.waitFor();
+    await page.mouse.up();
+    await ended.waitFor({ state: "detached" });
+    await page.getByText("Arrow keys, Page Up and Page Down jog while the focus is here").waitFor();
+  });
+
   test("lasts while its key is held, and needs the focus", async () => {
     const page = await enter();
     await page.keyboard.down("ArrowRight");

@@ -55,6 +55,7 @@ export class StandInMachine {
   commands = [];
   program = null;
   jogUntil = 0;
+  endsJogs = false;
   state = {
     machine: "mill", mode: "Idle", link: { age_ms: 0, standby: false, config_differs: false }, job: null, program: null, hold: null,
     override: { feed_percent: 100, rapid_percent: 100 }, alarms: [], axes: { X: axisState(5), Y: axisState(5), Z: axisState(58) },
@@ -110,7 +111,8 @@ export class StandInMachine {
   override(body) {
     Object.assign(this.state.override, body);
   }
-  jog({ jogs, press, step = false }) {
+  jog({ jogs: asked, press, step = false }) {
+    const jogs = this.endsJogs ? [] : asked;
     if (step && press === this.stepPress) return;
     this.stepPress = step ? press : undefined;
     this.left = step ? Object.fromEntries(jogs.map(({ axis, distance }) => [axis, distance])) : {};

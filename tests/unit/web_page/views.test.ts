@@ -5,7 +5,7 @@ import { Trace } from "../../../clients/web/page/src/chart/trace";
 import { History, MOST_LINES } from "../../../clients/web/page/src/mdi/history";
 import { fixed } from "../../../clients/web/page/src/format/numbers";
 import { timeOfDay } from "../../../clients/web/page/src/format/times";
-import { unitTexts } from "../../../clients/web/page/src/format/units";
+import { speedTexts, unitTexts } from "../../../clients/web/page/src/format/units";
 import { deviceTexts } from "../../../clients/web/page/src/state/device_texts";
 import { groupedAlarms } from "../../../clients/web/page/src/state/grouped_alarms";
 import { otherWriter } from "../../../clients/web/page/src/state/other_writer";
@@ -118,6 +118,13 @@ describe("units", () => {
     const axes = [{ unit: "mm" }, { unit: "mm" }, { unit: "deg" }] as MachineAxis[];
     expect(unitTexts(axes)).toBe("mm, °");
     expect(unitTexts(axes, "/s")).toBe("mm/s, °/s");
+  });
+
+  test("are those of speeds, too: the greatest of each unit", () => {
+    const axes = [{ name: "X", unit: "mm" }, { name: "Y", unit: "mm" }, { name: "A", unit: "deg" }] as MachineAxis[];
+    const speeds: Record<string, number> = { X: 25, Y: 50, A: 90 };
+    expect(speedTexts(axes, ({ name }) => speeds[name]!)).toBe("50.0 mm/s, 90.0 °/s");
+    expect(speedTexts(axes.slice(2), () => 7)).toBe("7.0 °/s");
   });
 });
 

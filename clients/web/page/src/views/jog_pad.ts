@@ -2,7 +2,7 @@
 import type { Machine } from "../api/contract";
 import { h, icon, setAttribute, setText, show } from "../dom/element";
 import { ICONS } from "../dom/icons";
-import { fixed } from "../format/numbers";
+import { speedTexts } from "../format/units";
 import { jogAxes, jogVelocity, keyDirections } from "../jog/directions";
 import type { Direction } from "../jog/dead_man";
 import { Jogger } from "../jog/jogger";
@@ -14,6 +14,7 @@ import type { Model, View } from "./view";
 const DISTANCES = [undefined, 0.01, 0.1, 1, 10] as const;
 const SHARES = [0.02, 0.05, 0.1, 0.25, 0.5, 1];
 const FIRST_SHARE = 3;
+const SHOWN_MS = 6000; // that the machine ended a jog
 const JOG_OVER = "jog-over"; // the machine or another client ended it
 
 export class JogPad implements View {
@@ -26,6 +27,7 @@ export class JogPad implements View {
   private share = SHARES[FIRST_SHARE]!;
   private distance: number | undefined;
   private model: Model | undefined;
+  private endNoted_ms = -Infinity;
 
   constructor(private readonly machine: Machine, stream: () => string, report: Report) {
     this.jogger = new Jogger(machine.limits.jog_renew_ms, {
@@ -34,7 +36,7 @@ export class JogPad implements View {
       jogs: (direction) => jogAxes(machine, (axis) => this.isHomed(axis), direction, this.share, this.distance),
       ended: (problem) => {
         if (problem !== undefined && problem.code !== JOG_OVER) report({ ok: false, problem });
-        else if (this.distance === undefined) setText(this.hint, t.jog.ended);
+        else if (this.distance === undefined) this.noteEnd();
       },
     });
     this.distances = DISTANCES.map((distance) => h("button", { type: "button", on: { click: () => this.choose(distance) } },
@@ -53,11 +55,21 @@ export class JogPad implements View {
     show(this.element, model.role === "operate");
     if (!mayJog) this.jogger.releaseAll("refused");
     for (const { button, axis } of this.buttons) setAttribute(button, "disabled", !mayJog || this.velocity(axis) === undefined);
-    const velocities = this.machine.axes.map(({ name }) => this.velocity(name) ?? 0);
-    setText(this.speed, `${fixed(Math.max(...velocities), 1)} mm/s`);
+    setText(this.speed, speedTexts(this.machine.axes, ({ name }) => this.velocity(name) ?? 0));
+    if (model.state.mode === "Jogging") this.endNoted_ms = -Infinity;
+    this.showHint();
+  }
+
+  private noteEnd(): void {
+    this.endNoted_ms = performance.now();
+    setTimeout(() => this.showHint(), SHOWN_MS + 1);
+    this.showHint();
+  }
+
+  private showHint(): void {
     const blocked = this.machine.axes.filter(({ name }) => this.velocity(name) === undefined).map(({ name }) => name);
     const sentence = blocked.length > 0 ? fill(t.jog.blocked, { axes: blocked.join(", ") }) : t.jog.keys;
-    if (this.hint.textContent !== t.jog.ended || model.state.mode === "Jogging") setText(this.hint, sentence);
+    setText(this.hint, performance.now() - this.endNoted_ms < SHOWN_MS ? t.jog.ended : sentence);
   }
 
   private isHomed(axis: string): boolean {
