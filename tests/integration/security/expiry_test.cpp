@@ -82,6 +82,24 @@ TEST_F(Expiry, KeysOfTheFutureAndAClockOfThePastAreNamedAsAMatterOfTheClock) {
                 HasSubstr("set this host's clock"));
 }
 
+/// One axis believes that it is a year later, another part a day earlier, and the keys are valid at all three times.
+TEST_F(Expiry, ClocksThatAreWrongWithinTheKeysPeriodDoNotMatter) {
+    make({now() - days(10), now() + days(1000)});
+    setenv("FAKETIME_DONT_FAKE_MONOTONIC", "1", 1);
+    const ChildProcess x("/usr/bin/faketime", {"-f", "+365d", LOCKSTEP_AXIS, "--machine", file(), "--axis", "X"});
+    const ChildProcess coordinator("/usr/bin/faketime", {"-f", "-1d", LOCKSTEP_COORDINATOR, "--machine", file()});
+    unsetenv("FAKETIME_DONT_FAKE_MONOTONIC");
+    const ChildProcess y(LOCKSTEP_AXIS, {"--machine", file(), "--axis", "Y"});
+    ASSERT_TRUE(becomes("Idle"));
+    record();
+    ASSERT_EQ(run_lockstep({"home"}).code, 0);
+    const Ran run = run_lockstep({"run", write("job.gcode", kThereAndBack)});
+    EXPECT_EQ(run.code, 0) << run.out << run.err;
+    EXPECT_EQ(status().axes(0).position_steps(), 1600);
+    EXPECT_EQ(run_lockstep({"jog", "X+", "--distance", "0.5"}).code, 0) << "its dead-man control works, too";
+    expect_verified();
+}
+
 TEST_F(Expiry, AnExpiredMemberWhoseOwnClockIsWrongIsExcludedByTheOthers) {
     make({now() - days(1000), now() + days(365)});
     bring_up_and_home();
