@@ -1,4 +1,4 @@
-# make demo | make test | make build | make live | make package: each first does what it needs, and can be run again.
+# make demo | make check | make test | make build | make live | make package: each first does what it needs, and can be run again.
 # ARCH=arm64 builds for boards of 64-bit ARM on another machine.
 HERE := $(shell dpkg --print-architecture)
 ARCH  = $(HERE)
@@ -24,7 +24,7 @@ LIVE    = all
 TEST    = tests/integration/package/emulated_machine $(BUILD) build
 endif
 
-.PHONY: configured build live test demo bench package clean
+.PHONY: configured build live check test demo bench package clean
 
 # $(call configure,DIRECTORY,OPTIONS): prints nothing unless it fails.
 configure = cmake -S . -B $(1) -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON $(2) >$(1).configure.log 2>&1 || \
@@ -46,6 +46,13 @@ build: configured
 
 live: configured
 	@cmake --build $(BUILD) -j $(JOBS) --target $(LIVE)
+
+# A contributor's gate, for the processors of this machine only. It needs neither Java, Node, containers nor emulators.
+check:
+	@deploy/install-dependencies check
+	@$(call configure,$(BUILD),-DBUILD_TESTING=ON $(if $(wildcard $(FIRST)),,-DLOCKSTEP_SPY=OFF))
+	@cmake --build $(BUILD) -j $(JOBS) --target checked_tests $(PRODUCT)
+	@tests/check $(BUILD) $(JOBS)
 
 test: live
 	@$(TEST)

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <string>
 
 #include "clients/session/session.hpp"
@@ -45,19 +46,20 @@ public:
         const auto reply = session_.command(command);
         return reply && reply->status == ReplyStatus::Accepted;
     }
-    /// The reaction to `event`. The begin of braking is computed from the first slower state and the axis's
-    /// deceleration.
+    /// The reaction to `event`; nullopt if there is none in 20 s, or if the machine braked before it because this host
+    /// stalled. The begin of braking is computed from the first slower state and the axis's deceleration.
     template <typename Event>
-    Reaction after(const Event& event) {
+    std::optional<Reaction> after(const Event& event) {
         const double before = speed();
         const auto begun = monotonic_now();
         event();
-        (void)until([&] { return speed() < 0.98 * before; });
+        if (!until([&] { return speed() < 0.98 * before; })) { return {}; }
         const AxisConfig& axis = session_.config().axes[0];
         const double slowing_s = (before - speed()) / axis.max_decel_mm_s2;
         const Reaction brakes{(seconds(state().tick) - slowing_s - seconds(begun)) * 1e3};
+        if (brakes.brakes_ms < 0) { return {}; }
         (void)until([&] { return state().at_rest || speed() == 0; });
-        return {brakes.brakes_ms, (seconds(state().tick) - seconds(begun)) * 1e3};
+        return Reaction{brakes.brakes_ms, (seconds(state().tick) - seconds(begun)) * 1e3};
     }
     bool ready() {
         return until([&] { return session_.state()->state.phase == MachinePhase::Idle && state().at_rest; });
@@ -95,13 +97,13 @@ int measure(LiveMachine& machine, const std::string& event, int times, int pid) 
     for (int i = 0; i < times; ++i) {
         if (!machine.ready() || !machine.move(event == "own" ? CommandKind::MoveOwn : CommandKind::Run)) { return 1; }
         machine.pass(std::chrono::milliseconds(100 + i * 17 % 60));
-        const Reaction found = machine.after([&] {
+        const auto found = machine.after([&] {
             if (event == "kill") { (void)::kill(pid, SIGKILL); }
             if (event == "hold") { (void)machine.does({.kind = CommandKind::Hold}); }
             if (event == "stop" || event == "own") { (void)machine.does({.kind = CommandKind::Stop}); }
             if (event == "feed") { (void)machine.does({.kind = CommandKind::Override, .feed_percent = 10}); }
         });
-        std::printf("%.1f %.1f\n", found.brakes_ms, found.rests_ms);
+        if (found) { std::printf("%.1f %.1f\n", found->brakes_ms, found->rests_ms); }
         if (event == "kill") { return 0; }
         if (event == "hold" || event == "feed") { (void)machine.does({.kind = CommandKind::Stop}); }
         if (event == "feed") {
