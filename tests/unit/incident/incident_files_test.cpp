@@ -72,13 +72,26 @@ TEST_F(IncidentFiles, DamagedAnywhereAreReadOrRefused) {
     const fs::path path = write_veto(2'000'000);
     std::ifstream in(path, std::ios::binary);
     const std::string whole{std::istreambuf_iterator<char>(in), {}};
+    int refused = 0;
+    int damaged = 0;
     for (std::size_t at = 0; at < whole.size(); at += 3) {
         std::string bytes = whole;
         bytes[at] = static_cast<char>(bytes[at] ^ 0xFF);
         std::ofstream(path, std::ios::binary) << bytes;
         const auto file = read_flight_file(path);
-        if (file) { (void)evaluate(incidents_of({*file}).at(0)); }
+        if (!file) {
+            EXPECT_FALSE(file.error().empty());
+            ++refused;
+            continue;
+        }
+        const auto incident = incidents_of({*file}).at(0);
+        (void)evaluate(incident);
+        if (file->damages.empty()) { continue; }
+        ++damaged;
+        EXPECT_THAT(notes_of(incident), testing::Contains(HasSubstr("not read: ")));
     }
+    EXPECT_GT(refused, 0);
+    EXPECT_GT(damaged, 0);
 }
 
 TEST_F(IncidentFiles, OfOtherContentAreRefused) {

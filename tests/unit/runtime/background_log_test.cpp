@@ -86,6 +86,7 @@ public:
         hangs_ = false;
         hangs_.notify_all();
     }
+    bool hangs() const { return hangs_; }
     std::vector<std::string> lines;
 
 private:
@@ -117,6 +118,7 @@ TEST(BackgroundSink, EndsThoughItsDiskHangs) {
         BackgroundSink sink(disk);
         sink.log({"", spdlog::level::info, "a line"});
     }
+    EXPECT_TRUE(disk->hangs()) << "its end waited for the disk";
     disk->let_go();
 }
 

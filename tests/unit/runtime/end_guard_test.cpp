@@ -29,18 +29,31 @@ TEST_F(EndGuards, EndAProcessThatWaitsForever) {
     EXPECT_EXIT(end_with_a_thread_that_hangs(), testing::ExitedWithCode(kServiceFailed), "a disk may hang");
 }
 
-TEST_F(EndGuards, DoNotEndAProcessWithoutAStopRequest) {
+constexpr int kOwnEnd = 42;
+
+[[noreturn]] void end_without_a_request() {
     StopSignal stop;
     const EndGuard guard(stop, 100ms);
     std::this_thread::sleep_for(300ms);
+    _exit(kOwnEnd);
+}
+
+TEST_F(EndGuards, DoNotEndAProcessWithoutAStopRequest) {
+    EXPECT_EXIT(end_without_a_request(), testing::ExitedWithCode(kOwnEnd), "");
+}
+
+[[noreturn]] void end_in_time() {
+    StopSignal stop;
+    {
+        const EndGuard guard(stop, 100ms);
+        stop.request();
+    }
+    std::this_thread::sleep_for(300ms);
+    _exit(kOwnEnd);
 }
 
 TEST_F(EndGuards, LeaveAProcessAloneThatEndsInTime) {
-    StopSignal stop;
-    {
-        const EndGuard guard(stop, 10s);
-        stop.request();
-    }
+    EXPECT_EXIT(end_in_time(), testing::ExitedWithCode(kOwnEnd), "");
 }
 
 }  // namespace

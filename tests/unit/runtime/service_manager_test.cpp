@@ -60,10 +60,14 @@ TEST_F(NotifiesSystemd, ThatItIsAliveFourTimesInTheTimeTheWatchdogWaits) {
     EXPECT_EQ(times, 4);
 }
 
-TEST(WithoutSystemd, AServiceThatItDidNotStartSendsNothing) {
+TEST_F(NotifiesSystemd, NothingFromAServiceThatItDidNotStart) {
+    unsetenv("NOTIFY_SOCKET");
+    unsetenv("WATCHDOG_USEC");
     ServiceManager manager;
     manager.ready("axis X");
     manager.alive(1s);
+    manager.stopping();
+    EXPECT_EQ(notification(), "");
 }
 
 }  // namespace
