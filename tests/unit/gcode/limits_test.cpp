@@ -32,6 +32,20 @@ TEST(GcodeLimits, LoopsEndThatRunLinesWithoutAnAction) {
     EXPECT_EQ(refusal("o1 repeat [5000]\nG0 X[1-#5420]\no1 endrepeat\n", with_idle_lines(1000)), "");
 }
 
+TEST(GcodeLimits, AnInterpreterThatContinuesCountsMotionsToo) {
+    gcode::Setup setup = with_idle_lines(1000);
+    setup.find_subroutine = [](std::string_view) {
+        return std::optional("o<far> sub\no1 repeat [5000]\nG0 X[1-#5420]\no1 endrepeat\no<far> endsub\n");
+    };
+    int motions = 0;
+    gcode::Interpreter first(setup, gcode::State{}, [](const gcode::Action&, int) {});
+    ASSERT_TRUE(first.take("G90 G21", 1));
+    gcode::Interpreter next(setup, first.memory(), [&](const gcode::Action&, int) { ++motions; });
+    const auto done = next.take("o<far> call", 2);
+    EXPECT_TRUE(done) << done.error().message;
+    EXPECT_EQ(motions, 5000);
+}
+
 TEST(GcodeLimits, BranchesThatAreSkippedCountAsLines) {
     std::string text = "#1=0\no9 while [#1 LT 10]\n#1=[#1+1]\no1 if [0]\n";
     for (int k = 0; k < 200; ++k) { text += "o1 elseif [0]\n"; }
