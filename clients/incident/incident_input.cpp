@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "services/files/access.hpp"
 #include "services/flight/incident_file.hpp"
 
 namespace lockstep {
@@ -16,6 +17,9 @@ struct Files {
 };
 
 std::expected<void, std::string> read_directory(const fs::path& directory, Files& files) {
+    std::error_code error;
+    const fs::directory_iterator readable(directory, error);
+    if (error) { return std::unexpected(directory.string() + ": " + why_not_read(directory, error.value())); }
     const auto found = incident_files(directory);
     if (found.empty()) {
         return std::unexpected(directory.string() +

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "services/files/access.hpp"
+
 namespace lockstep::merge {
 
 namespace fs = std::filesystem;
@@ -18,6 +20,7 @@ std::expected<std::vector<GivenLog>, std::string> named_logs(const std::vector<f
         for (const auto& entry : fs::directory_iterator(name, error)) {
             if (entry.path().extension() == ".lcm") { logs.push_back({entry.path(), false}); }
         }
+        if (error) { return std::unexpected(name.string() + ": " + why_not_read(name, error.value())); }
         if (logs.size() == before) { return std::unexpected(name.string() + ": no file *.lcm is in this directory"); }
         std::ranges::sort(logs.begin() + static_cast<std::ptrdiff_t>(before), logs.end(), {}, &GivenLog::path);
     }

@@ -24,6 +24,12 @@ std::expected<std::filesystem::path, Failure> choose_file(const std::string& opt
     return std::unexpected(bad_input("several machines are up on this host (" + names + "); " + kHow));
 }
 
+std::filesystem::path installed_machine(const std::filesystem::path& file) {
+    std::error_code error;
+    const bool may_be_there = std::filesystem::exists(file, error) || error == std::errc::permission_denied;
+    return may_be_there ? file : std::filesystem::path();
+}
+
 std::expected<ChosenMachine, Failure> read_machine(const std::filesystem::path& file) {
     const auto alone = load_machine_file(file);
     if (!alone) { return std::unexpected(bad_file(file.string(), alone.error())); }
@@ -44,9 +50,7 @@ std::expected<ChosenMachine, Failure> read_machine(const std::filesystem::path& 
 std::expected<ChosenMachine, Failure> choose_machine(const std::string& option) {
     std::vector<std::filesystem::path> up;
     for (const std::string& name : machines_up()) { up.push_back(StateDirectory(name).machine_file()); }
-    std::error_code error;
-    const bool is_installed = std::filesystem::exists(kInstalledMachine, error);
-    auto file = choose_file(option, std::getenv("LOCKSTEP_MACHINE"), up, is_installed ? kInstalledMachine : "");
+    auto file = choose_file(option, std::getenv("LOCKSTEP_MACHINE"), up, installed_machine());
     if (!file) { return std::unexpected(file.error()); }
     const StateDirectory lost(file->parent_path().filename().string());
     if (*file == lost.machine_file() && lost.is_lost()) {

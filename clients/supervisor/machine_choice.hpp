@@ -26,6 +26,10 @@ std::expected<std::filesystem::path, Failure> choose_file(const std::string& opt
                                                           const std::vector<std::filesystem::path>& up,
                                                           const std::filesystem::path& installed = {});
 
+/// The path of the installed machine's file; empty if there is none. A file in a directory that this user may not enter
+/// may be there, so its path is returned, and reading it reports the directory.
+std::filesystem::path installed_machine(const std::filesystem::path& file = kInstalledMachine);
+
 /// Reads the machine with the settings that senders have written. For a machine that is up on this host, these are the
 /// settings at the time when it was brought up. The error lists everything that is wrong with the file.
 std::expected<ChosenMachine, Failure> read_machine(const std::filesystem::path& file);

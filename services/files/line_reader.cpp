@@ -8,8 +8,9 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <utility>
+
+#include "services/files/access.hpp"
 
 namespace lockstep {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 constexpr std::size_t kAtOnce = 1 << 18;
 
 std::unexpected<std::string> failure(const std::string& name) {
-    return std::unexpected(name + ": " + std::strerror(errno));
+    return std::unexpected(name + ": " + why_not_read(name, errno));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "services/files/access.hpp"
 #include "services/files/descriptor.hpp"
 
 namespace lockstep {
@@ -18,6 +19,10 @@ namespace {
 
 std::unexpected<Diagnostic> refusal(std::string message) {
     return std::unexpected(Diagnostic{.message = std::move(message)});
+}
+
+std::unexpected<Diagnostic> unreadable(const std::filesystem::path& path, int error) {
+    return refusal("cannot be read: " + why_not_read(path, error));
 }
 
 Diagnostic zero_byte(std::string_view text, std::size_t at) {
@@ -39,11 +44,7 @@ bool write_durably(const std::filesystem::path& path, int flags, mode_t mode, st
 std::expected<std::string, Diagnostic> read_text_file(const std::filesystem::path& path) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
-    if (error == std::errc::permission_denied) {
-        return refusal(
-            "this user may not look into its directory; join the group that may, then log in again: ls -ld " +
-            path.parent_path().string());
-    }
+    if (error == std::errc::permission_denied) { return unreadable(path, error.value()); }
     if (!std::filesystem::exists(status)) { return refusal("there is no such file"); }
     if (std::filesystem::is_directory(status)) { return refusal("this is a directory; name a file in it"); }
     if (!std::filesystem::is_regular_file(status)) { return refusal("this is not a regular file"); }
@@ -52,9 +53,9 @@ std::expected<std::string, Diagnostic> read_text_file(const std::filesystem::pat
         return refusal(fmt::format("the file has {} bytes, more than {}", size, kMaxTextFileBytes));
     }
     std::ifstream stream(path, std::ios::binary);
-    if (!stream) { return refusal(std::string("cannot be read: ") + std::strerror(errno)); }
+    if (!stream) { return unreadable(path, errno); }
     std::string text{std::istreambuf_iterator<char>(stream), {}};
-    if (stream.bad()) { return refusal(std::string("cannot be read: ") + std::strerror(errno)); }
+    if (stream.bad()) { return unreadable(path, errno); }
     if (text.empty()) { return refusal("the file is empty"); }
     if (const std::size_t zero = text.find('\0'); zero != text.npos) { return std::unexpected(zero_byte(text, zero)); }
     return text;

@@ -2,16 +2,17 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
+
+#include "services/files/access.hpp"
 
 namespace lockstep {
 
 std::expected<FileWindow, std::string> FileWindow::open(const std::filesystem::path& path) {
     std::error_code error;
     const std::uint64_t size = std::filesystem::file_size(path, error);
-    if (error) { return std::unexpected("cannot read " + path.string() + ": " + error.message()); }
+    if (error) { return std::unexpected("cannot read " + path.string() + ": " + why_not_read(path, error.value())); }
     std::ifstream file(path, std::ios::binary);
-    if (!file) { return std::unexpected("cannot read " + path.string() + ": " + std::strerror(errno)); }
+    if (!file) { return std::unexpected("cannot read " + path.string() + ": " + why_not_read(path, errno)); }
     return FileWindow(std::move(file), size);
 }
 

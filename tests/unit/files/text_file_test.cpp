@@ -27,6 +27,12 @@ protected:
         std::ofstream(folder_ / "file", std::ios::binary) << content;
         return folder_ / "file";
     }
+    static std::string refused_to_nobody(const std::filesystem::path& path) {
+        if (setegid(65534) != 0 || seteuid(65534) != 0) { return "cannot act as nobody"; }
+        const std::string text = refusal(path);
+        return seteuid(0) == 0 && setegid(0) == 0 ? text : "cannot act as root again";
+    }
+
     static std::string refusal(const std::filesystem::path& path) {
         const auto text = read_text_file(path);
         return text ? "none" : text.error().message;
@@ -36,15 +42,27 @@ protected:
         std::filesystem::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
 };
 
-TEST_F(TextFile, NamesTheDirectoryThatTheUserMayNotLookInto) {
+TEST_F(TextFile, NamesTheDirectoryThatTheUserMayNotEnterAndTheGroupThatMay) {
+    if (geteuid() != 0) { GTEST_SKIP() << "only root can act as another user"; }
+    const std::filesystem::path file = folder_ / "inner" / "file";
+    std::filesystem::create_directories(file.parent_path());
+    write("text");
+    ASSERT_EQ(chown(folder_.c_str(), 0, 8), 0);  // the group mail, in every Debian
+    std::filesystem::permissions(folder_, std::filesystem::perms{0750});
+    EXPECT_EQ(refused_to_nobody(file), "cannot be read: this user may not enter the directory " + folder_.string() +
+                                           "; its group mail may: as root, adduser nobody mail, then log in again");
+    std::filesystem::permissions(folder_, std::filesystem::perms::owner_all);
+    EXPECT_THAT(refused_to_nobody(file), HasSubstr(folder_.string() + "; only its owner root may"));
+}
+
+TEST_F(TextFile, NamesTheGroupThatMayReadIt) {
     if (geteuid() != 0) { GTEST_SKIP() << "only root can act as another user"; }
     const std::filesystem::path file = write("text");
-    std::filesystem::permissions(folder_, std::filesystem::perms::owner_all);
-    ASSERT_EQ(seteuid(65534), 0);
-    const std::string text = refusal(file);
-    ASSERT_EQ(seteuid(0), 0);
-    EXPECT_THAT(text, HasSubstr("may not look into its directory"));
-    EXPECT_THAT(text, HasSubstr("ls -ld " + folder_.string()));
+    ASSERT_EQ(chown(file.c_str(), 0, 8), 0);
+    std::filesystem::permissions(file, std::filesystem::perms{0640});
+    EXPECT_EQ(refused_to_nobody(file),
+              "cannot be read: this user may not read it; its group mail may: as root, adduser nobody mail, then log "
+              "in again");
 }
 
 TEST_F(TextFile, IsReadWhole) { EXPECT_EQ(read_text_file(write("one\r\ntwo")).value(), "one\r\ntwo"); }

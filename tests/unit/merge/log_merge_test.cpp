@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <functional>
@@ -395,6 +396,16 @@ protected:
         return merge_logs({.logs = choose({folder}).logs, .progress = {}}, kept).value();
     }
 };
+
+TEST_F(Merge, NamesTheDirectoryThatTheUserMayNotRead) {
+    if (geteuid() != 0) { GTEST_SKIP() << "only root can act as another user"; }
+    fs::permissions(folder, fs::perms::owner_all);
+    ASSERT_EQ(seteuid(65534), 0);
+    const auto logs = named_logs({folder});
+    ASSERT_EQ(seteuid(0), 0);
+    ASSERT_FALSE(logs);
+    EXPECT_EQ(logs.error(), folder.string() + ": this user may not read it; only its owner root may");
+}
 
 TEST_F(EventsOfJobs, AreMergedOnceEach) {
     const Merged merged = merge({});

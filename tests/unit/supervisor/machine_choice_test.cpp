@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 namespace lockstep {
 namespace {
@@ -19,6 +20,22 @@ TEST(MachineChoice, IsTheInstalledOneIfNoneIsUp) {
     EXPECT_EQ(choose_file("", nullptr, {}, kInstalledMachine), kInstalledMachine);
     EXPECT_EQ(choose_file("", nullptr, {"/run/lockstep/c/machine.textproto"}, kInstalledMachine),
               "/run/lockstep/c/machine.textproto");
+}
+
+TEST(MachineChoice, OfAUserWhoMayNotEnterTheDirectoryReportsTheDirectory) {
+    if (geteuid() != 0) { GTEST_SKIP() << "only root can act as another user"; }
+    const auto folder = std::filesystem::path(testing::TempDir()) / "closed_machine";
+    std::filesystem::create_directories(folder);
+    std::filesystem::permissions(folder, std::filesystem::perms::owner_all);
+    const auto file = folder / "machine.textproto";
+    EXPECT_EQ(installed_machine(file), "");
+    ASSERT_EQ(seteuid(65534), 0);
+    const auto installed = installed_machine(file);
+    const auto machine = read_machine(file);
+    ASSERT_EQ(seteuid(0), 0);
+    EXPECT_EQ(installed, file);
+    ASSERT_FALSE(machine);
+    EXPECT_THAT(machine.error().errors[0].message, HasSubstr("may not enter the directory " + folder.string()));
 }
 
 TEST(MachineChoice, IsNotGuessed) {
