@@ -78,12 +78,12 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
       "stop one of them", {}) \
     X(FollowingError, 121, "following-error", "the encoder shows that steps were lost", \
       "lower the axis's speed or acceleration", in_order(Remedy::Reset, Remedy::Home)) \
-    X(FrameLate, 122, "frame-late", "a frame arrived too late to be armed", \
+    X(FrameLate, 122, "frame-late", "a frame arrived too late for the axes to run it", \
       "if it happens often, use longer slots: lockstep doctor --timing proposes them", in_order(Remedy::Reset)) \
     X(PositionMismatch, 123, "position-mismatch", "an axis is not where its frames end", \
-      "see its log", in_order(Remedy::Reset, Remedy::Home)) \
-    X(FramesDiffer, 124, "frames-differ", "the axes did not all run the same frames: one was cut off from the network, or its process stalled for longer than timing.stall_slots", \
-      "lockstep analyze --incident names the axis; check the network, or use longer slots: lockstep doctor --timing proposes them", in_order(Remedy::Reset, Remedy::Home)) \
+      "see the axis's log", in_order(Remedy::Reset, Remedy::Home)) \
+    X(FramesDiffer, 124, "frames-differ", "the axes ran different frames: an axis was cut off from the network, or the process of an axis stalled for longer than timing.stall_slots", \
+      "find the axis: lockstep analyze --incident; then check its network, or use longer slots: lockstep doctor --timing proposes them", in_order(Remedy::Reset, Remedy::Home)) \
     X(ClockUncertain, 125, "clock-uncertain", "the error of an axis's clock may exceed timing.clock_error_limit_us", \
       "check the network to that axis, or increase timing.slot_us; lockstep status shows the error of each clock", in_order(Remedy::Reset)) \
     X(CoordinatorChanged, 126, "coordinator-changed", "another coordinator has taken over the machine since this command was given; the command may have begun", \
@@ -91,7 +91,7 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
     X(PositionNotKept, 127, "position-not-kept", "no position of the axis has been kept", \
       "", in_order(Remedy::Home)) \
     X(PositionUnreadable, 128, "position-unreadable", "the axis's kept position cannot be read, or is damaged", \
-      "see its log", in_order(Remedy::Home)) \
+      "see the axis's log", in_order(Remedy::Home)) \
     X(PositionForeign, 129, "position-foreign", "the kept position belongs to another machine or axis", \
       "give each machine a position_directory of its own", in_order(Remedy::Home)) \
     X(PositionRescaled, 130, "position-rescaled", "steps_per_mm or the home switch have changed in the configuration since the position was kept", \
@@ -109,21 +109,21 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
     X(DeviceMissing, 136, "device-missing", "the axis waits for its device", \
       "the axis's log names the device and the reason; start the device, and the axis connects to it by itself", in_order(Remedy::Again)) \
     X(NotAtRest, 137, "not-at-rest", "an axis has not come to rest although all its frames have ended", \
-      "see its log; restart its lockstep-axis if a reset does not help", in_order(Remedy::Reset, Remedy::Home)) \
+      "see the axis's log; restart its lockstep-axis if a reset does not help", in_order(Remedy::Reset, Remedy::Home)) \
     X(Held, 140, "held", "a job is held or paused", \
       "", either(Remedy::Resume, Remedy::Stop)) \
     X(NotReady, 141, "not-ready", "some axes do not follow the coordinator yet, or are not at rest", \
       "", in_order(Remedy::Wait, Remedy::Again)) \
-    X(CoordinatorSilent, 142, "coordinator-silent", "the coordinator fell silent while the axis moved by itself; the axis halted", \
-      "check the network and see the coordinator's log; start the coordinator if it is not running", in_order(Remedy::Reset, Remedy::Home)) \
+    X(CoordinatorSilent, 142, "coordinator-silent", "an axis received nothing from the coordinator while it homed or moved on its own, so it halted", \
+      "check that the coordinator runs and that the network connects it with the axis; if it has ended, its log gives the reason", in_order(Remedy::Reset, Remedy::Home)) \
     X(SenderSilent, 143, "sender-silent", "the sender of the program fell silent before the program's end", \
       "continue from the line that lockstep status names: lockstep run FILE --from-line LINE", {}) \
     X(ProgramNotKept, 144, "program-not-kept", "the coordinator cannot keep more of the program on its disk", \
       "make room on the coordinator's disk; continue from the line that lockstep status names: lockstep run FILE --from-line LINE", {}) \
     X(ProgramCutShort, 145, "program-cut-short", "the program's sender could not read it to its end", \
       "see the sender's message; continue from its line: lockstep run FILE --from-line LINE", {}) \
-    X(AwayFromPause, 146, "away-from-pause", "axes were moved in the pause, and the job goes on only from where it paused", \
-      "let them return by a resume, which first shows the way", either(Remedy::Resume, Remedy::Stop)) \
+    X(AwayFromPause, 146, "away-from-pause", "axes were moved in the pause, and the job continues only from the place where it paused", \
+      "a resume first shows the way back, then moves the axes there", either(Remedy::Resume, Remedy::Stop)) \
     X(WriterHeld, 150, "writer-held", "another writer has the machine; other clients can only watch, hold and stop it", \
       "wait until the writer gives it back; or take it over: give the command again with --take", {})
 // clang-format on

@@ -190,7 +190,8 @@ std::string break_sentence(const std::string& axis, const Break& what) {
         case Break::Kind::Restart: return axis + ": its process restarted between " + between + "\n";
         case Break::Kind::Jump:
             if (what.missing_batches == 0) {
-                return axis + ": its position was set again, by " + moved + ", between " + between + "\n";
+                return axis + ": homing, or steps whose times were lost, changed its position by " + moved +
+                       " between " + between + "\n";
             }
             break;
         case Break::Kind::Missing: break;

@@ -176,7 +176,7 @@ void check_events(const Analysis& analysis, Findings& found) {
     for (const JobLog& job : analysis.jobs) { interruptions += job.interruptions(); }
     if (interruptions == 0) { return; }
     found.push_back({analysis.is_exact() ? Grade::Good : Grade::Doubtful,
-                     fmt::format("motion came to rest within a job and went on {}{}", plural(interruptions, "time"),
+                     fmt::format("motion came to rest within a job and continued {}{}", plural(interruptions, "time"),
                                  analysis.is_exact() ? ", from the same place of its path" : "")});
 }
 

@@ -98,7 +98,7 @@ std::string pause_lines(const proto::StatusReport& status) {
     const proto::PauseReport& pause = status.pause();
     std::string text = wrapped("paused: " + pause.text(), 80, "  ") + "\n";
     if (pause.has_way_back()) { text += wrapped("axes were moved; way back: " + pause.way_back(), 80, "  ") + "\n"; }
-    return text + "in the pause: lockstep jog, lockstep touch; go on: lockstep resume; end the job: lockstep stop\n";
+    return text + "in the pause: lockstep jog, lockstep touch; continue: lockstep resume; end the job: lockstep stop\n";
 }
 
 /// Empty while every client may give commands.

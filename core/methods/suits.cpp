@@ -83,8 +83,9 @@ std::string text_of(const Unsuited& unsuited) {
         case Why::NotMade: return text_of(unsuited.error.value());
         case Why::BreaksLimits: break;
     }
-    return "in a move of " + std::to_string(unsuited.steps) + " steps its speed changes at once by " + value +
-           " steps/s beyond what the acceleration allows; the start velocity allows " + limit;
+    return "in a move of " + std::to_string(unsuited.steps) + " steps the method makes a jump of speed of " + value +
+           " steps/s in addition to the acceleration, but the start velocity allows a jump of at most " + limit +
+           " steps/s";
 }
 
 SpeedLimits speed_limits_of(const AxisConfig& axis, std::int64_t tick_ns) {

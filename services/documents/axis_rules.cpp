@@ -229,10 +229,12 @@ private:
             {"homing.pulloff_mm", "homing.switch_position_mm", "position_min_mm", "position_max_mm"}, pulloff < room,
             what + ", not less than the travel from the switch, " + number_text(room) + "; decrease it");
         const double tolerance = axis_.homing.touch_tolerance_mm;
-        problems_.require_between({"homing.touch_tolerance_mm", "homing.pulloff_mm"}, tolerance < pulloff,
-                                  "homing.touch_tolerance_mm is " + number_text(tolerance) +
-                                      ", not less than homing.pulloff_mm " + number_text(pulloff) +
-                                      ": two touches could never differ by more than that; decrease it");
+        problems_.require_between(
+            {"homing.touch_tolerance_mm", "homing.pulloff_mm"}, tolerance < pulloff,
+            "homing.touch_tolerance_mm is " + number_text(tolerance) + ", not less than homing.pulloff_mm " +
+                number_text(pulloff) +
+                ": two touches in a row never differ by more than the pull-off, so homing would accept "
+                "every touch; decrease it");
     }
 
     void check_plant() {

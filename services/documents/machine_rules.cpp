@@ -147,10 +147,11 @@ void check_web(const WebConfig& web, ProblemList& problems) {
     problems.require(
         has_certificate == !web.key_file.empty(), "web",
         "web." + lacking + " is missing; HTTPS needs certificate_file and key_file; plain HTTP needs neither");
-    problems.require_between({"web.address", "web"}, has_certificate || is_loopback_address(web.address),
-                             "web.address is \"" + web.address +
-                                 "\", which other hosts can reach; they are served with TLS only; add certificate_file "
-                                 "and key_file, or set web.address: \"127.0.0.1\" and use an SSH tunnel");
+    problems.require_between(
+        {"web.address", "web"}, has_certificate || is_loopback_address(web.address),
+        "web.address is \"" + web.address +
+            "\", which other hosts can reach, and other hosts are served with TLS only; add certificate_file "
+            "and key_file, or set web.address: \"127.0.0.1\" and use an SSH tunnel");
     for (const std::string& name : web.host_names) {
         problems.require(
             is_host_name(name), "web",

@@ -60,9 +60,9 @@ void Grbl::receive(std::string_view bytes) {
 void Grbl::see(const MachineView& view) {
     const bool had_fault = view_.is_received && view_.phase == MachinePhase::Fault;
     const bool has_fault = view.is_received && view.phase == MachinePhase::Fault;
-    const bool pauses_anew = view.is_received && view.pause && view.pause != view_.pause;
+    const bool begins_pause = view.is_received && view.pause && view.pause != view_.pause;
     view_ = view;
-    if (pauses_anew) { say_pause(); }
+    if (begins_pause) { say_pause(); }
     if (waits_for_ && waits_for_line_) { view_.lines = std::max<std::size_t>(view_.lines, 1); }
     if (has_fault && !had_fault) {
         say(fmt::format("ALARM:{}", alarm_of(view.fault)));
@@ -125,8 +125,9 @@ void Grbl::do_real_time(unsigned char byte) {
 void Grbl::resume() {
     if (state() != State::Hold) { return; }
     if (view_.way_back.empty()) { return void(ask(Request::Kind::Resume)); }
-    say_message("axes were moved in the pause; way back: " + view_.way_back +
-                "; go back by jogs, or let them return and go on: lockstep resume --yes, or Resume on the page");
+    say_message(
+        "axes were moved in the pause; way back: " + view_.way_back +
+        "; jog them back, or let the machine return and continue: lockstep resume --yes, or Resume on the page");
 }
 
 /// Tells a person why the machine waits. The person who gave a hold knows it.

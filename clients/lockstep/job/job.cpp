@@ -134,7 +134,7 @@ void report_stream(const Session& session, const Job& job, Output& output) {
     warn_of(job.stream->take_notes(), output);
     if (const auto& trouble = job.stream->trouble()) {
         output.warn(
-            fmt::format("{0}:{1}:{2}: {3}\nthe lines before it were run; correct it and continue: "
+            fmt::format("{0}:{1}:{2}: {3}\nthe lines before it were run; correct this line and continue: "
                         "lockstep run FILE --from-line {1}",
                         job.name, trouble->line, trouble->column, trouble->message));
     } else if (const auto& refusal = session.sender()->refusal()) {

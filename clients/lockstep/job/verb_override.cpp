@@ -58,15 +58,15 @@ void add_override(Verb command) {
     const Verb verb =
         command.add_verb("override",
                          "change feed and rapid, in percent of the programmed values\n"
-                         "The change is possible while a job runs. The machine stays on its path and within "
-                         "every limit. The values stay until they are changed again. Without options, the "
-                         "command prints them. Overrides do not apply to homing and to moves of axes on their "
-                         "own.");
+                         "It also works while a job runs: the machine stays on its path and within every limit. "
+                         "The percentages apply until the next change, also to later jobs. Without --feed and "
+                         "--rapid, the command prints them. They do not apply to homing, to jog and to move "
+                         "--own.");
     const auto options = std::make_shared<OverrideOptions>();
     verb.add_option("--feed", options->feed_percent, "percent of the programmed feeds")
         .in_range(Overrides::kLeast, Overrides::kMost);
     verb.add_option("--rapid", options->rapid_percent,
-                    "percent of the rapid that the axes allow; above 100 has the effect of 100")
+                    "percent of the greatest speed that the axes allow; more than 100 counts as 100")
         .in_range(Overrides::kLeast, Overrides::kMost);
     add_take(verb, *options);
     add_live_options(verb, *options);

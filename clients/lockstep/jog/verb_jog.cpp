@@ -144,16 +144,16 @@ void add_jog(Verb command) {
     const Verb verb =
         command.add_verb("jog",
                          "move axes while this command runs\n"
-                         "On a terminal, keys move the axes. The named axes move until a distance, the end of "
-                         "their travel or Ctrl-C. Each axis moves on its own, not in a line. When the command "
-                         "ends for any reason, the axes brake.");
+                         "Without axes, the keys of the terminal move them. Named axes move until the end of "
+                         "--distance or of their travel, or until Ctrl-C. Each axis moves independently of the "
+                         "others, not on a straight line. When the command ends for any reason, the axes brake.");
     const auto options = std::make_shared<JogVerbOptions>();
     verb.add_option("axes", options->jog.words, "an axis and a direction: X+ Y-; default: the keys of the terminal");
     verb.add_option("--speed", options->jog.speed_mm_s,
-                    "mm/s of each axis; default: 10, or the axis's maximum if that is less");
+                    "the speed of each axis, mm/s; default: 10, or the axis's maximum if that is less");
     verb.add_option(
         "--distance", options->jog.distance_mm,
-        "mm of each axis; default: to the end of its travel. By keys: the length of the step that each press is");
+        "how far each axis moves, mm; default: to the end of its travel. With keys: how far each press moves");
     add_take(verb, *options);
     add_live_options(verb, *options);
     verb.footer(

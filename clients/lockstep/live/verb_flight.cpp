@@ -38,8 +38,8 @@ void add_flight(Verb command) {
     const auto options = std::make_shared<LiveOptions>();
     add_live_options(verb, *options);
     verb.footer(
-        "At a fault each process writes this by itself; this works at any time, also for processes that are stopped,\n"
-        "hang, or have died.\n" +
+        "At a fault each process writes these files by itself. The command works at any time, also for processes\n"
+        "that are stopped, hang, or have died.\n" +
         footer("  lockstep flight\n  lockstep analyze --incident /var/lib/lockstep/mill/record/incidents\n"));
     verb.action([options] { return flight(*options); });
 }

@@ -46,18 +46,17 @@ ExitCode apply(const TimingOptions& options) {
 
 void add_timing(Verb command) {
     const Verb verb = command.add_verb("timing",
-                                       "write the fastest timing that the hosts can keep into a file\n"
-                                       "The file is the machine's.");
+                                       "write the fastest timing that the hosts can keep into the machine's file\n"
+                                       "lockstep doctor --timing proposes this timing without writing it.");
     verb.footer(group_footer("  lockstep timing apply --machine mill.textproto --seconds 600\n", "timing apply"));
     const Verb part = verb.add_verb(
         "apply",
         "measure this host's stalls, and write the timing for stalls twice as long as the longest; the rest of the "
-        "file "
-        "does not change. Measure under the usual load; lockstep doctor --timing only shows the proposal");
+        "file does not change. Measure under the usual load; lockstep doctor --timing only shows the proposal");
     const auto options = std::make_shared<TimingOptions>();
     part.add_option("--machine", options->machine_file,
                     "the machine's configuration file; default: the file that other verbs use");
-    part.add_option("--seconds", options->seconds, "how long to watch for stalls, s")
+    part.add_option("--seconds", options->seconds, "for how long to measure stalls, s")
         .in_range(0.1, 86'400.0)
         .with_default();
     part.add_option(

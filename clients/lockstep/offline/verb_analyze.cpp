@@ -143,8 +143,9 @@ void add_analyze(Verb command) {
                "  lockstep analyze plate.lcm --svg pictures --csv tables\n"
                "  lockstep analyze plate.lcm --json          # verdict: good, doubtful, unknown or bad\n"
                "  lockstep analyze --incident /var/lib/lockstep/mill/record/incidents plate.lcm\n\n"
-               "A log that is damaged, cut short or partly of another version is read as far as possible and\n"
-               "exits 0: unreadable parts are listed by their bytes. 2: nothing in it could be read.\n"));
+               "A log that is damaged, cut short or partly of another version is read as far as possible. The\n"
+               "report lists unreadable parts by their bytes, and the exit code is 0. If nothing in the log can\n"
+               "be read, it is 2.\n"));
     verb.action([options] { return analyze(*options); });
 }
 

@@ -78,12 +78,12 @@ ExitCode config(const ConfigOptions& options) {
 void add_config(Verb command) {
     const Verb verb = command.add_verb("config",
                                        "show the settings that senders have written\n"
-                                       "These settings apply instead of the machine's file.");
+                                       "These settings apply instead of those in the machine's file.");
     const auto options = std::make_shared<ConfigOptions>();
     verb.add_option("file", options->file, "the machine's configuration file; default: the file that other verbs use");
     verb.add_flag(
         "--fold", options->fold,
-        "write them into the file and remove FILE.settings; the rest of the file, also its comments, does not change");
+        "write the settings into the file and remove FILE.settings; the rest of the file, also its comments, does not change");
     add_json(verb, options->json);
     verb.footer(
         "Senders of grbl's protocol write settings such as $110=3000 (lockstep-grbl). They are kept in FILE.settings,\n"

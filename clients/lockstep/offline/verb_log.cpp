@@ -127,7 +127,8 @@ void add_merge(Verb log) {
         "in none of the logs are reported. Each process also records how much every process has published, so\n"
         "messages at the end and whole logs that are missing are reported too. If that cannot be known, the report\n"
         "says up to which time the record is complete.\n"
-        "From a directory, the logs of the run that is named beside it are merged, else of the newest session.\n" +
+        "A directory may have logs of several sessions. Beside logs that are named as files, only the logs of their\n"
+        "sessions are taken from it; otherwise only those of the newest session.\n" +
         footer("  lockstep log merge whole.lcm run.lcm /var/lib/lockstep/mill/record\n  lockstep verify whole.lcm\n"
                "  lockstep log merge job3.lcm /var/lib/lockstep/mill/record --job 3\n",
                "0 no message is known to be missing; 1 written, but messages are missing;\n"

@@ -51,7 +51,7 @@ void add_offsets(Verb command) {
     const Verb verb =
         command.add_verb("offsets",
                          "show or change the coordinate systems G54 to G59.3 and G92\n"
-                         "These offsets, and the places of G28 and G30, are what G-code programs begin with. "
+                         "G-code programs begin with these offsets, and with the places of G28 and G30. "
                          "The coordinator keeps them, and a program that reaches its end can change them. A "
                          "change is not possible while a job runs.");
     const auto options = std::make_shared<OffsetOptions>();

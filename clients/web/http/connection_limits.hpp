@@ -21,13 +21,14 @@ public:
     /// Closes a connection soon; forget() follows. Called with the lock held.
     using Close = std::function<void(Id)>;
 
-    /// What a connection waits for: the next request's head, the request's body, the client that reads, or this server,
-    /// which may send an event stream. In the order in which connections are closed if there are too many.
+    /// What a connection waits for: the head of the next request, the body of a request, the client to read the answer,
+    /// or this server to send it (or the next event of a stream). If there are too many connections, those that wait
+    /// for an earlier value of this list are closed first.
     enum class Waits : std::uint8_t { ForHead, ForBody, ForReader, ForServer };
 
-    static constexpr std::size_t kMostUnknown = 128;  // that have not sent a valid token
+    static constexpr std::size_t kMostUnknown = 128;  // connections without a valid token
     static constexpr std::size_t kMostUnknownOfAddress = 64;
-    static constexpr std::size_t kMostSignedIn = 256;     // that have
+    static constexpr std::size_t kMostSignedIn = 256;     // connections with a valid token
     static constexpr std::chrono::seconds kPatience{10};  // for a head; for a body or a reader, this and its bytes
     static constexpr std::chrono::seconds kIdle{20};      // for the next head, of a connection that is signed in
     static constexpr std::size_t kLeastRate_bytes_s = 64 * 1024;

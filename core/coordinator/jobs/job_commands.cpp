@@ -76,7 +76,7 @@ void JobRunner::begin_in_pause(JobKind kind, std::shared_ptr<const KnownProgram>
 CommandResult JobRunner::home(const Command& command, CoordinatorLoop& loop) {
     if (auto ready = check_ready(loop, in_motion()); !ready) { return ready; }
     const AxisSet all = all_axes(loop.axes.size());
-    if ((command.axes & ~all) != 0) { return refuse(FaultCode::BadProgram, "no such axis"); }
+    if ((command.axes & ~all) != 0) { return refuse(FaultCode::BadProgram, "the machine does not have this axis"); }
     homing_ = HomingSequence(command.axes == 0 ? all : command.axes);
     intent_ = Intent::GoOn;
     begin(JobKind::Home, command, {}, loop);
@@ -169,9 +169,10 @@ CommandResult JobRunner::interrupt_alone(Intent intent, CoordinatorLoop& loop) {
 CommandResult JobRunner::check_place(const CoordinatorLoop& loop) const {
     if (loop.axes.counts() == path_.place()) { return {}; }
     const Program way = return_way(loop.machine, loop.axes.counts(), path_.place());
-    return refuse(FaultCode::AwayFromPause,
-                  "axes were moved in the pause; the job goes on from where it paused. Way back: " + text_of_way(way) +
-                      ". Let the machine return on this way and go on: lockstep resume --yes");
+    return refuse(
+        FaultCode::AwayFromPause,
+        "axes were moved in the pause, but the job continues only from the place where it paused. Way back: " +
+            text_of_way(way) + ". To let the machine return on this way and continue: lockstep resume --yes");
 }
 
 CommandResult JobRunner::begin_return(CoordinatorLoop& loop) {

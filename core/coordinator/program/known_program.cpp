@@ -31,7 +31,7 @@ KnownProgram::KnownProgram(const MachineConfig& machine, ProgramHead head, std::
 std::expected<void, ProgramCut> KnownProgram::check(const Block& block, std::span<const double> from_mm) const {
     if (known_ > std::numeric_limits<std::uint32_t>::max() - kMaxProgramBlocks) {
         return std::unexpected(ProgramCut{FaultCode::BadProgram, block.line,
-                                          "the program has more than 4 thousand million blocks; split it in two"});
+                                          "the program has more than 4,000 million blocks; split it in two"});
     }
     const auto* move = std::get_if<ProgramMove>(&block.action);
     if (move == nullptr) { return {}; }

@@ -6,8 +6,8 @@ std::string text_of(const ValuesRefusal& refusal) {
     if (refusal.why == ValuesRefusal::Why::JobInProgress) {
         return "a job in progress uses these values; wait until it pauses (M0, M6) or has ended, or: lockstep stop";
     }
-    return "the machine's offsets or tools have changed since this was read: revision " + std::to_string(refusal.read) +
-           ", now " + std::to_string(refusal.now) + "; give the command again";
+    return "the machine's offsets or tools have changed since this command read them: revision " +
+           std::to_string(refusal.read) + ", now " + std::to_string(refusal.now) + "; give the command again";
 }
 
 std::expected<void, ValuesRefusal> ValueKeeper::accept(std::uint64_t program, const gcode::ProgramValues& values,

@@ -9,7 +9,7 @@ std::optional<std::string> values_file_trouble(const std::string& machine) {
     const auto file = values_file(machine);
     const auto values = read_values(file);
     if (values) { return std::nullopt; }
-    return "on this host it cannot start, because its offsets and tools cannot be read:\n" +
+    return "the coordinator cannot start on this host, because the machine's offsets and tools cannot be read:\n" +
            to_text(file.string(), values.error()) + "correct the file, or remove it to begin without offsets and tools";
 }
 

@@ -128,7 +128,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{axis_with("method: CARRICA max_decel_mm_s2: 1000"), 10, 3,
                             "80000 steps/s^2 must equal the acceleration, 120000"},
                     Refusal{axis_with("method: LAM"), 10, 3, "method is lam; in a move of"},
-                    Refusal{axis_with("method: LAI"), 10, 3, "its speed changes at once by"},
+                    Refusal{axis_with("method: LAI"), 10, 3, "makes a jump of speed of"},
                     Refusal{axis_with("method: LAI max_decel_mm_s2: 290"), 10, 3, "at least 23668.6 steps/s^2"},
                     Refusal{with("150", "500", axis_with("method: LAI")), 10, 3, "1 to 255 whole pulses"},
                     Refusal{with("\"m\"", "\"m\" tick_ns: 40000", axis_with("method: SPIELAUER")), 10, 3,

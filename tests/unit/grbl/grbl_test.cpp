@@ -211,7 +211,7 @@ TEST_F(Sender, JogsInAPauseAndResumesOnlyAtItsPlace) {
     (void)lines();
     view.way_back = "X to 10 mm";
     change(MachinePhase::Paused);
-    EXPECT_THAT(send("~"), ElementsAre(HasSubstr("way back: X to 10 mm; go back by jogs, or let them return")));
+    EXPECT_THAT(send("~"), ElementsAre(HasSubstr("way back: X to 10 mm; jog them back, or let the machine return")));
     EXPECT_THAT(asked(), IsEmpty());
 }
 

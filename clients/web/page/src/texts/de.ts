@@ -78,9 +78,9 @@ export const de: Texts = {
     },
     tool: "Wechsle zu Werkzeug {tool}", noTool: "Nimm das Werkzeug heraus", move: "{axis} nach {to}", title: "Zurückfahren und weiter",
     hint: "Der Auftrag wartet. Achsen dürfen von Hand gefahren und genullt werden; dann Weiter.",
-    away: "Achsen wurden bewegt. Bei Weiter fährt die Maschine erst dorthin zurück, wo der Auftrag wartet; der Weg wird vorher gezeigt.",
-    returning: "Die Maschine fährt dorthin zurück, wo der Auftrag wartet.", confirm: "Zurückfahren und weiter",
-    explain: "Achsen wurden in der Pause bewegt. Die Maschine fährt im Eilgang zurück, in Maschinenkoordinaten, und der Auftrag geht weiter:",
+    away: "Achsen wurden bewegt. Weiter zeigt erst den Weg zurück zum Ort der Pause, dann fährt die Maschine dorthin.",
+    returning: "Die Maschine fährt zum Ort der Pause zurück.", confirm: "Zurückfahren und weiter",
+    explain: "Achsen wurden in der Pause bewegt. Die Maschine fährt im Eilgang auf diesem Weg zurück, in Maschinenkoordinaten, dann geht der Auftrag weiter:",
   },
   overrides: { title: "Anpassung", feed: "Vorschub", rapid: "Eilgang", normal: "100 %", unit: "%" },
   program: {

@@ -77,9 +77,9 @@ export const en = {
     },
     tool: "Change to tool {tool}", noTool: "Take out the tool", move: "{axis} to {to}", title: "Return and resume",
     hint: "The job waits. Axes may be jogged and touched off; then resume.",
-    away: "Axes were moved. At Resume the machine first returns to where the job paused; the way is shown before.",
-    returning: "The machine returns to where the job paused.", confirm: "Return and resume",
-    explain: "Axes were moved in the pause. The machine returns as fast as its rapid moves, in machine coordinates, and the job goes on:",
+    away: "Axes were moved. Resume first shows the way back to the place of the pause, then the machine returns there.",
+    returning: "The machine returns to the place of the pause.", confirm: "Return and resume",
+    explain: "Axes were moved in the pause. The machine returns by these rapid moves, in machine coordinates, then the job continues:",
   },
   overrides: { title: "Overrides", feed: "Feed", rapid: "Rapid", normal: "100 %", unit: "%" },
   program: {
