@@ -1,5 +1,5 @@
-// What happens to a machine whose keys have expired, are not valid yet, or expire while it moves, and to processes
-// whose clock is wrong by years.
+// A machine does not start with keys that have expired or are not valid yet, and comes to rest on its path if they
+// expire while it moves. A process whose clock is wrong by years does not join.
 #include <gmock/gmock.h>
 
 #include <chrono>
