@@ -74,7 +74,8 @@ void add_move(Verb command) {
     verb.add_flag("--relative", options->move.relative, "targets are distances from each axis's present position");
     verb.add_flag("--own", options->move.own,
                   "move each axis on its own, by the method in its configuration; the axes arrive at different times");
-    verb.add_option("--in", options->move.in_s, "with --own: how long each axis's move lasts, s; only for axes with method: RANADE");
+    verb.add_option("--in", options->move.in_s,
+                    "with --own: how long each axis's move lasts, s; only for axes with method: RANADE");
     add_detach(verb, options->detach);
     add_take(verb, *options);
     add_live_options(verb, *options);

@@ -196,7 +196,8 @@ void add_doctor(Verb command) {
                                        "check whether this host and its network suit a machine\n"
                                        "The command prints the command that corrects each problem.");
     const auto options = std::make_shared<DoctorOptions>();
-    verb.add_option("--seconds", options->seconds, "for how many seconds to measure stalls; run the command under the usual load")
+    verb.add_option("--seconds", options->seconds,
+                    "for how many seconds to measure stalls; run the command under the usual load")
         .in_range(0.1, 3600.0)
         .with_default();
     verb.add_flag("--timing", options->timing, "only watch for stalls, and propose the fastest timing for them");

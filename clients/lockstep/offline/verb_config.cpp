@@ -81,9 +81,9 @@ void add_config(Verb command) {
                                        "These settings apply instead of those in the machine's file.");
     const auto options = std::make_shared<ConfigOptions>();
     verb.add_option("file", options->file, "the machine's configuration file; default: the file that other verbs use");
-    verb.add_flag(
-        "--fold", options->fold,
-        "write the settings into the file and remove FILE.settings; the rest of the file, also its comments, does not change");
+    verb.add_flag("--fold", options->fold,
+                  "write the settings into the file and remove FILE.settings; the rest of the file, also its comments, "
+                  "does not change");
     add_json(verb, options->json);
     verb.footer(
         "Senders of grbl's protocol write settings such as $110=3000 (lockstep-grbl). They are kept in FILE.settings,\n"
