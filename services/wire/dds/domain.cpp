@@ -46,7 +46,7 @@ std::string domain_place(const NetworkConfig& network) {
 std::string cannot_open_domain(const NetworkConfig& network, const char* why) {
     return "cannot open " + domain_place(network) + ": " + why +
            "; check that the interface exists and has an address (ip addr show " + network.interface +
-           "), that the domain is 0 to 230, and CYCLONEDDS_URI if it is set";
+           "), that the domain is 0 to 232, and CYCLONEDDS_URI if it is set";
 }
 
 std::expected<std::string, std::string> dds_profile(const NetworkConfig& network, Discovery discovery) {
