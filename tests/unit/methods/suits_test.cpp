@@ -82,6 +82,21 @@ TEST(Lam, DoesNotSuitIfItsRampsBreakTheLimits) {
     EXPECT_THAT(why_not(StepMethod::Lam, {1'000, 1'666, 100'000, 90'000, 1e-6}), HasSubstr("must equal"));
 }
 
+TEST(ABeltAxis, IsSuitedUpToTheSpeedsThatTheReadmeNames) {
+    const auto why_not_at = [](StepMethod method, double mm_s) {
+        SpeedLimits limits = kBelt;
+        limits.max = 80 * mm_s;
+        return why_not(method, limits);
+    };
+    for (const StepMethod method : {StepMethod::Ranade, StepMethod::Spielauer, StepMethod::Carrica}) {
+        EXPECT_EQ(why_not_at(method, 150), "");
+    }
+    EXPECT_EQ(why_not_at(StepMethod::Lai, 55), "");
+    EXPECT_NE(why_not_at(StepMethod::Lai, 56), "");
+    EXPECT_EQ(why_not_at(StepMethod::Lam, 24), "");
+    EXPECT_NE(why_not_at(StepMethod::Lam, 25), "");
+}
+
 TEST(EveryOtherMethod, NeedsThreeTicksAStep) {
     for (const StepMethod method : {StepMethod::Spielauer, StepMethod::Lai, StepMethod::Lam, StepMethod::Carrica}) {
         EXPECT_THAT(why_not(method, changed([](auto& l) { l.max = 400'000; })),
