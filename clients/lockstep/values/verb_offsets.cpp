@@ -52,8 +52,8 @@ void add_offsets(Verb command) {
         command.add_verb("offsets",
                          "show or change the coordinate systems G54 to G59.3 and G92\n"
                          "G-code programs begin with these offsets, and with the places of G28 and G30. "
-                         "The coordinator keeps them, and a program that reaches its end can change them. A "
-                         "change is not possible while a job runs.");
+                         "The coordinator keeps them, and a program that reaches its end can change them. "
+                         "While a job runs, a change is possible only in its pauses.");
     const auto options = std::make_shared<OffsetOptions>();
     add_live_options(verb, *options);
     verb.footer(

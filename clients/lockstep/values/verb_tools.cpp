@@ -54,7 +54,7 @@ void add_tools(Verb command) {
         command.add_verb("tools",
                          "show or change the tool table\n"
                          "The coordinator keeps the table. G43 takes a tool's length from it, G41 and G42 its "
-                         "diameter, and G10 L1 changes it. A change is not possible while a job runs.");
+                         "diameter, and G10 L1 changes it. While a job runs, a change is possible only in its pauses.");
     const auto options = std::make_shared<ToolOptions>();
     add_live_options(verb, *options);
     verb.footer(
