@@ -1,5 +1,7 @@
 #include "services/arguments/argument_parser.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -43,7 +45,7 @@ std::string text_of(const CLI::ParseError& error, CLI::App& app, const std::stri
     const bool is_known = std::ranges::any_of(verbs, [&](const CLI::App* verb) { return verb->get_name() == first; });
     if (is_known) { return error.what() + ("; see: " + name) + " " + first + " --help"; }
     const bool is_verb = !verbs.empty() && !first.empty() && !first.starts_with('-');
-    return (is_verb ? "there is no verb '" + first + "'" : error.what()) + "; see: " + name + " --help";
+    return fmt::format("{}; see: {} --help", (is_verb ? "there is no verb '" + first + "'" : error.what()), name);
 }
 
 /// A list of verbs has one line for each.

@@ -136,8 +136,9 @@ private:
         const bool proved = second_.proves(state.identity, state.stamp, slot);
         if (!rival_.must_leave(state.identity, proved, own_now())) { return; }
         const std::string host = network_.host_of_rival();
-        end_reason_ = "axis " + own_name() + " is already run by another process" +
-                      (host.empty() ? "" : " on host " + host) + "; end one of them: lockstep down, on its host";
+        end_reason_ =
+            fmt::format("axis {} is already run by another process{}; end one of them: lockstep down, on its host",
+                        own_name(), (host.empty() ? "" : " on host " + host));
     }
 
     /// CLOCK_MONOTONIC in ticks. It is independent of the machine's time source and of injected clock errors.
@@ -250,10 +251,10 @@ int run(const AxisServiceOptions& options, const MachineConfig& machine, std::si
     if (!network) { return end_with_failure(network.error()); }
     AxisService service(setup, fpga, clock, std::move(*network),
                         open_record(machine, machine.axes[axis].name, options.record));
-    log_info("axis " + machine.axes[axis].name + " of machine " + machine.name + " is up, device " + fpga);
+    log_info(fmt::format("axis {} of machine {} is up, device {}", machine.axes[axis].name, machine.name, fpga));
 
     ServiceManager manager;
-    manager.ready("axis " + machine.axes[axis].name + " of machine " + machine.name);
+    manager.ready(fmt::format("axis {} of machine {}", machine.axes[axis].name, machine.name));
     PeriodicLoop periodic(loop_period(machine));
     std::optional<LoopWatchdog> watchdog([&] { service.end_as_stuck(); });
     periodic.run(stop, [&](nanoseconds begun) {

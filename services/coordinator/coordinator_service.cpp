@@ -1,5 +1,7 @@
 #include "services/coordinator/coordinator_service.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -238,7 +240,8 @@ private:
         const auto& lease = coordinator_.lease();
         if (lease == logged_lease_) { return; }
         logged_lease_ = lease;
-        log_info(lease ? "the writer is " + lease->writer.name + " on " + lease->writer.host : "there is no writer");
+        log_info(lease ? fmt::format("the writer is {} on {}", lease->writer.name, lease->writer.host)
+                       : "there is no writer");
     }
 
     /// Logs every few seconds: missing axes, configurations that differ, lost records and refused messages.

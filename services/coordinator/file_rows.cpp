@@ -1,6 +1,7 @@
 #include "services/coordinator/file_rows.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -200,8 +201,8 @@ void FileRows::take_back(const Work& work) {
     } else if (!work.is_write) {
         remove(page);
     } else if (!failure_) {
-        failure_ = "the coordinator cannot keep the program in " + directory_.string() + ": " +
-                   std::strerror(work.error) + "; make room on its disk";
+        failure_ = fmt::format("the coordinator cannot keep the program in {}: {}; make room on its disk",
+                               directory_.string(), std::strerror(work.error));
     }
     evict();
 }

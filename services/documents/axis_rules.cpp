@@ -70,9 +70,9 @@ private:
         problems_.require_range(key, value, -kMaxPlace_mm, kMaxPlace_mm);
     }
     void length(const std::string& key, double value) {
-        problems_.require(
-            value > 0 && value <= kMaxPlace_mm, key,
-            key + " is " + number_text(value) + "; it must be above 0 and at most " + number_text(kMaxPlace_mm));
+        problems_.require(value > 0 && value <= kMaxPlace_mm, key,
+                          fmt::format("{} is {}; it must be above 0 and at most {}", key, number_text(value),
+                                      number_text(kMaxPlace_mm)));
     }
 
     void check_ranges() {
@@ -100,13 +100,13 @@ private:
     void check_speeds() {
         problems_.require_between(
             {"max_velocity_mm_s", "start_velocity_mm_s"}, axis_.max_velocity_mm_s >= axis_.start_velocity_mm_s,
-            "max_velocity_mm_s is " + number_text(axis_.max_velocity_mm_s) + ", below start_velocity_mm_s " +
-                number_text(axis_.start_velocity_mm_s) + "; increase it");
+            fmt::format("max_velocity_mm_s is {}, below start_velocity_mm_s {}; increase it",
+                        number_text(axis_.max_velocity_mm_s), number_text(axis_.start_velocity_mm_s)));
         const double fastest = kMaxStepsPerTick / (tick_s() * axis_.steps_per_mm);
         problems_.require_between({"max_velocity_mm_s", "steps_per_mm"}, axis_.max_velocity_mm_s <= fastest,
-                                  "max_velocity_mm_s is " + number_text(axis_.max_velocity_mm_s) +
-                                      ", more than half a step per tick; it must be at most " + number_text(fastest) +
-                                      ", or decrease tick_ns or steps_per_mm");
+                                  fmt::format("max_velocity_mm_s is {}, more than half a step per tick; it must be at "
+                                              "most {}, or decrease tick_ns or steps_per_mm",
+                                              number_text(axis_.max_velocity_mm_s), number_text(fastest)));
     }
 
     /// The device keeps the times of steps until the process, which may stall, reads them.
@@ -116,22 +116,25 @@ private:
         const double most = kDeviceCaptureEntries / longest_s / axis_.steps_per_mm;
         problems_.require_between(
             {"max_velocity_mm_s", "steps_per_mm"}, axis_.max_velocity_mm_s <= most,
-            "max_velocity_mm_s is " + number_text(axis_.max_velocity_mm_s) + ": in timing.stall_slots + 1 slots of " +
-                number_text(longest_s) + " s together, the axis would make more than the " +
-                number_text(kDeviceCaptureEntries) + " steps that its device can record; it must be at most " +
-                number_text(most) + ", or decrease timing.slot_us or timing.stall_slots");
+            fmt::format("max_velocity_mm_s is {}: in timing.stall_slots + 1 slots of {} s together, the axis would "
+                        "make more than the {} steps that its device can record; it must be at most {}, or decrease "
+                        "timing.slot_us or timing.stall_slots",
+                        number_text(axis_.max_velocity_mm_s), number_text(longest_s),
+                        number_text(kDeviceCaptureEntries), number_text(most)));
     }
 
     void check_ramp(std::string_view key, double value) {
         const std::string what = std::string(key) + " is " + number_text(value);
         const double most = kMaxStepsPerTick / (tick_s() * tick_s() * axis_.steps_per_mm);
-        problems_.require_between({key, "steps_per_mm"}, value <= most,
-                                  what + ", which reaches full speed within a tick; it must be at most " +
-                                      number_text(most) + "; decrease it or tick_ns");
+        problems_.require_between(
+            {key, "steps_per_mm"}, value <= most,
+            fmt::format("{}, which reaches full speed within a tick; it must be at most {}; decrease it or tick_ns",
+                        what, number_text(most)));
         const double least = axis_.max_velocity_mm_s / kMaxRampSeconds;
-        problems_.require_between({key, "max_velocity_mm_s"}, value >= least,
-                                  what + ", so max_velocity_mm_s would take more than " + number_text(kMaxRampSeconds) +
-                                      " s; it must be at least " + number_text(least));
+        problems_.require_between(
+            {key, "max_velocity_mm_s"}, value >= least,
+            fmt::format("{}, so max_velocity_mm_s would take more than {} s; it must be at least {}", what,
+                        number_text(kMaxRampSeconds), number_text(least)));
     }
 
     /// A motion that lasts longer cannot be planned exactly. A search goes twice over the travel at most.
@@ -141,8 +144,8 @@ private:
         const auto check = [&](std::string_view key, double speed_mm_s) {
             problems_.require_between(
                 {key, "position_max_mm", "position_min_mm"}, !(speed_mm_s > 0 && speed_mm_s < least),
-                std::string(key) + " is " + number_text(speed_mm_s) +
-                    ", so twice the travel would take more than 30 days; it must be at least " + number_text(least));
+                fmt::format("{} is {}, so twice the travel would take more than 30 days; it must be at least {}", key,
+                            number_text(speed_mm_s), number_text(least)));
         };
         check("max_velocity_mm_s", axis_.max_velocity_mm_s);
         check("homing.search_velocity_mm_s", axis_.homing.search_velocity_mm_s);
@@ -150,44 +153,46 @@ private:
 
     void check_travel() {
         problems_.require_between({"position_max_mm", "position_min_mm"}, axis_.position_max_mm > axis_.position_min_mm,
-                                  "position_max_mm is " + number_text(axis_.position_max_mm) +
-                                      ", not above position_min_mm " + number_text(axis_.position_min_mm) +
-                                      "; increase it");
+                                  fmt::format("position_max_mm is {}, not above position_min_mm {}; increase it",
+                                              number_text(axis_.position_max_mm), number_text(axis_.position_min_mm)));
         const double travel_steps = (axis_.position_max_mm - axis_.position_min_mm) * axis_.steps_per_mm;
         problems_.require_between(
             {"position_max_mm", "position_min_mm", "steps_per_mm"}, travel_steps >= kMinTravelSteps,
-            "position_max_mm is " + number_text(axis_.position_max_mm) + ", " + number_text(travel_steps) +
-                " steps above position_min_mm; it must be at least " + number_text(kMinTravelSteps) +
-                " steps above it: increase position_max_mm or steps_per_mm");
+            fmt::format("position_max_mm is {}, {} steps above position_min_mm; it must be at least {} steps above it: "
+                        "increase position_max_mm or steps_per_mm",
+                        number_text(axis_.position_max_mm), number_text(travel_steps), number_text(kMinTravelSteps)));
         check_steps("position_min_mm", axis_.position_min_mm);
         check_steps("position_max_mm", axis_.position_max_mm);
     }
 
     void check_steps(std::string_view key, double mm) {
         problems_.require_between({key, "steps_per_mm"}, std::abs(mm) * axis_.steps_per_mm <= kMaxSteps,
-                                  std::string(key) + " is " + number_text(mm) + ", more than " +
-                                      number_text(kMaxSteps) + " steps from 0; move it closer to 0");
+                                  fmt::format("{} is {}, more than {} steps from 0; move it closer to 0", key,
+                                              number_text(mm), number_text(kMaxSteps)));
     }
 
     void check_homing_speeds() {
         problems_.require_range("homing.sequence", axis_.homing.sequence, 0, 99);
         const double search = axis_.homing.search_velocity_mm_s;
         const double latch = axis_.homing.latch_velocity_mm_s;
+        problems_.require_between({"homing.search_velocity_mm_s", "start_velocity_mm_s"},
+                                  search <= axis_.start_velocity_mm_s,
+                                  fmt::format("homing.search_velocity_mm_s is {}, above start_velocity_mm_s {}: the "
+                                              "switch stops the pulses at once; decrease it",
+                                              number_text(search), number_text(axis_.start_velocity_mm_s)));
         problems_.require_between(
-            {"homing.search_velocity_mm_s", "start_velocity_mm_s"}, search <= axis_.start_velocity_mm_s,
-            "homing.search_velocity_mm_s is " + number_text(search) + ", above start_velocity_mm_s " +
-                number_text(axis_.start_velocity_mm_s) + ": the switch stops the pulses at once; decrease it");
-        problems_.require_between({"homing.latch_velocity_mm_s", "homing.search_velocity_mm_s"}, latch <= search,
-                                  "homing.latch_velocity_mm_s is " + number_text(latch) +
-                                      ", above homing.search_velocity_mm_s " + number_text(search) + "; decrease it");
+            {"homing.latch_velocity_mm_s", "homing.search_velocity_mm_s"}, latch <= search,
+            fmt::format("homing.latch_velocity_mm_s is {}, above homing.search_velocity_mm_s {}; decrease it",
+                        number_text(latch), number_text(search)));
     }
 
     void check_unhomed_jog() {
         if (!axis_.unhomed_jog_mm_s) { return; }
         problems_.require_between(
             {"unhomed_jog_mm_s", "start_velocity_mm_s"}, *axis_.unhomed_jog_mm_s <= axis_.start_velocity_mm_s,
-            "unhomed_jog_mm_s is " + number_text(*axis_.unhomed_jog_mm_s) + ", above start_velocity_mm_s " +
-                number_text(axis_.start_velocity_mm_s) + ": a limit switch stops the pulses at once; decrease it");
+            fmt::format("unhomed_jog_mm_s is {}, above start_velocity_mm_s {}: a limit switch stops the pulses at "
+                        "once; decrease it",
+                        number_text(*axis_.unhomed_jog_mm_s), number_text(axis_.start_velocity_mm_s)));
     }
 
     void check_homing_places() {
@@ -202,8 +207,8 @@ private:
     void check_within_travel(std::string_view key, double mm) {
         problems_.require_between(
             {key, "position_min_mm", "position_max_mm"}, mm >= axis_.position_min_mm && mm <= axis_.position_max_mm,
-            std::string(key) + " is " + number_text(mm) + ", outside the travel; it must be from " +
-                number_text(axis_.position_min_mm) + " to " + number_text(axis_.position_max_mm));
+            fmt::format("{} is {}, outside the travel; it must be from {} to {}", key, number_text(mm),
+                        number_text(axis_.position_min_mm), number_text(axis_.position_max_mm)));
     }
 
     /// The switch must lie on the side homed to, and the axis must reach it before the limit switch.
@@ -214,9 +219,10 @@ private:
         const bool holds = at_min ? at > limit_min() && at <= middle : at < limit_max() && at >= middle;
         problems_.require_between(
             {"homing.switch_position_mm", "position_min_mm", "position_max_mm", "plant.travel_margin_mm"}, holds,
-            "homing.switch_position_mm is " + number_text(at) + "; it must be on the side that the axis homes to, " +
-                number_text(at_min ? limit_min() : middle) + " to " + number_text(at_min ? middle : limit_max()) +
-                ", and not on the limit switch");
+            fmt::format("homing.switch_position_mm is {}; it must be on the side that the axis homes to, {} to {}, and "
+                        "not on the limit switch",
+                        number_text(at), number_text(at_min ? limit_min() : middle),
+                        number_text(at_min ? middle : limit_max())));
     }
 
     void check_pulloff(double room) {
@@ -227,14 +233,13 @@ private:
             what + ", less than a step; it must be at least " + number_text(1 / axis_.steps_per_mm));
         problems_.require_between(
             {"homing.pulloff_mm", "homing.switch_position_mm", "position_min_mm", "position_max_mm"}, pulloff < room,
-            what + ", not less than the travel from the switch, " + number_text(room) + "; decrease it");
+            fmt::format("{}, not less than the travel from the switch, {}; decrease it", what, number_text(room)));
         const double tolerance = axis_.homing.touch_tolerance_mm;
         problems_.require_between(
             {"homing.touch_tolerance_mm", "homing.pulloff_mm"}, tolerance < pulloff,
-            "homing.touch_tolerance_mm is " + number_text(tolerance) + ", not less than homing.pulloff_mm " +
-                number_text(pulloff) +
-                ": two touches in a row never differ by more than the pull-off, so homing would accept "
-                "every touch; decrease it");
+            fmt::format("homing.touch_tolerance_mm is {}, not less than homing.pulloff_mm {}: two touches in a row "
+                        "never differ by more than the pull-off, so homing would accept every touch; decrease it",
+                        number_text(tolerance), number_text(pulloff)));
     }
 
     void check_plant() {
@@ -242,8 +247,9 @@ private:
         problems_.require_between(
             {"plant.start_position_mm", "position_min_mm", "position_max_mm", "plant.travel_margin_mm"},
             at > limit_min() && at < limit_max(),
-            "plant.start_position_mm is " + number_text(at) + ", not between the limit switches; it must be above " +
-                number_text(limit_min()) + " and below " + number_text(limit_max()));
+            fmt::format(
+                "plant.start_position_mm is {}, not between the limit switches; it must be above {} and below {}",
+                number_text(at), number_text(limit_min()), number_text(limit_max())));
     }
 
     /// Plans a trial move, so it runs only if the limits are valid.
@@ -254,8 +260,8 @@ private:
         if (!std::ranges::all_of(kLimits, is_sound)) { return; }
         const auto suits = methods::suits(axis_.method, methods::speed_limits_of(axis_, machine_.tick_ns));
         problems_.require(suits.has_value(), "method",
-                          "method is " + std::string(name_of(axis_.method)) + "; " +
-                              (suits ? "" : text_of(suits.error())) + "; change the limits, or choose another method");
+                          fmt::format("method is {}; {}; change the limits, or choose another method",
+                                      name_of(axis_.method), (suits ? "" : text_of(suits.error()))));
     }
 
     void check_place() {

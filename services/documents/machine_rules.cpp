@@ -114,9 +114,9 @@ void check_network(const NetworkConfig& network, ProblemList& problems) {
 }
 
 void check_directory(const std::string& key, const std::string& directory, ProblemList& problems) {
-    problems.require(
-        directory.empty() || directory.starts_with('/'), key,
-        key + " is \"" + directory + "\"; it must be an absolute path, such as /var/lib/lockstep; or remove it");
+    problems.require(directory.empty() || directory.starts_with('/'), key,
+                     fmt::format("{} is \"{}\"; it must be an absolute path, such as /var/lib/lockstep; or remove it",
+                                 key, directory));
 }
 
 void check_record(const RecordConfig& record, ProblemList& problems) {
@@ -168,7 +168,7 @@ void check_hosts(const MachineConfig& machine, ProblemList& problems) {
                      "network.one_host is true, but network.peers names other hosts; remove one of them");
     const std::vector<std::string> hosts = hosts_of(machine);
     if (hosts.size() < 2) { return; }
-    const std::string several = "the machine is on several hosts, such as " + hosts[0] + " and " + hosts[1];
+    const std::string several = fmt::format("the machine is on several hosts, such as {} and {}", hosts[0], hosts[1]);
     problems.require(machine.timing.time_source != TimeSource::Shared, "timing.time_source",
                      "timing.time_source is SHARED, the clock of one host, but " + several + "; set NETWORK or PTP");
     problems.require(machine.network.interface != "lo", "network.interface",

@@ -1,5 +1,7 @@
 #include "services/documents/placement.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "services/documents/names.hpp"
@@ -60,15 +62,14 @@ std::expected<std::size_t, std::string> axis_to_run(const MachineConfig& machine
         if (named.empty() ? here : axis.name == named) { fit.push_back(i); }
     }
     if (fit.size() == 1) { return fit.front(); }
-    if (!named.empty()) {
-        return std::unexpected("has no axis " + std::string(named) + "; it has:" + places_of(machine));
-    }
+    if (!named.empty()) { return std::unexpected(fmt::format("has no axis {}; it has:{}", named, places_of(machine))); }
     if (fit.empty()) {
-        return std::unexpected("places no axis on this host, " + std::string(host) + "; it has:" + places_of(machine) +
-                               "; name one with --axis, or set its host in the file");
+        return std::unexpected(
+            fmt::format("places no axis on this host, {}; it has:{}; name one with --axis, or set its host in the file",
+                        host, places_of(machine)));
     }
-    return std::unexpected("places several axes on this host, " + std::string(host) + ": " + names_of(machine, fit) +
-                           "; name one with --axis");
+    return std::unexpected(
+        fmt::format("places several axes on this host, {}: {}; name one with --axis", host, names_of(machine, fit)));
 }
 
 }  // namespace lockstep

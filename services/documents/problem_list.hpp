@@ -1,6 +1,8 @@
 // Collects problems: at most one for each key, and none that only follows from another.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <initializer_list>
 #include <string_view>
@@ -25,9 +27,9 @@ public:
     }
 
     void require_range(const std::string& key, double value, double min, double max) {
-        require(
-            value >= min && value <= max, key,
-            key + " is " + number_text(value) + "; it must be from " + number_text(min) + " to " + number_text(max));
+        require(value >= min && value <= max, key,
+                fmt::format("{} is {}; it must be from {} to {}", key, number_text(value), number_text(min),
+                            number_text(max)));
     }
 
     /// Checks a rule between several keys, but only if none of them has a problem yet. Reports the problem at the first

@@ -41,8 +41,8 @@ Refusal check_places(const Numbers& places, const proto::Program& message, std::
     for (int i = 0; i < places.size(); ++i) {
         if (!(std::abs(places[i]) <= kMaxPlace_mm)) {
             const std::string axis = i < message.axes_size() ? message.axes(i) : fmt::format("axis {}", i + 1);
-            return "puts " + axis + " at " + number_text(places[i]) + " mm; it must be from -" +
-                   number_text(kMaxPlace_mm) + " to " + number_text(kMaxPlace_mm) + " mm";
+            return fmt::format("puts {} at {} mm; it must be from -{} to {} mm", axis, number_text(places[i]),
+                               number_text(kMaxPlace_mm), number_text(kMaxPlace_mm));
         }
     }
     return {};
@@ -67,8 +67,8 @@ Refusal check_arc(const proto::ProgramMove& move, std::size_t axes) {
     }
     for (const double mm : {arc.centre_first_mm(), arc.centre_second_mm()}) {
         if (!(std::abs(mm) <= kMaxCentre_mm)) {
-            return "the arc's centre is at " + number_text(mm) + " mm; it must be from -" + number_text(kMaxCentre_mm) +
-                   " to " + number_text(kMaxCentre_mm) + " mm";
+            return fmt::format("the arc's centre is at {} mm; it must be from -{} to {} mm", number_text(mm),
+                               number_text(kMaxCentre_mm), number_text(kMaxCentre_mm));
         }
     }
     if (arc.turns() < 1 || arc.turns() > kMaxTurns) {
@@ -80,13 +80,13 @@ Refusal check_arc(const proto::ProgramMove& move, std::size_t axes) {
 Refusal check_move(const proto::ProgramMove& move, const proto::Program& message, std::size_t axes) {
     if (Refusal refusal = check_places(move.target_mm(), message, axes)) { return "the target " + *refusal; }
     if (!move.rapid() && !(move.feed_mm_s() >= kLeastSpeed_mm_s && move.feed_mm_s() <= kMaxFeed_mm_s)) {
-        return "the feed is " + number_text(move.feed_mm_s()) + " mm/s; it must be from " +
-               number_text(kLeastSpeed_mm_s) + " to " + number_text(kMaxFeed_mm_s);
+        return fmt::format("the feed is {} mm/s; it must be from {} to {}", number_text(move.feed_mm_s()),
+                           number_text(kLeastSpeed_mm_s), number_text(kMaxFeed_mm_s));
     }
     if (!proto::PathMode_IsValid(move.mode())) { return fmt::format("the path mode is unknown: {}", int{move.mode()}); }
     if (!(move.tolerance_mm() >= 0 && move.tolerance_mm() <= kMaxTolerance_mm)) {
-        return "the tolerance is " + number_text(move.tolerance_mm()) + " mm; it must be from 0 to " +
-               number_text(kMaxTolerance_mm);
+        return fmt::format("the tolerance is {} mm; it must be from 0 to {}", number_text(move.tolerance_mm()),
+                           number_text(kMaxTolerance_mm));
     }
     return move.has_arc() ? check_arc(move, axes) : Refusal{};
 }
@@ -121,8 +121,8 @@ Refusal check_block(const proto::Block& block, const proto::Program& message, st
     if (block.has_move()) { return check_move(block.move(), message, axes); }
     if (block.has_event()) { return check_event(block.event()); }
     if (block.has_dwell() && !(block.dwell().seconds() >= 0 && block.dwell().seconds() <= kMaxDwell_s)) {
-        return "the dwell is " + number_text(block.dwell().seconds()) + " s; it must be from 0 to " +
-               number_text(kMaxDwell_s);
+        return fmt::format("the dwell is {} s; it must be from 0 to {}", number_text(block.dwell().seconds()),
+                           number_text(kMaxDwell_s));
     }
     if (block.has_pause()) { return check_pause(block.pause()); }
     if (block.action_case() == proto::Block::ACTION_NOT_SET) { return "the action is missing or unknown"; }

@@ -1,5 +1,7 @@
 #include "services/flight/flight_recorder.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <utility>
 
@@ -93,8 +95,8 @@ void FlightRecorder::write() {
     const auto reason = static_cast<IncidentReason>(incident->event.detail);
     const auto file = write_incident(*snapshot, {reason, incident->event.tick, wall_clock_us()});
     if (!file) { return log_warning("the incident file cannot be written: " + file.error()); }
-    log_warning("incident (" + std::string(name_of(reason)) + "): the notes of the time before it are in " +
-                how_to_read(*file));
+    log_warning(
+        fmt::format("incident ({}): the notes of the time before it are in {}", name_of(reason), how_to_read(*file)));
 }
 
 std::unique_ptr<FlightLog> open_flight(const MachineConfig& machine, const std::string& axis, Identity identity) {
@@ -126,8 +128,8 @@ LeftRings save_left_rings(const std::filesystem::path& rings, const std::filesys
             left->remove();
             found.saved.push_back(*file);
         } else {
-            found.problems.push_back("the notes of " + snapshot->source.process +
-                                     " before its end cannot be written: " + file.error());
+            found.problems.push_back(fmt::format("the notes of {} before its end cannot be written: {}",
+                                                 snapshot->source.process, file.error()));
         }
     }
     return found;

@@ -83,8 +83,9 @@ std::expected<fs::path, std::string> write_incident(const FlightSnapshot& snapsh
     std::error_code error;
     fs::create_directories(source.directory, error);
     if (error) {
-        return std::unexpected("cannot create " + source.directory.string() + ": " + error.message() +
-                               "; set record { directory } to a directory that can be written");
+        return std::unexpected(
+            fmt::format("cannot create {}: {}; set record {{ directory }} to a directory that can be written",
+                        source.directory.string(), error.message()));
     }
     UnfinishedFile file(file_for(source, mark));
     auto log = LogWriter::open(file.unfinished());

@@ -1,5 +1,7 @@
 #include "services/fpga/fpga_service.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <expected>
@@ -44,7 +46,7 @@ public:
                                             : RegisterWindow::create_file(options_.file);
         if (!window) { return std::unexpected(window.error()); }
         device_.emplace(std::move(*window), plant_, tick_ns_, clock_.now(), drawn_number());
-        log_info("device \"" + options_.name + options_.file + "\" is powered up");
+        log_info(fmt::format("device \"{}{}\" is powered up", options_.name, options_.file));
         return {};
     }
 

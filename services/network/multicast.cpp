@@ -18,8 +18,8 @@ constexpr const char* kMulticastRange = "224.0.0.0/4";
 constexpr const char* kDefaultGroup = "239.255.76.67";
 
 std::string remedy(const std::string& interface) {
-    return "run as root: ip route add " + std::string(kMulticastRange) + " dev " + interface +
-           (interface == "lo" ? " (and, if nothing is received: ip link set lo multicast on)" : "");
+    return fmt::format("run as root: ip route add {} dev {}{}", kMulticastRange, interface,
+                       (interface == "lo" ? " (and, if nothing is received: ip link set lo multicast on)" : ""));
 }
 
 /// Runs `ip route add 224.0.0.0/4 dev lo` without a shell. Returns whether it succeeded. It does not call fork(),

@@ -1,5 +1,6 @@
 #include "services/security/admission.hpp"
 
+#include <fmt/format.h>
 #include <sys/stat.h>
 
 #include "services/files/text_file.hpp"
@@ -58,9 +59,9 @@ public:
             wrong(earliest_->path, earliest_->what + " expired on " + end + clock,
                   std::string(kRenew) + "; if that clock is wrong, set it");
         } else if (*check_.until - now < kNearEnd) {
-            check_.warnings.push_back(earliest_->path.string() + ": " + earliest_->what + " expires on " + end +
-                                      "; then " + member_.name +
-                                      " can no longer join, and leaves a machine that is up; " + kRenew);
+            check_.warnings.push_back(
+                fmt::format("{}: {} expires on {}; then {} can no longer join, and leaves a machine that is up; {}",
+                            earliest_->path.string(), earliest_->what, end, member_.name, kRenew));
         }
     }
     void certificate(const fs::path& path, const std::string& pem) {

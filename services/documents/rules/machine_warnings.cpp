@@ -1,5 +1,7 @@
 #include "services/documents/rules/machine_warnings.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/gcode/motion.hpp"
@@ -25,10 +27,9 @@ std::vector<std::string> machine_warnings(const MachineConfig& machine) {
     std::vector<std::string> warnings;
     for (const AxisConfig& axis : machine.axes) {
         if (gcode::axis_place(axis.name)) { continue; }
-        warnings.push_back("axis " + axis.name +
-                           ": no word of G-code names it, so no program moves it; only jogs and " +
-                           "lockstep home and move do" +
-                           (letters.empty() ? "" : "; to use it in programs, set its name to one of:" + letters));
+        warnings.push_back(fmt::format(
+            "axis {}: no word of G-code names it, so no program moves it; only jogs and lockstep home and move do{}",
+            axis.name, (letters.empty() ? "" : "; to use it in programs, set its name to one of:" + letters)));
     }
     return warnings;
 }

@@ -67,8 +67,8 @@ public:
 private:
     double within(double value, double least, double most, const std::string& what) {
         if (value >= least && value <= most) { return value; }
-        refuse(what + " is " + number_text(value) + "; it must be from " + number_text(least) + " to " +
-               number_text(most));
+        refuse(fmt::format("{} is {}; it must be from {} to {}", what, number_text(value), number_text(least),
+                           number_text(most)));
         return least;
     }
 

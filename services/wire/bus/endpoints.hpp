@@ -2,6 +2,8 @@
 // and accepts a message about an axis only from that axis's own writer.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -143,8 +145,8 @@ private:
     std::expected<void, std::string> check_writer(dds_instance_handle_t writer) {
         const auto axis = detail::spoken_for(value_);
         if (!axis || partitions_.may_write_for(entity_.handle(), writer, *axis)) { return {}; }
-        return std::unexpected(std::string(Topic<T>::kSpec.name) + ": is about axis " + std::to_string(*axis) +
-                               ", but its writer is not that axis");
+        return std::unexpected(
+            fmt::format("{}: is about axis {}, but its writer is not that axis", Topic<T>::kSpec.name, *axis));
     }
 
     std::unique_ptr<detail::Arrival> arrival_;  // DDS holds its address, so it must not move and must outlive entity_

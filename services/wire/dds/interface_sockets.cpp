@@ -1,5 +1,6 @@
 #include "services/wire/dds/interface_sockets.hpp"
 
+#include <fmt/format.h>
 #include <sys/socket.h>
 
 #include <cerrno>
@@ -38,8 +39,9 @@ std::expected<void, std::string> tie_new_sockets(const Descriptors& before, cons
         if (before.contains(socket)) { continue; }
         const auto size = static_cast<socklen_t>(interface.size());
         if (::setsockopt(socket, SOL_SOCKET, SO_BINDTODEVICE, interface.data(), size) != 0) {
-            return std::unexpected("cannot bind DDS's sockets to interface " + interface + ": " + std::strerror(errno) +
-                                   "; it requires Linux 5.7, or the capability CAP_NET_RAW");
+            return std::unexpected(fmt::format(
+                "cannot bind DDS's sockets to interface {}: {}; it requires Linux 5.7, or the capability CAP_NET_RAW",
+                interface, std::strerror(errno)));
         }
     }
     return {};

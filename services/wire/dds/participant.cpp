@@ -1,5 +1,7 @@
 #include "services/wire/dds/participant.hpp"
 
+#include <fmt/format.h>
+
 #include <memory>
 #include <vector>
 
@@ -15,9 +17,10 @@ using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 
 std::string cannot_join(const NetworkConfig& network, const Membership& membership, const Entity& participant) {
     if (!membership.credentials) { return cannot_open_domain(network, participant.why_not()); }
-    return "DDS Security does not allow this process to join " + domain_place(network) + " by " +
-           membership.credentials->certificate.string() + ": " + participant.why_not() +
-           "; see the messages of DDS before this one, and: lockstep keys check";
+    return fmt::format(
+        "DDS Security does not allow this process to join {} by {}: {}; see the messages of DDS before this one, and: "
+        "lockstep keys check",
+        domain_place(network), membership.credentials->certificate.string(), participant.why_not());
 }
 
 Qos partition_qos(const std::vector<std::string>& partitions) {

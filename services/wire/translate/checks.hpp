@@ -5,6 +5,8 @@
 // whether a motion is allowed; the axis checks that itself.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -62,7 +64,7 @@ private:
     static constexpr std::int64_t kFastest = std::numeric_limits<std::int64_t>::max();
 
     void refuse(const char* field, const std::string& value) {
-        if (!refusal_) { refusal_ = std::string(message_) + ": " + field + " is " + value + ", out of range"; }
+        if (!refusal_) { refusal_ = fmt::format("{}: {} is {}, out of range", message_, field, value); }
     }
 
     const char* message_;
