@@ -190,8 +190,9 @@ std::string break_sentence(const std::string& axis, const Break& what) {
         case Break::Kind::Restart: return axis + ": its process restarted between " + between + "\n";
         case Break::Kind::Jump:
             if (what.missing_batches == 0) {
-                return axis + ": homing, or steps whose times were lost, changed its position by " + moved +
-                       " between " + between + "\n";
+                return fmt::format(
+                    "{}: homing, or steps whose times were lost, changed its position by {} between {}\n", axis, moved,
+                    between);
             }
             break;
         case Break::Kind::Missing: break;
@@ -199,7 +200,7 @@ std::string break_sentence(const std::string& axis, const Break& what) {
     if (!what.from) {
         return axis + ": " + batches + " are not in the log, before " + tick_text(what.to, "its end") + "\n";
     }
-    return axis + ": at least " + moved + " in " + batches + " missing between " + between + "\n";
+    return fmt::format("{}: at least {} in {} missing between {}\n", axis, moved, batches, between);
 }
 
 std::string axis_notes(const AxisLog& axis) {
@@ -211,8 +212,8 @@ std::string axis_notes(const AxisLog& axis) {
     const auto more = axis.statistics().break_count() - static_cast<std::int64_t>(kBreaksShown);
     if (more > 0) { text += axis.name() + ": and " + plural(more, "more such place") + "\n"; }
     if (axis.unrecorded_steps() != 0) {
-        text += axis.name() + ": the last position is " + plural(std::abs(axis.unrecorded_steps()), "step") +
-                " from the last step in the log\n";
+        text += fmt::format("{}: the last position is {} from the last step in the log\n", axis.name(),
+                            plural(std::abs(axis.unrecorded_steps()), "step"));
     }
     if (const std::int64_t positions = axis.missing_positions(); positions > 0) {
         text += fmt::format("{}: {} missing\n", axis.name(), plural(positions, "message") + " of positions");
@@ -235,7 +236,7 @@ std::string axis_notes(const AxisLog& axis) {
 std::string log_notes(const Analysis& analysis) {
     std::string text;
     for (const auto& [channel, events] : analysis.foreign) {
-        text += "ignored: " + plural(static_cast<std::int64_t>(events), "event") + " of " + channel + "\n";
+        text += fmt::format("ignored: {} of {}\n", plural(static_cast<std::int64_t>(events), "event"), channel);
     }
     return text;
 }

@@ -76,8 +76,8 @@ void check_outcome(const JobLog& job, Findings& found) {
     if (job.outcome == "stopped") { found.push_back({Grade::Doubtful, name_of(job) + " was stopped before its end"}); }
     if (job.outcome.empty()) { found.push_back({Grade::Doubtful, "the log ends before " + name_of(job) + " does"}); }
     if (job.unplannable) {
-        found.push_back(
-            {Grade::Doubtful, "the commanded motion of " + name_of(job) + " is not known: " + *job.unplannable});
+        found.push_back({Grade::Doubtful,
+                         fmt::format("the commanded motion of {} is not known: {}", name_of(job), *job.unplannable)});
     }
 }
 

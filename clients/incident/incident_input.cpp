@@ -1,5 +1,7 @@
 #include "clients/incident/incident_input.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "services/files/access.hpp"
@@ -59,9 +61,9 @@ std::expected<IncidentInput, std::string> read_incidents(const std::vector<fs::p
     const auto other = std::ranges::find_if(
         files->read, [&](const FlightFile& file) { return machine_of(file) != machine_of(first); });
     if (other != files->read.end()) {
-        return std::unexpected("files of the machines " + machine_of(first) + " and " + machine_of(*other) +
-                               " are named together; name the files of one machine: " + first.path.string() +
-                               " is of " + machine_of(first));
+        return std::unexpected(fmt::format(
+            "files of the machines {} and {} are named together; name the files of one machine: {} is of {}",
+            machine_of(first), machine_of(*other), first.path.string(), machine_of(first)));
     }
     return IncidentInput{incident::incidents_of(files->read), std::move(files->left_out)};
 }

@@ -1,5 +1,7 @@
 #include "clients/incident/silences.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "clients/incident/sentences.hpp"
@@ -33,9 +35,9 @@ std::string cut_text(const Incident& incident, FlightPeer who, const std::vector
 std::string link_text(const Incident& incident, const std::vector<Silence>& silences) {
     const Silence& first = silences.front();
     const bool both_ways = silences.size() > 1;
-    return "the link " + std::string(both_ways ? "between " : "from ") + peer_name(incident.machine, first.about) +
-           (both_ways ? " and " : " to ") + peer_name(incident.machine, first.observer) +
-           " carried no messages, although both ran";
+    return fmt::format("the link {}{}{}{} carried no messages, although both ran", both_ways ? "between " : "from ",
+                       peer_name(incident.machine, first.about), (both_ways ? " and " : " to "),
+                       peer_name(incident.machine, first.observer));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "clients/merge/log_merge.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -35,9 +37,9 @@ public:
             sort_waiting();
             return {};
         }
-        return Failure("no message of a record in " + options_.logs.front().string() +
-                       (options_.logs.size() > 1 ? " and the others" : "") +
-                       "; check that they are LCM logs of a machine");
+        return Failure(fmt::format("no message of a record in {}{}; check that they are LCM logs of a machine",
+                                   options_.logs.front().string(),
+                                   (options_.logs.size() > 1 ? " and the others" : "")));
     }
 
     std::expected<void, std::string> run() {

@@ -72,8 +72,8 @@ void DeviceReplay::on_run(const Run& run) {
 bool DeviceReplay::power_up(const Run& run) {
     if (hardware_ && incarnation_ == run.incarnation) { return true; }
     if (run.tail || !starts_from_rest(run)) {
-        findings_.notes.push_back("axis " + axis_ + ": " + name_of(run) +
-                                  " is skipped, because the log lacks the motion to its start");
+        findings_.notes.push_back(
+            fmt::format("axis {}: {} is skipped, because the log lacks the motion to its start", axis_, name_of(run)));
         return false;
     }
     hardware_ = std::make_unique<Hardware>(run.start - Ticks{1});

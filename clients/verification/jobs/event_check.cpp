@@ -72,8 +72,8 @@ void EventCheck::skip_repeats() {
         const bool is_repeat = event != nullptr && event->coordinator != coordinators_.front() &&
                                event->of_program != 0 && event->block < from;
         if (!is_repeat) { return; }
-        findings_.notes.push_back(label_ + ": the event of " + place_of(*event) +
-                                  " was published again after a takeover");
+        findings_.notes.push_back(
+            fmt::format("{}: the event of {} was published again after a takeover", label_, place_of(*event)));
         pop();
     }
 }
@@ -188,8 +188,8 @@ void EventCheck::end(bool is_done) {
     skip_repeats();
     const program_event_t* there = next();
     if (there != nullptr && (is_done || there->of_program != 0)) {
-        (void)differ("an event of " + place_of(*there) + ", " + text_of(*there) +
-                         ", is recorded, which its program does not have there",
+        (void)differ(fmt::format("an event of {}, {}, is recorded, which its program does not have there",
+                                 place_of(*there), text_of(*there)),
                      there->line, {}, Tick{there->tick});
         return;
     }
@@ -228,8 +228,8 @@ void EventCheck::finish() {
         const auto extra = std::ranges::find_if(events, [](const auto& event) { return event.of_program != 0; });
         if (extra == events.end() || is_heirs(*extra)) { continue; }
         label_ = fmt::format("job {}", whose.first);
-        (void)differ("an event of " + place_of(*extra) + ", " + text_of(*extra) +
-                         ", is recorded, but its job is not in progress",
+        (void)differ(fmt::format("an event of {}, {}, is recorded, but its job is not in progress", place_of(*extra),
+                                 text_of(*extra)),
                      extra->line, {}, Tick{extra->tick});
         return;
     }

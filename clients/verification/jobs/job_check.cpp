@@ -66,8 +66,9 @@ void JobCheck::handle_turns() {
 bool JobCheck::is_outdated(const RecordedJob& record) {
     const bool is_its_turn = !progress_.has_job() || progress_.is_run_by(record.coordinator);
     if (is_its_turn || !records_.is_late(record)) { return false; }
-    findings_.notes.push_back(number_of(record) + ": its coordinator records more of it after another began " +
-                              progress_.label() + "; nothing was run of that");
+    findings_.notes.push_back(
+        fmt::format("{}: its coordinator records more of it after another began {}; nothing was run of that",
+                    number_of(record), progress_.label()));
     return true;
 }
 

@@ -81,7 +81,7 @@ void JobProgress::begin(const OrderedRecord& record) {
     const bool is_in_pause = begins_in_pause(record);
     if (is_in_pause) { paused_ = std::exchange(job_, std::nullopt); }
     if (job_ && job_->coordinator == record.coordinator) {
-        return differ(job_->label + ": the log has no end of it, though " + number_of(record) + " begins");
+        return differ(fmt::format("{}: the log has no end of it, though {} begins", job_->label, number_of(record)));
     }
     if (job_) {
         findings_.notes.push_back(job_->label + " has no end: another coordinator began " + number_of(record));
@@ -142,7 +142,7 @@ void JobProgress::begin_epoch(const RecordedJob& record) {
     const PathPlace place = place_in(record);
     if (place.block != start->place.block || place.along != start->place.along) {
         const std::string text =
-            job_->label + " continues from " + text_of(place) + "; planned: " + text_of(start->place);
+            fmt::format("{} continues from {}; planned: {}", job_->label, text_of(place), text_of(start->place));
         if (job_->ran != FrameNumber{0}) { return differ(text); }
         questions_.ask_motion({text + ", as no run before is in the log", {}, {}, {}, job_->label});
         return leave_job_plan(epoch);
@@ -177,10 +177,11 @@ void JobProgress::end(const RecordedJob& record) {
     if (!job.replay) { return job.is_in_pause ? void() : events_.end(record.outcome == "done"); }
     const auto left = job.replay->next();
     if (record.outcome == "failed") {
-        findings_.notes.push_back(job.label + " failed" + (job.broken.empty() ? "" : ": " + job.broken) +
-                                  "; what was run of it is as planned");
+        findings_.notes.push_back(fmt::format("{} failed{}; what was run of it is as planned", job.label,
+                                              (job.broken.empty() ? "" : ": " + job.broken)));
     } else if (!job.broken.empty()) {
-        return differ(job.label + " is recorded as " + record.outcome + ", but " + job.broken, job.broken_axis);
+        return differ(fmt::format("{} is recorded as {}, but {}", job.label, record.outcome, job.broken),
+                      job.broken_axis);
     } else if (record.outcome == "done" && job.ran == FrameNumber{0}) {
         const std::string text = job.label + " is recorded as done, but no run of its last motion is in the log";
         questions_.ask_motion({text, {}, {}, {}, job.label});

@@ -17,7 +17,7 @@ std::string text_of(Position position) { return fmt::format("{} + {} / 2^64", po
 
 std::string what_differs(const Run& planned, const Run& seen) {
     if (seen.from != planned.from) {
-        return "starts at " + text_of(seen.from) + ", planned at " + text_of(planned.from);
+        return fmt::format("starts at {}, planned at {}", text_of(seen.from), text_of(planned.from));
     }
     const auto [p, s] = std::ranges::mismatch(planned.pieces, seen.pieces);
     if (p == planned.pieces.end() || s == seen.pieces.end()) {

@@ -67,8 +67,8 @@ void AxisCheck::runs_missing(std::int64_t from, std::int64_t end) {
     if (!findings_.going()) { return; }
     const std::string which =
         end - from == 1 ? fmt::format("run {} is", from) : fmt::format("runs {} to {} are", from, end - 1);
-    findings_.add_missing("axis " + name_ + ": the record of " + which + " not in the log, after " +
-                          at_tick(last_tick_, "its beginning"));
+    findings_.add_missing(fmt::format("axis {}: the record of {} not in the log, after {}", name_, which,
+                                      at_tick(last_tick_, "its beginning")));
     runs_are_missing_ = true;
 }
 
@@ -87,7 +87,7 @@ void AxisCheck::on_batch(const analysis::StepBatch& batch) {
     if (runs_from_) { before_log_steps_ += waiting_.drop_before(runs_from_->first, runs_from_->second); }
     settle(false);
     if (waiting_.size() <= kMaxWaiting) { return; }
-    findings_.add_unknown("axis " + name_ + ": no run is recorded for " + waiting_text());
+    findings_.add_unknown(fmt::format("axis {}: no run is recorded for {}", name_, waiting_text()));
     runs_gap_ = {waiting_.front().incarnation, kBeginning, kNever};
     drop_steps_of_missing_runs();
 }
@@ -102,9 +102,10 @@ void AxisCheck::on_break(const analysis::Break& what) {
     positions_.skip();
     if (is_first && (marked_.empty() || what.missing_batches <= marked_.begin()->second)) { return; }  // begins later
     settle(false);
-    findings_.add_missing("axis " + name_ + ": " + plural(what.missing_batches, "message") + " with at least " +
-                          plural(std::abs(what.position_change), "step") + " missing between " +
-                          at_tick(what.from, "the log's beginning") + " and " + at_tick(what.to, "the log's end"));
+    findings_.add_missing(fmt::format("axis {}: {} with at least {} missing between {} and {}", name_,
+                                      plural(what.missing_batches, "message"),
+                                      plural(std::abs(what.position_change), "step"),
+                                      at_tick(what.from, "the log's beginning"), at_tick(what.to, "the log's end")));
     const Run* run = maker_ ? &maker_->run() : last_run_ ? &*last_run_ : nullptr;
     if (run != nullptr) {
         steps_gaps_.push_back({run->incarnation, what.from.value_or(kBeginning), what.to.value_or(kNever)});
@@ -180,9 +181,9 @@ bool AxisCheck::begin_next_run() {
                            run.stop_count, run.to().count()),
                {}, run.start);
     } else if (run.epoch == 0 && run.frame <= 1 && !run.tail && !starts_from_rest(run)) {
-        differ("axis " + name_ + ": " + name_of(run) + " does not start from rest on a whole step", {}, run.start);
+        differ(fmt::format("axis {}: {} does not start from rest on a whole step", name_, name_of(run)), {}, run.start);
     } else if (run.epoch == 0 && (run.frame > 1 || run.tail) && follows && !goes_on(*last_run_, run)) {
-        differ("axis " + name_ + ": " + name_of(run) + " does not continue the frame before it", {}, run.start);
+        differ(fmt::format("axis {}: {} does not continue the frame before it", name_, name_of(run)), {}, run.start);
     }
     if (findings_.going() && follower_ != nullptr) { follower_->on_run(run); }
     return findings_.going();
@@ -261,8 +262,8 @@ void AxisCheck::differ_at(const SeenStep& seen) {
                       expected.tick, seen.edge.tick);
     }
     if (seen.edge.direction != expected.direction) {
-        return differ(step + " is expected to go " + (expected.direction > 0 ? "forward" : "backward") +
-                          ", but in the log it goes the other way",
+        return differ(fmt::format("{} is expected to go {}, but in the log it goes the other way", step,
+                                  (expected.direction > 0 ? "forward" : "backward")),
                       expected.tick, seen.edge.tick);
     }
     if (seen.count != count) {
@@ -402,8 +403,8 @@ void AxisCheck::differ_from_plan(const std::string& what, const SeenStep& seen, 
 }
 
 void AxisCheck::differ_unrecorded(std::int64_t steps) {
-    differ("axis " + name_ + ": " + plural(steps, "step") + " after " + at_tick(last_tick_, "the log's beginning") +
-               " are not in the log; its process cannot have held so many when it ended",
+    differ(fmt::format("axis {}: {} after {} are not in the log; its process cannot have held so many when it ended",
+                       name_, plural(steps, "step"), at_tick(last_tick_, "the log's beginning")),
            last_tick_, {});
 }
 
@@ -440,15 +441,17 @@ bool AxisCheck::is_left_at_end(const HasEnded& has_ended) {
 }
 
 void AxisCheck::end_of_log(LogEdges edges) {
-    const std::string compared = plural(steps_, "step") + " up to " + at_tick(last_tick_, "there") + " compared";
+    const std::string compared =
+        fmt::format("{} up to {} compared", plural(steps_, "step"), at_tick(last_tick_, "there"));
     if (maker_ && (edges.ends_early || edges.lacks_steps)) {
-        findings_.add_unknown("axis " + name_ + ": the log ends before the last steps of " + name_of(maker_->run()) +
-                              "; " + compared);
+        findings_.add_unknown(fmt::format("axis {}: the log ends before the last steps of {}; {}", name_,
+                                          name_of(maker_->run()), compared));
         while (maker_->next() != nullptr && !is_cut_here(nullptr)) { pass_step(false); }
         end_run();
     } else if (edges.begins_late && !last_run_ && !waiting_.empty()) {
-        findings_.add_unknown("axis " + name_ + ": no run of it is in the log, which begins later; " +
-                              plural(static_cast<std::int64_t>(waiting_.size()), "step") + " cannot be compared");
+        findings_.add_unknown(
+            fmt::format("axis {}: no run of it is in the log, which begins later; {} cannot be compared", name_,
+                        plural(static_cast<std::int64_t>(waiting_.size()), "step")));
     } else if (!waiting_.empty() && (edges.ends_early || edges.lacks_runs)) {
         findings_.add_unknown(fmt::format("axis {}: the log ends before the record of the run that {} belong to; {}",
                                           name_, waiting_text(), compared));
