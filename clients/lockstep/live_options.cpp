@@ -1,5 +1,7 @@
 #include "clients/lockstep/live_options.hpp"
 
+#include <fmt/format.h>
+
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/supervisor/other_hosts.hpp"
 
@@ -36,7 +38,7 @@ void add_detach(Verb verb, bool& detach) {
 }
 
 std::string footer(const std::string& examples, const std::string& exit_codes) {
-    return "Examples:\n" + examples + "Exit codes: " + exit_codes;
+    return fmt::format("Examples:\n{}Exit codes: {}", examples, exit_codes);
 }
 
 std::string group_footer(const std::string& examples, const std::string& verb) {

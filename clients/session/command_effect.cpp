@@ -39,7 +39,7 @@ std::string late_text(const Session& session, CommandKind command) {
         fmt::format("the machine is still {} after {} s", name_of(session.state()->state.phase), kPatience.count());
     const std::string missing = missing_axes(session);
     if (!missing.empty()) {
-        return still + "; no messages are received from " + missing + "; start the process, or see its log";
+        return fmt::format("{}; no messages are received from {}; start the process, or see its log", still, missing);
     }
     return still +
            (command == CommandKind::Reset ? "; see: lockstep status" : "; to stop all pulses at once: lockstep estop");

@@ -1,5 +1,7 @@
 #include "clients/session/move_program.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "clients/text/format.hpp"
@@ -23,17 +25,17 @@ std::expected<void, std::string> check_travel(const AxisConfig& axis, double mm)
     const bool is_within =
         mm >= axis.position_min_mm - kTravelTolerance_mm && mm <= axis.position_max_mm + kTravelTolerance_mm;
     if (is_within) { return {}; }
-    return std::unexpected(axis.name + "=" + fixed(mm, 4) + " is outside the travel of axis " + axis.name + ", " +
-                           fixed(axis.position_min_mm, 3) + " to " + fixed(axis.position_max_mm, 3) + " " +
-                           std::string(unit_of(axis.name)));
+    return std::unexpected(fmt::format("{}={} is outside the travel of axis {}, {} to {} {}", axis.name, fixed(mm, 4),
+                                       axis.name, fixed(axis.position_min_mm, 3), fixed(axis.position_max_mm, 3),
+                                       unit_of(axis.name)));
 }
 
 std::expected<void, std::string> check_feed(const MoveOptions& options) {
     if (!options.feed_mm_min) { return {}; }
     const double feed = *options.feed_mm_min;
     if (feed >= kMinFeedPerMinute && feed <= kMaxFeed_mm_s * 60) { return {}; }
-    return std::unexpected("--feed " + fixed(feed, 3) + " is out of range; it must be from " +
-                           fixed(kMinFeedPerMinute, 2) + " to " + fixed(kMaxFeed_mm_s * 60, 0) + " mm/min");
+    return std::unexpected(fmt::format("--feed {} is out of range; it must be from {} to {} mm/min", fixed(feed, 3),
+                                       fixed(kMinFeedPerMinute, 2), fixed(kMaxFeed_mm_s * 60, 0)));
 }
 
 std::expected<void, std::string> check_own(const MachineConfig& machine, const MoveOptions& options) {
@@ -46,8 +48,8 @@ std::expected<void, std::string> check_own(const MachineConfig& machine, const M
     }
     const double least_s = static_cast<double>(machine.tick_ns) * 1e-9;
     if (!options.in_s || (*options.in_s >= least_s && *options.in_s <= kMaxOwnMove_s)) { return {}; }
-    return std::unexpected("--in " + fixed(*options.in_s, 6) + " is out of range; it must be from " +
-                           fixed(least_s, 6) + " to " + fixed(kMaxOwnMove_s, 0) + " s");
+    return std::unexpected(fmt::format("--in {} is out of range; it must be from {} to {} s", fixed(*options.in_s, 6),
+                                       fixed(least_s, 6), fixed(kMaxOwnMove_s, 0)));
 }
 
 }  // namespace
@@ -71,7 +73,7 @@ std::expected<std::size_t, std::string> find_axis(const MachineConfig& machine, 
         if (same_name(machine.axes[i].name, name)) { return i; }
         names += " " + machine.axes[i].name;
     }
-    return std::unexpected("machine '" + machine.name + "' has no axis '" + std::string(name) + "'; it has:" + names);
+    return std::unexpected(fmt::format("machine '{}' has no axis '{}'; it has:{}", machine.name, name, names));
 }
 
 std::expected<Program, std::string> move_program(const MachineConfig& machine, const std::vector<double>& start_mm,

@@ -92,9 +92,9 @@ std::expected<void, Failure> Session::reach_axes() {
         const auto is_known = [&] { return axis_present(i) && axes_[i]->state.stamp >= known; };
         while (!is_known() && monotonic_now() <= deadline) { receive(50ms); }
         if (!axis_present(i)) {
-            return std::unexpected(unreachable("no messages are received from axis " + config().axes[i].name +
-                                               " of machine '" + config().name +
-                                               "'; start its lockstep-axis, or see its log"));
+            return std::unexpected(unreachable(fmt::format(
+                "no messages are received from axis {} of machine '{}'; start its lockstep-axis, or see its log",
+                config().axes[i].name, config().name)));
         }
     }
     return {};
@@ -231,15 +231,16 @@ Failure Session::silent() const {
     const std::string none = "no coordinator of " + place_text() + refused;
     if (const std::string& host = config().coordinator_host; !host.empty() && !same_host(host, host_name())) {
         const std::string waiting = present_axes();
-        return unreachable(none + "; it runs on " + host + "; on that host: lockstep up" +
-                           (waiting.empty() ? "" : "; axes that wait for it: " + waiting));
+        return unreachable(fmt::format("{}; it runs on {}; on that host: lockstep up{}", none, host,
+                                       (waiting.empty() ? "" : "; axes that wait for it: " + waiting)));
     }
     const std::string start = "lockstep up --machine " + machine_.file.string();
     if (const auto why = values_file_trouble(config().name)) { return unreachable(none + "; " + *why); }
     const std::string received = received_axes();
     if (received.empty()) { return unreachable(none + "; to start the machine: " + start); }
-    return unreachable(none + ", but messages are received from its axes (" + received +
-                       "); start lockstep-coordinator, or: lockstep down; " + start);
+    return unreachable(fmt::format(
+        "{}, but messages are received from its axes ({}); start lockstep-coordinator, or: lockstep down; {}", none,
+        received, start));
 }
 
 std::expected<Reply, Failure> Session::command(Command command, const StopSignal* stop) {

@@ -105,7 +105,8 @@ std::string pause_lines(const proto::StatusReport& status) {
 std::string writer_line(const proto::StatusReport& status) {
     const std::string writer = writer_text(status);
     if (writer.empty()) { return ""; }
-    const std::string held = ", for " + duration_text(status.writer().held_s()) + ", since " + status.writer().since();
+    const std::string held =
+        fmt::format(", for {}, since {}", duration_text(status.writer().held_s()), status.writer().since());
     return wrapped("writer: " + writer + held, 80, "  ") + "\n";
 }
 
@@ -121,7 +122,7 @@ std::string age_text(const proto::StatusReport& status) {
     if (!status.has_age_ms()) { return "no coordinator received"; }
     const double age_ms = status.age_ms();
     const std::string age = age_ms < 1000 ? fixed(age_ms, 0) + " ms" : duration_text(age_ms / 1000);
-    return "received " + age + " ago" + (status.standby() ? ", a standby is ready" : "");
+    return fmt::format("received {} ago{}", age, (status.standby() ? ", a standby is ready" : ""));
 }
 
 std::string status_text(const proto::StatusReport& status) {
@@ -168,7 +169,7 @@ std::string devices_text(const proto::StatusReport& status) {
     std::string text;
     const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
     if (devices.has_spindle()) {
-        add("spindle " + devices.spindle().direction() + " " + fixed(devices.spindle().rpm(), 0) + " rpm");
+        add(fmt::format("spindle {} {} rpm", devices.spindle().direction(), fixed(devices.spindle().rpm(), 0)));
     }
     if (devices.mist()) { add("mist"); }
     if (devices.flood()) { add("flood"); }

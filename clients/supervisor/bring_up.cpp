@@ -1,6 +1,7 @@
 #include "clients/supervisor/bring_up.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "clients/doctor/probes.hpp"
@@ -37,8 +38,10 @@ void warn_of_directory(const std::string& lost, const std::filesystem::path& pat
                        Output& output) {
     const std::string why = doctor::why_not_writable(path);
     if (why.empty()) { return; }
-    output.warn(lost + ": " + path.string() + " cannot be written (" + why + "); give it to this user: install -d -o " +
-                "$(id -un) " + path.string() + "; or set " + key + " in the machine's file to another directory");
+    output.warn(
+        fmt::format("{}: {} cannot be written ({}); give it to this user: install -d -o $(id -un) {}; or set {} in the "
+                    "machine's file to another directory",
+                    lost, path.string(), why, path.string(), key));
 }
 
 /// The services find the same problems, but report them only in their logs.
@@ -163,8 +166,10 @@ std::expected<OwnParts, Failure> prepare(const ChosenMachine& machine, const Lay
                                          const StateDirectory& state, Output& output) {
     const Placement placed = placed_on(machine.config, host_name());
     if (placed.empty()) {
-        return std::unexpected(bad_input(machine.file.string() + ": assigns no part of the machine to this host, " +
-                                         host_name() + "; start the machine's parts on their hosts, or change `host`"));
+        return std::unexpected(
+            bad_input(fmt::format("{}: assigns no part of the machine to this host, {}; start the machine's parts on "
+                                  "their hosts, or change `host`",
+                                  machine.file.string(), host_name())));
     }
     if (const std::string part = part_without_host(machine.config); !part.empty()) {
         return std::unexpected(bad_input(machine.file.string() + ": " + part +

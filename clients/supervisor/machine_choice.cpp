@@ -1,5 +1,7 @@
 #include "clients/supervisor/machine_choice.hpp"
 
+#include <fmt/format.h>
+
 #include <cstdlib>
 
 #include "clients/supervisor/state_directory.hpp"
@@ -54,9 +56,10 @@ std::expected<ChosenMachine, Failure> choose_machine(const std::string& option) 
     if (!file) { return std::unexpected(file.error()); }
     const StateDirectory lost(file->parent_path().filename().string());
     if (*file == lost.machine_file() && lost.is_lost()) {
-        return std::unexpected(failed("machine '" + file->parent_path().filename().string() + "' is up, but " +
-                                      lost.record_trouble().value_or("its state directory is not there") +
-                                      "; name its configuration file with --machine FILE, or end it: lockstep down"));
+        return std::unexpected(failed(fmt::format(
+            "machine '{}' is up, but {}; name its configuration file with --machine FILE, or end it: lockstep down",
+            file->parent_path().filename().string(),
+            lost.record_trouble().value_or("its state directory is not there"))));
     }
     return read_machine(*file);
 }

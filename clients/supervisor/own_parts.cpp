@@ -54,11 +54,13 @@ std::optional<std::string> foreign_part(const MachineConfig& machine, const Plac
         const std::string part = part_name(machine, process.axis) + " of machine '" + machine.name + "'";
         const std::string number = fmt::format("process {}", process.pid);
         if (process.host != here) {
-            return part + " runs on " + process.host + " (" + number + "), but the machine's file places it here, on " +
-                   here + "; end it on that host: lockstep down; and give all hosts the same machine file";
+            return fmt::format(
+                "{} runs on {} ({}), but the machine's file places it here, on {}; end it on that host: lockstep down; "
+                "and give all hosts the same machine file",
+                part, process.host, number, here);
         }
         if (is_older(process, supervisor)) {
-            return part + " already runs (" + number + "), but lockstep up did not start it; end it first";
+            return fmt::format("{} already runs ({}), but lockstep up did not start it; end it first", part, number);
         }
     }
     return std::nullopt;

@@ -1,6 +1,7 @@
 #include "clients/supervisor/state_directory.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -34,8 +35,9 @@ std::expected<void, std::string> StateDirectory::make() const {
     fs::create_directories(path_, error);
     if (!error && access(path_.c_str(), W_OK) != 0) { error = std::error_code(errno, std::generic_category()); }
     if (error) {
-        return std::unexpected("cannot use the state directory " + path_.string() + ": " + error.message() +
-                               "; set LOCKSTEP_STATE to a directory of your own");
+        return std::unexpected(
+            fmt::format("cannot use the state directory {}: {}; set LOCKSTEP_STATE to a directory of your own",
+                        path_.string(), error.message()));
     }
     return {};
 }

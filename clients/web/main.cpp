@@ -75,7 +75,7 @@ web::AccessRules rules_of(const WebConfig& web, const Listener& listener, const 
 /// The addresses contain tokens, which must not get into a log: with --page-file they go to that file instead.
 std::expected<void, std::string> publish(const Options& options, const std::string& address, const web::Tokens& tokens,
                                          const std::string& heading) {
-    const std::string links = address + "#token=" + tokens.operate + "\n" + address + "#token=" + tokens.view + "\n";
+    const std::string links = fmt::format("{}#token={}\n{}#token={}\n", address, tokens.operate, address, tokens.view);
     if (options.page_file.empty()) {
         std::cout << heading << '\n' << links << std::flush;
         return {};
@@ -108,8 +108,9 @@ ExitCode serve(const Options& options, const WebConfig& web, const ChosenMachine
                          .version = LOCKSTEP_VERSION,
                          .writer = "the page at " + address_text(web, listener)});
     if (!site) { return output.fail(failed(site.error())); }
-    const std::string heading = "machine '" + machine.config.name +
-                                "': page addresses to operate and to view it; the tokens are also in " + file.string();
+    const std::string heading =
+        fmt::format("machine '{}': page addresses to operate and to view it; the tokens are also in {}",
+                    machine.config.name, file.string());
     const auto published = publish(options, address_text(web, listener), *tokens, heading);
     if (!published) { return output.fail(failed(published.error() + "; name another file: --page-file FILE")); }
     while (!stop.requested()) { std::this_thread::sleep_for(50ms); }

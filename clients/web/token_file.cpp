@@ -44,7 +44,7 @@ std::expected<Tokens, std::string> make_file(const std::filesystem::path& file) 
     if (tokens.view.empty() || tokens.operate.empty()) {
         return std::unexpected("this host provides no random numbers");
     }
-    const auto made = create_text_file(file, "operate " + tokens.operate + "\nview " + tokens.view + "\n", 0600);
+    const auto made = create_text_file(file, fmt::format("operate {}\nview {}\n", tokens.operate, tokens.view), 0600);
     if (!made) { return std::unexpected(made.error() + "; name another file: --token-file FILE"); }
     return tokens;
 }

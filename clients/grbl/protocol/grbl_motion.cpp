@@ -11,9 +11,10 @@ namespace lockstep::grbl {
 namespace {
 
 Refused in_refused(const gcode::OWord& body) {
-    return {Error::Unsupported, "this line is within " + gcode::shown_word(body) +
-                                    ", which was refused, so it is not run either; send the end " +
-                                    gcode::shown_word(body, gcode::end_of(body.keyword)) + ", or a reset"};
+    return {
+        Error::Unsupported,
+        fmt::format("this line is within {}, which was refused, so it is not run either; send the end {}, or a reset",
+                    gcode::shown_word(body), gcode::shown_word(body, gcode::end_of(body.keyword)))};
 }
 
 }  // namespace

@@ -145,8 +145,8 @@ std::expected<KeptSettings, Refused> write_setting(const MachineConfig& machine,
     }
     if (std::abs(std::strtod(found->value.c_str(), nullptr) - value) <= kSame) { return {}; }
     if (found->why_fixed.empty()) { return keys_for(machine, number, value); }
-    return std::unexpected(
-        Refused{Error::SettingFixed, name + " is always " + found->value + " on this machine: " + found->why_fixed});
+    return std::unexpected(Refused{
+        Error::SettingFixed, fmt::format("{} is always {} on this machine: {}", name, found->value, found->why_fixed)});
 }
 
 }  // namespace lockstep::grbl

@@ -134,9 +134,10 @@ void JobWatch::print_pause(const MachineState& state, const std::string& at_line
     printed_ = state.phase;
     if (printed_pause_ == state.pause->why) { return; }
     printed_pause_ = state.pause->why;
-    output_.print("paused" + at_line + ": " + text_of(state.pause->why) +
-                  "\ncontinue with: lockstep resume; end the job with: lockstep stop; jog and touch off in the pause "
-                  "with: lockstep jog, lockstep touch");
+    output_.print(
+        fmt::format("paused{}: {}\ncontinue with: lockstep resume; end the job with: lockstep stop; jog and touch off "
+                    "in the pause with: lockstep jog, lockstep touch",
+                    at_line, text_of(state.pause->why)));
 }
 
 void JobWatch::print_progress() {

@@ -37,8 +37,9 @@ void warn_of_unhomed(const Session& session, const std::vector<JogAxis>& jogs, O
         const AxisConfig& axis = session.config().axes[jog.axis];
         const auto& received = session.axis(jog.axis);
         if (!received || received->state.homed || !axis.unhomed_jog_mm_s) { continue; }
-        output.warn("axis " + axis.name + " is not homed: it jogs at " + fixed(*axis.unhomed_jog_mm_s, 2) +
-                    " mm/s at most, and only a limit switch ends the jog");
+        output.warn(
+            fmt::format("axis {} is not homed: it jogs at {} mm/s at most, and only a limit switch ends the jog",
+                        axis.name, fixed(*axis.unhomed_jog_mm_s, 2)));
     }
 }
 
@@ -88,7 +89,7 @@ ExitCode finish(Session& session, const Arrival& arrival, bool is_released, prot
         *report.mutable_fault() = *std::move(fault);
     }
     output.report(report);
-    output.print("jog " + report.name() + ": " + report.outcome() + "; at " + places_text(report));
+    output.print(fmt::format("jog {}: {}; at {}", report.name(), report.outcome(), places_text(report)));
     if (report.has_fault()) { output.print(fault_text(report.fault())); }
     return report.outcome() == "done" || report.outcome() == "released" ? kExitDone : kExitFailed;
 }

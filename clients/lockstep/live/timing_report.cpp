@@ -12,7 +12,9 @@
 namespace lockstep {
 namespace {
 
-std::string text_of(const HoldTimes& hold) { return fixed(hold.from_ms, 0) + " to " + fixed(hold.to_ms, 0) + " ms"; }
+std::string text_of(const HoldTimes& hold) {
+    return fmt::format("{} to {} ms", fixed(hold.from_ms, 0), fixed(hold.to_ms, 0));
+}
 
 }  // namespace
 
@@ -45,14 +47,14 @@ proto::TimingReport timing_report(const doctor::StallFacts& facts, const Protoco
 void print_timing(const doctor::StallFacts& facts, const ProtocolTiming& proposed, const ProtocolTiming& today,
                   Output& output) {
     if (facts.seconds > 0) {
-        output.print("in " + fixed(facts.seconds, 0) + " s a thread woke up at most " +
-                     fixed(facts.worst_us / 1000, 2) + " ms late, and in 99 of 100 cases at most " +
-                     fixed(facts.p99_us / 1000, 2) + " ms");
+        output.print(fmt::format("in {} s a thread woke up at most {} ms late, and in 99 of 100 cases at most {} ms",
+                                 fixed(facts.seconds, 0), fixed(facts.worst_us / 1000, 2),
+                                 fixed(facts.p99_us / 1000, 2)));
     }
     output.print("proposed timing, for stalls twice as long as the longest:");
     output.print("  " + slots_text(proposed));
-    output.print("a hold begins after " + text_of(hold_times(proposed)) +
-                 "; with the machine's present timing it begins after " + text_of(hold_times(today)));
+    output.print(fmt::format("a hold begins after {}; with the machine's present timing it begins after {}",
+                             text_of(hold_times(proposed)), text_of(hold_times(today))));
 }
 
 }  // namespace lockstep

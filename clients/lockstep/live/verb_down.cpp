@@ -58,8 +58,8 @@ ExitCode report_done(const std::string& text, Output& output) {
 ExitCode end_processes(const std::string& machine, Output& output) {
     const StateDirectory state(machine);
     if (const auto trouble = state.record_trouble()) {
-        output.warn("machine '" + machine + "': " + *trouble +
-                    ": this command ends the processes that the host's process table shows");
+        output.warn(fmt::format("machine '{}': {}: this command ends the processes that the host's process table shows",
+                                machine, *trouble));
     }
     const TakenDown taken = take_down(state);
     if (taken.left.empty()) {

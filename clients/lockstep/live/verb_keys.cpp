@@ -59,9 +59,9 @@ ExitCode look(const KeysOptions& options, bool with_fingerprint) {
     const proto::KeysReport report = keys_report(keys->machine.config, keys->directory);
     const bool any = std::ranges::any_of(report.members(), [](const auto& member) { return member.here(); });
     if (!any) {
-        return output.fail(failed(keys->directory.string() + ": no member of machine '" + keys->machine.config.name +
-                                  "' has keys here; make them: lockstep keys make --machine " +
-                                  keys->machine.file.string()));
+        return output.fail(failed(
+            fmt::format("{}: no member of machine '{}' has keys here; make them: lockstep keys make --machine {}",
+                        keys->directory.string(), keys->machine.config.name, keys->machine.file.string())));
     }
     output.report(report);
     output.print(keys->directory.string());
@@ -121,8 +121,8 @@ void add_make(Verb keys) {
 void add_look(Verb keys, const char* name, const char* what, bool with_fingerprint) {
     const auto options = std::make_shared<KeysOptions>();
     const Verb verb = add_part(keys, name, what, options);
-    verb.footer(footer(std::string("  lockstep keys ") + name + "\n  lockstep keys " + name +
-                       " --json | jq '.members[] | [.name, .until]'\n"));
+    verb.footer(footer(fmt::format("{}{}\n  lockstep keys {} --json | jq '.members[] | [.name, .until]'\n",
+                                   "  lockstep keys ", name, name)));
     verb.action([options, with_fingerprint] { return look(*options, with_fingerprint); });
 }
 

@@ -1,4 +1,6 @@
 // lockstep up
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -52,8 +54,8 @@ ExitCode report_up(const Session& session, const StateDirectory& state, Output& 
     const proto::StatusReport report = status_report(session);
     output.report(report, machine_warnings(session.config()));
     const bool is_spread = hosts_of(session.config()).size() > 1;
-    output.print("machine '" + report.machine() + "' is up; its logs are in " + state.path().string() +
-                 (is_spread ? ", on each host" : ""));
+    output.print(fmt::format("machine '{}' is up; its logs are in {}{}", report.machine(), state.path().string(),
+                             (is_spread ? ", on each host" : "")));
     output.print(status_text(report) + (report.has_fault() ? "" : "next: lockstep home"));
     return report.has_fault() ? kExitFailed : kExitDone;
 }
@@ -64,8 +66,8 @@ ExitCode report_part_up(const Session& session, const Placement& placed, const S
     add_awaited(session, report);
     output.report(report, machine_warnings(session.config()));
     if (!placed.empty()) {
-        output.print("machine '" + report.machine() + "': " + names_here(session.config(), placed) +
-                     " up on this host, " + host_name() + "; logs in " + state.path().string());
+        output.print(fmt::format("machine '{}': {} up on this host, {}; logs in {}", report.machine(),
+                                 names_here(session.config(), placed), host_name(), state.path().string()));
     }
     output.print(awaited_text(report).empty() ? status_text(report) : awaited_text(report) + "see: lockstep status");
     return kExitDone;
@@ -86,8 +88,8 @@ ExitCode give_up(const ChosenMachine& machine, const StateDirectory& state, cons
                  Failure failure, Output& output) {
     (void)take_down(state, supervisor);
     std::string& message = failure.errors.front().message;
-    message += std::string(message.ends_with('\n') ? "" : "\n") + "machine '" + machine.config.name +
-               "' is not up; the processes that were started are ended again";
+    message += fmt::format("{}machine '{}' is not up; the processes that were started are ended again",
+                           message.ends_with('\n') ? "" : "\n", machine.config.name);
     return output.fail(failure);
 }
 

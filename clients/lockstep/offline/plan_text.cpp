@@ -26,7 +26,7 @@ std::string row(const AxisPlan& axis) {
 
 std::string plan_text(const PlannedFile& input) {
     const ProgramPlan& plan = input.plan;
-    std::string text = plan.program + " on machine " + input.machine.name + ", from" + places(input) + "\n";
+    std::string text = fmt::format("{} on machine {}, from{}\n", plan.program, input.machine.name, places(input));
     text += "  duration  " + duration_text(plan.duration_s) + " (" + fixed(plan.duration_s, 6) + " s)";
     if (plan.pauses > 0) { text += fmt::format(", and what its {} pauses take", plan.pauses); }
     text += "\n  length    " + fixed(plan.length_mm, 3) + " mm along the path\n";

@@ -1,4 +1,6 @@
 // lockstep compare
+#include <fmt/format.h>
+
 #include <iostream>
 #include <memory>
 
@@ -34,7 +36,7 @@ std::expected<std::vector<methods::Method>, std::string> chosen(const std::vecto
         if (method == nullptr) {
             std::string known;
             for (const auto& one : all) { known += " " + std::string(one.name); }
-            return std::unexpected("--method: no method is called '" + name + "'; choose from" + known);
+            return std::unexpected(fmt::format("--method: no method is called '{}'; choose from{}", name, known));
         }
         found.push_back(*method);
     }

@@ -58,8 +58,8 @@ proto::RunReport run_report(const PlannedFile& input, const SimulationResult& re
 }
 
 std::string speed_row(const std::string& name, const SimulatedStage& stage) {
-    return "\n  " + name + fixed(stage.machine_s, 3) + " s of machine time in " + fixed(stage.computing_s, 3) + " s, " +
-           fixed(stage.times_real_time(), 0) + " times real time";
+    return fmt::format("\n  {}{} s of machine time in {} s, {} times real time", name, fixed(stage.machine_s, 3),
+                       fixed(stage.computing_s, 3), fixed(stage.times_real_time(), 0));
 }
 
 std::string in_words(const SimulateOptions& options, const PlannedFile& input, const SimulationResult& result) {

@@ -36,17 +36,19 @@ void add_health_alarms(const proto::AxisStatus& axis, const SlackScale& scale, s
     const std::string who = "axis " + axis.name() + ": ";
     const double slack_ms = health.setpoint_slack_ms().min();
     if (health.has_setpoint_slack_ms() && slack_ms < scale.deadline_ms) {
-        alarms.push_back(who + "a setpoint arrived " + fixed(slack_ms, 0) +
-                         " ms before its start, but the deadline is " + fixed(scale.deadline_ms, 0) +
-                         " ms before: find out what stalls the coordinator");
+        alarms.push_back(
+            fmt::format("{}a setpoint arrived {} ms before its start, but the deadline is {} ms before: find out what "
+                        "stalls the coordinator",
+                        who, fixed(slack_ms, 0), fixed(scale.deadline_ms, 0)));
     }
     const proto::Spread& late = health.step_lateness_us();
     const double furthest_us = std::max(std::abs(late.min()), std::abs(late.max()));
     if (furthest_us > health.clock_error_us() + kStepSlack_us) {
-        alarms.push_back(who + "a step was " + fixed(furthest_us, 0) + " us before or after its commanded time");
+        alarms.push_back(
+            fmt::format("{}a step was {} us before or after its commanded time", who, fixed(furthest_us, 0)));
     }
     if (const std::string refused = refusals(health); !refused.empty()) {
-        alarms.push_back(who + "since it started: " + refused + "; see the axis's log");
+        alarms.push_back(fmt::format("{}since it started: {}; see the axis's log", who, refused));
     }
 }
 

@@ -1,5 +1,7 @@
 #include "clients/scenario/model/expectation_rules.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 
@@ -59,8 +61,9 @@ private:
         for (int i = 0; i < index; ++i) {
             const Asked::Final& other = expect_.final(i);
             if (other.axis() != end.axis()) { continue; }
-            return problems_.add(path, "axis " + end.axis() + " already has a final position, " +
-                                           number_text(other.mm()) + " mm; an axis has one; remove one of them");
+            return problems_.add(
+                path, fmt::format("axis {} already has a final position, {} mm; an axis has one; remove one of them",
+                                  end.axis(), number_text(other.mm())));
         }
     }
 

@@ -32,15 +32,15 @@ public:
 
     /// `block` and `key` make the path.
     void require_range(const std::string& block, const std::string& key, double value, double min, double max) {
-        require(
-            value >= min && value <= max, block + "." + key,
-            key + " is " + number_text(value) + "; it must be from " + number_text(min) + " to " + number_text(max));
+        require(value >= min && value <= max, block + "." + key,
+                fmt::format("{} is {}; it must be from {} to {}", key, number_text(value), number_text(min),
+                            number_text(max)));
     }
 
     void require_one_of(const std::string& path, const std::string& name, const std::vector<std::string>& names,
                         const std::string& what) {
         require(std::ranges::find(names, name) != names.end(), path,
-                "there is no " + what + " '" + name + "'; there are: " + listed(names));
+                fmt::format("there is no {} '{}'; there are: {}", what, name, listed(names)));
     }
 
     /// Returns the errors in the order of the text.

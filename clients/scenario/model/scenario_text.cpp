@@ -28,8 +28,8 @@ std::string way_text(Asked::Way way) {
 std::string loss_text(const Asked::Loss& loss) {
     const std::string names =
         loss.process().empty() ? "every process" : listed({loss.process().begin(), loss.process().end()});
-    return "lose " + number_text(loss.percent()) + " % at " + names + ", " +
-           way_text(loss.has_way() ? loss.way() : Asked::HEARS);
+    return fmt::format("lose {} % at {}, {}", number_text(loss.percent()), names,
+                       way_text(loss.has_way() ? loss.way() : Asked::HEARS));
 }
 
 std::string override_text(const Asked::Override& turn) {
@@ -65,7 +65,7 @@ std::string event_text(const Asked::During& during) {
     switch (during.event_case()) {
         case Asked::During::kLine: return fmt::format("at line {}", during.line());
         case Asked::During::kPasses:
-            return "as " + during.passes().axis() + " passes " + number_text(during.passes().mm()) + " mm";
+            return fmt::format("as {} passes {} mm", during.passes().axis(), number_text(during.passes().mm()));
         case Asked::During::kPhase: return "when " + text_of(during.phase());
         case Asked::During::EVENT_NOT_SET: break;
     }

@@ -35,8 +35,9 @@ std::expected<pid_t, std::string> start_program(const CommandLine& words, const 
     const int error = posix_spawnp(&pid, arguments[0], &files, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&files);
     if (error == 0) { return pid; }
-    return std::unexpected("cannot start " + words[0] + ": " + std::strerror(error) +
-                           "; check that it is installed: deploy/install-dependencies installs what is needed");
+    return std::unexpected(fmt::format(
+        "cannot start {}: {}; check that it is installed: deploy/install-dependencies installs what is needed",
+        words[0], std::strerror(error)));
 }
 
 std::expected<void, std::string> run_program(const CommandLine& words, const std::filesystem::path& log) {

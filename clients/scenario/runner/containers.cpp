@@ -1,5 +1,7 @@
 #include "clients/scenario/runner/containers.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <sstream>
 
@@ -25,7 +27,8 @@ std::expected<Containers, std::string> Containers::of(const std::string& image) 
     const auto output = output_of_program({"podman", "info", "--format", kImages});
     if (!output) { return std::unexpected("no container can be run: " + output.error()); }
     if (!output_of_program({"podman", "image", "exists", image})) {
-        return std::unexpected("podman has no image " + image + "; build it: " + kBuild + ", or name one by --image");
+        return std::unexpected(
+            fmt::format("podman has no image {}; build it: {}, or name one by --image", image, kBuild));
     }
     Containers containers;
     containers.image_ = image;

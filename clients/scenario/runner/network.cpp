@@ -44,7 +44,7 @@ std::expected<void, std::string> Network::make_loopback() {
 std::expected<void, std::string> Network::make_bridge() {
     const std::string bridge = kBridge;
     return run_all({split_words("ip link add " + bridge + " type bridge mcast_snooping 0"),
-                    split_words("ip link set " + bridge + " mtu " + kMtu + " up"),
+                    split_words(fmt::format("ip link set {} mtu {} up", bridge, kMtu)),
                     split_words("ip addr add 10.9.0.1/24 dev " + bridge),
                     split_words(std::string("ip route add ") + kMulticast + " dev " + bridge)});
 }
@@ -55,11 +55,12 @@ std::expected<void, std::string> Network::add(const std::string& process, int nu
     const std::string on = "ip -n " + process + " ";
     namespaces_[process] = process;
     return run_all({split_words("ip netns add " + process),
-                    split_words("ip link add " + link + " type veth peer name " + bridge + " netns " + process),
-                    split_words("ip link set " + link + " mtu " + kMtu + " master " + bridge + " up"),
-                    split_words(on + "link set lo up"), split_words(on + "link set " + bridge + " mtu " + kMtu + " up"),
+                    split_words(fmt::format("ip link add {} type veth peer name {} netns {}", link, bridge, process)),
+                    split_words(fmt::format("ip link set {} mtu {} master {} up", link, kMtu, bridge)),
+                    split_words(on + "link set lo up"),
+                    split_words(fmt::format("{}link set {} mtu {} up", on, bridge, kMtu)),
                     split_words(fmt::format("{}addr add 10.9.0.{}/24 dev {}", on, number, bridge)),
-                    split_words(on + "route add " + kMulticast + " dev " + bridge)});
+                    split_words(fmt::format("{}route add {} dev {}", on, kMulticast, bridge))});
 }
 
 std::expected<void, std::string> Network::run_all(const std::vector<CommandLine>& commands) const {
@@ -88,8 +89,8 @@ std::expected<void, std::string> Network::lose(const std::string& process, doubl
         if (way == (inbound ? Asked::SAYS : Asked::HEARS)) { continue; }
         const std::string chain = inbound ? "INPUT -i " : "OUTPUT -o ";
         commands.push_back(
-            joined(entry(process), split_words("iptables -w -A " + chain + kBridge + " -p udp ! --dport " +
-                                               kRecordPort + chance + " -j DROP")));
+            joined(entry(process), split_words(fmt::format("iptables -w -A {}{} -p udp ! --dport {}{} -j DROP", chain,
+                                                           kBridge, kRecordPort, chance))));
     }
     return run_all(commands);
 }

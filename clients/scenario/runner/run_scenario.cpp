@@ -34,7 +34,7 @@ constexpr const char* kStandby = "coordinator-2";
 constexpr auto kStartPatience = 10s;
 
 std::string clock_error_text(const Asked::WrongClock& clock) {
-    std::string text = "offset=" + number_text(clock.offset_s()) + ",ppm=" + number_text(clock.ppm());
+    std::string text = fmt::format("offset={},ppm={}", number_text(clock.offset_s()), number_text(clock.ppm()));
     if (clock.has_step_s()) { text += ",step=" + number_text(clock.step_s()) + "@" + number_text(clock.step_at_s()); }
     return text;
 }
@@ -131,8 +131,8 @@ void add_clock_checks(const Scenario& scenario, std::chrono::nanoseconds lived, 
         if (!clock.has_step_s()) { continue; }
         const bool was_set = lived_s > clock.step_at_s();
         observed.checks.push_back(check_of(
-            "the clock of " + clock.axis() + " is set by " + number_text(clock.step_s()) + " s, " +
-                number_text(clock.step_at_s()) + " s after its process started",
+            fmt::format("the clock of {} is set by {} s, {} s after its process started", clock.axis(),
+                        number_text(clock.step_s()), number_text(clock.step_at_s())),
             was_set ? "it was" : "never happened: all ended after " + fixed(lived_s, 1) + " s", kAsObserved, was_set));
     }
 }

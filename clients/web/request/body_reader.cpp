@@ -56,7 +56,7 @@ bool nests_too_deep(std::string_view text) {
 }
 
 std::string between(double least, double most) {
-    return "a number from " + number_text(least) + " to " + number_text(most);
+    return fmt::format("a number from {} to {}", number_text(least), number_text(most));
 }
 
 }  // namespace
@@ -96,7 +96,7 @@ Problem wrong_value(int status, const std::string& place, const Json& value, con
     return {.status = status,
             .code = status == 422 ? "out-of-range" : "bad-value",
             .title = status == 422 ? "a value is out of its range" : "a value has the wrong type",
-            .detail = place + " is " + dumped(value).substr(0, 100) + "; it must be " + limit,
+            .detail = fmt::format("{} is {}; it must be {}", place, dumped(value).substr(0, 100), limit),
             .place = place,
             .value = dumped(value).size() > 200 ? Json(dumped(value).substr(0, 200)) : value,
             .limit = limit,

@@ -63,11 +63,11 @@ void add_health(const AxisHealth& health, const std::string& axis, const Machine
     const double slack_ms = machine.microseconds(health.setpoint_slack.least) * 1e-3;
     const double deadline_ms = slack_deadline_ms(machine.timing);
     if (health.setpoint_slack.count > 0 && slack_ms < deadline_ms) {
-        alarms.push_back(own_alarm("late-setpoints", axis,
-                                   "a setpoint arrived " + short_number(std::round(slack_ms)) +
-                                       " ms before its start, but the deadline is " +
-                                       short_number(std::round(deadline_ms)) + " ms before",
-                                   "find out what stalls the coordinator"));
+        alarms.push_back(
+            own_alarm("late-setpoints", axis,
+                      fmt::format("a setpoint arrived {} ms before its start, but the deadline is {} ms before",
+                                  short_number(std::round(slack_ms)), short_number(std::round(deadline_ms))),
+                      "find out what stalls the coordinator"));
     }
     const double furthest_us = std::max(std::abs(machine.microseconds(health.step_lateness.least)),
                                         std::abs(machine.microseconds(health.step_lateness.most)));
