@@ -114,7 +114,8 @@ void AxisController::end_run(AxisLoop& loop) {
     if (!is_own) { following_.end(loop); }
 }
 
-/// Also checks in a Fault that leaves the position known, because the slide may be pushed before the reset.
+/// Compares encoder and count, also in a Fault that leaves the position known, because the slide may be pushed before
+/// the reset.
 void AxisController::check_encoder(AxisLoop& loop) {
     const std::int64_t error = condition_.position.following_error(device_.status());
     if (std::abs(error) <= kMaxFollowingError || !homed()) { return; }
@@ -164,7 +165,8 @@ void AxisController::carry_out(const AxisCommand& order, AxisLoop& loop) {
     }
 }
 
-/// Also acts at rest, so that messages still on their way do not move this axis before a person has reset it.
+/// Enters the emergency stop also at rest, so that messages still on their way do not move this axis before a person
+/// has reset it.
 void AxisController::stop_now(AxisLoop& loop) {
     if (!is_resting()) {
         loop.out.orders.emplace_back(device::StopNow{});

@@ -25,7 +25,7 @@ class HealthMeter {
 public:
     HealthMeter(std::size_t axis, Identity identity, std::int64_t tick_ns);
 
-    // Called in each loop in this order. Times are machine time.
+    // Call these functions in each loop, in this order. Times are machine time.
 
     void look(Tick now, const DeviceStatus& device);
     /// Takes what the controller decided, before its orders and tracks are converted to the device's time.

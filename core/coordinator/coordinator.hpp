@@ -41,7 +41,7 @@ public:
     Term term() const { return ownership_.term(); }
 
 private:
-    // As owner and as standby.
+    // Called on an owner and on a standby.
     bool is_late(Tick now);
     void receive(const CoordinatorInputs& inputs, CoordinatorLoop& loop);
     void receive(const AxisState& state, CoordinatorLoop& loop);
@@ -52,7 +52,7 @@ private:
     void stand_by(CoordinatorLoop& loop);
     void refuse_as_standby(const Command& command, Slot now);
 
-    // As owner.
+    // Called on an owner only.
     void own(CoordinatorLoop& loop);
     void tend_lease(Slot missed, CoordinatorLoop& loop);
     void watch_axis(std::size_t axis, CoordinatorLoop& loop);

@@ -42,7 +42,7 @@ public:
     /// The newest state of the other owner that it receives or has received last.
     const std::optional<MachineState>& other_owner() const { return other_owner_; }
     bool receives_other_owner(Slot now) const { return other_owner_ && !silent(now); }
-    /// It also proved that it runs: its states are not old ones that were sent again.
+    /// Another owner is received, and its states prove that it runs: they are not old ones that were sent again.
     bool has_second_owner(Slot now) const { return has_second_ && receives_other_owner(now); }
 
 private:

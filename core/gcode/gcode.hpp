@@ -32,7 +32,7 @@ inline constexpr double kTravelTolerance_mm = 1e-6;
 /// A slower feed counts as a mistake in the units (mm/min, degrees/min).
 inline constexpr double kMinFeedPerMinute = 0.01;
 
-/// All in machine coordinates, finite, min <= max.
+/// An axis as the interpreter knows it. Places are in machine coordinates and finite, and min <= max.
 struct GcodeAxis {
     std::string name;
     double min_mm = 0;

@@ -121,7 +121,7 @@ private:
     int program_line_ = 0;  // the last line taken of the program itself
     std::vector<Frame> frames_;
     int calls_ = 0;
-    std::int64_t repeated_lines_ = 0;  // and the actions of them
+    std::int64_t repeated_lines_ = 0;  // lines of loops and subroutines that were run, and their actions
     std::int64_t idle_lines_ = 0;      // since the last action
     std::size_t kept_lines_ = 0;
     double returned_ = 0;

@@ -68,7 +68,8 @@ std::int64_t CarricaSteps::Reference::wait() const {
     return first_where(from, std::max(from, longest(min)), holds);
 }
 
-/// Called after each step. Once V_ref has begun to fall, it falls, or stays level until the steps have come down to it.
+/// Call it after each step. V_ref falls while the remaining steps are needed for braking. If it has begun to fall and
+/// more steps remain than braking needs, it stays level.
 void CarricaSteps::Reference::brake_for(std::int64_t remaining) {
     const bool too_fast = static_cast<double>(remaining) <= brake_steps();
     if (too_fast) { slope = Slope::Falling; }

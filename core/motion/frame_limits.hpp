@@ -23,7 +23,7 @@ inline constexpr double kCorrectionShare = 8e-3;  // of the acceleration, for co
 namespace lockstep {
 
 AxisLimits frame_limits_of(const MachineConfig& machine, std::size_t axis);
-/// Of all axes, by their places in the configuration.
+/// The same limits of all axes, by their places in the configuration.
 std::vector<AxisLimits> frame_limits_of(const MachineConfig& machine);
 
 }  // namespace lockstep

@@ -8,12 +8,12 @@
 namespace lockstep {
 namespace {
 
-constexpr double kTolerance_steps = 0.1;  // of the pieces, in addition to half a step of the pulses
-constexpr double kPieceError = 0.008;     // times the cube of the angle, and the radius and its change in 3 rad
+constexpr double kTolerance_steps = 0.1;  // the greatest distance of a piece from its arc; pulses add half a step
+constexpr double kPieceError = 0.008;     // the distance is this times angle^3 times (radius + 3 rad of its change)
 constexpr double kLeastRadius_steps = 0.25;
-constexpr double kSameDirection = 1e-9;  // sine: ends that are closer make a whole circle
+constexpr double kSameDirection = 1e-9;  // the sine of an angle: ends of an arc that are closer make a whole circle
 constexpr double kQuarter = 1.5707963267948966;
-constexpr double kSameRadius_steps = 1e-3;  // radii that differ by less make turns that repeat
+constexpr double kSameRadius_steps = 1e-3;  // turns repeat if the radii of the ends differ by less
 
 }  // namespace
 

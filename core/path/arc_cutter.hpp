@@ -11,7 +11,7 @@
 
 namespace lockstep {
 
-/// In steps.
+/// The two begins and the end of an arc, in steps.
 struct ArcEnds {
     AxisVector at;    // where the axes are: on whole steps after a rest
     AxisVector from;  // the programmed begin of the arc

@@ -43,7 +43,7 @@ public:
 private:
     void extend(const SlidingVector<PathPoint>& points, std::size_t count);
     void bend(std::size_t count, Quadratic& piece) const;
-    /// Within a share of the tolerance.
+    /// Whether the fitted piece deviates from the polyline by at most a share of the tolerance.
     bool is_close(const SlidingVector<PathPoint>& points, std::size_t count, std::span<const double> tolerance_steps,
                   double share, const Quadratic& piece) const;
 

@@ -167,8 +167,9 @@ Ticks PieceFit::longest(Ticks now, Ticks limit, std::span<const MotionPoint> poi
     return {good};
 }
 
-/// Widens the tolerance of speeds if no piece fits. If a piece is short, the rounding of its ends to ticks matters, and
-/// only the limits of the axes decide.
+/// Returns the longest piece that fits. If no piece fits, tries again with a wider tolerance of speeds, because the
+/// rounding of the ends to ticks changes the speed of a short piece most. The limits of the axes hold with every
+/// tolerance.
 Ticks PieceFit::longest_any(Ticks now, Ticks limit, std::span<const MotionPoint> points) {
     Ticks ticks;
     for (tolerance_ = 1; ticks == Ticks{} && tolerance_ <= kMostTolerance; tolerance_ *= 4) {

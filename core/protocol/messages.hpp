@@ -74,7 +74,6 @@ struct Frame {
 /// The six states of an axis, and Fault.
 enum class AxisPhase : std::uint8_t { Initialize, Standby, Accelerate, Cruise, Decelerate, Stop, Fault };
 
-/// The state that an axis publishes once a slot. Others know nothing else of the axis.
 /// The inputs of an axis's device. True: the switch is closed.
 struct Switches {
     bool limit_min = false;
@@ -84,6 +83,7 @@ struct Switches {
     bool operator==(const Switches&) const = default;
 };
 
+/// The state that an axis publishes once a slot. Others know nothing else of the axis.
 struct AxisState {
     Identity identity = 0;
     std::uint32_t axis = 0;  // its place in the configuration

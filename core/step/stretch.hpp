@@ -13,12 +13,12 @@
 namespace lockstep {
 
 struct Stretch {
-    std::uint64_t phase = 0;        // before the first tick
-    std::uint64_t speed = 0;        // u, of the first tick, at most 2^63; all speeds of the stretch are >= 0
-    std::int64_t acceleration = 0;  // a, of the speed: negative if it slows down
+    std::uint64_t phase = 0;        // the phase register before the first tick
+    std::uint64_t speed = 0;        // u, the speed of the first tick, at most 2^63; no speed of the stretch is below 0
+    std::int64_t acceleration = 0;  // a, the change of the speed from tick to tick; negative if the stretch slows down
     std::int64_t ticks = 0;
     bool backward = false;
-    bool fast = false;  // speeds are all >= the crossover, else all below
+    bool fast = false;  // true: no speed is below the crossover; false: all are below it
 
     /// The speed of tick n, n >= 1.
     std::uint64_t speed_at(std::int64_t n) const {

@@ -23,7 +23,7 @@ public:
     /// Counts since the start of the process.
     std::uint64_t refused_frames() const { return refused_frames_; }
 
-    // Messages. A state stamped later than any clock error explains is ignored.
+    // Take messages. A state with a stamp later than any clock error explains is ignored.
     void take(const AxisState& peer, Slot now);
     void take(const MachineState& owner, Slot now);
     /// Takes a frame of the owner. `rest`: where the axis rests, if it may begin an epoch. Ignores a frame for which

@@ -20,7 +20,7 @@ public:
     /// `axis` of `axes`, by their places in the configuration.
     SetpointFollower(std::size_t axis, const MachineConfig& machine);
 
-    /// Evidence and vetoes from the others. States of other epochs are evidence of nothing.
+    /// Takes evidence and a veto from another process. States of other epochs are evidence of nothing.
     void receive(const AxisState& peer);
     void receive(const MachineState& coordinator);
 
@@ -36,7 +36,7 @@ public:
     /// orders in order, valid until the next call.
     const std::vector<DeviceOrder>& decide(Slot now, bool publishes);
 
-    /// Vetoes, because this axis cannot go on, the first frame for which the state published in slot `next` still
+    /// Call it if this axis cannot continue. Vetoes the first frame for which the state published in slot `next` still
     /// reaches every axis in time.
     void veto_for_own_reasons(Slot next);
 

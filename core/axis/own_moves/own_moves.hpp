@@ -18,7 +18,7 @@ public:
 
     bool is_running() const { return run_.has_value(); }
 
-    // Orders of the owner. `is_resting`: the axis runs nothing, neither its own nor the owner's frames.
+    // Take orders of the owner. `is_resting`: the axis runs nothing, neither its own nor the owner's frames.
     void home(const AxisCommand& order, bool is_resting, AxisLoop& loop);
     void move(const AxisCommand& order, bool is_resting, AxisLoop& loop);
     /// Moves towards the target while the order is renewed. The axis rests at the target at the latest.
@@ -27,7 +27,7 @@ public:
     void renew(const AxisCommand& order, const AxisLoop& loop);
     void halt(AxisLoop& loop);
 
-    // While a move is in progress.
+    // Call these functions while a move is in progress.
     /// Gives the device what it needs next. A fault halts the move.
     void feed(AxisLoop& loop);
     void record(const DeviceStatus& device, AxisLoop& loop) { run_->record(device, loop); }

@@ -67,7 +67,7 @@ struct AxisNotice {
         Reset,
         CommandRefused,
         PositionProved,   // the axis is homed by the position that was kept
-        PositionUnproved  // it is not; `fault` says why
+        PositionUnproved  // the kept position does not home the axis; `fault` gives the reason
     };
     Kind kind = Kind::Fault;
     FaultCode fault = FaultCode::None;

@@ -47,7 +47,7 @@ public:
     /// The axis's clock error may exceed this limit.
     bool is_uncertain(std::size_t axis, Ticks limit) const;
     std::optional<std::size_t> uncertain(Ticks limit) const;
-    /// Present, and not at rest.
+    /// Returns an axis that is present and not at rest; nullopt if there is none.
     std::optional<std::size_t> moving(Slot now) const;
     bool all_rest() const;
     AxisSet present(Slot now) const;

@@ -65,7 +65,8 @@ void JobRunner::advance_jogs(CoordinatorLoop& loop) {
     if (refused) { fail(loop.axes.state(*refused)->command_fault, *refused, loop); }
 }
 
-/// An emergency stop that was ordered before remains the newest order.
+/// Orders a halt to each axis that moves by itself. An axis that was ordered an emergency stop before keeps this order
+/// as its newest one.
 void JobRunner::halt_alone(CoordinatorLoop& loop) {
     jogs_.release_all();
     for (std::size_t i = 0; i < loop.axes.size(); ++i) {
@@ -122,7 +123,7 @@ void JobRunner::follow(PathJob::Next next, CoordinatorLoop& loop) {
     }
 }
 
-/// The program may have been cut.
+/// Ends the job where its program ends, or where the program was cut.
 void JobRunner::end_program(CoordinatorLoop& loop) {
     const auto& cut = job_->program->cut();
     if (!cut) { return end(JobOutcome::Done, loop); }

@@ -30,7 +30,7 @@ void PathJob::load_return(const MachineJob& back, const AxisCounts& start) {
     begin(back, start);
 }
 
-/// Nothing else is lost: a job in its pause goes on with its next leg.
+/// A job in its pause continues with its next leg, so nothing else has to be restored.
 void PathJob::take_up() {
     if (!aside_) { return; }
     job_ = std::move(aside_->job);

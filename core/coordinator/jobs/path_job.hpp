@@ -57,7 +57,7 @@ public:
     void stop(Slot next) { runner_.stop(next); }
     void end_epoch(const EpochEnd& end, CoordinatorLoop& loop);
     void give_up_epoch() { is_moving_ = false; }
-    /// All axes rest together on the path, proved by their counts.
+    /// Call it when all axes rest together on the path, as their counts prove.
     void interrupt(const EpochEnd& end);
     /// Call it after an interruption that nobody asked for. Returns false if too many of them in a row left no frame
     /// that was run.
@@ -67,7 +67,7 @@ public:
     /// The machine rests because no more of the program is known.
     bool waits_for_blocks() const { return runner_.lacked_blocks() || runner_.source()->lacks_blocks(); }
 
-    /// Applies from the next frame to be made, and in later jobs.
+    /// Sets the overrides. They apply from the next frame to be made, and to later jobs.
     void turn(const Overrides& overrides);
     void inherit(const Overrides& overrides) { overrides_ = overrides; }
 
@@ -75,10 +75,10 @@ public:
     /// Reports the epoch in progress, or the last one.
     void report_epoch(MachineState& state) const;
     void report_progress(MachineState& state) const;
-    /// The same where the job rests: held on the path, or paused behind a leg.
+    /// Reports the place where the job rests: held on the path, or paused behind a leg.
     void report_held(MachineState& state) const;
     void report_paused(MachineState& state) const;
-    /// For another coordinator that may continue the job.
+    /// Reports where each frame would rest, for another coordinator that may continue the job.
     void report_rests(MachineState& state, const AxisRoster& axes) const;
     /// The line of the program at which the job is.
     std::optional<std::int32_t> line(Tick now) const { return runner_.source()->line_of(runner_.place_at(now).block); }

@@ -31,8 +31,8 @@ public:
 
 private:
     double share_ = 0;
-    Subticks before_;   // time run of the paths that have ended
-    Subticks counted_;  // the time run that `share_` contains
+    Subticks before_;   // how long the paths that have ended took
+    Subticks counted_;  // the time of motion for which `share_` accounts
 };
 
 }  // namespace lockstep

@@ -64,7 +64,7 @@ private:
 
     Body body_;
     std::vector<Open> open_;
-    std::set<std::string, std::less<>> subroutines_;  // the labels of all that have been opened
+    std::set<std::string, std::less<>> subroutines_;  // the labels of all subroutines that were begun so far
 };
 
 }  // namespace lockstep::gcode

@@ -11,7 +11,7 @@
 
 namespace lockstep {
 
-/// In steps and ticks.
+/// The load of one axis, in steps and ticks.
 struct AxisLoad {
     std::int64_t steps = 0;  // in both directions together
     std::int64_t least = 0;  // the range of its positions
