@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kCorrection = 0.08;
 constexpr std::int64_t kCorrected = 5;  // waits at either end
+constexpr double kRounding = 1e-12;     // of a wait: a quotient of doubles may be just below a whole count
 
 }  // namespace
 
@@ -59,7 +60,8 @@ double SpielauerSteps::next_wait() {
     const double v = plan_.peak;
     const std::int64_t i = made_++;
     if (i < plan_.rising) {
-        return wait_ = i == 0 ? f * std::sqrt(2 * alpha / move_.acceleration) : followed(wait_, move_.acceleration);
+        wait_ = i == 0 ? f * std::sqrt(2 * alpha / move_.acceleration) : followed(wait_, move_.acceleration);
+        return std::max(wait_, alpha * f / move_.max);
     }
     const std::int64_t falling = i - plan_.rising - plan_.cruising;
     if (falling < 0) { return alpha * f / v; }
@@ -80,7 +82,7 @@ double SpielauerSteps::corrected(double count) const {
 std::int64_t SpielauerSteps::next_count() {
     const double wait = next_wait();
     const double count = parameters_.corrected ? corrected(wait) : wait;
-    return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::floor(count)));
+    return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::floor(count * (1 + kRounding))));
 }
 
 double SpielauerSteps::next_s() {

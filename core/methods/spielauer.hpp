@@ -15,7 +15,7 @@
 // is loaded (44,721.36 becomes 44,721), but the recurrence continues from the unrounded wait, since at high speeds a
 // step changes the wait by less than a count. i counts the waits of the whole move from 0. The first wait is not
 // corrected, since 0.08/i has no value for it. No decelerating wait is longer than f sqrt(2 alpha/d), the last one of
-// an exact stop.
+// an exact stop. No wait is shorter than one at the maximum speed, which the waits of n_a steps would exceed.
 #pragma once
 
 #include <cstdint>

@@ -38,6 +38,34 @@ TEST(PaperSteps, RefusesTheMovesThatTheMethodRefuses) {
     EXPECT_FALSE(begin_steps(StepMethod::Ranade, {10, 10, 100, 42'000, 42'000}));
 }
 
+/// Of a move that reaches its speed.
+double shortest_wait_s(const StepMove& move) {
+    auto source = begin_steps(StepMethod::Spielauer, move);
+    if (!source) { return 0; }
+    double shortest_s = 1e9;
+    double before_s = 0;
+    for (std::int64_t i = 0; i < move.steps; ++i) {
+        const double at_s = (*source)->next_s();
+        shortest_s = std::min(shortest_s, at_s - before_s);
+        before_s = at_s;
+    }
+    return shortest_s;
+}
+
+TEST(PaperSteps, OfSpielauerAreNeverFasterThanTheMaximumSpeed) {
+    for (int counts = 3; counts < 1'000; ++counts) {
+        const double speed = 1e6 / counts;
+        EXPECT_NEAR(shortest_wait_s({200, 0, speed, speed * speed / 60, speed * speed / 60}) * 1e6, counts, 1e-3);
+    }
+}
+
+TEST(PaperSteps, OfSpielauerAreNotFasterAtTheEndOfAShortRamp) {
+    for (const double acceleration : {0.6, 2.0, 11.2, 100.0}) {
+        const StepMove move{80, 0, 18.384, acceleration, acceleration};
+        EXPECT_GE(shortest_wait_s(move), 1 / move.max) << acceleration;
+    }
+}
+
 /// Carrica's counter as in the paper. It counts every clock period.
 std::vector<double> counted(const StepMove& move, double clock_s) {
     const auto fixed = [](double steps) { return static_cast<std::int64_t>(std::ceil(steps * 0x1p60)); };
