@@ -54,8 +54,10 @@ Suits keeps_limits(StepMethod method, const SpeedLimits& limits, std::int64_t st
 }
 
 Suits keeps_limits(StepMethod method, const SpeedLimits& limits) {
-    const double own = method == StepMethod::Lai ? one_pulse() : limits.acceleration;
-    const double ramps = limits.max * limits.max * (1 / own + 1 / limits.deceleration) / 2;
+    const bool is_lai = method == StepMethod::Lai;
+    const double up = is_lai ? one_pulse() : limits.acceleration;
+    const double down = is_lai ? one_pulse() : limits.deceleration;
+    const double ramps = limits.max * limits.max * (1 / up + 1 / down) / 2;
     const double longest = std::min(static_cast<double>(kLongestTried), 1.5 * ramps + 100);
     std::int64_t before = 1;
     for (std::int64_t steps = 1; static_cast<double>(steps) <= longest;) {  // 1, 2, 3, 5, 8 ...

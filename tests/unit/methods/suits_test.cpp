@@ -65,6 +65,12 @@ TEST(Lai, SuitsWhereItsPulsesComeEvenlyEnough) {
                 HasSubstr("makes a jump of speed of"));
 }
 
+TEST(Lai, IsTriedUpToItsGreatestSpeedWhateverTheDeceleration) {
+    // 31 pulses in 256 clocks are 8 or 9 clocks apart: alternately 4923 and 4376 steps/s. They come after 496 steps.
+    EXPECT_THAT(why_not(StepMethod::Lai, {371, 4'785, 194'000, 1'940'000, 5e-7}),
+                HasSubstr("its speed changes at once by"));
+}
+
 TEST(Lai, DoesNotSuitGentleAxesNorSpeedsItHasNoPulsesFor) {
     EXPECT_THAT(why_not(StepMethod::Lai, changed([](auto& l) { l.deceleration = 23'000; })),
                 HasSubstr("at least 23668.6 steps/s^2"));
