@@ -41,7 +41,16 @@ private:
         path_.moves.push_back(move);
     }
 
-    /// One period: a straight move at one speed.
+    /// The pulses that the longest axis of the whole move makes in a period.
+    static std::int64_t long_axis(const PathMove& whole_move, const PathMove& period) {
+        std::size_t i = 0;
+        while (std::abs(whole_move.to[i] - whole_move.from[i]) < whole_move.lead) { ++i; }
+        return std::abs(period.to[i] - period.from[i]);
+    }
+
+    /// One period: a straight move at one speed. Its length is that of the whole move's line, since tails keep their
+    /// speed along it from period to period. Along the period itself, a pulse more of an axis with few steps per mm
+    /// would be a large change.
     PathMove period(const PathMove& whole_move, std::uint32_t part, const AxisCounts& from,
                     const AxisCounts& to) const {
         PathMove move = make_move(from, to, limits_, steps_per_mm_, whole_move.feed_mm_per_tick);
@@ -49,6 +58,9 @@ private:
         move.block = whole_move.block;
         move.part = part;
         move.limits = move.own;
+        if (const std::int64_t covered = long_axis(whole_move, move); covered > 0) {
+            move.length_mm = whole_move.mm_per_lead() * static_cast<double>(covered);
+        }
         const auto ticks = static_cast<double>(periods_.period().value);
         for (std::size_t i = 0; i < limits_.size(); ++i) {  // what the changes between periods leave for stops
             const double share = std::abs(move.share(i));

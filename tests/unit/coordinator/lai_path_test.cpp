@@ -27,13 +27,13 @@ const std::vector<AxisLimits> kLimits(2, axis_of(5000, 60'000));
 const std::vector<double> kScale{80, 400};
 
 Path path_through(const std::vector<AxisCounts>& places, LaiFollowing following = LaiFollowing::OnTheLine,
-                  const std::vector<AxisLimits>& limits = kLimits) {
+                  const std::vector<AxisLimits>& limits = kLimits, const std::vector<double>& scale = kScale) {
     std::vector<PathMove> moves;
     for (std::size_t i = 1; i < places.size(); ++i) {
-        moves.push_back(make_move(places[i - 1], places[i], limits, kScale, std::nullopt));
+        moves.push_back(make_move(places[i - 1], places[i], limits, scale, std::nullopt));
         moves.back().block = static_cast<std::uint32_t>(i);
     }
-    return plan_lai_path(moves, {}, limits, kScale, kTick_ns, kLeastMove, following);
+    return plan_lai_path(moves, {}, limits, scale, kTick_ns, kLeastMove, following);
 }
 
 /// Makes one frame of the path up to `end` and a tail behind it. Expects both axes to accept it.
@@ -135,6 +135,14 @@ TEST(LaiPath, TailsKeepADecelerationThatDiffersFromTheAcceleration) {
         const Path path = path_through({{0, 0}, {40, 31}, {37, 60}, {-20, 58}}, LaiFollowing::OnTheLine, limits);
         for (Ticks end{1}; end < path.duration().floor(); end += Ticks{97}) { expect_accepted(path, end, limits); }
     }
+}
+
+/// A pulse of the short axis is as long as a thousand of the long one.
+TEST(LaiPath, TailsKeepTheLimitsWithStepsOfVeryDifferentLengths) {
+    const std::vector<double> scale{80, 0.08};
+    const Path path = path_through({{0, 0}, {700, 60}, {0, -40}, {90, 50}}, LaiFollowing::OnTheLine, kLimits, scale);
+    ASSERT_LT(path.moves.size(), kMaxBodyPieces);
+    for (Ticks end{1}; end < path.duration().floor(); end += Ticks{97}) { expect_accepted(path, end); }
 }
 
 TEST(LaiPath, AsPublishedIsThePapersPlanPeriodForPeriod) {
