@@ -119,8 +119,10 @@ ClockEstimator::Span ClockEstimator::proven_rates() const {
     return {std::min(rates.low, rates.high), std::max(rates.low, rates.high)};
 }
 
-/// Linear regression. Each exchange is weighted by how narrow its bounds are.
+/// Linear regression. Each exchange is weighted by how narrow its bounds are. One exchange has no slope; its sums would
+/// differ by rounding alone.
 double ClockEstimator::slope() const {
+    if (kept_.size() < 2) { return 0; }
     double weights = 0;
     double own = 0;
     double ahead = 0;

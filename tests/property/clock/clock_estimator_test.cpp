@@ -70,6 +70,15 @@ TEST(ClockEstimator, TheRateIsFound) {
     }
 }
 
+TEST(ClockEstimator, OneExchangeTellsNothingOfTheRate) {
+    for (std::int64_t round_trip = 1; round_trip < 5'000; ++round_trip) {
+        ClockEstimator estimator(kTick_ns);
+        const Tick sent{1'000'000};
+        estimator.take({sent, sent, sent, sent + Ticks{round_trip}});
+        ASSERT_EQ(estimator.rate(), 0) << round_trip;
+    }
+}
+
 TEST(ClockEstimator, WithoutExchangesTheBoundGrowsWithThePossibleDrift) {
     TwoClocks clocks(7);
     ClockEstimator estimator(kTick_ns);
