@@ -6,6 +6,7 @@
 
 #include "core/methods/suits.hpp"
 #include "core/motion/step_source.hpp"
+#include "core/number_text.hpp"
 #include "core/program.hpp"
 #include "core/protocol/frame_room.hpp"
 #include "services/documents/machine_rules.hpp"
@@ -21,6 +22,9 @@ using namespace axis_ranges;
 constexpr double kMinTravelSteps = 4;    // for homing: off the switch and back
 constexpr double kMaxRampSeconds = 600;  // slower is a mistake in the units
 constexpr double kMaxSteps = 0x1p40;     // within the range where plans in double are exact
+
+bool at_most(double value, double limit) { return value <= limit * (1 + kTextRounding); }
+bool at_least(double value, double limit) { return value >= limit * (1 - kTextRounding); }
 
 class AxisRules {
 public:
@@ -102,11 +106,13 @@ private:
             {"max_velocity_mm_s", "start_velocity_mm_s"}, axis_.max_velocity_mm_s >= axis_.start_velocity_mm_s,
             fmt::format("max_velocity_mm_s is {}, below start_velocity_mm_s {}; increase it",
                         number_text(axis_.max_velocity_mm_s), number_text(axis_.start_velocity_mm_s)));
-        const double fastest = kMaxStepsPerTick / (tick_s() * axis_.steps_per_mm);
-        problems_.require_between({"max_velocity_mm_s", "steps_per_mm"}, axis_.max_velocity_mm_s <= fastest,
-                                  fmt::format("max_velocity_mm_s is {}, more than half a step per tick; it must be at "
-                                              "most {}, or decrease tick_ns or steps_per_mm",
-                                              number_text(axis_.max_velocity_mm_s), number_text(fastest)));
+        const double fastest = kMaxPlannedStepsPerTick / (tick_s() * axis_.steps_per_mm);
+        problems_.require_between(
+            {"max_velocity_mm_s", "steps_per_mm"}, at_most(axis_.max_velocity_mm_s, fastest),
+            fmt::format("max_velocity_mm_s is {}, more than {} steps per tick; it must be at most "
+                        "{}, or decrease tick_ns or steps_per_mm",
+                        number_text(axis_.max_velocity_mm_s), number_text(kMaxPlannedStepsPerTick),
+                        number_text(fastest)));
     }
 
     /// The device keeps the times of steps until the process, which may stall, reads them.
@@ -115,7 +121,7 @@ private:
         const double longest_s = 1e-6 * static_cast<double>(t.slot_us) * (t.stall_slots + 1);
         const double most = kDeviceCaptureEntries / longest_s / axis_.steps_per_mm;
         problems_.require_between(
-            {"max_velocity_mm_s", "steps_per_mm"}, axis_.max_velocity_mm_s <= most,
+            {"max_velocity_mm_s", "steps_per_mm"}, at_most(axis_.max_velocity_mm_s, most),
             fmt::format("max_velocity_mm_s is {}: in timing.stall_slots + 1 slots of {} s together, the axis would "
                         "make more than the {} steps that its device can record; it must be at most {}, or decrease "
                         "timing.slot_us or timing.stall_slots",
@@ -127,12 +133,12 @@ private:
         const std::string what = std::string(key) + " is " + number_text(value);
         const double most = kMaxStepsPerTick / (tick_s() * tick_s() * axis_.steps_per_mm);
         problems_.require_between(
-            {key, "steps_per_mm"}, value <= most,
+            {key, "steps_per_mm"}, at_most(value, most),
             fmt::format("{}, which reaches full speed within a tick; it must be at most {}; decrease it or tick_ns",
                         what, number_text(most)));
         const double least = axis_.max_velocity_mm_s / kMaxRampSeconds;
         problems_.require_between(
-            {key, "max_velocity_mm_s"}, value >= least,
+            {key, "max_velocity_mm_s"}, at_least(value, least),
             fmt::format("{}, so max_velocity_mm_s would take more than {} s; it must be at least {}", what,
                         number_text(kMaxRampSeconds), number_text(least)));
     }
@@ -143,7 +149,7 @@ private:
         const double least = 2 * travel_mm / kLongestMotion_s;
         const auto check = [&](std::string_view key, double speed_mm_s) {
             problems_.require_between(
-                {key, "position_max_mm", "position_min_mm"}, !(speed_mm_s > 0 && speed_mm_s < least),
+                {key, "position_max_mm", "position_min_mm"}, speed_mm_s <= 0 || at_least(speed_mm_s, least),
                 fmt::format("{} is {}, so twice the travel would take more than 30 days; it must be at least {}", key,
                             number_text(speed_mm_s), number_text(least)));
         };
@@ -229,7 +235,7 @@ private:
         const double pulloff = axis_.homing.pulloff_mm;
         const std::string what = "homing.pulloff_mm is " + number_text(pulloff);
         problems_.require_between(
-            {"homing.pulloff_mm", "steps_per_mm"}, pulloff * axis_.steps_per_mm >= 1,
+            {"homing.pulloff_mm", "steps_per_mm"}, at_least(pulloff * axis_.steps_per_mm, 1),
             what + ", less than a step; it must be at least " + number_text(1 / axis_.steps_per_mm));
         problems_.require_between(
             {"homing.pulloff_mm", "homing.switch_position_mm", "position_min_mm", "position_max_mm"}, pulloff < room,

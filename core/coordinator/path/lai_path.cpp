@@ -94,7 +94,7 @@ std::string text_of(const LaiLack& lack) {
         case LaiLack::Why::Limit: break;
     }
     return "axis " + lack.axis + ": coordination LAI changes speed by whole pulses per 6.5 ms, so " +
-           std::string(lack.key) + " must be at least " + short_number(lack.least) + "; it is " + value +
+           std::string(lack.key) + " must be at least " + number_text(lack.least) + "; it is " + value +
            "; or increase steps_per_mm, or use coordination: RANADE";
 }
 
@@ -116,7 +116,7 @@ std::expected<void, LaiLack> suits_lai_path(const MachineConfig& machine) {
                                                 std::tuple{"max_velocity_mm_s", axis.max_velocity_mm_s, speed},
                                                 std::tuple{"max_accel_mm_s2", axis.max_accel_mm_s2, acceleration},
                                                 std::tuple{"max_decel_mm_s2", axis.max_decel_mm_s2, acceleration}}) {
-            const bool is_enough = value >= least * (1 - methods::kPulseHair);
+            const bool is_enough = value >= least * (1 - kTextRounding);
             if (!is_enough) { return std::unexpected(LaiLack{Why::Limit, value, least, key, axis.name}); }
         }
     }

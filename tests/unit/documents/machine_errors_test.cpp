@@ -2,6 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
+#include <random>
+#include <regex>
+
+#include "core/number_text.hpp"
 #include "services/documents/machine_file.hpp"
 #include "tests/unit/documents/machine_text_examples.hpp"
 
@@ -143,7 +149,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{with("150", "inf"), 6, 3, "max_velocity_mm_s is inf"},
                     Refusal{with("10\n", "-10\n"), 5, 3, "start_velocity_mm_s is -10"},
                     Refusal{with("150", "9"), 6, 3, "below start_velocity_mm_s 10"},
-                    Refusal{with("150", "6251"), 6, 3, "half a step per tick; it must be at most 6250"},
+                    Refusal{with("150", "6126"), 6, 3, "more than 0.49 steps per tick; it must be at most 6125"},
                     Refusal{with("1500", "0"), 7, 3, "max_accel_mm_s2 is 0"},
                     Refusal{with("1500", "-1"), 7, 3, "is -1"}, Refusal{with("1500", ".01"), 7, 3, "more than 600 s"},
                     Refusal{axis_with("max_decel_mm_s2: 0"), 10, 3, "is 0"},
@@ -204,6 +210,45 @@ TEST(MachineErrors, ThereAreAtMost32Axes) {
     const Diagnostics found = errors(text);
     ASSERT_EQ(found.size(), 1U);
     EXPECT_THAT(found[0].message, HasSubstr("65 axes; it must have from 1 to 64: write one axis { ... } for each"));
+}
+
+/// The texts of keys of one axis. Others have their presets.
+using AxisTexts = std::map<std::string, std::string>;
+
+Diagnostics errors_of(std::int64_t tick_ns, const AxisTexts& texts) {
+    std::string axis = "name: \"m\" tick_ns: " + std::to_string(tick_ns) + " axis { name: \"X\"";
+    for (const auto& [key, text] : texts) { axis += " " + key + ": " + text; }
+    return errors(axis + " }");
+}
+
+/// Replaces the value that the message refuses by the limit that it names.
+bool takes_limit_of(const std::string& message, AxisTexts& texts) {
+    static const std::regex kLimit("axis X: ([a-z0-9_]+) is .*must be at (?:most|least) ([-+.e0-9]*[0-9])");
+    std::smatch found;
+    if (!std::regex_search(message, found, kLimit) || !texts.contains(found[1])) { return false; }
+    texts[found[1]] = found[2];
+    return true;
+}
+
+TEST(MachineErrors, NameALimitThatIsAccepted) {
+    std::mt19937_64 random(3);
+    for (int run = 0; run < 400; ++run) {
+        const double steps_per_mm = 0.5 * std::pow(1e4, static_cast<double>(random() % 10'000) * 1e-4);
+        AxisTexts texts{{"steps_per_mm", number_text(steps_per_mm, 17)},
+                        {"start_velocity_mm_s", "0.1"},
+                        {"max_velocity_mm_s", "1e6"},
+                        {"max_accel_mm_s2", run % 2 == 0 ? "1e9" : "0.001"},
+                        {"position_min_mm", "0"},
+                        {"position_max_mm", "100"}};
+        const std::int64_t tick_ns = run % 3 == 0 ? 1000 : run % 3 == 1 ? 100 : 200'000;
+        Diagnostics found = errors_of(tick_ns, texts);
+        ASSERT_FALSE(found.empty());
+        for (int copied = 0; copied < 3 && !found.empty(); ++copied) {
+            ASSERT_TRUE(takes_limit_of(found.front().message, texts)) << found.front().message;
+            found = errors_of(tick_ns, texts);
+        }
+        EXPECT_TRUE(found.empty()) << to_text("machine", found);
+    }
 }
 
 }  // namespace
