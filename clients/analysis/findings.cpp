@@ -245,15 +245,22 @@ void check_times(const Analysis& analysis, Findings& found) {
                             "the times commanded are not in this log"));
 }
 
-/// The maximum distance from the curve that exact steps can have: of each axis one step, or the tolerance within which
-/// the program lets moves be joined, and its motion within the uncertainty of its clock.
+/// How far exact steps of an axis may be off the line between two places, in steps. Places and pulses are each rounded
+/// to half a step. Lai's method rounds once more: the place of each axis at the end of each period.
+double exact_steps_off(const Analysis& analysis) {
+    return analysis.config && analysis.config->coordination == StepMethod::Lai ? 1.5 : 1;
+}
+
+/// The maximum distance from the curve that exact steps can have: of each axis these steps, or the tolerance within
+/// which the program lets moves be joined, and its motion within the uncertainty of its clock.
 double exact_distance_mm(const Analysis& analysis) {
+    const double steps = exact_steps_off(analysis);
     double squares = 0;
     double by_clocks = 0;
     for (const auto& axis : analysis.axes) {
         const double mm_per_step = 1 / analysis.steps_per_mm(*axis).value_or(1);
         const auto error = static_cast<double>((kRounding + axis->statistics().clock_error()).value);
-        const double most_mm = std::max(mm_per_step, analysis.tolerance_mm);
+        const double most_mm = std::max(steps * mm_per_step, analysis.tolerance_mm);
         squares += most_mm * most_mm;
         by_clocks += axis->statistics().peak_steps_per_tick() * mm_per_step * error;
     }

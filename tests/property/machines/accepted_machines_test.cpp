@@ -105,6 +105,16 @@ TEST(MachineFile, WithTravelThatEndsOffTheStepGridIsUsable) {
     }
 }
 
+/// Its moves along X round the place of Y, the pulses and in each period the share of Y.
+TEST(MachineFile, ThatCoordinatesByLaiAndParksOffTheStepGridIsUsable) {
+    expect_usable(
+        "name: \"m\" coordination: LAI "
+        "axis { name: \"X\" steps_per_mm: 40 start_velocity_mm_s: 20 max_velocity_mm_s: 200 max_accel_mm_s2: 3500 "
+        "position_min_mm: 0 position_max_mm: 1000 homing { park_mm: 5 } plant { start_position_mm: 1 } } "
+        "axis { name: \"Y\" steps_per_mm: 5 start_velocity_mm_s: 160 max_velocity_mm_s: 160 max_accel_mm_s2: 20000 "
+        "position_min_mm: 0 position_max_mm: 1000 homing { park_mm: 30.08 } plant { start_position_mm: 1 } }");
+}
+
 TEST(MachineFile, WithStepsLongerThanTheMarginIsUsable) {
     expect_usable(machine_file("",
                                "steps_per_mm: 0.01 start_velocity_mm_s: 1000 max_velocity_mm_s: 20000 "

@@ -7,6 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "core/units.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -125,7 +127,7 @@ private:
         AxisValues v;
         const double tick_s = static_cast<double>(tick_ns_) * 1e-9;
         v.steps_per_mm = draw_.chance(0.5) ? draw_.spread(1e-3, 1e6) : draw_.spread(1, 2000);
-        const double fastest = std::min(1e6, 0.5 / tick_s / v.steps_per_mm);
+        const double fastest = std::min(1e6, kMaxPlannedStepsPerTick / tick_s / v.steps_per_mm);
         const double slowest =
             std::min(fastest, std::max(draw_.chance(0.1) ? 1e-3 : 6e-3, draw_.chance(0.1) ? 0 : 1 / v.steps_per_mm));
         v.top = draw_.spread(slowest, fastest);
