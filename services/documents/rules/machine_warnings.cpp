@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/gcode/motion.hpp"
+#include "core/number_text.hpp"
 
 namespace lockstep {
 namespace {
@@ -20,12 +21,37 @@ std::string free_letters(const MachineConfig& machine) {
     return text;
 }
 
+class WeakMotors {
+public:
+    explicit WeakMotors(std::vector<std::string>& warnings) : warnings_(warnings) {}
+
+    void check(const AxisConfig& axis) {
+        if (axis.device != "sim") { return; }
+        const double torque = axis.plant.max_torque_accel_mm_s2;
+        compare(axis, "plant.max_torque_accel_mm_s2", torque, "max_accel_mm_s2", axis.max_accel_mm_s2);
+        compare(axis, "plant.max_torque_accel_mm_s2", torque, "max_decel_mm_s2", axis.max_decel_mm_s2);
+        compare(axis, "plant.max_jump_mm_s", axis.plant.max_jump_mm_s, "start_velocity_mm_s", axis.start_velocity_mm_s);
+    }
+
+private:
+    void compare(const AxisConfig& axis, const std::string& key, double can, const std::string& limit, double may) {
+        if (can >= may) { return; }
+        warnings_.push_back("axis " + axis.name + ": " + key + " is " + number_text(can) + ", below " + limit + " " +
+                            number_text(may) + ", so the simulated motor may lose steps; increase it, or decrease " +
+                            limit);
+    }
+
+    std::vector<std::string>& warnings_;
+};
+
 }  // namespace
 
 std::vector<std::string> machine_warnings(const MachineConfig& machine) {
     const std::string letters = free_letters(machine);
     std::vector<std::string> warnings;
+    WeakMotors motors(warnings);
     for (const AxisConfig& axis : machine.axes) {
+        motors.check(axis);
         if (gcode::axis_place(axis.name)) { continue; }
         warnings.push_back(fmt::format(
             "axis {}: no word of G-code names it, so no program moves it; only jogs and lockstep home and move do{}",

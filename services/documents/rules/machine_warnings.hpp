@@ -8,7 +8,8 @@
 
 namespace lockstep {
 
-/// One text for each axis that G-code cannot name, with the effect and the remedy. Pure.
+/// Axes that G-code cannot name, and simulated motors that are weaker than their axis's limits. Each text has the
+/// effect and the remedy. Pure.
 std::vector<std::string> machine_warnings(const MachineConfig& machine);
 
 }  // namespace lockstep

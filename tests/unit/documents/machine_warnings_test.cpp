@@ -10,7 +10,9 @@
 namespace lockstep {
 namespace {
 
+using testing::_;
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -32,6 +34,22 @@ TEST(MachineWarnings, AreNoneForTheLettersOfGcode) {
         ASSERT_TRUE(machine);
         EXPECT_THAT(machine_warnings(*machine), IsEmpty()) << name;
     }
+}
+
+TEST(MachineWarnings, NameSimulatedMotorsThatAreWeakerThanTheLimits) {
+    const auto warnings_of = [](const std::string& keys) {
+        const auto machine = parse_machine(axis_with(keys));
+        return machine ? machine_warnings(*machine) : std::vector<std::string>{"refused"};
+    };
+    EXPECT_THAT(warnings_of("plant { max_torque_accel_mm_s2: 1500 max_jump_mm_s: 10 }"), IsEmpty());
+    EXPECT_THAT(warnings_of("plant { max_torque_accel_mm_s2: 1499 }"),
+                ElementsAre(HasSubstr("max_torque_accel_mm_s2 is 1499, below max_accel_mm_s2 1500"), _));
+    EXPECT_THAT(warnings_of("max_decel_mm_s2: 2000 plant { max_torque_accel_mm_s2: 1600 }"),
+                ElementsAre(HasSubstr("is 1600, below max_decel_mm_s2 2000, so the simulated motor may lose steps; "
+                                      "increase it, or decrease max_decel_mm_s2")));
+    EXPECT_THAT(warnings_of("plant { max_jump_mm_s: 9 }"),
+                ElementsAre(HasSubstr("max_jump_mm_s is 9, below start_velocity_mm_s 10")));
+    EXPECT_THAT(warnings_of("device: \"shm:m-x\" plant { max_jump_mm_s: 9 }"), IsEmpty());
 }
 
 }  // namespace
