@@ -6,25 +6,37 @@
 
 #include "core/methods/carrica.hpp"
 #include "core/methods/lai.hpp"
+#include "core/methods/lai_dda.hpp"
 #include "core/methods/lam.hpp"
 #include "core/methods/spielauer.hpp"
 
 namespace lockstep::methods {
 namespace {
 
-/// Lai: ramps from rest by one pulse more or fewer in each period. With larger changes, short moves end too fast.
+/// Returns the next lower speed whose waits are whole periods of a clock. With other speeds, some waits or all are a
+/// period shorter than the speed allows.
+double with_whole_waits(double speed, double clock_hz) {
+    constexpr double kRounding = 1e-9;
+    return clock_hz / std::ceil(clock_hz / speed * (1 - kRounding));
+}
+
+/// Lai: ramps from rest by one pulse more or fewer in each period. With larger changes, short moves end too fast. The
+/// DDA's waits are whole clocks. A speed beyond the DDA stays, and is refused.
 StepMove for_lai(StepMove move) {
     const double period_s = LaiParameters{}.period_s;
+    const double clock_hz = kDdaClocks / period_s;
+    if (move.max * period_s <= static_cast<double>(kMaxPeriodPulses)) {
+        move.max = with_whole_waits(move.max, clock_hz);
+    }
     move.start = 0;
     move.acceleration = move.deceleration = 1 / (period_s * period_s);
     return move;
 }
 
-/// Spielauer: waits are rounded down to whole counts, which would exceed the speed. So it gets the next lower speed
-/// whose wait is whole. A speed beyond the timer stays, and is refused.
+/// Spielauer: waits are rounded down to whole counts of its timer. A speed beyond the timer stays, and is refused.
 StepMove for_spielauer(StepMove move) {
     const double timer_hz = SpielauerParameters{}.timer_hz;
-    if (move.max < timer_hz) { move.max = timer_hz / std::ceil(timer_hz / move.max * (1 - 1e-9)); }
+    if (move.max < timer_hz) { move.max = with_whole_waits(move.max, timer_hz); }
     move.start = 0;
     return move;
 }

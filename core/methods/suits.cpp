@@ -1,6 +1,7 @@
 #include "core/methods/suits.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -67,6 +68,17 @@ Suits keeps_limits(StepMethod method, const SpeedLimits& limits) {
     return keeps_limits(method, limits, static_cast<std::int64_t>(longest));
 }
 
+/// Spielauer plans whole steps of a ramp, so a move just too slow for one step begins and ends at its speed.
+Suits keeps_limits_without_ramps(const SpeedLimits& limits) {
+    for (const double change : {limits.acceleration, limits.deceleration}) {
+        SpeedLimits slow = limits;
+        slow.max = std::sqrt(2 * change) * (1 - 1e-6);
+        if (slow.max >= limits.max) { continue; }
+        if (auto kept = keeps_limits(StepMethod::Spielauer, slow); !kept) { return kept; }
+    }
+    return {};
+}
+
 }  // namespace
 
 std::string text_of(const Unsuited& unsuited) {
@@ -108,7 +120,8 @@ Suits suits(StepMethod method, const SpeedLimits& limits) {
     if (method == StepMethod::Lai) {
         if (auto fine = changes_by_whole_pulses(limits); !fine) { return fine; }
     }
-    return keeps_limits(method, limits);
+    if (auto kept = keeps_limits(method, limits); !kept || method != StepMethod::Spielauer) { return kept; }
+    return keeps_limits_without_ramps(limits);
 }
 
 }  // namespace lockstep::methods

@@ -26,7 +26,8 @@ TEST(PaperSteps, GivesTheTrainOfItsMethodAsPublished) {
     const double one_pulse = 1 / (6.5e-3 * 6.5e-3);
     const double whole_wait = 1e6 / 167;  // the next speed below 6,000 whose wait is a whole count
     expect_same(spielauer({3'000, 0, whole_wait, 42'000, 42'000}, Fit::Nearest), StepMethod::Spielauer, move);
-    expect_same(lai({3'000, 0, 6'000, one_pulse, one_pulse}, Fit::Nearest), StepMethod::Lai, move);
+    const double whole_clocks = 256 / 6.5e-3 / 7;
+    expect_same(lai({3'000, 0, whole_clocks, one_pulse, one_pulse}, Fit::Nearest), StepMethod::Lai, move);
     expect_same(lam({3'000, 0, 6'000, 42'000, 42'000}, Fit::Nearest), StepMethod::Lam, move);
     expect_same(carrica({3'000, std::sqrt(500.0 * 500 - 4 * 42'000), 6'000, 42'000, 42'000}, Fit::Exact),
                 StepMethod::Carrica, move);
@@ -39,8 +40,8 @@ TEST(PaperSteps, RefusesTheMovesThatTheMethodRefuses) {
 }
 
 /// Of a move that reaches its speed.
-double shortest_wait_s(const StepMove& move) {
-    auto source = begin_steps(StepMethod::Spielauer, move);
+double shortest_wait_s(StepMethod method, const StepMove& move) {
+    auto source = begin_steps(method, move);
     if (!source) { return 0; }
     double shortest_s = 1e9;
     double before_s = 0;
@@ -55,14 +56,24 @@ double shortest_wait_s(const StepMove& move) {
 TEST(PaperSteps, OfSpielauerAreNeverFasterThanTheMaximumSpeed) {
     for (int counts = 3; counts < 1'000; ++counts) {
         const double speed = 1e6 / counts;
-        EXPECT_NEAR(shortest_wait_s({200, 0, speed, speed * speed / 60, speed * speed / 60}) * 1e6, counts, 1e-3);
+        EXPECT_NEAR(
+            shortest_wait_s(StepMethod::Spielauer, {200, 0, speed, speed * speed / 60, speed * speed / 60}) * 1e6,
+            counts, 1e-3);
     }
 }
 
 TEST(PaperSteps, OfSpielauerAreNotFasterAtTheEndOfAShortRamp) {
     for (const double acceleration : {0.6, 2.0, 11.2, 100.0}) {
         const StepMove move{80, 0, 18.384, acceleration, acceleration};
-        EXPECT_GE(shortest_wait_s(move), 1 / move.max) << acceleration;
+        EXPECT_GE(shortest_wait_s(StepMethod::Spielauer, move), 1 / move.max) << acceleration;
+    }
+}
+
+TEST(PaperSteps, OfLaiAreNeverFasterThanTheMaximumSpeed) {
+    for (double speed = 160; speed < 39'000; speed += 97) {
+        const double wait_s = shortest_wait_s(StepMethod::Lai, {10'000, 0, speed, 24'000, 24'000});
+        EXPECT_GE(wait_s, (1 - 1e-9) / speed);
+        EXPECT_LE(wait_s, 2 / speed);
     }
 }
 

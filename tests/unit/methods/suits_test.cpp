@@ -41,6 +41,12 @@ TEST(Spielauer, DoesNotSuitIfItsFirstWaitsJumpTooFar) {
                 HasSubstr("makes a jump of speed of"));
 }
 
+TEST(Spielauer, DoesNotSuitIfASlowMoveHasNoRamp) {
+    // At 1130 steps/s its ramps have one step. At 1077 steps/s they have none.
+    EXPECT_THAT(why_not(StepMethod::Spielauer, {43, 1'130, 580'000, 580'000, 1e-6}),
+                HasSubstr("its speed changes at once by"));
+}
+
 TEST(Spielauer, DoesNotSuitSpeedsBeyondItsTimer) {
     EXPECT_THAT(why_not(StepMethod::Spielauer, {800, 1'100'000, 1e8, 1e8, 1e-7}),
                 HasSubstr("with the method's clock a step takes at least 1 us"));
@@ -60,14 +66,14 @@ TEST(Carrica, DoesNotSuitSpeedsBeyondItsClock) {
 TEST(Lai, SuitsWhereItsPulsesComeEvenlyEnough) {
     const SpeedLimits slow = changed([](auto& l) { l.max = 4'000; });
     EXPECT_EQ(why_not(StepMethod::Lai, slow), "");
-    // 46 pulses in 256 clocks are 5 or 6 clocks apart: alternately 7877 and 6564 steps/s.
+    // 42 pulses in 256 clocks are 6 or 7 clocks apart: alternately 6564 and 5626 steps/s.
     EXPECT_THAT(why_not(StepMethod::Lai, changed([](auto& l) { l.max = 7'100; })),
                 HasSubstr("makes a jump of speed of"));
 }
 
 TEST(Lai, IsTriedUpToItsGreatestSpeedWhateverTheDeceleration) {
-    // 31 pulses in 256 clocks are 8 or 9 clocks apart: alternately 4923 and 4376 steps/s. They come after 496 steps.
-    EXPECT_THAT(why_not(StepMethod::Lai, {371, 4'785, 194'000, 1'940'000, 5e-7}),
+    // 28 pulses in 256 clocks are 9 or 10 clocks apart: alternately 4376 and 3938 steps/s.
+    EXPECT_THAT(why_not(StepMethod::Lai, {300, 4'785, 194'000, 1'940'000, 5e-7}),
                 HasSubstr("its speed changes at once by"));
 }
 
