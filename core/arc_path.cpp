@@ -44,32 +44,46 @@ double ArcPath::length_mm() const {
     return std::sqrt(square);
 }
 
-double ArcPath::at(std::size_t axis, double share) const {
-    const double radius = radius_at(share);
-    if (axis == shape_.first) { return shape_.centre_first_mm + radius * std::cos(angle_at(share)); }
-    if (axis == shape_.second) { return shape_.centre_second_mm + radius * std::sin(angle_at(share)); }
-    return from_[axis] + (to_[axis] - from_[axis]) * share;
+ArcPath::Point::Point(const ArcPath& arc, double share)
+    : arc_(&arc),
+      share_(share),
+      radius_(arc.radius_at(share)),
+      cosine_(std::cos(arc.angle_at(share))),
+      sine_(std::sin(arc.angle_at(share))) {}
+
+double ArcPath::Point::at(std::size_t axis) const {
+    const ArcShape& shape = arc_->shape_;
+    if (axis == shape.first) { return shape.centre_first_mm + radius_ * cosine_; }
+    if (axis == shape.second) { return shape.centre_second_mm + radius_ * sine_; }
+    return arc_->from_[axis] + (arc_->to_[axis] - arc_->from_[axis]) * share_;
 }
 
+double ArcPath::Point::slope(std::size_t axis) const {
+    const ArcShape& shape = arc_->shape_;
+    if (axis != shape.first && axis != shape.second) { return arc_->to_[axis] - arc_->from_[axis]; }
+    const double turn = arc_->turn() * radius_;
+    const double change = arc_->radius_end_ - arc_->radius_begin_;
+    return axis == shape.first ? change * cosine_ - turn * sine_ : change * sine_ + turn * cosine_;
+}
+
+ArcPath::Point ArcPath::point(double share) const { return {*this, share}; }
+
+double ArcPath::at(std::size_t axis, double share) const { return point(share).at(axis); }
+
 std::vector<double> ArcPath::at(double share) const {
+    const Point point = this->point(share);
     std::vector<double> place;
     place.reserve(from_.size());
-    for (std::size_t i = 0; i < from_.size(); ++i) { place.push_back(at(i, share)); }
+    for (std::size_t i = 0; i < from_.size(); ++i) { place.push_back(point.at(i)); }
     return place;
 }
 
-double ArcPath::slope(std::size_t axis, double share) const {
-    if (axis != shape_.first && axis != shape_.second) { return to_[axis] - from_[axis]; }
-    const double angle = angle_at(share);
-    const double turn = sign() * sweep_ * radius_at(share);
-    const double change = radius_end_ - radius_begin_;
-    return axis == shape_.first ? change * std::cos(angle) - turn * std::sin(angle)
-                                : change * std::sin(angle) + turn * std::cos(angle);
-}
+double ArcPath::slope(std::size_t axis, double share) const { return point(share).slope(axis); }
 
 std::pair<double, double> ArcPath::direction(double share) const {
-    const double x = slope(shape_.first, share);
-    const double y = slope(shape_.second, share);
+    const Point point = this->point(share);
+    const double x = point.slope(shape_.first);
+    const double y = point.slope(shape_.second);
     return {x / std::hypot(x, y), y / std::hypot(x, y)};
 }
 

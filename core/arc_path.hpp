@@ -24,12 +24,18 @@ public:
     double radius_end() const { return radius_end_; }
     /// The angle of the whole arc in rad, above 0.
     double sweep() const { return sweep_; }
+    /// The change of the angle with the share: the sweep, negative if clockwise.
+    double turn() const { return sign() * sweep_; }
     /// The length of the path of all axes. For a spiral it is computed with the mean radius.
     double length_mm() const;
     /// The length of the path in the plane only.
     double plane_length_mm() const {
         return std::hypot(sweep_ * (radius_begin_ + radius_end_) / 2, radius_end_ - radius_begin_);
     }
+    /// A point of the arc, for several questions about it.
+    class Point;
+    /// The point at a share of the angle, from 0 to 1. It must not outlive the arc.
+    Point point(double share) const;
     /// The place of an axis at a share of the angle, from 0 to 1.
     double at(std::size_t axis, double share) const;
     std::vector<double> at(double share) const;
@@ -56,6 +62,27 @@ private:
     double radius_end_ = 0;
     double begin_ = 0;  // angle, counter-clockwise from the first axis
     double sweep_ = 0;
+};
+
+class ArcPath::Point {
+public:
+    /// The place of an axis in mm, and the derivative of the place with respect to the share.
+    double at(std::size_t axis) const;
+    double slope(std::size_t axis) const;
+    /// The direction from the centre, along the plane's first and second axis.
+    double cosine() const { return cosine_; }
+    double sine() const { return sine_; }
+    double radius() const { return radius_; }
+
+private:
+    friend class ArcPath;
+    Point(const ArcPath& arc, double share);
+
+    const ArcPath* arc_;
+    double share_;
+    double radius_;
+    double cosine_;
+    double sine_;
 };
 
 /// The radii of an arc's ends may differ by `error_mm`, or by `share` of the greater one up to 100 times `error_mm`.

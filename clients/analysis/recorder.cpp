@@ -216,7 +216,7 @@ void Recorder::note_move(JobLog& job, MoveLog move) {
 void Recorder::settle() {
     constexpr std::int64_t kPatience_us = 1'500'000;
     const Tick end = newest_ - Ticks{analysis_.tick_at(kPatience_us).value};
-    merge_.settle(end, [this](std::size_t of, const MeasuredStep& step) { moves_.take(of, step); });
+    merge_.settle(end, [this](MergedSteps steps) { moves_.take(steps); });
     settle_late(end);
 }
 
@@ -230,7 +230,7 @@ void Recorder::settle_late(Tick end) {
 
 Analysis Recorder::finish(Sorter& sorter) {
     constexpr Tick kNever{std::numeric_limits<std::int64_t>::max()};
-    merge_.finish([this](std::size_t lane, const MeasuredStep& step) { moves_.take(lane, step); });
+    merge_.finish([this](MergedSteps steps) { moves_.take(steps); });
     settle_late(kNever);
     for (Event& event : events_.events()) {
         const auto job = std::ranges::find_if(analysis_.jobs, [&](const JobLog& j) { return is_during(event.at, j); });

@@ -74,7 +74,7 @@ void JobMoves::begin(std::size_t move) {
     current_ = move;
     if (!on_a_line_) { return; }
     shape_ = asked_.shape(move);
-    line_.forget();
+    bound_.forget();
 }
 
 /// The square of the distance from the axes' place to the curve. Near the joint of two moves, one axis may be in a
@@ -82,7 +82,7 @@ void JobMoves::begin(std::size_t move) {
 double JobMoves::square_of_distance_mm2() {
     constexpr std::size_t kBack = 8;
     double least = shape_.square_of_distance(at_mm_);
-    line_.set(shape_, at_mm_, least);
+    bound_.set(shape_, at_mm_, least);
     for (std::size_t back = 1; back <= std::min(kBack, current_) && least > near_mm2_; ++back) {
         least = std::min(least, asked_.shape(current_ - back).square_of_distance(at_mm_));
     }
@@ -95,7 +95,7 @@ void JobMoves::take(std::size_t axis, const MeasuredStep& step) {
     const std::size_t move_before = cursor.move();
     const auto beyond = [&] { return slack(cursor.move(), axis); };
     if (cursor.find(asked_, axis, step.count - step.direction, step.direction, beyond)) {
-        take_in(cursor.move(), axis, step);
+        take_in(cursor.move(), axis, {step.tick, step.tick, 1, step.rates});
     } else {
         ++unasked_steps_;
     }
@@ -104,16 +104,86 @@ void JobMoves::take(std::size_t axis, const MeasuredStep& step) {
     const double before_mm = std::exchange(at_mm_[axis], static_cast<double>(step.count) * mm_per_step);
     if (!on_a_line_) { return; }
     Made& made = made_[current_];
-    const bool is_farther = line_.may_be_farther(shape_, axis, before_mm, step.direction * mm_per_step,
-                                                 static_cast<double>(made.largest_square_mm2));
+    const bool is_farther = bound_.may_be_farther(axis, at_mm_, before_mm, step.direction * mm_per_step,
+                                                  static_cast<double>(made.largest_square_mm2));
     if (!is_next) {
-        line_.forget();
+        bound_.forget();
         forget_distances(move_before);
     }
     if (step.tick < newest_) { return forget_distances(std::min(cursor.move(), current_)); }
     newest_ = made.newest = step.tick;
     if (!is_farther && is_next) { return; }
     made.largest_square_mm2 = std::max(made.largest_square_mm2, static_cast<float>(square_of_distance_mm2()));
+}
+
+void JobMoves::take(MergedSteps& steps, AxesOfLanes axis_of_lane, Tick until) {
+    while (!steps.before(until).empty()) {
+        take_in_strokes(steps, axis_of_lane, end_of_strokes(steps, axis_of_lane, until));
+        if (steps.before(until).empty()) { return; }
+        const std::size_t lane = steps.lane();
+        const MeasuredStep step = steps.pop();
+        if (axis_of_lane[lane]) { take(*axis_of_lane[lane], step); }
+    }
+}
+
+/// The tick before which all steps continue the axes' strokes, in moves that have begun.
+Tick JobMoves::end_of_strokes(const MergedSteps& steps, AxesOfLanes axis_of_lane, Tick until) const {
+    if (asked_.size() == 0 || steps.tick() < newest_) { return steps.tick(); }
+    for (std::size_t i = 0; i < steps.lanes().size(); ++i) {
+        const MergedSteps::Lane& lane = steps.lanes()[i];
+        if (lane.steps.empty() || lane.steps.front().tick >= until) { continue; }
+        if (!axis_of_lane[i]) { return steps.tick(); }
+        const MoveCursor& cursor = made_cursor_[*axis_of_lane[i]];
+        const bool goes_on = lane.is_one_way && lane.count == counts_[*axis_of_lane[i]] && cursor.move() <= current_ &&
+                             cursor.is_in_stroke(lane.count, lane.steps.front().direction);
+        const auto most = goes_on ? static_cast<std::size_t>(cursor.steps_from(lane.count)) : 0;
+        if (most < lane.steps.size()) { until = std::min(until, lane.steps[most].tick); }
+    }
+    return until;
+}
+
+/// Takes the steps before a tick until which all axes continue their strokes.
+void JobMoves::take_in_strokes(MergedSteps& steps, AxesOfLanes axis_of_lane, Tick until) {
+    const auto merged = steps.before(until);
+    if (merged.empty()) { return; }
+    for (std::size_t i = 0; i < steps.lanes().size(); ++i) {
+        const MergedSteps::Lane& lane = steps.lanes()[i];
+        const std::size_t count = lane.before(until);
+        if (count == 0) { continue; }
+        const std::size_t axis = *axis_of_lane[i];
+        const std::size_t move = made_cursor_[axis].move();
+        StepsOfMove of{lane.steps[0].tick, lane.steps[count - 1].tick, static_cast<std::int64_t>(count), {}};
+        if (move < details_.size()) { of.peak = peak_of({lane.rates, count}); }
+        take_in(move, axis, of);
+        if (!on_a_line_) { counts_[axis] += of.steps * lane.steps[0].direction; }
+    }
+    if (on_a_line_) { measure_distances(merged, axis_of_lane); }
+    steps.pass_before(until);
+}
+
+StepRates JobMoves::peak_of(std::span<const StepRates> rates) {
+    StepRates peak;
+    for (const StepRates& at : rates) {
+        peak.steps_per_tick = std::max(peak.steps_per_tick, at.steps_per_tick);
+        peak.steps_per_tick2 = std::max(peak.steps_per_tick2, at.steps_per_tick2);
+    }
+    return peak;
+}
+
+/// Measures the distances at steps that all are in moves that have begun.
+void JobMoves::measure_distances(std::span<const MergedStep> steps, AxesOfLanes axis_of_lane) {
+    Made& made = made_[current_];
+    for (const MergedStep& step : steps) {
+        const std::size_t axis = *axis_of_lane[step.lane];
+        const double mm_per_step = asked_.mm_per_step(axis);
+        counts_[axis] += step.direction;
+        const double before_mm = std::exchange(at_mm_[axis], static_cast<double>(counts_[axis]) * mm_per_step);
+        if (bound_.may_be_farther(axis, at_mm_, before_mm, step.direction * mm_per_step,
+                                  static_cast<double>(made.largest_square_mm2))) {
+            made.largest_square_mm2 = std::max(made.largest_square_mm2, static_cast<float>(square_of_distance_mm2()));
+        }
+    }
+    newest_ = made.newest = steps.back().tick;
 }
 
 /// Called if later steps of other axes were compared with an outdated position of this axis.
@@ -142,17 +212,17 @@ std::int64_t JobMoves::moves_without_distance() const {
     return std::ranges::count(made_, false, &Made::is_distance_known);
 }
 
-void JobMoves::take_in(std::size_t move, std::size_t axis, const MeasuredStep& step) {
+void JobMoves::take_in(std::size_t move, std::size_t axis, const StepsOfMove& steps) {
     if (move > current_) { begin(move); }
     const std::size_t place = move * asked_.axes() + axis;
-    ++made_steps_[place];
+    made_steps_[place] += steps.steps;
     const bool is_lead = axis == asked_.lead(move);
-    if (is_lead && made_[move].first == kNever) { made_[move].first = step.tick; }
+    if (is_lead && made_[move].first == kNever) { made_[move].first = steps.first; }
     if (move >= details_.size()) { return; }
     StepRates& peak = peaks_[place];
-    peak.steps_per_tick = std::max(peak.steps_per_tick, step.rates.steps_per_tick);
-    peak.steps_per_tick2 = std::max(peak.steps_per_tick2, step.rates.steps_per_tick2);
-    if (is_lead) { details_[move].last = step.tick; }
+    peak.steps_per_tick = std::max(peak.steps_per_tick, steps.peak.steps_per_tick);
+    peak.steps_per_tick2 = std::max(peak.steps_per_tick2, steps.peak.steps_per_tick2);
+    if (is_lead) { details_[move].last = steps.last; }
 }
 
 void JobMoves::Details::add(const EquallyLate& steps) {

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "clients/analysis/asked/asked_path.hpp"
+#include "clients/analysis/measure/distance_bound.hpp"
 #include "clients/analysis/measure/lateness.hpp"
-#include "clients/analysis/measure/line_distance.hpp"
-#include "clients/analysis/measure/measured_step.hpp"
+#include "clients/analysis/measure/merged_steps.hpp"
 #include "clients/analysis/measure/tick_histogram.hpp"
 
 namespace lockstep::analysis {
@@ -83,6 +83,10 @@ public:
     bool is_on_a_line() const { return on_a_line_ && asked_.size() > 0; }
     /// Call in the order of time. A step that comes late makes the distances since its move unknown.
     void take(std::size_t axis, const MeasuredStep& step);
+    /// nullopt for an axis that the job does not have.
+    using AxesOfLanes = std::span<const std::optional<std::size_t>>;
+    /// Takes and passes the steps before `until`.
+    void take(MergedSteps& steps, AxesOfLanes axis_of_lane, Tick until);
     void take(std::size_t axis, EquallyLate late);
 
     /// From here on the path is planned again, behind a hold or an override.
@@ -118,7 +122,18 @@ private:
         Ticks latest;
         void add(const EquallyLate& steps);
     };
-    void take_in(std::size_t move, std::size_t axis, const MeasuredStep& step);
+    /// Some steps of an axis that are all in its cursor's move.
+    struct StepsOfMove {
+        Tick first;
+        Tick last;
+        std::int64_t steps = 0;
+        StepRates peak;
+    };
+    void take_in(std::size_t move, std::size_t axis, const StepsOfMove& steps);
+    static StepRates peak_of(std::span<const StepRates> rates);
+    Tick end_of_strokes(const MergedSteps& steps, AxesOfLanes axis_of_lane, Tick until) const;
+    void take_in_strokes(MergedSteps& steps, AxesOfLanes axis_of_lane, Tick until);
+    void measure_distances(std::span<const MergedStep> steps, AxesOfLanes axis_of_lane);
     void begin(std::size_t move);
     double square_of_distance_mm2();
     void forget_distances(std::size_t from_move);
@@ -143,7 +158,7 @@ private:
     std::vector<std::int64_t> counts_;  // of each axis, after its newest step
     std::vector<double> at_mm_;         // the same, in mm
     AskedShape shape_;                  // of the current move
-    LineDistance line_;                 // from it
+    DistanceBound bound_;               // of the distance from it
     double near_mm2_ = 0;               // the square of a step of each axis
     std::int64_t unasked_steps_ = 0;
 };

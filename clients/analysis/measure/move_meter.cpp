@@ -1,6 +1,7 @@
 #include "clients/analysis/measure/move_meter.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace lockstep::analysis {
@@ -59,21 +60,38 @@ void MoveMeter::plan_again(std::size_t number) {
     }
 }
 
-void MoveMeter::take(std::size_t lane, const MeasuredStep& step) {
-    Job* job = job_at(step.tick);
-    if (keeps_plane_) { trace(job, lane, step); }
-    if (job == nullptr) {
-        ++steps_of_no_job_;
-        return;
+Tick MoveMeter::end_of_turn(Tick tick) const {
+    Tick end{std::numeric_limits<std::int64_t>::max()};
+    for (const Turn& turn : turns_) {
+        if (turn.from > tick) { end = std::min(end, turn.from); }
     }
-    if (const auto axis = job->axis_of_lane[lane]) { job->moves.take(*axis, step); }
+    return end;
 }
 
-void MoveMeter::trace(const Job* job, std::size_t lane, const MeasuredStep& step) {
+void MoveMeter::take(MergedSteps steps) {
+    while (!steps.empty()) {
+        Job* job = job_at(steps.tick());
+        const Tick until = end_of_turn(steps.tick());
+        if (keeps_plane_) { trace(job, steps, until); }
+        if (job != nullptr) {
+            job->moves.take(steps, job->axis_of_lane, until);
+        } else {
+            steps_of_no_job_ += std::ssize(steps.before(until));
+            steps.pass_before(until);
+        }
+    }
+}
+
+void MoveMeter::trace(const Job* job, const MergedSteps& steps, Tick until) {
     const bool of_a_job = job != nullptr && job->moves.is_on_a_line();
     if (of_a_job && !std::exchange(plane_is_of_jobs_, true)) { plane_ = {}; }
     if (of_a_job != plane_is_of_jobs_) { return; }
-    if (const auto in_plane = lanes_[lane].in_plane) { plane_.step(*in_plane, step.count, step.direction); }
+    for (std::size_t i = 0; i < lanes_.size(); ++i) { lanes_[i].count = steps.lanes()[i].count; }
+    for (const MergedStep& step : steps.before(until)) {
+        Lane& lane = lanes_[step.lane];
+        lane.count += step.direction;
+        if (lane.in_plane) { plane_.step(*lane.in_plane, lane.count, step.direction); }
+    }
 }
 
 void MoveMeter::on_late(const std::string& axis, EquallyLate late) {

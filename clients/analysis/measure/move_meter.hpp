@@ -9,7 +9,7 @@
 
 #include "clients/analysis/measure/job_moves.hpp"
 #include "clients/analysis/measure/lateness.hpp"
-#include "clients/analysis/measure/measured_step.hpp"
+#include "clients/analysis/measure/merged_steps.hpp"
 #include "clients/analysis/measure/plane_trace.hpp"
 #include "core/machine.hpp"
 
@@ -33,8 +33,8 @@ public:
     void go_on(std::size_t number, Tick from);
     /// The path of this job is planned again, behind a hold or an override.
     void plan_again(std::size_t number);
-    /// Takes the steps of all axes in the order of their ticks.
-    void take(std::size_t lane, const MeasuredStep& step);
+    /// Takes the next steps of all axes, in the order of their ticks.
+    void take(MergedSteps steps);
     /// The path of axes X and Y, in steps. It contains the jobs in which axes move together, or all steps if there is
     /// no such job.
     const PlaneTrace& plane() const { return plane_; }
@@ -48,6 +48,7 @@ private:
     struct Lane {
         std::string axis;
         std::optional<std::size_t> in_plane;  // axis of PlaneTrace, 0 or 1
+        std::int64_t count = 0;               // position in the plane
     };
     struct Job {
         std::size_t number = 0;
@@ -65,9 +66,11 @@ private:
     };
     /// Null before the first job, and for a job that is over.
     Job* job_at(Tick tick);
+    /// When the next turn begins after a tick.
+    Tick end_of_turn(Tick tick) const;
     Job* job_of(std::size_t number);
     void begin_turn(const Turn& turn);
-    void trace(const Job* job, std::size_t lane, const MeasuredStep& step);
+    void trace(const Job* job, const MergedSteps& steps, Tick until);
     void end_first();
 
     OnJob on_job_;

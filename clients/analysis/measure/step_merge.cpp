@@ -1,12 +1,12 @@
 #include "clients/analysis/measure/step_merge.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace lockstep::analysis {
 
 std::size_t StepMerge::add_lane() {
     lanes_.emplace_back();
-    next_.push_back(kNever);
     return lanes_.size() - 1;
 }
 
@@ -57,6 +57,67 @@ bool StepMerge::give_up_slowest() {
     if (slowest == nullptr) { return false; }
     slowest->is_awaited = false;
     return true;
+}
+
+/// Merges steps before `end`, as many as every lane has in one message. Returns false if there are none.
+bool StepMerge::merge_before(Tick end) {
+    end = end_of_ready(end);
+    ready_.resize(lanes_.size());
+    merged_.clear();
+    for (std::size_t i = 0; i < lanes_.size(); ++i) {
+        const StepQueue& steps = lanes_[i].steps;
+        if (steps.empty()) {
+            ready_[i] = {.count = lanes_[i].count};
+            continue;
+        }
+        ready_[i] = {steps.ready(), steps.rates(), steps.count(), steps.batch().is_one_way()};
+        ready_[i].steps = ready_[i].steps.first(ready_[i].before(end));
+        add(i);
+    }
+    return !merged_.empty();
+}
+
+/// Limits `end` to the steps of each lane's first message.
+Tick StepMerge::end_of_ready(Tick end) const {
+    for (const Lane& lane : lanes_) {
+        if (!lane.steps.empty()) { end = std::min(end, lane.steps.ready().back().tick + Ticks{1}); }
+    }
+    return end;
+}
+
+/// Adds the ready steps of a lane. At the same tick, steps of lanes with lower numbers come first.
+void StepMerge::add(std::size_t lane) {
+    const auto& steps = ready_[lane].steps;
+    if (steps.empty()) { return; }
+    const auto to_step = [&](const StepEdge& edge) {
+        return MergedStep{edge.tick, static_cast<std::uint32_t>(lane), edge.direction};
+    };
+    std::swap(merged_, before_);
+    merged_.resize(before_.size() + steps.size());
+    const MergedStep* a = before_.data();
+    const MergedStep* const end_a = a + before_.size();
+    const StepEdge* b = steps.data();
+    const StepEdge* const end_b = b + steps.size();
+    MergedStep* to = merged_.data();
+    while (a != end_a && b != end_b) {  // without other branches, which would be mispredicted
+        const bool is_b = b->tick < a->tick;
+        const MergedStep from_b = to_step(*b);
+        *to++ = is_b ? from_b : *a;
+        a += static_cast<std::ptrdiff_t>(!is_b);
+        b += static_cast<std::ptrdiff_t>(is_b);
+    }
+    std::transform(b, end_b, std::copy(a, end_a, to), to_step);
+}
+
+/// Drops the delivered steps.
+void StepMerge::pop() {
+    waiting_ -= merged_.size();
+    for (std::size_t i = 0; i < lanes_.size(); ++i) {
+        StepQueue& steps = lanes_[i].steps;
+        if (steps.empty()) { continue; }
+        const MergedSteps::Lane& passed = ready_[i];
+        steps.pop(static_cast<std::size_t>(passed.steps.data() - steps.ready().data()), passed.count);
+    }
 }
 
 }  // namespace lockstep::analysis

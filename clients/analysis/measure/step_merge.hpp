@@ -11,6 +11,7 @@
 #include <limits>
 #include <vector>
 
+#include "clients/analysis/measure/merged_steps.hpp"
 #include "clients/analysis/measure/step_queue.hpp"
 
 namespace lockstep::analysis {
@@ -35,16 +36,17 @@ public:
     /// Between these times the log has all of the axis's motion, except for gaps.
     Tick known_from(std::size_t lane) const { return lanes_[lane].known_from; }
     Tick known_until(std::size_t lane) const { return lanes_[lane].known_until; }
-    /// Calls on_step(lane, step) for the steps before `end` that need not wait any longer. Call from time to time.
-    template <typename OnStep>
-    void settle(Tick end, OnStep&& on_step) {
-        deliver_before(std::min(end, settled_until()), on_step);
-        while (waiting_ > max_waiting_ && give_up_slowest()) { deliver_before(settled_until(), on_step); }
+    /// Calls on_steps(MergedSteps) with the steps before `end` that need not wait any longer. It must pass all of them.
+    /// Call from time to time.
+    template <typename OnSteps>
+    void settle(Tick end, OnSteps&& on_steps) {
+        deliver_before(std::min(end, settled_until()), on_steps);
+        while (waiting_ > max_waiting_ && give_up_slowest()) { deliver_before(settled_until(), on_steps); }
     }
-    /// Calls on_step(lane, step) for all remaining steps.
-    template <typename OnStep>
-    void finish(OnStep&& on_step) {
-        deliver_before(kNever, on_step);
+    /// Calls on_steps(MergedSteps) with all remaining steps.
+    template <typename OnSteps>
+    void finish(OnSteps&& on_steps) {
+        deliver_before(kNever, on_steps);
     }
 
 private:
@@ -61,54 +63,30 @@ private:
         bool lacks_steps = false;  // it had another position since its newest step, or may have
         bool is_awaited = true;
     };
-    struct Turn {
-        std::size_t lane = 0;
-        Tick until;  // tick of the next step of any other lane
-    };
-
     Tick settled_until() const;
     bool give_up_slowest();
-    template <typename OnStep>
-    void deliver_before(Tick end, OnStep& on_step);
-    void look_at(std::size_t lane, Tick end);
-    Turn next_turn() const;
+    template <typename OnSteps>
+    void deliver_before(Tick end, OnSteps& on_steps);
+    bool merge_before(Tick end);
+    Tick end_of_ready(Tick end) const;
+    void add(std::size_t lane);
+    void pop();
 
     std::size_t max_waiting_;
     std::size_t waiting_ = 0;
     std::vector<Lane> lanes_;
-    std::vector<Tick> next_;  // tick of each lane's next step; kNever: none before the end
+    // The steps being delivered.
+    std::vector<MergedSteps::Lane> ready_;
+    std::vector<MergedStep> merged_;
+    std::vector<MergedStep> before_;  // merged_, without the lane added last
 };
 
-/// Repeatedly selects the lane with the earliest next step, and delivers its steps up to the next step of any other.
-template <typename OnStep>
-void StepMerge::deliver_before(Tick end, OnStep& on_step) {
-    for (std::size_t i = 0; i < lanes_.size(); ++i) { look_at(i, end); }
-    if (lanes_.empty()) { return; }
-    for (Turn turn = next_turn(); next_[turn.lane] != kNever; turn = next_turn()) {
-        StepQueue& steps = lanes_[turn.lane].steps;
-        do {
-            on_step(turn.lane, steps.front());
-            steps.pop();
-            --waiting_;
-            look_at(turn.lane, end);
-        } while (next_[turn.lane] < turn.until);
+template <typename OnSteps>
+void StepMerge::deliver_before(Tick end, OnSteps& on_steps) {
+    while (merge_before(end)) {
+        on_steps(MergedSteps(merged_, ready_));
+        pop();
     }
-}
-
-inline void StepMerge::look_at(std::size_t lane, Tick end) {
-    const StepQueue& steps = lanes_[lane].steps;
-    next_[lane] = !steps.empty() && steps.tick() < end ? steps.tick() : kNever;
-}
-
-inline StepMerge::Turn StepMerge::next_turn() const {
-    std::size_t first = 0;
-    Tick until = kNever;
-    for (std::size_t i = 1; i < next_.size(); ++i) {
-        const bool is_first = next_[i] < next_[first];
-        until = std::min(until, is_first ? next_[first] : next_[i]);
-        first = is_first ? i : first;
-    }
-    return {first, until};
 }
 
 }  // namespace lockstep::analysis

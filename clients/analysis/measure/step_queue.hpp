@@ -33,6 +33,8 @@ public:
     /// The first steps, as many as came together; empty if the queue is. They are a part of batch().
     std::span<const StepEdge> ready() const { return {next_, end_}; }
     const StepEdges& batch() const { return batches_.front()->edges; }
+    /// The rates of the ready steps.
+    const StepRates* rates() const { return rates_; }
     /// The position before the first step.
     std::int64_t count() const { return count_; }
     /// Drops some of the ready steps, after which the position is `count`.

@@ -32,8 +32,9 @@ protected:
     const std::size_t x = merge.add_lane();
     const std::size_t y = merge.add_lane();
     std::vector<std::int64_t> delivered;
-    const std::function<void(std::size_t, const MeasuredStep&)> deliver =
-        [this](std::size_t, const MeasuredStep& step) { delivered.push_back(step.tick.value); };
+    const std::function<void(MergedSteps)> deliver = [this](MergedSteps steps) {
+        while (!steps.empty()) { delivered.push_back(steps.pop().tick.value); }
+    };
 };
 
 TEST_F(Merging, DeliversAStepWhenNoAxisCanDeliverAnEarlierOne) {

@@ -1,0 +1,82 @@
+// Steps of several axes in the order of their ticks, and where each axis is.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "clients/analysis/measure/measured_step.hpp"
+
+namespace lockstep::analysis {
+
+struct MergedStep {
+    Tick tick;
+    std::uint32_t lane = 0;
+    std::int8_t direction = 0;
+};
+
+/// Each lane's steps are consecutive and of one message. Readers pass them from the front.
+class MergedSteps {
+public:
+    /// The steps of a lane that were not passed.
+    struct Lane {
+        std::span<const StepEdge> steps;
+        const StepRates* rates = nullptr;  // of these steps
+        std::int64_t count = 0;            // the position before them
+        bool is_one_way = false;           // no step of them reverses
+
+        /// The number of steps before a tick.
+        std::size_t before(Tick tick) const {
+            if (steps.empty() || steps.back().tick < tick) { return steps.size(); }
+            return static_cast<std::size_t>(std::ranges::lower_bound(steps, tick, {}, &StepEdge::tick) - steps.begin());
+        }
+        void pass(std::size_t passed) {
+            count += change(passed);
+            steps = steps.subspan(passed);
+            rates += passed;
+        }
+
+    private:
+        std::int64_t change(std::size_t passed) const {
+            if (passed == 0) { return 0; }
+            if (is_one_way) { return static_cast<std::int64_t>(passed) * steps.front().direction; }
+            std::int64_t change = 0;
+            for (const StepEdge& step : steps.first(passed)) { change += step.direction; }
+            return change;
+        }
+    };
+
+    /// `steps` are those of all lanes, in order. Both must outlive this object.
+    MergedSteps(std::span<const MergedStep> steps, std::span<Lane> lanes) : steps_(steps), lanes_(lanes) {}
+
+    bool empty() const { return steps_.empty(); }
+    /// Of the first step.
+    Tick tick() const { return steps_.front().tick; }
+    std::size_t lane() const { return steps_.front().lane; }
+    std::span<const Lane> lanes() const { return lanes_; }
+    /// The steps before a tick.
+    std::span<const MergedStep> before(Tick tick) const {
+        if (steps_.empty() || steps_.back().tick < tick) { return steps_; }
+        return {steps_.begin(), std::ranges::lower_bound(steps_, tick, {}, &MergedStep::tick)};
+    }
+    void pass_before(Tick tick) {
+        steps_ = steps_.subspan(before(tick).size());
+        for (Lane& lane : lanes_) { lane.pass(lane.before(tick)); }
+    }
+    /// Passes the first step and returns it.
+    MeasuredStep pop() {
+        const MergedStep& step = steps_.front();
+        Lane& lane = lanes_[step.lane];
+        const StepRates rates = *lane.rates;
+        lane.pass(1);
+        steps_ = steps_.subspan(1);
+        return {step.tick, lane.count, step.direction, rates};
+    }
+
+private:
+    std::span<const MergedStep> steps_;
+    std::span<Lane> lanes_;
+};
+
+}  // namespace lockstep::analysis
