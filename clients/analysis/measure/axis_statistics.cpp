@@ -10,22 +10,22 @@ namespace lockstep::analysis {
 void AxisStatistics::on_batch(const StepBatch& batch) {
     if (batch.steps.empty()) { return; }
     if (!first_) { begin(batch.steps.front(), batch.position_before_steps); }
-    std::int64_t position = batch.position_before_steps;
     const auto measured = std::make_shared<MeasuredSteps>();
     measured->edges = batch.steps;
-    measured->position_before = position;
+    measured->position_before = batch.position_before_steps;
     measured->rates.resize(batch.steps.size());
     measured->clock_error = batch.clock_error;
     const bool joins = std::exchange(joined_, true) && last_;
     Tick before = joins ? last_->tick : batch.steps.front().tick;
     for (std::size_t i = 0; i < batch.steps.size(); ++i) {
+        if (i > 0) { i += measure_blocks(batch, i, *measured); }
+        if (i == batch.steps.size()) { break; }
         const StepEdge edge = batch.steps[i];
-        position += edge.direction;
+        if (i > 0) { before = batch.steps[i - 1].tick; }
         if (edge.tick - before > SpeedMeter::kRest) { show_rest(before, edge.tick); }
         measured->rates[i] = measure(edge, batch.device_tick(i));
-        before = edge.tick;
     }
-    last_ = {before, position};
+    last_ = {batch.steps.back().tick, batch.position_before_steps + batch.steps.change()};
     steps_ += static_cast<std::int64_t>(batch.steps.size());
     clock_error_ = std::max(clock_error_, batch.clock_error);
     if (listener_ != nullptr) { listener_->on_measured(lane_, measured); }
@@ -55,6 +55,25 @@ void AxisStatistics::begin(StepEdge edge, std::int64_t position_before) {
     first_ = StepPlace{edge.tick, position_before + edge.direction};
     start_ = position_before;
     stand_at(edge.tick);
+}
+
+/// Measures as many of the steps from `from` on as can be measured in blocks. Returns their number.
+std::size_t AxisStatistics::measure_blocks(const StepBatch& batch, std::size_t from, MeasuredSteps& measured) {
+    if (!batch.device_ticks.empty()) { return 0; }
+    SpeedMeter::Block block;
+    std::size_t i = from;
+    for (; i + SpeedMeter::kBlock <= batch.steps.size(); i += SpeedMeter::kBlock) {
+        const std::span<const StepEdge, SpeedMeter::kBlock> edges(&batch.steps[i], SpeedMeter::kBlock);
+        if (!meter_.steps(edges, block)) { break; }
+        for (std::size_t k = 0; k < SpeedMeter::kBlock; ++k) {
+            measured.rates[i + k] = {static_cast<float>(std::abs(block.speed[k])),
+                                     static_cast<float>(std::abs(block.acceleration[k]))};
+        }
+        if (!keeps_curves_) { continue; }
+        speed_.add(block.speed_at, block.speed);
+        acceleration_.add(block.acceleration_at, block.acceleration);
+    }
+    return i - from;
 }
 
 /// Speed and acceleration are by the device's clock, which the motor follows; their times are machine time.

@@ -56,6 +56,7 @@ public:
 
 private:
     void begin(StepEdge edge, std::int64_t position_before);
+    std::size_t measure_blocks(const StepBatch& batch, std::size_t from, MeasuredSteps& measured);
     StepRates measure(StepEdge edge, Tick by_device);
     void stand_at(Tick tick);
     void show_rest(Tick from, Tick until);

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <ranges>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "core/units.hpp"
@@ -27,6 +29,17 @@ public:
     /// Samples come in the order of time. Leaves out a sample that is earlier than the first.
     void add(Sample sample) {
         if (is_in_latest(sample.at) || find_bin(sample.at)) { bins_[latest_].add(sample); }
+    }
+    /// Adds samples in order; costs less if they are in one bin and within its values.
+    void add(std::span<const Tick> at, std::span<const double> values) {
+        const auto [lowest, highest] = range_of(values);
+        const bool is_within =
+            is_in_latest(at.front()) && is_in_latest(at.back()) && bins_[latest_].covers(lowest, highest);
+        if (is_within) {
+            bins_[latest_].last = {at.back(), values.back()};
+            return;
+        }
+        for (std::size_t i = 0; i < at.size(); ++i) { add({at[i], values[i]}); }
     }
     /// Adds samples of one value at the times at(0) ... at(count - 1), in order. Only the first and the last in a bin
     /// are needed.
@@ -56,7 +69,17 @@ private:
             last = sample;
         }
         void add(const Bin& later);
+        bool covers(double low, double high) const { return !empty && lowest.value <= low && high <= highest.value; }
     };
+    static std::pair<double, double> range_of(std::span<const double> values) {
+        double low = values[0];
+        double high = values[0];
+        for (const double value : values) {
+            low = value < low ? value : low;
+            high = value > high ? value : high;
+        }
+        return {low, high};
+    }
 
     bool is_in_latest(Tick at) const { return at >= latest_from_ && at < latest_end_; }
     bool find_bin(Tick at);

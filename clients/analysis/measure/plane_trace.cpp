@@ -1,23 +1,8 @@
 #include "clients/analysis/measure/plane_trace.hpp"
 
-#include <cmath>
-#include <utility>
-
 #include "clients/drawing/decimate.hpp"
 
 namespace lockstep::analysis {
-
-void PlaneTrace::step(std::size_t axis, std::int64_t count, int direction) {
-    const auto before = std::exchange(at_[axis], count);
-    if (before && *before != count - direction) { part(); }
-    if (!at_[0] || !at_[1]) { return; }
-    auto& way = ways_.back();
-    const drawing::Point at{static_cast<double>(*at_[0]), static_cast<double>(*at_[1])};
-    const auto is_near = [&](double a, double b) { return std::abs(a - b) < 2 * tolerance_; };
-    if (!way.empty() && is_near(way.back().x, at.x) && is_near(way.back().y, at.y)) { return; }
-    way.push_back(at);
-    if (way.size() - thinned_ >= kThinnedAtOnce) { thin_newest(); }
-}
 
 void PlaneTrace::part() {
     if (ways_.back().empty() || ways_.size() == kMaxWays) { return; }

@@ -5,9 +5,11 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "clients/drawing/svg.hpp"
@@ -40,5 +42,17 @@ private:
     std::size_t thinned_ = 0;  // points of the newest way
     std::size_t points_ = 0;   // of all ways, when they were last thinned
 };
+
+inline void PlaneTrace::step(std::size_t axis, std::int64_t count, int direction) {
+    const auto before = std::exchange(at_[axis], count);
+    if (before && *before != count - direction) { part(); }
+    if (!at_[0] || !at_[1]) { return; }
+    auto& way = ways_.back();
+    const drawing::Point at{static_cast<double>(*at_[0]), static_cast<double>(*at_[1])};
+    const auto is_near = [&](double a, double b) { return std::abs(a - b) < 2 * tolerance_; };
+    if (!way.empty() && is_near(way.back().x, at.x) && is_near(way.back().y, at.y)) { return; }
+    way.push_back(at);
+    if (way.size() - thinned_ >= kThinnedAtOnce) { thin_newest(); }
+}
 
 }  // namespace lockstep::analysis

@@ -1,6 +1,7 @@
 #include "clients/analysis/measure/skew.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <iterator>
 #include <span>
 
@@ -70,6 +71,7 @@ void SkewMeter::take_first_frame() {
     for (const auto& axis : steps) {
         if (!axis.second->groups.empty()) { axes.push_back(steps_of(axis)); }
     }
+    if (axes.size() > 1) { note_bits(axes); }
     for (std::size_t i = 0; i < axes.size(); ++i) {
         for (std::size_t j = i + 1; j < axes.size(); ++j) { take_pair(axes[i], axes[j]); }
     }
@@ -93,24 +95,56 @@ void SkewMeter::take_pair(const AxisSteps& a, const AxisSteps& b) {
     if (!a.are_equally_late || !b.are_equally_late) { return take_steps(a, b, amounts); }
     const EquallyLate& of_a = a.late->groups.front();
     const EquallyLate& of_b = b.late->groups.front();
-    amounts.times[length_of(of_a.late - of_b.late)] += ticks_of_both(a.commanded, b.commanded);
+    amounts.times[length_of(of_a.late - of_b.late)] += ticks_of_both(a, b);
     amounts.error = std::max(amounts.error, of_a.error + of_b.error);
 }
 
 /// The number of different commanded ticks of two axes, from the instant on at which both have a step.
-std::int64_t SkewMeter::ticks_of_both(std::span<const Tick> a, std::span<const Tick> b) {
-    const Tick from = std::max(a.front(), b.front());
-    const Tick* at_a = a.data() + (std::ranges::lower_bound(a, from) - a.begin());
-    const Tick* at_b = b.data() + (std::ranges::lower_bound(b, from) - b.begin());
-    const Tick* const end_a = a.data() + a.size();
-    const Tick* const end_b = b.data() + b.size();
-    std::int64_t ticks = (end_a - at_a) + (end_b - at_b);
-    while (at_a != end_a && at_b != end_b) {  // without other branches, which would be mispredicted
+std::int64_t SkewMeter::ticks_of_both(const AxisSteps& a, const AxisSteps& b) {
+    const Tick from = std::max(a.commanded.front(), b.commanded.front());
+    const auto steps_from = [&](const std::vector<Tick>& steps) {
+        return steps.end() - std::ranges::lower_bound(steps, from);
+    };
+    return steps_from(a.commanded) + steps_from(b.commanded) - common_ticks(a, b);
+}
+
+/// Notes the steps of a frame as bits, unless most of the bits would be 0.
+void SkewMeter::note_bits(std::vector<AxisSteps>& axes) {
+    constexpr std::int64_t kTicksPerStep = 64;
+    Tick first = axes.front().commanded.front();
+    Tick last = first;
+    std::int64_t steps = 0;
+    for (const AxisSteps& axis : axes) {
+        first = std::min(first, axis.commanded.front());
+        last = std::max(last, axis.commanded.back());
+        steps += axis.are_equally_late ? std::ssize(axis.commanded) : 0;
+    }
+    const std::int64_t ticks = (last - first).value + 1;
+    if (ticks > steps * kTicksPerStep) { return; }
+    for (AxisSteps& axis : axes) {
+        if (!axis.are_equally_late) { continue; }
+        axis.bits.resize(static_cast<std::size_t>(ticks + 63) / 64);
+        for (const Tick tick : axis.commanded) {
+            const auto bit = static_cast<std::uint64_t>((tick - first).value);
+            axis.bits[bit / 64] |= std::uint64_t{1} << bit % 64;
+        }
+    }
+}
+
+std::int64_t SkewMeter::common_ticks(const AxisSteps& a, const AxisSteps& b) {
+    std::int64_t ticks = 0;
+    if (!a.bits.empty() && !b.bits.empty()) {
+        for (std::size_t i = 0; i < a.bits.size(); ++i) { ticks += std::popcount(a.bits[i] & b.bits[i]); }
+        return ticks;
+    }
+    auto at_a = a.commanded.begin();
+    auto at_b = b.commanded.begin();
+    while (at_a != a.commanded.end() && at_b != b.commanded.end()) {
         const Tick of_a = *at_a;
         const Tick of_b = *at_b;
-        ticks -= static_cast<std::int64_t>(of_a == of_b);
-        at_a += static_cast<std::ptrdiff_t>(of_a <= of_b);
-        at_b += static_cast<std::ptrdiff_t>(of_b <= of_a);
+        ticks += of_a == of_b ? 1 : 0;
+        at_a += of_a <= of_b ? 1 : 0;
+        at_b += of_b <= of_a ? 1 : 0;
     }
     return ticks;
 }

@@ -68,11 +68,14 @@ private:
     struct AxisSteps {
         std::string axis;
         SharedLate late;
-        std::vector<Tick> commanded;  // in order
+        std::vector<Tick> commanded;      // in order
+        std::vector<std::uint64_t> bits;  // the same as a bit for each tick of the frame; empty if it has few steps
         bool are_equally_late = true;
     };
     static AxisSteps steps_of(const Steps::value_type& axis);
-    static std::int64_t ticks_of_both(std::span<const Tick> a, std::span<const Tick> b);
+    static void note_bits(std::vector<AxisSteps>& axes);
+    static std::int64_t common_ticks(const AxisSteps& a, const AxisSteps& b);
+    static std::int64_t ticks_of_both(const AxisSteps& a, const AxisSteps& b);
     static void take_steps(const AxisSteps& a, const AxisSteps& b, Amounts& amounts);
     static PairSkew summary_of(const std::pair<std::string, std::string>& axes, const Amounts& amounts);
     void take_pair(const AxisSteps& a, const AxisSteps& b);

@@ -13,9 +13,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "clients/analysis/measure/course.hpp"
@@ -27,12 +31,24 @@ class SpeedMeter {
 public:
     /// After this time without a step an axis is at rest, and the window starts again.
     static constexpr Ticks kRest{100'000};
+    /// The number of steps that steps() takes.
+    static constexpr std::size_t kBlock = 16;
 
     /// Takes the next step, in order. Returns the signed speed in the window that it completes, at the window's middle;
     /// nullopt if it completes none.
     std::optional<Sample> step(StepEdge edge);
     /// The signed acceleration between the two windows that the latest step completed; nullopt if it completed none.
     const std::optional<Sample>& acceleration() const { return acceleration_; }
+    /// What step() and acceleration() return for each step of a block.
+    struct Block {
+        std::array<Tick, kBlock> speed_at;
+        std::array<double, kBlock> speed;
+        std::array<Tick, kBlock> acceleration_at;
+        std::array<double, kBlock> acceleration;
+    };
+    /// Takes the next kBlock steps at once, which costs less. Returns false and takes none if one of them might not
+    /// complete all windows.
+    bool steps(std::span<const StepEdge, kBlock> edges, Block& measured);
     /// Ends the motion: later steps do not join the previous ones.
     void interrupt();
 
@@ -41,30 +57,43 @@ public:
 
 private:
     static constexpr std::size_t kLeastSteps = 8;
-    static constexpr Ticks kSpeedWindow{1'000};
-    static constexpr Ticks kAccelerationWindow{10'000};
+    static constexpr std::int32_t kSpeedWindow = 1'000;
+    static constexpr std::int32_t kAccelerationWindow = 10'000;
     static constexpr std::size_t kKept = 2'048;
+    static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
     /// The window of acceleration that ends with a step.
     struct Window {
-        Tick from;
+        std::int32_t from = 0;
         double speed = 0;
     };
+    using Begins = std::array<std::size_t, kBlock>;
 
-    bool narrow(std::size_t& first, Ticks least) const;
-    double speed_since(std::size_t first) const;
+    bool narrow(std::size_t& first, std::int32_t least, std::size_t newest) const;
+    void narrow_all(std::size_t& first, std::int32_t least, std::size_t from, Begins& begins) const;
+    bool narrow_near(std::size_t first, std::int32_t least, std::size_t from, Begins& begins) const;
+    double speed_since(std::size_t first, std::size_t newest) const;
     double least_speed_since(std::size_t first) const;
+    bool goes_on(std::span<const StepEdge, kBlock> edges) const;
+    void measure_speeds(std::size_t from, Block& measured);
+    void measure_accelerations(std::size_t from, Block& measured);
     std::optional<Sample> measure_speed();
     void measure_acceleration();
+    void add(Tick tick);
     void begin_stretch(StepEdge edge, bool rested);
     void forget();
-
-    static double middle(Tick from, Tick to) {
-        return static_cast<double>(from.value) / 2 + static_cast<double>(to.value) / 2;
+    Tick tick(std::size_t step) const { return base_ + Ticks{past_[step]}; }
+    /// Clocks of a damaged log may jump.
+    bool is_far(Tick at) const {
+        constexpr Ticks kFarthest{1 << 30};
+        return !past_.empty() && length_of(at - base_) > kFarthest;
     }
+    bool has_early_window(std::size_t step) const { return step >= windows_from_; }
 
-    std::vector<Tick> past_;       // the newest steps of this motion, with which a window may still begin
-    std::vector<Window> windows_;  // of these steps; as many last ones as have one
+    Tick base_;                       // of the ticks in past_ and windows_
+    std::vector<std::int32_t> past_;  // the newest steps of this motion, with which a window may still begin
+    std::vector<Window> windows_;     // of these steps, from windows_from_ on
+    std::size_t windows_from_ = kNone;
     std::size_t room_ = kKept;     // maximum size of past_ before the oldest are dropped
     std::size_t speed_first_ = 0;  // begin of the windows that end with the newest step
     std::size_t late_first_ = 0;
@@ -76,55 +105,58 @@ private:
 };
 
 inline std::optional<Sample> SpeedMeter::step(StepEdge edge) {
-    const bool rested = !past_.empty() && edge.tick - past_.back() > kRest;
-    if (rested || edge.direction != direction_) { begin_stretch(edge, rested); }
-    if (past_.size() == room_) { forget(); }
-    past_.push_back(edge.tick);
+    const bool rested = !past_.empty() && edge.tick - tick(past_.size() - 1) > kRest;
+    if (rested || edge.direction != direction_ || is_far(edge.tick)) { begin_stretch(edge, rested); }
+    if (past_.size() >= room_) { forget(); }
+    add(edge.tick);
     measure_acceleration();
     return measure_speed();
 }
 
-inline std::optional<Sample> SpeedMeter::measure_speed() {
-    if (!narrow(speed_first_, kSpeedWindow)) { return std::nullopt; }
-    measured_ = true;
-    const double speed = speed_since(speed_first_);
-    peak_speed_ = std::max(peak_speed_, speed);
-    const Tick first = past_[speed_first_];
-    return Sample{first + Ticks{(past_.back() - first).value / 2}, direction_ * speed};
+inline void SpeedMeter::add(Tick tick) {
+    if (past_.empty()) { base_ = tick; }
+    past_.push_back(static_cast<std::int32_t>((tick - base_).value));
+    windows_.emplace_back();
 }
 
-/// The later window ends with the newest step. The earlier window ends with the first step of the later one.
+inline std::optional<Sample> SpeedMeter::measure_speed() {
+    const std::size_t newest = past_.size() - 1;
+    if (!narrow(speed_first_, kSpeedWindow, newest)) { return std::nullopt; }
+    measured_ = true;
+    const double speed = speed_since(speed_first_, newest);
+    peak_speed_ = std::max(peak_speed_, speed);
+    const std::int32_t first = past_[speed_first_];
+    return Sample{base_ + Ticks{first + (past_[newest] - first) / 2}, direction_ * speed};
+}
+
+/// The later window ends with the newest step. The earlier window ends with the first step of the later one. The time
+/// between their middles is half of both together.
 inline void SpeedMeter::measure_acceleration() {
     acceleration_.reset();
-    if (!narrow(late_first_, kAccelerationWindow)) { return; }
-    const Tick newest = past_.back();
-    const Tick between = past_[late_first_];
-    const Window& late = windows_.emplace_back(between, speed_since(late_first_));
-    const std::size_t behind = past_.size() - late_first_;  // how many windows end with the step between or later
-    if (windows_.size() < behind) { return; }
-    const Window& early = windows_[windows_.size() - behind];
-    const double time = middle(late.from, newest) - middle(early.from, between);
-    const double acceleration = (late.speed - early.speed) / time;
-    acceleration_ = Sample{between, direction_ * acceleration};
+    const std::size_t newest = past_.size() - 1;
+    if (!narrow(late_first_, kAccelerationWindow, newest)) { return; }
+    windows_from_ = std::min(windows_from_, newest);
+    windows_[newest] = {past_[late_first_], speed_since(late_first_, newest)};
+    if (!has_early_window(late_first_)) { return; }
+    const Window& early = windows_[late_first_];
+    const double acceleration = (windows_[newest].speed - early.speed) / (0.5 * (past_[newest] - early.from));
+    acceleration_ = Sample{tick(late_first_), direction_ * acceleration};
     peak_acceleration_ = std::max(peak_acceleration_, std::abs(acceleration));
 }
 
-/// Moves the window's first step as late as possible. Returns false if there is no window yet.
-inline bool SpeedMeter::narrow(std::size_t& first, Ticks least) const {
-    if (past_.size() <= kLeastSteps) { return false; }
-    const std::size_t most = past_.size() - 1 - kLeastSteps;  // the latest step with which a window may begin
-    const Tick latest = past_.back() - least;
+/// Moves the first step of the window that ends with `newest` as late as possible. Returns false if there is no window
+/// yet.
+inline bool SpeedMeter::narrow(std::size_t& first, std::int32_t least, std::size_t newest) const {
+    if (newest < kLeastSteps) { return false; }
+    const std::size_t most = newest - kLeastSteps;  // the latest step with which a window may begin
+    const std::int32_t latest = past_[newest] - least;
     if (first > most || past_[first] > latest) { return false; }
     while (first < most && past_[first + 1] <= latest) { ++first; }
     return true;
 }
 
-inline double SpeedMeter::speed_since(std::size_t first) const {
-    return static_cast<double>(past_.size() - 1 - first) / static_cast<double>((past_.back() - past_[first]).value);
-}
-
-inline double SpeedMeter::least_speed_since(std::size_t first) const {
-    return static_cast<double>(past_.size() - 1 - first) / static_cast<double>((past_.back() - past_[first]).value + 1);
+inline double SpeedMeter::speed_since(std::size_t first, std::size_t newest) const {
+    return static_cast<double>(newest - first) / static_cast<double>(past_[newest] - past_[first]);
 }
 
 }  // namespace lockstep::analysis

@@ -5,7 +5,9 @@
 // swinging door, 1990, one pass in constant memory). If there are too many knots, the tolerance doubles.
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "clients/analysis/log/step_stream.hpp"
@@ -37,6 +39,8 @@ public:
     double tolerance_steps() const { return error_; }
 
 private:
+    static constexpr std::size_t kBlock = 16;
+    bool steps(std::span<const StepEdge, kBlock> edges);
     void step(StepEdge edge, std::int64_t position_before);
     void rest(Tick until, std::int64_t position);
     void point(Tick tick, double position);
