@@ -11,9 +11,10 @@ namespace {
 
 constexpr double kQuarterTurn = std::numbers::pi / 2;
 constexpr double kWhole = 2 * std::numbers::pi;
-constexpr double kSameAngle = 1e-9;  // rad; ends closer than this make a whole turn, as in core/path/arc_cutter.cpp
+constexpr double kSameAngle =
+    1e-9;  // rad; an arc with ends closer than this is a whole turn, as in core/path/arc_cutter.cpp
 constexpr double kMostChords = 100'000;
-constexpr double kMostErrors = 100;  // times ArcTolerance::error_mm
+constexpr double kMostErrors = 100;  // in ArcTolerance::error_mm: the greatest difference of an arc's radii
 
 double in_micrometres(double mm) { return std::round(mm * 1e4) / 1e4; }
 

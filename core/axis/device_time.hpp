@@ -67,7 +67,7 @@ private:
         device::LoadFrame frame;  // as the device was given it
         Tick body_end;
         Tick end;
-        Ticks error;  // of its whole body
+        Ticks error;  // the error of the frame's whole body
         Ticks tail_error;
     };
 

@@ -42,11 +42,11 @@ private:
     struct Member {
         std::optional<Identity> client;  // nullopt: not received yet, after a takeover
         Slot received = 0;
-        std::uint64_t sequence = 0;  // of its request
+        std::uint64_t sequence = 0;  // of the client's request
     };
     /// A client that has lost the lease to another writer.
     struct Loser {
-        std::uint64_t sequence = 0;  // of its last request
+        std::uint64_t sequence = 0;  // of the client's last request
         std::string text;            // says which writer has taken the machine over
     };
     static constexpr std::size_t kMostMembers = ClientMemory<Loser>::kClients;
@@ -61,7 +61,7 @@ private:
     std::optional<HeldLease> held_;
     ClientMemory<Loser> losers_;
     std::vector<Identity> silent_;  // removed in the last tend()
-    std::vector<Member> members_;   // its writer's clients, the one received longest ago first
+    std::vector<Member> members_;   // the writer's clients, the one received longest ago first
 };
 
 }  // namespace lockstep

@@ -60,7 +60,7 @@ struct Tool {
 /// The origin of the program's coordinates: machine = turned(program + g92) + origin + tool.
 struct Offsets {
     Point origin{};       // of the chosen coordinate system
-    double rotation = 0;  // of it, degrees counterclockwise about Z
+    double rotation = 0;  // of the chosen coordinate system, degrees counterclockwise about Z
     Point g92{};
     Point tool{};
     bool operator==(const Offsets&) const = default;
@@ -81,12 +81,12 @@ inline constexpr int kMaxSplineOrder = 10;
 struct SplineWords {
     std::optional<Flat> direction;  // G5: its P and Q
     std::optional<Spline> nurbs;    // between G5.2 and G5.3
-    Point end{};                    // its end so far, in the program's coordinates
+    Point end{};                    // the end of `nurbs` so far, in the program's coordinates
 };
 
 struct State {
     Point machine{};  // where the axes stand
-    Point program{};  // the same in the program's coordinates
+    Point program{};  // the same place in the program's coordinates
     Modal modal;
     Offsets offsets;
     CycleWords cycle;

@@ -32,7 +32,7 @@ struct PathMove {
     double length_mm = 0;
     std::optional<double> feed_mm_per_tick;  // requested; nullopt: as fast as the axes allow
     PathLimits own;                          // of the lead axis; they keep every axis within its limits
-    PathLimits limits;                       // the same, reduced by feed and frames; planning sets it
+    PathLimits limits;                       // `own`, reduced by feed and frames; planning sets it
     Ticks dwell;                             // if lead is 0
     Subticks start;                          // after the path's start
     Profile profile;

@@ -82,7 +82,7 @@ private:
     int next_ = 0;             // the next of them
     int quarters_ = 0;         // of the last turn
     double part_ = 0;          // rad, behind the whole quarter turns
-    bool has_part_ = false;    // it is not cut yet
+    bool has_part_ = false;    // the part behind the whole quarter turns is not cut yet
     bool ends_whole_ = false;  // the arc ends with a whole quarter turn
     double radius_begin_ = 0;  // mm
     double radius_end_ = 0;    // mm

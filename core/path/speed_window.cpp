@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kRounding = 1e-11;  // of w: far more than the rounding of a backward pass
 constexpr double kStopShare = 0.8;   // of the start velocity, where the path begins or ends: a joint may follow
-constexpr double kRestShare = 0.4;   // likewise at a short rest: two jumps follow each other
+constexpr double kRestShare = 0.4;   // of the start velocity, at a short rest, where two jumps follow each other
 constexpr double kWorthSlowing = 2;  // least gain, because the adjacent pieces become slower too
 constexpr int kMostHalves = 40;
 constexpr std::size_t kLeastParts = 4;  // of a piece that may be faster than the joints at its ends

@@ -23,8 +23,8 @@ inline double ticks_over(double mm, double v0, double v1) { return mm > 0 ? 2 * 
 /// Constant acceleration along one piece of geometry.
 struct PathPhase {
     const Quadratic* shape = nullptr;
-    std::size_t interval = 0;  // its number
-    std::size_t piece = 0;     // and its piece's
+    std::size_t interval = 0;  // the number of the interval
+    std::size_t piece = 0;     // the number of the interval's piece
     double begin = 0;          // ticks
     double ticks = 0;
     double u = 0;         // mm, at its beginning

@@ -236,11 +236,11 @@ struct PublishedEvent {
     Term term;
     std::uint64_t sequence = 0;  // rises within a term, without gaps
     std::uint64_t job = 0;
-    Epoch epoch = 0;                   // 0: no axis moved since the job began
-    Tick tick;                         // when the motion reached its place; at rest: when it was published
-    bool at_rest = false;              // its place is where the axes came to rest, or they passed it on the way there
-    bool is_of_program = true;         // false: the job ended early, and the coordinator switched the device off
-    std::uint32_t block = 0;           // of the program
+    Epoch epoch = 0;            // 0: no axis moved since the job began
+    Tick tick;                  // when the motion reached its place; at rest: when it was published
+    bool at_rest = false;       // the event's place is where the axes came to rest, or they passed it on the way there
+    bool is_of_program = true;  // false: the job ended early, and the coordinator switched the device off
+    std::uint32_t block = 0;    // of the program
     std::optional<std::int32_t> line;  // of the G-code file
     ProgramEvent event;
     bool operator==(const PublishedEvent&) const = default;
@@ -330,7 +330,7 @@ struct Reply {
     std::uint64_t job = 0;              // the job that a command began; for a jog's renewal: 0 when the jog is over
     std::string text;                   // what, where, the limit and the remedy, for a person
     // To a ProgramChunk:
-    std::uint32_t parts = 0;        // of its program, taken so far; the client does not send these again
+    std::uint32_t parts = 0;        // parts of the program taken so far; the client does not send these again
     std::uint64_t free_blocks = 0;  // how many more blocks the coordinator takes now
     bool operator==(const Reply&) const = default;
 };

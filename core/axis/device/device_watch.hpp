@@ -35,11 +35,11 @@ private:
     Ticks patience_;
     std::optional<DeviceStatus> last_;
     Tick looked_;             // the last look, by this process's clock
-    Ticks stood_;             // how long its clock has stood still while this process looked
-    Ticks overdue_;           // how long its run has been overdue, likewise
+    Ticks stood_;             // how long the device's clock has stood still while this process looked
+    Ticks overdue_;           // how long the device's run has been overdue while this process looked
     std::uint64_t run_ = 0;   // the run ordered last; 0: none yet
-    FrameNumber loaded_ = 0;  // the last frame loaded of it
-    Tick ends_;               // end of its frames, tails included, by the device's clock
+    FrameNumber loaded_ = 0;  // the last frame of that run that was loaded
+    Tick ends_;               // the end of that run's frames, tails included, by the device's clock
 };
 
 }  // namespace lockstep

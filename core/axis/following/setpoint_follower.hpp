@@ -79,7 +79,7 @@ private:
     FrameNumber checked_ = 0;  // every frame up to this one is decided
     std::optional<FrameNumber> veto_;
     FailedCheck failed_check_;
-    std::optional<FrameNumber> device_veto_;  // the veto ordered of the device
+    std::optional<FrameNumber> device_veto_;  // the veto that was given to the device
     MotionPoint end_;                         // end of the last body held
     Tick end_tick_;
     bool last_held_ = false;

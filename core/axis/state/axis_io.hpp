@@ -18,7 +18,7 @@ struct AxisInputs {
     Tick now;  // machine time
     DeviceStatus device;
     bool has_device = true;      // false: no device answers, and `device` is meaningless
-    bool device_failed = false;  // it refused an order; what it does since is unknown
+    bool device_failed = false;  // the device refused an order; what it has done since is unknown
     std::span<const Frame> frames;
     std::span<const AxisState> peers;
     std::span<const MachineState> coordinator;

@@ -23,7 +23,9 @@ AxisRoster::Arrival AxisRoster::arrival_of(const AxisState& state, Slot now) {
     if (same) { return Arrival::SameAxis; }
     if (!view.state) { return Arrival::FirstSeen; }
     const bool is_older = state.stamp <= view.state->stamp;
-    if (is_older && is_present(state.axis, now)) { return Arrival::Ignored; }  // an earlier process's, sent again
+    if (is_older && is_present(state.axis, now)) {
+        return Arrival::Ignored;
+    }  // a state of an earlier process, sent again
     return view.unconfirmed.again(state.identity, state.stamp) ? Arrival::Replaced : Arrival::Ignored;
 }
 

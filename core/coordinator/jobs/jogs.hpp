@@ -39,7 +39,7 @@ public:
 private:
     struct Jog {
         Identity client = 0;
-        std::uint64_t sequence = 0;  // of its command
+        std::uint64_t sequence = 0;  // of the command that began the jog
         JogAxis asked;
         Tick renewed;
         std::optional<std::int64_t> target;  // steps; empty: it was not ordered yet

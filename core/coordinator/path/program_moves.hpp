@@ -53,7 +53,7 @@ private:
     LegEnd::Kind end_ = LegEnd::Kind::Program;
     Pause pause_;    // of end_
     AxisCounts to_;  // where the last block read leads to, whole steps
-    AxisVector at_;  // the same, exactly
+    AxisVector at_;  // the same place, exactly
 };
 
 }  // namespace lockstep

@@ -28,7 +28,7 @@ public:
     /// is acknowledged again. A part that comes too early is not taken. The reply says how many parts have been taken.
     struct Taken {
         Reply reply;
-        bool is_new = false;  // it was taken now
+        bool is_new = false;  // the part was taken now
     };
     Taken take(const ProgramPart& part, Slot now);
     /// Jobs of the program continue.
@@ -47,7 +47,7 @@ public:
 private:
     struct Entry {
         std::uint64_t id = 0;
-        Identity client = 0;                    // its sender
+        Identity client = 0;                    // the program's sender
         std::shared_ptr<KnownProgram> program;  // null: its first part was refused
         std::uint32_t parts = 0;                // parts taken
         Slot received = 0;                      // when the last part or repetition was received

@@ -74,7 +74,7 @@ struct CoordinatorNotice {
         ProgramLate,       // the axes rest on the path after frame `number` and wait for more of the program
         ProgramCut,        // the job ended at line `number`, where its known program ends; `fault` says why
         UnattendedRunsOn,  // the client of job `number` fell silent; the job runs on
-        UnattendedHeld     // the same; the job is held
+        UnattendedHeld     // the client of job `number` fell silent; the job is held
     };
     Kind kind = Kind::Phase;
     FaultCode fault = FaultCode::None;

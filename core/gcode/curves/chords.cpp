@@ -62,7 +62,7 @@ Cylinder cylinder_of(const Arc& arc, const Point& from) {
     result.aside = cross(arc.axis, result.along);
     const int direction = arc.turns < 0 ? -1 : 1;
     double angle = direction * std::atan2(dot(flat_end, result.aside), dot(flat_end, result.along));
-    constexpr double kNone = 1e-10;  // the same direction: a whole turn
+    constexpr double kNone = 1e-10;  // rad; with a smaller angle between its ends an arc is a whole turn
     if (angle <= kNone) { angle += 2 * std::numbers::pi; }
     result.sweep = direction * (angle + 2 * std::numbers::pi * (std::abs(arc.turns) - 1));
     return result;

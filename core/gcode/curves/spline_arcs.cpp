@@ -31,7 +31,7 @@ public:
         const double along = dot(from.direction, chord);
         const double aside = cross(from.direction, chord);  // above 0: to the left
         if (!(along > 0)) { return std::nullopt; }
-        if (std::abs(aside) / 4 <= kSplineArcs_mm / 8) { return line(from.at, to); }  // its height
+        if (std::abs(aside) / 4 <= kSplineArcs_mm / 8) { return line(from.at, to); }  // the arc's height
         const double radius = dot(chord, chord) / (2 * aside);
         return FlatArc{from.at, to, from.at + left_of(from.direction) * radius, radius};
     }

@@ -32,7 +32,7 @@ inline double sweep_of(Flat from, Flat centre, Flat to, bool counterclockwise, i
     const Flat b = to - centre;
     double angle = std::atan2(cross(a, b), dot(a, b));
     if (!counterclockwise) { angle = -angle; }
-    constexpr double kNone = 1e-10;  // the same direction: a whole turn
+    constexpr double kNone = 1e-10;  // rad; with a smaller angle between its ends an arc is a whole turn
     if (angle <= kNone) { angle += kWhole; }
     return angle + kWhole * (turns - 1);
 }

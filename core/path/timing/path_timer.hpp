@@ -51,7 +51,7 @@ private:
     std::size_t next_ = 0;       // interval
     std::size_t piece_ = 0;      // with which it begins, if it begins a piece
     bool has_begun_ = false;
-    double w_ = 0;  // squared speed where the next interval begins, and the speed
+    double w_ = 0;  // the square of the speed where the next interval begins; v_ is the speed
     double v_ = 0;
     double ticks_ = 0;
     std::deque<Turn> turns_;  // of the arc that is being cut: the last two that were passed, and those to be passed

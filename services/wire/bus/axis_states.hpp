@@ -46,7 +46,7 @@ public:
     bool is_memory_replaced() const { return board_ && !board_->is_current(); }
     /// DDS's delivery of the states; zero if they come by shared memory.
     TopicReception reception() const { return network_ ? network_->reception() : TopicReception{}; }
-    /// Where the states of a missing axis are expected.
+    /// Names the place from which states are read, for a message about a missing axis: "on the network", or "in FILE".
     std::string place() const;
 
 private:
