@@ -1,9 +1,11 @@
 // Incident files are read as far as possible, combined by machine time, and evaluated even if some are missing.
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <fstream>
 
 #include "clients/incident/cause.hpp"
+#include "clients/incident/incident_input.hpp"
 #include "clients/incident/notes.hpp"
 #include "clients/incident/sentences.hpp"
 #include "services/documents/machine_file.hpp"
@@ -99,6 +101,17 @@ TEST_F(IncidentFiles, OfOtherContentAreRefused) {
     std::ofstream(folder / "notes.txt") << "something else";
     EXPECT_THAT(read_flight_file(folder / "notes.txt").error(), HasSubstr("contains no notes of a flight recorder"));
     EXPECT_THAT(read_flight_file(folder / "none").error(), HasSubstr((folder / "none").string()));
+}
+
+TEST_F(IncidentFiles, InADirectoryThatTheUserMayNotReadAreNotReportedAsAbsent) {
+    if (geteuid() != 0) { GTEST_SKIP() << "only root can act as another user"; }
+    write_veto(2'000'000);
+    fs::permissions(folder, fs::perms::owner_all);
+    ASSERT_EQ(seteuid(65534), 0);
+    const auto input = read_incidents({folder});
+    ASSERT_EQ(seteuid(0), 0);
+    ASSERT_FALSE(input);
+    EXPECT_EQ(input.error(), folder.string() + ": this user may not read it; only its owner root may");
 }
 
 TEST_F(IncidentFiles, FarApartAreDifferentIncidents) {
