@@ -44,12 +44,19 @@ double place_near_park(const AxisConfig& axis, double share) {
     return std::clamp(whole / axis.steps_per_mm, axis.position_min_mm, axis.position_max_mm);
 }
 
+/// How much longer an own move takes by a method that begins at rest whatever the start velocity.
+double seconds_from_rest(const AxisConfig& axis, double mm) {
+    if (axis.method == StepMethod::Ranade || axis.method == StepMethod::Carrica) { return 0; }
+    return 2 * std::sqrt(mm / std::min(axis.max_accel_mm_s2, axis.max_decel_mm_s2));
+}
+
 double homing_seconds(const AxisConfig& axis) {
     const HomingConfig& homing = axis.homing;
     const double search = std::abs(axis.plant.start_position_mm - homing.switch_position_mm) + 3 * homing.pulloff_mm;
     const double park = std::abs(homing.park_mm - homing.switch_position_mm);
     return search / homing.search_velocity_mm_s + 2 * homing.pulloff_mm / homing.latch_velocity_mm_s +
-           seconds(axis, park, axis.max_velocity_mm_s);
+           seconds(axis, park, axis.max_velocity_mm_s) + seconds_from_rest(axis, search) +
+           2 * seconds_from_rest(axis, homing.pulloff_mm) + seconds_from_rest(axis, park);
 }
 
 /// Places for all axes, each a share of its reach from park.
