@@ -17,7 +17,8 @@ namespace {
 
 constexpr int kMaxSlots = 10'000;
 constexpr std::int64_t kLeastClockTicks = 16;
-constexpr std::uint32_t kMaxDomain = 232;  // the last domain with ports below 65536 (DDS interoperability, 9.6.1)
+constexpr std::int64_t kLeastSlotTicks = 4;  // processes loop up to four times in a slot, and once in a tick at most
+constexpr std::uint32_t kMaxDomain = 232;    // the last domain with ports below 65536 (DDS interoperability, 9.6.1)
 constexpr std::size_t kMaxInterfaceName = 64;
 constexpr std::size_t kMaxPeers = 64;
 
@@ -28,6 +29,12 @@ void check_timing(const MachineConfig& machine, ProblemList& problems) {
         {"timing.slot_us", "tick_ns"}, machine.tick_ns == 0 || Int128{t.slot_us} * 1000 % machine.tick_ns == 0,
         fmt::format("timing.slot_us is {}, not a whole number of ticks of {} ns; choose another slot or tick_ns",
                     t.slot_us, machine.tick_ns));
+    const std::int64_t least_us = (kLeastSlotTicks * machine.tick_ns + 999) / 1000;
+    problems.require_between(
+        {"timing.slot_us", "tick_ns"}, t.slot_us >= least_us,
+        fmt::format("timing.slot_us is {}; it must be at least {}, {} ticks of {} ns, because processes loop up to "
+                    "four times in a slot; increase it, or decrease tick_ns",
+                    t.slot_us, least_us, kLeastSlotTicks, machine.tick_ns));
     problems.require_range("timing.stall_slots", t.stall_slots, 1, kMaxStallSlots);
     problems.require_range("timing.freshness_slots", t.freshness_slots, 1, kMaxStallSlots + 50);
     problems.require_range("timing.send_ahead_slots", t.send_ahead_slots, 1, kMaxSlots);

@@ -116,6 +116,13 @@ TEST(MachineFile, WithStepsLongerThanTheMarginIsUsable) {
                                "max_accel_mm_s2: 50000 position_min_mm: 0 position_max_mm: 10000"));
 }
 
+TEST(MachineFile, WithTheFewestTicksInASlotIsUsable) {
+    expect_usable(machine_file("tick_ns: 1000000 timing { slot_us: 4000 frame_slots: 40 }",
+                               "steps_per_mm: 80 start_velocity_mm_s: 0.26 max_velocity_mm_s: 5 max_accel_mm_s2: 200 "
+                               "position_min_mm: 0 position_max_mm: 20 homing { park_mm: 1 } "
+                               "plant { start_position_mm: 0.5 }"));
+}
+
 TEST(MachineFile, WithTheGreatestValuesNeedsNoKeysOfThePlant) {
     EXPECT_TRUE(parse_machine(machine_file("",
                                            "steps_per_mm: 80 start_velocity_mm_s: 10 max_velocity_mm_s: 150 "

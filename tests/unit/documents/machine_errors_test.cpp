@@ -70,6 +70,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{with("\"m\"", "\"m234567890123456789012345\""), 1, 1, "at most 24"},
         Refusal{machine_with("tick_ns: 99"), 11, 1, "100 to 1000000"},
         Refusal{machine_with("timing { slot_us: 10001 }\ntick_ns: 3000"), 11, 10, "whole number of ticks"},
+        Refusal{with("80", "1", machine_with("timing { slot_us: 3000 }\ntick_ns: 1000000")), 11, 10,
+                "at least 4000, 4 ticks of 1000000 ns"},
         Refusal{machine_with("timing { slot_us: 499 }"), 11, 10, "500 to 1000000"},
         Refusal{machine_with("timing { stall_slots: 0 }"), 11, 10, "1 to 200"},
         Refusal{machine_with("timing { freshness_slots: 10 }"), 11, 10, "at least 11 (stall_slots + 1)"},
