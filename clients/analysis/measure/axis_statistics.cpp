@@ -1,5 +1,7 @@
 #include "clients/analysis/measure/axis_statistics.hpp"
 
+#include "clients/analysis/measure/vector_clones.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -58,6 +60,7 @@ void AxisStatistics::begin(StepEdge edge, std::int64_t position_before) {
 }
 
 /// Measures as many of the steps from `from` on as can be measured in blocks. Returns their number.
+LOCKSTEP_VECTOR_CLONES
 std::size_t AxisStatistics::measure_blocks(const StepBatch& batch, std::size_t from, MeasuredSteps& measured) {
     if (!batch.device_ticks.empty()) { return 0; }
     SpeedMeter::Block block;

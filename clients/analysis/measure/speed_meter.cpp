@@ -1,11 +1,14 @@
 #include "clients/analysis/measure/speed_meter.hpp"
 
+#include "clients/analysis/measure/vector_clones.hpp"
+
 namespace lockstep::analysis {
 
 void SpeedMeter::interrupt() {
     if (past_.size() > 1 && !measured_) { peak_speed_ = std::max(peak_speed_, least_speed_since(0)); }
     past_.clear();
-    windows_.clear();
+    window_from_.clear();
+    window_speed_.clear();
     windows_from_ = kNone;
     measured_ = false;
     speed_first_ = late_first_ = 0;
@@ -27,10 +30,11 @@ void SpeedMeter::forget() {
     const std::size_t gone = std::min(speed_first_, late_first_);
     const std::int32_t passed = past_[gone];
     past_.erase(past_.begin(), past_.begin() + static_cast<std::ptrdiff_t>(gone));
-    windows_.erase(windows_.begin(), windows_.begin() + static_cast<std::ptrdiff_t>(gone));
+    window_from_.erase(window_from_.begin(), window_from_.begin() + static_cast<std::ptrdiff_t>(gone));
+    window_speed_.erase(window_speed_.begin(), window_speed_.begin() + static_cast<std::ptrdiff_t>(gone));
     base_ += Ticks{passed};
     for (std::int32_t& tick : past_) { tick -= passed; }
-    for (Window& window : windows_) { window.from -= passed; }
+    for (std::int32_t& tick : window_from_) { tick -= passed; }
     if (windows_from_ != kNone) { windows_from_ -= std::min(windows_from_, gone); }
     speed_first_ -= gone;
     late_first_ -= gone;
@@ -42,7 +46,8 @@ bool SpeedMeter::steps(std::span<const StepEdge, kBlock> edges, Block& measured)
     if (past_.size() + kBlock > room_) { forget(); }
     const std::size_t from = past_.size();
     for (const StepEdge& edge : edges) { past_.push_back(static_cast<std::int32_t>((edge.tick - base_).value)); }
-    windows_.resize(past_.size());
+    window_from_.resize(past_.size());
+    window_speed_.resize(past_.size());
     measure_speeds(from, measured);
     measure_accelerations(from, measured);
     return true;
@@ -57,47 +62,55 @@ bool SpeedMeter::goes_on(std::span<const StepEdge, kBlock> edges) const {
     return goes_on;
 }
 
+LOCKSTEP_VECTOR_CLONES
 void SpeedMeter::measure_speeds(std::size_t from, Block& measured) {
     Begins begins;
     narrow_all(speed_first_, kSpeedWindow, from, begins);
-    std::array<double, kBlock> steps;
-    std::array<double, kBlock> ticks;
-    for (std::size_t i = 0; i < kBlock; ++i) {
-        const std::int32_t first = past_[begins[i]];
-        const std::int32_t lasts = past_[from + i] - first;
-        steps[i] = static_cast<double>(from + i - begins[i]);
-        ticks[i] = static_cast<double>(lasts);
-        measured.speed_at[i] = base_ + Ticks{first + lasts / 2};
+    std::array<std::int32_t, kBlock> middles;
+    std::array<double, kBlock> speeds;
+    const std::int32_t* const past = past_.data();
+    const auto newest = static_cast<std::int32_t>(from);
+    for (std::int32_t i = 0; i < kLanes; ++i) {
+        const std::int32_t first = past[begins[i]];
+        const std::int32_t lasts = past[newest + i] - first;
+        middles[i] = first + lasts / 2;
+        speeds[i] = static_cast<double>(newest + i - begins[i]) / static_cast<double>(lasts);
     }
-    for (std::size_t i = 0; i < kBlock; ++i) { steps[i] /= ticks[i]; }
-    for (std::size_t i = 0; i < kBlock; ++i) {
-        peak_speed_ = std::max(peak_speed_, steps[i]);
-        measured.speed[i] = direction_ * steps[i];
+    double peak = peak_speed_;
+    const double sign = direction_;
+    for (std::int32_t i = 0; i < kLanes; ++i) {
+        peak = peak > speeds[i] ? peak : speeds[i];
+        measured.speed[i] = sign * speeds[i];
+        measured.speed_at[i] = base_ + Ticks{middles[i]};
     }
+    peak_speed_ = peak;
 }
 
+LOCKSTEP_VECTOR_CLONES
 void SpeedMeter::measure_accelerations(std::size_t from, Block& measured) {
     Begins begins;
     narrow_all(late_first_, kAccelerationWindow, from, begins);
-    std::array<double, kBlock> speeds;
-    std::array<double, kBlock> ticks;
-    for (std::size_t i = 0; i < kBlock; ++i) {
-        speeds[i] = static_cast<double>(from + i - begins[i]);
-        ticks[i] = static_cast<double>(past_[from + i] - past_[begins[i]]);
+    std::array<double, kBlock> changes;
+    const std::int32_t* const past = past_.data();
+    const auto newest = static_cast<std::int32_t>(from);
+    for (std::int32_t i = 0; i < kLanes; ++i) {
+        const std::int32_t first = past[begins[i]];
+        window_from_[from + i] = first;
+        window_speed_[from + i] =
+            static_cast<double>(newest + i - begins[i]) / static_cast<double>(past[newest + i] - first);
     }
-    for (std::size_t i = 0; i < kBlock; ++i) { speeds[i] /= ticks[i]; }
-    for (std::size_t i = 0; i < kBlock; ++i) { windows_[from + i] = {past_[begins[i]], speeds[i]}; }
-    for (std::size_t i = 0; i < kBlock; ++i) {
-        const Window& early = windows_[begins[i]];
-        speeds[i] -= early.speed;
-        ticks[i] = 0.5 * (past_[from + i] - early.from);
-        measured.acceleration_at[i] = tick(begins[i]);
+    for (std::int32_t i = 0; i < kLanes; ++i) {
+        const double ticks = 0.5 * (past[newest + i] - window_from_[begins[i]]);
+        changes[i] = (window_speed_[newest + i] - window_speed_[begins[i]]) / ticks;
+        measured.acceleration_at[i] = base_ + Ticks{past[begins[i]]};
     }
-    for (std::size_t i = 0; i < kBlock; ++i) { speeds[i] /= ticks[i]; }
-    for (std::size_t i = 0; i < kBlock; ++i) {
-        peak_acceleration_ = std::max(peak_acceleration_, std::abs(speeds[i]));
-        measured.acceleration[i] = direction_ * speeds[i];
+    double peak = peak_acceleration_;
+    const double sign = direction_;
+    for (std::int32_t i = 0; i < kLanes; ++i) {
+        peak = peak > std::abs(changes[i]) ? peak : std::abs(changes[i]);
+        measured.acceleration[i] = sign * changes[i];
     }
+    peak_acceleration_ = peak;
     acceleration_ = Sample{measured.acceleration_at.back(), measured.acceleration.back()};
 }
 
@@ -105,40 +118,42 @@ void SpeedMeter::measure_accelerations(std::size_t from, Block& measured) {
 void SpeedMeter::narrow_all(std::size_t& first, std::int32_t least, std::size_t from, Begins& begins) const {
     (void)narrow(first, least, from);
     if (!narrow_near(first, least, from, begins)) {
-        begins[0] = first;
+        begins[0] = static_cast<std::int32_t>(first);
         for (std::size_t i = 1; i < kBlock; ++i) {
             (void)narrow(first, least, from + i);
-            begins[i] = first;
+            begins[i] = static_cast<std::int32_t>(first);
         }
     }
-    first = begins.back();
+    first = static_cast<std::size_t>(begins.back());
 }
 
 /// Finds windows of almost equally many steps, without branches, which would be mispredicted. `first` is the begin of
 /// the first one. Returns false if they have other numbers of steps.
+LOCKSTEP_VECTOR_CLONES
 bool SpeedMeter::narrow_near(std::size_t first, std::int32_t least, std::size_t from, Begins& begins) const {
-    constexpr std::size_t kNear = 3;  // steps more or fewer
+    constexpr std::int32_t kNear = 3;  // steps more or fewer
     if (first < kNear) { return false; }
-    const std::int32_t* newest = &past_[from];
-    const std::int32_t* shortest = newest - kLeastSteps;
-    const std::int32_t* longest = &past_[first - kNear];
-    std::array<std::int32_t, kBlock> fit{};
-    std::int32_t shortest_fit = 0;
-    std::int32_t next_fit = 0;
-    for (std::size_t i = 0; i < kBlock; ++i) { shortest_fit += shortest[i] <= newest[i] - least ? 1 : 0; }
-    if (shortest_fit == kBlock) {
-        for (std::size_t i = 0; i < kBlock; ++i) { begins[i] = from + i - kLeastSteps; }
+    const std::int32_t* const newest = past_.data() + from;
+    const std::int32_t* const shortest = newest - kLeastSteps;
+    const std::int32_t* const longest = past_.data() + first - kNear;
+    const auto earliest = static_cast<std::int32_t>(first) - kNear - 1;
+    const auto latest = static_cast<std::int32_t>(from - kLeastSteps);
+    std::int32_t are_shortest = 1;
+    for (std::int32_t i = 0; i < kLanes; ++i) { are_shortest &= shortest[i] <= newest[i] - least ? 1 : 0; }
+    if (are_shortest != 0) {
+        for (std::int32_t i = 0; i < kLanes; ++i) { begins[i] = latest + i; }
         return true;
     }
-    for (std::size_t k = 0; k <= 2 * kNear; ++k) {
-        for (std::size_t i = 0; i < kBlock; ++i) { fit[i] += longest[i + k] <= newest[i] - least ? 1 : 0; }
+    std::int32_t are_near = 1;
+    for (std::int32_t i = 0; i < kLanes; ++i) {
+        const std::int32_t until = newest[i] - least;
+        std::int32_t fit = 0;
+        for (std::int32_t k = 0; k <= 2 * kNear; ++k) { fit += longest[i + k] <= until ? 1 : 0; }
+        are_near &= fit > 0 && longest[i + 2 * kNear + 1] > until ? 1 : 0;
+        const std::int32_t begin = earliest + i + fit;
+        begins[i] = begin < latest + i ? begin : latest + i;
     }
-    for (std::size_t i = 0; i < kBlock; ++i) {
-        next_fit += longest[i + 2 * kNear + 1] <= newest[i] - least ? 1 : 0;
-        next_fit += fit[i] == 0 ? 1 : 0;
-        begins[i] = std::min(first - kNear + i + static_cast<std::size_t>(fit[i]) - 1, from + i - kLeastSteps);
-    }
-    return next_fit == 0;
+    return are_near != 0;
 }
 
 }  // namespace lockstep::analysis

@@ -62,12 +62,9 @@ private:
     static constexpr std::size_t kKept = 2'048;
     static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-    /// The window of acceleration that ends with a step.
-    struct Window {
-        std::int32_t from = 0;
-        double speed = 0;
-    };
-    using Begins = std::array<std::size_t, kBlock>;
+    static constexpr std::int32_t kLanes = kBlock;
+    /// Of the windows that end with the steps of a block: indices into past_.
+    using Begins = std::array<std::int32_t, kBlock>;
 
     bool narrow(std::size_t& first, std::int32_t least, std::size_t newest) const;
     void narrow_all(std::size_t& first, std::int32_t least, std::size_t from, Begins& begins) const;
@@ -90,9 +87,11 @@ private:
     }
     bool has_early_window(std::size_t step) const { return step >= windows_from_; }
 
-    Tick base_;                       // of the ticks in past_ and windows_
+    Tick base_;                       // of the ticks in past_ and window_from_
     std::vector<std::int32_t> past_;  // the newest steps of this motion, with which a window may still begin
-    std::vector<Window> windows_;     // of these steps, from windows_from_ on
+    // The windows of acceleration that end with these steps, from step windows_from_ on: first tick and speed.
+    std::vector<std::int32_t> window_from_;
+    std::vector<double> window_speed_;
     std::size_t windows_from_ = kNone;
     std::size_t room_ = kKept;     // maximum size of past_ before the oldest are dropped
     std::size_t speed_first_ = 0;  // begin of the windows that end with the newest step
@@ -116,7 +115,8 @@ inline std::optional<Sample> SpeedMeter::step(StepEdge edge) {
 inline void SpeedMeter::add(Tick tick) {
     if (past_.empty()) { base_ = tick; }
     past_.push_back(static_cast<std::int32_t>((tick - base_).value));
-    windows_.emplace_back();
+    window_from_.push_back(0);
+    window_speed_.push_back(0);
 }
 
 inline std::optional<Sample> SpeedMeter::measure_speed() {
@@ -136,10 +136,11 @@ inline void SpeedMeter::measure_acceleration() {
     const std::size_t newest = past_.size() - 1;
     if (!narrow(late_first_, kAccelerationWindow, newest)) { return; }
     windows_from_ = std::min(windows_from_, newest);
-    windows_[newest] = {past_[late_first_], speed_since(late_first_, newest)};
+    window_from_[newest] = past_[late_first_];
+    window_speed_[newest] = speed_since(late_first_, newest);
     if (!has_early_window(late_first_)) { return; }
-    const Window& early = windows_[late_first_];
-    const double acceleration = (windows_[newest].speed - early.speed) / (0.5 * (past_[newest] - early.from));
+    const double ticks = 0.5 * (past_[newest] - window_from_[late_first_]);
+    const double acceleration = (window_speed_[newest] - window_speed_[late_first_]) / ticks;
     acceleration_ = Sample{tick(late_first_), direction_ * acceleration};
     peak_acceleration_ = std::max(peak_acceleration_, std::abs(acceleration));
 }

@@ -1,5 +1,7 @@
 #include "clients/analysis/measure/trace.hpp"
 
+#include "clients/analysis/measure/vector_clones.hpp"
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -32,6 +34,7 @@ void Trace::on_batch(const StepBatch& batch) {
 
 /// Takes steps as step() does, but all at once, which costs less. Returns false and takes none if the current line
 /// might not pass all of them, or if the axis might have rested.
+LOCKSTEP_VECTOR_CLONES
 bool Trace::steps(std::span<const StepEdge, kBlock> edges) {
     if (!newest_ || !last_step_ || last_interval_ == Ticks{}) { return false; }
     const Knot& anchor = knots_.back();
@@ -56,10 +59,10 @@ bool Trace::steps(std::span<const StepEdge, kBlock> edges) {
     for (std::size_t i = 0; i < kBlock; ++i) {
         const double slope = slopes[i] / times[i];
         const double half_angle = tolerance_ / times[i];
-        low = std::max(low, slope - half_angle);
-        high = std::min(high, slope + half_angle);
-        lowest = std::min(lowest, slope);
-        highest = std::max(highest, slope);
+        low = slope - half_angle > low ? slope - half_angle : low;
+        high = slope + half_angle < high ? slope + half_angle : high;
+        lowest = slope < lowest ? slope : lowest;
+        highest = slope > highest ? slope : highest;
     }
     if (lowest < low || highest > high) { return false; }
     low_slope_ = low;

@@ -34,6 +34,43 @@ TEST(SpeedMeter, IsNotMisledByWholeTicks) {
     }
 }
 
+/// Measures the steps in messages of `together` steps each. A message of one step is measured step by step.
+AxisStatistics statistics_of(const std::vector<StepEdge>& steps, std::size_t together) {
+    AxisStatistics statistics;
+    std::int64_t position = 0;
+    for (std::size_t i = 0; i < steps.size(); i += together) {
+        const auto begin = steps.begin() + static_cast<std::ptrdiff_t>(i);
+        const auto end = steps.begin() + static_cast<std::ptrdiff_t>(std::min(i + together, steps.size()));
+        statistics.on_batch(batch(static_cast<std::int64_t>(i), position, {begin, end}));
+        for (auto step = begin; step != end; ++step) { position += step->direction; }
+    }
+    statistics.finish();
+    return statistics;
+}
+
+void expect_equal(const std::vector<Sample>& a, const std::vector<Sample>& b) {
+    EXPECT_TRUE(
+        std::ranges::equal(a, b, [](const Sample& x, const Sample& y) { return x.at == y.at && x.value == y.value; }));
+}
+
+TEST(SpeedMeter, MeasuresManyStepsAtOnceAsItMeasuresEach) {
+    std::vector<StepEdge> steps;
+    const auto add = [&](const std::vector<StepEdge>& more) { steps.insert(steps.end(), more.begin(), more.end()); };
+    add(trapezoid(0, 0.09, 1e-7, 120'000));         // fast
+    add(trapezoid(5'000'000, 0.004, 1e-8, 9'000));  // fewer than 8 steps in a window of speed
+    add(even_steps(10'000'000, 3, 40'000, -1));     // a jump of speed, backwards
+    add(even_steps(10'120'001, 11, 5'000, 1));      // a reversal without a rest
+    add(even_steps(12'000'000, 90'000, 50, 1));     // hardly moving
+    const AxisStatistics each = statistics_of(steps, 1);
+    for (const std::size_t together : {7UZ, 500UZ, steps.size()}) {
+        const AxisStatistics many = statistics_of(steps, together);
+        EXPECT_EQ(many.peak_steps_per_tick(), each.peak_steps_per_tick());
+        EXPECT_EQ(many.peak_steps_per_tick2(), each.peak_steps_per_tick2());
+        expect_equal(many.speed(), each.speed());
+        expect_equal(many.acceleration(), each.acceleration());
+    }
+}
+
 TEST(SpeedMeter, MeasuresAShortMoveAsAWhole) {
     // A step falls at most a tick before its tick, so the two steps take up to 101 ticks.
     EXPECT_DOUBLE_EQ(statistics_of(even_steps(0, 50, 3)).peak_steps_per_tick(), 2 / 101.);

@@ -21,6 +21,27 @@ Trace trace_of(const std::vector<StepEdge>& steps, std::size_t max_knots = Trace
     return trace;
 }
 
+/// The steps one by one, each in a message of its own.
+Trace trace_of_each(const std::vector<StepEdge>& steps) {
+    Trace trace;
+    std::int64_t position = 0;
+    for (const StepEdge& step : steps) {
+        trace.on_batch(batch(1, position, {step}));
+        position += step.direction;
+    }
+    trace.finish();
+    return trace;
+}
+
+TEST(Trace, TakesManyStepsAtOnceAsItTakesEach) {
+    std::vector<StepEdge> steps = trapezoid(0, 0.09, 1e-7, 20'000);
+    for (const auto& more :
+         {even_steps(3'000'000, 7, 1'003, -1), even_steps(3'007'030, 450, 333), even_steps(9'000'000, 20'000, 50)}) {
+        steps.insert(steps.end(), more.begin(), more.end());
+    }
+    EXPECT_EQ(trace_of(steps).knots(), trace_of_each(steps).knots());
+}
+
 /// The position at an instant, in steps, interpolated between knots; outside them, the position of the nearest knot.
 /// The search begins at `place`, for rising instants; start at 0. `knots` must not be empty.
 double position_at(const std::vector<Knot>& knots, Tick tick, std::size_t& place) {

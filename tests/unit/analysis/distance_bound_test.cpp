@@ -1,0 +1,76 @@
+// The bound of the distance from a curve, compared with the distance itself.
+#include "clients/analysis/measure/distance_bound.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "clients/analysis/asked/asked_shape.hpp"
+
+namespace lockstep::analysis {
+namespace {
+
+struct Curve {
+    std::string name;
+    std::vector<double> from;
+    std::vector<double> to;
+    std::optional<ArcShape> arc;
+    /// For GoogleTest.
+    friend void PrintTo(const Curve& curve, std::ostream* out) { *out << curve.name; }
+};
+
+std::vector<Curve> curves() {
+    const ArcShape centre{.first = 0, .second = 1, .centre_first_mm = 50, .centre_second_mm = 40};
+    ArcShape backwards = centre;
+    backwards.is_clockwise = true;
+    ArcShape turns = centre;
+    turns.turns = 2;
+    return {{"line", {50, 40, 10}, {70, 52, 3}, std::nullopt},
+            {"circle", {60, 40, 10}, {60, 40, 10}, centre},
+            {"arc", {60, 40, 10}, {50, 50, 10}, backwards},
+            {"helix", {60, 40, 10}, {60, 40, 4}, turns},
+            {"spiral", {60, 40, 10}, {39.98, 40, 10}, centre}};
+}
+
+class Bound : public testing::TestWithParam<Curve> {};
+
+/// Places go along the curve in steps, each axis on its own, and now and then beside it.
+TEST_P(Bound, FindsEveryStepThatIsFarther) {
+    constexpr double kStep_mm = 0.01;
+    const auto& [name, from, to, arc] = GetParam();
+    AskedShape shape(from, to, arc);
+    AskedShape measured = shape;
+    DistanceBound bound;
+    std::mt19937 random(1);
+    std::vector<double> at = from;
+    double farthest = 0;
+    int measured_steps = 0;
+    int steps = 0;
+    for (double share = 0; share <= 1; share += 2e-5) {
+        for (std::size_t axis = 0; axis < at.size(); ++axis) {
+            const double on_curve =
+                arc ? ArcPath(*arc, from, to).at(axis, share) : std::lerp(from[axis], to[axis], share);
+            const double goal = std::round(on_curve / kStep_mm + (random() % 40 == 0 ? 1 : 0)) * kStep_mm;
+            if (std::abs(goal - at[axis]) < kStep_mm / 2) { continue; }
+            const double before = std::exchange(at[axis], goal);
+            const double square = measured.square_of_distance(at);
+            ++steps;
+            if (bound.may_be_farther(axis, at, before, goal - before, farthest)) {
+                bound.set(shape, at, shape.square_of_distance(at));
+                ++measured_steps;
+            } else {
+                EXPECT_LE(square, farthest + 1e-12);
+            }
+            farthest = std::max(farthest, square);
+        }
+    }
+    EXPECT_GT(steps, 1000);
+    EXPECT_LT(measured_steps, steps / 3) << "the bound spares most measurements";
+}
+
+INSTANTIATE_TEST_SUITE_P(Curves, Bound, testing::ValuesIn(curves()),
+                         [](const auto& curve) { return curve.param.name; });
+
+}  // namespace
+}  // namespace lockstep::analysis
