@@ -157,7 +157,10 @@ void JobMoves::take_in_strokes(MergedSteps& steps, AxesOfLanes axis_of_lane, Tic
         take_in(move, axis, of);
         if (!on_a_line_) { counts_[axis] += of.steps * lane.steps[0].direction; }
     }
-    if (on_a_line_) { measure_distances(merged, axis_of_lane); }
+    if (on_a_line_) {
+        measure_distances(merged, axis_of_lane);
+        newest_ = made_[current_].newest = steps.tick_of(merged.back());
+    }
     steps.pass_before(until);
 }
 
@@ -172,18 +175,20 @@ StepRates JobMoves::peak_of(std::span<const StepRates> rates) {
 
 /// Measures the distances at steps that all are in moves that have begun.
 void JobMoves::measure_distances(std::span<const MergedStep> steps, AxesOfLanes axis_of_lane) {
-    Made& made = made_[current_];
+    float& largest = made_[current_].largest_square_mm2;
+    DistanceBound bound = std::move(bound_);  // a local one stays in registers
     for (const MergedStep& step : steps) {
-        const std::size_t axis = *axis_of_lane[step.lane];
+        const std::size_t axis = *axis_of_lane[step.lane()];
         const double mm_per_step = asked_.mm_per_step(axis);
-        counts_[axis] += step.direction;
+        counts_[axis] += step.direction();
         const double before_mm = std::exchange(at_mm_[axis], static_cast<double>(counts_[axis]) * mm_per_step);
-        if (bound_.may_be_farther(axis, at_mm_, before_mm, step.direction * mm_per_step,
-                                  static_cast<double>(made.largest_square_mm2))) {
-            made.largest_square_mm2 = std::max(made.largest_square_mm2, static_cast<float>(square_of_distance_mm2()));
-        }
+        const double step_mm = step.direction() * mm_per_step;
+        if (!bound.may_be_farther(axis, at_mm_, before_mm, step_mm, static_cast<double>(largest))) { continue; }
+        bound_ = std::move(bound);
+        largest = std::max(largest, static_cast<float>(square_of_distance_mm2()));
+        bound = std::move(bound_);
     }
-    newest_ = made.newest = steps.back().tick;
+    bound_ = std::move(bound);
 }
 
 /// Called if later steps of other axes were compared with an outdated position of this axis.

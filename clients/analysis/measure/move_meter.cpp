@@ -88,9 +88,9 @@ void MoveMeter::trace(const Job* job, const MergedSteps& steps, Tick until) {
     if (of_a_job != plane_is_of_jobs_) { return; }
     for (std::size_t i = 0; i < lanes_.size(); ++i) { lanes_[i].count = steps.lanes()[i].count; }
     for (const MergedStep& step : steps.before(until)) {
-        Lane& lane = lanes_[step.lane];
-        lane.count += step.direction;
-        if (lane.in_plane) { plane_.step(*lane.in_plane, lane.count, step.direction); }
+        Lane& lane = lanes_[step.lane()];
+        lane.count += step.direction();
+        if (lane.in_plane) { plane_.step(*lane.in_plane, lane.count, step.direction()); }
     }
 }
 

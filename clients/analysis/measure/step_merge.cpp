@@ -61,7 +61,7 @@ bool StepMerge::give_up_slowest() {
 
 /// Merges steps before `end`, as many as every lane has in one message. Returns false if there are none.
 bool StepMerge::merge_before(Tick end) {
-    end = end_of_ready(end);
+    origin_ = end = end_of_ready(end);
     ready_.resize(lanes_.size());
     merged_.clear();
     for (std::size_t i = 0; i < lanes_.size(); ++i) {
@@ -85,28 +85,30 @@ Tick StepMerge::end_of_ready(Tick end) const {
     return end;
 }
 
-/// Adds the ready steps of a lane. At the same tick, steps of lanes with lower numbers come first.
+/// Adds the ready steps of a lane.
 void StepMerge::add(std::size_t lane) {
     const auto& steps = ready_[lane].steps;
     if (steps.empty()) { return; }
-    const auto to_step = [&](const StepEdge& edge) {
-        return MergedStep{edge.tick, static_cast<std::uint32_t>(lane), edge.direction};
-    };
+    added_.resize(steps.size());
+    std::ranges::transform(steps, added_.begin(),
+                           [&](const StepEdge& edge) { return MergedStep(edge.tick - origin_, lane, edge.direction); });
+    if (merged_.empty()) { return std::swap(merged_, added_); }
     std::swap(merged_, before_);
-    merged_.resize(before_.size() + steps.size());
+    merged_.resize(before_.size() + added_.size());
     const MergedStep* a = before_.data();
+    const MergedStep* b = added_.data();
     const MergedStep* const end_a = a + before_.size();
-    const StepEdge* b = steps.data();
-    const StepEdge* const end_b = b + steps.size();
+    const MergedStep* const end_b = b + added_.size();
     MergedStep* to = merged_.data();
     while (a != end_a && b != end_b) {  // without other branches, which would be mispredicted
-        const bool is_b = b->tick < a->tick;
-        const MergedStep from_b = to_step(*b);
-        *to++ = is_b ? from_b : *a;
+        const MergedStep from_a = *a;
+        const MergedStep from_b = *b;
+        const bool is_b = from_b < from_a;
+        *to++ = is_b ? from_b : from_a;
         a += static_cast<std::ptrdiff_t>(!is_b);
         b += static_cast<std::ptrdiff_t>(is_b);
     }
-    std::transform(b, end_b, std::copy(a, end_a, to), to_step);
+    std::copy(b, end_b, std::copy(a, end_a, to));
 }
 
 /// Drops the delivered steps.

@@ -78,13 +78,15 @@ private:
     // The steps being delivered.
     std::vector<MergedSteps::Lane> ready_;
     std::vector<MergedStep> merged_;
-    std::vector<MergedStep> before_;  // merged_, without the lane added last
+    std::vector<MergedStep> added_;   // of the lane added last
+    std::vector<MergedStep> before_;  // merged_, without them
+    Tick origin_;                     // of their ticks
 };
 
 template <typename OnSteps>
 void StepMerge::deliver_before(Tick end, OnSteps& on_steps) {
     while (merge_before(end)) {
-        on_steps(MergedSteps(merged_, ready_));
+        on_steps(MergedSteps(origin_, merged_, ready_));
         pop();
     }
 }
