@@ -27,11 +27,11 @@ StepEdges::StepEdges(std::vector<StepEdge> steps)
     content_ = all.value();
 }
 
-std::int64_t StepEdges::change(std::size_t from, std::size_t end) const {
-    if (from == end) { return 0; }
-    if (is_one_way()) { return static_cast<std::int64_t>(end - from) * front().direction; }
+std::int64_t change_of(std::span<const StepEdge> steps, bool is_one_way) {
+    if (steps.empty()) { return 0; }
+    if (is_one_way) { return std::ssize(steps) * steps.front().direction; }
     std::int64_t change = 0;
-    for (std::size_t i = from; i < end; ++i) { change += data_[i].direction; }
+    for (const StepEdge& step : steps) { change += step.direction; }
     return change;
 }
 

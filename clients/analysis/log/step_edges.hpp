@@ -4,12 +4,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "core/step/segment.hpp"
 
 namespace lockstep::analysis {
+
+/// The change of the position by some steps. `is_one_way`: they are known not to reverse, which costs no time per step.
+std::int64_t change_of(std::span<const StepEdge> steps, bool is_one_way);
 
 class StepEdges {
 public:
@@ -27,7 +31,9 @@ public:
     /// The change of the position by all steps.
     std::int64_t change() const { return change_; }
     /// The change by the steps [from, end). Costs no time per step if no step reverses.
-    std::int64_t change(std::size_t from, std::size_t end) const;
+    std::int64_t change(std::size_t from, std::size_t end) const {
+        return change_of({data_ + from, end - from}, is_one_way());
+    }
     bool is_one_way() const { return change_ == std::ssize(*this) || -change_ == std::ssize(*this); }
     /// A hash of all ticks and directions.
     std::size_t content() const { return content_; }

@@ -5,19 +5,10 @@
 #include <utility>
 
 namespace lockstep::analysis {
-namespace {
-
-std::int64_t change_of(std::span<const StepEdge> steps) {
-    std::int64_t change = 0;
-    for (const StepEdge& step : steps) { change += step.direction; }
-    return change;
-}
-
-}  // namespace
 
 EquallyLate EquallyLate::first(std::size_t count) const {
     const auto part = steps.first(count);
-    return {part, before, is_one_way() ? std::ssize(part) * part[0].direction : change_of(part), late, error};
+    return {part, before, change_of(part, is_one_way()), late, error};
 }
 
 EquallyLate EquallyLate::behind(std::size_t count) const {

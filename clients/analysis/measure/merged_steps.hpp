@@ -45,18 +45,9 @@ public:
             return static_cast<std::size_t>(std::ranges::lower_bound(steps, tick, {}, &StepEdge::tick) - steps.begin());
         }
         void pass(std::size_t passed) {
-            count += change(passed);
+            count += change_of(steps.first(passed), is_one_way);
             steps = steps.subspan(passed);
             rates += passed;
-        }
-
-    private:
-        std::int64_t change(std::size_t passed) const {
-            if (passed == 0) { return 0; }
-            if (is_one_way) { return static_cast<std::int64_t>(passed) * steps.front().direction; }
-            std::int64_t change = 0;
-            for (const StepEdge& step : steps.first(passed)) { change += step.direction; }
-            return change;
         }
     };
 

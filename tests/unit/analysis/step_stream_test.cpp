@@ -26,6 +26,16 @@ struct StepStreamTest : testing::Test {
     StepStream stream{{&delivered}};
 };
 
+TEST(StepEdges, CountTheChangeOfPositionOfAnyPart) {
+    std::vector<StepEdge> steps = even_steps(0, 10, 6);
+    EXPECT_EQ(StepEdges(steps).change(2, 5), 3);
+    EXPECT_EQ(change_of(steps, true), 6);
+    steps[4].direction = -1;
+    EXPECT_EQ(StepEdges(steps).change(2, 5), 1);
+    EXPECT_EQ(change_of(steps, false), 4);
+    EXPECT_EQ(change_of({}, false), 0);
+}
+
 TEST_F(StepStreamTest, DeliversEveryStepInOrder) {
     stream.take(batch(0, 0, even_steps(100, 10, 3)));
     stream.take(batch(1, 3, {}));
