@@ -86,6 +86,11 @@ constexpr Position rest_position(std::int64_t count, bool backward) {
     return {Position::steps(count).raw - (backward ? 1 : 0)};
 }
 
+/// Whether an axis at rest here is on a whole step, about to move in either direction.
+constexpr bool rests_on_whole_step(Position at) {
+    return at == rest_position(at.count(), false) || at == rest_position(at.count(), true);
+}
+
 /// Speed in units of 2^-64 step per tick: at most half a step per tick either way.
 struct Velocity {
     std::int64_t raw = 0;

@@ -168,8 +168,7 @@ bool SimulatedDevice::stop_asked() const {
 
 /// A run may begin at the axis's position, with the phase that a stop left, or with the phase at rest.
 bool SimulatedDevice::rebase_to(Position from) {
-    const bool same_place =
-        from == engine_.position() || from == rest_position(count_, false) || from == rest_position(count_, true);
+    const bool same_place = from == engine_.position() || (from.count() == count_ && rests_on_whole_step(from));
     if (same_place) { engine_.rebase(from); }
     return same_place;
 }

@@ -70,10 +70,7 @@ std::string name_of(const Run& run) {
     return fmt::format("run {}, {} of the axis's own move", run.sequence, frame);
 }
 
-bool starts_from_rest(const Run& run) {
-    const std::int64_t count = run.from.count();
-    return run.from == rest_position(count, false) || run.from == rest_position(count, true);
-}
+bool starts_from_rest(const Run& run) { return rests_on_whole_step(run.from); }
 
 bool is_next(const Run& before, const Run& run) {
     return before.incarnation == run.incarnation && before.epoch == run.epoch && !before.cut && !before.tail &&

@@ -9,7 +9,7 @@ namespace {
 
 /// From rest a frame may start at the axis's whole step or at the exact fraction at which the axis came to rest.
 Position start_from(Position asked, Position rest) {
-    const bool whole = asked == rest_position(rest.count(), false) || asked == rest_position(rest.count(), true);
+    const bool whole = asked.count() == rest.count() && rests_on_whole_step(asked);
     return whole ? asked : rest;
 }
 

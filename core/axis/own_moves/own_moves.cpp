@@ -127,7 +127,7 @@ OwnMove OwnMoves::frames_of(const LocalMove& move, Position from, Tick start) co
 /// from the whole step. So it starts after the time of half a step.
 Tick OwnMoves::earliest_start(const AxisLoop& loop) {
     const Position here = loop.device.status().position;
-    if (here == rest_position(here.count(), false) || here == rest_position(here.count(), true)) { return loop.now; }
+    if (rests_on_whole_step(here)) { return loop.now; }
     if (!between_steps_ || between_steps_->at != here) { between_steps_ = {here, loop.now + half_step_}; }
     return between_steps_->start;
 }
