@@ -36,13 +36,15 @@ struct PathSetup {
 
 /// An axis that would reach its start velocity within a few ticks accelerates less. Otherwise a rounding to whole ticks
 /// could change its speed by more than the start velocity, and no motion from rest would keep the limits. Its speed
-/// leaves room for rounding below the greatest speed that a device can execute.
+/// leaves room for rounding below the greatest speed that a device can execute, and two ticks of acceleration fit into
+/// this room.
 inline AxisLimits planned_limits(AxisLimits axis) {
     constexpr double kTicks = 8;
     axis.max_velocity = std::min(axis.max_velocity, kMaxPlannedStepsPerTick);
     axis.start_velocity = std::min(axis.start_velocity, kMaxPlannedStepsPerTick);
-    axis.max_acceleration = std::min(axis.max_acceleration, axis.start_velocity / kTicks);
-    axis.max_deceleration = std::min(axis.max_deceleration, axis.start_velocity / kTicks);
+    const double most = std::min(axis.start_velocity / kTicks, (kMaxStepsPerTick - axis.max_velocity) / 2);
+    axis.max_acceleration = std::min(axis.max_acceleration, most);
+    axis.max_deceleration = std::min(axis.max_deceleration, most);
     return axis;
 }
 

@@ -62,7 +62,7 @@ TEST_P(RandomMachineFiles, AreRefusedWithARemedyOrHomeAndRunJobsExactly) {
         EXPECT_EQ(trouble_of(*machine, seed), "") << "machine " << seed << "\n" << text;
     }
     RecordProperty("tried", std::to_string(tried));
-    EXPECT_GT(tried, count / 20);
+    EXPECT_GE(tried, count / 20);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomMachineFiles, testing::Range(std::uint64_t{0}, kTests));
@@ -121,6 +121,16 @@ TEST(MachineFile, WithTheFewestTicksInASlotIsUsable) {
                                "steps_per_mm: 80 start_velocity_mm_s: 0.26 max_velocity_mm_s: 5 max_accel_mm_s2: 200 "
                                "position_min_mm: 0 position_max_mm: 20 homing { park_mm: 1 } "
                                "plant { start_position_mm: 0.5 }"));
+}
+
+/// Its speed is as near to that of a device as may be, and it reaches it within a few ticks.
+TEST(MachineFile, WithTheGreatestSpeedOfADeviceAfterAFewTicksIsUsable) {
+    for (const char* accel : {"2e4", "1e5", "4e5"}) {
+        expect_usable(machine_file("tick_ns: 100000",
+                                   std::string("steps_per_mm: 100 start_velocity_mm_s: 40 max_velocity_mm_s: 49 "
+                                               "position_min_mm: 0 position_max_mm: 200 max_accel_mm_s2: ") +
+                                       accel));
+    }
 }
 
 TEST(MachineFile, WithTheGreatestValuesNeedsNoKeysOfThePlant) {
