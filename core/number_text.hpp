@@ -1,7 +1,9 @@
-// A number as a person would write it.
+// Numbers and lists as a person would write them.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace lockstep {
 
@@ -12,5 +14,11 @@ std::string number_text(double value, int digits = 9);
 inline constexpr double kTextRounding = 1e-8;
 /// With at most six digits, for limits and remedies in messages.
 std::string short_number(double value);
+/// "12 345"
+std::string grouped(std::int64_t number);
+/// "1 step", "12 345 steps"
+std::string plural(std::int64_t count, const std::string& one);
+/// "X", "X and Y", "X, Y and Z"
+std::string in_words(const std::vector<std::string>& names);
 
 }  // namespace lockstep

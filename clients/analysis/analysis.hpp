@@ -17,15 +17,15 @@
 
 #include "clients/analysis/axis_log.hpp"
 #include "clients/analysis/event_log.hpp"
-#include "clients/analysis/log/damage.hpp"
-#include "clients/analysis/log/program_events.hpp"
-#include "clients/analysis/log/record_end.hpp"
 #include "clients/analysis/measure/job_moves.hpp"
 #include "clients/analysis/measure/skew.hpp"
 #include "clients/drawing/svg.hpp"
 #include "clients/verification/findings.hpp"
 #include "core/machine.hpp"
 #include "core/program.hpp"
+#include "services/record/reading/damage.hpp"
+#include "services/record/reading/program_events.hpp"
+#include "services/record/reading/record_end.hpp"
 
 namespace lockstep::analysis {
 

@@ -7,8 +7,8 @@
 
 #include "clients/analysis/findings.hpp"
 #include "clients/text/event_text.hpp"
-#include "clients/text/numbers.hpp"
 #include "core/axis_unit.hpp"
+#include "core/number_text.hpp"
 
 namespace lockstep::analysis {
 namespace {

@@ -10,13 +10,13 @@
 #include <string>
 
 #include "clients/analysis/csv.hpp"
-#include "clients/analysis/log/message_numbers.hpp"
-#include "clients/analysis/log/run.hpp"
-#include "clients/analysis/log/step_stream.hpp"
 #include "clients/analysis/measure/axis_statistics.hpp"
 #include "clients/analysis/measure/lateness.hpp"
 #include "clients/analysis/measure/tick_histogram.hpp"
 #include "clients/analysis/measure/trace.hpp"
+#include "services/record/reading/message_numbers.hpp"
+#include "services/record/reading/run.hpp"
+#include "services/record/reading/step_stream.hpp"
 
 namespace lockstep::analysis {
 

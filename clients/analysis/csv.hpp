@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "clients/analysis/log/step_stream.hpp"
 #include "services/files/output_file.hpp"
+#include "services/record/reading/step_stream.hpp"
 
 namespace lockstep::analysis {
 

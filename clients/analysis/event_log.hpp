@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "clients/analysis/log/run.hpp"
 #include "core/units.hpp"
+#include "services/record/reading/run.hpp"
 
 namespace lockstep::analysis {
 

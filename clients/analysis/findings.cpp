@@ -8,8 +8,8 @@
 
 #include "clients/analysis/analysis_text.hpp"
 #include "clients/analysis/moves/deviation.hpp"
-#include "clients/text/numbers.hpp"
 #include "core/axis_unit.hpp"
+#include "core/number_text.hpp"
 
 namespace lockstep::analysis {
 namespace {

@@ -5,10 +5,10 @@
 #include <memory>
 #include <utility>
 
-#include "clients/analysis/log/log_read.hpp"
 #include "clients/analysis/sorter.hpp"
 #include "clients/analysis/stages/work_thread.hpp"
 #include "clients/verification/log_check.hpp"
+#include "services/record/reading/log_read.hpp"
 
 namespace lockstep::analysis {
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "clients/text/numbers.hpp"
+#include "core/number_text.hpp"
 
 namespace lockstep::analysis {
 namespace {

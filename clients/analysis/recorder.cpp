@@ -6,10 +6,10 @@
 #include <limits>
 #include <utility>
 
-#include "clients/analysis/log/job_of.hpp"
-#include "clients/analysis/log/run.hpp"
 #include "clients/analysis/plane_path.hpp"
 #include "services/documents/machine_file.hpp"
+#include "services/record/reading/job_of.hpp"
+#include "services/record/reading/run.hpp"
 
 namespace lockstep::analysis {
 namespace {

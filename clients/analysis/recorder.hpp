@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "clients/analysis/analysis.hpp"
-#include "clients/analysis/log/program_events.hpp"
 #include "clients/analysis/measure/move_meter.hpp"
 #include "clients/analysis/measure/sorted_log.hpp"
 #include "clients/analysis/measure/step_merge.hpp"
 #include "clients/analysis/sorter.hpp"
+#include "services/record/reading/program_events.hpp"
 
 namespace lockstep::analysis {
 

@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "clients/analysis/log/log_step.hpp"
 #include "services/documents/names.hpp"
+#include "services/record/reading/log_step.hpp"
 #include "services/wire/lcm/translate_lcm.hpp"
 
 namespace lockstep::analysis {

@@ -9,11 +9,11 @@
 #include <string>
 
 #include "clients/analysis/analysis.hpp"
-#include "clients/analysis/log/log_read.hpp"
-#include "clients/analysis/log/log_step.hpp"
-#include "clients/analysis/log/message_numbers.hpp"
-#include "clients/analysis/log/record_end.hpp"
 #include "clients/analysis/measure/sorted_log.hpp"
+#include "services/record/reading/log_read.hpp"
+#include "services/record/reading/log_step.hpp"
+#include "services/record/reading/message_numbers.hpp"
+#include "services/record/reading/record_end.hpp"
 
 namespace lockstep::analysis {
 

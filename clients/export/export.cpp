@@ -3,12 +3,12 @@
 #include <memory>
 #include <utility>
 
-#include "clients/analysis/log/log_read.hpp"
-#include "clients/analysis/log/log_step.hpp"
 #include "clients/export/csv_table.hpp"
 #include "clients/export/mcap_file.hpp"
 #include "clients/export/record_check.hpp"
 #include "services/files/unfinished_file.hpp"
+#include "services/record/reading/log_read.hpp"
+#include "services/record/reading/log_step.hpp"
 
 namespace lockstep::exporting {
 namespace {

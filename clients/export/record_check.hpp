@@ -5,10 +5,10 @@
 #include <map>
 #include <utility>
 
-#include "clients/analysis/log/log_step.hpp"
-#include "clients/analysis/log/number_set.hpp"
-#include "clients/analysis/log/record_end.hpp"
 #include "clients/analysis/record_state.hpp"
+#include "services/record/reading/log_step.hpp"
+#include "services/record/reading/number_set.hpp"
+#include "services/record/reading/record_end.hpp"
 
 namespace lockstep::exporting {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "clients/analysis/log/damage.hpp"
 #include "services/flight/flight_messages.hpp"
+#include "services/record/reading/damage.hpp"
 
 namespace lockstep::incident {
 

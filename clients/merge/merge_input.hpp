@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "clients/analysis/log/damage.hpp"
 #include "clients/merge/message_id.hpp"
+#include "services/record/reading/damage.hpp"
 #include "services/wire/lcm/lcm_log.hpp"
 
 namespace lockstep::merge {

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "clients/merge/report.hpp"
-#include "clients/text/numbers.hpp"
+#include "core/number_text.hpp"
 
 namespace lockstep::merge {
 namespace {

@@ -1,6 +1,6 @@
 #include "clients/merge/message_id.hpp"
 
-#include "clients/analysis/log/log_step.hpp"
+#include "services/record/reading/log_step.hpp"
 #include "services/wire/lcm/lcm_channels.hpp"
 #include "services/wire/lcm/lcm_decode.hpp"
 

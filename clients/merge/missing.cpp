@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "clients/analysis/log/log_step.hpp"
 #include "services/documents/machine_file.hpp"
+#include "services/record/reading/log_step.hpp"
 #include "services/wire/lcm/lcm_decode.hpp"
 
 namespace lockstep::merge {

@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "clients/analysis/log/number_set.hpp"
-#include "clients/analysis/log/record_end.hpp"
-#include "clients/analysis/log/step_stream.hpp"
 #include "clients/merge/message_id.hpp"
+#include "services/record/reading/number_set.hpp"
+#include "services/record/reading/record_end.hpp"
+#include "services/record/reading/step_stream.hpp"
 #include "services/wire/lcm/lcm_channels.hpp"
 
 namespace lockstep::merge {

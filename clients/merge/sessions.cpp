@@ -6,8 +6,8 @@
 #include <set>
 #include <utility>
 
-#include "clients/analysis/log/job_of.hpp"
-#include "clients/analysis/log/record_end.hpp"
+#include "services/record/reading/job_of.hpp"
+#include "services/record/reading/record_end.hpp"
 #include "services/wire/lcm/lcm_channels.hpp"
 #include "services/wire/lcm/lcm_decode.hpp"
 #include "services/wire/lcm/lcm_log.hpp"

@@ -5,9 +5,9 @@
 
 #include "clients/replay/device_replay.hpp"
 #include "clients/replay/replayed_log.hpp"
-#include "clients/text/numbers.hpp"
 #include "clients/verification/log_check.hpp"
 #include "clients/verification/verification.hpp"
+#include "core/number_text.hpp"
 
 namespace lockstep::replay {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "clients/analysis/log/log_read.hpp"
 #include "clients/replay/device_replay.hpp"
+#include "services/record/reading/log_read.hpp"
 #include "services/record/record_sink.hpp"
 #include "services/record/step_batcher.hpp"
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "clients/analysis/log/record_end.hpp"
 #include "core/units.hpp"
+#include "services/record/reading/record_end.hpp"
 
 namespace lockstep::verification {
 

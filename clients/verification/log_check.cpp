@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "clients/analysis/log/log_step.hpp"
 #include "core/faults.hpp"
 #include "services/documents/machine_file.hpp"
+#include "services/record/reading/log_step.hpp"
 
 namespace lockstep::verification {
 

@@ -9,13 +9,13 @@
 #include <string>
 #include <utility>
 
-#include "clients/analysis/log/log_read.hpp"
-#include "clients/analysis/log/log_step.hpp"
-#include "clients/analysis/log/message_numbers.hpp"
 #include "clients/verification/activity.hpp"
 #include "clients/verification/jobs/job_check.hpp"
 #include "clients/verification/steps/axis_check.hpp"
 #include "clients/verification/steps/run_stream.hpp"
+#include "services/record/reading/log_read.hpp"
+#include "services/record/reading/log_step.hpp"
+#include "services/record/reading/message_numbers.hpp"
 
 namespace lockstep::verification {
 

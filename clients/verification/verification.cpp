@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "clients/text/numbers.hpp"
 #include "clients/verification/log_check.hpp"
+#include "core/number_text.hpp"
 
 namespace lockstep::verification {
 

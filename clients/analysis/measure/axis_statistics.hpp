@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "clients/analysis/log/step_stream.hpp"
 #include "clients/analysis/measure/course.hpp"
 #include "clients/analysis/measure/measured_step.hpp"
 #include "clients/analysis/measure/speed_meter.hpp"
+#include "services/record/reading/step_stream.hpp"
 
 namespace lockstep::analysis {
 

@@ -13,8 +13,8 @@
 #include <span>
 #include <vector>
 
-#include "clients/analysis/log/run.hpp"
 #include "clients/analysis/measure/step_queue.hpp"
+#include "services/record/reading/run.hpp"
 
 namespace lockstep::analysis {
 

@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "clients/analysis/log/step_edges.hpp"
 #include "core/units.hpp"
+#include "services/record/reading/step_edges.hpp"
 
 namespace lockstep::analysis {
 

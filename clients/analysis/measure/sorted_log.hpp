@@ -7,12 +7,12 @@
 #include <lockstep/program_event_t.hpp>
 #include <string>
 
-#include "clients/analysis/log/damage.hpp"
-#include "clients/analysis/log/program_parts.hpp"
-#include "clients/analysis/log/run.hpp"
 #include "clients/analysis/measure/lateness.hpp"
 #include "clients/analysis/measure/measured_step.hpp"
 #include "core/program.hpp"
+#include "services/record/reading/damage.hpp"
+#include "services/record/reading/program_parts.hpp"
+#include "services/record/reading/run.hpp"
 
 namespace lockstep::analysis {
 

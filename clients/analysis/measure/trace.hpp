@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "clients/analysis/log/step_stream.hpp"
 #include "core/units.hpp"
+#include "services/record/reading/step_stream.hpp"
 
 namespace lockstep::analysis {
 

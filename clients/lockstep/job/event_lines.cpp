@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "clients/text/event_text.hpp"
-#include "clients/text/numbers.hpp"
+#include "core/number_text.hpp"
 
 namespace lockstep {
 namespace {

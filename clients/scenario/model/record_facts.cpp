@@ -6,8 +6,8 @@
 #include <memory>
 #include <utility>
 
-#include "clients/analysis/log/log_read.hpp"
 #include "clients/verification/steps/run_stream.hpp"
+#include "services/record/reading/log_read.hpp"
 
 namespace lockstep::scenario {
 namespace {

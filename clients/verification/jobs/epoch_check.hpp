@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "clients/analysis/log/run.hpp"
 #include "clients/verification/jobs/epoch_replay.hpp"
 #include "clients/verification/jobs/run_difference.hpp"
 #include "clients/verification/steps/left_steps.hpp"
 #include "core/machine.hpp"
+#include "services/record/reading/run.hpp"
 
 namespace lockstep::verification {
 

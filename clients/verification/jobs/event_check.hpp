@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
-#include "clients/analysis/log/recorded_program.hpp"
 #include "clients/verification/findings.hpp"
 #include "core/coordinator/path/epoch_runner.hpp"
 #include "core/program_devices.hpp"
+#include "services/record/reading/recorded_program.hpp"
 
 namespace lockstep::verification {
 

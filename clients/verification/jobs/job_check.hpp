@@ -12,8 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "clients/analysis/log/program_parts.hpp"
-#include "clients/analysis/log/run.hpp"
 #include "clients/verification/findings.hpp"
 #include "clients/verification/jobs/event_check.hpp"
 #include "clients/verification/jobs/job_progress.hpp"
@@ -21,6 +19,8 @@
 #include "clients/verification/jobs/open_questions.hpp"
 #include "clients/verification/jobs/record_order.hpp"
 #include "clients/verification/steps/left_steps.hpp"
+#include "services/record/reading/program_parts.hpp"
+#include "services/record/reading/run.hpp"
 
 namespace lockstep::verification {
 

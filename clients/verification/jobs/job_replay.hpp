@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "clients/analysis/log/recorded_program.hpp"
 #include "clients/verification/jobs/epoch_replay.hpp"
 #include "core/coordinator/path/program_plan.hpp"
 #include "core/machine.hpp"
+#include "services/record/reading/recorded_program.hpp"
 
 namespace lockstep::verification {
 

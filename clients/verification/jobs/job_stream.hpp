@@ -12,8 +12,8 @@
 #include <optional>
 #include <variant>
 
-#include "clients/analysis/log/content_memory.hpp"
-#include "clients/analysis/log/program_parts.hpp"
+#include "services/record/reading/content_memory.hpp"
+#include "services/record/reading/program_parts.hpp"
 
 namespace lockstep::verification {
 

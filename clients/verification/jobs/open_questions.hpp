@@ -10,10 +10,10 @@
 #include <string>
 #include <utility>
 
-#include "clients/analysis/log/program_parts.hpp"
-#include "clients/analysis/log/run.hpp"
 #include "clients/verification/findings.hpp"
 #include "core/protocol/messages.hpp"
+#include "services/record/reading/program_parts.hpp"
+#include "services/record/reading/run.hpp"
 
 namespace lockstep::verification {
 

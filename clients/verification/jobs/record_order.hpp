@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
-#include "clients/analysis/log/program_parts.hpp"
 #include "core/protocol/messages.hpp"
+#include "services/record/reading/program_parts.hpp"
 
 namespace lockstep::verification {
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <string>
 
-#include "clients/analysis/log/program_parts.hpp"
 #include "core/path_place.hpp"
+#include "services/record/reading/program_parts.hpp"
 
 namespace lockstep::verification {
 

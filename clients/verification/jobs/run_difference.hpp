@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "clients/analysis/log/run.hpp"
+#include "services/record/reading/run.hpp"
 
 namespace lockstep::verification {
 

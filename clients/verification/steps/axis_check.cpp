@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
-#include "clients/analysis/log/record_end.hpp"
-#include "clients/text/numbers.hpp"
+#include "core/number_text.hpp"
+#include "services/record/reading/record_end.hpp"
 #include "services/record/step_batcher.hpp"
 
 namespace lockstep::verification {

@@ -18,14 +18,14 @@
 #include <utility>
 #include <vector>
 
-#include "clients/analysis/log/run.hpp"
-#include "clients/analysis/log/step_stream.hpp"
 #include "clients/verification/findings.hpp"
 #include "clients/verification/steps/clock_check.hpp"
 #include "clients/verification/steps/left_steps.hpp"
 #include "clients/verification/steps/position_check.hpp"
 #include "clients/verification/steps/seen_step.hpp"
 #include "clients/verification/steps/waiting_steps.hpp"
+#include "services/record/reading/run.hpp"
+#include "services/record/reading/step_stream.hpp"
 
 namespace lockstep::verification {
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "clients/analysis/log/run.hpp"
-#include "clients/analysis/log/step_stream.hpp"
 #include "core/machine.hpp"
+#include "services/record/reading/run.hpp"
+#include "services/record/reading/step_stream.hpp"
 
 namespace lockstep::verification {
 

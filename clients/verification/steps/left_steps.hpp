@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "clients/analysis/log/run.hpp"
 #include "clients/verification/steps/seen_step.hpp"
+#include "services/record/reading/run.hpp"
 
 namespace lockstep::verification {
 

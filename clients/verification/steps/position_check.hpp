@@ -10,8 +10,8 @@
 #include <optional>
 #include <string>
 
-#include "clients/analysis/log/step_stream.hpp"
 #include "core/units.hpp"
+#include "services/record/reading/step_stream.hpp"
 
 namespace lockstep::verification {
 

@@ -9,8 +9,8 @@
 #include <map>
 #include <optional>
 
-#include "clients/analysis/log/content_memory.hpp"
-#include "clients/analysis/log/run.hpp"
+#include "services/record/reading/content_memory.hpp"
+#include "services/record/reading/run.hpp"
 
 namespace lockstep::verification {
 

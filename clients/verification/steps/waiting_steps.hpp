@@ -8,8 +8,8 @@
 #include <span>
 #include <utility>
 
-#include "clients/analysis/log/step_stream.hpp"
 #include "clients/verification/steps/seen_step.hpp"
+#include "services/record/reading/step_stream.hpp"
 
 namespace lockstep::verification {
 

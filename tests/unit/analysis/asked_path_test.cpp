@@ -6,7 +6,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "clients/analysis/log/recorded_program.hpp"
+#include "services/record/reading/recorded_program.hpp"
 #include "tests/unit/analysis/log_makers.hpp"
 
 namespace lockstep::analysis {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "clients/analysis/log/recorded_program.hpp"
+#include "services/record/reading/recorded_program.hpp"
 #include "tests/unit/analysis/log_makers.hpp"
 
 namespace lockstep::analysis {

@@ -1,4 +1,4 @@
-#include "clients/analysis/log/number_set.hpp"
+#include "services/record/reading/number_set.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

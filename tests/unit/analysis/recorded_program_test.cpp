@@ -1,11 +1,11 @@
 // A program of any length is read from its log block by block. An unreadable program is an error.
-#include "clients/analysis/log/recorded_program.hpp"
+#include "services/record/reading/recorded_program.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "clients/analysis/log/log_read.hpp"
 #include "services/documents/program_document.hpp"
+#include "services/record/reading/log_read.hpp"
 #include "services/wire/lcm/lcm_channels.hpp"
 #include "tests/unit/analysis/log_makers.hpp"
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "clients/analysis/log/step_stream.hpp"
 #include "core/step/segment.hpp"
+#include "services/record/reading/step_stream.hpp"
 
 namespace lockstep::test {
 

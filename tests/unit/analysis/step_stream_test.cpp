@@ -1,4 +1,4 @@
-#include "clients/analysis/log/step_stream.hpp"
+#include "services/record/reading/step_stream.hpp"
 
 #include <gtest/gtest.h>
 

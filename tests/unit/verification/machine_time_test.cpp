@@ -9,9 +9,9 @@
 
 #include "clients/analysis/analysis.hpp"
 #include "clients/analysis/analysis_text.hpp"
-#include "clients/analysis/log/log_read.hpp"
-#include "clients/analysis/log/log_step.hpp"
 #include "clients/verification/verification.hpp"
+#include "services/record/reading/log_read.hpp"
+#include "services/record/reading/log_step.hpp"
 #include "tests/unit/verification/altered_log.hpp"
 #include "tests/unit/verification/recorded_machine.hpp"
 #include "tests/unit/virtual/true_clocks.hpp"

@@ -1,4 +1,4 @@
-#include "clients/analysis/log/program_parts.hpp"
+#include "services/record/reading/program_parts.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "clients/analysis/log/log_read.hpp"
+#include "services/record/reading/log_read.hpp"
 
 #include <system_error>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "clients/analysis/log/record_end.hpp"
+#include "services/record/reading/record_end.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <array>
 #include <utility>
 
-#include "clients/analysis/log/log_step.hpp"
-#include "clients/text/numbers.hpp"
+#include "core/number_text.hpp"
+#include "services/record/reading/log_step.hpp"
 
 namespace lockstep::analysis {
 namespace {

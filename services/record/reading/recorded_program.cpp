@@ -1,4 +1,4 @@
-#include "clients/analysis/log/recorded_program.hpp"
+#include "services/record/reading/recorded_program.hpp"
 
 #include <fmt/format.h>
 

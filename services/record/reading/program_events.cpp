@@ -1,4 +1,4 @@
-#include "clients/analysis/log/program_events.hpp"
+#include "services/record/reading/program_events.hpp"
 
 #include <algorithm>
 #include <span>

@@ -6,7 +6,7 @@
 #include <lockstep/step_batch_t.hpp>
 #include <string>
 
-#include "clients/analysis/log/step_stream.hpp"
+#include "services/record/reading/step_stream.hpp"
 
 namespace lockstep::analysis {
 

@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "clients/analysis/log/content_memory.hpp"
-#include "clients/analysis/log/step_edges.hpp"
 #include "core/clock/clock_view.hpp"
 #include "core/step/segment.hpp"
 #include "core/units.hpp"
+#include "services/record/reading/content_memory.hpp"
+#include "services/record/reading/step_edges.hpp"
 
 namespace lockstep::analysis {
 

@@ -17,8 +17,8 @@
 #include <string>
 #include <string_view>
 
-#include "clients/analysis/log/damage.hpp"
-#include "clients/analysis/log/program_parts.hpp"
+#include "services/record/reading/damage.hpp"
+#include "services/record/reading/program_parts.hpp"
 
 namespace lockstep::analysis {
 

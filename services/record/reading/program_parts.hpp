@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "clients/analysis/log/recorded_program.hpp"
+#include "services/record/reading/recorded_program.hpp"
 
 namespace lockstep::analysis {
 

@@ -1,4 +1,4 @@
-#include "clients/analysis/log/log_step.hpp"
+#include "services/record/reading/log_step.hpp"
 
 #include <cstdlib>
 #include <utility>

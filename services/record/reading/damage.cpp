@@ -1,11 +1,11 @@
-#include "clients/analysis/log/damage.hpp"
+#include "services/record/reading/damage.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "clients/text/numbers.hpp"
+#include "core/number_text.hpp"
 
 namespace lockstep::analysis {
 namespace {

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "clients/analysis/log/number_set.hpp"
+#include "services/record/reading/number_set.hpp"
 #include "services/wire/lcm/lcm_channels.hpp"
 
 namespace lockstep::analysis {

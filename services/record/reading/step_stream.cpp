@@ -1,11 +1,11 @@
-#include "clients/analysis/log/step_stream.hpp"
+#include "services/record/reading/step_stream.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "clients/text/numbers.hpp"
+#include "core/number_text.hpp"
 
 namespace lockstep::analysis {
 namespace {

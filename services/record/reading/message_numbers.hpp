@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <map>
 
-#include "clients/analysis/log/number_set.hpp"
+#include "services/record/reading/number_set.hpp"
 
 namespace lockstep::analysis {
 

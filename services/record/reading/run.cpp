@@ -1,12 +1,12 @@
-#include "clients/analysis/log/run.hpp"
+#include "services/record/reading/run.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
-#include "clients/analysis/log/log_step.hpp"
 #include "core/step/executable.hpp"
+#include "services/record/reading/log_step.hpp"
 
 namespace lockstep::analysis {
 namespace {

@@ -1,8 +1,8 @@
-#include "clients/analysis/log/step_edges.hpp"
+#include "services/record/reading/step_edges.hpp"
 
 #include <array>
 
-#include "clients/analysis/log/content_memory.hpp"
+#include "services/record/reading/content_memory.hpp"
 
 namespace lockstep::analysis {
 

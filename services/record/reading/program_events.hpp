@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "clients/analysis/log/recorded_program.hpp"
 #include "core/program.hpp"
 #include "core/units.hpp"
+#include "services/record/reading/recorded_program.hpp"
 
 namespace lockstep::analysis {
 
