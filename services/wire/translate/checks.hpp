@@ -72,6 +72,6 @@ private:
 };
 
 /// The longest piece or frame: 35 minutes at 1 us.
-inline constexpr std::int64_t kMaxPieceTicks = std::numeric_limits<std::int32_t>::max();
+inline constexpr std::int64_t kMaxWireTicks = std::numeric_limits<std::int32_t>::max();
 
 }  // namespace lockstep

@@ -113,7 +113,7 @@ FromWire<AxisCommand> from_wire(const lockstep_wire_AxisCommand& wire) {
     check.within<std::size_t>("axis", wire.axis, 0, kMaxAxes - 1);
     const AxisCommandKind kind = check.choice("kind", wire.kind, AxisCommandKind::Jog);
     check.far("target_steps", wire.target_steps);
-    check.within<std::int64_t>("ticks", wire.ticks, 0, kMaxPieceTicks);
+    check.within<std::int64_t>("ticks", wire.ticks, 0, kMaxWireTicks);
     check.finite("speed_mm_s", wire.speed_mm_s);
     check.far("until", wire.until);
     if (!check.passed()) { return std::unexpected(check.refusal()); }

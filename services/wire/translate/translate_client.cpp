@@ -46,7 +46,7 @@ CommandMessage to_wire(const Command& command) {
 FromWire<Command> from_wire(const lockstep_wire_Command& wire) {
     Checks check("command");
     const CommandKind kind = check.choice("kind", wire.kind, CommandKind::GiveLease);
-    check.within<std::int64_t>("ticks", wire.ticks, 0, kMaxPieceTicks);
+    check.within<std::int64_t>("ticks", wire.ticks, 0, kMaxWireTicks);
     check.within<std::size_t>("the number of jogs", wire.jogs._length, 0, lockstep_wire_MAX_JOGS);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
     LeaseHolder writer{wire.writer, std::string(read_text("writer_name", wire.writer_name, check)),

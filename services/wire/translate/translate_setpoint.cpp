@@ -76,9 +76,9 @@ void check_shape(const lockstep_wire_Setpoint& wire, Checks& check) {
 
 void check_values(const lockstep_wire_Setpoint& wire, Checks& check) {
     check.far("start_tick", wire.start_tick);
-    check.within<std::int64_t>("frame_ticks", wire.frame_ticks, 1, kMaxPieceTicks);
+    check.within<std::int64_t>("frame_ticks", wire.frame_ticks, 1, kMaxWireTicks);
     for (const auto count : elements(wire.from_count)) { check.far("from_count", count); }
-    for (const auto ticks : elements(wire.ticks)) { check.within<std::int64_t>("ticks", ticks, 0, kMaxPieceTicks); }
+    for (const auto ticks : elements(wire.ticks)) { check.within<std::int64_t>("ticks", ticks, 0, kMaxWireTicks); }
     for (const auto velocity : elements(wire.velocity)) { check.rate("velocity", velocity); }
     for (const auto acceleration : elements(wire.acceleration)) { check.rate("acceleration", acceleration); }
 }
