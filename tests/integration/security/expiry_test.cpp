@@ -89,11 +89,11 @@ TEST_F(Expiry, KeysOfTheFutureAndAClockOfThePastAreNamedAsAMatterOfTheClock) {
                 HasSubstr("set this host's clock"));
 }
 
-/// One axis believes that it is a year later, another part a day earlier, and the keys are valid at all three times.
-TEST_F(Expiry, ClocksThatAreWrongWithinTheKeysPeriodDoNotMatter) {
+/// One axis believes that it is a year later, when the keys are still valid.
+TEST_F(Expiry, AClockThatIsWrongWithinTheKeysPeriodDoesNotMatter) {
     make({now() - days(10), now() + days(1000)});
     const ChildProcess x("/usr/bin/env", at_clock("+365d", {LOCKSTEP_AXIS, "--machine", file(), "--axis", "X"}));
-    const ChildProcess coordinator("/usr/bin/env", at_clock("-1d", {LOCKSTEP_COORDINATOR, "--machine", file()}));
+    const ChildProcess coordinator(LOCKSTEP_COORDINATOR, {"--machine", file()});
     const ChildProcess y(LOCKSTEP_AXIS, {"--machine", file(), "--axis", "Y"});
     ASSERT_TRUE(becomes("Idle"));
     record();
