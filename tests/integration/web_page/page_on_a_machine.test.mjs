@@ -155,6 +155,29 @@ describe("a pause", () => {
 });
 
 describe("a jog", () => {
+  for (const held_ms of [0, 60, 200]) {
+    test(`of 10 mm goes exactly 10 mm after a press of ${held_ms} ms`, async () => {
+      const page = await enter();
+      await button(page, "10").click();
+      const x = async () => (await server.state()).axes.X.position;
+      await until("an exact step", async () => { // a host that stalls for long ends a step: begin again
+        lockstep("move", "X=20", "--take");
+        await page.locator('.axis[data-axis="X"] .position', { hasText: "20.000" }).waitFor();
+        await mode(page, "Idle");
+        await until("it may jog", () => button(page, "Jog X plus").isEnabled());
+        await button(page, "Jog X plus").hover();
+        await page.mouse.down();
+        await pause(held_ms);
+        await page.mouse.up();
+        const { axes } = await server.becomes("rests behind 20 mm", (state) => state.mode === "Idle" && state.axes.X.position > 20.1);
+        assert.ok(axes.X.position < 30.001, `it went on to ${axes.X.position}`);
+        return Math.abs(axes.X.position - 30) < 0.001;
+      });
+      await pause(500);
+      assert.ok(Math.abs((await x()) - 30) < 0.001, `it went on to ${await x()}`);
+    });
+  }
+
   test("ends by itself when its tab is killed", async () => {
     const page = await enter();
     await page.locator("#jog-speed").fill("0"); // so that the axis does not come to the end of its travel meanwhile
