@@ -22,7 +22,7 @@ std::vector<AxisLimits> limits() {
     return {axis, axis, axis};
 }
 
-/// What one axis makes, in pulses per period.
+/// The pulses that one axis makes in each period.
 struct Made {
     std::int64_t steps = 0;
     std::int64_t least = 1'000'000;  // in the periods that pass() may make at once
