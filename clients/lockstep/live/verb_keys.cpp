@@ -121,8 +121,8 @@ void add_make(Verb keys) {
 void add_look(Verb keys, const char* name, const char* what, bool with_fingerprint) {
     const auto options = std::make_shared<KeysOptions>();
     const Verb verb = add_part(keys, name, what, options);
-    verb.footer(footer(fmt::format("{}{}\n  lockstep keys {} --json | jq '.members[] | [.name, .until]'\n",
-                                   "  lockstep keys ", name, name)));
+    verb.footer(footer(
+        fmt::format("  lockstep keys {0}\n  lockstep keys {0} --json | jq '.members[] | [.name, .until]'\n", name)));
     verb.action([options, with_fingerprint] { return look(*options, with_fingerprint); });
 }
 
