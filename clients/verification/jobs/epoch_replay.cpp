@@ -34,7 +34,7 @@ void EpochReplay::make_up_to(FrameNumber number) {
             frames_.push_back(frame);
             frames_.back().start += shift_;
         }
-        all_made_ = all_made_ || runner_.is_stuck();
+        all_made_ = all_made_ || runner_.ending() == EpochRunner::Ending::Stuck;
     }
 }
 

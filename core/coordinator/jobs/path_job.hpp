@@ -63,9 +63,11 @@ public:
     /// that was run.
     bool may_try_again(const EpochEnd& end);
     /// The epoch ended early because no frame keeps the limits.
-    bool is_stuck() const { return runner_.is_stuck(); }
+    bool is_stuck() const { return runner_.ending() == EpochRunner::Ending::Stuck; }
     /// The machine rests because no more of the program is known.
-    bool waits_for_blocks() const { return runner_.lacked_blocks() || runner_.source()->lacks_blocks(); }
+    bool waits_for_blocks() const {
+        return runner_.ending() == EpochRunner::Ending::LacksProgram || runner_.source()->lacks_blocks();
+    }
 
     /// Sets the overrides. They apply from the next frame to be made, and to later jobs.
     void turn(const Overrides& overrides);

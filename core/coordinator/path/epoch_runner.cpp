@@ -14,7 +14,8 @@ void EpochRunner::begin(Epoch epoch, const PathPlace& place, const AxisPositions
     made_ticks_ = {};
     slots_over_ = 0;
     sent_ = 0;
-    ended_ = late_ = lacked_blocks_ = is_stuck_ = is_empty_ = false;
+    ending_.reset();
+    lacked_blocks_ = false;
     due_.clear();
     veto_.reset();
     received_veto_.reset();
@@ -33,22 +34,34 @@ void EpochRunner::start_when_ready(Slot now) {
     if (source_->is_ready()) {
         start_ = rests_ = rules::start_of(now + machine_.timing.send_ahead_slots + kMargin, slot_);
     } else if (source_->is_done()) {
-        ended_ = is_empty_ = true;
+        end(Ending::Empty);
     }
 }
 
 const ReusedVector<Frame>& EpochRunner::send(Slot now, std::span<const AxisView> axes) {
     to_send_.clear();
-    if (!ended_) { source_->read(); }
-    if (!start_ && !ended_) { start_when_ready(now); }
+    if (!ending_) { source_->read(); }
+    if (!start_ && !ending_) { start_when_ready(now); }
     slots_over_ = start_ && now > rules::slot_of(rests_, slot_) ? slots_over_ + 1 : 0;
+    repeat_frames(now, receive(axes));
+    make_frames(now);
+    return to_send_;
+}
+
+/// Returns the newest frame that every axis holds.
+FrameNumber EpochRunner::receive(std::span<const AxisView> axes) {
     FrameNumber held_by_all = sent_;
     for (const AxisView& axis : axes) {
         const bool follows = axis.state && axis.state->epoch == epoch_;
         held_by_all = std::min(held_by_all, follows ? axis.state->held : 0);
         if (follows) { received_veto_ = rules::merge(received_veto_, axis.state->veto); }
     }
-    if (received_veto_) { ended_ = true; }  // no axis may run the vetoed frame or a later one
+    if (received_veto_) { end(Ending::Vetoed); }
+    return held_by_all;
+}
+
+/// Sends again what an axis lacks and may still run.
+void EpochRunner::repeat_frames(Slot now, FrameNumber held_by_all) {
     while (!in_flight_.empty() && now >= rules::slot_of(in_flight_.front().start, slot_)) { in_flight_.pop_front(); }
     for (std::size_t k = 0; k < in_flight_.size(); ++k) {
         const Frame& frame = in_flight_[k];
@@ -56,21 +69,21 @@ const ReusedVector<Frame>& EpochRunner::send(Slot now, std::span<const AxisView>
         const bool may_run = !veto() || *veto() > frame.number;
         if (in_time && may_run && frame.number > held_by_all) { to_send_.append() = frame; }
     }
-    while (start_ && !ended_) {
+}
+
+void EpochRunner::make_frames(Slot now) {
+    while (start_ && !ending_) {
         const Slot start = rules::slot_of(*start_ + made_ticks_, slot_);
-        if (now < rules::first_send_slot(start, machine_.timing)) { break; }
+        if (now < rules::first_send_slot(start, machine_.timing)) { return; }
         if (!rules::may_send(now, start, machine_.timing)) {
-            ended_ = late_ = true;
-            lacked_blocks_ = lacked_blocks_ || source_->lacks_blocks();
-            break;
+            return end(lacked_blocks_ || source_->lacks_blocks() ? Ending::LacksProgram : Ending::Late);
         }
         try_turn();
         const Frame* const frame = make_frame();
         lacked_blocks_ = frame == nullptr && source_->lacks_blocks();
-        if (frame == nullptr) { break; }
+        if (frame == nullptr) { return; }
         to_send_.append() = *frame;
     }
-    return to_send_;
 }
 
 /// Tries new overrides once after each frame, just before the next one is made.
@@ -86,7 +99,7 @@ void EpochRunner::try_turn() {
 /// frames made so far and continues from there.
 const Frame* EpochRunner::make_frame() {
     const auto next = source_->next();
-    if (!next) { ended_ = is_stuck_ = true; }
+    if (!next) { end(Ending::Stuck); }
     if (!next || *next == nullptr) { return nullptr; }
     const PathFrame& path = **next;
     Frame& frame = in_flight_.append();
@@ -95,7 +108,8 @@ const Frame* EpochRunner::make_frame() {
     frame.number = ++sent_;
     frame.start = *start_ + made_ticks_;
     frame.ticks = path.ticks;
-    frame.last = ended_ = path.last;
+    frame.last = path.last;
+    if (path.last) { end(Ending::Whole); }
     frame.axes = path.axes;
     for (const FrameEvent& event : source_->events()) {
         due_.push_back({sent_, {frame.start + event.at, event.event}});
@@ -150,7 +164,7 @@ std::span<const EpochRunner::Happened> EpochRunner::take_events(Tick now, std::s
 }
 
 void EpochRunner::stop(Slot next) {
-    ended_ = true;
+    end(Ending::Stopped);
     if (veto_) { return; }
     veto_ = sent_ + 1;
     for (std::size_t k = 0; k < in_flight_.size() && *veto_ > sent_; ++k) {
@@ -169,8 +183,9 @@ void EpochRunner::list_rests(FrameNumber frame, std::vector<FrameRest>& rests) c
 
 std::optional<EpochEnd> EpochRunner::evaluate(Slot now, std::span<const AxisView> axes) const {
     if (!start_) {  // no axis moves in this epoch
-        if (!ended_) { return std::nullopt; }
-        return EpochEnd{is_empty_ ? EpochEnd::Kind::Complete : EpochEnd::Kind::Interrupted, 0, 0, made_.front().rest,
+        if (!ending_) { return std::nullopt; }
+        const bool is_empty = ending_ == Ending::Empty;
+        return EpochEnd{is_empty ? EpochEnd::Kind::Complete : EpochEnd::Kind::Interrupted, 0, 0, made_.front().rest,
                         at_};
     }
     const Slot first_start = rules::slot_of(*start_, slot_);

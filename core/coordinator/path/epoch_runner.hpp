@@ -91,16 +91,21 @@ public:
     PathPlace place_at(Tick tick) const;
     /// How long the first `frames` frames last.
     Ticks ticks_of(FrameNumber frames) const;
-    /// The frames' limits contradict each other, so the epoch ends early.
-    bool is_stuck() const { return is_stuck_; }
+    /// Why no more frames will be made; empty while frames are made.
+    enum class Ending : std::uint8_t {
+        Whole,         // the path's last frame was made
+        Empty,         // the path has no frame
+        Stopped,       // by this coordinator
+        Vetoed,        // by an axis: no axis may run the vetoed frame or a later one
+        Late,          // the next frame was not made in time
+        LacksProgram,  // the same, because too little of the program was known when the frame was due
+        Stuck,         // no frame keeps the limits
+    };
+    const std::optional<Ending>& ending() const { return ending_; }
     Epoch epoch() const { return epoch_; }
     FrameNumber sent() const { return sent_; }
     /// The lowest of the coordinator's own veto and those received, because each receiver repeats a veto.
     std::optional<FrameNumber> veto() const { return rules::merge(veto_, received_veto_); }
-    bool was_late() const { return late_; }
-    /// The epoch was late because too little of the program was known when the frame was due. Blocks that came
-    /// afterwards do not count.
-    bool lacked_blocks() const { return late_ && lacked_blocks_; }
 
 private:
     struct Made {                          // a frame; number 0: the epoch's begin
@@ -112,7 +117,11 @@ private:
     };
     static constexpr std::size_t kMadeKept = 64;  // far more frames than can be in flight
 
+    void end(Ending why) { ending_ = ending_.value_or(why); }
     void start_when_ready(Slot now);
+    FrameNumber receive(std::span<const AxisView> axes);
+    void repeat_frames(Slot now, FrameNumber held_by_all);
+    void make_frames(Slot now);
     const Frame* make_frame();
     void finish(const Frame& frame, const PathFrame& path);
     void try_turn();
@@ -132,11 +141,8 @@ private:
     std::optional<Overrides> turned_;          // not planned with yet
     std::optional<FrameNumber> tried_behind_;  // the last frame after which that was tried
     std::optional<Turn> taken_;
-    bool ended_ = false;  // no more frames will be made
-    bool late_ = false;
-    bool lacked_blocks_ = false;  // for the frame that is due
-    bool is_stuck_ = false;
-    bool is_empty_ = false;                     // the path has no frame
+    std::optional<Ending> ending_;
+    bool lacked_blocks_ = false;                // when the frame that is due was tried last
     std::optional<FrameNumber> veto_;           // the coordinator's own
     std::optional<FrameNumber> received_veto_;  // the lowest of the axes'
     ReusedQueue<Frame> in_flight_;              // frames not begun yet

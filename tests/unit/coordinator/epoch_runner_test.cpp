@@ -262,7 +262,7 @@ TEST_F(LatePlanner, StartsWhenItsFirstFrameIsKnown) {
     go_on(201);
     ASSERT_TRUE(runner.start());
     EXPECT_GT(rules::slot_of(*runner.start(), machine.slot_ticks()), 200 + machine.timing.send_ahead_slots);
-    EXPECT_FALSE(runner.was_late());
+    EXPECT_FALSE(runner.ending());
 }
 
 TEST_F(LatePlanner, IsInterruptedBeforeItsFirstFrameWhereItBegins) {
@@ -281,7 +281,7 @@ TEST_F(LatePlanner, RestsOnThePathAndGoesOnFromThere) {
     is_known = false;
     go_on(1100);
     EXPECT_EQ(runner.sent(), ran) << "no frame is made up";
-    EXPECT_TRUE(runner.was_late());
+    EXPECT_EQ(runner.ending(), EpochRunner::Ending::LacksProgram);
     slot += 1000;
     const auto end = runner.evaluate(slot, says(slot, ran, ran + 1, ran, rest));
     ASSERT_TRUE(end);
@@ -310,12 +310,11 @@ TEST_F(LatePlanner, ReportsMissingBlocksIfTheDueFrameLackedThemDespiteALaterStal
     for (const FrameNumber sent = runner.sent(); runner.sent() == sent;) { go_on(slot + 1); }
     is_known = false;
     go_on(slot + machine.timing.frame_slots);  // the next one is due
-    ASSERT_FALSE(runner.was_late());
+    ASSERT_FALSE(runner.ending());
     is_known = true;  // but this process stalls
     slot += 50;
     go_on(slot + 1);
-    EXPECT_TRUE(runner.was_late());
-    EXPECT_TRUE(runner.lacked_blocks());
+    EXPECT_EQ(runner.ending(), EpochRunner::Ending::LacksProgram);
 }
 
 TEST_F(LatePlanner, LacksBlocksWhereItFindsNoneAfterItsOwnStall) {
@@ -324,8 +323,7 @@ TEST_F(LatePlanner, LacksBlocksWhereItFindsNoneAfterItsOwnStall) {
     is_known = false;
     slot += 50;
     go_on(slot + 1);
-    EXPECT_TRUE(runner.was_late());
-    EXPECT_TRUE(runner.lacked_blocks());
+    EXPECT_EQ(runner.ending(), EpochRunner::Ending::LacksProgram);
 }
 
 TEST_F(LatePlanner, LacksNoBlocksWhereOnlyThisProcessWasLate) {
@@ -333,8 +331,7 @@ TEST_F(LatePlanner, LacksNoBlocksWhereOnlyThisProcessWasLate) {
     go_on(1000);
     slot += 50;
     go_on(slot + 1);
-    EXPECT_TRUE(runner.was_late());
-    EXPECT_FALSE(runner.lacked_blocks());
+    EXPECT_EQ(runner.ending(), EpochRunner::Ending::Late);
 }
 
 /// Three axes after the first one moved and was stopped behind frame 3.
