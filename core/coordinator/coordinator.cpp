@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "core/coordinator/jobs/job_advance.hpp"
+#include "core/coordinator/jobs/job_commands.hpp"
 #include "core/coordinator/reply.hpp"
 #include "core/protocol/needs_lease.hpp"
 
@@ -23,15 +25,19 @@ Coordinator::Coordinator(const MachineConfig& machine, Identity identity, std::u
       orders_(machine.axes.size()),
       lease_(machine),
       programs_(machine, std::move(make_rows)),
-      jobs_(machine, config_hash, begin_steps, standby) {
+      begin_steps_(begin_steps),
+      jobs_(machine),
+      inheritance_(standby, config_hash) {
     out_.replies.reserve(kRepliesAtOnce);
 }
 
 CoordinatorOutputs& Coordinator::step(const CoordinatorInputs& inputs) {
     out_.clear();
     const Slot slot = rules::slot_of(inputs.now, slot_);
-    CoordinatorLoop loop{machine_,   axes_, orders_,          programs_,         condition_,         out_,
-                         inputs.now, slot,  gate_.next(slot), ownership_.term(), is_late(inputs.now)};
+    CoordinatorLoop loop{
+        {machine_, axes_, programs_, inputs.now, slot, gate_.next(slot), ownership_.term(), is_late(inputs.now)},
+        orders_,
+        out_};
     axes_.forgive(gate_.missed(slot), slot);
     receive(inputs, loop);
     change_owner(loop);
@@ -66,9 +72,9 @@ void Coordinator::receive(const AxisState& state, CoordinatorLoop& loop) {
     ownership_.receive(state);
     if (!axes_.is_present(state.axis, loop.slot)) { loop.notice({CoordinatorNotice::Kind::AxisSeen, {}, state.axis}); }
     const bool is_replaced = arrival == AxisRoster::Arrival::Replaced;
-    if (is_replaced && jobs_.exists()) { jobs_.fail(FaultCode::AxisLost, state.axis, loop); }
+    if (is_replaced && jobs_.activity().job() != nullptr) { jobs_.fail({FaultCode::AxisLost, state.axis}, loop); }
     if (arrival != AxisRoster::Arrival::SameAxis) { orders_.withdraw(state.axis, axes_); }
-    if (is_replaced) { jobs_.doubt_inherited(loop); }
+    if (is_replaced) { jobs_.cut_inherited(TakeoverDoubt::AxisInDoubt, loop); }
     const bool has_open_order = !loop.is_order_done(state.axis);
     axes_.take(state, loop.slot);
     if (state.term == ownership_.term()) { orders_.catch_up(state, has_open_order); }
@@ -88,19 +94,16 @@ void Coordinator::change_owner(CoordinatorLoop& loop) {
 void Coordinator::take_over(CoordinatorLoop& loop) {
     loop.notice({CoordinatorNotice::Kind::Claimed, FaultCode::None, loop.term.number});
     orders_.restart();
-    loop.enter(MachinePhase::Waiting);
     const auto& other = ownership_.other_owner();
     lease_.adopt(other ? other->lease : std::nullopt, loop.slot);
-    jobs_.take_over(other, loop);
+    inheritance_.take_over(other, jobs_, loop);
 }
 
 void Coordinator::stand_down(CoordinatorLoop& loop) {
     loop.notice({CoordinatorNotice::Kind::StoodDown, FaultCode::None, loop.term.number});
-    jobs_.stand_down();
+    jobs_.stand_down(loop);
     lease_.drop();
-    condition_.clear_fault();
     orders_.withdraw_all();
-    loop.enter(MachinePhase::Standby);
 }
 
 /// A standby publishes nothing that moves an axis.
@@ -114,7 +117,7 @@ void Coordinator::stand_by(CoordinatorLoop& loop) {
 /// The command was for another owner. If it is repeated after a takeover, no process knows whether it was begun, so it
 /// is refused then. An emergency stop and a command about the lease may be carried out twice.
 void Coordinator::refuse_as_standby(const Command& command, Slot now) {
-    if (is_interrupt(command.kind)) { jobs_.note_interrupt(now); }
+    if (is_interrupt(command.kind)) { jobs_.activity().as<activity::Standby>()->interrupted = now; }
     const bool may_repeat = command.kind == CommandKind::EmergencyStop || is_about_lease(command.kind);
     if (may_repeat || inbox_.answer_to(command) != nullptr) { return; }
     inbox_.note(reply_of_new_owner(command));
@@ -127,35 +130,36 @@ void Coordinator::own(CoordinatorLoop& loop) {
         if (gate_.enter(loop.slot)) { tend_lease(missed, loop); }
         return;
     }
-    if (condition_.phase() == MachinePhase::Idle && axes_.without_device()) { loop.enter(MachinePhase::Waiting); }
+    if (axes_.without_device()) { wait_for_axes(loop); }
     for (std::size_t i = 0; i < axes_.size(); ++i) { watch_axis(i, loop); }
     inbox_.take_each([&](const Command& command) { answer(command, loop); });
-    jobs_.advance_jogs(loop);
+    advance_jogs(jobs_, loop);
     if (!gate_.enter(loop.slot)) { return; }
     programs_.tend(loop.slot, missed);
     tend_lease(missed, loop);
     advance(loop);
     orders_.repeat(axes_, loop.out.axis_commands);
-    jobs_.note_progress(loop);
+    note_progress(jobs_, loop);
     report(loop);
 }
 
 void Coordinator::tend_lease(Slot missed, CoordinatorLoop& loop) {
-    for (const Identity client : lease_.tend(loop.slot, missed)) { jobs_.lose_client(client, loop); }
+    for (const Identity client : lease_.tend(loop.slot, missed)) { commands::lose_client(client, jobs_, loop); }
 }
 
 void Coordinator::watch_axis(std::size_t axis, CoordinatorLoop& loop) {
     const auto& state = axes_.state(axis);
     if (!state) { return; }
     if (!axes_.is_present(axis, loop.slot)) { return lose_axis(axis, loop); }
-    if (state->config_hash != config_hash_) { return jobs_.fail(FaultCode::ConfigMismatch, axis, loop); }
+    if (state->config_hash != config_hash_) { return jobs_.fail({FaultCode::ConfigMismatch, axis}, loop); }
     if (state->fault != FaultCode::None) {
-        const bool is_being_homed = condition_.phase() == MachinePhase::Homing && !loop.is_order_done(axis);
+        const bool is_being_homed = phase() == MachinePhase::Homing && !loop.is_order_done(axis);
         if (is_being_homed || orders_.is_open(axis, AxisCommandKind::Reset, axes_)) { return; }
-        return jobs_.fail(state->fault, axis, loop);
+        return jobs_.fail({state->fault, axis}, loop);
     }
-    if (jobs_.is_on_path() && axes_.is_uncertain(axis, machine_.clock_error_limit())) {
-        jobs_.fail(FaultCode::ClockUncertain, axis, loop);
+    const bool is_on_path = jobs_.activity().is<activity::OnPath>();
+    if (is_on_path && axes_.is_uncertain(axis, machine_.clock_error_limit())) {
+        jobs_.fail({FaultCode::ClockUncertain, axis}, loop);
     }
 }
 
@@ -163,9 +167,9 @@ void Coordinator::lose_axis(std::size_t axis, CoordinatorLoop& loop) {
     loop.notice({CoordinatorNotice::Kind::AxisGone, FaultCode::AxisLost, axis});
     orders_.withdraw(axis, axes_);
     axes_.forget(axis);
-    jobs_.doubt_inherited(loop);
-    if (condition_.phase() == MachinePhase::Idle) { loop.enter(MachinePhase::Waiting); }
-    if (condition_.phase() != MachinePhase::Waiting) { jobs_.fail(FaultCode::AxisLost, axis, loop); }
+    jobs_.cut_inherited(TakeoverDoubt::AxisInDoubt, loop);
+    wait_for_axes(loop);
+    if (phase() != MachinePhase::Waiting) { jobs_.fail({FaultCode::AxisLost, axis}, loop); }
 }
 
 void Coordinator::answer(const Command& command, CoordinatorLoop& loop) {
@@ -173,13 +177,13 @@ void Coordinator::answer(const Command& command, CoordinatorLoop& loop) {
     if (const Reply* last = inbox_.answer_to(command)) {
         if (command.sequence != last->sequence) { return; }
         loop.out.replies.push_back(*last);
-        const bool is_over =
-            command.kind == CommandKind::Jog && (!lease_.check(command, loop.now) || !jobs_.renew_jog(command, loop));
+        const bool is_over = command.kind == CommandKind::Jog &&
+                             (!lease_.check(command, loop.now) || !commands::renew_jog(command, jobs_, loop));
         if (is_over) { loop.out.replies.back().job = 0; }
         return;
     }
     const CommandResult result = carry_out(command, loop);
-    loop.out.replies.push_back(reply_to(command, result, jobs_.number()));
+    loop.out.replies.push_back(reply_to(command, result, jobs_.count().number()));
     inbox_.note(loop.out.replies.back());
 }
 
@@ -191,10 +195,10 @@ bool Coordinator::answer_about_lease(const Command& command, CoordinatorLoop& lo
     const std::optional<std::uint64_t> before = lease_.writer();
     if (command.kind == CommandKind::TakeLease) { result = lease_.take(command, loop.now, loop.slot); }
     const bool is_taken_over = before && lease_.writer() != before;
-    if (is_taken_over && jobs_.is_jogging()) { (void)jobs_.interrupt(Intent::Stop, loop); }
+    if (is_taken_over && jobs_.activity().is_jogging()) { (void)commands::interrupt(Intent::Stop, jobs_, loop); }
     if (command.kind == CommandKind::GiveLease) {
         lease_.give(command.client);
-        jobs_.leave_to_itself(command.client);
+        commands::leave_to_itself(command.client, jobs_);
     }
     loop.out.replies.push_back(reply_to(command, result, 0));
     return true;
@@ -203,17 +207,17 @@ bool Coordinator::answer_about_lease(const Command& command, CoordinatorLoop& lo
 CommandResult Coordinator::carry_out(const Command& command, CoordinatorLoop& loop) {
     if (auto may = lease_.check(command, loop.now); !may) { return may; }
     switch (command.kind) {
-        case CommandKind::Home: return jobs_.home(command, loop);
+        case CommandKind::Home: return commands::home(command, jobs_, loop);
         case CommandKind::Move:
-        case CommandKind::Run: return jobs_.run(command, loop);
-        case CommandKind::Hold: return jobs_.interrupt(Intent::Hold, loop);
-        case CommandKind::Stop: return jobs_.interrupt(Intent::Stop, loop);
-        case CommandKind::Resume: return jobs_.resume(command, loop);
+        case CommandKind::Run: return commands::run(command, jobs_, loop);
+        case CommandKind::Hold: return commands::interrupt(Intent::Hold, jobs_, loop);
+        case CommandKind::Stop: return commands::interrupt(Intent::Stop, jobs_, loop);
+        case CommandKind::Resume: return commands::resume(command, jobs_, loop);
         case CommandKind::Reset: return reset(loop);
         case CommandKind::EmergencyStop: return stop_at_once(loop);
-        case CommandKind::MoveOwn: return jobs_.move_own(command, loop);
-        case CommandKind::Override: return jobs_.turn(command, loop);
-        case CommandKind::Jog: return jobs_.jog(command, loop);
+        case CommandKind::MoveOwn: return commands::move_own(command, begin_steps_, jobs_, loop);
+        case CommandKind::Override: return commands::turn(command, jobs_, loop);
+        case CommandKind::Jog: return commands::jog(command, jobs_, loop);
         case CommandKind::TakeLease:
         case CommandKind::GiveLease: break;  // answered before
     }
@@ -221,46 +225,45 @@ CommandResult Coordinator::carry_out(const Command& command, CoordinatorLoop& lo
 }
 
 CommandResult Coordinator::reset(CoordinatorLoop& loop) {
-    if (jobs_.in_motion()) { return refuse(FaultCode::Busy, "the machine is in motion"); }
-    jobs_.drop(loop);
-    for (std::size_t i = 0; i < axes_.size(); ++i) { (void)loop.order(i, AxisCommandKind::Reset); }
-    condition_.clear_fault();
-    loop.enter(MachinePhase::Waiting);
-    return {};
+    const CommandResult result = commands::reset(jobs_, loop);
+    if (result) { loop.order_each(all_axes(axes_.size()), AxisCommandKind::Reset); }
+    return result;
 }
 
 CommandResult Coordinator::stop_at_once(CoordinatorLoop& loop) {
-    for (std::size_t i = 0; i < axes_.size(); ++i) { (void)loop.order(i, AxisCommandKind::StopNow); }
-    jobs_.fail(FaultCode::EmergencyStopped, 0, loop);
+    loop.order_each(all_axes(axes_.size()), AxisCommandKind::StopNow);
+    jobs_.fail({FaultCode::EmergencyStopped}, loop);
     return {};
 }
 
 void Coordinator::advance(CoordinatorLoop& loop) {
-    if (jobs_.in_motion()) { return jobs_.advance(loop); }
-    if (condition_.phase() == MachinePhase::Idle && ownership_.lacks_axes(loop.slot)) {
-        loop.enter(MachinePhase::Waiting);
-    }
-    if (condition_.phase() == MachinePhase::Waiting) { leave_waiting(loop); }
+    if (jobs_.activity().in_motion()) { return advance_job(jobs_, loop); }
+    if (ownership_.lacks_axes(loop.slot)) { wait_for_axes(loop); }
+    if (phase() == MachinePhase::Waiting && are_axes_ready(loop)) { Inheritance::leave_waiting(jobs_, loop); }
 }
 
-/// Leaves Waiting when every axis is present with its device, follows this coordinator, has done its orders and rests.
-void Coordinator::leave_waiting(CoordinatorLoop& loop) {
-    const bool all_here = !axes_.missing(loop.slot) && !axes_.without_device();
-    const bool all_follow = ownership_.acknowledged(axes_.views());
-    if (!all_here || !all_follow || !orders_.all_done(axes_) || !axes_.all_rest()) { return; }
-    jobs_.go_on_with_inherited(loop);
-    if (!jobs_.exists()) { loop.enter(MachinePhase::Idle); }
+/// Every axis is present with its device, follows this coordinator, has done its orders and rests.
+bool Coordinator::are_axes_ready(const CoordinatorLoop& loop) const {
+    const bool are_here = !axes_.missing(loop.slot) && !axes_.without_device();
+    return are_here && ownership_.acknowledged(axes_.views()) && orders_.all_done(axes_) && axes_.all_rest();
+}
+
+/// Nothing begins before all axes are ready again.
+void Coordinator::wait_for_axes(CoordinatorLoop& loop) {
+    if (phase() != MachinePhase::Idle) { return; }
+    jobs_.activity().become(MachineEvent::AxisLacking, activity::Waiting{}, loop.out);
 }
 
 /// Reuses the memory of the last state's lease and rests.
 void Coordinator::report(CoordinatorLoop& loop) const {
     MachineState& state = loop.out.state.renew();
+    const MachineFault fault = jobs_.activity().fault();
     state = {.term = loop.term,
              .stamp = loop.slot,
              .tick = loop.now,
-             .phase = condition_.phase(),
-             .fault = condition_.fault(),
-             .fault_axis = condition_.fault_axis(),
+             .phase = phase(),
+             .fault = fault.code,
+             .fault_axis = fault.faulty_axis(),
              .axes_present = axes_.present(loop.slot),
              .config_hash = config_hash_,
              .lease = std::move(state.lease),
@@ -268,7 +271,7 @@ void Coordinator::report(CoordinatorLoop& loop) const {
              .rests = std::move(state.rests)};
     state.lease = lease_.held();
     state.rests.clear();
-    jobs_.report(state, loop);
+    report_job(jobs_, state, loop);
 }
 
 }  // namespace lockstep

@@ -5,7 +5,8 @@
 #include <optional>
 
 #include "core/coordinator/command_inbox.hpp"
-#include "core/coordinator/jobs/job_runner.hpp"
+#include "core/coordinator/jobs/inherited_job.hpp"
+#include "core/coordinator/jobs/job_lifecycle.hpp"
 #include "core/coordinator/ownership.hpp"
 #include "core/coordinator/writer_lease.hpp"
 #include "core/protocol/slot_gate.hpp"
@@ -28,11 +29,11 @@ public:
     /// Valid until the next step. The caller may complete the state before it publishes it.
     CoordinatorOutputs& step(const CoordinatorInputs& inputs);
 
-    MachinePhase phase() const { return condition_.phase(); }
+    MachinePhase phase() const { return jobs_.activity().phase(); }
     /// A job is in motion, held, or inherited by a takeover.
-    bool has_job() const { return jobs_.has_any(); }
+    bool has_job() const { return jobs_.has_job(); }
     /// A job waits for a person, and nothing moves.
-    bool is_paused() const { return condition_.phase() == MachinePhase::Paused; }
+    bool is_paused() const { return phase() == MachinePhase::Paused; }
     bool owns_machine() const { return ownership_.owns(); }
     /// Whether this writer may send programs and edits now. A standby refuses nothing, because the owner does.
     CommandResult check_writer(std::uint64_t writer, Tick now) const { return lease_.check(writer, now); }
@@ -63,7 +64,8 @@ private:
     CommandResult reset(CoordinatorLoop& loop);
     CommandResult stop_at_once(CoordinatorLoop& loop);
     void advance(CoordinatorLoop& loop);
-    void leave_waiting(CoordinatorLoop& loop);
+    bool are_axes_ready(const CoordinatorLoop& loop) const;
+    void wait_for_axes(CoordinatorLoop& loop);
 
     void report(CoordinatorLoop& loop) const;
 
@@ -77,8 +79,9 @@ private:
     CommandInbox inbox_;
     WriterLease lease_;
     ProgramStore programs_;
-    MachineCondition condition_;
-    JobRunner jobs_;
+    BeginSteps begin_steps_;
+    JobLifecycle jobs_;
+    Inheritance inheritance_;
     SlotGate gate_;
     std::optional<Tick> stepped_;
     CoordinatorOutputs out_;

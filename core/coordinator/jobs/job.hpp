@@ -14,10 +14,8 @@ struct MachineJob {
     std::uint64_t number = 0;
     JobKind kind = JobKind::Run;
     std::optional<std::uint64_t> program_id;      // Command::program, if another coordinator can continue the job
-    std::shared_ptr<const KnownProgram> program;  // null for homing
-
-    /// Its axes move, each by itself, and the coordinator sends no frames.
-    bool is_alone() const { return kind == JobKind::Home || kind == JobKind::MoveOwn || kind == JobKind::Jog; }
+    std::shared_ptr<const KnownProgram> program;  // null for homing and jogs
+    std::optional<Identity> client;               // that attends to the job: began it, or resumed it after its loss
 };
 
 /// The count of the machine's jobs, begun by any coordinator, and how the last one ended.

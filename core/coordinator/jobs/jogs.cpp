@@ -48,23 +48,27 @@ std::int64_t jog_target(const JogAxis& asked, const AxisConfig& axis, const Axis
     return std::clamp(target, to_steps(axis, axis.position_min_mm), to_steps(axis, axis.position_max_mm));
 }
 
-CommandResult Jogs::press(const Command& command, CoordinatorLoop& loop) {
-    asked_.assign(jogs_.size(), std::nullopt);
+Jogs::Jogs(const MachineConfig& machine) : hold_(machine.jog_hold_ticks()) {
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) { jogs_.append(std::nullopt); }
+}
+
+CommandResult Jogs::press(const Command& command, const LoopView& loop) {
+    auto next = jogs_;
+    for (auto& jog : next) {
+        if (jog && jog->client == command.client) { jog.reset(); }
+    }
     for (const JogAxis& axis : command.jogs) {
         if (axis.axis >= jogs_.size()) { return refuse(FaultCode::BadProgram, "the machine does not have this axis"); }
         auto jog = jog_of(axis, command, loop);
         if (!jog) { return std::unexpected(jog.error()); }
-        asked_[axis.axis] = *jog;
+        next[axis.axis] = *jog;
     }
-    for (std::size_t i = 0; i < jogs_.size(); ++i) {
-        const bool is_mine = jogs_[i] && jogs_[i]->client == command.client;
-        if (asked_[i] || is_mine) { jogs_[i] = asked_[i]; }
-    }
+    jogs_ = next;
     return {};
 }
 
 std::expected<Jogs::Jog, Refusal> Jogs::jog_of(const JogAxis& asked, const Command& command,
-                                               const CoordinatorLoop& loop) const {
+                                               const LoopView& loop) const {
     const AxisConfig& axis = loop.machine.axes[asked.axis];
     const auto& before = jogs_[asked.axis];
     if (before && before->client != command.client) {
@@ -83,7 +87,7 @@ std::expected<Jogs::Jog, Refusal> Jogs::jog_of(const JogAxis& asked, const Comma
 }
 
 /// Messages that arrive after a stall may be old, and their client may be dead.
-bool Jogs::renew(const Command& command, const CoordinatorLoop& loop) {
+bool Jogs::renew(const Command& command, const LoopView& loop) {
     bool is_known = false;
     for (auto& jog : jogs_) {
         if (!jog || jog->client != command.client || jog->sequence != command.sequence) { continue; }
@@ -99,13 +103,13 @@ bool Jogs::none() const {
     return std::ranges::none_of(jogs_, [](const auto& jog) { return jog.has_value(); });
 }
 
-std::optional<std::size_t> Jogs::advance(CoordinatorLoop& loop) {
+std::optional<std::size_t> Jogs::advance(const LoopView& loop, AxisOrders& orders, std::vector<AxisCommand>& out) {
     for (std::size_t i = 0; i < jogs_.size(); ++i) {
-        switch (next(i, loop)) {
+        switch (next(i, loop, orders)) {
             case Next::Nothing: break;
-            case Next::Order: order(i, loop); break;
-            case Next::Renew: loop.orders.renew(i, jogs_[i]->renewed + hold_, loop.out.axis_commands); break;
-            case Next::Halt: loop.out.axis_commands.push_back(loop.order(i, AxisCommandKind::Halt)); break;
+            case Next::Order: out.push_back(order(i, loop, orders)); break;
+            case Next::Renew: orders.renew(i, jogs_[i]->renewed + hold_, out); break;
+            case Next::Halt: out.push_back(orders.give(i, AxisCommandKind::Halt, loop.term)); break;
             case Next::Forget: jogs_[i].reset(); break;
             case Next::Report: return i;
         }
@@ -113,18 +117,18 @@ std::optional<std::size_t> Jogs::advance(CoordinatorLoop& loop) {
     return std::nullopt;
 }
 
-Jogs::Next Jogs::next(std::size_t axis, const CoordinatorLoop& loop) const {
+Jogs::Next Jogs::next(std::size_t axis, const LoopView& loop, const AxisOrders& orders) const {
     const auto& jog = jogs_[axis];
-    if (loop.is_order_done(axis)) { return jog ? next_at_rest(axis, loop) : Next::Nothing; }
-    if (!loop.orders.is_open(axis, AxisCommandKind::Jog, loop.axes)) { return Next::Nothing; }
-    const AxisCommand& order = *loop.orders.newest(axis);
+    if (orders.is_done(axis, loop.axes)) { return jog ? next_at_rest(axis, loop) : Next::Nothing; }
+    if (!orders.is_open(axis, AxisCommandKind::Jog, loop.axes)) { return Next::Nothing; }
+    const AxisCommand& order = *orders.newest(axis);
     const bool is_for_it = jog && jog->target == order.target_steps;
     if (!is_for_it) { return Next::Halt; }
     return jog->renewed + hold_ > order.until ? Next::Renew : Next::Nothing;
 }
 
 /// An axis that came to rest because renewals were late moves on when they arrive.
-Jogs::Next Jogs::next_at_rest(std::size_t axis, const CoordinatorLoop& loop) const {
+Jogs::Next Jogs::next_at_rest(std::size_t axis, const LoopView& loop) const {
     const Jog& jog = *jogs_[axis];
     const auto& state = loop.axes.state(axis);
     if (!state || loop.now - jog.renewed > Ticks{kForgetAfter_ns / loop.machine.tick_ns}) { return Next::Forget; }
@@ -133,14 +137,14 @@ Jogs::Next Jogs::next_at_rest(std::size_t axis, const CoordinatorLoop& loop) con
     return loop.now == jog.renewed ? Next::Order : Next::Nothing;
 }
 
-void Jogs::order(std::size_t axis, CoordinatorLoop& loop) {
+const AxisCommand& Jogs::order(std::size_t axis, const LoopView& loop, AxisOrders& orders) {
     Jog& jog = *jogs_[axis];
     if (!jog.target) { jog.target = jog_target(jog.asked, loop.machine.axes[axis], *loop.axes.state(axis)); }
-    AxisCommand& order = loop.order(axis, AxisCommandKind::Jog);
+    AxisCommand& order = orders.give(axis, AxisCommandKind::Jog, loop.term);
     order.target_steps = *jog.target;
     order.speed_mm_s = std::abs(jog.asked.speed_mm_s);
     order.until = jog.renewed + hold_;
-    loop.out.axis_commands.push_back(order);
+    return order;
 }
 
 }  // namespace lockstep

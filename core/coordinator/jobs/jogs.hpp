@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "core/axis_set.hpp"
 #include "core/coordinator/state/refusal.hpp"
+#include "core/static_vector.hpp"
 
 namespace lockstep {
 
@@ -22,17 +24,17 @@ std::int64_t jog_target(const JogAxis& asked, const AxisConfig& axis, const Axis
 
 class Jogs {
 public:
-    explicit Jogs(const MachineConfig& machine) : hold_(machine.jog_hold_ticks()), jogs_(machine.axes.size()) {}
+    explicit Jogs(const MachineConfig& machine);
 
     /// Sets the axes that the client jogs from now on. Releases all other axes that it jogged before. Changes nothing
     /// if one of the axes is refused. The command counts as the first renewal.
-    CommandResult press(const Command& command, CoordinatorLoop& loop);
+    CommandResult press(const Command& command, const LoopView& loop);
     /// Takes a repeated command. Returns false if none of its axes is jogged any more.
-    bool renew(const Command& command, const CoordinatorLoop& loop);
+    bool renew(const Command& command, const LoopView& loop);
     void release_all();
 
     /// Call it in each loop. Gives orders to the axes. Returns an axis that refused its order.
-    std::optional<std::size_t> advance(CoordinatorLoop& loop);
+    std::optional<std::size_t> advance(const LoopView& loop, AxisOrders& orders, std::vector<AxisCommand>& out);
 
     bool none() const;
 
@@ -47,14 +49,13 @@ private:
     /// The action for an axis in this loop.
     enum class Next { Nothing, Order, Renew, Halt, Forget, Report };
 
-    std::expected<Jog, Refusal> jog_of(const JogAxis& asked, const Command& command, const CoordinatorLoop& loop) const;
-    Next next(std::size_t axis, const CoordinatorLoop& loop) const;
-    Next next_at_rest(std::size_t axis, const CoordinatorLoop& loop) const;
-    void order(std::size_t axis, CoordinatorLoop& loop);
+    std::expected<Jog, Refusal> jog_of(const JogAxis& asked, const Command& command, const LoopView& loop) const;
+    Next next(std::size_t axis, const LoopView& loop, const AxisOrders& orders) const;
+    Next next_at_rest(std::size_t axis, const LoopView& loop) const;
+    const AxisCommand& order(std::size_t axis, const LoopView& loop, AxisOrders& orders);
 
     Ticks hold_;
-    std::vector<std::optional<Jog>> jogs_;   // by axis
-    std::vector<std::optional<Jog>> asked_;  // used by press: the new jogs
+    StaticVector<std::optional<Jog>, kMaxAxes> jogs_;  // by axis
 };
 
 }  // namespace lockstep

@@ -9,8 +9,7 @@
 namespace lockstep {
 namespace {
 
-CommandResult check_move(std::size_t axis, const OwnMoveRequest& move, const CoordinatorLoop& loop,
-                         BeginSteps begin_steps) {
+CommandResult check_move(std::size_t axis, const OwnMoveRequest& move, const LoopView& loop, BeginSteps begin_steps) {
     const AxisConfig& config = loop.machine.axes[axis];
     if (!loop.axes.state(axis)->homed) { return refuse(FaultCode::NotHomed, "axis " + config.name + " is not homed"); }
     const auto pieces = OwnPieces::plan(config, loop.machine.tick_ns, config.method, move, begin_steps);
@@ -27,7 +26,7 @@ double planned_seconds(const AxisConfig& axis, const OwnMoveRequest& move, const
 }  // namespace
 
 std::expected<OwnTargets, Refusal> OwnTargets::plan(const KnownProgram& program, std::optional<Ticks> ticks,
-                                                    const CoordinatorLoop& loop, BeginSteps begin_steps) {
+                                                    const LoopView& loop, BeginSteps begin_steps) {
     AxisCounts end = loop.axes.counts();
     const std::vector<std::size_t>& axes = program.places();
     const std::span<const double> end_mm = program.place_before(program.known()).value();
@@ -50,10 +49,10 @@ std::expected<OwnTargets, Refusal> OwnTargets::plan(const KnownProgram& program,
     return targets;
 }
 
-void OwnTargets::order(CoordinatorLoop& loop) const {
+void OwnTargets::order(AxisOrders& orders, const Term& term) const {
     for (std::size_t i = 0; i < to_.size(); ++i) {
         if (!has_axis(axes_, i)) { continue; }
-        AxisCommand& order = loop.order(i, AxisCommandKind::MoveOwn);
+        AxisCommand& order = orders.give(i, AxisCommandKind::MoveOwn, term);
         order.target_steps = to_[i];
         order.ticks = ticks_;
     }

@@ -16,13 +16,13 @@ public:
     /// nullopt: as fast as the axis can. Error: a move that its axis cannot make. Each axis's move is planned here,
     /// too, so that the client gets the reason.
     static std::expected<OwnTargets, Refusal> plan(const KnownProgram& program, std::optional<Ticks> ticks,
-                                                   const CoordinatorLoop& loop, BeginSteps begin_steps);
+                                                   const LoopView& loop, BeginSteps begin_steps);
 
     /// The axes that move.
     AxisSet axes() const { return axes_; }
     const AxisCounts& from() const { return from_; }
     std::int64_t target(std::size_t axis) const { return to_[axis]; }
-    void order(CoordinatorLoop& loop) const;
+    void order(AxisOrders& orders, const Term& term) const;
 
     /// 0 to 1, by the axis with the least progress.
     double progress(const AxisRoster& axes) const;

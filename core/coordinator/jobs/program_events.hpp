@@ -19,11 +19,12 @@ public:
     /// A program begins. The devices stay as they are.
     void begin(std::uint32_t first = 0) { from_ = first; }
     /// The motion reached the event's place at `tick`.
-    void happen(const PathEvent& event, Tick tick, const Of& of, CoordinatorLoop& loop);
+    void happen(const PathEvent& event, Tick tick, const Of& of, const LoopView& loop,
+                std::vector<PublishedEvent>& out);
     /// The axes rest beyond the event's place. An event that was published before is left out.
-    void pass(const PathEvent& event, const Of& of, CoordinatorLoop& loop);
+    void pass(const PathEvent& event, const Of& of, const LoopView& loop, std::vector<PublishedEvent>& out);
     /// The job ended early. Switches off spindle and coolant if they are on. Outputs stay.
-    void switch_off(std::uint64_t job, CoordinatorLoop& loop);
+    void switch_off(std::uint64_t job, const LoopView& loop, std::vector<PublishedEvent>& out);
     /// Takes the devices' state from the last owner.
     void inherit(const ProgramDevices& devices) { devices_ = devices; }
 
@@ -32,8 +33,8 @@ public:
     std::uint32_t from() const { return from_; }
 
 private:
-    void publish(PublishedEvent event, CoordinatorLoop& loop);
-    void publish(const PathEvent& event, PublishedEvent place, CoordinatorLoop& loop);
+    void publish(PublishedEvent event, const LoopView& loop, std::vector<PublishedEvent>& out);
+    void publish(const PathEvent& event, PublishedEvent place, const LoopView& loop, std::vector<PublishedEvent>& out);
 
     ProgramDevices devices_;
     std::uint32_t from_ = 0;

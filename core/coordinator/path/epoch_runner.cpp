@@ -8,6 +8,7 @@ EpochRunner::EpochRunner(const MachineConfig& machine) : machine_(machine), slot
 
 void EpochRunner::begin(Epoch epoch, const PathPlace& place, const AxisPositions& at, const Overrides& overrides) {
     epoch_ = epoch;
+    begin_ = {place, overrides};
     at_ = at;
     source_->resume(place, at_, overrides);
     start_.reset();

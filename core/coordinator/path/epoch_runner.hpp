@@ -85,6 +85,12 @@ public:
     void list_rests(FrameNumber frame, std::vector<FrameRest>& rests) const;
 
     const OwnedSource& source() const { return source_; }
+    /// Where on the program the epoch begins, and with which overrides.
+    struct Begin {
+        PathPlace place;
+        Overrides overrides;
+    };
+    const Begin& begun() const { return begin_; }
     /// The start of its first frame; empty while that frame cannot be made yet.
     const std::optional<Tick>& start() const { return start_; }
     /// The place on the program at `tick`, by the last frames made.
@@ -132,6 +138,7 @@ private:
     Ticks slot_;
     OwnedSource source_;
     Epoch epoch_ = 0;
+    Begin begin_;
     std::optional<Tick> start_;
     Ticks made_ticks_;     // duration of the frames made so far
     Tick rests_;           // by when the machine rests, for any of the frames made so far as the last one run

@@ -105,6 +105,7 @@ struct CoordinatorOutputs {
     std::vector<JobEvent> jobs;
     std::vector<PublishedEvent> events;
     std::vector<CoordinatorNotice> notices;
+    std::vector<std::size_t> transitions;   // rows of kMachineTransitions that happened
     std::optional<EpochOutcome> epoch_end;  // in the step that evaluated it
     bool must_quit = false;  // another coordinator is proved to own this machine, and this one must not stand by
 
@@ -118,6 +119,7 @@ struct CoordinatorOutputs {
         jobs.clear();
         events.clear();
         notices.clear();
+        transitions.clear();
         epoch_end.reset();
         must_quit = false;
     }

@@ -4,33 +4,19 @@
 
 namespace lockstep {
 
-CommandResult check_ready(const CoordinatorLoop& loop, bool in_motion) {
-    const MachinePhase phase = loop.condition.phase();
-    if (auto present = check_present(loop); !present) { return present; }
-    if (const auto lacking = loop.axes.without_device(); lacking && phase != MachinePhase::Fault) {
-        return refuse(FaultCode::DeviceMissing,
-                      "axis " + loop.name_of_axis(*lacking) + " waits for its device; the axis's log names the device");
-    }
-    if (phase == MachinePhase::Fault) { return refuse_in_fault(loop.condition.fault()); }
-    if (loop.condition.is_held()) { return refuse(FaultCode::Held, "a job is held or paused"); }
-    if (in_motion) { return refuse(FaultCode::Busy, "the machine is " + std::string(name_of(phase))); }
-    if (phase == MachinePhase::Idle) { return {}; }
-    return refuse(FaultCode::NotReady, "some axes do not follow the coordinator yet, or are not at rest");
-}
-
-CommandResult check_present(const CoordinatorLoop& loop) {
+CommandResult check_present(const LoopView& loop) {
     const auto missing = loop.axes.missing(loop.slot);
     if (!missing) { return {}; }
     return refuse(FaultCode::AxisMissing, "no messages are received from axis " + loop.name_of_axis(*missing));
 }
 
-CommandResult check_homed(const CoordinatorLoop& loop) {
+CommandResult check_homed(const LoopView& loop) {
     const auto axis = loop.axes.not_homed();
     if (!axis) { return {}; }
     return refuse(FaultCode::NotHomed, "axis " + loop.name_of_axis(*axis) + " is not homed");
 }
 
-CommandResult check_clocks(const CoordinatorLoop& loop) {
+CommandResult check_clocks(const LoopView& loop) {
     const MachineConfig& machine = loop.machine;
     const Ticks limit = machine.clock_error_to_begin();
     const auto axis = loop.axes.uncertain(limit);
@@ -50,6 +36,11 @@ std::unexpected<Refusal> refuse_in_fault(FaultCode fault) {
     const FaultText* text = find_fault(fault);
     const std::string what = "the machine is in Fault: " + std::string(name_of(fault));
     return refuse(FaultCode::InFault, text == nullptr ? what : what + ": " + remedy_text(*text));
+}
+
+std::unexpected<Refusal> refuse_without_device(std::size_t axis, const LoopView& loop) {
+    return refuse(FaultCode::DeviceMissing,
+                  "axis " + loop.name_of_axis(axis) + " waits for its device; the axis's log names the device");
 }
 
 }  // namespace lockstep

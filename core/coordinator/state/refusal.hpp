@@ -19,13 +19,11 @@ inline std::unexpected<Refusal> refuse(FaultCode why, std::string text) {
     return std::unexpected(Refusal{why, std::move(text)});
 }
 
-/// Checks that a job can begin: every axis is present, follows this coordinator and rests, and nothing else is in
-/// progress.
-CommandResult check_ready(const CoordinatorLoop& loop, bool in_motion);
-CommandResult check_present(const CoordinatorLoop& loop);
-CommandResult check_homed(const CoordinatorLoop& loop);
+CommandResult check_present(const LoopView& loop);
+CommandResult check_homed(const LoopView& loop);
 /// Checks that the axes agree on the time well enough for coordinated moves.
-CommandResult check_clocks(const CoordinatorLoop& loop);
+CommandResult check_clocks(const LoopView& loop);
 std::unexpected<Refusal> refuse_in_fault(FaultCode fault);
+std::unexpected<Refusal> refuse_without_device(std::size_t axis, const LoopView& loop);
 
 }  // namespace lockstep

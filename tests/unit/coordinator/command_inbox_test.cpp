@@ -51,39 +51,7 @@ TEST(ProgramStore, KeepsTheNewestFewPrograms) {
     EXPECT_NE(programs.find(2), nullptr);
 }
 
-class Readiness : public CoordinatorParts {
-protected:
-    FaultCode refusal(bool in_motion = false) {
-        const CommandResult result = check_ready(loop(), in_motion);
-        return result ? FaultCode::None : result.error().why;
-    }
-    void enter(MachinePhase phase) { condition.enter(phase, out.notices); }
-};
-
-TEST_F(Readiness, NamesWhatKeepsAJobFromBeginning) {
-    EXPECT_EQ(refusal(), FaultCode::AxisMissing);
-    receive_all();
-    EXPECT_EQ(refusal(), FaultCode::NotReady);
-    enter(MachinePhase::Idle);
-    EXPECT_EQ(refusal(), FaultCode::None);
-    EXPECT_EQ(refusal(true), FaultCode::Busy);
-    enter(MachinePhase::Paused);
-    EXPECT_EQ(refusal(), FaultCode::Held);
-    enter(MachinePhase::Fault);
-    EXPECT_EQ(refusal(), FaultCode::InFault);
-}
-
-TEST_F(Readiness, NamesTheAxisThatHasNoDevice) {
-    receive_all();
-    enter(MachinePhase::Idle);
-    AxisState state = state_of(1);
-    state.unproved = FaultCode::DeviceMissing;
-    axes.take(state, slot);
-    const CommandResult result = check_ready(loop(), false);
-    ASSERT_FALSE(result);
-    EXPECT_EQ(result.error().why, FaultCode::DeviceMissing);
-    EXPECT_NE(result.error().text.find("axis Y"), std::string::npos);
-}
+using Readiness = CoordinatorParts;
 
 TEST_F(Readiness, RefusesCoordinatedMovesByAnUncertainClockWithTheLimit) {
     receive_all();
@@ -95,26 +63,6 @@ TEST_F(Readiness, RefusesCoordinatedMovesByAnUncertainClockWithTheLimit) {
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().why, FaultCode::ClockUncertain);
     EXPECT_NE(result.error().text.find("axis X"), std::string::npos);
-}
-
-TEST(MachineCondition, NamesNoAxisForAFaultOfTheWholeMachine) {
-    MachineCondition condition;
-    std::vector<CoordinatorNotice> notices;
-    EXPECT_EQ(condition.fault_axis(), std::nullopt);
-    EXPECT_TRUE(condition.latch(FaultCode::FrameLate, 1, notices));
-    EXPECT_EQ(condition.fault_axis(), std::nullopt);
-}
-
-TEST(MachineCondition, KeepsTheFirstFault) {
-    MachineCondition condition;
-    std::vector<CoordinatorNotice> notices;
-    EXPECT_TRUE(condition.latch(FaultCode::AxisLost, 1, notices));
-    EXPECT_FALSE(condition.latch(FaultCode::LimitHit, 0, notices));
-    EXPECT_EQ(condition.fault(), FaultCode::AxisLost);
-    EXPECT_EQ(condition.fault_axis(), 1u);
-    EXPECT_EQ(notices.size(), 1u);
-    condition.enter(condition.phase(), notices);
-    EXPECT_EQ(notices.size(), 1u) << "the phase has not changed";
 }
 
 }  // namespace

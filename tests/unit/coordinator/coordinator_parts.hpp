@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "core/coordinator/jobs/job_lifecycle.hpp"
 #include "core/coordinator/state/coordinator_loop.hpp"
 
 namespace lockstep {
@@ -34,7 +35,7 @@ protected:
     }
     CoordinatorLoop loop() {
         out = {};
-        return {machine, axes, orders, programs, condition, out, Tick{slot * 1000}, slot, slot, term};
+        return {{machine, axes, programs, Tick{slot * 1000}, slot, slot, term}, orders, out};
     }
     void accept(std::uint64_t id, double x_mm, double y_mm) {
         programs.accept(
@@ -48,6 +49,11 @@ protected:
         state.command_fault = fault;
         axes.take(state, slot);
     }
+    /// The coordinator has claimed the machine, and its axes are ready.
+    void enter_idle(JobLifecycle& jobs) {
+        jobs.activity().become(MachineEvent::Claimed, activity::Waiting{}, out);
+        jobs.activity().become(MachineEvent::AxesReady, activity::Idle{}, out);
+    }
     bool has_job_event(JobEvent::Kind kind) const { return std::ranges::count(out.jobs, kind, &JobEvent::kind) != 0; }
 
     MachineConfig machine = two_axes();
@@ -56,7 +62,6 @@ protected:
     AxisRoster axes{machine};
     AxisOrders orders{2};
     ProgramStore programs{machine};
-    MachineCondition condition;
     CoordinatorOutputs out;
 };
 

@@ -5,9 +5,10 @@
 #include "core/coordinator/jobs/homing_sequence.hpp"
 #include "core/coordinator/jobs/inherited_job.hpp"
 #include "core/coordinator/jobs/job.hpp"
+#include "core/coordinator/jobs/job_commands.hpp"
 #include "core/coordinator/jobs/own_targets.hpp"
-#include "core/coordinator/jobs/path_job.hpp"
 #include "core/coordinator/jobs/path_progress.hpp"
+#include "core/coordinator/jobs/path_task.hpp"
 #include "core/methods/paper_steps.hpp"
 
 namespace lockstep {
@@ -84,8 +85,7 @@ TEST_F(OwnTargetsOfTwo, OrderOnlyTheAxesThatMove) {
     const auto to = targets(0, 30);
     ASSERT_TRUE(to);
     EXPECT_EQ(to->axes(), axis_bit(1));
-    CoordinatorLoop l = loop();
-    to->order(l);
+    to->order(orders, term);
     EXPECT_FALSE(orders.newest(0));
     EXPECT_EQ(orders.newest(1)->target_steps, 3000);
 }
@@ -125,28 +125,34 @@ protected:
     Inherited() {
         receive_all();
         accept(1, 20, 40);
+        last.job = 5;
+        last.job_kind = JobKind::Run;
+        last.line = 8;
         last.program = 1;
         last.config_hash = 1;
         last.stamp = slot;
+    }
+    /// Takes the job of `state` over. Returns why it is not kept.
+    std::optional<TakeoverDoubt> doubt_of(const MachineState& state, OnTakeover on_takeover = OnTakeover::Continue,
+                                          std::optional<Slot> interrupted = {}) {
+        JobLifecycle jobs(machine);
+        jobs.activity().as<activity::Standby>()->interrupted = interrupted;
+        CoordinatorLoop l = loop();
+        Inheritance(on_takeover, 1).take_over(state, jobs, l);
+        EXPECT_EQ(jobs.activity().phase(), MachinePhase::Waiting);
+        const auto cut = std::ranges::find(out.notices, CoordinatorNotice::Kind::JobCutShort, &CoordinatorNotice::kind);
+        EXPECT_EQ(jobs.has_job(), cut == out.notices.end());
+        return cut == out.notices.end() ? std::nullopt : std::optional(cut->doubt);
     }
     MachineState last;
 };
 
 TEST_F(Inherited, IsNotGoneOnWithUnlessAskedFor) {
-    InheritedJob stops(OnTakeover::Stop, 1);
-    stops.begin(last);
-    EXPECT_EQ(stops.doubt(loop()), TakeoverDoubt::NotAsked);
-    InheritedJob continues(OnTakeover::Continue, 1);
-    continues.begin(last);
-    EXPECT_FALSE(continues.doubt(loop()));
+    EXPECT_EQ(doubt_of(last, OnTakeover::Stop), TakeoverDoubt::NotAsked);
+    EXPECT_EQ(doubt_of(last, OnTakeover::Continue), std::nullopt);
 }
 
 TEST_F(Inherited, NamesWhyItIsNotGoneOnWith) {
-    InheritedJob job(OnTakeover::Continue, 1);
-    const auto doubt_of = [&](const MachineState& state) {
-        job.begin(state);
-        return job.doubt(loop());
-    };
     MachineState other = last;
     other.program.reset();
     EXPECT_EQ(doubt_of(other), TakeoverDoubt::NotRunning);
@@ -155,32 +161,56 @@ TEST_F(Inherited, NamesWhyItIsNotGoneOnWith) {
     other = last;
     other.config_hash = 2;
     EXPECT_EQ(doubt_of(other), TakeoverDoubt::OtherPlan);
+    EXPECT_EQ(doubt_of(last, OnTakeover::Continue, slot), TakeoverDoubt::Interrupted);
     axes.forget(1);
     EXPECT_EQ(doubt_of(last), TakeoverDoubt::AxisInDoubt);
-    job.note_interrupt(slot);
-    EXPECT_EQ(doubt_of(last), TakeoverDoubt::Interrupted);
-    job.forget();
-    EXPECT_FALSE(job.exists());
+}
+
+TEST_F(Inherited, AJobThatEndedIsNotTakenOver) {
+    last.outcome = JobOutcome::Done;
+    JobLifecycle jobs(machine);
+    CoordinatorLoop l = loop();
+    Inheritance(OnTakeover::Continue, 1).take_over(last, jobs, l);
+    EXPECT_FALSE(jobs.has_job());
+    EXPECT_EQ(jobs.count().number(), 5u);
+    EXPECT_EQ(jobs.count().outcome(), JobOutcome::Done);
+}
+
+/// The program may be read back from a file, which takes some loops.
+TEST_F(Inherited, NothingElseBeginsBeforeItsProgramIsAtHand) {
+    programs.accept(1, {.name = "none", .axes = {"X", "Y"}, .start_mm = {0, 0}, .blocks = {}});
+    last.rests = {{.frame = 0}};
+    JobLifecycle jobs(machine);
+    CoordinatorLoop l = loop();
+    Inheritance(OnTakeover::Continue, 1).take_over(last, jobs, l);
+    ASSERT_TRUE(jobs.has_job());
+    EXPECT_EQ(commands::run({.kind = CommandKind::Run, .program = 1}, jobs, l).error().why, FaultCode::NotReady);
 }
 
 TEST_F(CoordinatorParts, AJobThatIsContinuedRemembersWhichEventsWerePublished) {
-    PathJob path(machine);
-    path.load(MachineJob{.number = 3}, JobRest{.done = LegEnd{}}, 0.25, 7);
-    EXPECT_EQ(path.events().from(), 7u);
-    path.load(MachineJob{.number = 4}, AxisCounts{});
-    EXPECT_EQ(path.events().from(), 0u);
+    JobLifecycle jobs(machine);
+    accept(1, 20, 40);
+    PathTask task{.job = {.number = 3, .program = programs.find(1)}};
+    const JobRest rest{.done = LegEnd{.block = 1}};
+    (void)jobs.path().continue_rest(task, rest, 7, loop(), out.events);
+    EXPECT_EQ(jobs.path().events().from(), 7u);
+    enter_idle(jobs);
+    receive_all();
+    CoordinatorLoop l = loop();
+    ASSERT_TRUE(commands::run({.kind = CommandKind::Run, .program = 1}, jobs, l));
+    EXPECT_EQ(jobs.path().events().from(), 0u);
 }
 
 /// A hold before the first frame was requested, so it says nothing about the path.
-TEST_F(CoordinatorParts, APathIsGivenUpAfterInterruptionsWithoutAFrameAndNotAfterHolds) {
-    PathJob path(machine);
+TEST(PathTask, IsGivenUpAfterInterruptionsWithoutAFrameAndNotAfterHolds) {
+    PathTask task;
     const EpochEnd fruitless{.kind = EpochEnd::Kind::Interrupted};
-    for (int k = 0; k < 5; ++k) { path.interrupt(fruitless); }
-    EXPECT_TRUE(path.may_try_again(fruitless));
-    EXPECT_TRUE(path.may_try_again(fruitless));
-    EXPECT_FALSE(path.may_try_again(fruitless));
-    path.interrupt({.kind = EpochEnd::Kind::Interrupted, .ran = 1});
-    EXPECT_TRUE(path.may_try_again(fruitless)) << "a frame was run";
+    for (int k = 0; k < 5; ++k) { task.interrupt(fruitless); }
+    EXPECT_TRUE(task.may_try_again(fruitless));
+    EXPECT_TRUE(task.may_try_again(fruitless));
+    EXPECT_FALSE(task.may_try_again(fruitless));
+    task.interrupt({.kind = EpochEnd::Kind::Interrupted, .ran = 1});
+    EXPECT_TRUE(task.may_try_again(fruitless)) << "a frame was run";
 }
 
 }  // namespace

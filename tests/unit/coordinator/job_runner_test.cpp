@@ -1,7 +1,8 @@
 // A job is begun, interrupted, failed and ended. The test writes the reports of the axes.
-#include "core/coordinator/jobs/job_runner.hpp"
-
 #include "coordinator_parts.hpp"
+#include "core/coordinator/jobs/inherited_job.hpp"
+#include "core/coordinator/jobs/job_advance.hpp"
+#include "core/coordinator/jobs/job_commands.hpp"
 #include "core/coordinator/path/program_frames.hpp"
 #include "core/methods/paper_steps.hpp"
 
@@ -12,7 +13,7 @@ class Running : public CoordinatorParts {
 protected:
     Running() {
         receive_all();
-        condition.enter(MachinePhase::Idle, out.notices);
+        enter_idle(jobs);
         accept(1, 20, 40);
     }
     template <typename Do>
@@ -22,22 +23,22 @@ protected:
     }
     FaultCode run() {
         const CommandResult result =
-            ask([&](auto& l) { return jobs.run({.kind = CommandKind::Run, .program = 1}, l); });
+            ask([&](auto& l) { return commands::run({.kind = CommandKind::Run, .program = 1}, jobs, l); });
         return result ? FaultCode::None : result.error().why;
     }
     void pass_slot() {
         ++slot;
         receive_all();
-        ask([&](auto& l) { jobs.advance(l); });
+        ask([&](auto& l) { advance_job(jobs, l); });
     }
-    JobRunner jobs{machine, 1, methods::begin_steps, std::nullopt};
+    JobLifecycle jobs{machine};
 };
 
 TEST_F(Running, BeginsAnEpochAndSendsItsFrames) {
     ASSERT_EQ(run(), FaultCode::None);
-    EXPECT_EQ(condition.phase(), MachinePhase::Running);
+    EXPECT_EQ(jobs.activity().phase(), MachinePhase::Running);
     EXPECT_TRUE(has_job_event(JobEvent::Kind::Begun));
-    EXPECT_TRUE(jobs.is_on_path());
+    EXPECT_TRUE(jobs.activity().is<activity::OnPath>());
     pass_slot();
     EXPECT_TRUE(has_job_event(JobEvent::Kind::EpochBegun));
     for (int i = 0; i < 5 && out.frames.empty(); ++i) { pass_slot(); }
@@ -47,15 +48,17 @@ TEST_F(Running, BeginsAnEpochAndSendsItsFrames) {
 }
 
 TEST_F(Running, RefusesAProgramThatHasNotArrived) {
-    const CommandResult result = ask([&](auto& l) { return jobs.run({.kind = CommandKind::Run, .program = 9}, l); });
+    const CommandResult result =
+        ask([&](auto& l) { return commands::run({.kind = CommandKind::Run, .program = 9}, jobs, l); });
     EXPECT_EQ(result.error().why, FaultCode::UnknownProgram);
-    EXPECT_FALSE(jobs.exists());
+    EXPECT_FALSE(jobs.has_job());
 }
 
 TEST_F(Running, RefusesAProgramThatEndsBeforeItsEndWithTheLine) {
     const Block too_far{1, ProgramMove{{101, 0}, 20}};
     programs.accept(2, {.name = "far", .axes = {"X", "Y"}, .start_mm = {0, 0}, .blocks = {too_far}});
-    const CommandResult result = ask([&](auto& l) { return jobs.run({.kind = CommandKind::Run, .program = 2}, l); });
+    const CommandResult result =
+        ask([&](auto& l) { return commands::run({.kind = CommandKind::Run, .program = 2}, jobs, l); });
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().why, FaultCode::OutsideTravel);
     EXPECT_TRUE(result.error().text.starts_with("line 1: X 101")) << result.error().text;
@@ -66,7 +69,7 @@ TEST_F(Running, AProgramThatMovesNothingEndsAtOnce) {
     still.blocks.assign(ProgramFrames::kBlocksAtOnce - 1, {1, Dwell{0}});
     programs.accept(1, still);
     ASSERT_EQ(run(), FaultCode::None);
-    EXPECT_FALSE(jobs.exists());
+    EXPECT_FALSE(jobs.has_job());
     EXPECT_TRUE(has_job_event(JobEvent::Kind::Ended));
     EXPECT_FALSE(has_job_event(JobEvent::Kind::EpochBegun));
 }
@@ -74,9 +77,9 @@ TEST_F(Running, AProgramThatMovesNothingEndsAtOnce) {
 TEST_F(Running, AnEventOfAProgramThatMovesNothingIsOfNoEpoch) {
     accept(1, 20, 40);
     ASSERT_EQ(run(), FaultCode::None);
-    ask([&](auto& l) { jobs.interrupt(Intent::Stop, l); });
-    jobs.stand_down();
-    condition.enter(MachinePhase::Idle, out.notices);
+    ask([&](auto& l) { commands::interrupt(Intent::Stop, jobs, l); });
+    ask([&](auto& l) { jobs.stand_down(l); });
+    enter_idle(jobs);
     const Block event{3, ProgramEvent{.kind = ProgramEvent::Kind::OutputOn, .index = 2}};
     programs.accept(1, {.name = "on", .axes = {"X", "Y"}, .start_mm = {0, 0}, .blocks = {event}});
     ASSERT_EQ(run(), FaultCode::None);
@@ -102,70 +105,72 @@ TEST_F(Running, AnInterruptionThatNobodyAskedForIsNoticedAndTheJobGoesOn) {
             state.veto = 1;
             axes.take(state, slot);
         }
-        ask([&](auto& l) { jobs.advance(l); });
+        ask([&](auto& l) { advance_job(jobs, l); });
     }
     EXPECT_TRUE(is_noticed());
-    EXPECT_EQ(condition.phase(), MachinePhase::Running);
-    EXPECT_TRUE(jobs.is_on_path());
+    EXPECT_EQ(jobs.activity().phase(), MachinePhase::Running);
+    EXPECT_TRUE(jobs.activity().is<activity::OnPath>());
 }
 
 TEST_F(Running, AFaultInMotionStopsOnThePathBeforeTheMachineIsInFault) {
     ASSERT_EQ(run(), FaultCode::None);
-    ask([&](auto& l) { jobs.fail(FaultCode::AxisLost, 1, l); });
-    EXPECT_EQ(condition.phase(), MachinePhase::Stopping);
-    EXPECT_TRUE(jobs.is_on_path());
-    EXPECT_EQ(condition.fault_axis(), 1u);
+    ask([&](auto& l) { jobs.fail({FaultCode::AxisLost, 1}, l); });
+    EXPECT_EQ(jobs.activity().phase(), MachinePhase::Stopping);
+    EXPECT_TRUE(jobs.activity().is<activity::OnPath>());
+    EXPECT_EQ(jobs.activity().fault().faulty_axis(), 1u);
 }
 
 TEST_F(Running, AFaultAtRestEndsInFaultAtOnce) {
-    ask([&](auto& l) { jobs.fail(FaultCode::AxisLost, 1, l); });
-    EXPECT_EQ(condition.phase(), MachinePhase::Fault);
+    ask([&](auto& l) { jobs.fail({FaultCode::AxisLost, 1}, l); });
+    EXPECT_EQ(jobs.activity().phase(), MachinePhase::Fault);
 }
 
 TEST_F(Running, AHoldAfterAStopIsRefused) {
     ASSERT_EQ(run(), FaultCode::None);
-    EXPECT_TRUE(ask([&](auto& l) { return jobs.interrupt(Intent::Stop, l); }));
-    EXPECT_EQ(ask([&](auto& l) { return jobs.interrupt(Intent::Hold, l); }).error().why, FaultCode::Busy);
+    EXPECT_TRUE(ask([&](auto& l) { return commands::interrupt(Intent::Stop, jobs, l); }));
+    EXPECT_EQ(ask([&](auto& l) { return commands::interrupt(Intent::Hold, jobs, l); }).error().why, FaultCode::Busy);
 }
 
 TEST_F(Running, HomingEndsWhenEveryAxisHasDoneItsOrder) {
-    EXPECT_TRUE(ask([&](auto& l) { return jobs.home({.kind = CommandKind::Home}, l); }));
-    EXPECT_EQ(condition.phase(), MachinePhase::Homing);
+    EXPECT_TRUE(ask([&](auto& l) { return commands::home({.kind = CommandKind::Home}, jobs, l); }));
+    EXPECT_EQ(jobs.activity().phase(), MachinePhase::Homing);
     finish_order(0);
-    ask([&](auto& l) { jobs.advance(l); });
-    EXPECT_TRUE(jobs.exists());
+    ask([&](auto& l) { advance_job(jobs, l); });
+    EXPECT_TRUE(jobs.has_job());
     finish_order(1);
-    ask([&](auto& l) { jobs.advance(l); });
-    EXPECT_FALSE(jobs.exists());
+    ask([&](auto& l) { advance_job(jobs, l); });
+    EXPECT_FALSE(jobs.has_job());
     EXPECT_TRUE(has_job_event(JobEvent::Kind::Ended));
-    EXPECT_EQ(condition.phase(), MachinePhase::Idle);
+    EXPECT_EQ(jobs.activity().phase(), MachinePhase::Idle);
 }
 
 TEST_F(Running, HomingFailsWithTheFaultOfItsAxis) {
-    EXPECT_TRUE(ask([&](auto& l) { return jobs.home({.kind = CommandKind::Home}, l); }));
+    EXPECT_TRUE(ask([&](auto& l) { return commands::home({.kind = CommandKind::Home}, jobs, l); }));
     finish_order(0, FaultCode::HomeSwitchNotFound);
-    ask([&](auto& l) { jobs.advance(l); });
-    EXPECT_EQ(condition.fault(), FaultCode::HomeSwitchNotFound);
-    EXPECT_EQ(condition.phase(), MachinePhase::Stopping);
+    ask([&](auto& l) { advance_job(jobs, l); });
+    EXPECT_EQ(jobs.activity().fault().code, FaultCode::HomeSwitchNotFound);
+    EXPECT_EQ(jobs.activity().phase(), MachinePhase::Stopping);
     EXPECT_TRUE(orders.is_open(1, AxisCommandKind::Halt, axes)) << "the other axis is halted";
 }
 
 TEST_F(Running, OwnMovesEndAtTheirTargetsOrInAFault) {
-    EXPECT_TRUE(ask([&](auto& l) { return jobs.move_own({.kind = CommandKind::MoveOwn, .program = 1}, l); }));
-    EXPECT_FALSE(ask([&](auto& l) { return jobs.interrupt(Intent::Hold, l); })) << "they cannot be resumed";
+    EXPECT_TRUE(ask([&](auto& l) {
+        return commands::move_own({.kind = CommandKind::MoveOwn, .program = 1}, methods::begin_steps, jobs, l);
+    }));
+    EXPECT_FALSE(ask([&](auto& l) { return commands::interrupt(Intent::Hold, jobs, l); })) << "they cannot be resumed";
     finish_order(0);
     finish_order(1);  // both are still at 0, which is not their target
-    ask([&](auto& l) { jobs.advance(l); });
-    EXPECT_EQ(condition.fault(), FaultCode::PositionMismatch);
+    ask([&](auto& l) { advance_job(jobs, l); });
+    EXPECT_EQ(jobs.activity().fault().code, FaultCode::PositionMismatch);
 }
 
 TEST_F(Running, StandingDownForgetsTheJobWithoutARecord) {
     ASSERT_EQ(run(), FaultCode::None);
-    jobs.stand_down();
-    EXPECT_FALSE(jobs.exists());
-    EXPECT_FALSE(jobs.in_motion());
+    ask([&](auto& l) { jobs.stand_down(l); });
+    EXPECT_FALSE(jobs.has_job());
+    EXPECT_FALSE(jobs.activity().in_motion());
     MachineState state;
-    jobs.report(state, loop());
+    report_job(jobs, state, loop());
     EXPECT_EQ(state.outcome, JobOutcome::Stopped);
 }
 
@@ -173,7 +178,7 @@ class RunningByLai : public CoordinatorParts {
 protected:
     RunningByLai() {
         receive_all();
-        condition.enter(MachinePhase::Idle, out.notices);
+        enter_idle(jobs);
     }
     static const MachineConfig& by_lai(MachineConfig& machine) {
         machine.coordination = StepMethod::Lai;
@@ -185,9 +190,9 @@ protected:
                             .start_mm = {0, 0},
                             .blocks = {{4, ProgramMove{{10, 10}, 20}}, {5, ProgramMove{{20, 10}, feed_mm_s}}}});
         CoordinatorLoop l = loop();
-        return jobs.run({.kind = CommandKind::Run, .program = 1}, l);
+        return commands::run({.kind = CommandKind::Run, .program = 1}, jobs, l);
     }
-    JobRunner jobs{by_lai(machine), 1, methods::begin_steps, std::nullopt};
+    JobLifecycle jobs{by_lai(machine)};
 };
 
 TEST_F(RunningByLai, RefusesAMoveThatIsTooSlowWithItsLine) {
@@ -195,12 +200,12 @@ TEST_F(RunningByLai, RefusesAMoveThatIsTooSlowWithItsLine) {
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().why, FaultCode::BadProgram);
     EXPECT_TRUE(result.error().text.starts_with("line 5: ")) << result.error().text;
-    EXPECT_FALSE(jobs.exists());
+    EXPECT_FALSE(jobs.has_job());
 }
 
 TEST_F(RunningByLai, RunsMovesOfAtLeastAPulsePerPeriod) {
     EXPECT_TRUE(run(20));
-    EXPECT_TRUE(jobs.is_on_path());
+    EXPECT_TRUE(jobs.activity().is<activity::OnPath>());
 }
 
 }  // namespace

@@ -19,12 +19,12 @@ protected:
         CoordinatorLoop l = loop();
         l.is_late = is_late;
         ASSERT_TRUE(jogs.press(command, l));
-        EXPECT_FALSE(jogs.advance(l));
+        EXPECT_FALSE(jogs.advance(l, orders, out.axis_commands));
     }
     bool renew(const Command& command) { return jogs.renew(command, loop()); }
     void advance() {
         CoordinatorLoop l = loop();
-        EXPECT_FALSE(jogs.advance(l));
+        EXPECT_FALSE(jogs.advance(l, orders, out.axis_commands));
     }
     bool was_halted() const {
         return std::ranges::count(out.axis_commands, AxisCommandKind::Halt, &AxisCommand::kind) != 0;

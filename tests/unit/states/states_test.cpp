@@ -6,6 +6,8 @@
 #include <map>
 #include <sstream>
 
+#include "core/coordinator/state/machine_phases.hpp"
+#include "core/protocol/names.hpp"
 #include "tests/unit/states/machine_states.hpp"
 
 namespace lockstep {
@@ -51,6 +53,46 @@ std::string head() {
     return text + "\n" + rule + "\n";
 }
 
+/// The changes of one phase: the events in the order of the table, with the next phase.
+std::string changes_of(MachinePhase phase) {
+    std::string text = "| " + std::string(name_of(phase)) + " |";
+    const char* between = " ";
+    for (const MachineTransition& row : kMachineTransitions) {
+        if (row.from != phase) { continue; }
+        text += between + std::string(name_of(row.event)) + " → " + std::string(name_of(row.to));
+        between = ", ";
+    }
+    return text + " |\n";
+}
+
+/// An arrow for each pair of phases, with the events that lead from one to the other.
+std::string diagram() {
+    std::map<std::pair<std::string, std::string>, std::string> arrows;
+    for (const MachineTransition& row : kMachineTransitions) {
+        if (row.from == row.to || row.event == MachineEvent::StoodDown) { continue; }
+        std::string& events = arrows[{std::string(name_of(row.from)), std::string(name_of(row.to))}];
+        events += (events.empty() ? "" : ", ") + std::string(name_of(row.event));
+    }
+    std::string text = "```mermaid\nstateDiagram-v2\n    [*] --> Standby\n";
+    for (const auto& [ends, events] : arrows) {
+        text += "    " + ends.first + " --> " + ends.second + " : " + events + "\n";
+    }
+    return text + "```\n";
+}
+
+/// What the coordinator's own table lists.
+std::string phases() {
+    std::string text =
+        "\n## How the phase of the machine changes\n\n"
+        "Only these events change the phase (`core/coordinator/state/machine_phases.hpp`). An event that is not "
+        "listed\n"
+        "for a phase is a defect of the program, and ends the process. `simulation.coverage` fails if a row is never\n"
+        "taken.\n\n| phase | event → next phase |\n|---|---|\n";
+    for (const MachinePhase phase : kMachinePhases) { text += changes_of(phase); }
+    return text + "\nThe same as a diagram, without StoodDown, which leads from every phase to Standby:\n\n" +
+           diagram();
+}
+
 bool is_to_write() { return std::getenv("LOCKSTEP_WRITE_STATES") != nullptr; }
 
 std::string text_of_file() {
@@ -67,6 +109,7 @@ protected:
         std::ofstream file(kFile);
         file << head();
         for (const MachineSituation& situation : situations()) { file << rows()[situation.name]; }
+        file << phases();
     }
     static std::map<std::string, std::string>& rows() {
         static std::map<std::string, std::string> rows;
@@ -103,8 +146,9 @@ TEST(StatesDocument, HasTheseStatesAndNoOthers) {
     if (is_to_write()) { GTEST_SKIP() << "it is being written"; }
     const std::string text = text_of_file();
     EXPECT_EQ(text.find(head()), 0u);
-    const auto lines = static_cast<std::size_t>(std::ranges::count(text, '\n'));
-    EXPECT_EQ(lines, static_cast<std::size_t>(std::ranges::count(head(), '\n')) + situations().size());
+    EXPECT_TRUE(text.ends_with(phases()));
+    EXPECT_EQ(std::ranges::count(text, '\n'),
+              std::ranges::count(head() + phases(), '\n') + static_cast<std::ptrdiff_t>(situations().size()));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "tests/simulation/simtest/run/coverage.hpp"
 
+#include "core/coordinator/state/machine_phases.hpp"
 #include "tests/simulation/simtest/record/explain.hpp"
 #include "tests/simulation/simtest/run/names.hpp"
 
@@ -9,7 +10,7 @@ namespace {
 constexpr std::string_view kTransitions = "axis transitions";
 constexpr std::string_view kChecks = "checks";
 constexpr std::string_view kFaults = "fault codes";
-constexpr std::string_view kPhases = "machine phases";
+constexpr std::string_view kMachineChanges = "machine transitions";
 constexpr std::string_view kEnds = "epoch ends";
 constexpr std::string_view kIntents = "intents";
 constexpr std::string_view kInjected = "injected";
@@ -44,7 +45,8 @@ constexpr std::array kInjectedNames{"freeze of an axis that must not stop the ma
                                     "frame damaged in a device",
                                     "device lost"};
 
-std::string row_name(const AxisTransition& row) {
+template <typename Row>
+std::string row_name(const Row& row) {
     return std::string(name_of(row.from)) + " on " + std::string(name_of(row.event));
 }
 
@@ -73,7 +75,7 @@ std::string_view injected_name(const VirtualFault& fault, const MachineConfig& m
 Coverage::Coverage() {
     for (const AxisTransition& row : kAxisTransitions) { hit(kTransitions, row_name(row), 0); }
     for (const std::string_view name : kCheckNames) { hit(kChecks, name, 0); }
-    for (const std::string_view name : kMachinePhaseNames) { hit(kPhases, name, 0); }
+    for (const MachineTransition& row : kMachineTransitions) { hit(kMachineChanges, row_name(row), 0); }
     for (const std::string_view name : kEpochEndNames) { hit(kEnds, name, 0); }
     for (const std::string_view name : kIntentNames) { hit(kIntents, name, 0); }
     for (const std::string_view name : kOwnershipNames) { hit(kOwnership, name, 0); }
@@ -154,9 +156,11 @@ void CoverageWatch::on_coordinator(std::size_t /*process*/, Tick /*now*/, const 
     for (const JobEvent& job : out.jobs) {
         if (job.kind == JobEvent::Kind::EpochBegun) { starts_[job.epoch] = job.start; }
     }
+    for (const std::size_t row : out.transitions) {
+        coverage_.hit(kMachineChanges, row_name(kMachineTransitions[row]));
+    }
     for (const CoordinatorNotice& notice : out.notices) {
         using Kind = CoordinatorNotice::Kind;
-        if (notice.kind == Kind::Phase) { coverage_.hit(kPhases, kMachinePhaseNames[notice.number]); }
         if (notice.kind == Kind::Claimed) { coverage_.hit(kOwnership, kOwnershipNames[0]); }
         if (notice.kind == Kind::StoodDown) { coverage_.hit(kOwnership, kOwnershipNames[1]); }
         if (notice.kind == Kind::JobCutShort) { coverage_.hit(kOwnership, kOwnershipNames[2]); }

@@ -1,0 +1,175 @@
+#include "core/coordinator/jobs/job_advance.hpp"
+
+#include <utility>
+
+namespace lockstep {
+namespace {
+
+/// An epoch came to rest by itself or by a client's hold or stop.
+void settle_interrupted(activity::OnPath& path, const EpochEnd& end, JobLifecycle& jobs, CoordinatorLoop& loop) {
+    PathTask& task = path.task;
+    task.interrupt(end);
+    const bool is_return = path.pause.has_value();
+    if (path.intent == Intent::Stop || (path.intent == Intent::Hold && is_return)) {
+        return jobs.end(JobOutcome::Stopped, loop);
+    }
+    if (path.intent == Intent::Hold) {
+        activity::Holding holding{std::move(task), end.place, end.positions};
+        return jobs.activity().become(MachineEvent::RestsOnPath, std::move(holding), loop.out);
+    }
+    const bool lacks_blocks = jobs.path().waits_for_blocks();
+    loop.notice({lacks_blocks ? CoordinatorNotice::Kind::ProgramLate : CoordinatorNotice::Kind::Interrupted,
+                 lacks_blocks ? FaultCode::None : FaultCode::FrameLate, end.ran});
+    if (jobs.path().is_stuck()) { return jobs.fail_at_rest({FaultCode::FrameBeyondLimits}, loop); }
+    if (!lacks_blocks && !task.may_try_again(end)) { return jobs.fail_at_rest({FaultCode::FrameLate}, loop); }
+    jobs.path().begin_epoch(task, end.place, end.positions, loop);
+    jobs.follow(std::move(task), EpochBegun{}, std::move(path.pause), loop);
+}
+
+/// A whole leg was run.
+void settle_complete(activity::OnPath& path, JobLifecycle& jobs, CoordinatorLoop& loop) {
+    const bool is_return = path.pause.has_value();
+    if (path.intent == Intent::Stop || (path.intent == Intent::Hold && is_return)) {
+        return jobs.end(JobOutcome::Stopped, loop);
+    }
+    if (path.intent == Intent::Hold) {
+        activity::Paused paused{std::move(path.task), {}};
+        paused.why = jobs.path().hold_behind_leg(paused.task);
+        return jobs.activity().become(MachineEvent::Pauses, std::move(paused), loop.out);
+    }
+    const PathNext next = jobs.path().end_leg(path.task, loop, loop.out.events);
+    jobs.follow(std::move(path.task), next, std::move(path.pause), loop);
+}
+
+/// Called when every axis is at rest after an epoch.
+void settle(activity::OnPath& path, const EpochEnd& end, JobLifecycle& jobs, CoordinatorLoop& loop) {
+    loop.out.epoch_end = {end.kind, path.intent};
+    jobs.path().end_epoch(path.task, end, loop, loop.out.events);
+    if (path.intent == Intent::Abort) { return jobs.fail_at_rest(path.fault, loop); }
+    switch (end.kind) {
+        case EpochEnd::Kind::FramesDiffer: return jobs.fail_at_rest({FaultCode::FramesDiffer, end.axis}, loop);
+        case EpochEnd::Kind::Misplaced: return jobs.fail_at_rest({FaultCode::PositionMismatch, end.axis}, loop);
+        case EpochEnd::Kind::Interrupted: return settle_interrupted(path, end, jobs, loop);
+        case EpochEnd::Kind::Complete: return settle_complete(path, jobs, loop);
+    }
+}
+
+void advance_path(activity::OnPath& path, JobLifecycle& jobs, CoordinatorLoop& loop) {
+    if (const auto end = jobs.path().advance(path.task, loop, loop.out)) { return settle(path, *end, jobs, loop); }
+    if (!jobs.path().is_overdue()) { return; }
+    // The fault names an axis that does not come to rest.
+    jobs.fail({FaultCode::NotAtRest, loop.axes.moving(loop.slot).value_or(0)}, loop);
+    jobs.fail_at_rest(path.fault, loop);
+}
+
+void advance_homing(activity::Homing& homing, JobLifecycle& jobs, CoordinatorLoop& loop) {
+    for (std::size_t i = 0; i < loop.axes.size(); ++i) {
+        if (!loop.is_order_done(i)) { return; }
+        const auto& order = loop.orders.newest(i);
+        const auto& state = loop.axes.state(i);
+        const bool refused = order && state && state->command_fault != FaultCode::None;
+        if (refused && order->kind == AxisCommandKind::Home) { return jobs.fail({state->command_fault, i}, loop); }
+    }
+    const AxisSet group = homing.sequence.next_group(loop.machine);
+    if (group == 0) { return jobs.end(JobOutcome::Done, loop); }
+    loop.order_each(group, AxisCommandKind::Home);
+}
+
+/// The axes that the job ordered to a place. `targets`: where they must be, if the job was not stopped.
+void settle_alone(AxisSet axes, const OwnTargets* targets, JobLifecycle& jobs, CoordinatorLoop& loop) {
+    const Intent intent = jobs.activity().intent();
+    if (intent == Intent::Abort) { return jobs.fail_at_rest(jobs.activity().fault(), loop); }
+    for (std::size_t i = 0; i < loop.axes.size(); ++i) {
+        if (!has_axis(axes, i) || !loop.axes.state(i)) { continue; }
+        const AxisState& state = *loop.axes.state(i);
+        if (state.command_fault != FaultCode::None) { return jobs.fail({state.command_fault, i}, loop); }
+        if (targets == nullptr || intent != Intent::GoOn) { continue; }
+        if (state.position.count() != targets->target(i)) { return jobs.fail({FaultCode::PositionMismatch, i}, loop); }
+    }
+    jobs.end(intent == Intent::Stop ? JobOutcome::Stopped : JobOutcome::Done, loop);
+}
+
+bool are_orders_done(const CoordinatorLoop& loop) {
+    for (std::size_t i = 0; i < loop.axes.size(); ++i) {
+        if (loop.axes.is_present(i, loop.slot) && !loop.is_order_done(i)) { return false; }
+    }
+    return true;
+}
+
+/// Reuses the memory of the last state's pause.
+void report_pause(const activity::Paused* pause, MachineState& state) {
+    if (pause == nullptr) { return state.pause.reset(); }
+    if (!state.pause) { state.pause.emplace(); }
+    state.pause->why = pause->why;
+    state.pause->place = pause->task.from;
+}
+
+void report_on_path(const activity::OnPath& moving, const PathRunner& path, MachineState& state, const LoopView& loop) {
+    path.report_moving(moving.task, state);
+    if (moving.pause) {
+        state.remaining_s += path.seconds_after_pause(moving.pause->task);
+        state.progress = moving.pause->task.progress.share();
+    } else if (moving.intent == Intent::GoOn) {  // no other coordinator continues a return
+        path.report_rests(moving.task, state, loop.axes);
+    }
+}
+
+}  // namespace
+
+void advance_job(JobLifecycle& jobs, CoordinatorLoop& loop) {
+    MachineActivity& activity = jobs.activity();
+    if (auto* const path = activity.as<activity::OnPath>()) { return advance_path(*path, jobs, loop); }
+    if (!activity.in_motion()) { return; }
+    auto* const homing = activity.as<activity::Homing>();
+    if (homing != nullptr && homing->intent == Intent::GoOn) { return advance_homing(*homing, jobs, loop); }
+    if (!are_orders_done(loop)) { return; }
+    if (homing != nullptr) { return settle_alone(homing->sequence.axes(), nullptr, jobs, loop); }
+    if (const auto* const moves = activity.as<activity::OwnMoves>()) {
+        return settle_alone(moves->targets.axes(), &moves->targets, jobs, loop);
+    }
+    if (!activity.is_jogging() || activity.as<activity::Jogging>()->jogs.none()) {
+        settle_alone(0, nullptr, jobs, loop);
+    }
+}
+
+void advance_jogs(JobLifecycle& jobs, CoordinatorLoop& loop) {
+    auto* const jogging = jobs.activity().as<activity::Jogging>();
+    if (jogging == nullptr) { return; }
+    const auto refused = jogging->jogs.advance(loop, loop.orders, loop.out.axis_commands);
+    if (refused) { jobs.fail({loop.axes.state(*refused)->command_fault, *refused}, loop); }
+}
+
+void note_progress(JobLifecycle& jobs, const LoopView& loop) {
+    auto* const path = jobs.activity().as<activity::OnPath>();
+    if (path != nullptr) { jobs.path().note_progress(path->task, loop); }
+}
+
+void report_job(const JobLifecycle& jobs, MachineState& state, const LoopView& loop) {
+    const MachineActivity& activity = jobs.activity();
+    const JobCount& count = jobs.count();
+    state.job = count.number();
+    state.outcome = jobs.has_job() ? std::nullopt : count.outcome();
+    state.job_begun = count.begun_in();
+    state.line = count.line();
+    state.job_fault = count.fault();
+    jobs.path().report_epoch(state);
+    const auto* const paused = activity.as<activity::Paused>();
+    report_pause(paused != nullptr ? paused : activity.pause(), state);
+    if (const MachineState* const inherited = activity.inherited()) {
+        state.line = inherited->line;
+        state.progress = inherited->progress;
+    }
+    if (const auto* const moves = activity.as<activity::OwnMoves>()) {
+        state.progress = moves->targets.progress(loop.axes);
+        state.remaining_s = moves->targets.remaining_s(loop.now, loop.machine);
+    }
+    if (const auto* const held = activity.as<activity::Holding>()) {
+        jobs.path().report_held(held->task, held->place, state);
+    }
+    if (paused != nullptr) { jobs.path().report_paused(paused->task, state); }
+    if (const auto* const moving = activity.as<activity::OnPath>()) {
+        report_on_path(*moving, jobs.path(), state, loop);
+    }
+}
+
+}  // namespace lockstep

@@ -1,0 +1,30 @@
+// Commands of clients to the job: carried out, or refused with the reason and the remedy.
+#pragma once
+
+#include "core/coordinator/jobs/job_lifecycle.hpp"
+#include "core/coordinator/state/refusal.hpp"
+
+namespace lockstep::commands {
+
+CommandResult home(const Command& command, JobLifecycle& jobs, CoordinatorLoop& loop);
+CommandResult run(const Command& command, JobLifecycle& jobs, CoordinatorLoop& loop);
+CommandResult move_own(const Command& command, BeginSteps begin_steps, JobLifecycle& jobs, CoordinatorLoop& loop);
+/// Several clients may jog different axes in one job. A release is accepted in any state of the machine.
+CommandResult jog(const Command& command, JobLifecycle& jobs, CoordinatorLoop& loop);
+/// Takes a repeated command. Returns false if its jog is over.
+bool renew_jog(const Command& command, JobLifecycle& jobs, const LoopView& loop);
+/// `intent`: Hold or Stop.
+CommandResult interrupt(Intent intent, JobLifecycle& jobs, CoordinatorLoop& loop);
+/// Axes that were jogged in the pause first return to its place, if the command says so.
+CommandResult resume(const Command& command, JobLifecycle& jobs, CoordinatorLoop& loop);
+/// May be called at any time. Overrides hold until they are changed again.
+CommandResult turn(const Command& command, JobLifecycle& jobs, const LoopView& loop);
+/// A person gives up the job, held or inherited, and the fault.
+CommandResult reset(JobLifecycle& jobs, CoordinatorLoop& loop);
+
+/// The client with the lease fell silent. Its job on a path runs on or is held, as configured.
+void lose_client(Identity client, JobLifecycle& jobs, CoordinatorLoop& loop);
+/// The client has given the lease back: its job runs on without it.
+void leave_to_itself(Identity client, JobLifecycle& jobs);
+
+}  // namespace lockstep::commands

@@ -1,0 +1,153 @@
+#include "core/coordinator/jobs/job_lifecycle.hpp"
+
+#include <utility>
+
+namespace lockstep {
+namespace {
+
+JobEvent begun(const MachineJob& job, const AxisCounts& start) {
+    return {.kind = JobEvent::Kind::Begun,
+            .job = job.number,
+            .job_kind = job.kind,
+            .program = job.program,
+            .program_id = job.program_id,
+            .start_counts = start};
+}
+
+JobEvent ended(const MachineJob& job, JobOutcome outcome) {
+    return {.kind = JobEvent::Kind::Ended,
+            .job = job.number,
+            .job_kind = job.kind,
+            .outcome = outcome,
+            .program_id = job.program_id};
+}
+
+/// The number of a notice; 0 without a line.
+std::uint64_t number_of(std::optional<std::int32_t> line) { return static_cast<std::uint64_t>(line.value_or(0)); }
+
+}  // namespace
+
+bool JobLifecycle::has_job() const { return activity_.job() != nullptr || activity_.inherited() != nullptr; }
+
+MachineJob JobLifecycle::begin(JobKind kind, const Command& command, std::shared_ptr<const KnownProgram> program,
+                               const AxisCounts& start, CoordinatorLoop& loop) {
+    const bool is_path = kind == JobKind::Run || kind == JobKind::Move;
+    const MachineJob job{.number = count_.begin(loop.term),
+                         .kind = kind,
+                         .program_id = is_path ? std::optional(command.program) : std::nullopt,
+                         .program = std::move(program),
+                         .client = command.client};
+    loop.out.jobs.push_back(begun(job, start));
+    return job;
+}
+
+MachineJob JobLifecycle::begin_in_pause(JobKind kind, std::shared_ptr<const KnownProgram> program,
+                                        const AxisCounts& start, CoordinatorLoop& loop) {
+    const MachineJob& paused = check_found(activity_.job(), "a job in a pause begins while another one pauses");
+    const MachineJob job{.number = count_.begin_in_pause(),
+                         .kind = kind,
+                         .program_id = {},
+                         .program = std::move(program),
+                         .client = paused.client};
+    loop.out.jobs.push_back(begun(job, start));
+    return job;
+}
+
+void JobLifecycle::follow(PathTask task, const PathNext& next, std::optional<activity::Paused> pause,
+                          CoordinatorLoop& loop) {
+    if (std::holds_alternative<EpochBegun>(next)) {
+        activity::OnPath moving{{}, std::move(task), std::move(pause)};
+        return activity_.become(MachineEvent::EpochBegins, std::move(moving), loop.out);
+    }
+    if (const Pause* const why = std::get_if<Pause>(&next)) {
+        return activity_.become(MachineEvent::Pauses, activity::Paused{std::move(task), *why}, loop.out);
+    }
+    pause ? end_in_pause(task.job, *std::move(pause), JobOutcome::Done, loop) : end_program(task.job, loop);
+}
+
+void JobLifecycle::end(JobOutcome outcome, CoordinatorLoop& loop) {
+    const MachineJob job = check_found(activity_.job(), "a job that ends exists");
+    activity::Paused* const pause = activity_.pause();
+    pause != nullptr ? end_in_pause(job, std::move(*pause), outcome, loop) : finish(job, outcome, loop);
+}
+
+void JobLifecycle::note_end(const MachineJob& job, JobOutcome outcome, CoordinatorLoop& loop) {
+    if (outcome != JobOutcome::Done) { path_.events().switch_off(job.number, loop, loop.out.events); }
+    loop.out.jobs.push_back(ended(job, outcome));
+    count_.end(outcome);
+}
+
+void JobLifecycle::finish(const MachineJob& job, JobOutcome outcome, CoordinatorLoop& loop) {
+    note_end(job, outcome, loop);
+    activity_.become(MachineEvent::JobEnds, activity::Idle{}, loop.out);
+}
+
+/// The paused job waits again, or goes on after a whole return. A return that is stopped ends it as well.
+void JobLifecycle::end_in_pause(const MachineJob& job, activity::Paused pause, JobOutcome outcome,
+                                CoordinatorLoop& loop) {
+    loop.out.jobs.push_back(ended(job, outcome));
+    pause.task.job.client = job.client;
+    const bool is_return = job.kind == JobKind::Return;
+    if (is_return && activity_.intent() == Intent::Stop) { return finish(pause.task.job, outcome, loop); }
+    if (!is_return || outcome != JobOutcome::Done) {
+        return activity_.become(MachineEvent::Pauses, std::move(pause), loop.out);
+    }
+    PathTask task = std::move(pause.task);
+    const PathNext next = path_.begin_leg(task, loop, loop.out.events);
+    follow(std::move(task), next, {}, loop);
+}
+
+/// Ends the job where its program ends, or where the program was cut.
+void JobLifecycle::end_program(const MachineJob& job, CoordinatorLoop& loop) {
+    const auto& cut = job.program->cut();
+    if (!cut) { return finish(job, JobOutcome::Done, loop); }
+    const std::optional<std::int32_t> line = job.program->last_line();
+    finish(job, JobOutcome::Stopped, loop);
+    count_.cut(line, cut->why);
+    loop.notice({CoordinatorNotice::Kind::ProgramCut, cut->why, number_of(line)});
+}
+
+void JobLifecycle::fail(const MachineFault& fault, CoordinatorLoop& loop) {
+    if (activity_.has_fault()) { return; }
+    if (!activity_.in_motion()) { return fail_at_rest(fault, loop); }
+    loop.notice({CoordinatorNotice::Kind::Fault, fault.code, fault.axis});
+    activity_.is<activity::OnPath>() ? path_.stop(loop.next_state) : halt_axes(loop);
+    activity_.abort(fault, loop.out);
+}
+
+void JobLifecycle::fail_at_rest(const MachineFault& fault, CoordinatorLoop& loop) {
+    const MachineFault first = activity_.has_fault() ? activity_.fault() : fault;
+    if (!activity_.has_fault()) { loop.notice({CoordinatorNotice::Kind::Fault, fault.code, fault.axis}); }
+    cut_inherited(TakeoverDoubt::AxisInDoubt, loop);
+    const MachineJob* const job = activity_.job();
+    const activity::Paused* const pause = activity_.pause();
+    if (pause != nullptr) { loop.out.jobs.push_back(ended(*job, JobOutcome::Failed)); }
+    if (job != nullptr) { note_end(pause != nullptr ? pause->task.job : *job, JobOutcome::Failed, loop); }
+    activity_.become(MachineEvent::Fails, activity::InFault{first}, loop.out);
+}
+
+/// An axis that was ordered an emergency stop before keeps this order as its newest one.
+void JobLifecycle::halt_axes(CoordinatorLoop& loop) {
+    if (auto* const jogging = activity_.as<activity::Jogging>()) { jogging->jogs.release_all(); }
+    for (std::size_t i = 0; i < loop.axes.size(); ++i) {
+        const bool moves = loop.orders.is_open(i, AxisCommandKind::MoveOwn, loop.axes) ||
+                           loop.orders.is_open(i, AxisCommandKind::Home, loop.axes) ||
+                           loop.orders.is_open(i, AxisCommandKind::Jog, loop.axes);
+        if (moves) { (void)loop.order(i, AxisCommandKind::Halt); }
+    }
+}
+
+void JobLifecycle::cut_inherited(TakeoverDoubt doubt, CoordinatorLoop& loop) {
+    if (activity_.inherited() == nullptr) { return; }
+    count_.cut(activity_.inherited()->line);
+    activity_.as<activity::Waiting>()->inherited.reset();
+    path_.events().switch_off(count_.number(), loop, loop.out.events);
+    loop.notice({CoordinatorNotice::Kind::JobCutShort, FaultCode::None, number_of(count_.line()), doubt});
+}
+
+void JobLifecycle::stand_down(CoordinatorLoop& loop) {
+    if (activity_.job() != nullptr) { count_.end(JobOutcome::Stopped); }
+    activity_.become(MachineEvent::StoodDown, activity::Standby{}, loop.out);
+}
+
+}  // namespace lockstep

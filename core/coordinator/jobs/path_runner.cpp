@@ -1,0 +1,218 @@
+#include "core/coordinator/jobs/path_runner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/coordinator/path/program_frames.hpp"
+
+namespace lockstep {
+namespace {
+
+/// Returns the pause that the program asks for after the leg, if it does.
+std::optional<Pause> pass_leg(PathTask& task, const LegEnd& end) {
+    task.next = end.kind == LegEnd::Kind::Program ? end.block : end.block + 1;
+    task.from = end.to;
+    return end.kind == LegEnd::Kind::Pause ? std::optional(end.pause) : std::nullopt;
+}
+
+}  // namespace
+
+/// Makes the frames of the next leg in the memory of the last leg, if its source can do that.
+void PathRunner::load_leg(const PathTask& task) {
+    const auto& program = task.job.program;
+    const OwnedSource& source = runner_.source();
+    const bool has_begun = source && source->begin(program, program->places(), task.next, task.from);
+    if (!has_begun) { runner_.load(planner_.frames(program, task.next, task.from)); }
+}
+
+/// Returns the end of the leg that begins with the next block if nothing moves in it. Returns nullopt if something
+/// moves, or if a bounded search does not find its end.
+std::optional<LegEnd> PathRunner::end_of_empty_leg(const PathTask& task) const {
+    const KnownProgram& program = *task.job.program;
+    LegEnd end{.block = task.next, .to = task.from};
+    for (; end.block < task.next + ProgramFrames::kBlocksAtOnce; ++end.block) {
+        if (program.ends_before(end.block)) { return end; }
+        const Block* const block = program.block(end.block);
+        if (block == nullptr) { return std::nullopt; }
+        end.kind = end_by(*block);
+        if (ends_leg(*block)) { return end; }
+        if (planner_.moves(*block, program.places(), end.to)) { return std::nullopt; }
+    }
+    return std::nullopt;
+}
+
+/// Publishes the events of a leg in which nothing moves, or those at the end of a leg that another coordinator has run.
+void PathRunner::pass_events(const PathTask& task, const LegEnd& end, const LoopView& loop,
+                             std::vector<PublishedEvent>& out) {
+    for (std::uint32_t k = std::max(task.next, events_.from()); k < end.block; ++k) {
+        const Block* const block = task.job.program->block(k);
+        if (block == nullptr) { break; }
+        const auto* event = std::get_if<ProgramEvent>(&block->action);
+        if (event != nullptr) { events_.pass(PathEvent{k, block->line, *event}, of(task), loop, out); }
+    }
+}
+
+PathNext PathRunner::begin_leg(PathTask& task, const LoopView& loop, std::vector<PublishedEvent>& out) {
+    while (!task.job.program->ends_before(task.next)) {
+        const auto empty = end_of_empty_leg(task);
+        if (!empty) { break; }
+        pass_events(task, *empty, loop, out);
+        if (const auto pause = pass_leg(task, *empty)) { return *pause; }
+    }
+    if (task.job.program->ends_before(task.next)) { return ProgramDone{}; }
+    load_leg(task);
+    begin_epoch(task, {task.next, {}}, positions_of(task.from), loop);
+    return EpochBegun{};
+}
+
+PathNext PathRunner::end_leg(PathTask& task, const LoopView& loop, std::vector<PublishedEvent>& out) {
+    if (const auto pause = pass_leg(task, runner_.source()->end())) { return *pause; }
+    return begin_leg(task, loop, out);
+}
+
+Pause PathRunner::hold_behind_leg(PathTask& task) const {
+    return pass_leg(task, runner_.source()->end()).value_or(Pause{.reason = PauseReason::Hold});
+}
+
+PathNext PathRunner::continue_rest(PathTask& task, const JobRest& rest, std::uint32_t events_from, const LoopView& loop,
+                                   std::vector<PublishedEvent>& out) {
+    events_.begin(events_from);
+    if (rest.done) {
+        pass_events(task, *rest.done, loop, out);
+        if (const auto pause = pass_leg(task, *rest.done)) { return *pause; }
+        return begin_leg(task, loop, out);
+    }
+    load_leg(task);
+    runner_.source()->begin_events_from(events_from);
+    begin_epoch(task, rest.place, rest.positions, loop);
+    return EpochBegun{};
+}
+
+/// Returns an epoch greater than any of this term that an axis has accepted from any sender.
+Epoch PathRunner::next_epoch(const LoopView& loop) {
+    epoch_ = std::max(epoch_, first_epoch(loop.term));
+    for (const AxisView& view : loop.axes.views()) {
+        if (view.state && is_epoch_of(view.state->epoch, loop.term)) { epoch_ = std::max(epoch_, view.state->epoch); }
+    }
+    return ++epoch_;
+}
+
+void PathRunner::begin_epoch(PathTask& task, const PathPlace& place, AxisPositions at, const LoopView& loop) {
+    for (std::size_t i = at.size(); i < loop.axes.size(); ++i) {
+        at.append(Position::steps(loop.axes.state(i)->position.count()));
+    }
+    task.has_moved = true;
+    runner_.begin(next_epoch(loop), place, at, overrides_);
+}
+
+void PathRunner::note_start(const PathTask& task, const LoopView& loop, CoordinatorOutputs& out) {
+    const EpochRunner::Begin& begin = runner_.begun();
+    for (const PathEvent& event : runner_.source()->events_before(begin.place.block)) {
+        events_.pass(event, of(task), loop, out.events);
+    }
+    out.notices.push_back({CoordinatorNotice::Kind::EpochBegun, FaultCode::None, runner_.epoch()});
+    out.jobs.push_back({.kind = JobEvent::Kind::EpochBegun,
+                        .job = task.job.number,
+                        .job_kind = task.job.kind,
+                        .epoch = runner_.epoch(),
+                        .start = *runner_.start(),
+                        .place = begin.place,
+                        .overrides = begin.overrides});
+}
+
+/// Reports the epoch's start as soon as its first frame can be made.
+std::optional<EpochEnd> PathRunner::advance(const PathTask& task, const LoopView& loop, CoordinatorOutputs& out) {
+    const bool had_started = runner_.start().has_value();
+    out.frames = runner_.send(loop.slot, loop.axes.views());
+    for (Frame& frame : out.frames) { frame.term = loop.term; }
+    if (!had_started && runner_.start()) { note_start(task, loop, out); }
+    for (const EpochRunner::Happened& event : runner_.take_events(loop.now, loop.axes.views())) {
+        events_.happen(event.event, event.tick, of(task), loop, out.events);
+    }
+    if (const auto turn = runner_.take_turn()) {
+        out.jobs.push_back({.kind = JobEvent::Kind::Overridden,
+                            .job = task.job.number,
+                            .job_kind = task.job.kind,
+                            .epoch = runner_.epoch(),
+                            .overrides = turn->overrides,
+                            .behind = turn->behind});
+    }
+    return runner_.evaluate(loop.slot, loop.axes.views());
+}
+
+/// The axes have passed the places of all events before the block in which they rest.
+void PathRunner::end_epoch(PathTask& task, const EpochEnd& end, const LoopView& loop,
+                           std::vector<PublishedEvent>& out) {
+    const bool is_whole = end.kind == EpochEnd::Kind::Complete;
+    if (is_whole || end.kind == EpochEnd::Kind::Interrupted) {
+        const std::uint32_t before = is_whole ? runner_.source()->end().block : end.place.block;
+        for (const PathEvent& event : runner_.source()->events_before(before)) {
+            events_.pass(event, of(task), loop, out);
+        }
+    }
+    task.progress.end_path(subticks(runner_.ticks_of(end.ran)));
+}
+
+Subticks PathRunner::into_path(Tick now) const {
+    if (!runner_.start()) { return {}; }
+    return subticks(std::clamp(now - *runner_.start(), Ticks{}, runner_.ticks_of(runner_.sent())));
+}
+
+/// Considers the feed override, but not that the axes' limits may allow less than the feed.
+double PathRunner::seconds_left(const PathPlace& place) const {
+    return runner_.source()->seconds_from(place) / overrides_.feed();
+}
+
+void PathRunner::note_progress(PathTask& task, const LoopView& loop) const {
+    const double ticks = seconds_left(runner_.place_at(loop.now)) * loop.machine.ticks_per_second();
+    task.progress.note(into_path(loop.now), subticks(Ticks{std::llround(ticks)}));
+    task.job.program->release_before(runner_.place_at(loop.now).block);
+}
+
+void PathRunner::report_epoch(MachineState& state) const {
+    state.epoch = runner_.epoch();
+    state.sent = runner_.sent();
+    state.veto = runner_.veto();
+    state.overrides = overrides_;
+    state.devices = events_.devices();
+    state.events_from = events_.from();
+}
+
+void PathRunner::report_moving(const PathTask& task, MachineState& state) const {
+    report_held(task, runner_.place_at(state.tick), state);
+    state.lacks_blocks = runner_.source()->lacks_blocks();
+}
+
+void PathRunner::report_held(const PathTask& task, const PathPlace& place, MachineState& state) const {
+    state.line = runner_.source()->line_of(place.block);
+    state.remaining_s = seconds_left(place);
+    state.progress = task.progress.share();
+}
+
+double PathRunner::seconds_after_pause(const PathTask& task) const {
+    return task.job.program->seconds_from({task.next, {}}) / overrides_.feed();
+}
+
+/// The program may have paused before anything moved, so that no leg is loaded.
+void PathRunner::report_paused(const PathTask& task, MachineState& state) const {
+    const Block* const pause = task.next > 0 ? task.job.program->block(task.next - 1) : nullptr;
+    if (pause != nullptr) { state.line = pause->line; }
+    state.remaining_s = seconds_after_pause(task);
+    state.progress = task.progress.share();
+}
+
+/// The LAI method plans a block in parts, and a place on the program does not say in which part it is.
+void PathRunner::report_rests(const PathTask& task, MachineState& state, const AxisRoster& axes) const {
+    if (!knows_places_) { return; }
+    FrameNumber oldest = runner_.sent();
+    for (const AxisView& view : axes.views()) {
+        const bool follows = view.state && view.state->epoch == runner_.epoch();
+        oldest = std::min(oldest, follows ? view.state->ran : 0);
+    }
+    state.job_kind = task.job.kind;
+    state.program = task.job.program_id;
+    runner_.list_rests(oldest, state.rests);
+}
+
+}  // namespace lockstep
