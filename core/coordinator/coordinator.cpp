@@ -216,7 +216,7 @@ CommandResult Coordinator::carry_out(const Command& command, CoordinatorLoop& lo
         case CommandKind::Reset: return reset(loop);
         case CommandKind::EmergencyStop: return stop_at_once(loop);
         case CommandKind::MoveOwn: return commands::move_own(command, begin_steps_, jobs_, loop);
-        case CommandKind::Override: return commands::turn(command, jobs_, loop);
+        case CommandKind::Override: return commands::set_overrides(command, jobs_, loop);
         case CommandKind::Jog: return commands::jog(command, jobs_, loop);
         case CommandKind::TakeLease:
         case CommandKind::GiveLease: break;  // answered before

@@ -44,7 +44,7 @@ bool is_last_fall(const Path& path, std::size_t i, Subticks t) {
 }
 
 /// The change of axis i's slope between two moves, in steps per mm. A null move is rest.
-double turn(const PathMove* before, const PathMove* after, std::size_t i) {
+double slope_change(const PathMove* before, const PathMove* after, std::size_t i) {
     return std::abs((after != nullptr ? after->slope(i) : 0) - (before != nullptr ? before->slope(i) : 0));
 }
 
@@ -58,7 +58,7 @@ double braking_left(std::span<const PathMove> moves, std::size_t m, double speed
         if (share == 0) { continue; }
         const PathMove* before = m == 0 ? nullptr : &moves[m - 1];
         const PathMove* after = m + 1 == moves.size() ? nullptr : &moves[m + 1];
-        const double jump = (turn(before, &moves[m], i) + turn(&moves[m], after, i)) / 2 * speed;
+        const double jump = (slope_change(before, &moves[m], i) + slope_change(&moves[m], after, i)) / 2 * speed;
         left = std::min(left, (limits[i].max_deceleration - jump * speed / moves[m].length_mm) / share);
     }
     return left;

@@ -29,7 +29,7 @@ FramePlanner::FramePlanner(const FramePlanner& other, const PathSetup& setup, Sp
       fit_(setup),
       last_(other.last_),
       begins_(other.begins_),
-      turned_(setup),
+      overridden_(setup),
       has_begun_(other.has_begun_),
       has_made_(other.has_made_),
       is_done_(other.is_done_),
@@ -187,7 +187,7 @@ std::optional<FitFailure> FramePlanner::fit_body(PathFrame& frame, Cursor& next)
 
 /// A straight interval can be left anywhere. A curved one is finished as planned, because the limits are those of its
 /// middle. A rest is finished too, but the speed behind it is still free. When braking, any interval is left. The
-/// interval numbers of the tail may be those before a turn of the overrides.
+/// interval numbers of the tail may be those before a change of the overrides.
 FramePlanner::Cursor FramePlanner::cursor_at(const TimedPath& path, Ticks t, bool is_braking) const {
     const double at = as_double(t);
     const auto& passages = path.passages();
@@ -294,12 +294,13 @@ void FramePlanner::start_slower(double slower) {
 }
 
 /// The interval under way is finished as planned.
-TurnResult FramePlanner::turn(const Overrides& overrides) {
-    if (is_done_) { return TurnResult::CannotFollow; }
-    turned_ = window_;
-    const TurnResult result = turned_.turn(overrides, at_.interval, at_.w1.has_value(), at_.w1.value_or(at_.w0));
-    if (result != TurnResult::Taken) { return result; }
-    std::swap(window_, turned_);
+OverrideResult FramePlanner::set_overrides(const Overrides& overrides) {
+    if (is_done_) { return OverrideResult::CannotFollow; }
+    overridden_ = window_;
+    const OverrideResult result =
+        overridden_.set_overrides(overrides, at_.interval, at_.w1.has_value(), at_.w1.value_or(at_.w0));
+    if (result != OverrideResult::Taken) { return result; }
+    std::swap(window_, overridden_);
     is_traced_ = false;
     return result;
 }

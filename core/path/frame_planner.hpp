@@ -40,7 +40,7 @@ struct PathStuck {
 class FramePlanner {
 public:
     FramePlanner(const PathSetup& setup, SpeedWindow& window, const PathTrail& trail)
-        : setup_(setup), window_(window), trail_(trail), fit_(setup), turned_(setup) {}
+        : setup_(setup), window_(window), trail_(trail), fit_(setup), overridden_(setup) {}
     /// An independent copy, with references to copies of the other planner's objects.
     FramePlanner(const FramePlanner& other, const PathSetup& setup, SpeedWindow& window, const PathTrail& trail);
     FramePlanner(const FramePlanner&) = delete;
@@ -61,7 +61,7 @@ public:
     /// Starts again after the window was refilled. Only before the first frame.
     void restart() { has_begun_ = is_traced_ = false; }
     /// Applies new overrides from the next node behind the last frame on. Changes nothing unless it returns Taken.
-    TurnResult turn(const Overrides& overrides);
+    OverrideResult set_overrides(const Overrides& overrides);
     /// Frames that had to be made again, slower.
     std::int64_t slowed() const { return slowed_; }
     /// Frames that followed the tail of the previous frame.
@@ -110,7 +110,7 @@ private:
     PathFrame made_;                 // the frame that is being made
     PathFrame last_;                 // the frame before it
     std::vector<MoveBegin> begins_;  // in the last frame
-    SpeedWindow turned_;             // turn: the window with the new overrides
+    SpeedWindow overridden_;         // set_overrides: the window with the new overrides
     bool is_traced_ = false;         // path_ begins at the cursor
     bool has_begun_ = false;
     bool has_made_ = false;

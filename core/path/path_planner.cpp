@@ -68,16 +68,16 @@ void PathPlanner::pass_on() {
     for (; passed_ < ready; ++passed_) { window_.add(geometry_.trail().piece(passed_)); }
 }
 
-TurnResult PathPlanner::turn(const Overrides& overrides) {
+OverrideResult PathPlanner::set_overrides(const Overrides& overrides) {
     if (frames_.has_made()) {
-        const TurnResult result = frames_.turn(overrides);
-        if (result == TurnResult::Taken) { overrides_ = overrides; }
+        const OverrideResult result = frames_.set_overrides(overrides);
+        if (result == OverrideResult::Taken) { overrides_ = overrides; }
         return result;
     }
     overrides_ = overrides;
     frames_.restart();
     seek(start_);
-    return TurnResult::Taken;
+    return OverrideResult::Taken;
 }
 
 std::expected<const PathFrame*, PathStuck> PathPlanner::next() {

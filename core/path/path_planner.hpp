@@ -44,7 +44,7 @@ public:
 
     /// Applies new overrides from the next node of the path behind the last frame on. Unless it returns Taken, the
     /// previous ones still hold. If it returns CannotFollow, the axes may be able to follow behind a later frame.
-    TurnResult turn(const Overrides& overrides);
+    OverrideResult set_overrides(const Overrides& overrides);
     const Overrides& overrides() const { return overrides_; }
 
     /// Returns the next frame, valid until the next call, or null while too few moves are known. Must not be called

@@ -76,7 +76,7 @@ SpeedWindow::Joint SpeedWindow::joint(const Quadratic* before, const Quadratic* 
         const double share = is_rest && !is_stop ? kRestShare : is_stop ? kStopShare : kJointShare;
         const double speed = share * start / jump;
         joint.cap = std::min(joint.cap, speed * speed);
-        joint.turn = std::max(joint.turn, jump / start);
+        joint.jump = std::max(joint.jump, jump / start);
     }
     return joint;
 }
@@ -213,7 +213,7 @@ void SpeedWindow::cut_piece(const JoinedPiece& piece, const Joint& begin, const 
     const double from = before_ ? 0 : begin_u_;
     const double length = shape.length - from;
     pieces_.push_back(piece);
-    Interval part{.piece = first_piece_ + pieces_.size() - 1, .turn = begin.turn, .joint = begin.cap};
+    Interval part{.piece = first_piece_ + pieces_.size() - 1, .jump = begin.jump, .joint = begin.cap};
     double cap = begin.cap;
     std::size_t parts = 1;
     if (shape.length == 0) {
@@ -242,7 +242,7 @@ void SpeedWindow::cut_piece(const JoinedPiece& piece, const Joint& begin, const 
         if (k == 0 && !intervals_.empty()) { part.cap = std::min(part.cap, intervals_.back().top); }
         intervals_.push_back(part);
         cap = part.top;
-        part.turn = 0;
+        part.jump = 0;
         part.joint = kMost;
     }
 }
@@ -293,7 +293,7 @@ void SpeedWindow::cut(std::size_t number, double u, double w) {
     Interval& part = intervals_[number - first_];
     part.from = u;
     part.cap = part.reach = w;
-    part.turn = 0;
+    part.jump = 0;
     part.joint = kMost;
 }
 

@@ -22,7 +22,7 @@
 namespace lockstep {
 
 /// The result of applying new overrides.
-enum class TurnResult : std::uint8_t {
+enum class OverrideResult : std::uint8_t {
     Taken,
     CannotFollow,  // the axes cannot follow from this place
     LacksPath,     // too little of the path is known to decide
@@ -68,7 +68,7 @@ public:
     /// Applies new overrides from an interval's end if it `is_under_way`, otherwise from its beginning; `w` is the
     /// squared speed there. Speeds during the hardest braking from there are allowed. A piece in progress gets faster
     /// only if it can still recover the jumps at its ends. Unless it returns Taken, the window must not be used again.
-    TurnResult turn(const Overrides& overrides, std::size_t number, bool is_under_way, double w);
+    OverrideResult set_overrides(const Overrides& overrides, std::size_t number, bool is_under_way, double w);
 
     static constexpr double kJointShare = 0.975;  // of the start velocity
     static constexpr double kMaxInterval_mm = 0.25;
@@ -78,7 +78,7 @@ public:
 private:
     struct Joint {
         double cap = 0;  // w
-        double turn = 0;
+        double jump = 0;
     };
     /// Where a piece begins and ends. A null neighbour means that the machine rests there.
     struct Neighbours {
@@ -106,7 +106,7 @@ private:
     bool may_rise(std::size_t piece) const;
     void turn_piece(std::size_t number, bool is_under_way);
     void recut_behind(std::size_t piece);
-    TurnResult allow_braking(std::size_t number, double w);
+    OverrideResult allow_braking(std::size_t number, double w);
     bool split_braking(std::size_t number, double w);
 
     PathSetup setup_;

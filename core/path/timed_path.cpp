@@ -71,7 +71,7 @@ void TimedPath::pass(const Quadratic& shape, const Interval& part, std::size_t n
     stop_ = here;
     stop_.ticks = 0x1p40;
     stop_.u = part.to;
-    breaks_ = part.turn * std::sqrt(w0) > kBreak || (is_rest && !has_rested);
+    breaks_ = part.jump * std::sqrt(w0) > kBreak || (is_rest && !has_rested);
     if (is_rest) {
         PathPhase rest = here;
         rest.ticks = static_cast<double>(shape.rest.value);
@@ -89,7 +89,7 @@ void TimedPath::pass(const Quadratic& shape, const Interval& part, std::size_t n
 
 void TimedPath::brake(const Quadratic& shape, const Interval& part, std::size_t number, double w0, double w1) {
     passages_.push_back({number, end_, w0, 0, phases_.size()});
-    breaks_ = part.turn * std::sqrt(w0) > kBreak;
+    breaks_ = part.jump * std::sqrt(w0) > kBreak;
     const double mm = w0 > 0 ? part.length() * w0 / (w0 - w1) : 0;
     const PathPhase here{.shape = &shape, .interval = number, .piece = part.piece};
     stop_ = here;

@@ -12,30 +12,30 @@ namespace lockstep {
 class FaultSchedule {
 public:
     /// The beginning or end of a fault.
-    struct Turn {
+    struct Edge {
         VirtualFault fault;
         bool begins = true;
     };
 
     /// A fault with a beginning in the past begins at once.
     void add(const VirtualFault& fault, Tick now) {
-        turns_.emplace(std::max(fault.at, now), Turn{fault, true});
+        edges_.emplace(std::max(fault.at, now), Edge{fault, true});
         add_end(std::max(fault.end(), now), fault);
     }
     /// Adds the end of a fault that has begun.
-    void add_end(Tick at, const VirtualFault& fault) { turns_.emplace(at, Turn{fault, false}); }
+    void add_end(Tick at, const VirtualFault& fault) { edges_.emplace(at, Edge{fault, false}); }
     /// Removes the faults that have not begun.
     void withdraw(Tick now) {
-        std::erase_if(turns_, [now](const auto& turn) { return turn.second.fault.at > now; });
+        std::erase_if(edges_, [now](const auto& edge) { return edge.second.fault.at > now; });
     }
 
-    bool empty() const { return turns_.empty(); }
+    bool empty() const { return edges_.empty(); }
     /// When the next fault begins or ends.
-    std::optional<Tick> next() const { return empty() ? std::nullopt : std::optional(turns_.begin()->first); }
-    Turn take() { return turns_.extract(turns_.begin()).mapped(); }
+    std::optional<Tick> next() const { return empty() ? std::nullopt : std::optional(edges_.begin()->first); }
+    Edge take() { return edges_.extract(edges_.begin()).mapped(); }
 
 private:
-    std::multimap<Tick, Turn> turns_;
+    std::multimap<Tick, Edge> edges_;
 };
 
 }  // namespace lockstep

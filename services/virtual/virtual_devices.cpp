@@ -48,7 +48,7 @@ void VirtualDevices::advance(std::size_t axis, Tick now) {
     if (!devices_[axis].is_stopped) { (*this)[axis].advance(clocks_.device(axis, now)); }
 }
 
-void VirtualDevices::turn(const VirtualFault& fault, bool begins, Tick now) {
+void VirtualDevices::apply(const VirtualFault& fault, bool begins, Tick now) {
     advance(fault.process, now);
     fault.is_of_device() ? strike(fault, begins, now) : disturb(fault, begins);
     advance(fault.process, now);

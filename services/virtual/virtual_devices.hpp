@@ -25,8 +25,8 @@ public:
 
     /// Begins or ends a fault of an axis's slide, switches or device. The device runs up to `now` before and reads its
     /// inputs after it.
-    void begin(const VirtualFault& fault, Tick now) { turn(fault, true, now); }
-    void end(const VirtualFault& fault, Tick now) { turn(fault, false, now); }
+    void begin(const VirtualFault& fault, Tick now) { apply(fault, true, now); }
+    void end(const VirtualFault& fault, Tick now) { apply(fault, false, now); }
 
 private:
     struct Device {
@@ -34,7 +34,7 @@ private:
         bool is_stopped = false;
         bool is_gone = false;
     };
-    void turn(const VirtualFault& fault, bool begins, Tick now);
+    void apply(const VirtualFault& fault, bool begins, Tick now);
     void disturb(const VirtualFault& fault, bool begins);
     void strike(const VirtualFault& fault, bool begins, Tick now);
     void power_up_again(std::size_t axis, RegisterWindow window, Tick now);

@@ -70,9 +70,9 @@ void VirtualMachine::start_again(std::size_t axis) {
     faults_.add_end(now_ + kPause, {.kind = VirtualFault::Kind::Crash, .process = axis});
 }
 
-void VirtualMachine::take_turn(const FaultSchedule::Turn& turn) {
-    turn.begins ? begin(turn.fault) : end(turn.fault);
-    for (VirtualObserver* observer : observers_) { observer->on_fault(now_, turn.fault, turn.begins); }
+void VirtualMachine::take_edge(const FaultSchedule::Edge& edge) {
+    edge.begins ? begin(edge.fault) : end(edge.fault);
+    for (VirtualObserver* observer : observers_) { observer->on_fault(now_, edge.fault, edge.begins); }
 }
 
 void VirtualMachine::begin(const VirtualFault& fault) {
@@ -106,7 +106,7 @@ std::optional<std::size_t> VirtualMachine::next_clock_mail() const {
     if (!asks_time()) { return std::nullopt; }
     Tick soonest = VirtualNetwork::kNever;
     if (const auto process = schedule_.next()) { soonest = schedule_.at(*process); }
-    if (const auto turn = faults_.next()) { soonest = std::min(soonest, *turn); }
+    if (const auto edge = faults_.next()) { soonest = std::min(soonest, *edge); }
     std::optional<std::size_t> next;
     for (std::size_t i = 0; i < post_.processes(); ++i) {
         const Tick arrival = post_.next_arrival(post_.clock_of(i));
@@ -142,10 +142,10 @@ void VirtualMachine::ask_time(std::size_t axis) {
 void VirtualMachine::advance() {
     if (const auto mail = next_clock_mail()) { return take_clock_mail(*mail); }
     const auto process = schedule_.next();
-    const auto turn = faults_.next();
-    if (turn && (!process || *turn <= schedule_.at(*process))) {
-        now_ = *turn;
-        take_turn(faults_.take());
+    const auto edge = faults_.next();
+    if (edge && (!process || *edge <= schedule_.at(*process))) {
+        now_ = *edge;
+        take_edge(faults_.take());
     } else {
         now_ = schedule_.at(*process);
         run_loop(*process);
@@ -239,7 +239,7 @@ std::uint64_t VirtualMachine::command(CommandKind kind, AxisSet axes, std::uint6
     return ask({.kind = kind, .axes = axes, .program = program, .ticks = ticks});
 }
 
-std::uint64_t VirtualMachine::turn(const Overrides& overrides) {
+std::uint64_t VirtualMachine::set_overrides(const Overrides& overrides) {
     return ask({.kind = CommandKind::Override,
                 .feed_percent = overrides.feed_percent,
                 .rapid_percent = overrides.rapid_percent});

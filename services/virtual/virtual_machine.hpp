@@ -78,7 +78,7 @@ public:
     /// Sends a command over the network as a client. Returns its sequence number.
     std::uint64_t command(CommandKind kind, AxisSet axes = 0, std::uint64_t program = 0,
                           std::optional<Ticks> ticks = {});
-    std::uint64_t turn(const Overrides& overrides);
+    std::uint64_t set_overrides(const Overrides& overrides);
     /// Sends the command unchanged, such as one of another client or a renewed one.
     void send(const Command& command) { post_.multicast(now_, post_.client(), command); }
     /// Sends the last command again with the same sequence number, like a client that receives no reply.
@@ -136,7 +136,7 @@ private:
     void start_again(std::size_t axis);
 
     // Faults.
-    void take_turn(const FaultSchedule::Turn& turn);
+    void take_edge(const FaultSchedule::Edge& edge);
     void begin(const VirtualFault& fault);
     void end(const VirtualFault& fault);
 

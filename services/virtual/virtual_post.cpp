@@ -2,7 +2,7 @@
 
 namespace lockstep {
 
-void VirtualPost::turn(const VirtualFault& fault, bool cuts) {
+void VirtualPost::apply(const VirtualFault& fault, bool cuts) {
     const auto link = [&](std::size_t from, std::size_t to) {
         cuts ? network_.cut(address(from), address(to)) : network_.restore(address(from), address(to));
     };

@@ -51,8 +51,8 @@ public:
     Tick next_arrival(std::size_t to) const { return network_.next_arrival(address(to)); }
 
     /// Cuts the links that the fault names, for clock messages too. restore() undoes it.
-    void cut(const VirtualFault& fault) { turn(fault, true); }
-    void restore(const VirtualFault& fault) { turn(fault, false); }
+    void cut(const VirtualFault& fault) { apply(fault, true); }
+    void restore(const VirtualFault& fault) { apply(fault, false); }
 
     const AlterationCounts& alterations() const { return network_.alterations(); }
 
@@ -61,7 +61,7 @@ private:
     void post(Tick now, std::size_t from, std::size_t to, SharedMessage message) {
         network_.send(now, address(from), address(to), std::move(message));
     }
-    void turn(const VirtualFault& fault, bool cuts);
+    void apply(const VirtualFault& fault, bool cuts);
 
     VirtualNetwork network_;
     Mail mail_;

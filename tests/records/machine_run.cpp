@@ -106,8 +106,8 @@ void MachineRun::command(CommandKind kind, std::uint64_t program, AxisSet axes) 
     throw std::runtime_error("a command is not answered");
 }
 
-void MachineRun::turn(const Overrides& overrides) {
-    const std::uint64_t sequence = vm_.turn(overrides);
+void MachineRun::set_overrides(const Overrides& overrides) {
+    const std::uint64_t sequence = vm_.set_overrides(overrides);
     await([&] { return vm_.reply_to(sequence) != nullptr; }, "answered an override");
 }
 

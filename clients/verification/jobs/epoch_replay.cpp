@@ -17,8 +17,8 @@ EpochReplay::EpochReplay(const MachineConfig& machine, Epoch epoch, EpochStart s
     all_made_ = !runner_.start();
 }
 
-bool EpochReplay::turn(FrameNumber behind, const Overrides& overrides) {
-    turns_[behind] = overrides;
+bool EpochReplay::set_overrides(FrameNumber behind, const Overrides& overrides) {
+    changes_[behind] = overrides;
     return made_ <= behind;
 }
 
@@ -26,7 +26,7 @@ bool EpochReplay::turn(FrameNumber behind, const Overrides& overrides) {
 /// receives no replies.
 void EpochReplay::make_up_to(FrameNumber number) {
     while (made_ < number && !all_made_) {
-        if (const auto turn = turns_.extract(made_)) { runner_.turn(turn.mapped()); }
+        if (const auto change = changes_.extract(made_)) { runner_.set_overrides(change.mapped()); }
         runner_.read_ahead();
         for (const Frame& frame : runner_.send(slot_++, {})) {
             made_ = frame.number;

@@ -33,7 +33,7 @@ public:
     const OwnedSource& source() const { return runner_.source(); }
 
     /// Plans the frames after `behind` with other overrides. Returns false if some of them are made already.
-    bool turn(FrameNumber behind, const Overrides& overrides);
+    bool set_overrides(FrameNumber behind, const Overrides& overrides);
 
     /// Returns null if the epoch has no such frame or it was dropped.
     const Frame* frame(FrameNumber number);
@@ -51,7 +51,7 @@ private:
     void make_up_to(FrameNumber number);
 
     EpochRunner runner_;
-    std::map<FrameNumber, Overrides> turns_;  // by the frame after which they hold
+    std::map<FrameNumber, Overrides> changes_;  // by the frame after which they hold
     Slot slot_ = 0;
     Ticks shift_;               // from the runner's own time to the recorded one
     std::deque<Frame> frames_;  // in recorded time

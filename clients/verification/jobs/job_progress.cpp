@@ -23,7 +23,7 @@ std::size_t index_of(const MachineConfig& machine, const std::string& axis) {
 void JobProgress::take(const OrderedRecord& record) {
     const bool lacks_events = record.outcome == "failed" || (job_ && job_->coordinator != record.coordinator);
     if (record.event != "begun") { note_owner(record); }
-    if (record.event == "override") { return turn(record); }
+    if (record.event == "override") { return take_overrides(record); }
     const bool goes_on = is_of_job(record) && record.event != "begun" && record.outcome != "failed";
     close_epoch(goes_on, lacks_events);
     if (record.event == "begun") { return begin(record); }
@@ -158,10 +158,10 @@ void JobProgress::begin_epoch(const RecordedJob& record) {
     if (labels_.size() > kLabelsKept) { labels_.pop_front(); }
 }
 
-void JobProgress::turn(const RecordedJob& record) {
+void JobProgress::take_overrides(const RecordedJob& record) {
     if (!epoch_ || epoch_->epoch() != static_cast<Epoch>(record.epoch)) { return; }  // no axis ran a frame of it
-    if (!epoch_->replay().turn(static_cast<FrameNumber>(record.behind_frame),
-                               {record.feed_percent, record.rapid_percent})) {
+    if (!epoch_->replay().set_overrides(static_cast<FrameNumber>(record.behind_frame),
+                                        {record.feed_percent, record.rapid_percent})) {
         differ(fmt::format(
             "{}: its overrides were changed after frame {}, but frames after that had been run when it was recorded",
             job_->label, record.behind_frame));

@@ -83,7 +83,7 @@ private:
     void begin(const OrderedRecord& record);
     bool begins_in_pause(const OrderedRecord& record) const;
     void begin_epoch(const RecordedJob& record);
-    void turn(const RecordedJob& record);
+    void take_overrides(const RecordedJob& record);
     void end(const RecordedJob& record);
     void close_epoch(bool goes_on, bool lacks_events);
     void lose_epoch();

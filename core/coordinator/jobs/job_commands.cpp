@@ -219,7 +219,7 @@ CommandResult resume(const Command& command, JobLifecycle& jobs, CoordinatorLoop
     return {};
 }
 
-CommandResult turn(const Command& command, JobLifecycle& jobs, const LoopView& loop) {
+CommandResult set_overrides(const Command& command, JobLifecycle& jobs, const LoopView& loop) {
     if (loop.machine.coordination == StepMethod::Lai) {
         return refuse(FaultCode::NothingToDo, "coordination LAI does not support overrides; set coordination: RANADE");
     }
@@ -232,7 +232,7 @@ CommandResult turn(const Command& command, JobLifecycle& jobs, const LoopView& l
     Overrides overrides = jobs.path().overrides();
     overrides.feed_percent = command.feed_percent.value_or(overrides.feed_percent);
     overrides.rapid_percent = command.rapid_percent.value_or(overrides.rapid_percent);
-    jobs.path().turn(overrides);
+    jobs.path().set_overrides(overrides);
     return {};
 }
 

@@ -18,7 +18,7 @@ CommandResult interrupt(Intent intent, JobLifecycle& jobs, CoordinatorLoop& loop
 /// Axes that were jogged in the pause first return to its place, if the command says so.
 CommandResult resume(const Command& command, JobLifecycle& jobs, CoordinatorLoop& loop);
 /// May be called at any time. Overrides hold until they are changed again.
-CommandResult turn(const Command& command, JobLifecycle& jobs, const LoopView& loop);
+CommandResult set_overrides(const Command& command, JobLifecycle& jobs, const LoopView& loop);
 /// A person gives up the job, held or inherited, and the fault.
 CommandResult reset(JobLifecycle& jobs, CoordinatorLoop& loop);
 

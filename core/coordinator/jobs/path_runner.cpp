@@ -130,13 +130,13 @@ std::optional<EpochEnd> PathRunner::advance(const PathTask& task, const LoopView
     for (const EpochRunner::Happened& event : runner_.take_events(loop.now, loop.axes.views())) {
         events_.happen(event.event, event.tick, of(task), loop, out.events);
     }
-    if (const auto turn = runner_.take_turn()) {
+    if (const auto change = runner_.take_override_change()) {
         out.jobs.push_back({.kind = JobEvent::Kind::Overridden,
                             .job = task.job.number,
                             .job_kind = task.job.kind,
                             .epoch = runner_.epoch(),
-                            .overrides = turn->overrides,
-                            .behind = turn->behind});
+                            .overrides = change->overrides,
+                            .behind = change->behind});
     }
     return runner_.evaluate(loop.slot, loop.axes.views());
 }

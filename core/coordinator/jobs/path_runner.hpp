@@ -51,7 +51,7 @@ public:
 
     const Overrides& overrides() const { return overrides_; }
     /// Sets the overrides. They apply from the next frame to be made, and to later jobs.
-    void turn(const Overrides& overrides) { overrides_ = overrides, runner_.turn(overrides); }
+    void set_overrides(const Overrides& overrides) { overrides_ = overrides, runner_.set_overrides(overrides); }
     void inherit(const Overrides& overrides) { overrides_ = overrides; }
 
     void note_progress(PathTask& task, const LoopView& loop) const;

@@ -20,7 +20,7 @@ void EpochRunner::begin(Epoch epoch, const PathPlace& place, const AxisPositions
     due_.clear();
     veto_.reset();
     received_veto_.reset();
-    turned_.reset();
+    wanted_.reset();
     tried_behind_.reset();
     taken_.reset();
     in_flight_.clear();
@@ -79,7 +79,7 @@ void EpochRunner::make_frames(Slot now) {
         if (!rules::may_send(now, start, machine_.timing)) {
             return end(lacked_blocks_ || source_->lacks_blocks() ? Ending::LacksProgram : Ending::Late);
         }
-        try_turn();
+        try_overrides();
         const Frame* const frame = make_frame();
         lacked_blocks_ = frame == nullptr && source_->lacks_blocks();
         if (frame == nullptr) { return; }
@@ -88,12 +88,12 @@ void EpochRunner::make_frames(Slot now) {
 }
 
 /// Tries new overrides once after each frame, just before the next one is made.
-void EpochRunner::try_turn() {
-    if (!turned_ || tried_behind_ == sent_) { return; }
+void EpochRunner::try_overrides() {
+    if (!wanted_ || tried_behind_ == sent_) { return; }
     tried_behind_ = sent_;
-    if (!source_->turn(*turned_)) { return; }
-    taken_ = Turn{sent_, *turned_};
-    turned_.reset();
+    if (!source_->set_overrides(*wanted_)) { return; }
+    taken_ = OverrideChange{sent_, *wanted_};
+    wanted_.reset();
 }
 
 /// Returns null while too little of the program has been read. If that lasts too long, the machine rests after the

@@ -53,13 +53,13 @@ public:
 
     /// Changes the overrides from the next frame to be made, or as soon after it as the path allows. Of several changes
     /// between two frames the last one counts.
-    void turn(const Overrides& overrides) { turned_ = overrides; }
+    void set_overrides(const Overrides& overrides) { wanted_ = overrides; }
     /// Set by `send` when it has planned again. The overrides hold after frame `behind`.
-    struct Turn {
+    struct OverrideChange {
         FrameNumber behind = 0;
         Overrides overrides;
     };
-    std::optional<Turn> take_turn() { return std::exchange(taken_, std::nullopt); }
+    std::optional<OverrideChange> take_override_change() { return std::exchange(taken_, std::nullopt); }
 
     /// Makes no more frames. Vetoes the lowest frame that no axis can have armed yet, by the state published in slot
     /// `next`.
@@ -130,7 +130,7 @@ private:
     void make_frames(Slot now);
     const Frame* make_frame();
     void finish(const Frame& frame, const PathFrame& path);
-    void try_turn();
+    void try_overrides();
     const Made& made_frame(FrameNumber number) const { return made_[number - oldest()]; }
     FrameNumber oldest() const { return sent_ + 1 - made_.size(); }
 
@@ -145,9 +145,9 @@ private:
     Slot slots_over_ = 0;  // slots since then with a call of `send`
     AxisPositions at_;
     FrameNumber sent_ = 0;
-    std::optional<Overrides> turned_;          // not planned with yet
+    std::optional<Overrides> wanted_;          // not planned with yet
     std::optional<FrameNumber> tried_behind_;  // the last frame after which that was tried
-    std::optional<Turn> taken_;
+    std::optional<OverrideChange> taken_;
     std::optional<Ending> ending_;
     bool lacked_blocks_ = false;                // when the frame that is due was tried last
     std::optional<FrameNumber> veto_;           // the coordinator's own

@@ -56,7 +56,7 @@ public:
     virtual const std::vector<MoveBegin>& begins() const = 0;
     /// Sets new overrides, from the next frame on or soon after. Returns false if they cannot begin there, and the old
     /// ones still hold.
-    virtual bool turn(const Overrides& overrides) = 0;
+    virtual bool set_overrides(const Overrides& overrides) = 0;
     /// The end of a path that is done.
     virtual LegEnd end() const = 0;
     /// The events with places in the last frame. Only valid directly after next().

@@ -23,7 +23,7 @@ public:
     bool is_done() const override { return made_ >= path_.duration().ceil(); }
     std::expected<const PathFrame*, PathStuck> next() override;
     const std::vector<MoveBegin>& begins() const override { return begins_; }
-    bool turn(const Overrides&) override { return false; }
+    bool set_overrides(const Overrides&) override { return false; }
     LegEnd end() const override { return end_; }
     std::span<const FrameEvent> events() const override { return due_; }
     void begin_events_from(std::uint32_t block) override { events_.begin_from(block); }

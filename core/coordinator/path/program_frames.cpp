@@ -25,7 +25,7 @@ void ProgramFrames::resume(const PathPlace& place, std::span<const Position> at,
     resumed_ = place.block;
     events_.resume(place.block);
     planner_.resume(place, at);
-    if (overrides != planner_.overrides()) { (void)planner_.turn(overrides); }
+    if (overrides != planner_.overrides()) { (void)planner_.set_overrides(overrides); }
 }
 
 bool ProgramFrames::read() {
@@ -80,15 +80,15 @@ std::optional<std::int32_t> ProgramFrames::line_of(std::uint32_t block) const {
     return there == nullptr ? std::nullopt : there->line;
 }
 
-bool ProgramFrames::turn(const Overrides& overrides) {
-    TurnResult result = planner_.turn(overrides);
-    while (result == TurnResult::LacksPath && !is_finished_) {
+bool ProgramFrames::set_overrides(const Overrides& overrides) {
+    OverrideResult result = planner_.set_overrides(overrides);
+    while (result == OverrideResult::LacksPath && !is_finished_) {
         for (std::size_t n = 0; n < kBlocksAtOnce && !is_finished_; ++n) {
             if (!read_block()) { return false; }
         }
-        result = planner_.turn(overrides);
+        result = planner_.set_overrides(overrides);
     }
-    return result == TurnResult::Taken;
+    return result == OverrideResult::Taken;
 }
 
 }  // namespace lockstep

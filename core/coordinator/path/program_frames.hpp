@@ -24,7 +24,7 @@ public:
     std::expected<const PathFrame*, PathStuck> next() override;
     const std::vector<MoveBegin>& begins() const override { return planner_.begins(); }
     /// Reads as many blocks as the decision needs, so that the answer does not depend on what was read before.
-    bool turn(const Overrides& overrides) override;
+    bool set_overrides(const Overrides& overrides) override;
     LegEnd end() const override { return moves_.end(); }
     std::span<const FrameEvent> events() const override { return due_; }
     void begin_events_from(std::uint32_t block) override { events_.begin_from(block); }

@@ -105,8 +105,8 @@ int main_of(const char* file) {
     const Event events[] = {
         {"hold", Motion::Together, [](MovingMachine& m) { (void)m.vm().command(CommandKind::Hold); }},
         {"stop", Motion::Together, [](MovingMachine& m) { (void)m.vm().command(CommandKind::Stop); }},
-        {"feed from 100 to 10 %", Motion::Together, [](MovingMachine& m) { (void)m.vm().turn({.feed_percent = 10}); },
-         false},
+        {"feed from 100 to 10 %", Motion::Together,
+         [](MovingMachine& m) { (void)m.vm().set_overrides({.feed_percent = 10}); }, false},
         {"another axis's process ends", Motion::Together, [&](MovingMachine& m) { crash(m, last); }},
         {"the coordinator's process ends", Motion::Together, [&](MovingMachine& m) { crash(m, machine->axes.size()); }},
         {"stop of a move of its own", Motion::Own, [](MovingMachine& m) { (void)m.vm().command(CommandKind::Stop); }},

@@ -8,11 +8,11 @@
 
 namespace lockstep {
 
-/// Happens when `made` frames have been made. It is a turn to new overrides, or an interruption with `unrun` frames
+/// Happens when `made` frames have been made. It is a change of the overrides, or an interruption with `unrun` frames
 /// that were not run.
 struct SessionEvent {
     std::size_t made = 0;
-    std::optional<Overrides> turn;
+    std::optional<Overrides> overrides;
     std::size_t unrun = 0;
 };
 
@@ -88,11 +88,12 @@ private:
     /// Returns false if the event waits for more of the path.
     bool happen() {
         const SessionEvent event = events_.front();
-        const TurnResult result = event.turn ? planner_.turn(*event.turn) : TurnResult::Taken;
-        if (result == TurnResult::LacksPath) { return false; }
+        const OverrideResult result =
+            event.overrides ? planner_.set_overrides(*event.overrides) : OverrideResult::Taken;
+        if (result == OverrideResult::LacksPath) { return false; }
         events_.pop_front();
-        if (!event.turn) { interrupt(event.unrun); }
-        if (result == TurnResult::Taken) { happened_.push_back(event); }
+        if (!event.overrides) { interrupt(event.unrun); }
+        if (result == OverrideResult::Taken) { happened_.push_back(event); }
         return true;
     }
 
@@ -128,10 +129,10 @@ inline std::deque<SessionEvent> random_events(Random& random, const PathSetup& s
     std::size_t made = 0;
     for (int k = 0; k < 12; ++k) {
         made += 1 + random() % apart;
-        SessionEvent event{.made = made, .turn = {}, .unrun = random() % 5};
+        SessionEvent event{.made = made, .overrides = {}, .unrun = random() % 5};
         if (random() % 2 == 0) {
             const int feed = static_cast<int>(10 + random() % 191);
-            event.turn = Overrides{.feed_percent = feed, .rapid_percent = static_cast<int>(10 + random() % 91)};
+            event.overrides = Overrides{.feed_percent = feed, .rapid_percent = static_cast<int>(10 + random() % 91)};
         }
         events.push_back(event);
     }

@@ -73,7 +73,7 @@ TEST_P(RandomSession, IsResumedByAnotherPlannerInTheSameWay) {
     const PathRun run = run_path(case_.setup, case_.program);
     const std::size_t every = std::max<std::size_t>(1, run.frames.size() / 3);
     for (std::size_t ran = 1; ran + 1 < run.frames.size(); ran += every) {
-        PathSession session(case_.setup, {{.made = ran + 1, .turn = {}, .unrun = 1}});
+        PathSession session(case_.setup, {{.made = ran + 1, .overrides = {}, .unrun = 1}});
         ASSERT_NO_FATAL_FAILURE(session.run(case_.program, never));
 
         PathPlanner other(case_.setup);
@@ -93,7 +93,7 @@ TEST_P(RandomSession, IsResumedByAnotherPlannerInTheSameWay) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomSession, testing::Range<std::uint64_t>(1, 41));
 INSTANTIATE_TEST_SUITE_P(Arcs, RandomSession, testing::Range(kFirstWithArcs, kFirstWithArcs + 20));
-// In these cases speeds meet that differ only by rounding, and overrides turn where the known path ends.
+// In these cases speeds meet that differ only by rounding, and overrides change where the known path ends.
 INSTANTIATE_TEST_SUITE_P(Rounded, RandomSession, testing::Values<std::uint64_t>(561, 597));
 
 }  // namespace

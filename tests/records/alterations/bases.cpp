@@ -20,7 +20,7 @@ Record held_lines() {
     run.home();
     run.begin("G21 G90 F2400\nG1 X30 Y8\nX32 Y20\nX5 Y5\n");
     run.wait_ms(500);
-    run.turn({60, 100});
+    run.set_overrides({60, 100});
     run.wait_ms(200);
     run.hold();
     run.resume();

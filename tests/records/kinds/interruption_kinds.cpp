@@ -38,7 +38,7 @@ RecordKind held_at(const std::string& name, const std::string& gcode, std::int64
 void turn_often(MachineRun& run) {
     for (const int percent : {50, 130, 20, 200, 100}) {
         run.wait_ms(230);
-        run.turn({percent, percent});
+        run.set_overrides({percent, percent});
     }
 }
 
@@ -68,7 +68,7 @@ Record jobs_of_all_kinds() {
     run.begin(kSquare);
     run.wait_ms(500);
     run.hold();
-    run.turn({80, 60});
+    run.set_overrides({80, 60});
     run.resume();
     run.to_rest();
     run.jog(0, 12, 400);

@@ -183,12 +183,12 @@ TEST(EpochRunner, TurnsOnceBehindEachFrameToTheNewestOverrides) {
     std::vector<FrameNumber> behind;
     runner.read_ahead();
     for (Slot slot = 101; slot < 151; ++slot) {
-        runner.turn({50 + static_cast<int>(slot - 100), 100});  // another feed in each slot
+        runner.set_overrides({50 + static_cast<int>(slot - 100), 100});  // another feed in each slot
         (void)runner.send(slot, says(slot, runner.sent(), {}, 0, {}));
-        if (const auto turn = runner.take_turn()) {
-            EXPECT_EQ(turn->overrides.feed_percent, 50 + slot - 100);
-            EXPECT_EQ(turn->behind + 1, runner.sent());
-            behind.push_back(turn->behind);
+        if (const auto change = runner.take_override_change()) {
+            EXPECT_EQ(change->overrides.feed_percent, 50 + slot - 100);
+            EXPECT_EQ(change->behind + 1, runner.sent());
+            behind.push_back(change->behind);
         }
     }
     EXPECT_GE(behind.size(), 6u);
@@ -214,7 +214,7 @@ public:
         return frames_->next();
     }
     const std::vector<MoveBegin>& begins() const override { return frames_->begins(); }
-    bool turn(const Overrides& overrides) override { return frames_->turn(overrides); }
+    bool set_overrides(const Overrides& overrides) override { return frames_->set_overrides(overrides); }
     LegEnd end() const override { return frames_->end(); }
     std::optional<std::int32_t> line_of(std::uint32_t block) const override { return frames_->line_of(block); }
     double seconds_from(const PathPlace& place) const override { return frames_->seconds_from(place); }

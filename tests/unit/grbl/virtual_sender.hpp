@@ -129,7 +129,7 @@ private:
             case Request::Kind::Hold: return lines_.hold(now);
             case Request::Kind::Resume: return lines_.resume(now);
             case Request::Kind::Stop: return lines_.stop(now);
-            case Request::Kind::Override: (void)machine_.turn(request.overrides); return;
+            case Request::Kind::Override: (void)machine_.set_overrides(request.overrides); return;
             case Request::Kind::SetValues:
                 values = request.values;
                 see();

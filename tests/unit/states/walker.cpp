@@ -100,7 +100,7 @@ Reply Walker::resume_and_return() {
 
 Reply Walker::put(const Question& question) {
     if (question.kind == CommandKind::Override) {
-        const auto sequence = vm.turn({question.feed_percent, 100});
+        const auto sequence = vm.set_overrides({question.feed_percent, 100});
         const auto answered = [&] { return vm.reply_to(sequence) != nullptr; };
         for (int tries = 0; tries < 4 && !vm.advance_until(answered, Ticks{250'000}); ++tries) { vm.repeat_command(); }
         const Reply* reply = vm.reply_to(sequence);
@@ -127,7 +127,7 @@ Answer Walker::answer_to(const Question& question) {
         return {"refused: " + std::string(name_of(code)), code};
     }
     expect_effect(question, reply, jobs);
-    std::string text = question.kind == CommandKind::Override ? "turned" : state_text();
+    std::string text = question.kind == CommandKind::Override ? "overrides changed" : state_text();
     const bool ended = vm.state()->outcome && (had_job || vm.state()->job > jobs);
     if (ended) { text += ", job " + std::string(text_of(*vm.state()->outcome)); }
     return {text, {}};

@@ -22,7 +22,7 @@ protected:
         recorded.begin(
             test::program_of(recorded.vm().machine(), "G21 G90 F3000\nG1 X70 Y8\nX62 Y90\nX9 Y70\nG0 X5 Y5\n"));
         recorded.advance_ms(1000);
-        recorded.turn({.feed_percent = 80});
+        recorded.set_overrides({.feed_percent = 80});
         recorded.advance_ms(500);
         recorded.command(CommandKind::Hold);
         ASSERT_TRUE(recorded.reaches(MachinePhase::Holding));

@@ -79,11 +79,11 @@ TEST_F(Exact, OverridesTurnedAtAnyTimeWithAHoldAmongThem) {
             for (int i = 0; i < 6; ++i) {
                 recorded.advance_ms(static_cast<std::int64_t>(random() % 700));
                 if (recorded.vm().state()->phase == MachinePhase::Idle) { break; }
-                recorded.turn({percent(), percent()});
+                recorded.set_overrides({percent(), percent()});
                 if (i != 3) { continue; }
                 recorded.command(CommandKind::Hold);
                 recorded.advance_ms(2000);
-                recorded.turn({percent(), percent()});
+                recorded.set_overrides({percent(), percent()});
                 recorded.command(CommandKind::Resume);
             }
             ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));

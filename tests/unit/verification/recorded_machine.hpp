@@ -65,8 +65,8 @@ public:
         }
         ASSERT_TRUE(answered);
     }
-    void turn(const Overrides& overrides) {
-        const std::uint64_t sequence = vm_.turn(overrides);
+    void set_overrides(const Overrides& overrides) {
+        const std::uint64_t sequence = vm_.set_overrides(overrides);
         ASSERT_TRUE(vm_.advance_until([&] { return vm_.reply_to(sequence) != nullptr; }, Ticks{200'000}));
     }
     void home() {

@@ -52,7 +52,7 @@ protected:
         recorded.command(CommandKind::Run, kProgram);
         for (int part = 1; part < 5; ++part) {
             send(recorded, {.blocks = chords(100 * part)});
-            recorded.turn({60 + 10 * part, 100});
+            recorded.set_overrides({60 + 10 * part, 100});
             ASSERT_TRUE(starves(recorded)) << part;
         }
         if (!is_ended) { return; }
@@ -92,7 +92,7 @@ protected:
         for (int part = 0; part < 40; ++part) {
             send(recorded, {.blocks = lines(10 + static_cast<int>(random() % 120), random)});
             for (std::uint64_t turns = random() % 4; turns > 0; --turns) {
-                recorded.turn({50 + static_cast<int>(random() % 11) * 10, 100});
+                recorded.set_overrides({50 + static_cast<int>(random() % 11) * 10, 100});
                 if (random() % 2 == 0) { recorded.advance_ms(static_cast<std::int64_t>(random() % 100)); }
             }
             recorded.advance_ms(static_cast<std::int64_t>(random() % 400));

@@ -43,7 +43,8 @@ TEST(Reactions, TheLossOfAnyProcessIsAnsweredAsSoon) {
 }
 
 TEST(Reactions, AFeedTakesEffectInTheNextFrameThatIsSent) {
-    expect_braking(310, 360 + kLoops_ms, false, [](VirtualMachine& vm) { (void)vm.turn({.feed_percent = 10}); });
+    expect_braking(310, 360 + kLoops_ms, false,
+                   [](VirtualMachine& vm) { (void)vm.set_overrides({.feed_percent = 10}); });
 }
 
 TEST(Reactions, AnAxisThatMovesByItselfBrakesWithinThirtyMilliseconds) {

@@ -143,7 +143,7 @@ TEST_P(AtEverySpeed, AProgramHoldsResumesAndStops) {
     (void)vm.command(CommandKind::Hold);
     expect_rest(kPathRest_ms + braking_ms(speed()));
     EXPECT_EQ(vm.state()->phase, MachinePhase::Holding);
-    (void)vm.turn({.feed_percent = Overrides::kLeast});
+    (void)vm.set_overrides({.feed_percent = Overrides::kLeast});
     wait(0.1);
     ASSERT_EQ(ask(CommandKind::Resume).status, ReplyStatus::Accepted);
     wait(0.5);

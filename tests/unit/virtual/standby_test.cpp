@@ -94,7 +94,7 @@ TEST_F(Standby, TakesOverAtRestWhenTheOwnerEnds) {
 TEST_F(Standby, KeepsTheOverridesOfTheOwnerBefore) {
     settle();
     ASSERT_EQ(vm.state()->overrides, Overrides{});
-    const auto asked = vm.turn({50, 25});
+    const auto asked = vm.set_overrides({50, 25});
     wait(0.1);
     ASSERT_EQ(vm.reply_to(asked)->status, ReplyStatus::Accepted);
     inject(Kind::Crash, owner, 100);

@@ -182,7 +182,7 @@ TEST_F(Stream, APartThatTheMachineCannotRunIsRefusedAndWhatIsBeforeItIsRun) {
 TEST_F(Stream, OverridesTurnedWhileItStarvesHoldBehindTheRest) {
     begin(40);
     ASSERT_TRUE(starves(10));
-    (void)vm.turn({50, 100});
+    (void)vm.set_overrides({50, 100});
     wait(0.1);
     ASSERT_EQ(send({.is_last = true, .blocks = moves(40)}).status, ReplyStatus::Accepted);
     const Tick begun = vm.now();

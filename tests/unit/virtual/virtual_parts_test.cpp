@@ -44,7 +44,7 @@ TEST(FaultSchedule, GivesBeginAndEndOfEachFaultInOrder) {
     EXPECT_TRUE(faults.take().begins);
     EXPECT_EQ(faults.take().fault.process, 2u);
     EXPECT_EQ(faults.take().fault.process, 2u);
-    const FaultSchedule::Turn last = faults.take();
+    const FaultSchedule::Edge last = faults.take();
     EXPECT_EQ(last.fault.process, 1u);
     EXPECT_FALSE(last.begins);
     EXPECT_TRUE(faults.empty());

@@ -148,7 +148,9 @@ const Reply* Bench::ask_in_time(CommandKind kind, std::uint64_t program) {
     return reply;
 }
 
-const Reply* Bench::turn(const Overrides& overrides) { return over_ ? nullptr : await_reply(vm_.turn(overrides)); }
+const Reply* Bench::set_overrides(const Overrides& overrides) {
+    return over_ ? nullptr : await_reply(vm_.set_overrides(overrides));
+}
 
 double Bench::most_feed() const {
     double most = 1;

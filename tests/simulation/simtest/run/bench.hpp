@@ -40,7 +40,7 @@ public:
     const Reply* ask(CommandKind kind, std::uint64_t program = 0);
     /// The same, but repeats a command that is refused because of uncertain clocks, as that refusal asks the client to.
     const Reply* ask_in_time(CommandKind kind, std::uint64_t program = 0);
-    const Reply* turn(const Overrides& overrides);
+    const Reply* set_overrides(const Overrides& overrides);
     /// The faults of the next job.
     void plan(const std::vector<PlannedFault>& faults) { placer_.plan(faults); }
     /// No further fault begins. Runs until no fault is left and every axis has rested long enough to stay at rest.

@@ -234,7 +234,7 @@ void JobPlayer::interrupt(const Interrupt& interrupt) {
         case Interrupt::Kind::Stop: return stop();
         case Interrupt::Kind::EmergencyStop: return stop_at_once();
         case Interrupt::Kind::WrongCommand: return give(interrupt.wrong);
-        case Interrupt::Kind::Override: return turn(interrupt.overrides);
+        case Interrupt::Kind::Override: return set_overrides(interrupt.overrides);
     }
 }
 
@@ -266,8 +266,8 @@ void JobPlayer::stop() {
     (void)bench_.await([this] { return ended(); }, 2 * protocol_seconds(bench_) + job_.course.seconds, "a stop");
 }
 
-void JobPlayer::turn(const Overrides& overrides) {
-    const Reply* reply = bench_.turn(overrides);
+void JobPlayer::set_overrides(const Overrides& overrides) {
+    const Reply* reply = bench_.set_overrides(overrides);
     const bool has_none = bench_.machine().coordination == StepMethod::Lai;
     if (reply != nullptr && reply->status != ReplyStatus::Accepted && !has_none) { refused("override", *reply); }
 }

@@ -19,7 +19,7 @@ private:
     void go_on();
     void interrupt(const Interrupt& interrupt);
     void hold(const Interrupt& interrupt);
-    void turn(const Overrides& overrides);
+    void set_overrides(const Overrides& overrides);
     void stop();
     void stop_at_once();
     void give(const WrongCommand& wrong);

@@ -11,7 +11,7 @@ constexpr double kHair = 1 + 1e-6;
 
 }  // namespace
 
-TurnResult SpeedWindow::turn(const Overrides& overrides, std::size_t number, bool is_under_way, double w) {
+OverrideResult SpeedWindow::set_overrides(const Overrides& overrides, std::size_t number, bool is_under_way, double w) {
     const bool was_finished = is_finished_;
     const std::size_t piece = interval(number).piece;
     overrides_ = overrides;
@@ -20,8 +20,8 @@ TurnResult SpeedWindow::turn(const Overrides& overrides, std::size_t number, boo
     recut_behind(piece);
     if (was_finished) { close_end(); }
     final_ = number + 1;
-    const TurnResult result = allow_braking(is_under_way ? number + 1 : number, w);
-    if (result != TurnResult::Taken) { return result; }
+    const OverrideResult result = allow_braking(is_under_way ? number + 1 : number, w);
+    if (result != OverrideResult::Taken) { return result; }
     look_ahead();
     if (is_finished_) { final_ = end(); }
     return result;
@@ -75,17 +75,17 @@ void SpeedWindow::recut_behind(std::size_t piece) {
 /// Raises caps and tops for braking from w at the beginning of an interval. An interval that arrives later is limited
 /// by the top of the last known one. If that top were raised here, the limit would differ from that of a completely
 /// known path. So one more interval must be known.
-TurnResult SpeedWindow::allow_braking(std::size_t number, double w) {
+OverrideResult SpeedWindow::allow_braking(std::size_t number, double w) {
     for (std::size_t k = number; w > 0; ++k) {
-        if (k + 1 >= end() && !is_finished_) { return TurnResult::LacksPath; }
-        if (k == end()) { return w <= kHair * end_cap_ ? TurnResult::Taken : TurnResult::CannotFollow; }
+        if (k + 1 >= end() && !is_finished_) { return OverrideResult::LacksPath; }
+        if (k == end()) { return w <= kHair * end_cap_ ? OverrideResult::Taken : OverrideResult::CannotFollow; }
         Interval& part = intervals_[k - first_];
         const bool is_rest = part.kind == IntervalKind::Rest;
         if (w > kHair * (is_rest ? part.joint : std::min(part.joint, bounds(part).limit()))) {
-            return TurnResult::CannotFollow;
+            return OverrideResult::CannotFollow;
         }
         part.cap = std::max(part.cap, w);
-        if (is_rest) { return TurnResult::Taken; }
+        if (is_rest) { return OverrideResult::Taken; }
         const double behind = bounds(part).least_after(w);
         if (split_braking(k, w)) {
             w = interval(k + 1).cap;
@@ -94,7 +94,7 @@ TurnResult SpeedWindow::allow_braking(std::size_t number, double w) {
             w = behind;
         }
     }
-    return TurnResult::Taken;
+    return OverrideResult::Taken;
 }
 
 /// If a straight interval is entered too fast, makes its beginning a separate interval for braking.
@@ -107,7 +107,7 @@ bool SpeedWindow::split_braking(std::size_t number, double w) {
     rest.from = part.from + mm;
     rest.cap = part.top;
     rest.joint = kMost;
-    rest.turn = 0;
+    rest.jump = 0;
     part.to = rest.from;
     intervals_.insert(number + 1 - first_, rest);
     return true;

@@ -27,9 +27,9 @@ PathRun only_run(const PathSession& session) {
     return session.runs().front();
 }
 
-TEST(PathTurn, HoldsFromTheFirstFrameIfItIsTurnedBefore) {
+TEST(PathOverrides, HoldFromTheFirstFrameIfTheyChangeBefore) {
     const PathSetup setup = setup_of(mill());
-    PathSession turned(setup, {{.made = 0, .turn = Overrides{.feed_percent = 50}}});
+    PathSession turned(setup, {{.made = 0, .overrides = Overrides{.feed_percent = 50}}});
     turned.run(line(200, 400, 100), at_any_frame);
     const PathRun slow = run_path(setup, line(200, 400, 50));
     ASSERT_EQ(turned.frames().size(), slow.frames.size());
@@ -37,10 +37,10 @@ TEST(PathTurn, HoldsFromTheFirstFrameIfItIsTurnedBefore) {
 }
 
 /// From 100 to 20 mm/s the machine brakes for 53 ms.
-TEST(PathTurn, SlowsDownWithinALineAsFastAsTheAxesMay) {
+TEST(PathOverrides, SlowDownWithinALineAsFastAsTheAxesMay) {
     const PathSetup setup = setup_of(mill());
     for (const int parts : {1, 300, 3'000}) {
-        PathSession session(setup, {{.made = 3, .turn = Overrides{.feed_percent = 20}}});
+        PathSession session(setup, {{.made = 3, .overrides = Overrides{.feed_percent = 20}}});
         session.run(line(150, parts, 100), at_any_frame);
         ASSERT_EQ(session.happened().size(), 1U) << parts;
         const PathRun run = only_run(session);
@@ -53,10 +53,10 @@ TEST(PathTurn, SlowsDownWithinALineAsFastAsTheAxesMay) {
     }
 }
 
-TEST(PathTurn, SpeedsUpWithinALine) {
+TEST(PathOverrides, SpeedUpWithinALine) {
     const PathSetup setup = setup_of(mill());
     for (const int parts : {1, 300}) {
-        PathSession session(setup, {{.made = 3, .turn = Overrides{.feed_percent = 150}}});
+        PathSession session(setup, {{.made = 3, .overrides = Overrides{.feed_percent = 150}}});
         session.run(line(300, parts, 60), at_any_frame);
         ASSERT_EQ(session.happened().size(), 1U) << parts;
         const PathRun run = only_run(session);
@@ -66,19 +66,19 @@ TEST(PathTurn, SpeedsUpWithinALine) {
     }
 }
 
-TEST(PathTurn, NeverExceedsWhatTheAxesAllow) {
+TEST(PathOverrides, NeverExceedWhatTheAxesAllow) {
     const PathSetup setup = setup_of(mill());
-    PathSession session(setup, {{.made = 2, .turn = Overrides{.feed_percent = 200, .rapid_percent = 200}}});
+    PathSession session(setup, {{.made = 2, .overrides = Overrides{.feed_percent = 200, .rapid_percent = 200}}});
     TestProgram program = line(400, 4, 100);
     program.moves[2].settings.feed_mm_per_tick.reset();
     session.run(program, at_any_frame);
     expect_within_limits(setup, only_run(session));
 }
 
-TEST(PathTurn, OfRapidMovesTurnsTheSpeedThatTheAxesAllow) {
+TEST(PathOverrides, OfRapidMovesChangeTheSpeedThatTheAxesAllow) {
     const PathSetup setup = setup_of(mill());
     TestProgram program = line(100, 1, 0);
-    PathSession session(setup, {{.made = 0, .turn = Overrides{.feed_percent = 150, .rapid_percent = 50}}});
+    PathSession session(setup, {{.made = 0, .overrides = Overrides{.feed_percent = 150, .rapid_percent = 50}}});
     session.run(program, at_any_frame);
     double most = 0;
     for (const PathFrame& frame : session.frames()) { most = std::max(most, fastest(setup, frame)); }
@@ -86,7 +86,7 @@ TEST(PathTurn, OfRapidMovesTurnsTheSpeedThatTheAxesAllow) {
 }
 
 /// While the machine rests for a dwell the next move is planned anew.
-TEST(PathTurn, InADwellHoldsForTheMoveBehindIt) {
+TEST(PathOverrides, InADwellHoldForTheMoveBehindIt) {
     const PathSetup setup = setup_of(mill());
     PathPlanner planner(setup);
     planner.begin(std::vector<Position>(3));
@@ -96,7 +96,7 @@ TEST(PathTurn, InADwellHoldsForTheMoveBehindIt) {
     planner.finish();
     PathRun run;
     for (int k = 0; k < 3; ++k) { run.frames.push_back(**planner.next()); }
-    EXPECT_EQ(planner.turn({.feed_percent = 20}), TurnResult::Taken);
+    EXPECT_EQ(planner.set_overrides({.feed_percent = 20}), OverrideResult::Taken);
     drain(planner, run);
     expect_within_limits(setup, run);
     EXPECT_NEAR(run.seconds(), 0.12 + 1 + 50 / 20.0, 0.05);
