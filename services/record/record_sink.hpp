@@ -1,6 +1,7 @@
 // The destination of the record: the network, a log file, or both.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -10,6 +11,11 @@ namespace lockstep {
 
 class RecordSink {
 public:
+    /// publish() allocates nothing for messages of at most this size. The largest message of steps needs 10 KB: an axis
+    /// that was stalled publishes it in its loop.
+    static constexpr std::size_t kReservedMessage_bytes = 16 << 10;
+
+    RecordSink() { buffer_.reserve(kReservedMessage_bytes); }
     virtual ~RecordSink() = default;
     /// `utime` is machine time in microseconds. A message that cannot be written is only counted; motion never waits
     /// for it.

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "services/wire/lcm/lcm_decode.hpp"
+#include "tests/unit/allocations/counted_allocations.hpp"
 
 namespace lockstep {
 namespace {
@@ -28,6 +31,31 @@ protected:
     Batches sink;
     AxisRecorder recorder{machine, 0, 7, sink};
 };
+
+class Sizes : public RecordSink {
+public:
+    void write(const std::string&, std::int64_t, std::span<const std::uint8_t> bytes) override {
+        largest_bytes = std::max(largest_bytes, bytes.size());
+    }
+    std::size_t largest_bytes = 0;
+};
+
+TEST(RecordOfAStalledAxis, AllocatesNothingForTheLargestMessageOfSteps) {
+    const MachineConfig machine{.name = "mill", .axes = {{.name = "X", .steps_per_mm = 80}}};
+    Sizes sink;
+    AxisRecorder recorder(machine, 0, 7, sink);
+    recorder.reserve(2 * StepBatcher::kMaxSteps);
+    recorder.loop(outputs_at(0, 100), 0, 0);
+    const AxisOutputs out;
+    const std::uint64_t before = CountedAllocations::count();
+    {
+        const CountedAllocations counted;
+        for (std::int64_t i = 0; i <= StepBatcher::kMaxSteps; ++i) { recorder.step({Tick{200 + i}, +1}); }
+        recorder.loop(out, 0, 0);
+    }
+    EXPECT_EQ(CountedAllocations::count(), before) << CountedAllocations::places();
+    EXPECT_GT(sink.largest_bytes, 5U * StepBatcher::kMaxSteps);
+}
 
 TEST_F(TheRecord, BeginsAtZeroWithADeviceJustPoweredUp) {
     recorder.loop(outputs_at(0, 100), 0, 0);
