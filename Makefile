@@ -47,12 +47,12 @@ build: configured
 live: configured
 	@cmake --build $(BUILD) -j $(JOBS) --target $(LIVE)
 
-# A contributor's gate, for the processors of this machine only. It needs neither Java, Node, containers nor emulators.
+# A contributor's gate, which prints its times, for the processors of this machine only. It needs neither Java, Node, containers nor emulators.
 check:
 	@deploy/install-dependencies check
 	@$(call configure,$(BUILD),-DBUILD_TESTING=ON $(if $(wildcard $(FIRST)),,-DLOCKSTEP_SPY=OFF))
-	@cmake --build $(BUILD) -j $(JOBS) --target checked_tests $(PRODUCT)
-	@tests/check $(BUILD) $(JOBS)
+	@tests/timed cmake --build $(BUILD) -j $(JOBS) --target checked_tests $(PRODUCT)
+	@tests/timed tests/check $(BUILD) $(JOBS)
 
 test: live
 	@$(TEST)
