@@ -254,7 +254,7 @@ void Coordinator::wait_for_axes(CoordinatorLoop& loop) {
     jobs_.activity().become(MachineEvent::AxisLacking, activity::Waiting{}, loop.out);
 }
 
-/// Reuses the memory of the last state's lease and rests.
+/// Reuses the memory of the last state's lease.
 void Coordinator::report(CoordinatorLoop& loop) const {
     MachineState& state = loop.out.state.renew();
     const MachineFault fault = jobs_.activity().fault();
@@ -267,10 +267,8 @@ void Coordinator::report(CoordinatorLoop& loop) const {
              .axes_present = axes_.present(loop.slot),
              .config_hash = config_hash_,
              .lease = std::move(state.lease),
-             .pause = std::move(state.pause),
-             .rests = std::move(state.rests)};
+             .pause = std::move(state.pause)};
     state.lease = lease_.held();
-    state.rests.clear();
     report_job(jobs_, state, loop);
 }
 

@@ -178,6 +178,8 @@ constexpr std::uint64_t digest_of(std::span<const Position> positions) {
     return digest;
 }
 
+inline constexpr std::size_t kMaxRests = 64;  // far more frames than can be in flight
+
 /// Where the machine comes to rest if no frame after this one is run. Frame 0: where the epoch starts.
 struct FrameRest {
     FrameNumber frame = 0;
@@ -221,9 +223,9 @@ struct MachineState {
     std::optional<MachinePause> pause;  // of the job; present also while axes are jogged and return in the pause
     // What another coordinator needs to continue the job in motion:
     JobKind job_kind = JobKind::Run;
-    std::optional<std::uint64_t> program;  // Command::program of the job; nullopt: none is in motion
-    std::uint32_t events_from = 0;         // the events of the program before this block have been published
-    std::vector<FrameRest> rests;          // of the frames of the epoch that may be the last one run, in order
+    std::optional<std::uint64_t> program;      // Command::program of the job; nullopt: none is in motion
+    std::uint32_t events_from = 0;             // the events of the program before this block have been published
+    StaticVector<FrameRest, kMaxRests> rests;  // of the frames of the epoch that may be the last one run, in order
     // For people and for checks of the record. No decision depends on it:
     RecordCounts published;          // record messages published by this process
     std::uint64_t lost_records = 0;  // record messages that it could not write

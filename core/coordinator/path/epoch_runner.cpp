@@ -174,11 +174,11 @@ void EpochRunner::stop(Slot next) {
     }
 }
 
-void EpochRunner::list_rests(FrameNumber frame, std::vector<FrameRest>& rests) const {
+void EpochRunner::list_rests(FrameNumber frame, StaticVector<FrameRest, kMaxRests>& rests) const {
     rests.clear();
     for (FrameNumber k = std::max(frame, oldest()); k <= sent_; ++k) {
         const Made& made = made_frame(k);
-        rests.push_back({k, made.rest, made.complete, digest_of(made.positions)});
+        rests.append({k, made.rest, made.complete, digest_of(made.positions)});
     }
 }
 

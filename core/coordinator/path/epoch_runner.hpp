@@ -82,7 +82,7 @@ public:
     std::span<const Happened> take_events(Tick now, std::span<const AxisView> axes);
 
     /// Sets `rests` to where the machine rests after this frame and after each frame made later.
-    void list_rests(FrameNumber frame, std::vector<FrameRest>& rests) const;
+    void list_rests(FrameNumber frame, StaticVector<FrameRest, kMaxRests>& rests) const;
 
     const OwnedSource& source() const { return source_; }
     /// Where on the program the epoch begins, and with which overrides.
@@ -121,7 +121,7 @@ private:
         AxisPositions positions;
         bool complete = false;
     };
-    static constexpr std::size_t kMadeKept = 64;  // far more frames than can be in flight
+    static constexpr std::size_t kMadeKept = kMaxRests;
 
     void end(Ending why) { ending_ = ending_.value_or(why); }
     void start_when_ready(Slot now);

@@ -11,6 +11,7 @@ static_assert(lockstep_wire_MACHINE_JOGGING == static_cast<int>(MachinePhase::Jo
 static_assert(lockstep_wire_JOB_FAILED == static_cast<int>(JobOutcome::Failed));
 static_assert(lockstep_wire_PAUSE_HOLD == static_cast<int>(PauseReason::Hold));
 static_assert(lockstep_wire_MAX_PAUSE_BYTES == kMaxPauseText && lockstep_wire_MAX_PLACES == kMaxAxes);
+static_assert(lockstep_wire_MAX_RESTS == kMaxRests);
 static_assert(lockstep_wire_MAX_HOLDER_BYTES == kMaxWriterBytes);
 static_assert(lockstep_wire_SPINDLE_REVERSE == static_cast<int>(ProgramDevices::Spindle::Reverse));
 
@@ -200,13 +201,11 @@ std::expected<void, std::string> from_wire(const lockstep_wire_MachineState& wir
             .job_kind = wire.is_run ? JobKind::Run : JobKind::Move,
             .program = if_positive(wire.program),
             .events_from = wire.events_from,
-            .rests = std::move(into.rests),
             .published = {.job_events = wire.job_messages, .program_parts = wire.program_messages},
             .lost_records = wire.lost_records,
             .process = {.reopened = wire.reopened, .lost_log_lines = wire.lost_log_lines}};
-    into.rests.clear();
     for (const auto& rest : std::span(wire.rests._buffer, wire.rests._length)) {
-        into.rests.push_back(rest_from_wire(rest));
+        into.rests.append(rest_from_wire(rest));
     }
     if (!wire.has_writer) {
         into.lease.reset();

@@ -79,11 +79,11 @@ ClockReply RandomMessages::clock_reply() {
     return {.request = clock_request(), .received = {far()}, .answered = {far()}};
 }
 
-std::vector<FrameRest> RandomMessages::rests() {
-    std::vector<FrameRest> rests(index(64 + 1));
-    for (FrameRest& rest : rests) {
+StaticVector<FrameRest, kMaxRests> RandomMessages::rests() {
+    StaticVector<FrameRest, kMaxRests> rests;
+    for (std::size_t count = index(kMaxRests + 1); count > 0; --count) {
         const Int128 along = Int128{far()} * kOneStep + Int128{bits()};
-        rest = {bits(), {static_cast<std::uint32_t>(bits()), {along}}, coin(), bits()};
+        rests.append({bits(), {static_cast<std::uint32_t>(bits()), {along}}, coin(), bits()});
     }
     return rests;
 }

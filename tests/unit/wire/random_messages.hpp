@@ -19,7 +19,7 @@ public:
     ClockRequest clock_request();
     ClockReply clock_reply();
     MachineState machine_state();
-    std::vector<FrameRest> rests();
+    StaticVector<FrameRest, kMaxRests> rests();
     MachinePause pause();
     LeaseHolder writer();
     std::vector<JogAxis> jogs();

@@ -20,7 +20,7 @@ MachineState running_state() {
     const LeaseHolder writer{7, "a writer with a rather long name", "a-host-with-a-rather-long-name"};
     MachineState state{.phase = MachinePhase::Running, .lease = HeldLease{writer, {5}}};
     state.pause = MachinePause{{PauseReason::ToolChange, 2, "a tool with a rather long name"}, {1, 2, 3}};
-    for (FrameNumber frame = 1; frame <= 12; ++frame) { state.rests.push_back({.frame = frame}); }
+    for (FrameNumber frame = 1; frame <= 12; ++frame) { state.rests.append({.frame = frame}); }
     return state;
 }
 
@@ -43,6 +43,26 @@ TEST(ReusedMessages, OfAFrameAllocateNothing) { expect_reused(full_frame()); }
 TEST(ReusedMessages, OfTheMachinesStateAllocateNothing) { expect_reused(running_state()); }
 TEST(ReusedMessages, OfAnAxissStateAllocateNothing) { expect_reused(AxisState{.axis = 2, .stamp = 9}); }
 TEST(ReusedMessages, OfAnOrderAllocateNothing) { expect_reused(AxisCommand{.sequence = 3, .axis = 1}); }
+
+/// More frames than ever are in flight while an axis is stalled.
+TEST(ReusedMessages, OfTheMachinesStateAllocateNothingForMoreRestsThanBefore) {
+    MachineState sent = running_state();
+    MachineStateMessage wire;
+    MachineState received;
+    to_wire(sent, wire);
+    ASSERT_TRUE(from_wire(wire, received));
+    MachineState copy = received;
+    while (!sent.rests.full()) { sent.rests.append({.frame = sent.rests.size()}); }
+    const std::uint64_t before = CountedAllocations::count();
+    {
+        const CountedAllocations counted;
+        to_wire(sent, wire);
+        ASSERT_TRUE(from_wire(wire, received));
+        copy = received;
+    }
+    EXPECT_EQ(CountedAllocations::count(), before) << CountedAllocations::places();
+    EXPECT_EQ(copy, sent);
+}
 
 /// A state that is refused changes nothing.
 TEST(ReusedMessages, KeepTheirValueIfASampleIsRefused) {
