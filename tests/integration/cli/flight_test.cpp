@@ -45,8 +45,10 @@ protected:
     }
     void run_job() {
         job_.emplace(LOCKSTEP_COMMAND, Words{"run", write("job.gcode", "G21 G90\nG1 X150 Y30 F1200\nM2\n"), "--json"});
-        ASSERT_TRUE(becomes("Running"));
-        std::this_thread::sleep_for(700ms);  // it moves
+        ASSERT_TRUE(eventually([&] {
+            const proto::StatusReport now = status();
+            return now.axes_size() == 2 && now.axes(0).velocity_mm_s() > 1 && now.axes(1).velocity_mm_s() > 1;
+        }));
     }
     static void expect(const proto::IncidentReport& report, const std::string& cause, const std::string& culprit) {
         EXPECT_EQ(report.cause(), cause) << report.ShortDebugString().substr(0, 2000);
