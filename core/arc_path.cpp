@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "core/number_text.hpp"
 
@@ -13,6 +14,7 @@ constexpr double kQuarterTurn = std::numbers::pi / 2;
 constexpr double kWhole = 2 * std::numbers::pi;
 constexpr double kSameAngle = 1e-9;  // rad; an arc with closer ends is a whole turn, as in core/path/arc_cutter.cpp
 constexpr double kMostChords = 100'000;
+constexpr double kWithRounding = 1 + 1e-6;
 constexpr double kMostErrors = 100;  // in ArcTolerance::error_mm: the greatest difference of an arc's radii
 
 double in_micrometres(double mm) { return std::round(mm * 1e4) / 1e4; }
@@ -87,16 +89,20 @@ std::pair<double, double> ArcPath::direction(double share) const {
     return {x / std::hypot(x, y), y / std::hypot(x, y)};
 }
 
-/// The share of the angle at which a spiral is farthest in an axis's direction, which it crosses at `angle`.
-double ArcPath::extreme(double angle) const {
-    constexpr int kCorrections = 20;
+/// The share of the angle at which a spiral is farthest in an axis's direction, which it crosses at `angle`; nullopt if
+/// that is not on the arc. Each correction is much smaller than the one before, until there is none.
+std::optional<double> ArcPath::extreme(double angle) const {
+    constexpr int kMostCorrections = 20;
     const double change = radius_end_ - radius_begin_;
-    double share = (angle - begin_) / (sign() * sweep_);
-    for (int k = 0; k < kCorrections && change != 0; ++k) {
+    const double crossing = (angle - begin_) / (sign() * sweep_);
+    const double most_ahead = std::abs(change) / (sweep_ * std::min(radius_begin_, radius_end_)) / sweep_;
+    if (crossing < -kWithRounding * most_ahead || crossing > 1 + kWithRounding * most_ahead) { return std::nullopt; }
+    double share = crossing;
+    for (int k = 0; k < kMostCorrections && change != 0; ++k) {
         const double ahead = std::atan2(change, sweep_ * radius_at(std::clamp(share, 0.0, 1.0)));
-        share = (angle - begin_) / (sign() * sweep_) + ahead / sweep_;
+        if (std::exchange(share, crossing + ahead / sweep_) == share) { break; }
     }
-    return share;
+    return share < 0 || share > 1 ? std::nullopt : std::optional(share);
 }
 
 /// The extremes are at the ends, or where the arc crosses the axis's direction from the centre. It is enough to look at
@@ -109,10 +115,11 @@ std::pair<double, double> ArcPath::extent(std::size_t axis) const {
     const double offset = axis == shape_.first ? 0 : kQuarterTurn;
     const double first = std::ceil((begin_ - offset) / turn);
     const auto note = [&](double crossing) {
-        const double share = extreme(crossing * turn + offset);
-        if (share < 0 || share > 1) { return; }
-        least = std::min(least, at(axis, share));
-        greatest = std::max(greatest, at(axis, share));
+        const auto share = extreme(crossing * turn + offset);
+        if (!share) { return; }
+        const double place = at(axis, *share);
+        least = std::min(least, place);
+        greatest = std::max(greatest, place);
     };
     const double last = first + std::floor(sweep_ / kQuarterTurn);
     for (int k = -1; k <= 4; ++k) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -53,7 +54,7 @@ private:
     double sign() const { return shape_.is_clockwise ? -1 : 1; }
     double angle_at(double share) const { return begin_ + sign() * sweep_ * share; }
     double radius_at(double share) const { return radius_begin_ + (radius_end_ - radius_begin_) * share; }
-    double extreme(double angle) const;
+    std::optional<double> extreme(double angle) const;
 
     ArcShape shape_;
     std::span<const double> from_;

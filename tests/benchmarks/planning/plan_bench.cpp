@@ -66,6 +66,35 @@ std::string turns(int lines) {
     return text;
 }
 
+/// Arcs of 0.2 to 3.2 mm radius and 0.1 to 1.6 rad, each of which continues the direction of the one before.
+std::string arcs(int lines) {
+    std::mt19937_64 random(1);
+    std::uniform_real_distribution<> unit(0, 1);
+    std::string text = "G21 G90 F3000\nG0 X50 Y50\n";
+    const auto rounded = [](double mm) { return std::round(mm * 1e4) / 1e4; };
+    double x = 50;
+    double y = 50;
+    double heading = 0;
+    for (int k = 0; k < lines; ++k) {
+        const double radius = 0.2 + 3 * unit(random);
+        const double sweep = 0.1 + 1.5 * unit(random);
+        const bool leaves = std::abs(x - 50) > 40 || std::abs(y - 50) > 40;
+        if (leaves) { heading = std::atan2(50 - y, 50 - x); }
+        const double side = unit(random) < 0.5 ? 1 : -1;  // 1: counter-clockwise
+        const double centre_x = -side * radius * std::sin(heading);
+        const double centre_y = side * radius * std::cos(heading);
+        heading += side * sweep;
+        char line[96];
+        std::snprintf(line, sizeof line, "G%d X%.4f Y%.4f I%.4f J%.4f\n", side > 0 ? 3 : 2,
+                      x + centre_x + side * radius * std::sin(heading),
+                      y + centre_y - side * radius * std::cos(heading), centre_x, centre_y);
+        x = rounded(x + centre_x + side * radius * std::sin(heading));
+        y = rounded(y + centre_y - side * radius * std::cos(heading));
+        text += line;
+    }
+    return text;
+}
+
 const std::string kHelix = "G21 G90 F3000\nG0 X50 Y50 Z20\nG2 X50 Y50 Z10 I2 J0 P100000\n";
 const std::string kSlowArc = "G21 G90 F3000\nG0 X90 Y50\nG1 X90.5 F100\nG2 X90.5 Y50 I-40 J0 P8 F1\nG0 X10\n";
 
@@ -125,6 +154,7 @@ void measure(benchmark::State& bench, const std::string& text, Work work) {
 }
 
 constexpr int kLines = 1'000'000;
+constexpr int kArcs = 200'000;
 constexpr int kLinesWithFrames = 100'000;
 
 void Read(benchmark::State& bench) {
@@ -141,6 +171,16 @@ void TurnsWithFrames(benchmark::State& bench) {
     measure(bench, turns(kLinesWithFrames), [](const PlannedFile& file) { file.plan([](const PlannedFrame&) {}); });
 }
 BENCHMARK(TurnsWithFrames)->Name("plan/turns/with_frames")->UseRealTime()->Unit(benchmark::kMillisecond);
+
+void ReadArcs(benchmark::State& bench) {
+    measure(bench, arcs(kArcs), [](const PlannedFile& file) { file.read(); });
+}
+BENCHMARK(ReadArcs)->Name("plan/arcs/only_read")->UseRealTime()->Unit(benchmark::kMillisecond);
+
+void Arcs(benchmark::State& bench) {
+    measure(bench, arcs(kArcs), [](const PlannedFile& file) { file.plan({}); });
+}
+BENCHMARK(Arcs)->Name("plan/arcs")->UseRealTime()->Unit(benchmark::kMillisecond);
 
 void Helix(benchmark::State& bench) {
     measure(bench, kHelix, [](const PlannedFile& file) { file.plan({}); });
