@@ -1,6 +1,6 @@
 #include "clients/analysis/measure/axis_statistics.hpp"
 
-#include "clients/analysis/measure/vector_clones.hpp"
+#include "clients/analysis/vector/clones.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -60,23 +60,31 @@ void AxisStatistics::begin(StepEdge edge, std::int64_t position_before) {
 }
 
 /// Measures as many of the steps from `from` on as can be measured in blocks. Returns their number.
-LOCKSTEP_VECTOR_CLONES
 std::size_t AxisStatistics::measure_blocks(const StepBatch& batch, std::size_t from, MeasuredSteps& measured) {
     if (!batch.device_ticks.empty()) { return 0; }
+    const std::span<const StepEdge> edges = std::span(batch.steps).subspan(from);
+    std::size_t done = 0;
+    while (const std::size_t taken = meter_.take_blocks(edges.subspan(done))) {
+        measure_taken({&measured.rates[from + done], taken});
+        done += taken;
+    }
+    return done;
+}
+
+/// Measures the steps that the meter took in blocks.
+LOCKSTEP_VECTOR_CLONES
+void AxisStatistics::measure_taken(std::span<StepRates> rates) {
     SpeedMeter::Block block;
-    std::size_t i = from;
-    for (; i + SpeedMeter::kBlock <= batch.steps.size(); i += SpeedMeter::kBlock) {
-        const std::span<const StepEdge, SpeedMeter::kBlock> edges(&batch.steps[i], SpeedMeter::kBlock);
-        if (!meter_.steps(edges, block)) { break; }
+    for (std::size_t i = 0; i < rates.size(); i += SpeedMeter::kBlock) {
+        meter_.measure_block(block);
         for (std::size_t k = 0; k < SpeedMeter::kBlock; ++k) {
-            measured.rates[i + k] = {static_cast<float>(std::abs(block.speed[k])),
-                                     static_cast<float>(std::abs(block.acceleration[k]))};
+            rates[i + k] = {static_cast<float>(std::abs(block.speed.value[k])),
+                            static_cast<float>(std::abs(block.acceleration.value[k]))};
         }
         if (!keeps_curves_) { continue; }
-        speed_.add(block.speed_at, block.speed);
-        acceleration_.add(block.acceleration_at, block.acceleration);
+        speed_.add_block(block.speed);
+        acceleration_.add_block(block.acceleration);
     }
-    return i - from;
 }
 
 /// Speed and acceleration are by the device's clock, which the motor follows; their times are machine time.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "clients/analysis/measure/course.hpp"
@@ -57,6 +58,7 @@ public:
 private:
     void begin(StepEdge edge, std::int64_t position_before);
     std::size_t measure_blocks(const StepBatch& batch, std::size_t from, MeasuredSteps& measured);
+    void measure_taken(std::span<StepRates> rates);
     StepRates measure(StepEdge edge, Tick by_device);
     void stand_at(Tick tick);
     void show_rest(Tick from, Tick until);

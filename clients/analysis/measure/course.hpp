@@ -5,12 +5,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <ranges>
-#include <span>
-#include <utility>
 #include <vector>
 
+#include "clients/analysis/vector/lanes.hpp"
 #include "core/units.hpp"
 
 namespace lockstep::analysis {
@@ -19,6 +20,23 @@ namespace lockstep::analysis {
 struct Sample {
     Tick at;
     double value = 0;
+};
+
+/// Some consecutive samples and their range.
+struct SampleBlock {
+    static constexpr std::size_t kSize = 16;
+
+    Tick origin;
+    std::array<std::int32_t, kSize> at;  // since the origin
+    std::array<double, kSize> value;
+    double lowest = 0;
+    double highest = 0;
+
+    Sample operator[](std::size_t i) const { return {origin + Ticks{at[i]}, value[i]}; }
+    [[gnu::always_inline]] void find_range() {
+        lowest = lowest_of(value);
+        highest = highest_of(value);
+    }
 };
 
 class Course {
@@ -31,15 +49,14 @@ public:
         if (is_in_latest(sample.at) || find_bin(sample.at)) { bins_[latest_].add(sample); }
     }
     /// Adds samples in order; costs less if they are in one bin and within its values.
-    void add(std::span<const Tick> at, std::span<const double> values) {
-        const auto [lowest, highest] = range_of(values);
-        const bool is_within =
-            is_in_latest(at.front()) && is_in_latest(at.back()) && bins_[latest_].covers(lowest, highest);
+    void add_block(const SampleBlock& block) {
+        const bool is_within = is_in_latest(block[0].at) && is_in_latest(block[SampleBlock::kSize - 1].at) &&
+                               bins_[latest_].covers(block.lowest, block.highest);
         if (is_within) {
-            bins_[latest_].last = {at.back(), values.back()};
+            bins_[latest_].last = block[SampleBlock::kSize - 1];
             return;
         }
-        for (std::size_t i = 0; i < at.size(); ++i) { add({at[i], values[i]}); }
+        for (std::size_t i = 0; i < SampleBlock::kSize; ++i) { add(block[i]); }
     }
     /// Adds samples of one value at the times at(0) ... at(count - 1), in order. Only the first and the last in a bin
     /// are needed.
@@ -71,16 +88,6 @@ private:
         void add(const Bin& later);
         bool covers(double low, double high) const { return !empty && lowest.value <= low && high <= highest.value; }
     };
-    static std::pair<double, double> range_of(std::span<const double> values) {
-        double low = values[0];
-        double high = values[0];
-        for (const double value : values) {
-            low = value < low ? value : low;
-            high = value > high ? value : high;
-        }
-        return {low, high};
-    }
-
     bool is_in_latest(Tick at) const { return at >= latest_from_ && at < latest_end_; }
     bool find_bin(Tick at);
     void widen();

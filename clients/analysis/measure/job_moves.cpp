@@ -67,6 +67,7 @@ JobMoves::JobMoves(AskedPath asked, bool on_a_line)
         at_mm_.push_back(static_cast<double>(counts_.back()) * asked_.mm_per_step(axis));
         near_mm2_ += asked_.mm_per_step(axis) * asked_.mm_per_step(axis);
     }
+    places_.mm.resize(asked_.axes());
     begin(0);
 }
 
@@ -82,7 +83,7 @@ void JobMoves::begin(std::size_t move) {
 double JobMoves::square_of_distance_mm2() {
     constexpr std::size_t kBack = 8;
     double least = shape_.square_of_distance(at_mm_);
-    bound_.set(shape_, at_mm_, least);
+    bound_.set(shape_);
     for (std::size_t back = 1; back <= std::min(kBack, current_) && least > near_mm2_; ++back) {
         least = std::min(least, asked_.shape(current_ - back).square_of_distance(at_mm_));
     }
@@ -100,20 +101,18 @@ void JobMoves::take(std::size_t axis, const MeasuredStep& step) {
         ++unasked_steps_;
     }
     const bool is_next = std::exchange(counts_[axis], step.count) == step.count - step.direction;
-    const double mm_per_step = asked_.mm_per_step(axis);
-    const double before_mm = std::exchange(at_mm_[axis], static_cast<double>(step.count) * mm_per_step);
+    at_mm_[axis] = static_cast<double>(step.count) * asked_.mm_per_step(axis);
     if (!on_a_line_) { return; }
     Made& made = made_[current_];
-    const bool is_farther = bound_.may_be_farther(axis, at_mm_, before_mm, step.direction * mm_per_step,
-                                                  static_cast<double>(made.largest_square_mm2));
     if (!is_next) {
         bound_.forget();
         forget_distances(move_before);
     }
     if (step.tick < newest_) { return forget_distances(std::min(cursor.move(), current_)); }
     newest_ = made.newest = step.tick;
-    if (!is_farther && is_next) { return; }
-    made.largest_square_mm2 = std::max(made.largest_square_mm2, static_cast<float>(square_of_distance_mm2()));
+    note_place(0);
+    places_.size = 1;
+    measure_places(made.largest_square_mm2);
 }
 
 void JobMoves::take(MergedSteps& steps, AxesOfLanes axis_of_lane, Tick until) {
@@ -176,19 +175,32 @@ StepRates JobMoves::peak_of(std::span<const StepRates> rates) {
 /// Measures the distances at steps that all are in moves that have begun.
 void JobMoves::measure_distances(std::span<const MergedStep> steps, AxesOfLanes axis_of_lane) {
     float& largest = made_[current_].largest_square_mm2;
-    DistanceBound bound = std::move(bound_);  // a local one stays in registers
-    for (const MergedStep& step : steps) {
-        const std::size_t axis = *axis_of_lane[step.lane()];
-        const double mm_per_step = asked_.mm_per_step(axis);
-        counts_[axis] += step.direction();
-        const double before_mm = std::exchange(at_mm_[axis], static_cast<double>(counts_[axis]) * mm_per_step);
-        const double step_mm = step.direction() * mm_per_step;
-        if (!bound.may_be_farther(axis, at_mm_, before_mm, step_mm, static_cast<double>(largest))) { continue; }
-        bound_ = std::move(bound);
-        largest = std::max(largest, static_cast<float>(square_of_distance_mm2()));
-        bound = std::move(bound_);
+    while (!steps.empty()) {
+        places_.size = std::min(steps.size(), Places::kMost);
+        for (std::size_t i = 0; i < places_.size; ++i) {
+            const std::size_t axis = *axis_of_lane[steps[i].lane()];
+            counts_[axis] += steps[i].direction();
+            at_mm_[axis] = static_cast<double>(counts_[axis]) * asked_.mm_per_step(axis);
+            note_place(i);
+        }
+        measure_places(largest);
+        steps = steps.subspan(places_.size);
     }
-    bound_ = std::move(bound);
+}
+
+void JobMoves::note_place(std::size_t number) {
+    for (std::size_t axis = 0; axis < at_mm_.size(); ++axis) { places_.mm[axis][number] = at_mm_[axis]; }
+}
+
+/// Measures the distances of the places that may be farther than the farthest one.
+void JobMoves::measure_places(float& largest) {
+    std::size_t place = bound_.first_farther(places_, 0, static_cast<double>(largest));
+    while (place < places_.size) {
+        places_.get(place, at_mm_);
+        largest = std::max(largest, static_cast<float>(square_of_distance_mm2()));
+        place = bound_.first_farther(places_, place + 1, static_cast<double>(largest));
+    }
+    places_.get(places_.size - 1, at_mm_);
 }
 
 /// Called if later steps of other axes were compared with an outdated position of this axis.

@@ -134,6 +134,8 @@ private:
     Tick end_of_strokes(const MergedSteps& steps, AxesOfLanes axis_of_lane, Tick until) const;
     void take_in_strokes(MergedSteps& steps, AxesOfLanes axis_of_lane, Tick until);
     void measure_distances(std::span<const MergedStep> steps, AxesOfLanes axis_of_lane);
+    void note_place(std::size_t number);
+    void measure_places(float& largest);
     void begin(std::size_t move);
     double square_of_distance_mm2();
     void forget_distances(std::size_t from_move);
@@ -159,6 +161,7 @@ private:
     std::vector<double> at_mm_;         // the same, in mm
     AskedShape shape_;                  // of the current move
     DistanceBound bound_;               // of the distance from it
+    Places places_;                     // after the steps that are being measured
     double near_mm2_ = 0;               // the square of a step of each axis
     std::int64_t unasked_steps_ = 0;
 };

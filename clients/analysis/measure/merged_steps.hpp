@@ -21,6 +21,8 @@ public:
     Ticks tick() const { return {number_ >> kBits}; }
     std::size_t lane() const { return static_cast<std::size_t>(number_ & (kUnit - 1)) / 2; }
     std::int8_t direction() const { return (number_ & 1) != 0 ? -1 : 1; }
+    /// Twice the lane, plus 1 if backward.
+    std::size_t kind() const { return static_cast<std::size_t>(number_ & (kUnit - 1)); }
     bool operator<(const MergedStep& other) const { return number_ < other.number_; }
 
 private:

@@ -13,10 +13,13 @@ std::optional<std::size_t> MoveMeter::Job::axis(const std::string& name) const {
 }
 
 void MoveMeter::name_lane(std::size_t lane, const std::string& axis) {
-    if (lanes_.size() <= lane) { lanes_.resize(lane + 1); }
-    lanes_[lane].axis = axis;
-    if (axis == "X") { lanes_[lane].in_plane = 0; }
-    if (axis == "Y") { lanes_[lane].in_plane = 1; }
+    if (lanes_.size() <= lane) {
+        lanes_.resize(lane + 1);
+        in_plane_.resize(lane + 1);
+    }
+    lanes_[lane] = axis;
+    if (axis == "X") { in_plane_[lane] = 0; }
+    if (axis == "Y") { in_plane_[lane] = 1; }
     for (Job& job : jobs_) {
         job.axis_of_lane.resize(lanes_.size());
         job.axis_of_lane[lane] = job.axis(axis);
@@ -27,7 +30,7 @@ void MoveMeter::begin(std::size_t number, Tick from, const MachineConfig& machin
     if (jobs_.size() == kJobsOpen) { end_first(); }
     begin_turn({from, number});
     Job job{.number = number, .axes = machine.axis_names(), .moves = std::move(moves), .axis_of_lane = {}};
-    for (const Lane& lane : lanes_) { job.axis_of_lane.push_back(job.axis(lane.axis)); }
+    for (const std::string& lane : lanes_) { job.axis_of_lane.push_back(job.axis(lane)); }
     jobs_.push_back(std::move(job));
 }
 
@@ -86,12 +89,24 @@ void MoveMeter::trace(const Job* job, const MergedSteps& steps, Tick until) {
     const bool of_a_job = job != nullptr && job->moves.is_on_a_line();
     if (of_a_job && !std::exchange(plane_is_of_jobs_, true)) { plane_ = {}; }
     if (of_a_job != plane_is_of_jobs_) { return; }
-    for (std::size_t i = 0; i < lanes_.size(); ++i) { lanes_[i].count = steps.lanes()[i].count; }
-    for (const MergedStep& step : steps.before(until)) {
-        Lane& lane = lanes_[step.lane()];
-        lane.count += step.direction();
-        if (lane.in_plane) { plane_.step(*lane.in_plane, lane.count, step.direction()); }
+    const auto merged = steps.before(until);
+    if (joins_plane(steps)) { return plane_.steps(merged, in_plane_); }
+    std::vector<std::int64_t> counts;
+    for (const MergedSteps::Lane& lane : steps.lanes()) { counts.push_back(lane.count); }
+    for (const MergedStep& step : merged) {
+        const std::size_t lane = step.lane();
+        counts[lane] += step.direction();
+        if (in_plane_[lane]) { plane_.step(*in_plane_[lane], counts[lane], step.direction()); }
     }
+}
+
+/// Whether the plane's axes are where these steps begin.
+bool MoveMeter::joins_plane(const MergedSteps& steps) const {
+    for (std::size_t i = 0; i < lanes_.size(); ++i) {
+        const MergedSteps::Lane& lane = steps.lanes()[i];
+        if (in_plane_[i] && !lane.steps.empty() && !plane_.is_at(*in_plane_[i], lane.count)) { return false; }
+    }
+    return true;
 }
 
 void MoveMeter::on_late(const std::string& axis, EquallyLate late) {

@@ -45,11 +45,6 @@ public:
     void finish();
 
 private:
-    struct Lane {
-        std::string axis;
-        std::optional<std::size_t> in_plane;  // axis of PlaneTrace, 0 or 1
-        std::int64_t count = 0;               // position in the plane
-    };
     struct Job {
         std::size_t number = 0;
         std::vector<std::string> axes;
@@ -70,12 +65,14 @@ private:
     Tick end_of_turn(Tick tick) const;
     Job* job_of(std::size_t number);
     void begin_turn(const Turn& turn);
+    bool joins_plane(const MergedSteps& steps) const;
     void trace(const Job* job, const MergedSteps& steps, Tick until);
     void end_first();
 
     OnJob on_job_;
     bool keeps_plane_;
-    std::vector<Lane> lanes_;
+    std::vector<std::string> lanes_;                    // the axis of each
+    std::vector<std::optional<std::size_t>> in_plane_;  // axis of PlaneTrace, 0 or 1, of each lane
     static constexpr std::size_t kTurnsKept = 4 * kJobsOpen;
     std::vector<Job> jobs_;    // in the order of their last turns
     std::vector<Turn> turns_;  // the newest, in the order of time

@@ -9,9 +9,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "clients/analysis/measure/merged_steps.hpp"
 #include "clients/drawing/svg.hpp"
 
 namespace lockstep::analysis {
@@ -24,6 +26,13 @@ public:
 
     /// Axis 0 or 1 of the plane has made a step in `direction` to `count`.
     void step(std::size_t axis, std::int64_t count, int direction);
+    /// Whether an axis of the newest way is at this count.
+    bool is_at(std::size_t axis, std::int64_t count) const {
+        return at_[axis] == count && at_[1 - axis] && !ways_.back().empty();
+    }
+    /// The same as step() for steps of all lanes, at least one, where is_at() is true before each axis's first step.
+    /// `axis_of_lane`: of the plane; nullopt for other lanes.
+    void steps(std::span<const MergedStep> steps, std::span<const std::optional<std::size_t>> axis_of_lane);
     /// Begins a new way, because the following steps do not join the previous ones.
     void part();
 
@@ -33,8 +42,13 @@ public:
 private:
     static constexpr std::size_t kThinnedAtOnce = 4096;
 
+    void put(drawing::Point at);
     void thin_newest();
     void thin_all();
+
+    bool is_near(drawing::Point a, drawing::Point b) const {
+        return std::abs(a.x - b.x) < 2 * tolerance_ && std::abs(a.y - b.y) < 2 * tolerance_;
+    }
 
     std::array<std::optional<std::int64_t>, 2> at_;
     double tolerance_ = kTolerance;
@@ -47,10 +61,13 @@ inline void PlaneTrace::step(std::size_t axis, std::int64_t count, int direction
     const auto before = std::exchange(at_[axis], count);
     if (before && *before != count - direction) { part(); }
     if (!at_[0] || !at_[1]) { return; }
+    put({static_cast<double>(*at_[0]), static_cast<double>(*at_[1])});
+}
+
+/// Adds the place unless it is near the newest point.
+inline void PlaneTrace::put(drawing::Point at) {
     auto& way = ways_.back();
-    const drawing::Point at{static_cast<double>(*at_[0]), static_cast<double>(*at_[1])};
-    const auto is_near = [&](double a, double b) { return std::abs(a - b) < 2 * tolerance_; };
-    if (!way.empty() && is_near(way.back().x, at.x) && is_near(way.back().y, at.y)) { return; }
+    if (!way.empty() && is_near(way.back(), at)) { return; }
     way.push_back(at);
     if (way.size() - thinned_ >= kThinnedAtOnce) { thin_newest(); }
 }

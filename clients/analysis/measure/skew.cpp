@@ -1,5 +1,7 @@
 #include "clients/analysis/measure/skew.hpp"
 
+#include "clients/analysis/vector/clones.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <iterator>
@@ -131,6 +133,7 @@ void SkewMeter::note_bits(std::vector<AxisSteps>& axes) {
     }
 }
 
+LOCKSTEP_VECTOR_CLONES
 std::int64_t SkewMeter::common_ticks(const AxisSteps& a, const AxisSteps& b) {
     std::int64_t ticks = 0;
     if (!a.bits.empty() && !b.bits.empty()) {

@@ -1,8 +1,14 @@
 #include "clients/analysis/measure/speed_meter.hpp"
 
-#include "clients/analysis/measure/vector_clones.hpp"
+#include "clients/analysis/vector/clones.hpp"
+#include "clients/analysis/vector/lanes.hpp"
 
 namespace lockstep::analysis {
+namespace {
+
+constexpr IntLanes kEachLane{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+
+}  // namespace
 
 void SpeedMeter::interrupt() {
     if (past_.size() > 1 && !measured_) { peak_speed_ = std::max(peak_speed_, least_speed_since(0)); }
@@ -41,77 +47,86 @@ void SpeedMeter::forget() {
     room_ = std::max(kKept, 2 * past_.size());
 }
 
-bool SpeedMeter::steps(std::span<const StepEdge, kBlock> edges, Block& measured) {
-    if (past_.empty() || !has_early_window(late_first_) || !goes_on(edges)) { return false; }
-    if (past_.size() + kBlock > room_) { forget(); }
-    const std::size_t from = past_.size();
-    for (const StepEdge& edge : edges) { past_.push_back(static_cast<std::int32_t>((edge.tick - base_).value)); }
+std::size_t SpeedMeter::take_blocks(std::span<const StepEdge> edges) {
+    if (past_.empty() || !has_early_window(late_first_)) { return 0; }
+    edges = edges.first(std::min(edges.size(), kKept));
+    edges = edges.first(blocks_of_motion(edges) * kBlock);
+    if (edges.empty()) { return 0; }
+    if (past_.size() + edges.size() > room_) { forget(); }
+    if (is_far(edges.back().tick)) { return 0; }
+    measured_until_ = past_.size();
+    past_.resize(measured_until_ + edges.size());
     window_from_.resize(past_.size());
     window_speed_.resize(past_.size());
-    measure_speeds(from, measured);
-    measure_accelerations(from, measured);
-    return true;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        past_[measured_until_ + i] = static_cast<std::int32_t>((edges[i].tick - base_).value);
+    }
+    return edges.size();
 }
 
-/// Whether the steps continue the motion. Then they complete windows, because the last step has.
-bool SpeedMeter::goes_on(std::span<const StepEdge, kBlock> edges) const {
-    bool goes_on = edges[0].tick - tick(past_.size() - 1) <= kRest && edges[0].direction == direction_;
-    for (std::size_t i = 1; i < kBlock; ++i) {
-        goes_on = goes_on && edges[i].tick - edges[i - 1].tick <= kRest && edges[i].direction == direction_;
+void SpeedMeter::measure_block(Block& measured) {
+    measure_speeds(measured_until_, measured.speed);
+    measure_accelerations(measured_until_, measured.acceleration);
+    measured_until_ += kBlock;
+}
+
+/// The number of blocks whose steps continue the motion. They complete windows, because the last step has.
+LOCKSTEP_VECTOR_CLONES
+std::size_t SpeedMeter::blocks_of_motion(std::span<const StepEdge> edges) const {
+    Tick before = tick(past_.size() - 1);
+    std::size_t blocks = 0;
+    for (; (blocks + 1) * kBlock <= edges.size(); ++blocks) {
+        const StepEdge* const block = edges.data() + blocks * kBlock;
+        std::int32_t go_on = block[0].tick - before <= kRest && block[0].direction == direction_ ? 1 : 0;
+        for (std::size_t i = 1; i < kBlock; ++i) {
+            go_on &= block[i].tick - block[i - 1].tick <= kRest && block[i].direction == direction_ ? 1 : 0;
+        }
+        if (go_on == 0) { break; }
+        before = block[kBlock - 1].tick;
     }
-    return goes_on;
+    return blocks;
 }
 
 LOCKSTEP_VECTOR_CLONES
-void SpeedMeter::measure_speeds(std::size_t from, Block& measured) {
+void SpeedMeter::measure_speeds(std::size_t from, SampleBlock& measured) {
     Begins begins;
     narrow_all(speed_first_, kSpeedWindow, from, begins);
-    std::array<std::int32_t, kBlock> middles;
-    std::array<double, kBlock> speeds;
     const std::int32_t* const past = past_.data();
     const auto newest = static_cast<std::int32_t>(from);
+    const double sign = direction_;
     for (std::int32_t i = 0; i < kLanes; ++i) {
         const std::int32_t first = past[begins[i]];
         const std::int32_t lasts = past[newest + i] - first;
-        middles[i] = first + lasts / 2;
-        speeds[i] = static_cast<double>(newest + i - begins[i]) / static_cast<double>(lasts);
+        measured.at[i] = first + lasts / 2;
+        measured.value[i] = sign * (static_cast<double>(newest + i - begins[i]) / static_cast<double>(lasts));
     }
-    double peak = peak_speed_;
-    const double sign = direction_;
-    for (std::int32_t i = 0; i < kLanes; ++i) {
-        peak = peak > speeds[i] ? peak : speeds[i];
-        measured.speed[i] = sign * speeds[i];
-        measured.speed_at[i] = base_ + Ticks{middles[i]};
-    }
-    peak_speed_ = peak;
+    measured.origin = base_;
+    measured.find_range();
+    peak_speed_ = std::max({peak_speed_, measured.highest, -measured.lowest});
 }
 
 LOCKSTEP_VECTOR_CLONES
-void SpeedMeter::measure_accelerations(std::size_t from, Block& measured) {
+void SpeedMeter::measure_accelerations(std::size_t from, SampleBlock& measured) {
     Begins begins;
     narrow_all(late_first_, kAccelerationWindow, from, begins);
-    std::array<double, kBlock> changes;
     const std::int32_t* const past = past_.data();
     const auto newest = static_cast<std::int32_t>(from);
     for (std::int32_t i = 0; i < kLanes; ++i) {
         const std::int32_t first = past[begins[i]];
+        measured.at[i] = first;
         window_from_[from + i] = first;
         window_speed_[from + i] =
             static_cast<double>(newest + i - begins[i]) / static_cast<double>(past[newest + i] - first);
     }
-    for (std::int32_t i = 0; i < kLanes; ++i) {
-        const double ticks = 0.5 * (past[newest + i] - window_from_[begins[i]]);
-        changes[i] = (window_speed_[newest + i] - window_speed_[begins[i]]) / ticks;
-        measured.acceleration_at[i] = base_ + Ticks{past[begins[i]]};
-    }
-    double peak = peak_acceleration_;
     const double sign = direction_;
     for (std::int32_t i = 0; i < kLanes; ++i) {
-        peak = peak > std::abs(changes[i]) ? peak : std::abs(changes[i]);
-        measured.acceleration[i] = sign * changes[i];
+        const double ticks = 0.5 * (past[newest + i] - window_from_[begins[i]]);
+        measured.value[i] = sign * ((window_speed_[newest + i] - window_speed_[begins[i]]) / ticks);
     }
-    peak_acceleration_ = peak;
-    acceleration_ = Sample{measured.acceleration_at.back(), measured.acceleration.back()};
+    measured.origin = base_;
+    measured.find_range();
+    peak_acceleration_ = std::max({peak_acceleration_, measured.highest, -measured.lowest});
+    acceleration_ = measured[kBlock - 1];
 }
 
 /// narrow() for each step of a block.
@@ -133,27 +148,27 @@ LOCKSTEP_VECTOR_CLONES
 bool SpeedMeter::narrow_near(std::size_t first, std::int32_t least, std::size_t from, Begins& begins) const {
     constexpr std::int32_t kNear = 3;  // steps more or fewer
     if (first < kNear) { return false; }
-    const std::int32_t* const newest = past_.data() + from;
-    const std::int32_t* const shortest = newest - kLeastSteps;
+    const std::int32_t* const shortest = past_.data() + from - kLeastSteps;
     const std::int32_t* const longest = past_.data() + first - kNear;
-    const auto earliest = static_cast<std::int32_t>(first) - kNear - 1;
-    const auto latest = static_cast<std::int32_t>(from - kLeastSteps);
-    std::int32_t are_shortest = 1;
-    for (std::int32_t i = 0; i < kLanes; ++i) { are_shortest &= shortest[i] <= newest[i] - least ? 1 : 0; }
-    if (are_shortest != 0) {
-        for (std::int32_t i = 0; i < kLanes; ++i) { begins[i] = latest + i; }
+    IntLanes until;
+    IntLanes place;
+    load(until, past_.data() + from);
+    until -= least;
+    const IntLanes latest = kEachLane + static_cast<std::int32_t>(from - kLeastSteps);
+    load(place, shortest);
+    if (all_true(place <= until)) {
+        store(latest, begins.data());
         return true;
     }
-    std::int32_t are_near = 1;
-    for (std::int32_t i = 0; i < kLanes; ++i) {
-        const std::int32_t until = newest[i] - least;
-        std::int32_t fit = 0;
-        for (std::int32_t k = 0; k <= 2 * kNear; ++k) { fit += longest[i + k] <= until ? 1 : 0; }
-        are_near &= fit > 0 && longest[i + 2 * kNear + 1] > until ? 1 : 0;
-        const std::int32_t begin = earliest + i + fit;
-        begins[i] = begin < latest + i ? begin : latest + i;
+    IntLanes fit{};
+    for (std::int32_t k = 0; k <= 2 * kNear; ++k) {
+        load(place, longest + k);
+        fit -= place <= until;
     }
-    return are_near != 0;
+    load(place, longest + 2 * kNear + 1);
+    const IntLanes begin = kEachLane + fit + static_cast<std::int32_t>(first - kNear - 1);
+    store(begin < latest ? begin : latest, begins.data());
+    return all_true(fit > 0) && all_true(place > until);
 }
 
 }  // namespace lockstep::analysis

@@ -31,8 +31,8 @@ class SpeedMeter {
 public:
     /// After this time without a step an axis is at rest, and the window starts again.
     static constexpr Ticks kRest{100'000};
-    /// The number of steps that steps() takes.
-    static constexpr std::size_t kBlock = 16;
+    /// The number of steps in a block.
+    static constexpr std::size_t kBlock = SampleBlock::kSize;
 
     /// Takes the next step, in order. Returns the signed speed in the window that it completes, at the window's middle;
     /// nullopt if it completes none.
@@ -41,14 +41,13 @@ public:
     const std::optional<Sample>& acceleration() const { return acceleration_; }
     /// What step() and acceleration() return for each step of a block.
     struct Block {
-        std::array<Tick, kBlock> speed_at;
-        std::array<double, kBlock> speed;
-        std::array<Tick, kBlock> acceleration_at;
-        std::array<double, kBlock> acceleration;
+        SampleBlock speed;
+        SampleBlock acceleration;
     };
-    /// Takes the next kBlock steps at once, which costs less. Returns false and takes none if one of them might not
-    /// complete all windows.
-    bool steps(std::span<const StepEdge, kBlock> edges, Block& measured);
+    /// Takes the next steps in whole blocks, which costs less, as long as they certainly complete all windows. Returns
+    /// their number. Call measure_block() for each block before further steps.
+    std::size_t take_blocks(std::span<const StepEdge> edges);
+    void measure_block(Block& measured);
     /// Ends the motion: later steps do not join the previous ones.
     void interrupt();
 
@@ -59,7 +58,7 @@ private:
     static constexpr std::size_t kLeastSteps = 8;
     static constexpr std::int32_t kSpeedWindow = 1'000;
     static constexpr std::int32_t kAccelerationWindow = 10'000;
-    static constexpr std::size_t kKept = 2'048;
+    static constexpr std::size_t kKept = 4'096;
     static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
     static constexpr std::int32_t kLanes = kBlock;
@@ -71,9 +70,9 @@ private:
     bool narrow_near(std::size_t first, std::int32_t least, std::size_t from, Begins& begins) const;
     double speed_since(std::size_t first, std::size_t newest) const;
     double least_speed_since(std::size_t first) const;
-    bool goes_on(std::span<const StepEdge, kBlock> edges) const;
-    void measure_speeds(std::size_t from, Block& measured);
-    void measure_accelerations(std::size_t from, Block& measured);
+    std::size_t blocks_of_motion(std::span<const StepEdge> edges) const;
+    void measure_speeds(std::size_t from, SampleBlock& measured);
+    void measure_accelerations(std::size_t from, SampleBlock& measured);
     std::optional<Sample> measure_speed();
     void measure_acceleration();
     void add(Tick tick);
@@ -96,6 +95,7 @@ private:
     std::size_t room_ = kKept;     // maximum size of past_ before the oldest are dropped
     std::size_t speed_first_ = 0;  // begin of the windows that end with the newest step
     std::size_t late_first_ = 0;
+    std::size_t measured_until_ = 0;  // begin of the next block to be measured
     std::int8_t direction_ = 0;
     bool measured_ = false;  // a whole window of this motion
     std::optional<Sample> acceleration_;

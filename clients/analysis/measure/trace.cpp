@@ -1,6 +1,7 @@
 #include "clients/analysis/measure/trace.hpp"
 
-#include "clients/analysis/measure/vector_clones.hpp"
+#include "clients/analysis/vector/clones.hpp"
+#include "clients/analysis/vector/lanes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -33,45 +34,51 @@ void Trace::on_batch(const StepBatch& batch) {
 }
 
 /// Takes steps as step() does, but all at once, which costs less. Returns false and takes none if the current line
-/// might not pass all of them, or if the axis might have rested.
+/// might not pass all of them, or if the axis might have rested or turned.
 LOCKSTEP_VECTOR_CLONES
 bool Trace::steps(std::span<const StepEdge, kBlock> edges) {
-    if (!newest_ || !last_step_ || last_interval_ == Ticks{}) { return false; }
+    if (!newest_ || !last_step_ || last_interval_ == Ticks{} || !go_on(edges)) { return false; }
     const Knot& anchor = knots_.back();
-    std::array<double, kBlock> times;
+    const std::int64_t direction = edges[0].direction;
+    const double first = static_cast<double>(position_) + static_cast<double>(direction) * 0.5 - anchor.position_steps;
     std::array<double, kBlock> slopes;
-    bool rested = false;
-    Ticks before = last_interval_;
-    Tick last = *last_step_;
-    std::int64_t position = position_;
+    std::array<double, kBlock> lows;
+    std::array<double, kBlock> highs;
     for (std::size_t i = 0; i < kBlock; ++i) {
-        const Ticks interval = edges[i].tick - std::exchange(last, edges[i].tick);
-        rested = rested || interval >= std::exchange(before, interval) * kRestRatio;
-        times[i] = ticks_between(anchor.tick, edges[i].tick);
-        slopes[i] = static_cast<double>(position) + edges[i].direction * 0.5 - anchor.position_steps;
-        position += edges[i].direction;
+        const double time = ticks_between(anchor.tick, edges[i].tick);
+        const double half_angle = tolerance_ / time;
+        slopes[i] = (first + static_cast<double>(static_cast<std::int64_t>(i) * direction)) / time;
+        lows[i] = slopes[i] - half_angle;
+        highs[i] = slopes[i] + half_angle;
     }
-    if (rested) { return false; }
-    double low = low_slope_;
-    double high = high_slope_;
-    double lowest = std::numeric_limits<double>::infinity();
-    double highest = -lowest;
-    for (std::size_t i = 0; i < kBlock; ++i) {
-        const double slope = slopes[i] / times[i];
-        const double half_angle = tolerance_ / times[i];
-        low = slope - half_angle > low ? slope - half_angle : low;
-        high = slope + half_angle < high ? slope + half_angle : high;
-        lowest = slope < lowest ? slope : lowest;
-        highest = slope > highest ? slope : highest;
-    }
-    if (lowest < low || highest > high) { return false; }
+    const double low = std::max(low_slope_, highest_of(lows));
+    const double high = std::min(high_slope_, lowest_of(highs));
+    if (lowest_of(slopes) < low || highest_of(slopes) > high) { return false; }
     low_slope_ = low;
     high_slope_ = high;
-    newest_ = Knot{last, static_cast<double>(position - edges.back().direction) + edges.back().direction * 0.5};
-    last_step_ = last;
-    last_interval_ = before;
-    position_ = position;
+    position_ += direction * static_cast<std::int64_t>(kBlock);
+    last_step_ = edges.back().tick;
+    last_interval_ = edges[kBlock - 1].tick - edges[kBlock - 2].tick;
+    newest_ = Knot{*last_step_, static_cast<double>(position_ - direction) + static_cast<double>(direction) * 0.5};
     return true;
+}
+
+/// Whether the axis goes on in one direction, without a rest.
+LOCKSTEP_VECTOR_CLONES
+bool Trace::go_on(std::span<const StepEdge, kBlock> edges) const {
+    std::array<std::int64_t, kBlock + 1> intervals;
+    intervals[0] = last_interval_.value;
+    intervals[1] = (edges[0].tick - *last_step_).value;
+    for (std::size_t i = 1; i < kBlock; ++i) { intervals[i + 1] = (edges[i].tick - edges[i - 1].tick).value; }
+    std::array<std::int64_t, kBlock> rests;  // at least 0 where it rests
+    std::int64_t turns = 0;
+    for (std::size_t i = 0; i < kBlock; ++i) { rests[i] = intervals[i + 1] - intervals[i] * kRestRatio; }
+    for (std::size_t i = 0; i < kBlock; ++i) { turns |= edges[i].direction ^ edges[0].direction; }
+    LongLanes first;
+    LongLanes second;
+    load(first, rests.data());
+    load(second, rests.data() + kBlock / 2);
+    return turns == 0 && all_true((first > second ? first : second) < 0);
 }
 
 void Trace::on_break(const Break&) { finish(); }

@@ -14,7 +14,7 @@ namespace lockstep::analysis {
 class WorkThread {
 public:
     /// The number of calls in a batch, and the maximum number of batches in the queue. They bound the memory.
-    static constexpr std::size_t kTogether = 16;
+    static constexpr std::size_t kTogether = 64;
     static constexpr std::size_t kMaxWaiting = 4;
 
     using Call = std::move_only_function<void()>;

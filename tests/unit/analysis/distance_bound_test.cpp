@@ -47,22 +47,35 @@ TEST_P(Bound, FindsEveryStepThatIsFarther) {
     double farthest = 0;
     int measured_steps = 0;
     int steps = 0;
+    Places places;
+    places.mm.resize(at.size());
+    const auto measure = [&] {
+        std::size_t next = bound.first_farther(places, 0, farthest);
+        for (std::size_t place = 0; place < places.size; ++place, ++steps) {
+            std::vector<double> its(at.size());
+            places.get(place, its);
+            const double square = measured.square_of_distance(its);
+            if (place < next) {
+                EXPECT_LE(square, farthest + 1e-12);
+                continue;
+            }
+            farthest = std::max(farthest, square);
+            (void)shape.square_of_distance(its);
+            bound.set(shape);
+            ++measured_steps;
+            next = bound.first_farther(places, place + 1, farthest);
+        }
+        places.size = 0;
+    };
     for (double share = 0; share <= 1; share += 2e-5) {
         for (std::size_t axis = 0; axis < at.size(); ++axis) {
             const double on_curve =
                 arc ? ArcPath(*arc, from, to).at(axis, share) : std::lerp(from[axis], to[axis], share);
             const double goal = std::round(on_curve / kStep_mm + (random() % 40 == 0 ? 1 : 0)) * kStep_mm;
             if (std::abs(goal - at[axis]) < kStep_mm / 2) { continue; }
-            const double before = std::exchange(at[axis], goal);
-            const double square = measured.square_of_distance(at);
-            ++steps;
-            if (bound.may_be_farther(axis, at, before, goal - before, farthest)) {
-                bound.set(shape, at, shape.square_of_distance(at));
-                ++measured_steps;
-            } else {
-                EXPECT_LE(square, farthest + 1e-12);
-            }
-            farthest = std::max(farthest, square);
+            at[axis] = goal;
+            for (std::size_t i = 0; i < at.size(); ++i) { places.mm[i][places.size] = at[i]; }
+            if (++places.size == Places::kMost) { measure(); }
         }
     }
     EXPECT_GT(steps, 1000);

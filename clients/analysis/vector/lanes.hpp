@@ -1,0 +1,60 @@
+// Numbers that vector units compute at once, for loops that the compiler does not turn into vector instructions itself.
+// Operators work on each number; a comparison gives -1 where it is true, else 0.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace lockstep::analysis {
+
+using IntLanes [[gnu::vector_size(64)]] = std::int32_t;   // 16
+using DoubleLanes [[gnu::vector_size(64)]] = double;      // 8
+using LongLanes [[gnu::vector_size(64)]] = std::int64_t;  // 8
+
+template <typename Lanes, typename Number>
+[[gnu::always_inline]] inline void load(Lanes& lanes, const Number* from) {
+    std::memcpy(&lanes, from, sizeof lanes);
+}
+template <typename Lanes, typename Number>
+[[gnu::always_inline]] inline void store(const Lanes& lanes, Number* to) {
+    std::memcpy(to, &lanes, sizeof lanes);
+}
+
+/// Whether all results of a comparison are true.
+template <typename Lanes>
+[[gnu::always_inline]] inline bool all_true(const Lanes& results) {
+    std::array<std::int64_t, 8> words;
+    static_assert(sizeof words == sizeof results);
+    std::memcpy(&words, &results, sizeof words);
+    return ((words[0] & words[1]) & (words[2] & words[3]) & (words[4] & words[5]) & (words[6] & words[7])) == -1;
+}
+
+[[gnu::always_inline]] inline double lowest_of(const DoubleLanes& lanes) {
+    const auto least = [&](int a, int b) { return lanes[b] < lanes[a] ? lanes[b] : lanes[a]; };
+    return std::min(std::min(least(0, 1), least(2, 3)), std::min(least(4, 5), least(6, 7)));
+}
+[[gnu::always_inline]] inline double highest_of(const DoubleLanes& lanes) {
+    const auto most = [&](int a, int b) { return lanes[b] > lanes[a] ? lanes[b] : lanes[a]; };
+    return std::max(std::max(most(0, 1), most(2, 3)), std::max(most(4, 5), most(6, 7)));
+}
+
+/// The same of 16 numbers.
+[[gnu::always_inline]] inline double lowest_of(const std::array<double, 16>& numbers) {
+    DoubleLanes a;
+    DoubleLanes b;
+    load(a, numbers.data());
+    load(b, numbers.data() + 8);
+    return lowest_of(b < a ? b : a);
+}
+[[gnu::always_inline]] inline double highest_of(const std::array<double, 16>& numbers) {
+    DoubleLanes a;
+    DoubleLanes b;
+    load(a, numbers.data());
+    load(b, numbers.data() + 8);
+    return highest_of(b > a ? b : a);
+}
+
+}  // namespace lockstep::analysis
