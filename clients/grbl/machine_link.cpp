@@ -13,8 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
 
-constexpr nanoseconds kRepeatAfter = 250ms;
-constexpr nanoseconds kPatience = 3s;
+constexpr nanoseconds kLeavePatience = 3s;
 
 Answer answer_of(const Reply& reply) { return {reply.status == ReplyStatus::Accepted, reply.fault, reply.text}; }
 
@@ -32,21 +31,23 @@ Command command_of(const Request& request) {
 
 }  // namespace
 
-/// Holds, stops and jog cancels need no lease.
+/// Holds, stops and jog cancels need no lease. If the coordinator is silent, the command itself reports that.
 bool MachineLink::claim(const Request& request, Grbl& grbl) {
     using Kind = Request::Kind;
     if (request.kind == Kind::Hold || request.kind == Kind::Stop || request.kind == Kind::CancelJog) { return true; }
-    const auto refusal = lease_.claim(monotonic_now());
-    if (!refusal) { return true; }
-    if (request.number != 0) { grbl.answer(request.number, answer_of(*refusal)); }
+    session_.use_lease({.has_work = true});
+    if (session_.lease().is_held() || session_.is_silent()) { return true; }
+    const auto reply = session_.take_lease(takes_over_);
+    if (!reply || session_.lease().is_held()) { return true; }
+    if (request.number != 0) { grbl.answer(request.number, answer_of(*reply)); }
     return false;
 }
 
 void MachineLink::carry_out(Request&& request, Grbl& grbl) {
     if (!claim(request, grbl)) { return; }
     switch (request.kind) {
-        case Request::Kind::Hold: return lines_.hold(monotonic_now());
-        case Request::Kind::Resume: return lines_.resume(monotonic_now());
+        case Request::Kind::Hold: return lines_.hold();
+        case Request::Kind::Resume: return lines_.resume();
         case Request::Kind::Stop: return lines_.stop(monotonic_now());
         case Request::Kind::Override: return send(command_of(request), 0);
         case Request::Kind::CancelJog: return jog_.release();
@@ -83,17 +84,12 @@ bool MachineLink::is_stuck() const {
 }
 
 void MachineLink::release() {
-    for (const nanoseconds begin = monotonic_now(); !lines_.has_left() && monotonic_now() - begin < kPatience;) {
+    for (const nanoseconds begin = monotonic_now(); !lines_.has_left() && monotonic_now() - begin < kLeavePatience;) {
         session_.receive(5ms);
         lines_.pass(session_.state()->state, rests(), monotonic_now());
     }
     session_.close_stream();
-    lease_.give();
-}
-
-void MachineLink::send(Command command, std::uint64_t number) {
-    session_.begin(command);
-    open_.push_back({command, number, monotonic_now()});
+    session_.give_lease();
 }
 
 void MachineLink::pass(nanoseconds time, Grbl& grbl) {
@@ -112,24 +108,25 @@ void MachineLink::pass(nanoseconds time, Grbl& grbl) {
 /// dropped.
 void MachineLink::pass_lease(Grbl& grbl) {
     const bool has_work = !open_.empty() || has_jog_ || !lines_.is_idle();
-    const auto lost = lease_.pass(has_work, monotonic_now());
-    if (!lost || !has_work) { return; }
-    lines_.leave();
-    grbl.abort(*lost);
+    if (has_work && session_.lease().state() == LeaseKeeper::State::Lost) {
+        lines_.leave();
+        grbl.abort(session_.lease().answer()->text);
+    }
+    session_.use_lease({.has_work = has_work});
 }
 
 bool MachineLink::follow(Open& open, Grbl& grbl) {
     if (open.job != 0) { return has_ended(open, grbl); }
-    if (const Reply* reply = session_.reply_to(open.command)) {
-        const bool is_homing = open.command.kind == CommandKind::Home && reply->status == ReplyStatus::Accepted;
-        if (is_homing) { open.job = reply->job; }
-        if (!is_homing) { grbl.answer(open.number, answer_of(*reply)); }
-        return !is_homing;
+    const CommandStep step = session_.follow(open.tracker);
+    if (!is_over(step)) { return false; }
+    const auto& reply = open.tracker.reply();
+    const bool is_accepted = reply && reply->status == ReplyStatus::Accepted;
+    if (is_accepted && open.tracker.command().kind == CommandKind::Home) {
+        open.job = reply->job;
+        return false;
     }
-    const nanoseconds waited = monotonic_now() - open.sent;
-    if (waited > kPatience) { grbl.answer(open.number, {.text = "the coordinator does not answer"}); }
-    if (waited % kRepeatAfter < 2 * 5ms) { session_.repeat(open.command); }
-    return waited > kPatience;
+    grbl.answer(open.number, reply ? answer_of(*reply) : Answer{.text = CommandTracker::kNoAnswer});
+    return true;
 }
 
 bool MachineLink::has_ended(const Open& open, Grbl& grbl) const {

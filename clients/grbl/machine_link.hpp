@@ -7,7 +7,6 @@
 
 #include "clients/grbl/lines/line_runner.hpp"
 #include "clients/grbl/protocol/grbl.hpp"
-#include "clients/grbl/sender_lease.hpp"
 #include "clients/grbl/settings_store.hpp"
 #include "clients/session/control/jog_link.hpp"
 #include "clients/session/session.hpp"
@@ -20,9 +19,7 @@ public:
     explicit SessionPort(Session& session) : session_(session) {}
     ProgramSender& open(const ProgramHead& head) override { return session_.open_stream(head); }
     void close() override { session_.close_stream(); }
-    void begin(Command& command) override { session_.begin(command); }
-    void repeat(const Command& command) override { session_.repeat(command); }
-    const Reply* reply_to(const Command& command) override { return session_.reply_to(command); }
+    CommandStep follow(CommandTracker& tracker) override { return session_.follow(tracker); }
 
 private:
     Session& session_;
@@ -34,7 +31,7 @@ public:
     MachineLink(Session& session, SettingsStore& settings, bool takes_over)
         : session_(session),
           settings_(settings),
-          lease_(session, takes_over),
+          takes_over_(takes_over),
           jog_(session),
           port_(session),
           lines_(session.config(), port_) {}
@@ -56,15 +53,14 @@ public:
 private:
     /// A command that was sent and not answered, or a job that has not ended.
     struct Open {
-        Command command;
+        CommandTracker tracker;
         std::uint64_t number = 0;  // of the request; 0 if nobody waits for it
-        std::chrono::nanoseconds sent{};
-        std::uint64_t job = 0;  // of an accepted request that is answered when this job ends
+        std::uint64_t job = 0;     // of an accepted request that is answered when this job ends
     };
     /// Takes the lease. If another writer has the machine, answers the request with the refusal and returns false.
     bool claim(const Request& request, Grbl& grbl);
     void pass_lease(Grbl& grbl);
-    void send(Command command, std::uint64_t number);
+    void send(const Command& command, std::uint64_t number) { open_.push_back({CommandTracker(command), number}); }
     /// Returns true if the command or job is over.
     bool follow(Open& open, Grbl& grbl);
     bool has_ended(const Open& open, Grbl& grbl) const;
@@ -78,7 +74,7 @@ private:
 
     Session& session_;
     SettingsStore& settings_;
-    SenderLease lease_;
+    bool takes_over_;
     JogLink jog_;
     SessionPort port_;
     LineRunner lines_;

@@ -21,11 +21,8 @@ namespace {
 using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
 
-constexpr nanoseconds kRepeatCommandAfter = 250ms;
-constexpr nanoseconds kAnswerPatience = 3s;
 constexpr nanoseconds kReceivedPatience = 5s;   // for an axis that the coordinator receives: this process will, too
 constexpr nanoseconds kAbsentPatience = 500ms;  // for an axis that the coordinator does not receive
-constexpr nanoseconds kPlanPatience = 60s;      // a coordinator that reads or plans a large program answers late
 constexpr std::size_t kRepliesKept = 64;        // that were not read
 constexpr nanoseconds kDiskPatience = 15s;      // a disk may hang for seconds
 
@@ -37,6 +34,12 @@ std::expected<std::variant<ViewerBus, ClientBus>, std::string> open_as(const Mac
     auto bus = open_bus<Bus>(machine.network, machine.name, membership);
     if (!bus) { return std::unexpected(bus.error()); }
     return std::move(*bus);
+}
+
+/// After this time without a state, an axis or a standby counts as absent.
+nanoseconds longest_silence(const MachineConfig& machine) {
+    const ProtocolTiming& timing = machine.timing;
+    return std::max<nanoseconds>(1s, std::chrono::microseconds{rules::silence_slots(timing) * timing.slot_us});
 }
 
 Identity new_identity() {
@@ -51,6 +54,7 @@ Session::Session(const ChosenMachine& machine, Bus bus)
       bus_(std::move(bus)),
       client_(new_identity()),
       lease_(client_, {.name = "client", .host = host_name()}),
+      owner_(longest_silence(machine.config) + 2s),
       axes_(machine.config.axes.size()),
       healths_(axes_.size()) {}
 
@@ -74,7 +78,7 @@ std::expected<Session, Failure> Session::open(const ChosenMachine& machine, Purp
 
 /// A commanding client also waits until its readers and writers are matched.
 bool Session::is_reached() {
-    if (!state_) { return false; }
+    if (!state()) { return false; }
     const ClientBus* bus = std::get_if<ClientBus>(&bus_);
     return bus == nullptr || (bus->commands.matched() > 0 && bus->chunks.matched() > 0 && bus->replies.matched() > 0);
 }
@@ -87,7 +91,7 @@ std::expected<void, Failure> Session::reach(nanoseconds patience) {
 /// Also waits for states as new as the machine's: an axis's state may come later than the report that a job is done.
 std::expected<void, Failure> Session::reach_axes() {
     const nanoseconds deadline = monotonic_now() + kReachPatience;
-    const Slot known = state_ ? state_->state.stamp : Slot{};
+    const Slot known = state() ? state()->state.stamp : Slot{};
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         const auto is_known = [&] { return axis_present(i) && axes_[i]->state.stamp >= known; };
         while (!is_known() && monotonic_now() <= deadline) { receive(50ms); }
@@ -103,7 +107,7 @@ std::expected<void, Failure> Session::reach_axes() {
 void Session::await_axes() {
     const nanoseconds begin = monotonic_now();
     const auto may_come = [&](std::size_t i) {
-        const bool is_received = state_ && has_axis(state_->state.axes_present, i);
+        const bool is_received = state() && has_axis(state()->state.axes_present, i);
         return !axis_present(i) && monotonic_now() - begin < (is_received ? kReceivedPatience : kAbsentPatience);
     };
     while (std::ranges::any_of(std::views::iota(std::size_t{0}, axes_.size()), may_come)) { receive(50ms); }
@@ -138,7 +142,7 @@ void Session::receive(nanoseconds at_most) {
     feed_and_send();
     const nanoseconds begin = monotonic_now();
     (void)viewer_bus().arrivals->wait_for(at_most);
-    clock_.look(begin, monotonic_now(), at_most);
+    owner_.look(begin, monotonic_now(), at_most);
     take_messages();
 }
 
@@ -149,11 +153,7 @@ void Session::take_messages() {
             standby_ = {state, now};
             return;
         }
-        // Of two coordinators the one with the higher term counts, until it has been silent for 1 s.
-        const bool is_lower = state_ && state.term < state_->state.term;
-        if (is_lower && now - state_->time <= 1s) { return; }
-        state_ = {state, now};
-        heard_ = clock_.passed();
+        owner_.take(state, now);
     });
     viewer_bus().states.take([&](AxisState&& state) {
         if (state.axis < axes_.size()) { axes_[state.axis] = {state, now}; }
@@ -167,37 +167,27 @@ void Session::take_messages() {
         values_ = std::move(values);
         unsaved_since_ = values_->on_disk ? std::nullopt : std::optional(unsaved_since_.value_or(now));
     });
-    if (!std::holds_alternative<ClientBus>(bus_)) { return; }
+    if (std::holds_alternative<ClientBus>(bus_)) { take_replies(); }
+}
+
+void Session::take_replies() {
     client_bus().replies.take([&](Reply&& reply) {
         if (reply.client != client_ || lease_.take_answer(reply)) { return; }
         const bool is_of_program = sender_ && sender_->take_answer(reply);
-        if (is_of_program) { answered_ = clock_.passed(); }
+        if (is_of_program) { answered_ = running_time(); }
         if (!is_of_program) { replies_[reply.sequence] = std::move(reply); }
+        if (replies_.size() > kRepliesKept) { replies_.erase(replies_.begin()); }
     });
 }
 
-nanoseconds Session::longest_silence() const {
-    const ProtocolTiming& timing = config().timing;
-    return std::max<nanoseconds>(1s, std::chrono::microseconds{rules::silence_slots(timing) * timing.slot_us});
-}
-
 bool Session::axis_present(std::size_t i) const {
-    return axes_[i] && monotonic_now() - axes_[i]->time <= longest_silence();
+    return axes_[i] && monotonic_now() - axes_[i]->time <= longest_silence(config());
 }
 
 /// The owner may have been the standby before; then its old state does not count.
 bool Session::has_standby() const {
-    const bool is_owner = standby_ && state_ && standby_->state.term.coordinator == state_->state.term.coordinator;
-    return standby_ && !is_owner && monotonic_now() - standby_->time <= longest_silence();
-}
-
-bool Session::is_silent() const { return !state_ || running_time() - heard_ > longest_silence() + 2s; }
-
-std::optional<nanoseconds> Session::take_stall() {
-    const auto stall = clock_.stall();
-    if (!stall || !state_ || state_->time < stall->end) { return std::nullopt; }
-    clock_.forget_stall();
-    return stall->lasted;
+    const bool is_owner = standby_ && state() && standby_->state.term.coordinator == state()->state.term.coordinator;
+    return standby_ && !is_owner && monotonic_now() - standby_->time <= longest_silence(config());
 }
 
 std::vector<PresentProcess> Session::present() const {
@@ -243,36 +233,31 @@ Failure Session::silent() const {
         received, start));
 }
 
-std::expected<Reply, Failure> Session::command(Command command, const StopSignal* stop) {
-    command.client = client_;
-    command.sequence = ++sequence_;
-    command.writer.id = lease_.writer().id;
-    nanoseconds deadline = running_time() + (command.program == 0 ? kAnswerPatience : kPlanPatience);
-    nanoseconds repeat_at{};
-    while (!replies_.contains(command.sequence)) {
-        const nanoseconds now = monotonic_now();
-        if (running_time() > deadline) { return std::unexpected(silent()); }
-        const bool is_stopped = stop != nullptr && stop->requested();
-        if (is_stopped && repeat_at != nanoseconds::max()) {
-            deadline = std::min(deadline, running_time() + kAnswerPatience);
-        }
-        if (is_stopped) { repeat_at = nanoseconds::max(); }  // the command may have begun already
-        if (now >= repeat_at) {
-            (void)client_bus().commands.write(command);
-            repeat_at = now + kRepeatCommandAfter;
-        }
-        receive(50ms);
-    }
-    return replies_.extract(command.sequence).mapped();
-}
-
 void Session::begin(Command& command) {
     replies_.erase(command.sequence);
-    while (replies_.size() > kRepliesKept) { replies_.erase(replies_.begin()); }
     command.client = client_;
     command.sequence = ++sequence_;
     command.writer.id = lease_.writer().id;
     repeat(command);
+}
+
+CommandStep Session::follow(CommandTracker& tracker) {
+    if (!tracker.is_numbered()) { tracker.number(client_, ++sequence_, lease_.writer().id); }
+    const Command& command = tracker.command();
+    const CommandStep step = tracker.pass(reply_to(command), sight(), running_time());
+    if (step == CommandStep::Send) { repeat(command); }
+    if (step == CommandStep::Answered) { replies_.erase(command.sequence); }
+    return step;
+}
+
+std::expected<Reply, Failure> Session::command(const Command& command, const StopSignal* stop, nanoseconds patience) {
+    for (CommandTracker tracker(command, patience);;) {
+        if (stop != nullptr && stop->requested()) { tracker.withdraw(running_time()); }
+        const CommandStep step = follow(tracker);
+        if (step == CommandStep::Answered) { return *tracker.reply(); }
+        if (step == CommandStep::GaveUp) { return std::unexpected(silent()); }
+        receive(20ms);
+    }
 }
 
 const Reply* Session::reply_to(const Command& command) const {
@@ -280,15 +265,32 @@ const Reply* Session::reply_to(const Command& command) const {
     return found == replies_.end() ? nullptr : &found->second;
 }
 
-std::optional<Reply> Session::stop_at_once(nanoseconds patience) {
-    const Command command{client_, ++sequence_, CommandKind::EmergencyStop};
-    const nanoseconds deadline = running_time() + patience;
-    while (!replies_.contains(command.sequence) && running_time() < deadline) {
-        (void)client_bus().commands.write(command);
+void Session::use_lease(const LeaseUse& use) {
+    lease_.use(use, running_time());
+    keep_lease();
+}
+
+std::expected<Reply, Failure> Session::take_lease(bool takes_over, const StopSignal* stop) {
+    use_lease({.wants = true, .takes_over = takes_over});
+    while (lease_.state() == LeaseKeeper::State::Asked) {
+        if (stop != nullptr && stop->requested()) { return std::unexpected(failed("interrupted; nothing was begun")); }
         receive(20ms);
     }
-    if (!replies_.contains(command.sequence)) { return std::nullopt; }
-    return replies_.extract(command.sequence).mapped();
+    if (lease_.state() == LeaseKeeper::State::Unanswered) { return std::unexpected(silent()); }
+    return *lease_.answer();
+}
+
+void Session::keep_lease() {
+    while (const auto command = lease_.due(sight(), running_time())) { repeat(*command); }
+}
+
+void Session::give_lease(nanoseconds patience) {
+    const bool is_used = lease_.is_held() || lease_.state() == LeaseKeeper::State::Asked;
+    lease_.give();
+    keep_lease();
+    if (is_used) {
+        (void)receive_until(patience, [this] { return lease_.answer().has_value(); });
+    }
 }
 
 std::expected<std::uint64_t, Failure> Session::send(const Program& program, const StopSignal* stop,
@@ -340,7 +342,7 @@ std::expected<void, Failure> Session::await_parts(const std::function<bool()>& d
     answered_ = running_time();
     while (!done()) {
         if (stop != nullptr && stop->requested()) { return std::unexpected(failed("interrupted; nothing was begun")); }
-        if (running_time() - *answered_ > kPlanPatience) { return std::unexpected(silent()); }
+        if (running_time() - *answered_ > CommandTracker::kPlanPatience) { return std::unexpected(silent()); }
         receive(50ms);
         if (const auto& refusal = sender_->refusal()) { return std::unexpected(failed(refusal->text)); }
     }
@@ -361,7 +363,9 @@ void Session::await_values(nanoseconds patience) {
 }
 
 std::expected<RevisedValues, Failure> Session::values() {
-    if (!receive_until(kAnswerPatience, [this] { return values_.has_value(); })) { return std::unexpected(silent()); }
+    if (!receive_until(CommandTracker::kPatience, [this] { return values_.has_value(); })) {
+        return std::unexpected(silent());
+    }
     auto values = values_from_bytes(values_->bytes);
     if (!values) { return std::unexpected(failed("the coordinator's offsets and tools: " + values.error())); }
     return *std::move(values);

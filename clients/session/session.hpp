@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "clients/session/chosen_machine.hpp"
+#include "clients/session/follow/command_tracker.hpp"
+#include "clients/session/follow/owner_watch.hpp"
 #include "clients/session/lease/lease_keeper.hpp"
 #include "clients/session/program_sender.hpp"
 #include "clients/text/failure.hpp"
@@ -20,7 +22,6 @@
 #include "core/protocol/messages.hpp"
 #include "services/documents/values/values_document.hpp"
 #include "services/runtime/clock.hpp"
-#include "services/runtime/running_clock.hpp"
 #include "services/runtime/stop_signal.hpp"
 #include "services/wire/bus/bus.hpp"
 #include "services/wire/dds/present_processes.hpp"
@@ -28,12 +29,6 @@
 namespace lockstep {
 
 inline constexpr std::chrono::seconds kReachPatience{3};
-
-template <typename State>
-struct Received {
-    State state;
-    std::chrono::nanoseconds time;  // CLOCK_MONOTONIC of this host
-};
 
 /// With security, a Look session uses a viewer's keys, a Command session a client's.
 enum class Purpose { Look, Command };
@@ -77,16 +72,16 @@ public:
     }
 
     /// The time for which this client has looked for messages. Time in which it was itself stopped does not count.
-    std::chrono::nanoseconds running_time() const { return clock_.passed(); }
+    std::chrono::nanoseconds running_time() const { return owner_.running_time(); }
     /// Returns once how long this client was stopped, as soon as it has received the coordinator again; else nullopt.
-    std::optional<std::chrono::nanoseconds> take_stall();
+    std::optional<std::chrono::nanoseconds> take_stall() { return owner_.take_stall(); }
 
     const MachineConfig& config() const { return machine_.config; }
     /// True if the coordinator runs another configuration than the client has; its positions and limits may differ.
-    bool config_differs() const { return state_ && state_->state.config_hash != machine_.hash; }
+    bool config_differs() const { return state() && state()->state.config_hash != machine_.hash; }
 
     /// The newest one received; nullopt before the first.
-    const std::optional<Received<MachineState>>& state() const { return state_; }
+    const std::optional<Received<MachineState>>& state() const { return owner_.state(); }
     const std::optional<Received<AxisState>>& axis(std::size_t i) const { return axes_[i]; }
     const std::optional<AxisHealth>& health(std::size_t i) const { return healths_[i]; }
     /// Whether a state came within the time after which the machine counts an axis as absent.
@@ -95,14 +90,18 @@ public:
     bool has_standby() const;
     /// True if no state of the coordinator came for longer than any stall that the machine's timing allows, while this
     /// client looked for one.
-    bool is_silent() const;
+    bool is_silent() const { return sight().is_silent; }
+    OwnerSight sight() const { return owner_.sight(); }
     Failure silent() const;
     /// The machine's processes on the network, also those that publish nothing yet.
     std::vector<PresentProcess> present() const;
 
-    /// Repeats the command until the reply comes. Fills in client and sequence. Fails if no reply comes, or none soon
-    /// after a signal to `stop`.
-    std::expected<Reply, Failure> command(Command command, const StopSignal* stop = nullptr);
+    /// Follows the command until its answer comes. Fails if none comes in time, or none soon after a signal to `stop`.
+    /// An emergency stop also goes to the axes, which stop without the coordinator.
+    std::expected<Reply, Failure> command(const Command& command, const StopSignal* stop = nullptr,
+                                          std::chrono::nanoseconds patience = CommandTracker::kPatience);
+    /// The same without waiting; call it in each loop until the command is over. Sends the command when that is due.
+    CommandStep follow(CommandTracker& tracker);
     /// Gives the command this client's next number and sends it. For a command that repeat() sends again as long as it
     /// holds.
     void begin(Command& command);
@@ -112,30 +111,20 @@ public:
     /// Sets the writer of all later commands. Give the lease back first. An id of 0 stands for this client's identity,
     /// which no other client shares.
     void write_as(LeaseHolder writer) { lease_.write_as(std::move(writer)); }
+    const LeaseKeeper& lease() const { return lease_; }
+    /// See LeaseKeeper::use(). receive() keeps the lease: a client that does not receive for kLeaseSilence_ms loses it.
+    void use_lease(const LeaseUse& use);
     /// Requests the lease and waits for the reply, which refuses it if another writer has it. `takes_over` takes it
-    /// from that writer. receive() keeps the lease until give_lease(), or until another writer takes it over. Fails
-    /// like command().
+    /// from that writer. Fails like command().
     std::expected<Reply, Failure> take_lease(bool takes_over = false, const StopSignal* stop = nullptr);
-    /// Requests the lease without waiting; lease_reply() has the answer once it has come.
-    void ask_for_lease(bool takes_over = false);
-    const std::optional<Reply>& lease_reply() const { return lease_.answer(); }
-    /// Sends the lease request when it is due. receive() calls this: a client that does not receive for
-    /// kLeaseSilence_ms loses the lease.
-    void keep_lease();
     /// Gives the lease back and waits at most `patience` for the coordinator's answer. Sends nothing without the lease.
     void give_lease(std::chrono::nanoseconds patience = {});
-    bool holds_lease() const { return lease_.is_held(); }
-    /// LeaseHolder::id of this client's writer.
-    std::uint64_t writer_id() const { return lease_.writer().id; }
     /// The writer that the coordinator publishes, this client's or another. Null if there is none, or nothing is
     /// received yet.
-    const HeldLease* writer() const { return state_ && state_->state.lease ? &*state_->state.lease : nullptr; }
+    const HeldLease* writer() const { return state() && state()->state.lease ? &*state()->state.lease : nullptr; }
 
     /// The newest reply to the command; null if none has come yet.
     const Reply* reply_to(const Command& command) const;
-    /// Sends an emergency stop to the coordinator and to the axes, which stop without the coordinator. Returns nullopt
-    /// if no coordinator replied in time.
-    std::optional<Reply> stop_at_once(std::chrono::nanoseconds patience);
     /// Sends a whole program, with the machine's values that it depends on and leaves. Returns its id for a command.
     /// Fails if it is refused, if no reply comes, or at a signal to `stop`.
     std::expected<std::uint64_t, Failure> send(const Program& program, const StopSignal* stop = nullptr,
@@ -183,8 +172,9 @@ private:
     void feed_and_send();
     std::expected<void, Failure> await_parts(const std::function<bool()>& done, const StopSignal* stop);
 
+    void keep_lease();
     void take_messages();
-    std::chrono::nanoseconds longest_silence() const;
+    void take_replies();
     std::string place_text() const;
     std::string received_axes() const;
     std::string present_axes() const;
@@ -194,9 +184,7 @@ private:
     Identity client_;
     LeaseKeeper lease_;
     std::uint64_t sequence_ = 0;
-    RunningClock clock_;
-    std::chrono::nanoseconds heard_{};             // running_time() at the newest state
-    std::optional<Received<MachineState>> state_;  // the owner's
+    OwnerWatch owner_;
     std::optional<Received<MachineState>> standby_;
     std::optional<Reader<PublishedEvent>> events_;
     std::optional<MachineValues> values_;  // the owner's

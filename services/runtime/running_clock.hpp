@@ -23,10 +23,14 @@ public:
         const Time lasted = end - begin;
         const Time counted = std::min<Time>(lasted, at_most + kLateWake);
         passed_ += std::clamp<Time>(between, Time{}, kWork) + counted;
+        if (lasted > counted || between > kLateWake) { resumed_ = end; }
         if (lasted - counted >= kLeastStall) { stall_ = {lasted - counted, end}; }
         looked_ = end;
     }
     Time passed() const { return passed_; }
+
+    /// The end of the first look after the latest stall, also a short one; nullopt if there was none.
+    const std::optional<Time>& resumed() const { return resumed_; }
 
     struct Stall {
         Time lasted{};
@@ -39,6 +43,7 @@ public:
 private:
     Time passed_{};
     std::optional<Time> looked_;
+    std::optional<Time> resumed_;
     std::optional<Stall> stall_;
 };
 

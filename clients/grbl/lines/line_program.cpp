@@ -12,7 +12,7 @@ LineProgram::LineProgram(const MachineConfig& machine, std::vector<double> from_
 LineProgram::Outcome LineProgram::pass(const MachineState& state, bool is_held, std::chrono::nanoseconds now) {
     send(now);
     if (const auto& refusal = sender_.refusal()) { return lose(refusal->text); }
-    if (job_ == 0) { return begin(is_held, now); }
+    if (job_ == 0) { return begin(is_held); }
     return follow(state);
 }
 
@@ -42,19 +42,19 @@ bool LineProgram::is_sent_since(std::chrono::nanoseconds age, std::chrono::nanos
     return sent_ && now - *sent_ >= age;
 }
 
-LineProgram::Outcome LineProgram::begin(bool is_held, std::chrono::nanoseconds now) {
+LineProgram::Outcome LineProgram::begin(bool is_held) {
     if (!run_) {
         const bool is_known = is_run_whole_ ? sender_.is_done() : sender_.parts_taken() > 0;
-        if (!is_held && is_known) {
-            run_.emplace(Command{.kind = CommandKind::Run, .program = sender_.program()}, port_, now);
-        }
-        return Outcome::Goes;
+        if (is_held || !is_known) { return Outcome::Goes; }
+        run_.emplace(Command{.kind = CommandKind::Run, .program = sender_.program()});
     }
-    const Reply* reply = run_->reply(port_, now);
-    if (reply == nullptr) { return run_->is_overdue(now) ? lose("the coordinator does not answer") : Outcome::Goes; }
-    is_refused_ = reply->status == ReplyStatus::Refused;
-    if (is_refused_) { return lose(reply->text); }
-    job_ = reply->job;
+    const CommandStep step = port_.follow(*run_);
+    if (step == CommandStep::GaveUp) { return lose(CommandTracker::kNoAnswer); }
+    if (step != CommandStep::Answered) { return Outcome::Goes; }
+    const Reply& reply = *run_->reply();
+    is_refused_ = reply.status == ReplyStatus::Refused;
+    if (is_refused_) { return lose(reply.text); }
+    job_ = reply.job;
     return Outcome::Goes;
 }
 

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "clients/grbl/lines/asked_command.hpp"
+#include "clients/grbl/lines/machine_port.hpp"
 #include "core/machine.hpp"
 #include "core/program.hpp"
 
@@ -43,7 +43,7 @@ public:
 
 private:
     void send(std::chrono::nanoseconds now);
-    Outcome begin(bool is_held, std::chrono::nanoseconds now);
+    Outcome begin(bool is_held);
     Outcome follow(const MachineState& state);
     Outcome lose(std::string why);
 
@@ -54,7 +54,7 @@ private:
     bool is_run_whole_;  // LAI runs only whole programs
     std::deque<Block> blocks_;
     bool is_ended_ = false;
-    std::optional<AskedCommand> run_;
+    std::optional<CommandTracker> run_;
     bool is_refused_ = false;
     std::uint64_t job_ = 0;
     std::chrono::nanoseconds flushed_{};

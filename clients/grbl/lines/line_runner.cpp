@@ -22,7 +22,7 @@ void LineRunner::take(std::uint64_t request, LineToRun&& line) { next_ = Next{re
 void LineRunner::pass(const MachineState& state, bool rests, nanoseconds now) {
     accept(now);
     if (program_) { pass_program(state, now); }
-    pass_hold(state, now);
+    pass_hold(state);
     pass_stop(state, rests, now);
 }
 
@@ -70,35 +70,44 @@ bool LineRunner::must_end(const MachineState& state, nanoseconds now) const {
     return state.lacks_blocks || (!next_ && now - appended_ >= kLongIdle && state.remaining_s < kNearEnd_s);
 }
 
-void LineRunner::hold(nanoseconds now) {
-    is_hold_wanted_ = has_lines();
-    if (!is_hold_wanted_) { hold_.emplace(Command{.kind = CommandKind::Hold}, port_, now); }
+void LineRunner::begin(std::optional<CommandTracker>& tracker, CommandKind kind) {
+    tracker.emplace(Command{.kind = kind});
+    follow(tracker);
 }
 
-void LineRunner::resume(nanoseconds now) {
+void LineRunner::follow(std::optional<CommandTracker>& tracker) {
+    if (tracker && is_over(port_.follow(*tracker))) { tracker.reset(); }
+}
+
+void LineRunner::hold() {
+    is_hold_wanted_ = has_lines();
+    if (!is_hold_wanted_) { begin(hold_, CommandKind::Hold); }
+}
+
+void LineRunner::resume() {
     is_hold_wanted_ = false;
     const bool is_machine_held = !program_ || program_->is_begun();
-    if (is_machine_held) { resume_.emplace(Command{.kind = CommandKind::Resume}, port_, now); }
+    if (is_machine_held) { begin(resume_, CommandKind::Resume); }
 }
 
-void LineRunner::pass_hold(const MachineState& state, nanoseconds now) {
+void LineRunner::pass_hold(const MachineState& state) {
     const bool is_job = program_ && program_->is_job_of(state);
     if (!has_lines() || (is_job && is_held(state.phase))) { is_hold_wanted_ = false; }
     const bool moves = is_job && state.phase == MachinePhase::Running;
-    if (is_hold_wanted_ && moves && !hold_) { hold_.emplace(Command{.kind = CommandKind::Hold}, port_, now); }
-    if (hold_ && (hold_->reply(port_, now) != nullptr || hold_->is_overdue(now))) { hold_.reset(); }
-    if (resume_ && (resume_->reply(port_, now) != nullptr || resume_->is_overdue(now))) { resume_.reset(); }
+    if (is_hold_wanted_ && moves && !hold_) { begin(hold_, CommandKind::Hold); }
+    follow(hold_);
+    follow(resume_);
 }
 
 void LineRunner::stop(nanoseconds now) {
     drop();
-    stop_.emplace(Command{.kind = CommandKind::Stop}, port_, now);
+    begin(stop_, CommandKind::Stop);
     stopping_since_ = now;
 }
 
 void LineRunner::pass_stop(const MachineState& state, bool rests, nanoseconds now) {
-    if (stop_ && (stop_->reply(port_, now) != nullptr || stop_->is_overdue(now))) {
-        stop_.reset();
+    if (stop_) {
+        follow(stop_);
         stopping_since_ = now;
     }
     if (stop_ || !stopping_since_) { return; }

@@ -14,7 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "clients/grbl/lines/asked_command.hpp"
 #include "clients/grbl/lines/line_program.hpp"
 #include "clients/grbl/lines/line_queue.hpp"
 #include "clients/grbl/protocol/machine_view.hpp"
@@ -32,8 +31,8 @@ public:
     void pass(const MachineState& state, bool rests, std::chrono::nanoseconds now);
 
     /// Lets the machine come to rest on its path, or not begin.
-    void hold(std::chrono::nanoseconds now);
-    void resume(std::chrono::nanoseconds now);
+    void hold();
+    void resume();
     /// Drops all lines, and lets the machine come to rest on its path.
     void stop(std::chrono::nanoseconds now);
 
@@ -65,7 +64,10 @@ private:
     void accept(std::chrono::nanoseconds now);
     void append_later();
     void pass_program(const MachineState& state, std::chrono::nanoseconds now);
-    void pass_hold(const MachineState& state, std::chrono::nanoseconds now);
+    void begin(std::optional<CommandTracker>& tracker, CommandKind kind);
+    /// Follows the command, if there is one, and forgets it when it is over.
+    void follow(std::optional<CommandTracker>& tracker);
+    void pass_hold(const MachineState& state);
     void pass_stop(const MachineState& state, bool rests, std::chrono::nanoseconds now);
     bool must_end(const MachineState& state, std::chrono::nanoseconds now) const;
     void answer_done(const std::vector<std::uint64_t>& requests);
@@ -92,9 +94,9 @@ private:
     std::int32_t last_ = 0;                // the last line of the program
     std::chrono::nanoseconds appended_{};  // when the last line was appended
     bool is_hold_wanted_ = false;          // and the machine does not report it yet
-    std::optional<AskedCommand> hold_;
-    std::optional<AskedCommand> resume_;
-    std::optional<AskedCommand> stop_;
+    std::optional<CommandTracker> hold_;
+    std::optional<CommandTracker> resume_;
+    std::optional<CommandTracker> stop_;
     std::optional<std::chrono::nanoseconds> stopping_since_;
     std::vector<Answered> answers_;
     std::optional<std::string> loss_;

@@ -105,9 +105,9 @@ void JobWatch::print_stall(const MachineState& state) {
 }
 
 void JobWatch::print_lost_lease() {
-    if (!std::exchange(has_lease_, session_.holds_lease()) || has_lease_) { return; }
-    const auto& why = session_.lease_reply();
-    if (why) { output_.print(why->text + "; the job continues, and can be held or stopped from here"); }
+    const LeaseKeeper& lease = session_.lease();
+    if (lease.state() != LeaseKeeper::State::Lost || std::exchange(is_lease_lost_, true)) { return; }
+    output_.print(lease.answer()->text + "; the job continues, and can be held or stopped from here");
 }
 
 void JobWatch::print_phase(const MachineState& state) {

@@ -50,7 +50,7 @@ private:
     EventLines event_lines_;
     Term asked_;
     Term runs_it_;  // of the owner last known to run the job
-    bool has_lease_ = true;
+    bool is_lease_lost_ = false;
     bool hold_sent_ = false;
     bool stop_sent_ = false;
     std::optional<std::chrono::nanoseconds> rest_asked_;  // Session::running_time() when the latest of both was sent

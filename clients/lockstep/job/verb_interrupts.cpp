@@ -51,8 +51,6 @@ bool is_everybodys(const Interrupt& interrupt) {
     return interrupt.command != CommandKind::Resume && interrupt.command != CommandKind::Reset;
 }
 
-constexpr std::chrono::seconds kStopPatience{3};
-
 /// The next command for the user. After a hold that ended homing there is none, since homing cannot be resumed.
 std::string next_text(const Session& session, const Interrupt& interrupt, MachinePhase phase) {
     if (interrupt.command != CommandKind::Hold || phase == MachinePhase::Holding || phase == MachinePhase::Paused) {
@@ -140,7 +138,7 @@ ExitCode stop_at_once(const LiveOptions& options, const Interrupt& interrupt) {
     if (!machine) { return output.fail(machine.error()); }
     auto session = Session::join(*machine, Purpose::Command);
     if (!session) { return output.fail(session.error()); }
-    const auto reply = session->stop_at_once(kStopPatience);
+    const auto reply = session->command({.kind = interrupt.command});
     return reply ? report_outcome(*session, interrupt, *reply, output) : report_axes(*session, output);
 }
 

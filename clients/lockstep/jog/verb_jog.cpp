@@ -25,7 +25,6 @@ namespace {
 using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
 
-constexpr nanoseconds kAnswerPatience = 3s;
 constexpr nanoseconds kBrakePatience = 10s;  // from the release to the end of the jog
 
 struct JogVerbOptions : LiveOptions {
@@ -74,7 +73,7 @@ std::expected<bool, Failure> hold(Session& session, JogLink& link) {
     }
     const bool is_released = !link.is_over();
     link.release();
-    for (const nanoseconds end = monotonic_now() + kBrakePatience; monotonic_now() < end;) {
+    for (const nanoseconds end = session.running_time() + kBrakePatience; session.running_time() < end;) {
         link.pass(monotonic_now() + 20ms);
         if (session.state()->state.phase != MachinePhase::Jogging) { break; }
     }
@@ -103,8 +102,8 @@ ExitCode jog_by_words(Session& session, const JogOptions& options, const std::ve
     report.set_name(fmt::format("{}", fmt::join(options.words, " ")));
     JogLink link(session);
     link.press(jogs);
-    for (const nanoseconds end = monotonic_now() + kAnswerPatience; link.reply() == nullptr;) {
-        if (monotonic_now() > end) { return output.fail(session.silent()); }
+    for (const nanoseconds end = session.running_time() + CommandTracker::kPatience; link.reply() == nullptr;) {
+        if (session.running_time() > end) { return output.fail(session.silent()); }
         link.pass(monotonic_now() + 5ms);
     }
     if (link.reply()->status == ReplyStatus::Refused) {

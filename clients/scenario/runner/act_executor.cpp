@@ -101,7 +101,7 @@ Done ActExecutor::reset() {
 
 /// The axes receive the command directly, whether a coordinator answers or not.
 Done ActExecutor::stop_at_once() {
-    const auto reply = session_.stop_at_once(kStopPatience);
+    const auto reply = session_.command({.kind = CommandKind::EmergencyStop}, nullptr, kStopPatience);
     if (!reply || reply->status == ReplyStatus::Accepted) { return {}; }
     return std::unexpected("refused: " + reply->text);
 }

@@ -21,15 +21,17 @@ public:
 
     bool is_pressed() const { return !command_.jogs.empty(); }
     /// The coordinator's reply to the newest press or release; null if none has come yet.
-    const Reply* reply() const { return session_.reply_to(command_); }
+    const Reply* reply() const { return is_begun_ ? session_.reply_to(command_) : nullptr; }
     /// True if the jog was accepted and has ended.
     bool is_over() const;
 
 private:
+    void send(std::chrono::nanoseconds now);
     bool is_repeated() const;
 
     Session& session_;
     Command command_{.kind = CommandKind::Jog};
+    bool is_begun_ = false;  // the newest press or release was sent
     JogRepeat repeat_;
 };
 

@@ -3,46 +3,84 @@
 #include <utility>
 
 namespace lockstep {
+namespace {
+
+constexpr std::uint64_t kOfLease = std::uint64_t{1} << 62;  // other commands have lower numbers, programs higher ones
+
+}  // namespace
 
 void LeaseKeeper::write_as(LeaseHolder writer) {
     writer_ = std::move(writer);
     if (writer_.id == 0) { writer_.id = client_; }
 }
 
-Command LeaseKeeper::command(std::uint64_t sequence, CommandKind kind) const {
-    return {.client = client_, .sequence = sequence, .kind = kind, .writer = writer_};
+Command LeaseKeeper::next_command(CommandKind kind) {
+    sequence_ = kOfLease | ++commands_;
+    answer_.reset();
+    return {.client = client_, .sequence = sequence_, .kind = kind, .writer = writer_};
 }
 
-void LeaseKeeper::ask(std::uint64_t sequence, bool takes_over) {
-    is_asked_ = true;
+void LeaseKeeper::use(const LeaseUse& use, Time now) {
+    if (use.wants || use.has_work) { used_ = now; }
+    const bool is_unwanted = state_ == State::Asked && !use.wants;
+    const bool is_unused = state_ == State::Held && now - used_ > kGiveLeaseAfter;
+    if (is_unwanted || is_unused) { return give(); }
+    const bool is_asked = state_ == State::Asked && takes_over_ >= use.takes_over;
+    if (is_held() || is_asked) { return; }
+    state_ = State::Free;
+    if (use.wants) { ask(use.takes_over); }
+}
+
+void LeaseKeeper::ask(bool takes_over) {
+    state_ = State::Asked;
     takes_over_ = takes_over;
-    sequence_ = sequence;
-    answer_.reset();
-    sent_.reset();
+    Command request = next_command(CommandKind::TakeLease);
+    request.takes_over = takes_over;
+    request_.emplace(request);
 }
 
-std::optional<Command> LeaseKeeper::give(std::uint64_t sequence) {
-    if (!std::exchange(is_asked_, false)) { return std::nullopt; }
-    sequence_ = sequence;
-    answer_.reset();
-    return command(sequence, CommandKind::GiveLease);
+void LeaseKeeper::give() {
+    if (state_ == State::Asked || state_ == State::Held) { giving_ = next_command(CommandKind::GiveLease); }
+    state_ = State::Free;
 }
 
-/// A request takes the lease from another writer only until the first answer, so that a client that loses it does not
-/// take it back.
-std::optional<Command> LeaseKeeper::due(std::chrono::nanoseconds now) {
-    const auto period = answer_ ? std::chrono::milliseconds{kKeepLease_ms} : kAskAgainAfter;
-    if (!is_asked_ || (sent_ && now - *sent_ < period)) { return std::nullopt; }
+std::optional<Command> LeaseKeeper::due(const OwnerSight& owner, Time now) {
+    if (giving_) { return std::exchange(giving_, std::nullopt); }
+    if (state_ == State::Asked) { return due_request(owner, now); }
+    return state_ == State::Held ? due_keeping(owner, now) : std::nullopt;
+}
+
+/// A request without an answer is withdrawn: it may reach the coordinator when no command waits for it any more.
+std::optional<Command> LeaseKeeper::due_request(const OwnerSight& owner, Time now) {
+    const CommandStep step = request_->pass(nullptr, owner, now);
+    if (step == CommandStep::GaveUp) {
+        state_ = State::Unanswered;
+        return next_command(CommandKind::GiveLease);
+    }
+    if (step != CommandStep::Send) { return std::nullopt; }
+    owner_ = owner.owner;
     sent_ = now;
-    Command request = command(sequence_, CommandKind::TakeLease);
-    request.takes_over = takes_over_ && !answer_;
+    return request_->command();
+}
+
+/// It takes the lease from another writer only until the first answer, so that a client that loses it does not take it
+/// back. A new owner gets the request at once.
+std::optional<Command> LeaseKeeper::due_keeping(const OwnerSight& owner, Time now) {
+    const bool is_due = owner.owner != owner_ || now - sent_ >= std::chrono::milliseconds{kKeepLease_ms};
+    if (!is_due || !owner.is_current) { return std::nullopt; }
+    owner_ = owner.owner;
+    sent_ = now;
+    Command request = request_->command();
+    request.takes_over = false;
     return request;
 }
 
 bool LeaseKeeper::take_answer(const Reply& reply) {
     if (sequence_ == 0 || reply.sequence != sequence_) { return false; }
     answer_ = reply;
-    if (reply.status == ReplyStatus::Refused) { is_asked_ = false; }
+    const bool is_accepted = reply.status == ReplyStatus::Accepted;
+    if (state_ == State::Held && !is_accepted) { state_ = State::Lost; }
+    if (state_ == State::Asked) { state_ = is_accepted ? State::Held : State::Refused; }
     return true;
 }
 

@@ -212,16 +212,14 @@ void Api::open_events(Request&& request, const Answer& answer) {
                                    .limit = std::to_string(kMaxViewers),
                                    .remedy = "close another page"}));
     }
-    const bool may_operate = access_.role_of(request, monotonic_now()) == Role::Operate;
     const std::string name = stream_names_ + std::to_string(++last_stream_);
     note_begin(name);
-    parts_.port.begin_stream(may_operate);
     publish(*parts_.port.snapshot());
     const std::string* last = request.header("last-event-id");
     auto stream = std::make_shared<EventStream>(parts_.log, parts_.log.place_after(last == nullptr ? "" : *last), name,
-                                                &monotonic_now, [this, name, may_operate] {
+                                                &monotonic_now, [this, name] {
                                                     note_end(name);
-                                                    parts_.port.end_stream(name, may_operate);
+                                                    parts_.port.end_stream(name);
                                                 });
     answer({.body = std::shared_ptr<ByteStream>(std::move(stream)),
             .headers = {{"Content-Type", "text/event-stream"}, {"X-Accel-Buffering", "no"}}});

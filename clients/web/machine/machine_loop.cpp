@@ -85,10 +85,7 @@ void MachineLoop::give_lease(Done done) {
     add(give, done);
 }
 
-void MachineLoop::begin_stream(bool may_operate) { operators_ += may_operate ? 1 : 0; }
-
-void MachineLoop::end_stream(const std::string& name, bool may_operate) {
-    operators_ -= may_operate ? 1 : 0;
+void MachineLoop::end_stream(const std::string& name) {
     add([this, name] { jog_.end_stream(name); }, [](Outcome&&) {});  // if too many actions wait, the jog runs out
 }
 
@@ -101,14 +98,14 @@ void MachineLoop::work(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
         const bool is_busy = jog_.is_pressed() || !tasks_.is_empty();
         jog_.pass(monotonic_now() + (is_busy ? kBusyLoop : kLoop));
+        lease_.see();
         note_healths();
         take_actions();
-        lease_.pass({.wants = jog_.is_pressed() || tasks_.wants_lease(),
-                     .takes_over = tasks_.takes_lease(),
-                     .has_work = has_work()},
-                    monotonic_now());
         jog_.follow(lease_, monotonic_now());
-        tasks_.poll(session_, lease_, monotonic_now());
+        tasks_.poll(session_, lease_);
+        lease_.use({.wants = jog_.is_pressed() || tasks_.wants_lease(),
+                    .takes_over = tasks_.takes_lease(),
+                    .has_work = has_work()});
         if (monotonic_now() - published_ < kPublishPeriod) { continue; }
         published_ = monotonic_now();
         show();
@@ -166,7 +163,7 @@ void MachineLoop::start(std::unique_ptr<Task> task, const Done& done) {
         return done(std::unexpected(refused(FaultCode::Busy, "this server is sending a program")));
     }
     if (tasks_.is_full(task->lease() == Task::Lease::NotNeeded)) { return done(std::unexpected(too_many())); }
-    tasks_.add(std::move(task), monotonic_now());
+    tasks_.add(std::move(task));
 }
 
 void MachineLoop::note_healths() {

@@ -2,7 +2,6 @@
 // jogs and the lease, and publishes the state.
 #pragma once
 
-#include <atomic>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -33,8 +32,7 @@ public:
     void change_values(ValuesTask::Change change, Done done) override;
     void take_lease(Done done) override;
     void give_lease(Done done) override;
-    void begin_stream(bool may_operate) override;
-    void end_stream(const std::string& name, bool may_operate) override;
+    void end_stream(const std::string& name) override;
     std::shared_ptr<const Snapshot> snapshot() const override;
 
 private:
@@ -62,7 +60,6 @@ private:
     JogTurn jog_;
     Publish publish_;
     TaskQueue tasks_;
-    std::atomic<int> operators_ = 0;  // open event streams of those who may command
     std::vector<std::optional<Seen<AxisHealth>>> healths_;
     std::optional<OwnJob> job_;
     std::chrono::nanoseconds published_{};

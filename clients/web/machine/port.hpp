@@ -21,10 +21,8 @@ public:
     /// Takes the lease from another writer, too.
     virtual void take_lease(Done done) = 0;
     virtual void give_lease(Done done) = 0;
-    /// An event stream has begun. `may_operate`: its client may give commands.
-    virtual void begin_stream(bool may_operate) = 0;
     /// The event stream of that name has ended; a jog that named it ends, too.
-    virtual void end_stream(const std::string& name, bool may_operate) = 0;
+    virtual void end_stream(const std::string& name) = 0;
     /// The newest snapshot; never null.
     virtual std::shared_ptr<const Snapshot> snapshot() const = 0;
 };

@@ -8,8 +8,6 @@
 namespace lockstep::web {
 namespace {
 
-using namespace std::chrono_literals;
-
 /// Converts to this host's clock, because machine time has no date.
 std::chrono::system_clock::time_point time_of(Tick tick, const MachineState& state, const MachineConfig& machine) {
     const auto ago_ns = static_cast<std::int64_t>(machine.microseconds(state.tick - tick) * 1e3);
@@ -19,32 +17,22 @@ std::chrono::system_clock::time_point time_of(Tick tick, const MachineState& sta
 
 }  // namespace
 
+std::string silence_of(const Session& session) { return session.silent().errors.front().message; }
+
 SessionLease::SessionLease(Session& session, const std::string& name) : session_(session) {
     session_.write_as({.name = name, .host = host_name()});
 }
 
-void SessionLease::pass(const WriterTurn::Use& use, nanoseconds now) {
-    const auto& answer = session_.lease_reply();
-    switch (turn_.pass({session_.holds_lease(), answer ? &*answer : nullptr}, use, now)) {
-        case WriterTurn::Send::Nothing: break;
-        case WriterTurn::Send::Ask: session_.ask_for_lease(); break;
-        case WriterTurn::Send::TakeOver: session_.ask_for_lease(true); break;
-        case WriterTurn::Send::Give: session_.give_lease(); break;
-    }
-    note_writer();
-}
-
-void SessionLease::end() { session_.give_lease(300ms); }
-
 std::optional<Problem> SessionLease::refusal(bool takes_over) const {
-    const auto& answer = session_.lease_reply();
-    if (!turn_.is_refused(takes_over) || !answer) { return std::nullopt; }
-    Problem problem = refused(answer->fault, answer->text);
+    const LeaseKeeper& lease = session_.lease();
+    if (lease.state() == LeaseKeeper::State::Unanswered) { return unanswered(silence_of(session_)); }
+    if (!lease.is_refused(takes_over)) { return std::nullopt; }
+    Problem problem = refused(lease.answer()->fault, lease.answer()->text);
     if (writer_ && !writer_->is_this_server) { problem.value = writer_json(*writer_); }
     return problem;
 }
 
-void SessionLease::note_writer() {
+void SessionLease::see() {
     const HeldLease* lease = session_.writer();
     if (lease == nullptr) {
         seen_.reset();
@@ -56,7 +44,7 @@ void SessionLease::note_writer() {
     writer_ = Writer{.name = lease->writer.name,
                      .host = lease->writer.host,
                      .since = time_of(lease->since, session_.state()->state, session_.config()),
-                     .is_this_server = lease->writer.id == session_.writer_id()};
+                     .is_this_server = lease->writer.id == session_.lease().writer().id};
 }
 
 }  // namespace lockstep::web

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "clients/session/session.hpp"
-#include "clients/web/machine/writer_turn.hpp"
 #include "clients/web/request/problem.hpp"
 #include "clients/web/state/snapshot.hpp"
 
@@ -16,25 +15,28 @@ public:
     /// `name`: the writer's name, as people see it.
     SessionLease(Session& session, const std::string& name);
 
-    /// Call it in each loop, after the session has received messages.
-    void pass(const WriterTurn::Use& use, nanoseconds now);
-    void give() { turn_.give(); }
+    /// Notes the machine's writer. Call it when the session has received messages.
+    void see();
+    /// Call it in each loop, after the commands that wait for the lease have looked at is_held() and refusal().
+    void use(const LeaseUse& use) { session_.use_lease(use); }
+    void give() { session_.give_lease(); }
     /// Gives the lease back and waits briefly for the coordinator's answer. Call it at the end.
-    void end();
+    void end() { session_.give_lease(std::chrono::milliseconds{300}); }
 
-    bool is_held() const { return turn_.is_held(); }
-    /// The refusal of a command that waits for the lease; nullopt while the command must wait on.
+    bool is_held() const { return session_.lease().is_held(); }
+    /// Why a command that waits for the lease has failed: another writer has the lease, or the coordinator does not
+    /// answer. Nullopt while the command must wait on.
     std::optional<Problem> refusal(bool takes_over) const;
     /// The machine's writer; nullopt if it has none.
     const std::optional<Writer>& writer() const { return writer_; }
 
 private:
-    void note_writer();
-
     Session& session_;
-    WriterTurn turn_;
     std::optional<HeldLease> seen_;
     std::optional<Writer> writer_;  // of seen_
 };
+
+/// Why a command has no answer.
+std::string silence_of(const Session& session);
 
 }  // namespace lockstep::web

@@ -1,6 +1,7 @@
 #include "clients/web/machine/task.hpp"
 
 #include "clients/session/control/store_values.hpp"
+#include "clients/web/machine/session_lease.hpp"
 #include "core/protocol/needs_lease.hpp"
 
 namespace lockstep::web {
@@ -9,11 +10,8 @@ namespace {
 using namespace std::chrono_literals;
 using std::chrono::nanoseconds;
 
-constexpr nanoseconds kPatience = 3s;
-constexpr nanoseconds kPlanPatience = 60s;  // a coordinator that plans a large program answers late
+constexpr nanoseconds kPatience = CommandTracker::kPatience;
 constexpr nanoseconds kDiskPatience = 15s;
-constexpr nanoseconds kRepeatAfter = 250ms;
-constexpr nanoseconds kRepeatStopAfter = 20ms;  // for an emergency stop
 
 Problem refused_by(const Reply& reply) { return refused(reply.fault, reply.text); }
 
@@ -26,51 +24,36 @@ bool begins_job(CommandKind kind) { return kind == CommandKind::Home || kind == 
 
 }  // namespace
 
-std::string silence_of(const Session& session) { return session.silent().errors.front().message; }
-
 bool Task::end(Outcome&& outcome) {
     done_(std::move(outcome));
     return true;
 }
 
-bool LeaseTask::poll(Session& session, nanoseconds now) {
-    if (!begun_) { begun_ = now; }
+bool LeaseTask::poll(Session& session) {
+    if (!begun_) { begun_ = session.running_time(); }
     const HeldLease* lease = session.writer();
-    const bool is_writer = lease != nullptr && lease->writer.id == session.writer_id();
+    const bool is_writer = lease != nullptr && lease->writer.id == session.lease().writer().id;
     if (is_writer == takes_ && !session.is_silent()) { return end(Accepted{}); }
-    return now - *begun_ > kPatience && end(std::unexpected(unanswered(silence_of(session))));
+    return session.running_time() - *begun_ > kPatience && end(std::unexpected(unanswered(silence_of(session))));
 }
 
 CommandTask::CommandTask(const Command& command, Done done)
-    : Task(needs_lease(command) ? Lease::Needed : Lease::NotNeeded, std::move(done)), command_(command) {}
+    : Task(needs_lease(command) ? Lease::Needed : Lease::NotNeeded, std::move(done)), tracker_(command) {}
 
-bool CommandTask::poll(Session& session, nanoseconds now) {
-    if (!begun_) {
-        session.begin(command_);
-        begun_ = repeated_ = now;
-        return false;
-    }
-    if (const Reply* reply = session.reply_to(command_)) {
-        Outcome outcome = outcome_of(*reply);
-        if (outcome && !begins_job(command_.kind)) { outcome->job.reset(); }
-        return end(std::move(outcome));
-    }
-    if (now - *begun_ > (command_.program == 0 ? kPatience : kPlanPatience)) {
-        return end(std::unexpected(unanswered(silence_of(session))));
-    }
-    const bool is_stop = command_.kind == CommandKind::EmergencyStop;
-    if (now - repeated_ >= (is_stop ? kRepeatStopAfter : kRepeatAfter)) {
-        session.repeat(command_);
-        repeated_ = now;
-    }
-    return false;
+bool CommandTask::poll(Session& session) {
+    const CommandStep step = session.follow(tracker_);
+    if (!is_over(step)) { return false; }
+    if (step == CommandStep::GaveUp) { return end(std::unexpected(unanswered(silence_of(session)))); }
+    Outcome outcome = outcome_of(*tracker_.reply());
+    if (outcome && !begins_job(tracker_.command().kind)) { outcome->job.reset(); }
+    return end(std::move(outcome));
 }
 
-bool RunTask::poll(Session& session, nanoseconds now) {
-    if (command_) { return command_->poll(session, now); }
+bool RunTask::poll(Session& session) {
+    if (command_) { return command_->poll(session); }
     if (!sent_) {
         id_ = session.begin_stream(program_.head, program_.values, std::move(program_.feed));
-        sent_ = now;
+        sent_ = session.running_time();
         return false;
     }
     const ProgramSender& sender = *session.sender();
@@ -84,11 +67,13 @@ bool RunTask::poll(Session& session, nanoseconds now) {
         command_ = std::make_unique<CommandTask>(Command{.kind = CommandKind::Run, .program = id_}, done);
         return false;
     }
-    if (now - *sent_ <= (is_planned_whole ? kPlanPatience : kPatience)) { return false; }
+    if (session.running_time() - *sent_ <= (is_planned_whole ? CommandTracker::kPlanPatience : kPatience)) {
+        return false;
+    }
     return end(std::unexpected(unanswered(silence_of(session))));
 }
 
-bool ValuesTask::begin(Session& session, nanoseconds now) {
+bool ValuesTask::begin(Session& session) {
     const auto before = session.newest_values();
     if (!before) {
         return end(std::unexpected(unanswered("the coordinator has not reported the machine's offsets and tools yet")));
@@ -99,16 +84,16 @@ bool ValuesTask::begin(Session& session, nanoseconds now) {
     const gcode::ProgramValues edit{.revision = before->revision, .after = *wanted, .at_once = true};
     (void)session.begin_stream(edit_of(session.config()).head(), edit, [](ProgramSender& sender) { sender.end(); });
     revision_ = before->revision + 1;
-    sent_ = now;
+    sent_ = session.running_time();
     return false;
 }
 
-bool ValuesTask::poll(Session& session, nanoseconds now) {
-    if (!sent_) { return begin(session, now); }
+bool ValuesTask::poll(Session& session) {
+    if (!sent_) { return begin(session); }
     const ProgramSender& sender = *session.sender();
     if (sender.refusal()) { return end(std::unexpected(refused_by(*sender.refusal()))); }
     if (sender.is_done() && session.is_kept(revision_)) { return end(Accepted{}); }
-    if (now - *sent_ <= (sender.is_done() ? kDiskPatience : kPatience)) { return false; }
+    if (session.running_time() - *sent_ <= (sender.is_done() ? kDiskPatience : kPatience)) { return false; }
     return end(std::unexpected(unanswered(
         sender.is_done() ? "the coordinator has not reported that the change is on its disk; its log names the reason"
                          : silence_of(session))));

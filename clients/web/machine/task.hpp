@@ -1,4 +1,5 @@
-// Requests to the machine that are not answered yet. Each is polled in the machine's thread and never waits.
+// Requests to the machine that are not answered yet. Each is polled in the machine's thread and never waits. Deadlines
+// count in Session::running_time().
 #pragma once
 
 #include <chrono>
@@ -20,7 +21,7 @@ public:
     Task(Lease lease, Done done) : lease_(lease), done_(std::move(done)) {}
     virtual ~Task() = default;
     /// Returns true if the task is over and was answered.
-    virtual bool poll(Session& session, std::chrono::nanoseconds now) = 0;
+    virtual bool poll(Session& session) = 0;
     /// True if the task uses the session's one sender of programs.
     virtual bool sends() const { return false; }
 
@@ -37,7 +38,7 @@ private:
 class LeaseTask : public Task {
 public:
     LeaseTask(bool takes, Done done) : Task(takes ? Lease::Taken : Lease::NotNeeded, std::move(done)), takes_(takes) {}
-    bool poll(Session& session, std::chrono::nanoseconds now) override;
+    bool poll(Session& session) override;
 
 private:
     bool takes_;
@@ -48,12 +49,10 @@ private:
 class CommandTask : public Task {
 public:
     CommandTask(const Command& command, Done done);
-    bool poll(Session& session, std::chrono::nanoseconds now) override;
+    bool poll(Session& session) override;
 
 private:
-    Command command_;
-    std::optional<std::chrono::nanoseconds> begun_;
-    std::chrono::nanoseconds repeated_{};
+    CommandTracker tracker_;
 };
 
 /// Sends a program's beginning, then runs it; the rest is sent while it runs.
@@ -62,7 +61,7 @@ public:
     using Begun = std::function<void(std::uint64_t job)>;
     RunTask(ReadyProgram&& program, Begun begun, Done done)
         : Task(Lease::Needed, std::move(done)), program_(std::move(program)), begun_(std::move(begun)) {}
-    bool poll(Session& session, std::chrono::nanoseconds now) override;
+    bool poll(Session& session) override;
     bool sends() const override { return true; }
 
 private:
@@ -78,18 +77,15 @@ class ValuesTask : public Task {
 public:
     using Change = std::function<std::expected<gcode::KeptValues, Problem>(const gcode::KeptValues& values)>;
     ValuesTask(Change change, Done done) : Task(Lease::Needed, std::move(done)), change_(std::move(change)) {}
-    bool poll(Session& session, std::chrono::nanoseconds now) override;
+    bool poll(Session& session) override;
     bool sends() const override { return true; }
 
 private:
-    bool begin(Session& session, std::chrono::nanoseconds now);
+    bool begin(Session& session);
 
     Change change_;
     std::optional<std::chrono::nanoseconds> sent_;
     std::uint64_t revision_ = 0;  // of the change
 };
-
-/// Why a command has no answer.
-std::string silence_of(const Session& session);
 
 }  // namespace lockstep::web

@@ -4,29 +4,22 @@
 #include <utility>
 
 namespace lockstep::web {
-namespace {
 
-constexpr std::chrono::seconds kLeasePatience{3};
-
-}  // namespace
-
-bool TaskQueue::poll(Entry& entry, Session& session, const SessionLease& lease, nanoseconds now) {
+bool TaskQueue::poll(Entry& entry, Session& session, const SessionLease& lease) {
     Task& task = *entry.task;
     const bool waits = !entry.has_begun && task.lease() != Task::Lease::NotNeeded && !lease.is_held();
     if (!waits) {
         entry.has_begun = true;
-        return task.poll(session, now);
+        return task.poll(session);
     }
-    if (auto refusal = lease.refusal(task.lease() == Task::Lease::Taken)) {
-        return task.end(std::unexpected(*std::move(refusal)));
-    }
-    return now - entry.added > kLeasePatience && task.end(std::unexpected(unanswered(silence_of(session))));
+    auto refusal = lease.refusal(task.lease() == Task::Lease::Taken);
+    return refusal && task.end(std::unexpected(*std::move(refusal)));
 }
 
-void TaskQueue::poll(Session& session, const SessionLease& lease, nanoseconds now) {
+void TaskQueue::poll(Session& session, const SessionLease& lease) {
     auto tasks = std::exchange(tasks_, {});
     for (Entry& entry : tasks) {
-        if (!poll(entry, session, lease, now)) { tasks_.push_back(std::move(entry)); }
+        if (!poll(entry, session, lease)) { tasks_.push_back(std::move(entry)); }
     }
 }
 

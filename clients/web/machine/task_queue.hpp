@@ -16,8 +16,8 @@ public:
 
     bool is_full(bool is_stop) const { return tasks_.size() >= kMost + (is_stop ? kMostStops : 0); }
     bool is_empty() const { return tasks_.empty(); }
-    void add(std::unique_ptr<Task> task, nanoseconds now) { tasks_.push_back({std::move(task), now}); }
-    void poll(Session& session, const SessionLease& lease, nanoseconds now);
+    void add(std::unique_ptr<Task> task) { tasks_.push_back({std::move(task)}); }
+    void poll(Session& session, const SessionLease& lease);
 
     /// True if a task uses the session's one sender of programs.
     bool sends() const;
@@ -29,11 +29,10 @@ public:
 private:
     struct Entry {
         std::unique_ptr<Task> task;
-        nanoseconds added;
         bool has_begun = false;
     };
     /// Returns true if the task is over.
-    static bool poll(Entry& entry, Session& session, const SessionLease& lease, nanoseconds now);
+    static bool poll(Entry& entry, Session& session, const SessionLease& lease);
     bool any_waits(Task::Lease least) const;
 
     std::vector<Entry> tasks_;

@@ -25,17 +25,13 @@ public:
         return sender_.emplace(client_, programs_, client_ * 1000 + programs_, head);
     }
     void close() override { sender_.reset(); }
-    void begin(Command& command) override {
-        command.client = client_;
-        command.sequence = ++sequence_;
-        machine_.send(command);
-    }
-    void repeat(const Command& command) override { machine_.send(command); }
-    const Reply* reply_to(const Command& command) override {
-        for (const Reply& reply : machine_.replies()) {
-            if (reply.client == client_ && reply.sequence == command.sequence) { return &reply; }
-        }
-        return nullptr;
+    CommandStep follow(CommandTracker& tracker) override {
+        if (!tracker.is_numbered()) { tracker.number(client_, ++sequence_, 0); }
+        const OwnerSight owner{.owner = machine_.state()->term};
+        const std::chrono::nanoseconds now{machine_.now().value * 1000};
+        const CommandStep step = tracker.pass(reply_to(tracker.command()), owner, now);
+        if (step == CommandStep::Send) { machine_.send(tracker.command()); }
+        return step;
     }
 
     /// Sends the parts of the program that are due, and takes the replies.
@@ -57,6 +53,13 @@ public:
     }
 
 private:
+    const Reply* reply_to(const Command& command) const {
+        for (const Reply& reply : machine_.replies()) {
+            if (reply.client == client_ && reply.sequence == command.sequence) { return &reply; }
+        }
+        return nullptr;
+    }
+
     VirtualMachine& machine_;
     Identity client_;
     std::uint64_t sequence_ = 0;
@@ -126,8 +129,8 @@ private:
     }
     void carry_out(Request& request, std::chrono::nanoseconds now) {
         switch (request.kind) {
-            case Request::Kind::Hold: return lines_.hold(now);
-            case Request::Kind::Resume: return lines_.resume(now);
+            case Request::Kind::Hold: return lines_.hold();
+            case Request::Kind::Resume: return lines_.resume();
             case Request::Kind::Stop: return lines_.stop(now);
             case Request::Kind::Override: (void)machine_.set_overrides(request.overrides); return;
             case Request::Kind::SetValues:

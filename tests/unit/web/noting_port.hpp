@@ -35,18 +35,13 @@ public:
         asked.emplace_back("give");
         done(std::unexpected(unanswered("nobody")));
     }
-    void begin_stream(bool may_operate) override { operators += may_operate ? 1 : 0; }
-    void end_stream(const std::string& name, bool may_operate) override {
-        asked.push_back("end " + name.substr(name.find('-')));
-        operators -= may_operate ? 1 : 0;
-    }
+    void end_stream(const std::string& name) override { asked.push_back("end " + name.substr(name.find('-'))); }
     std::shared_ptr<const Snapshot> snapshot() const override {
         return std::make_shared<const Snapshot>(snapshot_at_rest());
     }
 
     std::mutex mutex;  // protects asked from the calls of command()
     std::vector<std::string> asked;
-    int operators = 0;
 };
 
 }  // namespace lockstep::web

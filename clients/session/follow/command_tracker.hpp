@@ -1,0 +1,64 @@
+// Follows one command from its first sending to its answer: decides when it is sent, sent again and given up. Pure: the
+// caller sends it, and passes the reply, the machine's owner and the time.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+#include "clients/session/follow/owner_watch.hpp"
+#include "core/protocol/messages.hpp"
+
+namespace lockstep {
+
+/// What the caller does now. Answered and GaveUp are final: a command that is over is never sent again.
+enum class CommandStep : std::uint8_t { Wait, Send, Answered, GaveUp };
+
+constexpr bool is_over(CommandStep step) { return step == CommandStep::Answered || step == CommandStep::GaveUp; }
+
+class CommandTracker {
+public:
+    using Time = std::chrono::nanoseconds;
+
+    static constexpr std::chrono::milliseconds kRepeatAfter{250};
+    static constexpr std::chrono::milliseconds kRepeatStopAfter{20};  // for an emergency stop
+    static constexpr std::chrono::seconds kPatience{3};
+    static constexpr std::chrono::seconds kPlanPatience{
+        60};                               // an owner that reads or plans a large program answers late
+    static constexpr int kMostOwners = 4;  // each new owner gets the patience anew
+    static constexpr const char* kNoAnswer = "the coordinator does not answer";  // the reason of GaveUp
+
+    /// `patience`: from the first sending to an owner until the command is given up. A command with a program waits
+    /// kPlanPatience while the owner publishes states.
+    explicit CommandTracker(const Command& command, Time patience = kPatience)
+        : command_(command), patience_(patience) {}
+
+    /// Call once, before the first pass().
+    void number(Identity client, std::uint64_t sequence, std::uint64_t writer);
+    bool is_numbered() const { return command_.sequence != 0; }
+    const Command& command() const { return command_; }
+
+    /// Call in each loop. `reply`: to this command; null if none has come. `now`: OwnerWatch::running_time().
+    CommandStep pass(const Reply* reply, const OwnerSight& owner, Time now);
+    /// Sends it no more, and waits kPatience at most for the answer: it may have begun already.
+    void withdraw(Time now);
+    /// The answer, an acceptance or a refusal; nullopt before it.
+    const std::optional<Reply>& reply() const { return reply_; }
+
+private:
+    enum class State : std::uint8_t { Sending, Withdrawn, GaveUp };
+    bool is_new_owner(const OwnerSight& owner) const;
+    bool is_overdue(const OwnerSight& owner, Time now) const;
+    bool is_due(const OwnerSight& owner, Time now) const;
+
+    Command command_;
+    Time patience_;
+    State state_ = State::Sending;
+    std::optional<Time> begun_;  // when the patience began
+    std::optional<Time> sent_;
+    Term owner_;      // at the latest sending
+    int owners_ = 1;  // so many owners got the command
+    std::optional<Reply> reply_;
+};
+
+}  // namespace lockstep
