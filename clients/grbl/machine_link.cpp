@@ -141,10 +141,11 @@ bool MachineLink::has_ended(const Open& open, Grbl& grbl) const {
 
 void MachineLink::follow_jog(Grbl& grbl) {
     const Reply* reply = jog_.reply();
-    if (!has_jog_ || reply == nullptr) { return; }
-    if (const auto number = std::exchange(new_jog_, std::nullopt)) { grbl.answer(*number, answer_of(*reply)); }
+    if (!has_jog_ || (reply == nullptr && !jog_.is_unanswered())) { return; }
+    const Answer answer = reply != nullptr ? answer_of(*reply) : Answer{.text = CommandTracker::kNoAnswer};
+    if (const auto number = std::exchange(new_jog_, std::nullopt)) { grbl.answer(*number, answer); }
     const auto& state = session_.state();
-    const bool is_refused = reply->status == ReplyStatus::Refused;
+    const bool is_refused = !answer.is_done;
     const bool is_ending = jog_.is_over() || !jog_.is_pressed();
     const bool has_ended = is_ending && rests() && state && state->state.phase != MachinePhase::Jogging;
     if (!is_refused && !has_ended) { return; }

@@ -233,20 +233,13 @@ Failure Session::silent() const {
         received, start));
 }
 
-void Session::begin(Command& command) {
-    replies_.erase(command.sequence);
-    command.client = client_;
-    command.sequence = ++sequence_;
-    command.writer.id = lease_.writer().id;
-    repeat(command);
-}
-
 CommandStep Session::follow(CommandTracker& tracker) {
     if (!tracker.is_numbered()) { tracker.number(client_, ++sequence_, lease_.writer().id); }
     const Command& command = tracker.command();
-    const CommandStep step = tracker.pass(reply_to(command), sight(), running_time());
-    if (step == CommandStep::Send) { repeat(command); }
-    if (step == CommandStep::Answered) { replies_.erase(command.sequence); }
+    const auto reply = replies_.find(command.sequence);
+    const CommandStep step = tracker.pass(reply == replies_.end() ? nullptr : &reply->second, sight(), running_time());
+    if (reply != replies_.end()) { replies_.erase(reply); }
+    if (step == CommandStep::Send) { write(command); }
     return step;
 }
 
@@ -258,11 +251,6 @@ std::expected<Reply, Failure> Session::command(const Command& command, const Sto
         if (step == CommandStep::GaveUp) { return std::unexpected(silent()); }
         receive(20ms);
     }
-}
-
-const Reply* Session::reply_to(const Command& command) const {
-    const auto found = replies_.find(command.sequence);
-    return found == replies_.end() ? nullptr : &found->second;
 }
 
 void Session::use_lease(const LeaseUse& use) {
@@ -281,7 +269,7 @@ std::expected<Reply, Failure> Session::take_lease(bool takes_over, const StopSig
 }
 
 void Session::keep_lease() {
-    while (const auto command = lease_.due(sight(), running_time())) { repeat(*command); }
+    while (const auto command = lease_.due(sight(), running_time())) { write(*command); }
 }
 
 void Session::give_lease(nanoseconds patience) {

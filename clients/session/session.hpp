@@ -102,10 +102,6 @@ public:
                                           std::chrono::nanoseconds patience = CommandTracker::kPatience);
     /// The same without waiting; call it in each loop until the command is over. Sends the command when that is due.
     CommandStep follow(CommandTracker& tracker);
-    /// Gives the command this client's next number and sends it. For a command that repeat() sends again as long as it
-    /// holds.
-    void begin(Command& command);
-    void repeat(const Command& command) { (void)client_bus().commands.write(command); }
     // One writer at a time may move and change the machine: while a writer holds the lease, only its commands are
     // accepted. While nobody holds it, the commands of every client are accepted.
     /// Sets the writer of all later commands. Give the lease back first. An id of 0 stands for this client's identity,
@@ -123,8 +119,6 @@ public:
     /// received yet.
     const HeldLease* writer() const { return state() && state()->state.lease ? &*state()->state.lease : nullptr; }
 
-    /// The newest reply to the command; null if none has come yet.
-    const Reply* reply_to(const Command& command) const;
     /// Sends a whole program, with the machine's values that it depends on and leaves. Returns its id for a command.
     /// Fails if it is refused, if no reply comes, or at a signal to `stop`.
     std::expected<std::uint64_t, Failure> send(const Program& program, const StopSignal* stop = nullptr,
@@ -173,6 +167,7 @@ private:
     std::expected<void, Failure> await_parts(const std::function<bool()>& done, const StopSignal* stop);
 
     void keep_lease();
+    void write(const Command& command) { (void)client_bus().commands.write(command); }
     void take_messages();
     void take_replies();
     std::string place_text() const;

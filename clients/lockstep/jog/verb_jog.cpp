@@ -102,8 +102,8 @@ ExitCode jog_by_words(Session& session, const JogOptions& options, const std::ve
     report.set_name(fmt::format("{}", fmt::join(options.words, " ")));
     JogLink link(session);
     link.press(jogs);
-    for (const nanoseconds end = session.running_time() + CommandTracker::kPatience; link.reply() == nullptr;) {
-        if (session.running_time() > end) { return output.fail(session.silent()); }
+    while (link.reply() == nullptr) {
+        if (link.is_unanswered()) { return output.fail(session.silent()); }
         link.pass(monotonic_now() + 5ms);
     }
     if (link.reply()->status == ReplyStatus::Refused) {

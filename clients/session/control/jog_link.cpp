@@ -1,33 +1,27 @@
 #include "clients/session/control/jog_link.hpp"
 
+#include <algorithm>
+
 #include "services/runtime/clock.hpp"
 
 namespace lockstep {
 
 void JogLink::press(const std::vector<JogAxis>& jogs) {
-    if (jogs == command_.jogs) { return; }
-    command_.jogs = jogs;
-    is_begun_ = false;
-    send(monotonic_now());
+    const bool is_current = tracker_ ? jogs == tracker_->command().jogs : jogs.empty();
+    if (is_current) { return; }
+    tracker_.emplace(Command{.kind = CommandKind::Jog, .jogs = jogs});
+    step_ = session_.follow(*tracker_);
 }
-
-/// A client that was itself stopped first looks what the machine does.
-void JogLink::send(std::chrono::nanoseconds now) {
-    repeat_.note_sent(now);
-    if (is_pressed() && !session_.sight().is_current) { return; }
-    is_begun_ ? session_.repeat(command_) : session_.begin(command_);
-    is_begun_ = true;
-}
-
-/// A release is repeated too, until it is answered.
-bool JogLink::is_repeated() const { return is_pressed() || (is_begun_ && reply() == nullptr); }
 
 void JogLink::pass(std::chrono::nanoseconds until) {
     for (auto now = monotonic_now(); now < until; now = monotonic_now()) {
-        if (repeat_.is_due(is_repeated(), now)) { send(now); }
-        session_.receive(repeat_.wake(is_repeated(), until) - now);
+        if (tracker_) { step_ = session_.follow(*tracker_); }
+        const auto due_in = tracker_ ? tracker_->due_in(session_.running_time()) : std::nullopt;
+        session_.receive(std::min(until - now, due_in ? std::max(*due_in, kLeastWait) : until - now));
     }
 }
+
+const Reply* JogLink::reply() const { return tracker_ && tracker_->reply() ? &*tracker_->reply() : nullptr; }
 
 bool JogLink::is_over() const {
     const Reply* newest = reply();

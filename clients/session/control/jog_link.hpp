@@ -1,10 +1,10 @@
-// Keeps a jog alive: repeats its command every 5 ms. When this process ends, the axes brake.
+// Keeps a jog alive: renews its command every 5 ms. When this process ends, the axes brake.
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <vector>
 
-#include "clients/session/control/jog_repeat.hpp"
 #include "clients/session/session.hpp"
 
 namespace lockstep {
@@ -19,20 +19,20 @@ public:
     /// Receives messages until `until`, and renews the jog meanwhile.
     void pass(std::chrono::nanoseconds until);
 
-    bool is_pressed() const { return !command_.jogs.empty(); }
-    /// The coordinator's reply to the newest press or release; null if none has come yet.
-    const Reply* reply() const { return is_begun_ ? session_.reply_to(command_) : nullptr; }
+    bool is_pressed() const { return tracker_ && !tracker_->command().jogs.empty(); }
+    /// The coordinator's newest reply to the newest press or release; null if none has come yet.
+    const Reply* reply() const;
     /// True if the jog was accepted and has ended.
     bool is_over() const;
+    /// True if the coordinator has not answered the newest press or release; it is sent no more.
+    bool is_unanswered() const { return step_ == CommandStep::GaveUp; }
 
 private:
-    void send(std::chrono::nanoseconds now);
-    bool is_repeated() const;
+    static constexpr std::chrono::nanoseconds kLeastWait = std::chrono::milliseconds{1};
 
     Session& session_;
-    Command command_{.kind = CommandKind::Jog};
-    bool is_begun_ = false;  // the newest press or release was sent
-    JogRepeat repeat_;
+    std::optional<CommandTracker> tracker_;  // of the newest press or release
+    CommandStep step_ = CommandStep::Wait;
 };
 
 }  // namespace lockstep

@@ -1,5 +1,6 @@
-// Follows one command from its first sending to its answer: decides when it is sent, sent again and given up. Pure: the
-// caller sends it, and passes the reply, the machine's owner and the time.
+// Follows one command from its first sending to its answer: decides when it is sent, sent again and given up. A command
+// that holds while it is renewed, a jog or the request of the lease, is also sent after its answer. Pure: the caller
+// sends it, and passes the reply, the machine's owner and the time.
 #pragma once
 
 #include <chrono>
@@ -22,6 +23,7 @@ public:
 
     static constexpr std::chrono::milliseconds kRepeatAfter{250};
     static constexpr std::chrono::milliseconds kRepeatStopAfter{20};  // for an emergency stop
+    static constexpr std::chrono::milliseconds kRenewJogAfter{5};
     static constexpr std::chrono::seconds kPatience{3};
     static constexpr std::chrono::seconds kPlanPatience{
         60};                               // an owner that reads or plans a large program answers late
@@ -38,15 +40,20 @@ public:
     bool is_numbered() const { return command_.sequence != 0; }
     const Command& command() const { return command_; }
 
-    /// Call in each loop. `reply`: to this command; null if none has come. `now`: OwnerWatch::running_time().
+    /// Call in each loop. `reply`: the newest to this command; null if none has come. `now`:
+    /// OwnerWatch::running_time(). A command that is renewed is never Answered.
     CommandStep pass(const Reply* reply, const OwnerSight& owner, Time now);
     /// Sends it no more, and waits kPatience at most for the answer: it may have begun already.
     void withdraw(Time now);
-    /// The answer, an acceptance or a refusal; nullopt before it.
+    /// The time until the next sending; nullopt if none will come.
+    std::optional<Time> due_in(Time now) const;
+    /// The newest answer, an acceptance or a refusal; nullopt before it.
     const std::optional<Reply>& reply() const { return reply_; }
 
 private:
     enum class State : std::uint8_t { Sending, Withdrawn, GaveUp };
+    /// How often it is sent; nullopt: no more.
+    std::optional<Time> period() const;
     bool is_new_owner(const OwnerSight& owner) const;
     bool is_overdue(const OwnerSight& owner, Time now) const;
     bool is_due(const OwnerSight& owner, Time now) const;

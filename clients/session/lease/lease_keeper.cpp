@@ -44,34 +44,20 @@ void LeaseKeeper::give() {
     state_ = State::Free;
 }
 
+/// A request without an answer is withdrawn: it may reach the coordinator when no command waits for it any more. A
+/// request takes the lease from another writer only until the first answer, so that a client that loses it does not
+/// take it back.
 std::optional<Command> LeaseKeeper::due(const OwnerSight& owner, Time now) {
     if (giving_) { return std::exchange(giving_, std::nullopt); }
-    if (state_ == State::Asked) { return due_request(owner, now); }
-    return state_ == State::Held ? due_keeping(owner, now) : std::nullopt;
-}
-
-/// A request without an answer is withdrawn: it may reach the coordinator when no command waits for it any more.
-std::optional<Command> LeaseKeeper::due_request(const OwnerSight& owner, Time now) {
-    const CommandStep step = request_->pass(nullptr, owner, now);
+    if (state_ != State::Asked && state_ != State::Held) { return std::nullopt; }
+    const CommandStep step = request_->pass(answer_ ? &*answer_ : nullptr, owner, now);
     if (step == CommandStep::GaveUp) {
         state_ = State::Unanswered;
         return next_command(CommandKind::GiveLease);
     }
     if (step != CommandStep::Send) { return std::nullopt; }
-    owner_ = owner.owner;
-    sent_ = now;
-    return request_->command();
-}
-
-/// It takes the lease from another writer only until the first answer, so that a client that loses it does not take it
-/// back. A new owner gets the request at once.
-std::optional<Command> LeaseKeeper::due_keeping(const OwnerSight& owner, Time now) {
-    const bool is_due = owner.owner != owner_ || now - sent_ >= std::chrono::milliseconds{kKeepLease_ms};
-    if (!is_due || !owner.is_current) { return std::nullopt; }
-    owner_ = owner.owner;
-    sent_ = now;
     Command request = request_->command();
-    request.takes_over = false;
+    request.takes_over = request.takes_over && !answer_;
     return request;
 }
 

@@ -56,8 +56,6 @@ public:
 private:
     Command next_command(CommandKind kind);
     void ask(bool takes_over);
-    std::optional<Command> due_request(const OwnerSight& owner, Time now);
-    std::optional<Command> due_keeping(const OwnerSight& owner, Time now);
 
     Identity client_;
     LeaseHolder writer_;
@@ -68,8 +66,6 @@ private:
     std::optional<Command> giving_;  // not sent yet
     std::uint64_t sequence_ = 0;     // of the last request or give()
     std::optional<Reply> answer_;
-    Term owner_;   // that got the latest request
-    Time sent_{};  // the latest request
     Time used_{};
 };
 

@@ -10,7 +10,6 @@ namespace {
 using namespace std::chrono_literals;
 using Time = CommandTracker::Time;
 
-constexpr Time kLoop = 20ms;
 constexpr Term kFirst{1, 1};
 constexpr Term kSecond{2, 2};
 
@@ -23,13 +22,14 @@ protected:
         if (owner) { watch.take({.term = *owner}, now); }
         (void)loop();
     }
-    /// One loop: the client decides, then receives for kLoop, or for `lasts` if it is stopped in it.
-    CommandStep loop(Time lasts = kLoop) {
+    /// One loop: the client decides, then receives for a period, or for `lasts` if it is stopped in it.
+    CommandStep loop() { return loop(period); }
+    CommandStep loop(Time lasts) {
         const CommandStep step = tracker->pass(received ? &*received : nullptr, watch.sight(), watch.running_time());
         if (step == CommandStep::Send) { sent.push_back(now); }
         const Time begin = now;
         now += lasts;
-        watch.look(begin, now, kLoop);
+        watch.look(begin, now, period);
         if (owner) { watch.take({.term = *owner}, now); }
         const bool has_come = answer_after && !sent.empty() && now - sent.front() >= *answer_after;
         if (has_come) { received = answer; }
@@ -47,6 +47,7 @@ protected:
         return now - begin;
     }
 
+    Time period = 20ms;  // of the loop
     OwnerWatch watch{3s};
     std::optional<CommandTracker> tracker;
     Time now = 1000s;
@@ -83,7 +84,7 @@ TEST_F(Follower, IsNeverSentAgainAfterItIsGivenUp) {
     follow({.kind = CommandKind::Home});
     const Time waited = loop_to_end();
     EXPECT_GE(waited, 3s);
-    EXPECT_LE(waited, 3s + 2 * kLoop);
+    EXPECT_LE(waited, 3s + 2 * period);
     const std::size_t before = sent.size();
     owner = kSecond;  // another coordinator appears
     EXPECT_EQ(loop_for(60s), CommandStep::GaveUp);
@@ -167,20 +168,59 @@ TEST_F(Follower, AStoppedClientSendsNothingToACoordinatorThatHasEndedMeanwhile) 
 
 TEST_F(Follower, AStoppedClientAlsoLooksBeforeTheFirstSending) {
     tracker.emplace(Command{.kind = CommandKind::Home});
-    watch.look(now, now += kLoop, kLoop);
-    watch.look(now, now += 12s, kLoop);
+    watch.look(now, now += period, period);
+    watch.look(now, now += 12s, period);
     EXPECT_EQ(loop_for(OwnerWatch::kOldStates), CommandStep::Wait);
     EXPECT_EQ(loop(), CommandStep::Send);
 }
 
 TEST_F(Follower, AnEmergencyStopWaitsForNothing) {
     owner.reset();
-    watch.look(now, now += kLoop, kLoop);
-    watch.look(now, now += 12s, kLoop);
+    watch.look(now, now += period, period);
+    watch.look(now, now += 12s, period);
     follow({.kind = CommandKind::EmergencyStop});
     EXPECT_EQ(sent.size(), 1U) << "no state of an owner is known";
     (void)loop_for(200ms);
     EXPECT_EQ(sent.size(), 11U) << "each 20 ms";
+}
+
+TEST_F(Follower, AJogIsRenewedEvery5MillisecondsAlsoAfterItsAnswer) {
+    answer_after = 10ms;
+    period = 1ms;
+    follow({.kind = CommandKind::Jog, .jogs = {{.axis = 0}}});
+    EXPECT_EQ(tracker->due_in(watch.running_time()), 4ms);
+    (void)loop_for(999ms);
+    EXPECT_TRUE(tracker->reply());
+    EXPECT_EQ(sent.size(), 200U);
+    received->job = 0;
+    EXPECT_EQ(loop(), CommandStep::Send);
+    EXPECT_EQ(tracker->reply()->job, 0U) << "the newest answer, which says that the jog is over";
+}
+
+TEST_F(Follower, AReleasedJogIsRepeatedUntilItIsAnswered) {
+    answer_after = 100ms;
+    period = 1ms;
+    follow({.kind = CommandKind::Jog});
+    (void)loop_to_end();
+    EXPECT_EQ(sent.size(), 20U);
+    EXPECT_EQ(tracker->due_in(watch.running_time()), std::nullopt) << "and the client does not spin";
+}
+
+TEST_F(Follower, AStoppedClientReleasesAJogAtOnceAndBeginsNone) {
+    watch.look(now, now += period, period);
+    watch.look(now, now += 12s, period);
+    follow({.kind = CommandKind::Jog, .jogs = {{.axis = 0}}});
+    EXPECT_TRUE(sent.empty());
+    follow({.kind = CommandKind::Jog});
+    EXPECT_EQ(sent.size(), 1U);
+}
+
+TEST_F(Follower, AJogWithoutAnAnswerIsRenewedNoMore) {
+    follow({.kind = CommandKind::Jog, .jogs = {{.axis = 0}}});
+    (void)loop_to_end();
+    const std::size_t before = sent.size();
+    EXPECT_EQ(loop_for(10s), CommandStep::GaveUp);
+    EXPECT_EQ(sent.size(), before) << "otherwise it would begin whenever the coordinator comes back";
 }
 
 TEST_F(Follower, AWithdrawnCommandIsNotRepeatedAndItsAnswerStillCounts) {
@@ -217,9 +257,9 @@ TEST(OwnerWatch, ALowerTermCountsOnlyAfterTheOwnersSilence) {
 
 TEST(OwnerWatch, ReportsAStallOnceItHasReceivedTheOwnerAgain) {
     OwnerWatch watch(3s);
-    watch.look(0s, kLoop, kLoop);
-    watch.take({.term = kFirst}, kLoop);
-    watch.look(kLoop, 12s, kLoop);
+    watch.look(0s, 20ms, 20ms);
+    watch.take({.term = kFirst}, 20ms);
+    watch.look(20ms, 12s, 20ms);
     EXPECT_FALSE(watch.sight().is_current);
     EXPECT_FALSE(watch.take_stall());
     EXPECT_FALSE(watch.sight().is_silent);
