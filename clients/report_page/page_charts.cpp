@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "clients/analysis/curves.hpp"
@@ -12,34 +13,19 @@
 namespace lockstep::analysis {
 namespace {
 
-/// JSON text, part by part.
-class Json {
-public:
-    void text(std::string_view raw) { out_ += raw; }
-    void number(double value) {
-        std::isfinite(value) ? void(fmt::format_to(std::back_inserter(out_), "{:.9g}", value)) : text("null");
-    }
-    void key(std::string_view name) { fmt::format_to(std::back_inserter(out_), "\"{}\":", name); }
-    /// For names that need no escapes.
-    void word(std::string_view value) { fmt::format_to(std::back_inserter(out_), "\"{}\"", value); }
-    template <typename Range, typename Write>
-    void list(const Range& values, Write&& write) {
-        text("[");
-        bool first = true;
-        for (const auto& value : values) {
-            if (!std::exchange(first, false)) { text(","); }
-            write(value);
-        }
-        text("]");
-    }
-    void numbers(const std::vector<double>& values) {
-        list(values, [this](double value) { number(value); });
-    }
-    std::string take() && { return std::move(out_); }
+using nlohmann::json;
 
-private:
-    std::string out_;
-};
+/// With nine digits, as many as a chart can show.
+json number(double value) {
+    if (!std::isfinite(value)) { return nullptr; }
+    return std::strtod(fmt::format("{:.9g}", value).c_str(), nullptr);
+}
+
+json numbers(const std::vector<double>& values) {
+    json list = json::array();
+    for (const double value : values) { list.push_back(number(value)); }
+    return list;
+}
 
 struct Kind {
     std::string_view name;  // of the button
@@ -56,53 +42,36 @@ std::vector<Kind> kinds(const Analysis& analysis) {
             {"slack", "slack: how long before its start the latest frame came", "", slack_curves(analysis)}};
 }
 
-void write_row(const Kind& kind, const drawing::AxisCurve& curve, std::size_t colour, Json& out) {
-    out.text(R"({"kind":)");
-    out.word(kind.name);
-    out.text(R"(,"name":)");
-    out.word(curve.axis);
-    out.text(R"(,"what":)");
-    out.word(kind.what);
-    out.text(R"(,"unit":)");
-    out.word(curve.unit + std::string(kind.per));
-    out.text(fmt::format(R"(,"colour":{},"limits":)", colour));
-    out.numbers(curve.limit ? std::vector<double>{-*curve.limit, *curve.limit} : std::vector<double>{});
-    out.text(R"(,"missing":)");
-    out.list(curve.missing, [&out](const drawing::Span& span) { out.numbers({span.from, span.to}); });
-    out.text(R"(,"x":)");
-    out.numbers(curve.time_s);
-    out.text(R"(,"y":)");
-    out.numbers(curve.value);
-    out.text("}");
+json row_of(const Kind& kind, const drawing::AxisCurve& curve, std::size_t colour) {
+    json missing = json::array();
+    for (const drawing::Span& span : curve.missing) { missing.push_back(numbers({span.from, span.to})); }
+    return {{"kind", kind.name},
+            {"name", curve.axis},
+            {"what", kind.what},
+            {"unit", curve.unit + std::string(kind.per)},
+            {"colour", colour},
+            {"limits", numbers(curve.limit ? std::vector<double>{-*curve.limit, *curve.limit} : std::vector<double>{})},
+            {"missing", missing},
+            {"x", numbers(curve.time_s)},
+            {"y", numbers(curve.value)}};
 }
 
-void write_rows(const Analysis& analysis, Json& out) {
-    bool first = true;
+json rows(const Analysis& analysis) {
+    json list = json::array();
     for (const Kind& kind : kinds(analysis)) {
         for (std::size_t i = 0; i < kind.curves.size(); ++i) {
-            if (kind.curves[i].time_s.empty()) { continue; }
-            if (!std::exchange(first, false)) { out.text(",\n"); }
-            write_row(kind, kind.curves[i], i, out);
+            if (!kind.curves[i].time_s.empty()) { list.push_back(row_of(kind, kind.curves[i], i)); }
         }
     }
+    return list;
 }
 
-void write_way(const drawing::PlanePath& way, Json& out) {
-    out.text(R"({"x":)");
-    out.numbers(way.x);
-    out.text(R"(,"y":)");
-    out.numbers(way.y);
-    out.text("}");
-}
+json way(const drawing::PlanePath& path) { return {{"x", numbers(path.x)}, {"y", numbers(path.y)}}; }
 
-void write_path(const Analysis& analysis, Json& out) {
+json path(const Analysis& analysis) {
     const auto paths = paths_in_plane(analysis);
-    if (!paths || paths->stepped.x.empty()) { return out.text("null"); }
-    out.text(R"({"asked":)");
-    write_way(paths->asked, out);
-    out.text(R"(,"stepped":)");
-    write_way(paths->stepped, out);
-    out.text("}");
+    if (!paths || paths->stepped.x.empty()) { return nullptr; }
+    return {{"asked", way(paths->asked)}, {"stepped", way(paths->stepped)}};
 }
 
 /// "0", "1", "2 - 3", ... in microseconds.
@@ -114,38 +83,27 @@ std::string class_text(const Analysis& analysis, std::size_t number) {
                                                  : fmt::format("{:g} - {:g}", low, high);
 }
 
-void write_step_times(const Analysis& analysis, const AxisLog& axis, std::size_t colour, Json& out) {
-    out.text(R"({"name":)");
-    out.word(axis.name());
-    out.text(fmt::format(R"(,"colour":{},"counts":)", colour));
-    out.list(axis.late().counts(), [&out](std::int64_t number) { out.text(fmt::format("{}", number)); });
-    std::vector<std::string> classes;
+json step_times(const Analysis& analysis) {
+    json classes = json::array();
     for (std::size_t i = 0; i < TickHistogram::kClasses; ++i) { classes.push_back(class_text(analysis, i)); }
-    out.text(R"(,"classes":)");
-    out.list(classes, [&out](const std::string& text) { out.word(text); });
-    out.text("}");
+    json list = json::array();
+    for (std::size_t i = 0; i < analysis.axes.size(); ++i) {
+        const AxisLog& axis = *analysis.axes[i];
+        if (axis.late().empty()) { continue; }
+        list.push_back({{"name", axis.name()}, {"colour", i}, {"counts", axis.late().counts()}, {"classes", classes}});
+    }
+    return list;
 }
 
 }  // namespace
 
 std::string page_charts(const Analysis& analysis) {
     const double lasts = analysis.first_tick() ? analysis.seconds(*analysis.last_tick() - *analysis.first_tick()) : 0;
-    Json out;
-    out.text(R"({"whole":)");
-    out.numbers({0, lasts});
-    out.text(R"(,"rows":[)");
-    write_rows(analysis, out);
-    out.text(R"(],"path":)");
-    write_path(analysis, out);
-    out.text(R"(,"step_times":[)");
-    bool first = true;
-    for (std::size_t i = 0; i < analysis.axes.size(); ++i) {
-        if (analysis.axes[i]->late().empty()) { continue; }
-        if (!std::exchange(first, false)) { out.text(","); }
-        write_step_times(analysis, *analysis.axes[i], i, out);
-    }
-    out.text("]}");
-    return std::move(out).take();
+    const json charts{{"whole", numbers({0, lasts})},
+                      {"rows", rows(analysis)},
+                      {"path", path(analysis)},
+                      {"step_times", step_times(analysis)}};
+    return charts.dump();
 }
 
 }  // namespace lockstep::analysis
