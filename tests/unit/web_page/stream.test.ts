@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { StateStream } from "../../../clients/web/page/src/state/stream";
 
-const listener = { changed: () => undefined, denied: () => undefined };
+const denied = () => undefined;
 const EVENT = "event: state\nid: 1\ndata: {}\n\n";
 let connections: AbortSignal[];
 
@@ -43,7 +43,7 @@ test.each([
   ["after its first event", EVENT],
 ])("a connection that falls silent %s is opened again", async (_, first) => {
   serverThatFallsSilent(first);
-  const stream = new StateStream(listener);
+  const stream = new StateStream(denied);
   void stream.run();
   await vi.advanceTimersByTimeAsync(11_000);
   expect(connections.map(({ aborted }) => aborted)).toEqual([false]);
@@ -53,7 +53,7 @@ test.each([
 
 test("a probe that is not answered ends, and the next one proves the connection", async () => {
   serverThatFallsSilent(EVENT, 1);
-  const stream = new StateStream(listener);
+  const stream = new StateStream(denied);
   void stream.run();
   await vi.advanceTimersByTimeAsync(3_000);
   expect(performance.now() - stream.contact_ms).toBeGreaterThan(2_900);

@@ -39,7 +39,7 @@ async function start(place: HTMLElement): Promise<void> {
 }
 
 function run(place: HTMLElement, machine: Machine, role: Role): void {
-  const stream = new StateStream({ changed: () => undefined, denied: () => location.reload() });
+  const stream = new StateStream(() => location.reload());
   const page = new Page(place, machine, () => stream.live.stream);
   const show = () => {
     const { state } = stream.live;

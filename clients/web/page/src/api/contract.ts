@@ -1,7 +1,42 @@
-// The types of clients/web/openapi.yaml. In a state that came as patches, an absent member counts as null.
+// Made from clients/web/openapi.yaml by clients/web/make_contract.py: change it there. The state comes as patches, in which
+// null removes a member, so an absent member counts as null.
 
 export type Maybe<T> = T | null | undefined;
+
 export type Role = "view" | "operate";
+
+export interface Session {
+  role: Role;
+}
+
+export interface ProblemLine {
+  line: number;
+  column: number;
+  message: string;
+}
+
+export interface Problem {
+  type?: "about:blank";
+  title: string;
+  status: number;
+  code: string;
+  number?: number;
+  detail: string;
+  place?: string;
+  value?: unknown;
+  limit?: string;
+  remedy?: string;
+  errors?: ProblemLine[];
+}
+
+export interface Accepted {
+  accepted?: true;
+  job?: Maybe<number>;
+  modes?: Modes;
+  jogging?: boolean;
+}
+
+export type Modes = string[];
 
 export interface Fault {
   number: number;
@@ -11,27 +46,13 @@ export interface Fault {
   remedy: string;
 }
 
-export interface Alarm extends Fault {
-  severity: "fault" | "warning";
-}
-
-export interface ProblemLine {
-  line: number;
-  column: number;
-  message: string;
-}
-
-/** RFC 9457, with place, value, limit and remedy. */
-export interface Problem {
-  title: string;
-  status: number;
+export interface Alarm {
+  number: number;
   code: string;
-  detail: string;
-  place?: string;
-  value?: unknown;
-  limit?: string;
-  remedy?: string;
-  errors?: ProblemLine[];
+  axis?: Maybe<string>;
+  cause: string;
+  remedy: string;
+  severity: "fault" | "warning";
 }
 
 export interface MachineAxis {
@@ -40,13 +61,19 @@ export interface MachineAxis {
   unit: "mm" | "deg";
   position_min: number;
   position_max: number;
+  park: number;
+  start_velocity: number;
   max_velocity: number;
+  max_acceleration: number;
+  steps_per_unit: number;
+  homed_by: "min" | "max";
   unhomed_jog_velocity?: Maybe<number>;
   host?: Maybe<string>;
 }
 
 export interface Limits {
   program_bytes: number;
+  body_bytes: number;
   jog_renew_ms: number;
   jog_life_ms: number;
   override_min_percent: number;
@@ -59,33 +86,97 @@ export interface Machine {
   version: string;
   axes: MachineAxis[];
   features: string[];
+  faults: Record<string, { code: string; cause: string; remedy: string }>;
   coordinate_systems: string[];
   slack_deadline_ms: number;
   step_lateness_limit_us: number;
   limits: Limits;
 }
 
-export interface Spread {
-  count: number;
-  min: number;
-  max: number;
+export type Mode = "Unreachable" | "Waiting" | "Idle" | "Homing" | "Running" | "Holding" | "Paused" | "Stopping" | "Fault" | "Jogging";
+
+export interface Job {
+  number: number;
+  kind?: Maybe<"home" | "move" | "run" | "own-move" | "jog" | "return">;
+  name?: Maybe<string>;
+  line?: Maybe<number>;
+  blocks_done?: Maybe<number>;
+  blocks_known?: Maybe<number>;
+  progress?: Maybe<number>;
+  time_done_s?: Maybe<number>;
+  time_left_s?: Maybe<number>;
+  waits_for_program: boolean;
+  outcome?: Maybe<"Done" | "Stopped" | "Failed">;
+  ended_by?: Maybe<Fault>;
 }
+
+export interface Pause {
+  reason: "program-stop" | "optional-stop" | "tool-change" | "pallet-change" | "hold";
+  tool?: Maybe<number>;
+  message: string;
+  way: Record<string, number>[];
+}
+
+export interface Offsets {
+  revision: number;
+  active: string;
+  systems: Record<string, { origin: Place; rotation_deg: number }>;
+  g92?: Maybe<Place>;
+}
+
+export interface State {
+  machine: string;
+  mode: Mode;
+  link: { age_ms?: Maybe<number>; standby: boolean; config_differs: boolean };
+  job?: Maybe<Job>;
+  program?: Maybe<LoadedProgram>;
+  hold?: Maybe<{ state: "braking" | "held"; line?: Maybe<number> }>;
+  pause?: Maybe<Pause>;
+  override: { feed_percent: number; rapid_percent: number };
+  alarms: Alarm[];
+  axes: Record<string, AxisState>;
+  offsets?: Maybe<Offsets>;
+  tools?: Maybe<Record<string, Tool>>;
+  devices?: Maybe<Devices>;
+  writer?: Maybe<Writer>;
+  modes: Modes;
+  viewers: number;
+}
+
+export interface Devices {
+  spindle: { direction: "stopped" | "forward" | "reverse"; rpm: number };
+  mist: boolean;
+  flood: boolean;
+  tool?: Maybe<number>;
+  outputs: number[];
+}
+
+export interface Writer {
+  name: string;
+  host: string;
+  since: string;
+  is_this_server: boolean;
+}
+
+export type AxisPhase = "Initialize" | "Standby" | "Accelerate" | "Cruise" | "Decelerate" | "Stop" | "Fault";
 
 export interface Health {
   age_ms: number;
   slack_ms?: Maybe<Spread>;
   lateness_us?: Maybe<Spread>;
   skew_us?: Maybe<number>;
+  setpoint_age_ms?: Maybe<number>;
+  loop_p99_us: number;
   loop_max_us: number;
+  least_free_segments: number;
   refused: number;
 }
-
-export type AxisPhase = "Initialize" | "Standby" | "Accelerate" | "Cruise" | "Decelerate" | "Stop" | "Fault";
 
 export interface AxisState {
   present: boolean;
   age_ms?: Maybe<number>;
   position?: Maybe<number>;
+  position_steps?: Maybe<number>;
   velocity?: Maybe<number>;
   state?: Maybe<AxisPhase>;
   homed?: Maybe<boolean>;
@@ -97,20 +188,18 @@ export interface AxisState {
   health?: Maybe<Health>;
 }
 
-export type Mode =
-  | "Unreachable" | "Waiting" | "Idle" | "Homing" | "Running" | "Holding" | "Paused" | "Stopping" | "Fault" | "Jogging";
+export interface Spread {
+  count: number;
+  min: number;
+  max: number;
+}
 
-export interface Job {
-  number: number;
-  kind?: Maybe<"home" | "move" | "run" | "own-move" | "jog">;
-  name?: Maybe<string>;
-  line?: Maybe<number>;
-  progress?: Maybe<number>;
-  time_done_s?: Maybe<number>;
-  time_left_s?: Maybe<number>;
-  waits_for_program?: boolean;
-  outcome?: Maybe<"Done" | "Stopped" | "Failed">;
-  ended_by?: Maybe<Fault>;
+export type Place = Record<string, number>;
+
+export interface Tool {
+  pocket: number;
+  offset: Place;
+  diameter: number;
 }
 
 export interface LoadedProgram {
@@ -119,71 +208,12 @@ export interface LoadedProgram {
   bytes: number;
   lines: number;
   blocks: number;
-  notes?: Maybe<{ line: number; text: string }[]>;
+  notes: { line: number; text: string }[];
 }
 
-/** By axis letter; an absent letter counts as 0. */
-export type Place = Record<string, number>;
-
-export interface Offsets {
-  revision: number;
-  active: string;
-  systems: Record<string, { origin?: Maybe<Place>; rotation_deg?: Maybe<number> }>;
-  g92?: Maybe<Place>;
-}
-
-export interface Tool {
-  pocket?: Maybe<number>;
-  offset?: Maybe<Place>;
-  diameter?: Maybe<number>;
-}
-
-export interface Devices {
-  spindle?: Maybe<{ direction: "stopped" | "forward" | "reverse"; rpm: number }>;
-  mist?: Maybe<boolean>;
-  flood?: Maybe<boolean>;
-  tool?: Maybe<number>;
-  outputs?: Maybe<number[]>;
-}
-
-export interface Writer {
-  name: string;
-  host: string;
-  since: string;
-  is_this_server: boolean;
-}
-
-export interface Pause {
-  reason: "program-stop" | "optional-stop" | "tool-change" | "pallet-change" | "hold";
-  tool?: Maybe<number>;
-  message: string;
-  /** The moves back to where the job goes on, in machine coordinates; empty if no axis was moved. */
-  way: Record<string, number>[];
-}
-
-export interface State {
-  machine: string;
-  mode: Mode;
-  link: { age_ms?: Maybe<number>; standby?: Maybe<boolean>; config_differs?: Maybe<boolean> };
-  job?: Maybe<Job>;
-  program?: Maybe<LoadedProgram>;
-  hold?: Maybe<{ state: "braking" | "held"; line?: Maybe<number> }>;
-  pause?: Maybe<Pause>;
-  override: { feed_percent: number; rapid_percent: number };
-  alarms?: Maybe<Alarm[]>;
-  axes: Record<string, AxisState>;
-  offsets?: Maybe<Offsets>;
-  tools?: Maybe<Record<string, Tool>>;
-  devices?: Maybe<Devices>;
-  writer?: Maybe<Writer>;
-  modes: string[];
-  viewers: number;
-}
-
-export interface Accepted {
-  accepted: true;
-  job?: Maybe<number>;
-  jogging?: boolean;
+export interface MdiHistory {
+  modes: Modes;
+  lines: { line: string; accepted: boolean }[];
 }
 
 export interface ReportFile {
@@ -191,6 +221,10 @@ export interface ReportFile {
   kind: "report" | "incident";
   bytes: number;
   modified: string;
+}
+
+export interface Reports {
+  files: ReportFile[];
 }
 
 export interface JogAxis {

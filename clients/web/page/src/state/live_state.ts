@@ -8,18 +8,17 @@ export class LiveState {
   private streamName = "";
   private lastId = "";
 
-  /** Returns true if the event changed the state. Ignores a patch without a state to patch. */
-  take(event: ServerEvent): boolean {
+  /** Ignores a patch without a state to patch. */
+  take(event: ServerEvent): void {
     if (event.name === "stream") {
       this.streamName = (JSON.parse(event.data) as { stream: string }).stream;
-      return false;
+      return;
     }
     if (event.name === "state") this.whole = JSON.parse(event.data) as Json;
     else if (event.name === "delta" && this.whole !== undefined) {
       this.whole = mergePatch(this.whole, JSON.parse(event.data) as Json);
-    } else return false;
+    } else return;
     this.lastId = event.id;
-    return true;
   }
 
   get state(): State | undefined {

@@ -8,12 +8,6 @@ const PROBE_ENDS_AFTER_MS = 3000;
 const DEAD_AFTER_MS = 12_000; // the server sends its first event at once, and a comment after 5 s without events
 const RETRY_MS = [250, 500, 1000, 2000, 3000];
 
-export interface StreamListener {
-  changed(): void;
-  /** The session is not valid, or no longer. */
-  denied(): void;
-}
-
 export class StateStream {
   readonly live = new LiveState();
   connected = false;
@@ -24,7 +18,8 @@ export class StateStream {
   private received_ms = performance.now();
   private probing = false;
 
-  constructor(private readonly listener: StreamListener) {
+  /** @param denied is called when the session is not valid, or no longer */
+  constructor(private readonly denied: () => void) {
     setInterval(() => void this.watch(), PROBE_AFTER_MS / 2);
   }
 
@@ -34,8 +29,7 @@ export class StateStream {
       const denied = await this.connect();
       this.connected = false;
       this.live.disconnected();
-      this.listener.changed();
-      if (denied) return this.listener.denied();
+      if (denied) return this.denied();
       const wait = RETRY_MS[Math.min(this.attempts++, RETRY_MS.length - 1)]!;
       await new Promise((resolve) => setTimeout(resolve, wait));
     }
@@ -68,8 +62,7 @@ export class StateStream {
       this.connected = true;
       this.attempts = 0;
       this.received_ms = this.contact_ms = performance.now();
-      const events = parser.take(text.decode(value, { stream: true }));
-      if (events.map((event) => this.live.take(event)).includes(true)) this.listener.changed();
+      for (const event of parser.take(text.decode(value, { stream: true }))) this.live.take(event);
     }
   }
 

@@ -65,7 +65,7 @@ export const de: Texts = {
   job: {
     title: "Auftrag", none: "Noch kein Auftrag", left: "noch", progress: "Fortschritt", waits: "Die Achsen ruhen auf der Bahn, bis mehr vom Programm ankommt",
     line: "Zeile {line}", outcome: { Done: "Fertig", Stopped: "Gestoppt", Failed: "Fehlgeschlagen" },
-    kind: { home: "Referenzfahrt", move: "Fahrt", run: "Programm", "own-move": "Fahrt einer Achse", jog: "Handfahrt" },
+    kind: { home: "Referenzfahrt", move: "Fahrt", run: "Programm", "own-move": "Fahrt einer Achse", jog: "Handfahrt", return: "Rückweg zur Pause" },
     number: "Auftrag {number}", held: "Angehalten in Zeile {line}", braking: "Bremst …",
   },
   devices: {

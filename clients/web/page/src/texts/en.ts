@@ -64,7 +64,7 @@ export const en = {
   job: {
     title: "Job", none: "No job yet", left: "left", progress: "Progress", waits: "The axes rest on the path until more of the program arrives",
     line: "Line {line}", outcome: { Done: "Done", Stopped: "Stopped", Failed: "Failed" },
-    kind: { home: "Homing", move: "Move", run: "Program", "own-move": "Single-axis move", jog: "Jog" },
+    kind: { home: "Homing", move: "Move", run: "Program", "own-move": "Single-axis move", jog: "Jog", return: "Return to the pause" },
     number: "Job {number}", held: "Held at line {line}", braking: "Braking …",
   },
   devices: {
