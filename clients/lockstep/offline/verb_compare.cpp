@@ -4,13 +4,13 @@
 #include <iostream>
 #include <memory>
 
-#include "clients/comparison/comparison.hpp"
-#include "clients/comparison/comparison_text.hpp"
-#include "clients/comparison/figures.hpp"
-#include "clients/comparison/move_text.hpp"
-#include "clients/comparison/report.hpp"
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
+#include "clients/methods/comparison.hpp"
+#include "clients/methods/comparison_text.hpp"
+#include "clients/methods/figures.hpp"
+#include "clients/methods/move_text.hpp"
+#include "clients/methods/report.hpp"
 #include "clients/text/output.hpp"
 #include "services/files/text_file.hpp"
 

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "clients/comparison/comparison.hpp"
-#include "clients/comparison/comparison_text.hpp"
-#include "clients/comparison/figures.hpp"
-#include "clients/comparison/move_text.hpp"
-#include "clients/comparison/report.hpp"
+#include "clients/methods/comparison.hpp"
+#include "clients/methods/comparison_text.hpp"
+#include "clients/methods/figures.hpp"
+#include "clients/methods/move_text.hpp"
+#include "clients/methods/report.hpp"
 
 namespace lockstep::comparison {
 namespace {

@@ -1,13 +1,13 @@
-#include "clients/comparison/comparison_text.hpp"
+#include "clients/methods/comparison_text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
 
-#include "clients/comparison/figures.hpp"
-#include "clients/comparison/move_text.hpp"
 #include "clients/drawing/svg.hpp"
+#include "clients/methods/figures.hpp"
+#include "clients/methods/move_text.hpp"
 
 namespace lockstep::comparison {
 namespace {

@@ -1,4 +1,4 @@
-#include "clients/comparison/move_text.hpp"
+#include "clients/methods/move_text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // A comparison as the JSON report of `lockstep compare`.
 #pragma once
 
-#include "clients/comparison/comparison.hpp"
+#include "clients/methods/comparison.hpp"
 #include "idl/proto/report.pb.h"
 
 namespace lockstep::comparison {

@@ -1,4 +1,4 @@
-#include "clients/comparison/comparison.hpp"
+#include "clients/methods/comparison.hpp"
 
 #include <algorithm>
 #include <cmath>

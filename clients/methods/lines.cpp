@@ -1,4 +1,4 @@
-#include "clients/comparison/lines.hpp"
+#include "clients/methods/lines.hpp"
 
 #include <algorithm>
 

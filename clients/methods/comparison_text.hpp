@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "clients/comparison/comparison.hpp"
+#include "clients/methods/comparison.hpp"
 
 namespace lockstep::comparison {
 

@@ -1,9 +1,9 @@
-#include "clients/comparison/figures.hpp"
+#include "clients/methods/figures.hpp"
 
 #include <cmath>
 #include <utility>
 
-#include "clients/comparison/move_text.hpp"
+#include "clients/methods/move_text.hpp"
 
 namespace lockstep::comparison {
 namespace {

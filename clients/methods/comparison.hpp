@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "clients/comparison/lines.hpp"
+#include "clients/methods/lines.hpp"
 #include "core/methods/methods.hpp"
 #include "core/motion/ideal.hpp"
 

@@ -1,8 +1,8 @@
 // The figures of a comparison.
 #pragma once
 
-#include "clients/comparison/comparison.hpp"
 #include "clients/drawing/figure.hpp"
+#include "clients/methods/comparison.hpp"
 
 namespace lockstep::comparison {
 

@@ -1,4 +1,4 @@
-#include "clients/comparison/report.hpp"
+#include "clients/methods/report.hpp"
 
 namespace lockstep::comparison {
 namespace {
