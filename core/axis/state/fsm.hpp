@@ -41,9 +41,10 @@ struct AxisTransition {
     AxisPhase to;
 };
 
-/// All transitions. An event that is not listed for a state leaves the state unchanged.
+/// All transitions. An event that is not listed for a state changes nothing, if it may come there (may_come).
 inline constexpr std::array kAxisTransitions{
     // Initialize: unhomed, or searching, pulling off and latching.
+    AxisTransition{AxisPhase::Initialize, AxisEvent::HomingBegins, AxisPhase::Initialize},
     AxisTransition{AxisPhase::Initialize, AxisEvent::SwitchStops, AxisPhase::Stop},
     AxisTransition{AxisPhase::Initialize, AxisEvent::LimitStops, AxisPhase::Stop},
     AxisTransition{AxisPhase::Initialize, AxisEvent::HostStops, AxisPhase::Stop},
@@ -90,6 +91,15 @@ constexpr std::optional<std::size_t> find_transition(AxisPhase from, AxisEvent e
         if (kAxisTransitions[row].from == from && kAxisTransitions[row].event == event) { return row; }
     }
     return std::nullopt;
+}
+
+/// Whether an event may come in a state that has no transition for it. The device reports speed and stops, and a person
+/// resets, in any state. The axis itself begins homing, sets its zero and leaves Stop only in the states that the table
+/// lists, so elsewhere these are a defect: an axis would be homed and never ready. Fault is latched, whatever comes.
+constexpr bool may_come(AxisPhase state, AxisEvent event) {
+    const bool is_own_decision =
+        event == AxisEvent::HomingBegins || event == AxisEvent::Zeroed || event == AxisEvent::Released;
+    return state == AxisPhase::Fault || !is_own_decision;
 }
 
 /// Returns the state that follows, or nullopt if the event means nothing in this state.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/axis/state/fsm.hpp"
+#include "core/check.hpp"
 #include "core/faults.hpp"
 
 namespace lockstep {
@@ -19,7 +20,7 @@ public:
 
     void happen(AxisEvent event) {
         const auto row = find_transition(phase_, event);
-        if (!row) { return; }
+        if (!row) { return check(may_come(phase_, event), "an axis decides only what its state allows"); }
         ++transitions_[*row];
         phase_ = kAxisTransitions[*row].to;
     }

@@ -36,6 +36,21 @@ TEST(PhaseMachine, CountsOnlyTransitionsThatWereTaken) {
     EXPECT_EQ(taken, 1u);
 }
 
+TEST(PhaseMachine, HomingOfAnUnhomedAxisBeginsWhereItIs) {
+    PhaseMachine phases;
+    phases.happen(AxisEvent::HomingBegins);
+    EXPECT_EQ(phases.phase(), AxisPhase::Initialize);
+}
+
+/// It would be homed and never ready.
+TEST(PhaseMachineDeathTest, AZeroThatIsSetOutsideOfAStopIsADefect) {
+    PhaseMachine phases;
+    EXPECT_DEATH(phases.happen(AxisEvent::Zeroed), "an axis decides only what its state allows");
+    phases.fail(FaultCode::DeviceFault);
+    phases.happen(AxisEvent::Zeroed);
+    EXPECT_EQ(phases.phase(), AxisPhase::Fault) << "a fault that comes first is kept";
+}
+
 TEST(OrderLog, ReportsAnOrderWhenItEnds) {
     OrderLog orders;
     orders.begin(3);
