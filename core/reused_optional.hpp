@@ -1,6 +1,8 @@
 // An optional value that keeps its allocated memory while it is absent.
 #pragma once
 
+#include <utility>
+
 #include "core/check.hpp"
 
 namespace lockstep {
@@ -20,10 +22,11 @@ public:
     ReusedOptional& operator=(ReusedOptional&&) = default;
     ~ReusedOptional() = default;
 
-    /// Makes the value present. It has the content of an earlier value, so the caller must set every field.
-    T& renew() {
+    /// Makes the value what `make(old)` returns. `old` is an earlier value, whose memory it may take.
+    template <typename Make>
+    T& renew(Make&& make) {
         has_value_ = true;
-        return value_;
+        return value_ = make(std::move(value_));
     }
     void reset() { has_value_ = false; }
 

@@ -32,12 +32,14 @@ public:
     }
     ~ReusedQueue() = default;
 
-    /// Adds a last element with the content of an earlier one, so the caller must set every field.
-    T& append() {
-        if (size_ == items_.size()) { grow(); }
-        return *items_[place(size_++)];
+    /// Adds a copy as the last element.
+    T& push_back(const T& value) { return next() = value; }
+    /// Adds what `make(old)` returns as the last element. `old` is an earlier element, whose memory it may take.
+    template <typename Make>
+    T& renew_back(Make&& make) {
+        T& place = next();
+        return place = make(std::move(place));
     }
-    void push_back(const T& value) { append() = value; }
     void pop_front() {
         first_ = place(1);
         --size_;
@@ -55,6 +57,10 @@ public:
     const T& back() const { return (*this)[size_ - 1]; }
 
 private:
+    T& next() {
+        if (size_ == items_.size()) { grow(); }
+        return *items_[place(size_++)];
+    }
     std::size_t place(std::size_t i) const {
         const std::size_t behind = first_ + i;
         return behind < items_.size() ? behind : behind - items_.size();

@@ -18,7 +18,7 @@ public:
     ReusedVector& operator=(const ReusedVector& other) {
         if (this == &other) { return *this; }
         clear();
-        for (const T& value : other) { append() = value; }
+        for (const T& value : other) { push_back(value); }
         return *this;
     }
     ReusedVector(ReusedVector&& other) noexcept
@@ -30,11 +30,13 @@ public:
     }
     ~ReusedVector() = default;
 
-    /// Adds a last element with the content of an earlier one, so the caller must set every field.
-    T& append() {
-        if (items_.capacity() == 0) { items_.reserve(kLeastPlaces); }
-        if (size_ == items_.size()) { items_.emplace_back(); }
-        return items_[size_++];
+    /// Adds a copy as the last element.
+    T& push_back(const T& value) { return next() = value; }
+    /// Adds what `make(old)` returns as the last element. `old` is an earlier element, whose memory it may take.
+    template <typename Make>
+    T& renew_back(Make&& make) {
+        T& place = next();
+        return place = make(std::move(place));
     }
     void clear() { size_ = 0; }
 
@@ -48,6 +50,12 @@ public:
     const T* end() const { return items_.data() + size_; }
 
 private:
+    T& next() {
+        if (items_.capacity() == 0) { items_.reserve(kLeastPlaces); }
+        if (size_ == items_.size()) { items_.emplace_back(); }
+        return items_[size_++];
+    }
+
     static constexpr std::size_t kLeastPlaces = 8;  // more than most loops fill
 
     std::vector<T> items_;

@@ -40,7 +40,7 @@ void HealthMeter::take(const AxisOutputs& out) {
         refused_commands_ += notice.kind == AxisNotice::Kind::CommandRefused ? 1 : 0;
     }
     if (out.state) { refused_frames_ = out.state->refused_frames; }
-    for (const ExecutedTrack& track : out.tracks) { tracks_.append() = track; }
+    for (const ExecutedTrack& track : out.tracks) { tracks_.push_back(track); }
 }
 
 /// A frame is loaded in the loop in which it arrived. Frames of an axis's own moves do not count.

@@ -11,7 +11,7 @@ namespace lockstep {
 class CommandInbox {
 public:
     void receive(std::span<const Command> commands) {
-        for (const Command& command : commands) { received_.append() = command; }
+        for (const Command& command : commands) { received_.push_back(command); }
     }
     /// Calls visit(command) for each that was not taken yet.
     template <typename Visit>

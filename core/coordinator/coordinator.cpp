@@ -256,18 +256,19 @@ void Coordinator::wait_for_axes(CoordinatorLoop& loop) {
 
 /// Reuses the memory of the last state's lease.
 void Coordinator::report(CoordinatorLoop& loop) const {
-    MachineState& state = loop.out.state.renew();
     const MachineFault fault = jobs_.activity().fault();
-    state = {.term = loop.term,
-             .stamp = loop.slot,
-             .tick = loop.now,
-             .phase = phase(),
-             .fault = fault.code,
-             .fault_axis = fault.faulty_axis(),
-             .axes_present = axes_.present(loop.slot),
-             .config_hash = config_hash_,
-             .lease = std::move(state.lease),
-             .pause = std::move(state.pause)};
+    MachineState& state = loop.out.state.renew([&](MachineState&& old) {
+        return MachineState{.term = loop.term,
+                            .stamp = loop.slot,
+                            .tick = loop.now,
+                            .phase = phase(),
+                            .fault = fault.code,
+                            .fault_axis = fault.faulty_axis(),
+                            .axes_present = axes_.present(loop.slot),
+                            .config_hash = config_hash_,
+                            .lease = std::move(old.lease),
+                            .pause = std::move(old.pause)};
+    });
     state.lease = lease_.held();
     report_job(jobs_, state, loop);
 }

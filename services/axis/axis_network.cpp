@@ -56,7 +56,7 @@ const AxisReceived& AxisNetwork::receive() {
     if (link == nullptr) { return received_; }
     AxisBus& bus = link->bus;
     if (link->clock) { link->clock->take(received_.exchanges); }
-    bus.frames.take([&](Frame&& m) { received_.frames.append() = m; });
+    bus.frames.take([&](Frame&& m) { received_.frames.push_back(m); });
     bus.states.take([&](AxisState&& m) {
         axes_received_ |= axis_bit(m.axis);
         received_.states.push_back(m);
@@ -67,10 +67,10 @@ const AxisReceived& AxisNetwork::receive() {
             acknowledged_.is_owner_received = true;
             acknowledged_.is_received |= has_axis(m.axes_present, axis_);
         }
-        received_.machine.append() = m;
+        received_.machine.push_back(m);
     });
     bus.commands.take([&](AxisCommand&& m) { received_.commands.push_back(m); });
-    bus.requests.take([&](Command&& m) { received_.requests.append() = m; });
+    bus.requests.take([&](Command&& m) { received_.requests.push_back(m); });
     machine_received_ = machine_received_ || !received_.machine.empty();
     refused_now_ = refused_by(bus);
     return received_;

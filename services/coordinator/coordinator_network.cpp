@@ -59,9 +59,9 @@ const CoordinatorReceived& CoordinatorNetwork::receive() {
         is_owner_received_ = is_owner_received_ || m.hears_owner;
         received_.states.push_back(m);
     });
-    bus.other_coordinators.take([&](MachineState&& m) { received_.others.append() = m; });
+    bus.other_coordinators.take([&](MachineState&& m) { received_.others.push_back(m); });
     bus.other_values.take([&](MachineValues&& m) { received_.values.push_back(std::move(m)); });
-    bus.commands.take([&](Command&& m) { received_.commands.append() = m; });
+    bus.commands.take([&](Command&& m) { received_.commands.push_back(m); });
     refused_now_ = bus.states.refusals().count + bus.commands.refusals().count + bus.chunks.refusals().count;
     return received_;
 }

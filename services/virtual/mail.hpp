@@ -27,7 +27,7 @@ public:
     std::vector<ClockRequest> clock_requests;
     std::vector<ClockReply> clock_replies;
 
-    void operator()(const Frame& m) { frames.append() = m; }
+    void operator()(const Frame& m) { frames.push_back(m); }
     void operator()(const AxisState& m) { axes.push_back(m); }
     void operator()(const MachineState& m) { machine.push_back(m); }
     void operator()(const AxisCommand& m) { axis_commands.push_back(m); }

@@ -1,6 +1,7 @@
 #include "core/axis/state/run_recorder.hpp"
 
 #include <optional>
+#include <utility>
 
 #include "core/check.hpp"
 
@@ -10,22 +11,23 @@ namespace {
 /// `cut_at`: where the pulses ceased early, in machine coordinates.
 void record(const HeldFrame& frame, bool tail, std::optional<std::int64_t> cut_at, const RunRecorder::Run& run,
             ReusedVector<ExecutedTrack>& tracks) {
-    ExecutedTrack& r = tracks.append();
-    r.epoch = run.epoch;
-    r.frame = frame.number;
-    r.tail = tail;
-    r.start = tail ? frame.end() : frame.start;
-    r.from = tail ? frame.body_end() : frame.track.from;
+    ExecutedTrack& r = tracks.renew_back([&](ExecutedTrack&& old) {
+        old.commanded_ticks.clear();
+        return ExecutedTrack{.epoch = run.epoch,
+                             .frame = frame.number,
+                             .tail = tail,
+                             .start = tail ? frame.end() : frame.start,
+                             .from = tail ? frame.body_end() : frame.track.from,
+                             .pieces = std::move(old.pieces),
+                             .cut = cut_at.has_value(),
+                             .zero_count = run.zero_count,
+                             .commanded_ticks = std::move(old.commanded_ticks)};
+    });
     const auto take = [&r](const auto& pieces) { r.pieces.assign(pieces.begin(), pieces.end()); };
     tail ? take(frame.track.tail) : take(frame.track.body);
     Position end = r.from;
     for (const Piece& piece : r.pieces) { end = end + piece.covered(); }
-    r.cut = cut_at.has_value();
     r.stop_count = cut_at.value_or(end.count());
-    r.zero_count = run.zero_count;
-    r.commanded_start = {};
-    r.commanded_ticks.clear();
-    r.clock_error = {};
 }
 
 void record_end(const HeldFrame& frame, const DeviceStatus& device, const RunRecorder::Run& run,

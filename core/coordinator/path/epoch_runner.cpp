@@ -25,9 +25,9 @@ void EpochRunner::begin(Epoch epoch, const PathPlace& place, const AxisPositions
     taken_.reset();
     in_flight_.clear();
     made_.clear();
-    Made& start = made_.append();
-    start = {.rest = place, .positions = at_};
+    Made start{.rest = place, .positions = at_};
     start.places.fill(place);
+    made_.push_back(start);
 }
 
 void EpochRunner::start_when_ready(Slot now) {
@@ -68,7 +68,7 @@ void EpochRunner::repeat_frames(Slot now, FrameNumber held_by_all) {
         const Frame& frame = in_flight_[k];
         const bool in_time = rules::may_send(now, rules::slot_of(frame.start, slot_), machine_.timing);
         const bool may_run = !veto() || *veto() > frame.number;
-        if (in_time && may_run && frame.number > held_by_all) { to_send_.append() = frame; }
+        if (in_time && may_run && frame.number > held_by_all) { to_send_.push_back(frame); }
     }
 }
 
@@ -83,7 +83,7 @@ void EpochRunner::make_frames(Slot now) {
         const Frame* const frame = make_frame();
         lacked_blocks_ = frame == nullptr && source_->lacks_blocks();
         if (frame == nullptr) { return; }
-        to_send_.append() = *frame;
+        to_send_.push_back(*frame);
     }
 }
 
@@ -103,15 +103,16 @@ const Frame* EpochRunner::make_frame() {
     if (!next) { end(Ending::Stuck); }
     if (!next || *next == nullptr) { return nullptr; }
     const PathFrame& path = **next;
-    Frame& frame = in_flight_.append();
-    frame.term = {};
-    frame.epoch = epoch_;
-    frame.number = ++sent_;
-    frame.start = *start_ + made_ticks_;
-    frame.ticks = path.ticks;
-    frame.last = path.last;
-    if (path.last) { end(Ending::Whole); }
+    Frame& frame = in_flight_.renew_back([&](Frame&& old) {
+        return Frame{.epoch = epoch_,
+                     .number = ++sent_,
+                     .start = *start_ + made_ticks_,
+                     .ticks = path.ticks,
+                     .last = path.last,
+                     .axes = std::move(old.axes)};
+    });
     frame.axes = path.axes;
+    if (path.last) { end(Ending::Whole); }
     for (const FrameEvent& event : source_->events()) {
         due_.push_back({sent_, {frame.start + event.at, event.event}});
     }
@@ -123,8 +124,8 @@ const Frame* EpochRunner::make_frame() {
 
 /// Notes where the tracks of a frame lead and where they rest.
 void EpochRunner::finish(const Frame& frame, const PathFrame& path) {
-    Made& made = made_.append();
-    made = {.end = made_ticks_, .places = path.places, .rest = path.rest, .complete = path.last};
+    Made& made = made_.push_back(
+        {.end = made_ticks_, .places = path.places, .rest = path.rest, .positions = {}, .complete = path.last});
     for (std::size_t i = 0; i < at_.size(); ++i) {
         const AxisTrack& track = frame.axes[i];
         for (const Piece& piece : track.body) { at_[i] = at_[i] + piece.covered(); }
