@@ -9,6 +9,7 @@
 #include "clients/analysis/analysis_text.hpp"
 #include "clients/analysis/moves/deviation.hpp"
 #include "core/axis_unit.hpp"
+#include "core/coordinator/path/coordination.hpp"
 #include "core/number_text.hpp"
 
 namespace lockstep::analysis {
@@ -245,10 +246,9 @@ void check_times(const Analysis& analysis, Findings& found) {
                             "the times commanded are not in this log"));
 }
 
-/// How far exact steps of an axis may be off the line between two places, in steps. Places and pulses are each rounded
-/// to half a step. Lai's method rounds once more: the place of each axis at the end of each period.
+/// How far exact steps of an axis may be off the line between two places, in steps.
 double exact_steps_off(const Analysis& analysis) {
-    return analysis.config && analysis.config->coordination == StepMethod::Lai ? 1.5 : 1;
+    return (analysis.config ? coordination_of(*analysis.config) : kStreamedPath).exact_steps_off;
 }
 
 /// The maximum distance from the curve that exact steps can have: of each axis these steps, or the tolerance within

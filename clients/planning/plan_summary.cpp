@@ -6,6 +6,7 @@
 #include "clients/planning/counted_blocks.hpp"
 #include "clients/planning/lai_legs.hpp"
 #include "clients/planning/timed_legs.hpp"
+#include "core/coordinator/path/coordination.hpp"
 
 namespace lockstep {
 namespace {
@@ -75,7 +76,7 @@ bool may_get_stuck(const MachineConfig& machine) {
 std::expected<PlannedTotals, PlanError> totals_of(const MachineConfig& machine,
                                                   const std::shared_ptr<const CountedBlocks>& blocks,
                                                   const Planning& planning) {
-    if (!planning.each_frame && machine.coordination == StepMethod::Lai) {
+    if (!planning.each_frame && coordination_of(machine).plans_whole) {
         return plan_lai_legs(machine, blocks, planning.start, planning.progress);
     }
     if (!planning.each_frame && !may_get_stuck(machine)) {

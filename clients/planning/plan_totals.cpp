@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "core/coordinator/path/coordination.hpp"
 #include "core/coordinator/path/lai_path.hpp"
 
 namespace lockstep {
@@ -76,12 +77,13 @@ void PlanTotals::note_pieces(const AxisTrack& track, std::size_t axis) {
     }
 }
 
-/// With the LAI method the speed jumps from period to period. Within a move these jumps count as acceleration.
+/// If the speed jumps from period to period, the jumps within a move count as acceleration.
 void PlanTotals::note_jump(std::size_t axis, double change, bool is_between_moves) {
     AxisPlan& plan = axes_[axis];
     const double mm_s = std::abs(change) / machine_.axes[axis].steps_per_mm * machine_.ticks_per_second();
-    if (machine_.coordination != StepMethod::Lai || is_between_moves) { return raise(plan.peak_jump_mm_s, mm_s); }
-    raise(plan.peak_acceleration_mm_s2, mm_s / (static_cast<double>(kLaiPeriod_ns) * 1e-9));
+    const double period_s = coordination_of(machine_).speed_period_s;
+    if (period_s == 0 || is_between_moves) { return raise(plan.peak_jump_mm_s, mm_s); }
+    raise(plan.peak_acceleration_mm_s2, mm_s / period_s);
 }
 
 void PlanTotals::end_leg() {

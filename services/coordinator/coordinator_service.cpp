@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "core/coordinator/coordinator.hpp"
+#include "core/coordinator/path/coordination.hpp"
 #include "core/flight/coordinator_flight.hpp"
 #include "core/methods/paper_steps.hpp"
 #include "core/protocol/names.hpp"
@@ -305,7 +306,7 @@ private:
 /// Chooses where programs are stored. The LAI method plans a program as a whole, so it keeps it in memory.
 MakeRows rows_of(const MachineConfig& machine, std::int64_t limit_mb) {
     constexpr std::uint64_t kBytesPerMB = 1'000'000;
-    if (machine.coordination == StepMethod::Lai) {
+    if (coordination_of(machine).plans_whole) {
         return [](std::size_t width) { return std::make_unique<MemoryRows>(width, kMaxProgramBlocks); };
     }
     const std::filesystem::path directory = values_file(machine.name).parent_path();
@@ -365,7 +366,7 @@ int serve_coordinator(const CoordinatorServiceOptions& options) {
             "--standby: the machine's time_source is NETWORK, so its time is the coordinator's own clock, and "
             "the clock of another host cannot continue it; use SHARED (one host) or PTP");
     }
-    if (options.on_takeover == OnTakeover::Continue && machine.coordination == StepMethod::Lai) {
+    if (options.on_takeover == OnTakeover::Continue && !coordination_of(machine).tells_places) {
         return end_with_bad_input(
             "--on-takeover continue: coordination LAI plans a block in parts, and another "
             "coordinator cannot distinguish them; use stop, or coordination: RANADE");

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "core/axis_unit.hpp"
+#include "core/coordinator/path/coordination.hpp"
 #include "services/documents/program_document.hpp"
 #include "services/files/text_file.hpp"
 
@@ -71,7 +72,7 @@ GcodeSetup gcode_setup(const MachineConfig& machine, const std::vector<double>& 
     GcodeSetup setup{.program_name = std::move(program_name), .axes = {}, .switches = switches};
     setup.unassigned = machine.unassigned;
     setup.chord_tolerance_mm = chord_tolerance(machine);
-    setup.curves_as_chords = machine.coordination == StepMethod::Lai;
+    setup.curves_as_chords = coordination_of(machine).moves_straight;
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         const AxisConfig& axis = machine.axes[i];
         setup.axes.push_back({.name = axis.name,

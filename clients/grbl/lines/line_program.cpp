@@ -1,4 +1,5 @@
 #include "clients/grbl/lines/line_program.hpp"
+#include "core/coordinator/path/coordination.hpp"
 
 #include <utility>
 
@@ -7,7 +8,7 @@ namespace lockstep::grbl {
 LineProgram::LineProgram(const MachineConfig& machine, std::vector<double> from_mm, MachinePort& port)
     : port_(port),
       sender_(port.open({.name = "lines of a sender", .axes = machine.axis_names(), .start_mm = std::move(from_mm)})),
-      is_run_whole_(machine.coordination == StepMethod::Lai) {}
+      is_run_whole_(coordination_of(machine).plans_whole) {}
 
 LineProgram::Outcome LineProgram::pass(const MachineState& state, bool is_held, std::chrono::nanoseconds now) {
     send(now);

@@ -1,4 +1,5 @@
 #include "clients/grbl/lines/line_runner.hpp"
+#include "core/coordinator/path/coordination.hpp"
 
 namespace lockstep::grbl {
 namespace {
@@ -64,7 +65,7 @@ void LineRunner::pass_program(const MachineState& state, nanoseconds now) {
 /// waits for room gets it as the machine moves, so it does not end the program.
 bool LineRunner::must_end(const MachineState& state, nanoseconds now) const {
     if (now - appended_ < kIdle) { return false; }
-    if (machine_.coordination == StepMethod::Lai) { return true; }
+    if (coordination_of(machine_).plans_whole) { return true; }
     if (!program_->is_job_of(state) || state.phase != MachinePhase::Running) { return false; }
     if (!program_->is_sent_since(state_age(machine_), now)) { return false; }
     return state.lacks_blocks || (!next_ && now - appended_ >= kLongIdle && state.remaining_s < kNearEnd_s);

@@ -13,6 +13,7 @@
 #include "clients/session/status_text.hpp"
 #include "clients/text/format.hpp"
 #include "clients/text/notes.hpp"
+#include "core/coordinator/path/coordination.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/stop_signal.hpp"
 
@@ -104,7 +105,7 @@ std::expected<Reply, Failure> begin(Session& session, const Job& job, const Stop
         const auto begun = session.stream(job.stream->head(), job.stream->values(), feed, &stop);
         if (!begun) { return std::unexpected(begun.error()); }
         program = *begun;
-        const bool is_planned_whole = session.config().coordination == StepMethod::Lai;
+        const bool is_planned_whole = coordination_of(session.config()).plans_whole;
         const auto sent = is_planned_whole ? send_rest(session, stop, true) : std::expected<void, Failure>{};
         if (!sent) { return std::unexpected(sent.error()); }
     }

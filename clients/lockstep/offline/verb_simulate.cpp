@@ -15,6 +15,7 @@
 #include "clients/text/format.hpp"
 #include "clients/text/notes.hpp"
 #include "clients/text/output.hpp"
+#include "core/coordinator/path/coordination.hpp"
 #include "core/protocol/names.hpp"
 #include "services/documents/program_file.hpp"
 #include "services/record/new_log_file.hpp"
@@ -120,11 +121,11 @@ ExitCode simulate_long_file(const SimulateOptions& options) {
     return record_simulation(options, *input, run, output);
 }
 
-/// Whether the file is read while it runs. LAI plans only whole programs.
+/// Whether the file is read while it runs.
 bool is_streamed(const SimulateOptions& options) {
     if (!is_long_program(options.file)) { return false; }
     const auto machine = choose_machine(options.machine_file);
-    return machine && machine->config.coordination != StepMethod::Lai;
+    return machine && !coordination_of(machine->config).plans_whole;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "clients/session/control/store_values.hpp"
 #include "clients/web/machine/session_lease.hpp"
+#include "core/coordinator/path/coordination.hpp"
 #include "core/protocol/needs_lease.hpp"
 
 namespace lockstep::web {
@@ -58,7 +59,7 @@ bool RunTask::poll(Session& session) {
     }
     const ProgramSender& sender = *session.sender();
     if (sender.refusal()) { return end(std::unexpected(refused_by(*sender.refusal()))); }
-    const bool is_planned_whole = session.config().coordination == StepMethod::Lai;
+    const bool is_planned_whole = coordination_of(session.config()).plans_whole;
     if (is_planned_whole ? sender.is_done() : sender.parts_taken() > 0) {
         const auto done = [this](Outcome&& outcome) {
             if (outcome && outcome->job) { begun_(*outcome->job); }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/check.hpp"
+#include "core/coordinator/path/coordination.hpp"
 #include "core/coordinator/path/return_way.hpp"
 #include "core/protocol/names.hpp"
 
@@ -34,7 +35,7 @@ CommandResult check_program(const KnownProgram& program, const ProgramPlanner& p
 
 /// Moves may be too slow for the LAI method.
 CommandResult check_lai_moves(const KnownProgram& program, const ProgramPlanner& planner, const LoopView& loop) {
-    if (loop.machine.coordination != StepMethod::Lai) { return {}; }
+    if (!coordination_of(loop.machine).has_least_feed) { return {}; }
     AxisCounts at = loop.axes.counts();
     for (std::uint32_t number = 0; !program.ends_before(number); ++number) {
         const Block& block = check_found(program.block(number), "a program that is planned as a whole is known");
@@ -122,7 +123,7 @@ CommandResult home(const Command& command, JobLifecycle& jobs, CoordinatorLoop& 
 
 CommandResult run(const Command& command, JobLifecycle& jobs, CoordinatorLoop& loop) {
     if (auto ready = check_ready(jobs.activity(), loop); !ready) { return ready; }
-    const auto program = program_of(command, loop, loop.machine.coordination == StepMethod::Lai);
+    const auto program = program_of(command, loop, coordination_of(loop.machine).plans_whole);
     if (!program) { return std::unexpected(program.error()); }
     if (auto homed = check_homed(loop); !homed) { return homed; }
     if (auto clocks = check_clocks(loop); !clocks) { return clocks; }
@@ -220,7 +221,7 @@ CommandResult resume(const Command& command, JobLifecycle& jobs, CoordinatorLoop
 }
 
 CommandResult set_overrides(const Command& command, JobLifecycle& jobs, const LoopView& loop) {
-    if (loop.machine.coordination == StepMethod::Lai) {
+    if (!coordination_of(loop.machine).takes_overrides) {
         return refuse(FaultCode::NothingToDo, "coordination LAI does not support overrides; set coordination: RANADE");
     }
     for (const std::optional<int>& percent : {command.feed_percent, command.rapid_percent}) {

@@ -8,6 +8,7 @@
 #include "core/coordinator/jobs/path_task.hpp"
 #include "core/coordinator/jobs/program_events.hpp"
 #include "core/coordinator/jobs/takeover.hpp"
+#include "core/coordinator/path/coordination.hpp"
 #include "core/coordinator/path/epoch_runner.hpp"
 #include "core/coordinator/path/program_plan.hpp"
 #include "core/coordinator/state/coordinator_loop.hpp"
@@ -17,7 +18,7 @@ namespace lockstep {
 class PathRunner {
 public:
     explicit PathRunner(const MachineConfig& machine)
-        : planner_(machine), runner_(machine), knows_places_(machine.coordination != StepMethod::Lai) {}
+        : planner_(machine), runner_(machine), knows_places_(coordination_of(machine).tells_places) {}
 
     const ProgramPlanner& planner() const { return planner_; }
     ProgramEvents& events() { return events_; }

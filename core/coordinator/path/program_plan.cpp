@@ -6,6 +6,7 @@
 #include "core/arc_path.hpp"
 #include "core/axis_unit.hpp"
 #include "core/check.hpp"
+#include "core/coordinator/path/coordination.hpp"
 #include "core/coordinator/path/lai_frames.hpp"
 #include "core/coordinator/path/program_frames.hpp"
 #include "core/motion/frame_limits.hpp"
@@ -85,7 +86,7 @@ bool ProgramPlanner::is_within_travel(std::size_t axis, double mm) const {
 std::expected<void, PlanError> ProgramPlanner::check_arc(const ProgramMove& move, const std::vector<std::size_t>& axes,
                                                          std::span<const double> from_mm,
                                                          std::optional<std::int32_t> line) const {
-    if (machine_.coordination == StepMethod::Lai) {
+    if (coordination_of(machine_).moves_straight) {
         return std::unexpected(PlanError{FaultCode::BadProgram, line,
                                          "coordination LAI moves only in straight lines; write the arc as chords"});
     }
@@ -175,7 +176,7 @@ std::expected<std::vector<Leg>, PlanError> ProgramPlanner::plan(const ProgramHea
 
 std::unique_ptr<FrameSource> ProgramPlanner::frames(std::shared_ptr<const ProgramBlocks> program, std::uint32_t first,
                                                     const AxisCounts& from) const {
-    if (machine_.coordination != StepMethod::Lai) {
+    if (!coordination_of(machine_).plans_whole) {
         return std::make_unique<ProgramFrames>(machine_, std::move(program), first, from);
     }
     const auto axes = axes_of(program->axes()).value();
@@ -215,7 +216,7 @@ std::expected<std::optional<PathMove>, PlanError> ProgramPlanner::move_of(const 
         move = path_move(*linear, at, *to);
         if (linear->arc) { note_arc(*linear, axes, move); }
         at = *to;
-        if (machine_.coordination == StepMethod::Lai) {
+        if (coordination_of(machine_).has_least_feed) {
             const auto fits = check_lai_move(move, machine_.tick_ns);
             if (!fits) {
                 return std::unexpected(
@@ -236,7 +237,7 @@ std::expected<std::optional<double>, PlanError> ProgramPlanner::length_of(const 
                                                                           AxisCounts& at) const {
     const auto* move = std::get_if<ProgramMove>(&block.action);
     if (move == nullptr) { return std::nullopt; }
-    if (move->arc || machine_.coordination == StepMethod::Lai) {
+    if (move->arc || coordination_of(machine_).has_least_feed) {
         const auto whole = move_of(block, number, axes, at);
         if (!whole) { return std::unexpected(whole.error()); }
         return *whole && (*whole)->lead != 0 ? std::optional((*whole)->length_mm) : std::nullopt;
