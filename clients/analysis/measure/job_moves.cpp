@@ -1,9 +1,12 @@
 #include "clients/analysis/measure/job_moves.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <utility>
+
+#include "clients/analysis/vector/lanes.hpp"
 
 namespace lockstep::analysis {
 namespace {
@@ -164,11 +167,23 @@ void JobMoves::take_in_strokes(MergedSteps& steps, AxesOfLanes axis_of_lane, Tic
 }
 
 StepRates JobMoves::peak_of(std::span<const StepRates> rates) {
+    constexpr std::size_t kTogether = 8;  // rates in FloatLanes, by turns of speed and acceleration
+    static_assert(sizeof(FloatLanes) == kTogether * sizeof(StepRates));
+    FloatLanes most{};
+    for (; rates.size() >= kTogether; rates = rates.subspan(kTogether)) {
+        FloatLanes of;
+        load(of, rates.data());
+        most = of > most ? of : most;
+    }
+    std::array<StepRates, kTogether> together;
+    store(most, together.data());
     StepRates peak;
-    for (const StepRates& at : rates) {
+    const auto note = [&](const StepRates& at) {
         peak.steps_per_tick = std::max(peak.steps_per_tick, at.steps_per_tick);
         peak.steps_per_tick2 = std::max(peak.steps_per_tick2, at.steps_per_tick2);
-    }
+    };
+    std::ranges::for_each(together, note);
+    std::ranges::for_each(rates, note);
     return peak;
 }
 

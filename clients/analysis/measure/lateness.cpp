@@ -80,6 +80,16 @@ LateRun Lateness::compare(StepMaker maker) {
     return run;
 }
 
+/// The number of steps from the first on that are as late.
+std::size_t Lateness::equally_late(const StepMaker& maker, std::span<const StepEdge> seen,
+                                   std::span<const StepEdge> made, Ticks late) {
+    if (const auto ahead = maker.ahead_of_commanded()) { return equal_steps(seen, made, late - *ahead); }
+    const auto is_as_late = [&](const StepEdge& a, const StepEdge& b) {
+        return a.direction == b.direction && a.tick - maker.commanded_at(b.tick) == late;
+    };
+    return static_cast<std::size_t>(std::ranges::mismatch(seen, made, is_as_late).in1 - seen.begin());
+}
+
 /// Compares the steps of one message with those that are made at once. Returns false behind the last equal step.
 bool Lateness::compare_ready(StepMaker& maker, LateRun& run) {
     if (seen_.empty() || !is_next(maker)) { return false; }
@@ -94,12 +104,9 @@ bool Lateness::compare_ready(StepMaker& maker, LateRun& run) {
         if (std::abs(late.value) >= kPatience.value) { break; }
         const std::size_t from = equal;
         const std::int64_t before = count;
-        for (; equal < most && seen[equal].direction == made[equal].direction &&
-               seen[equal].tick - maker.commanded_at(made[equal].tick) == late;
-             ++equal) {
-            count += made[equal].direction;
-        }
+        equal += equally_late(maker, seen.subspan(from), made.subspan(from), late);
         if (equal == from) { break; }
+        count += change_of(made.subspan(from, equal - from), seen_.batch().is_one_way());
         run.groups.push_back({seen.subspan(from, equal - from), before, count - before, late, seen_.clock_error()});
     }
     maker.pass(equal, count);

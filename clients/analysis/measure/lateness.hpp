@@ -67,6 +67,8 @@ private:
     void settle();
     Tick first_end() const;
     bool is_next(StepMaker& maker) const;
+    static std::size_t equally_late(const StepMaker& maker, std::span<const StepEdge> seen,
+                                    std::span<const StepEdge> made, Ticks late);
     bool compare_ready(StepMaker& maker, LateRun& run);
     void compare_first();
     LateRun compare(StepMaker maker);

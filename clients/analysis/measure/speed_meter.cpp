@@ -8,6 +8,9 @@ namespace {
 
 constexpr IntLanes kEachLane{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
+constexpr HalfIntLanes kEachOfHalf{0, 1, 2, 3, 4, 5, 6, 7};
+constexpr std::size_t kHalf = SpeedMeter::kBlock / 2;
+
 }  // namespace
 
 void SpeedMeter::interrupt() {
@@ -87,18 +90,39 @@ std::size_t SpeedMeter::blocks_of_motion(std::span<const StepEdge> edges) const 
     return blocks;
 }
 
+/// The ticks of the steps with which windows begin.
+[[gnu::always_inline]] inline SpeedMeter::Begins SpeedMeter::ticks_at(const Begins& begins) const {
+    Begins ticks;
+    for (std::size_t i = 0; i < kBlock; ++i) { ticks[i] = past_[static_cast<std::size_t>(begins[i])]; }
+    return ticks;
+}
+
+/// The windows of half of the steps of the block at `from`.
+[[gnu::always_inline]] inline SpeedMeter::Window SpeedMeter::window_of(std::size_t from, std::size_t half,
+                                                                       const Begins& begins,
+                                                                       const Begins& firsts) const {
+    Window window;
+    HalfIntLanes begin;
+    load(begin, begins.data() + half);
+    load(window.first, firsts.data() + half);
+    load(window.ticks, past_.data() + from + half);
+    window.ticks -= window.first;
+    window.steps = kEachOfHalf + static_cast<std::int32_t>(from + half) - begin;
+    return window;
+}
+
 LOCKSTEP_VECTOR_CLONES
 void SpeedMeter::measure_speeds(std::size_t from, SampleBlock& measured) {
     Begins begins;
     narrow_all(speed_first_, kSpeedWindow, from, begins);
-    const std::int32_t* const past = past_.data();
-    const auto newest = static_cast<std::int32_t>(from);
+    const Begins firsts = ticks_at(begins);
     const double sign = direction_;
-    for (std::int32_t i = 0; i < kLanes; ++i) {
-        const std::int32_t first = past[begins[i]];
-        const std::int32_t lasts = past[newest + i] - first;
-        measured.at[i] = first + lasts / 2;
-        measured.value[i] = sign * (static_cast<double>(newest + i - begins[i]) / static_cast<double>(lasts));
+    for (std::size_t half = 0; half < kBlock; half += kHalf) {
+        const Window window = window_of(from, half, begins, firsts);
+        store(window.first + window.ticks / 2, measured.at.data() + half);
+        DoubleLanes speed;
+        divide(window.steps, window.ticks, speed);
+        store(sign * speed, measured.value.data() + half);
     }
     measured.origin = base_;
     measured.find_range();
@@ -109,19 +133,29 @@ LOCKSTEP_VECTOR_CLONES
 void SpeedMeter::measure_accelerations(std::size_t from, SampleBlock& measured) {
     Begins begins;
     narrow_all(late_first_, kAccelerationWindow, from, begins);
-    const std::int32_t* const past = past_.data();
-    const auto newest = static_cast<std::int32_t>(from);
-    for (std::int32_t i = 0; i < kLanes; ++i) {
-        const std::int32_t first = past[begins[i]];
-        measured.at[i] = first;
-        window_from_[from + i] = first;
-        window_speed_[from + i] =
-            static_cast<double>(newest + i - begins[i]) / static_cast<double>(past[newest + i] - first);
+    measured.at = ticks_at(begins);
+    for (std::size_t half = 0; half < kBlock; half += kHalf) {
+        const Window window = window_of(from, half, begins, measured.at);
+        store(window.first, window_from_.data() + from + half);
+        DoubleLanes speed;
+        divide(window.steps, window.ticks, speed);
+        store(speed, window_speed_.data() + from + half);
+    }
+    Begins early_from;
+    std::array<double, kBlock> early_speed;
+    for (std::size_t i = 0; i < kBlock; ++i) {
+        early_from[i] = window_from_[static_cast<std::size_t>(begins[i])];
+        early_speed[i] = window_speed_[static_cast<std::size_t>(begins[i])];
     }
     const double sign = direction_;
-    for (std::int32_t i = 0; i < kLanes; ++i) {
-        const double ticks = 0.5 * (past[newest + i] - window_from_[begins[i]]);
-        measured.value[i] = sign * ((window_speed_[newest + i] - window_speed_[begins[i]]) / ticks);
+    for (std::size_t half = 0; half < kBlock; half += kHalf) {
+        DoubleLanes late;
+        DoubleLanes early;
+        load(late, window_speed_.data() + from + half);
+        load(early, early_speed.data() + half);
+        const Window both = window_of(from, half, begins, early_from);
+        store(sign * ((late - early) / (0.5 * __builtin_convertvector(both.ticks, DoubleLanes))),
+              measured.value.data() + half);
     }
     measured.origin = base_;
     measured.find_range();

@@ -65,6 +65,15 @@ private:
     /// Of the windows that end with the steps of a block: indices into past_.
     using Begins = std::array<std::int32_t, kBlock>;
 
+    /// Of half of the steps of a block.
+    struct Window {
+        HalfIntLanes first;  // tick
+        HalfIntLanes ticks;
+        HalfIntLanes steps;
+    };
+
+    Begins ticks_at(const Begins& begins) const;
+    Window window_of(std::size_t from, std::size_t half, const Begins& begins, const Begins& firsts) const;
     bool narrow(std::size_t& first, std::int32_t least, std::size_t newest) const;
     void narrow_all(std::size_t& first, std::int32_t least, std::size_t from, Begins& begins) const;
     bool narrow_near(std::size_t first, std::int32_t least, std::size_t from, Begins& begins) const;

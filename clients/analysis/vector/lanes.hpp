@@ -10,9 +10,11 @@
 
 namespace lockstep::analysis {
 
-using IntLanes [[gnu::vector_size(64)]] = std::int32_t;   // 16
-using DoubleLanes [[gnu::vector_size(64)]] = double;      // 8
-using LongLanes [[gnu::vector_size(64)]] = std::int64_t;  // 8
+using IntLanes [[gnu::vector_size(64)]] = std::int32_t;      // 16
+using HalfIntLanes [[gnu::vector_size(32)]] = std::int32_t;  // 8
+using FloatLanes [[gnu::vector_size(64)]] = float;           // 16
+using DoubleLanes [[gnu::vector_size(64)]] = double;         // 8
+using LongLanes [[gnu::vector_size(64)]] = std::int64_t;     // 8
 
 template <typename Lanes, typename Number>
 [[gnu::always_inline]] inline void load(Lanes& lanes, const Number* from) {
@@ -20,7 +22,12 @@ template <typename Lanes, typename Number>
 }
 template <typename Lanes, typename Number>
 [[gnu::always_inline]] inline void store(const Lanes& lanes, Number* to) {
-    std::memcpy(to, &lanes, sizeof lanes);
+    std::memcpy(static_cast<void*>(to), &lanes, sizeof lanes);
+}
+
+/// Divides as doubles.
+[[gnu::always_inline]] inline void divide(const HalfIntLanes& a, const HalfIntLanes& b, DoubleLanes& quotient) {
+    quotient = __builtin_convertvector(a, DoubleLanes) / __builtin_convertvector(b, DoubleLanes);
 }
 
 /// Whether all results of a comparison are true.

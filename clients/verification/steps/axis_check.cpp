@@ -214,8 +214,7 @@ bool AxisCheck::compare_equal() {
     if (made.empty() || batch.incarnation() != maker_->run().incarnation || batch.count() != maker_->count()) {
         return false;
     }
-    const auto [expected, seen] = std::ranges::mismatch(made, batch.edges());
-    const std::size_t equal = in_time(batch, {made.begin(), expected});
+    const std::size_t equal = in_time(batch, made.first(analysis::equal_steps(made, batch.edges())));
     if (equal > 0) { note_equal(equal); }
     return equal > 0;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <expected>
 #include <lockstep/run_t.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -82,6 +83,11 @@ public:
     }
     /// The machine time commanded for a ready step.
     Tick commanded_at(Tick tick) const { return commanded_.at(tick); }
+    /// By how much a ready step's device time is later than its commanded machine time, if that is the same for all.
+    std::optional<Ticks> ahead_of_commanded() const {
+        if (commanded_.ticks != commanded_.other_ticks) { return std::nullopt; }
+        return commanded_.from - commanded_.other_from;
+    }
     /// Passes some of the ready steps, after which the position is `count`.
     void pass(std::size_t steps, std::int64_t count) {
         count_ = count;

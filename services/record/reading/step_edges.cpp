@@ -1,5 +1,6 @@
 #include "services/record/reading/step_edges.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "services/record/reading/content_memory.hpp"
@@ -33,6 +34,23 @@ std::int64_t change_of(std::span<const StepEdge> steps, bool is_one_way) {
     std::int64_t change = 0;
     for (const StepEdge& step : steps) { change += step.direction; }
     return change;
+}
+
+/// Compares many steps without a branch for each.
+std::size_t equal_steps(std::span<const StepEdge> a, std::span<const StepEdge> b, Ticks later) {
+    constexpr std::size_t kTogether = 16;
+    const std::size_t most = std::min(a.size(), b.size());
+    const auto difference = [&](std::size_t i) {
+        return ((a[i].tick - b[i].tick).value ^ later.value) | (a[i].direction ^ b[i].direction);
+    };
+    std::size_t equal = 0;
+    for (; equal + kTogether <= most; equal += kTogether) {
+        std::int64_t differences = 0;
+        for (std::size_t i = 0; i < kTogether; ++i) { differences |= difference(equal + i); }
+        if (differences != 0) { break; }
+    }
+    while (equal < most && difference(equal) == 0) { ++equal; }
+    return equal;
 }
 
 }  // namespace lockstep::analysis

@@ -15,6 +15,9 @@ namespace lockstep::analysis {
 /// The change of the position by some steps. `is_one_way`: they are known not to reverse, which costs no time per step.
 std::int64_t change_of(std::span<const StepEdge> steps, bool is_one_way);
 
+/// The number of steps from the first on that are equal, if those of `a` are `later` than those of `b`.
+std::size_t equal_steps(std::span<const StepEdge> a, std::span<const StepEdge> b, Ticks later = {});
+
 class StepEdges {
 public:
     StepEdges() = default;
