@@ -1,4 +1,5 @@
-// Every fault and refusal by number, stable name, cause and remedies: one table. Numbers are never reused.
+// Every fault and refusal by number, stable name, cause and remedies: one table. Numbers are never reused. A remedy is
+// an action of a person, and each client has its own words for it.
 #pragma once
 
 #include <array>
@@ -17,8 +18,12 @@ enum class Remedy : std::uint8_t {
     Resume,
     Stop,
     Reset,
-    Status,  // look at the state
-    Again    // repeat the refused command
+    Status,    // look at the state
+    Again,     // repeat the refused command
+    Timing,    // measure which slots the hosts need
+    Incident,  // analyse the records of all processes about the incident
+    RunRest,   // run the program from the line at which it ended
+    Take       // repeat the refused command as a takeover of the machine
 };
 
 /// Remedies to apply in this order, or, if is_choice, any one of them.
@@ -33,7 +38,8 @@ constexpr Remedies in_order(Remedy only) { return {{only}, 1, false}; }
 constexpr Remedies in_order(Remedy first, Remedy second) { return {{first, second}, 2, false}; }
 constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, true}; }
 
-// X(name, number, text name, cause, what to check by hand first, remedies)
+// X(name, number, text name, cause, what to check by hand first, remedies). {NAME} in the text for the hand stands for
+// the words of the remedy with this name.
 // clang-format off
 #define LOCKSTEP_FAULTS(X) \
     X(NotHomed, 101, "not-homed", "an axis that must move has not been homed", \
@@ -79,13 +85,13 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
     X(FollowingError, 121, "following-error", "the encoder shows that steps were lost", \
       "lower the axis's speed or acceleration", in_order(Remedy::Reset, Remedy::Home)) \
     X(FrameLate, 122, "frame-late", "a frame arrived too late for the axes to run it", \
-      "if it happens often, use longer slots: lockstep doctor --timing proposes them", in_order(Remedy::Reset)) \
+      "if it happens often, use longer slots: {timing}", in_order(Remedy::Reset)) \
     X(PositionMismatch, 123, "position-mismatch", "an axis is not where its frames end", \
       "see the axis's log", in_order(Remedy::Reset, Remedy::Home)) \
     X(FramesDiffer, 124, "frames-differ", "the axes ran different frames: an axis was cut off from the network, or the process of an axis stalled for longer than timing.stall_slots", \
-      "find the axis: lockstep analyze --incident; then check its network, or use longer slots: lockstep doctor --timing proposes them", in_order(Remedy::Reset, Remedy::Home)) \
+      "find the axis: {incident}; then check its network, or use longer slots: {timing}", in_order(Remedy::Reset, Remedy::Home)) \
     X(ClockUncertain, 125, "clock-uncertain", "the error of an axis's clock may exceed timing.clock_error_limit_us", \
-      "check the network to that axis, or increase timing.slot_us; lockstep status shows the error of each clock", in_order(Remedy::Reset)) \
+      "check the network to that axis, or increase timing.slot_us; for the error of each clock: {status}", in_order(Remedy::Reset)) \
     X(CoordinatorChanged, 126, "coordinator-changed", "another coordinator has taken over the machine since this command was given; the command may have begun", \
       "", in_order(Remedy::Status, Remedy::Again)) \
     X(PositionNotKept, 127, "position-not-kept", "no position of the axis has been kept", \
@@ -117,15 +123,15 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
     X(CoordinatorSilent, 142, "coordinator-silent", "an axis received nothing from the coordinator while it homed or moved on its own, so it halted", \
       "check that the coordinator runs and that the network connects it with the axis; if it has ended, its log gives the reason", in_order(Remedy::Reset, Remedy::Home)) \
     X(SenderSilent, 143, "sender-silent", "the sender of the program fell silent before the program's end", \
-      "continue from the line that lockstep status names: lockstep run FILE --from-line LINE", {}) \
+      "run the rest of the program: {run-rest}", {}) \
     X(ProgramNotKept, 144, "program-not-kept", "the coordinator cannot keep more of the program on its disk", \
-      "make room on the coordinator's disk; continue from the line that lockstep status names: lockstep run FILE --from-line LINE", {}) \
+      "make room on the coordinator's disk; run the rest of the program: {run-rest}", {}) \
     X(ProgramCutShort, 145, "program-cut-short", "the program's sender could not read it to its end", \
-      "see the sender's message; continue from its line: lockstep run FILE --from-line LINE", {}) \
+      "see the sender's message; run the rest of the program: {run-rest}", {}) \
     X(AwayFromPause, 146, "away-from-pause", "axes were moved in the pause, and the job continues only from the place where it paused", \
       "a resume first shows the way back, then moves the axes there", either(Remedy::Resume, Remedy::Stop)) \
     X(WriterHeld, 150, "writer-held", "another writer has the machine; other clients can only watch, hold and stop it", \
-      "wait until the writer gives it back; or take it over: give the command again with --take", {})
+      "wait until the writer gives it back; or take it over: {take}", {})
 // clang-format on
 
 enum class FaultCode : std::uint16_t {
@@ -149,8 +155,17 @@ const FaultText* find_fault(FaultCode code);
 /// Finds a fault by its stable name. Returns null if no fault has it.
 const FaultText* find_fault(std::string_view name);
 
-/// Text for a person: what to check by hand, then the commands.
-std::string remedy_text(const FaultText& fault);
+/// The stable name, such as "reset".
+std::string_view name_of(Remedy remedy);
+
+/// A client's words for an action.
+using RemedyWords = std::string (*)(Remedy remedy);
+/// Words without a client's commands, for texts that reach the users of any client.
+std::string plain_words(Remedy remedy);
+/// The name in braces, such as "{reset}". The reader of the text puts in its own words.
+std::string words_to_fill_in(Remedy remedy);
+/// Text for a person: what to check by hand, then the actions.
+std::string remedy_text(const FaultText& fault, RemedyWords words = plain_words);
 
 /// False for None, and for faults of the whole machine, which belong to no single axis.
 constexpr bool is_of_an_axis(FaultCode code) {

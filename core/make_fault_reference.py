@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes docs/faults.md, every fault and refusal with its cause and remedies, from the table in core/faults.hpp.
+"""Writes docs/faults.md, every fault and refusal with its cause and remedies, from the table in core/faults.hpp, in the
+words of the shell, from clients/session/remedy_words.hpp.
 
 Usage: make_fault_reference.py ROOT [--check]
 
@@ -20,18 +21,29 @@ Numbers are never reused. [recovery.md](recovery.md) describes what to do step b
 | number | name | cause | check first | then |
 |---|---|---|---|---|
 """
-TEXT = {"Wait": "wait until it has ended", "Home": "`lockstep home`", "Resume": "`lockstep resume`",
-        "Stop": "`lockstep stop`", "Reset": "`lockstep reset`", "Status": "`lockstep status`", "Again": "give the command again"}
+PLAIN = {"Wait": "wait until it has ended", "Again": "give the command again"}
 STRING = r'"((?:[^"\\]|\\.)*)"'
 ROW = re.compile(rf"X\((\w+), (\d+), {STRING}, {STRING}, {STRING}, (.+)$")
 
 
-def remedies(code):
-    steps = [TEXT[step] for step in re.findall(r"Remedy::(\w+)", code)]
+def shell_words(root):
+    """The words by the names of the actions."""
+    code = (root / "clients/session/remedy_words.hpp").read_text()
+    found = dict(re.findall(r'case Remedy::(\w+): return "(.*)";', code))
+    return PLAIN | {name: re.sub(r"^(lockstep [^,]+)", r"`\1`", words) for name, words in found.items()}
+
+
+def with_words(by_hand, words):
+    """{run-rest} becomes the words of RunRest."""
+    return re.sub(r"\{([a-z-]+)\}", lambda found: words[found[1].title().replace("-", "")], by_hand)
+
+
+def remedies(code, words):
+    steps = [words[step] for step in re.findall(r"Remedy::(\w+)", code)]
     return (" or " if "either" in code else ", ").join(steps)
 
 
-def table(header):
+def table(header, words):
     begin = header.index("#define LOCKSTEP_FAULTS(X)")
     code = re.sub(r"\s*\\\n\s*", " ", header[begin:header.index("// clang-format on", begin)])
     for row in re.split(r" (?=X\(\w+, \d+,)", code)[1:]:
@@ -39,7 +51,7 @@ def table(header):
         if not found:
             sys.exit(f"core/faults.hpp: a row that this command cannot read: {row}")
         _, number, name, cause, by_hand, steps = found.groups()
-        yield f"| {number} | `{name}` | {cause} | {by_hand} | {remedies(steps)} |\n"
+        yield f"| {number} | `{name}` | {cause} | {with_words(by_hand, words)} | {remedies(steps, words)} |\n"
 
 
 def main():
@@ -48,7 +60,7 @@ def main():
     parser.add_argument("--check", action="store_true")
     given = parser.parse_args()
     header = (given.root / "core/faults.hpp").read_text()
-    rows = list(table(header))
+    rows = list(table(header, shell_words(given.root)))
     if len(rows) != len(re.findall(r"(?m)^    X\(\w+, \d+,", header)):
         sys.exit("core/faults.hpp: not every row of the table was read")
     file = given.root / "docs/faults.md"

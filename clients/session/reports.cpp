@@ -1,5 +1,7 @@
 #include "clients/session/reports.hpp"
 
+#include "clients/session/remedy_words.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -54,7 +56,7 @@ proto::FaultReport fault_report(FaultCode fault, const std::string& axis) {
     report.set_name(std::string(name_of(fault)));
     if (const FaultText* text = find_fault(fault)) {
         report.set_cause(std::string(text->cause));
-        report.set_remedy(remedy_text(*text));
+        report.set_remedy(remedy_text(*text, shell_words));
     }
     if (!axis.empty()) { report.set_axis(axis); }
     return report;

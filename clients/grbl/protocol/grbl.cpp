@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "clients/grbl/protocol/remedy_words.hpp"
+
 namespace lockstep::grbl {
 namespace {
 
@@ -67,7 +69,9 @@ void Grbl::see(const MachineView& view) {
     if (has_fault && !had_fault) {
         say(fmt::format("ALARM:{}", alarm_of(view.fault)));
         const FaultText* text = find_fault(view.fault);
-        if (text != nullptr) { say_message(std::string(text->name) + ": " + std::string(text->cause)); }
+        if (text != nullptr) {
+            say_message(fmt::format("{}: {}; {}", text->name, text->cause, remedy_text(*text, sender_words)));
+        }
         modes_.is_unlocked = false;
         lines_.reset();
     }

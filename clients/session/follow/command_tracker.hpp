@@ -25,9 +25,8 @@ public:
     static constexpr std::chrono::milliseconds kRepeatStopAfter{20};  // for an emergency stop
     static constexpr std::chrono::milliseconds kRenewJogAfter{5};
     static constexpr std::chrono::seconds kPatience{3};
-    static constexpr std::chrono::seconds kPlanPatience{
-        60};                               // an owner that reads or plans a large program answers late
-    static constexpr int kMostOwners = 4;  // each new owner gets the patience anew
+    static constexpr std::chrono::seconds kPlanPatience{60};  // an owner that plans a large program answers late
+    static constexpr int kMostOwners = 4;                     // each new owner gets the patience anew
     static constexpr const char* kNoAnswer = "the coordinator does not answer";  // the reason of GaveUp
 
     /// `patience`: from the first sending to an owner until the command is given up. A command with a program waits
@@ -43,7 +42,7 @@ public:
     /// Call in each loop. `reply`: the newest to this command; null if none has come. `now`:
     /// OwnerWatch::running_time(). A command that is renewed is never Answered.
     CommandStep pass(const Reply* reply, const OwnerSight& owner, Time now);
-    /// Sends it no more, and waits kPatience at most for the answer: it may have begun already.
+    /// Sends it no more, and waits the patience at most for the answer: it may have begun already.
     void withdraw(Time now);
     /// The time until the next sending; nullopt if none will come.
     std::optional<Time> due_in(Time now) const;

@@ -19,10 +19,7 @@ Problem refused(FaultCode fault, const std::string& text) {
             .title = known == nullptr ? "the machine refuses the command" : std::string(known->cause),
             .detail = text.empty() && known != nullptr ? std::string(known->cause) : text,
             .limit = is_held ? "one writer at a time; every client may hold, stop and estop" : "",
-            .remedy = is_held            ? "wait until the writer gives the machine back; or take it over: POST "
-                                           "/api/commands/take"
-                      : known == nullptr ? ""
-                                         : remedy_text(*known),
+            .remedy = known == nullptr ? "" : remedy_text(*known, words_to_fill_in),
             .fault = fault};
 }
 

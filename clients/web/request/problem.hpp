@@ -28,7 +28,8 @@ struct Problem {
     Diagnostics errors;                 // of a program
 };
 
-/// 409, with the fault table's cause and remedy. `text`: the coordinator's own text, with the values.
+/// 409, with the fault table's cause and remedy. Actions in the remedy are in braces: see openapi.yaml. `text`: the
+/// coordinator's own text, with the values.
 Problem refused(FaultCode fault, const std::string& text);
 /// 503: no coordinator answers.
 Problem unanswered(const std::string& why);

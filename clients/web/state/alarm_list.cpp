@@ -94,7 +94,7 @@ json fault_json(FaultCode fault, const std::string& axis) {
             {"code", name_of(fault)},
             {"axis", axis.empty() ? json() : json(axis)},
             {"cause", text == nullptr ? "unknown" : text->cause},
-            {"remedy", text == nullptr ? "see the logs" : remedy_text(*text)}};
+            {"remedy", text == nullptr ? "see the logs" : remedy_text(*text, words_to_fill_in)}};
 }
 
 json alarm_list(const Snapshot& snapshot, const MachineConfig& machine) {

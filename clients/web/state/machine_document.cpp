@@ -32,7 +32,7 @@ json faults_json() {
     json faults = json::object();
 #define X(name, number, text, cause, by_hand, remedies) \
     faults[std::to_string(number)] = {                  \
-        {"code", text}, {"cause", cause}, {"remedy", remedy_text(*find_fault(FaultCode::name))}};
+        {"code", text}, {"cause", cause}, {"remedy", remedy_text(*find_fault(FaultCode::name), words_to_fill_in)}};
     LOCKSTEP_FAULTS(X)
 #undef X
     return faults;

@@ -55,7 +55,7 @@ def check_other_writer(machine, client):
     expect(state["writer"]["name"] == "anna" and not state["writer"]["is_this_server"], state["writer"])
     for verb, body in (("override", {"feed_percent": 50}), ("jog", {"jogs": [{"axis": "X", "velocity": 5}]}), ("reset", {})):
         problem = refused(client.command(verb, body), 409, "writer-held")
-        expect(problem["value"] == state["writer"] and "/api/commands/take" in problem["remedy"], problem)
+        expect(problem["value"] == state["writer"] and "{take}" in problem["remedy"], problem)
     expect(client.command("hold").status == 200, "a hold is everybody's")
     client.await_state(lambda s: s["hold"] and s["hold"]["state"] == "held")
     refused(client.command("resume"), 409, "writer-held")

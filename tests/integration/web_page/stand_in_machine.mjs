@@ -1,7 +1,7 @@
 // Follows commands like a machine behind lockstep-web, without a real one: for pictures, and for paths of any length.
 
 const FAULTS = {
-  emergency: { number: 118, code: "emergency-stopped", axis: null, cause: "an emergency stop was commanded", remedy: "make sure that the machine is safe; an axis that was stopped in motion must be homed again: lockstep reset, lockstep home" },
+  emergency: { number: 118, code: "emergency-stopped", axis: null, cause: "an emergency stop was commanded", remedy: "make sure that the machine is safe; an axis that was stopped in motion must be homed again; then: {reset}, {home}" },
 };
 
 const axis = (name, max, max_velocity) => ({
@@ -76,7 +76,7 @@ export class StandInMachine {
     const { state } = this;
     const needs = { run: "Idle", hold: "Running", resume: "Holding", home: "Idle", mdi: "Idle" }[verb];
     if ((needs !== undefined && state.mode !== needs) || (verb === "resume" && state.hold.state !== "held")) {
-      return { status: 409, code: "busy", title: "The machine is doing something else", detail: `mode is ${state.mode}`, remedy: "wait until it has ended" };
+      return { status: 409, code: "busy", title: "The machine is doing something else", detail: `mode is ${state.mode}`, remedy: "{wait}, or: {stop}" };
     }
     this[verb]?.(body);
     return undefined;

@@ -16,6 +16,28 @@ TEST(Faults, EveryFaultHasANameACauseAndARemedy) {
     }
 }
 
+TEST(Faults, ARemedyIsInTheWordsOfTheClient) {
+    const FaultText& fault = *find_fault(FaultCode::FramesDiffer);
+    const RemedyWords loud = [](Remedy remedy) { return "<" + std::string(name_of(remedy)) + ">"; };
+    EXPECT_EQ(
+        remedy_text(fault, loud),
+        "find the axis: <incident>; then check its network, or use longer slots: <timing>; then: <reset>, <home>");
+    EXPECT_EQ(remedy_text(*find_fault(FaultCode::Busy), loud), "<wait>, or: <stop>");
+    EXPECT_EQ(remedy_text(*find_fault(FaultCode::LimitHit), words_to_fill_in),
+              "find out why the axis reached the switch; then: {reset}, {home}");
+}
+
+TEST(Faults, ATextForTheUsersOfEveryClientNamesNoCommandOfTheShell) {
+    for (int number = 100; number < 200; ++number) {
+        const FaultText* text = find_fault(static_cast<FaultCode>(number));
+        if (text == nullptr) { continue; }
+        const std::string plain = remedy_text(*text);
+        EXPECT_EQ(plain.find("lockstep "), std::string::npos) << plain;
+        EXPECT_EQ(plain.find("--"), std::string::npos) << plain;
+        EXPECT_EQ(plain.find('{'), std::string::npos) << plain;
+    }
+}
+
 TEST(Faults, ANumberOutsideTheTableIsUnknownNotACrash) {
     EXPECT_EQ(find_fault(static_cast<FaultCode>(9999)), nullptr);
     EXPECT_EQ(name_of(static_cast<FaultCode>(9999)), "unknown");

@@ -6,6 +6,7 @@
 namespace lockstep::grbl {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -350,7 +351,7 @@ TEST_F(Sender, HomesAllAxesOrOne) {
 
 TEST_F(Sender, IsToldOfAFaultOnceAndUnlocksIt) {
     change(MachinePhase::Fault, FaultCode::LimitHit);
-    EXPECT_THAT(lines(), ElementsAre("ALARM:1", HasSubstr("limit-hit")));
+    EXPECT_THAT(lines(), ElementsAre("ALARM:1", AllOf(HasSubstr("limit-hit"), HasSubstr("then: $X, $H"))));
     change(MachinePhase::Fault, FaultCode::LimitHit);
     EXPECT_THAT(lines(), ElementsAre());
     EXPECT_THAT(send("G0 X1\n"), ElementsAre("error:9"));

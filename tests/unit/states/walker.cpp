@@ -194,7 +194,11 @@ void Walker::carry_out(Remedy remedy) {
         case Remedy::Stop: must_be_accepted(CommandKind::Stop); break;
         case Remedy::Reset: must_be_accepted(CommandKind::Reset); break;
         case Remedy::Status:
-        case Remedy::Again: break;
+        case Remedy::Again:
+        case Remedy::Timing:
+        case Remedy::Incident:
+        case Remedy::RunRest:
+        case Remedy::Take: break;
     }
 }
 

@@ -25,7 +25,7 @@ TEST(Problem, AnotherWriterIsTakenOverByARequestAndNotByAnOption) {
     const Problem problem = refused(FaultCode::WriterHeld, "anna on bench has been the machine's writer for 3 s");
     EXPECT_EQ(problem.status, 409);
     EXPECT_EQ(problem.code, "writer-held");
-    EXPECT_NE(problem.remedy.find("/api/commands/take"), std::string::npos);
+    EXPECT_NE(problem.remedy.find("{take}"), std::string::npos);
     EXPECT_EQ(problem.remedy.find("--take"), std::string::npos);
 }
 

@@ -101,9 +101,10 @@ describe("devices", () => {
 
 describe("a remedy on the page", () => {
   test("names the page's buttons instead of shell commands", () => {
-    expect(pageRemedy("find out why the axis reached the switch; then: lockstep reset, lockstep home", en)).toBe(
+    expect(pageRemedy("find out why the axis reached the switch; then: {reset}, {home}", en)).toBe(
       "Remedy: find out why the axis reached the switch; then: Reset, Home");
-    expect(pageRemedy("lockstep status, lockstep reset", en)).toBe("Remedy: this page, Reset");
+    expect(pageRemedy("{status}, {reset}", en)).toBe("Remedy: this page, Reset");
+    expect(pageRemedy("use longer slots: {timing}; then: {reset}", en)).toMatch(/^Remedy, in a shell.*: lockstep doctor --timing; then: Reset$/);
   });
 
   test("says where to type the other shell commands", () => {

@@ -35,8 +35,14 @@ export const de: Texts = {
     home: "Referenz", homeAxis: "Referenzfahrt {axis}", run: "Start", hold: "Halt", resume: "Weiter", stop: "Stopp", stops: "Halt und Stopp",
     estop: "Not-Halt", reset: "Quittieren", refused: "Abgelehnt: {title}", noAnswer: "Der Server antwortet nicht.",
     noAnswerRemedy: "Prüfe die Verbindung. Die Achsen einer Handfahrt bremsen von selbst, wenn die Seite sie nicht mehr erneuert.",
-    remedy: "Abhilfe: {remedy}", shellRemedy: "Abhilfe, in einer Shell auf dem Rechner der Maschine: {remedy}", thisPage: "diese Seite", place: "{place}: {value}", limit: "erlaubt: {limit}",
+    remedy: "Abhilfe: {remedy}", shellRemedy: "Abhilfe, in einer Shell auf dem Rechner der Maschine: {remedy}", place: "{place}: {value}", limit: "erlaubt: {limit}",
     estopHint: "Die Pulse enden sofort. Dies ist keine Sicherheitsfunktion, denn die Motoren bleiben unter Spannung.",
+  },
+  actions: {
+    wait: "warte, bis es geendet hat", home: "Referenz", resume: "Weiter", stop: "Stopp", reset: "Quittieren",
+    status: "diese Seite", again: "gib den Befehl noch einmal", take: "übernimm die Maschine",
+    timing: "lockstep doctor --timing", incident: "lockstep analyze --incident",
+    "run-rest": "lockstep run FILE --from-line LINE",
   },
   alarms: {
     title: "Meldungen", fault: "Fehler", warning: "Warnung", axis: "Achse {axis}", axes: "Achsen {axes}", ended: "Der letzte Auftrag endete vorzeitig",

@@ -34,8 +34,14 @@ export const en = {
     home: "Home", homeAxis: "Home {axis}", run: "Run", hold: "Hold", resume: "Resume", stop: "Stop", stops: "Hold and stop",
     estop: "Emergency stop", reset: "Reset", refused: "Refused: {title}", noAnswer: "The server does not answer.",
     noAnswerRemedy: "Check the connection. The axes of a jog brake by themselves when the page no longer renews it.",
-    remedy: "Remedy: {remedy}", shellRemedy: "Remedy, in a shell on the machine's host: {remedy}", thisPage: "this page", place: "{place}: {value}", limit: "allowed: {limit}",
+    remedy: "Remedy: {remedy}", shellRemedy: "Remedy, in a shell on the machine's host: {remedy}", place: "{place}: {value}", limit: "allowed: {limit}",
     estopHint: "Pulses stop at once. This is not a safety function, because the motors keep their power.",
+  },
+  /** The remedies of faults and refusals. */
+  actions: {
+    wait: "wait until it has ended", home: "Home", resume: "Resume", stop: "Stop", reset: "Reset", status: "this page",
+    again: "give the command again", take: "take over the machine", timing: "lockstep doctor --timing",
+    incident: "lockstep analyze --incident", "run-rest": "lockstep run FILE --from-line LINE",
   },
   alarms: {
     title: "Alarms", fault: "Fault", warning: "Warning", axis: "Axis {axis}", axes: "Axes {axes}", ended: "The last job ended early",
