@@ -1,6 +1,7 @@
 #include "clients/analysis/measure/axis_statistics.hpp"
 
 #include "clients/analysis/vector/clones.hpp"
+#include "clients/analysis/vector/lanes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +9,20 @@
 #include <utility>
 
 namespace lockstep::analysis {
+namespace {
+
+/// Stores the rates of half of a block's steps, from step `half` on.
+[[gnu::always_inline]] inline void store_rates(const SpeedMeter::Block& block, std::size_t half, StepRates* to) {
+    DoubleLanes speed;
+    DoubleLanes acceleration;
+    load(speed, block.speed.value.data() + half);
+    load(acceleration, block.acceleration.value.data() + half);
+    FloatLanes rates;
+    by_turns(speed < 0 ? -speed : speed, acceleration < 0 ? -acceleration : acceleration, rates);
+    store(rates, to);
+}
+
+}  // namespace
 
 void AxisStatistics::on_batch(const StepBatch& batch) {
     if (batch.steps.empty()) { return; }
@@ -77,10 +92,8 @@ void AxisStatistics::measure_taken(std::span<StepRates> rates) {
     SpeedMeter::Block block;
     for (std::size_t i = 0; i < rates.size(); i += SpeedMeter::kBlock) {
         meter_.measure_block(block);
-        for (std::size_t k = 0; k < SpeedMeter::kBlock; ++k) {
-            rates[i + k] = {static_cast<float>(std::abs(block.speed.value[k])),
-                            static_cast<float>(std::abs(block.acceleration.value[k]))};
-        }
+        store_rates(block, 0, &rates[i]);
+        store_rates(block, SpeedMeter::kBlock / 2, &rates[i + SpeedMeter::kBlock / 2]);
         if (!keeps_curves_) { continue; }
         speed_.add_block(block.speed);
         acceleration_.add_block(block.acceleration);

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "clients/analysis/vector/clones.hpp"
 #include "clients/analysis/vector/lanes.hpp"
 
 namespace lockstep::analysis {
@@ -166,6 +167,7 @@ void JobMoves::take_in_strokes(MergedSteps& steps, AxesOfLanes axis_of_lane, Tic
     steps.pass_before(until);
 }
 
+LOCKSTEP_VECTOR_CLONES
 StepRates JobMoves::peak_of(std::span<const StepRates> rates) {
     constexpr std::size_t kTogether = 8;  // rates in FloatLanes, by turns of speed and acceleration
     static_assert(sizeof(FloatLanes) == kTogether * sizeof(StepRates));

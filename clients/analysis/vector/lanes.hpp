@@ -30,6 +30,14 @@ template <typename Lanes, typename Number>
     quotient = __builtin_convertvector(a, DoubleLanes) / __builtin_convertvector(b, DoubleLanes);
 }
 
+/// Numbers of both, one after the other, as floats.
+[[gnu::always_inline]] inline void by_turns(const DoubleLanes& a, const DoubleLanes& b, FloatLanes& to) {
+    using HalfFloatLanes [[gnu::vector_size(32)]] = float;
+    const HalfFloatLanes first = __builtin_convertvector(a, HalfFloatLanes);
+    const HalfFloatLanes second = __builtin_convertvector(b, HalfFloatLanes);
+    to = __builtin_shufflevector(first, second, 0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15);
+}
+
 /// Whether all results of a comparison are true.
 template <typename Lanes>
 [[gnu::always_inline]] inline bool all_true(const Lanes& results) {
