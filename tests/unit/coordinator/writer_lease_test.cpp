@@ -50,7 +50,7 @@ TEST_F(Lease, CommandsOfOtherWritersAreRefusedWithTheHolderAndSinceWhen) {
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().why, FaultCode::WriterHeld);
     EXPECT_EQ(refused.error().text, "anna on bench has been the machine's writer for 65 s");
-    EXPECT_THAT(find_fault(FaultCode::WriterHeld)->by_hand, HasSubstr("--take"));
+    EXPECT_THAT(find_fault(FaultCode::WriterHeld)->by_hand, HasSubstr("{take}"));
     EXPECT_EQ(check(anna(), CommandKind::Move), FaultCode::None);
 }
 
