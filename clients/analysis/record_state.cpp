@@ -10,31 +10,31 @@
 namespace lockstep::analysis {
 namespace {
 
-struct Stretch {
+struct TimeSpan {
     Tick begin;
     Tick end;
 };
 
 /// The time of a job. The record's order of events and steps allows an uncertainty at both ends.
-Stretch time_of(const Analysis& analysis, const JobLog& job) {
+TimeSpan time_of(const Analysis& analysis, const JobLog& job) {
     constexpr std::int64_t kMargin_us = 100'000;
     const std::int64_t begun = job.begun_us.value_or(0);
     return {analysis.tick_at(begun - kMargin_us), analysis.tick_at(job.ended_us.value_or(begun) + kMargin_us)};
 }
 
-bool is_within(const Break& gap, Stretch time) {
+bool is_within(const Break& gap, TimeSpan time) {
     const bool ends_before = gap.to && *gap.to < time.begin;
     const bool begins_behind = gap.from && *gap.from > time.end;
     return gap.missing_batches > 0 && !ends_before && !begins_behind;
 }
 
-bool has_gap(const AxisStatistics& axis, Stretch time) {
+bool has_gap(const AxisStatistics& axis, TimeSpan time) {
     const bool are_all_kept = axis.break_count() == std::ssize(axis.breaks());
     return !are_all_kept || std::ranges::any_of(axis.breaks(), [&](const Break& gap) { return is_within(gap, time); });
 }
 
 /// Whether the log lacks steps after the axis's last one, and these may be of the job.
-bool ends_within(const Analysis& analysis, const AxisLog& axis, Stretch time) {
+bool ends_within(const Analysis& analysis, const AxisLog& axis, TimeSpan time) {
     const auto lacks_its_end = [&](const MissingEnd& missing) {
         return missing.kind == RecordKind::Steps && missing.process.axis == axis.name() &&
                missing.published_us >= analysis.microseconds_at(time.begin);
@@ -76,7 +76,7 @@ bool has_all_steps_of(const Analysis& analysis, const JobLog& job, const std::st
     const bool is_cut = !job.begun_us || !job.ended_us || !analysis.damages.empty();
     const bool is_lost = std::ranges::find(job.axes_not_known, axis) != job.axes_not_known.end();
     if (log == analysis.axes.end() || is_cut || is_lost) { return false; }
-    const Stretch time = time_of(analysis, job);
+    const TimeSpan time = time_of(analysis, job);
     return !has_gap((*log)->statistics(), time) && !ends_within(analysis, **log, time);
 }
 

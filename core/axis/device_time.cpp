@@ -116,7 +116,7 @@ void DeviceTime::load(device::LoadFrame& frame) {
         pace_.keep(total_ticks(frame.track.body));
         loaded.end = pace_.end() + tail;
     } else {
-        stretch(frame, machine_end, loaded);
+        pace(frame, machine_end, loaded);
     }
     loaded.body_end = pace_.end();
     loaded.error += std::max(start_error, end_error_);
@@ -126,20 +126,20 @@ void DeviceTime::load(device::LoadFrame& frame) {
 }
 
 template <typename Pieces>
-FramePace::Stretch DeviceTime::stretch_of(const Pieces& pieces, Tick machine_end) const {
+FramePace::Part DeviceTime::part_of(const Pieces& pieces, Tick machine_end) const {
     return {total_ticks(pieces), pieces.size(), to_device(machine_end), clocks()};
 }
 
 /// The error in the middle of a body is the error of its ends plus the bow caused by its changing rate.
-void DeviceTime::stretch(device::LoadFrame& frame, Tick machine_end, Loaded& loaded) {
-    const FramePace::Stretch asked = stretch_of(frame.track.body, machine_end);
+void DeviceTime::pace(device::LoadFrame& frame, Tick machine_end, Loaded& loaded) {
+    const FramePace::Part asked = part_of(frame.track.body, machine_end);
     const Retiming body = pace_.body(asked);
     end_error_ += length_of(asked.asked_end - body.end);
     loaded.error = body.bow();
     loaded.end = body.end;
     (void)retime(frame.track.body, body);
     if (frame.track.tail.empty()) { return; }
-    const FramePace::Stretch rest = stretch_of(frame.track.tail, machine_end + total_ticks(frame.track.tail));
+    const FramePace::Part rest = part_of(frame.track.tail, machine_end + total_ticks(frame.track.tail));
     const Retiming tail = pace_.tail(rest);
     loaded.tail_error += length_of(rest.asked_end - tail.end) + tail.bow();
     loaded.end = tail.end;

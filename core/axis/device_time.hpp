@@ -77,9 +77,9 @@ private:
     Tick to_machine(Tick device) const;
     Ticks error_at(Tick machine) const;
     void load(device::LoadFrame& frame);
-    void stretch(device::LoadFrame& frame, Tick machine_end, Loaded& loaded);
+    void pace(device::LoadFrame& frame, Tick machine_end, Loaded& loaded);
     template <typename Pieces>
-    FramePace::Stretch stretch_of(const Pieces& pieces, Tick machine_end) const;
+    FramePace::Part part_of(const Pieces& pieces, Tick machine_end) const;
     double clocks() const { return 1 / (1 + device_clock().rate) - 1; }
 
     std::int64_t tick_ns_;

@@ -91,7 +91,7 @@ bool Interpreter::skip_head(const Line& line, Reader& reader) const {
 
 Context Interpreter::context() {
     KeptModes* kept = &kept_;
-    for (Frame& frame : frames_) { kept = frame.is_call ? &frame.kept : kept; }
+    for (BodyRun& frame : frames_) { kept = frame.is_call ? &frame.kept : kept; }
     return {setup_, state_, parameters_, sink_, line_, block_, *kept};
 }
 

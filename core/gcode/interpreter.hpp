@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/gcode/block.hpp"
 #include "core/gcode/flow/body.hpp"
+#include "core/gcode/line_words.hpp"
 #include "core/gcode/memory.hpp"
 #include "core/gcode/run/context.hpp"
 #include "core/gcode/setup.hpp"
@@ -45,10 +45,10 @@ public:
     Memory memory() const;
     /// The last line that was run, and its block, for messages.
     const Line& line() const { return line_; }
-    const Block& block() const { return block_; }
+    const LineWords& block() const { return block_; }
 
 private:
-    struct Frame {
+    struct BodyRun {
         const Body* body = nullptr;
         std::size_t next = 0;
         bool is_call = false;
@@ -73,16 +73,16 @@ private:
 
     // Kept lines: loops.cpp
     Result do_frames();
-    Result do_kept(Frame& frame, const KeptLine& line);
-    Result do_flow(Frame& frame, std::size_t at, Reader& reader);
+    Result do_kept(BodyRun& frame, const KeptLine& line);
+    Result do_flow(BodyRun& frame, std::size_t at, Reader& reader);
     Result note_opening(const OWord& word);
-    Result choose_branch(Frame& frame);
-    Result go_round(Frame& frame, std::size_t at, Reader& reader);
+    Result choose_branch(BodyRun& frame);
+    Result go_round(BodyRun& frame, std::size_t at, Reader& reader);
     Result count_lines();
 
     // Subroutines: calls.cpp
     Result call(Reader& reader, const OWord& word);
-    Result leave(Frame& frame, Reader& reader);
+    Result leave(BodyRun& frame, Reader& reader);
     Result find_subroutine(const OWord& word);
     Result load(const OWord& word, std::string_view text);
     Result load_later(const OWord& word);
@@ -100,7 +100,7 @@ private:
     Sink sink_;
     Parameters parameters_;
     Line line_;
-    Block block_;
+    LineWords block_;
     KeptModes kept_;  // of the program itself
     Recorder recorder_;
     std::map<std::string, Body, std::less<>> subroutines_;
@@ -119,7 +119,7 @@ private:
     /// The keyword that opened a branch or a loop, by its label. Each subroutine has labels of its own.
     std::map<std::pair<std::string, std::string>, Opening> openings_;
     int program_line_ = 0;  // the last line taken of the program itself
-    std::vector<Frame> frames_;
+    std::vector<BodyRun> frames_;
     int calls_ = 0;
     std::int64_t repeated_lines_ = 0;  // lines of loops and subroutines that were run, and their actions
     std::int64_t idle_lines_ = 0;      // since the last action

@@ -60,7 +60,7 @@ State start_state(const GcodeSetup& setup) {
 Point park_place(const GcodeSetup& setup) { return place_in(setup, &GcodeAxis::park_mm); }
 
 std::optional<GcodeError> slow_feed(const Interpreter& interpreter) {
-    const Block& block = interpreter.block();
+    const LineWords& block = interpreter.block();
     if (!block.has('F') || block['F'] <= 0 || block['F'] >= kMinFeedPerMinute) { return std::nullopt; }
     if (interpreter.state().modal.feed_mode != FeedMode::PerMinute) { return std::nullopt; }
     return interpreter.line().error(block.place('F'), word_text(interpreter.line(), block.place('F')) +

@@ -37,7 +37,7 @@ Ticks PieceSource::stretch_end(const PathMove*& move, double& acceleration) cons
     move = &path_.moves[path_.move_at(subticks(now_))];
     const Subticks middle = subticks(now_) + kHalfTick;
     Subticks phase_end = move->start;
-    for (const Phase& phase : move->profile.phases) {
+    for (const ProfilePhase& phase : move->profile.phases) {
         phase_end = phase_end + phase.duration;
         acceleration = phase.acceleration();
         if (middle < phase_end) { break; }
@@ -77,7 +77,7 @@ std::vector<Piece> pieces_of(const Profile& profile, Position from, int directio
     Position at = from;
     Subticks clock;
     Ticks done;
-    for (const Phase& phase : profile.phases) {
+    for (const ProfilePhase& phase : profile.phases) {
         clock = clock + phase.duration;
         const bool last = &phase == profile.phases.end() - 1;
         const Ticks until = last ? clock.ceil() : clock.floor();

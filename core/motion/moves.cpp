@@ -17,7 +17,7 @@ PathMove remainder_of(const PathMove& move, Subticks t) {
     rest.start = {};
     rest.profile.phases.clear();
     Subticks into = t - move.start;
-    for (const Phase& phase : move.profile.phases) {
+    for (const ProfilePhase& phase : move.profile.phases) {
         if (into < phase.duration) {
             const auto entry = static_cast<std::int64_t>(std::llround(phase.velocity_at(into) * 0x1p48));
             rest.profile.phases.append({phase.at(into), phase.to, entry, phase.duration - into});

@@ -15,7 +15,7 @@ constexpr double kRawPerStepPerTick = 0x1p48;  // 2^64 per step, 2^16 subticks p
 std::int64_t to_raw(double steps_per_tick) { return std::llround(steps_per_tick * kRawPerStepPerTick); }
 
 /// The distance that the acceleration adds to that of the entry speed over the whole phase.
-Int128 curvature(const Phase& phase) {
+Int128 curvature(const ProfilePhase& phase) {
     return phase.to.raw - phase.from.raw - Int128{phase.entry} * phase.duration.value;
 }
 
@@ -137,27 +137,27 @@ Profile plan_slowing(const ProfileRequest& request) {
     ProfileRequest rest = request;
     rest.from = slowed;
     rest.entry = rest.limits.max_velocity = top;
-    for (const Phase& phase : plan_fastest(rest).phases) { profile.phases.append(phase); }
+    for (const ProfilePhase& phase : plan_fastest(rest).phases) { profile.phases.append(phase); }
     return profile;
 }
 
 }  // namespace
 
-Displacement Phase::at(Subticks t) const {
+Displacement ProfilePhase::at(Subticks t) const {
     const Int128 bend = curvature(*this);
     const Int128 magnitude = bend < 0 ? -bend : bend;
     const Int128 part = mul_div(mul_div(magnitude, t.value, duration.value), t.value, duration.value);
     return {from.raw + Int128{entry} * t.value + (bend < 0 ? -part : part)};
 }
 
-double Phase::velocity_at(Subticks t) const {
+double ProfilePhase::velocity_at(Subticks t) const {
     const double n = static_cast<double>(duration.value);
     const double per_subtick =
         static_cast<double>(entry) + 2 * static_cast<double>(curvature(*this)) * static_cast<double>(t.value) / (n * n);
     return per_subtick / kRawPerStepPerTick;
 }
 
-double Phase::acceleration() const {
+double ProfilePhase::acceleration() const {
     const double n = static_cast<double>(duration.value);
     return 2 * static_cast<double>(curvature(*this)) / (n * n) / kRawPerStepPerTick *
            static_cast<double>(kSubticksPerTick);
@@ -165,12 +165,12 @@ double Phase::acceleration() const {
 
 Subticks Profile::duration() const {
     Subticks sum;
-    for (const Phase& phase : phases) { sum = sum + phase.duration; }
+    for (const ProfilePhase& phase : phases) { sum = sum + phase.duration; }
     return sum;
 }
 
 Displacement Profile::at(Subticks t) const {
-    for (const Phase& phase : phases) {
+    for (const ProfilePhase& phase : phases) {
         if (t <= phase.duration) { return phase.at(t); }
         t = t - phase.duration;
     }
@@ -178,7 +178,7 @@ Displacement Profile::at(Subticks t) const {
 }
 
 double Profile::velocity_at(Subticks t) const {
-    for (const Phase& phase : phases) {
+    for (const ProfilePhase& phase : phases) {
         if (t <= phase.duration) { return phase.velocity_at(t); }
         t = t - phase.duration;
     }
@@ -187,7 +187,7 @@ double Profile::velocity_at(Subticks t) const {
 
 double Profile::peak_velocity() const {
     double peak = 0;
-    for (const Phase& phase : phases) {
+    for (const ProfilePhase& phase : phases) {
         peak = std::max({peak, phase.velocity_at({0}), phase.velocity_at(phase.duration)});
     }
     return peak;

@@ -25,7 +25,7 @@ inline constexpr std::int64_t kSubticksPerTick = 1 << 16;
 constexpr Subticks subticks(Ticks t) { return {t.value * kSubticksPerTick}; }
 
 /// Constant acceleration from one place on the path to another.
-struct Phase {
+struct ProfilePhase {
     Displacement from;
     Displacement to;
     std::int64_t entry = 0;  // speed at its start, 2^-64 step per subtick
@@ -39,7 +39,7 @@ struct Phase {
 };
 
 struct Profile {
-    StaticVector<Phase, 3> phases;
+    StaticVector<ProfilePhase, 3> phases;
 
     Subticks duration() const;
     Displacement at(Subticks t) const;

@@ -48,10 +48,10 @@ Ticks PieceFit::next_break(Ticks now, Ticks end) const {
 
 /// The phases that determine the velocities at the ends of a piece from `begin` to `end`. A jump within a tick of an
 /// end counts as outside the piece.
-PieceFit::Stretch PieceFit::stretch(Ticks begin, Ticks end) const {
+PieceFit::FitRange PieceFit::range(Ticks begin, Ticks end) const {
     constexpr double kHair = 0x1p-20;
     const auto& phases = path_->phases();
-    Stretch s{begin, end, phase_, phase_};
+    FitRange s{begin, end, phase_, phase_};
     const double from = to_double(begin);
     const double to = to_double(end);
     while (s.first + 1 < phases.size() && phases[s.first + 1].begin <= from + kHair) { ++s.first; }
@@ -67,7 +67,7 @@ PieceFit::Stretch PieceFit::stretch(Ticks begin, Ticks end) const {
     return s;
 }
 
-double PieceFit::acceleration(const Stretch& s, std::size_t i) const {
+double PieceFit::acceleration(const FitRange& s, std::size_t i) const {
     const double before = path_->phases()[s.first].velocity(i, to_double(s.begin));
     const double after = path_->phases()[s.last].velocity(i, to_double(s.end));
     const AxisLimits& axis = setup_.limits[i];
@@ -77,7 +77,7 @@ double PieceFit::acceleration(const Stretch& s, std::size_t i) const {
 }
 
 /// In each phase the path is nearly a parabola, so the ends and the middles of the phases are compared.
-bool PieceFit::is_close(const Stretch& s, std::size_t i, double from, double v0, double a) const {
+bool PieceFit::is_close(const FitRange& s, std::size_t i, double from, double v0, double a) const {
     const auto& phases = path_->phases();
     const double begin = to_double(s.begin);
     const double ticks = to_double(s.end - s.begin);
@@ -97,8 +97,8 @@ bool PieceFit::is_close(const Stretch& s, std::size_t i, double from, double v0,
     return true;
 }
 
-/// The phase that is in progress at the end of a stretch.
-const PathPhase& PieceFit::phase_at(const Stretch& s) const {
+/// The phase that is in progress at the end of a range.
+const PathPhase& PieceFit::phase_at(const FitRange& s) const {
     const auto& phases = path_->phases();
     std::size_t k = s.last;
     while (k + 1 < phases.size() && phases[k].end() < to_double(s.end)) { ++k; }
@@ -116,7 +116,7 @@ bool PieceFit::is_hard_turn(std::size_t i, double v0, double a, double ticks) co
 }
 
 bool PieceFit::try_piece(Ticks begin, Ticks end, std::span<const MotionPoint> points) {
-    const Stretch s = stretch(begin, end);
+    const FitRange s = range(begin, end);
     const double ticks = to_double(end - begin);
     const PathPhase& last = path_->phases()[s.last];
     const PathPhase& first = path_->phases()[s.first];

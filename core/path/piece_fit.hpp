@@ -3,7 +3,7 @@
 // A piece is as long as possible. Both of its ends are on the path, its acceleration is the mean change of velocity, it
 // stays within kFitShare of the path, and its speeds are near the path's. Every piece must pass the check that each
 // axis makes of its frames (core/motion/piece_check.hpp). Pieces end at the tick nearest to a jump of the path, and at
-// the end of the stretch.
+// the end of the range.
 #pragma once
 
 #include <optional>
@@ -31,7 +31,7 @@ public:
     const std::vector<Piece>& pieces(std::size_t axis) const { return fitted_[axis]; }
 
 private:
-    struct Stretch {
+    struct FitRange {
         Ticks begin;
         Ticks end;
         std::size_t first = 0;  // phases: the one of its first velocity, and the one of its last
@@ -39,10 +39,10 @@ private:
     };
 
     Ticks next_break(Ticks now, Ticks end) const;
-    Stretch stretch(Ticks begin, Ticks end) const;
-    bool is_close(const Stretch& stretch, std::size_t axis, double from, double v0, double a) const;
-    const PathPhase& phase_at(const Stretch& stretch) const;
-    double acceleration(const Stretch& stretch, std::size_t axis) const;
+    FitRange range(Ticks begin, Ticks end) const;
+    bool is_close(const FitRange& range, std::size_t axis, double from, double v0, double a) const;
+    const PathPhase& phase_at(const FitRange& range) const;
+    double acceleration(const FitRange& range, std::size_t axis) const;
     bool is_hard_turn(std::size_t i, double v0, double a, double ticks) const;
     bool try_piece(Ticks begin, Ticks end, std::span<const MotionPoint> points);
     Ticks longest(Ticks now, Ticks limit, std::span<const MotionPoint> points);

@@ -5,8 +5,8 @@ Usage: check_documents.py ROOT [--fix]
 
 Every document is a .md file. In backticks, a word with a slash that begins with one of the tree's folders is a path; a word
 that ends with a source file's suffix is a file's name; `file`: `Name::function` is a function in that file; `CamelCase` is a
-name in the code; `5 (`kName`)` is a constant and its value. --fix renames a path whose file was moved, where only one
-file has its name.
+name in the code; `5 (`kName`)` is a constant and its value. Types in docs/words.md are declared once in core. --fix renames
+a path whose file was moved, where only one file has its name.
 """
 import argparse
 import collections
@@ -107,6 +107,15 @@ def breaches(tree, document):
             yield line_of(constant), f"{name} is {sorted(tree.values(name))}, not {number}{unit or ''}"
 
 
+def words(tree):
+    """Types of docs/words.md that core declares more than once: their name alone would not tell what they are."""
+    core = "\n".join((tree.root / f).read_text() for f in tree.files if f.startswith("core/") and f.endswith((".hpp", ".cpp")))
+    for word in FUNCTION.finditer((tree.root / "docs/words.md").read_text()):
+        declared = re.findall(rf"^\s*(?:struct|class|enum class|using) {word.group(2)}\b(?!::)[^;]*?[{{=:]", core, re.MULTILINE)
+        if len(declared) > 1:
+            yield f"docs/words.md:1: core declares {word.group(2)} {len(declared)} times; a word has one meaning"
+
+
 def unlinked(tree):
     """Documents below docs/ that no other document links to."""
     linked = set()
@@ -148,7 +157,7 @@ def main():
         for document in tree.documents():
             fix(tree, document)
     found = [f"{document}:{line}: {what}" for document in tree.documents() for line, what in breaches(tree, document)]
-    found += [*unlinked(tree), *pictures(tree)]
+    found += [*words(tree), *unlinked(tree), *pictures(tree)]
     if not tree.documents():
         sys.exit("no documents found: is git there, and ROOT a clone?")
     print("\n".join(found) if found else f"{len(tree.documents())} documents are in order")

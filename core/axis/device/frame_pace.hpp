@@ -25,27 +25,27 @@ public:
     /// `frame`: how long frames last.
     FramePace(Ticks frame, const AxisLimits& limits);
 
-    /// The next stretch begins here. `clocks`: device ticks per machine tick, minus 1.
+    /// The next part begins here. `clocks`: device ticks per machine tick, minus 1.
     void begin(Tick start, double clocks);
 
-    struct Stretch {
+    struct Part {
         Ticks lasts;             // machine time
-        std::size_t pieces = 1;  // the stretch has at least a tick for each
+        std::size_t pieces = 1;  // the part has at least a tick for each
         Tick asked_end;          // the wanted end by the device's clock
         double clocks = 0;       // as in begin
     };
     /// Decides the next frame's body. The following frame continues from its end.
-    Retiming body(const Stretch& stretch);
+    Retiming body(const Part& part);
     /// Decides the tail from there. Nothing follows a tail, so it corrects as much of the error as it can.
-    Retiming tail(const Stretch& stretch) const;
-    /// The next stretch keeps the device's ticks.
+    Retiming tail(const Part& part) const;
+    /// The next part keeps the device's ticks.
     void keep(Ticks ticks) { end_ += ticks; }
 
     Tick end() const { return end_; }
 
 private:
-    double rate_at_end(const Stretch& stretch, bool settles) const;
-    Retiming retiming(const Stretch& stretch, double rate_at_end) const;
+    double rate_at_end(const Part& part, bool settles) const;
+    Retiming retiming(const Part& part, double rate_at_end) const;
 
     double frame_;
     double most_change_;  // greatest change of the rate in a tick

@@ -53,7 +53,7 @@ std::expected<Flat, GcodeError> centre_by_radius(const Context& context, Flat fr
 }
 
 std::expected<Flat, GcodeError> centre_by_offsets(const Context& context, PlaneAxes axes, Flat from) {
-    const Block& block = context.block;
+    const LineWords& block = context.block;
     const char first = letter_of(axes.first);
     const char second = letter_of(axes.second);
     if (!block.has(first) && !block.has(second)) {
@@ -79,7 +79,7 @@ Result check_radii(const Context& context, Flat from, Flat centre, Flat to) {
 }
 
 Result check_words(const Context& context, PlaneAxes axes) {
-    const Block& block = context.block;
+    const LineWords& block = context.block;
     const char normal = letter_of(axes.normal);
     if (block.has(normal)) {
         return context.refuse(normal, " is perpendicular to the arc's plane; choose the plane with G17, G18 or G19");

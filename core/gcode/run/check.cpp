@@ -18,7 +18,7 @@ bool uses_axes(int non_modal) {
 bool is_arc(int motion) { return motion == 20 || motion == 30; }
 
 std::unexpected<GcodeError> no_motion(const Context& context) {
-    const Block& block = context.block;
+    const LineWords& block = context.block;
     for (const char letter : kAxisLetters) {
         if (block.has(letter)) {
             return context.refuse(letter, " needs a motion mode; write G0 or G1 before the first axis word");
@@ -48,13 +48,13 @@ bool is_used(const Context& context, char letter) {
 }  // namespace
 
 Result choose_motion(Context& context) {
-    const Block& block = context.block;
+    const LineWords& block = context.block;
     const int code = block.code(Group::Motion);
     const int other = block.code(Group::NonModal);
     const int length = block.code(Group::ToolLength);
     const bool axes = block.has_axes();
     const bool taken = uses_axes(other) || length == 431 || length == 432;
-    if (code != Block::kNoCode && code != kCancelCycles) {
+    if (code != LineWords::kNoCode && code != kCancelCycles) {
         if (uses_axes(other)) {
             return context.refuse(Group::Motion, " and " + word_text(context.line, block.place(Group::NonModal)) +
                                                      " both use the block's axis words; use two lines");
@@ -66,7 +66,7 @@ Result choose_motion(Context& context) {
         const int motion = code == kCancelCycles ? kNoMotion : context.state.modal.motion;
         if (motion == kNoMotion) { return no_motion(context); }
         context.motion = motion;
-    } else if (code == Block::kNoCode && is_arc(context.state.modal.motion) && !taken && block.has_any("IJK")) {
+    } else if (code == LineWords::kNoCode && is_arc(context.state.modal.motion) && !taken && block.has_any("IJK")) {
         context.motion = context.state.modal.motion;
     }
     return {};

@@ -20,7 +20,7 @@ struct Cutter {
 
 /// G41.1 and G42.1: D is the diameter, L the orientation.
 std::expected<Cutter, GcodeError> cutter_of_words(const Context& context) {
-    const Block& block = context.block;
+    const LineWords& block = context.block;
     if (!block.has('D')) { return context.refuse(Group::Compensation, " needs D, the tool's diameter; write it"); }
     Cutter cutter{.radius = context.length(block['D']) / 2};
     if (!block.has('L')) { return cutter; }
@@ -37,7 +37,7 @@ std::expected<Cutter, GcodeError> cutter_of_words(const Context& context) {
 
 /// G41 and G42: D is a tool of the table; without D, or with D0, it is the tool in the spindle.
 std::expected<Cutter, GcodeError> cutter_of_table(const Context& context) {
-    const Block& block = context.block;
+    const LineWords& block = context.block;
     const auto named = whole(block.find('D').value_or(0));
     if (!named || *named < 0) {
         return context.refuse('D', " is not a tool's number; it must be a whole number from 0");
@@ -81,7 +81,7 @@ Result turn_on(Context& context, int code) {
 
 Result compensation(Context& context) {
     const int code = context.block.code(Group::Compensation);
-    if (code == Block::kNoCode) { return {}; }
+    if (code == LineWords::kNoCode) { return {}; }
     if (code != 400) { return turn_on(context, code); }
     leave_compensation(context);
     return {};

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "core/gcode/block.hpp"
+#include "core/gcode/line_words.hpp"
 #include "core/gcode/motion.hpp"
 #include "core/gcode/setup.hpp"
 #include "core/gcode/state.hpp"
@@ -26,7 +26,7 @@ struct Context {
     Parameters& parameters;
     const Sink& sink;
     const Line& line;
-    Block& block;
+    LineWords& block;
     KeptModes& kept;
     int motion = kNoMotion;  // the motion that this block runs, times ten
     bool ended = false;      // M2, M30

@@ -52,7 +52,7 @@ Result check_cycle(const Context& context, PlaneAxes axes) {
 }
 
 Result read_words(Context& context, Cycle& cycle) {
-    const Block& block = context.block;
+    const LineWords& block = context.block;
     CycleWords& kept = context.state.cycle;
     const char normal = kAxisLetters[cycle.axes.normal];
     const auto length = [&](char letter) {
@@ -125,7 +125,7 @@ public:
 private:
     /// The place of the next repeat: @ and ^ add to the distance and the angle, about the program's zero.
     Flat beyond(Flat at, Flat step) const {
-        const Block& block = context_.block;
+        const LineWords& block = context_.block;
         if (!block.distance && !block.angle) { return at + step; }
         const double distance = length_of(at) + context_.length(block.distance.value_or(0));
         const double angle = std::atan2(at.y, at.x) + block.angle.value_or(0) / kDegrees;

@@ -60,7 +60,7 @@ Result analog_output(const Context& context) {
 }
 
 Result wait_for_input(const Context& context) {
-    const Block& block = context.block;
+    const LineWords& block = context.block;
     if (block.has('P') == block.has('E')) {
         return context.refuse(Group::Output, " waits for one input; write P or E and its number");
     }
@@ -128,7 +128,7 @@ Result spindle_speed(Context& context) {
 
 Result outputs(Context& context) {
     const int code = context.block.code(Group::Output);
-    if (code == Block::kNoCode) { return {}; }
+    if (code == LineWords::kNoCode) { return {}; }
     if (auto checked = context.refuse_compensated(Group::Output); !checked) { return checked; }
     if (code == 660) { return wait_for_input(context); }
     if (code == 670 || code == 680) { return analog_output(context); }
@@ -181,7 +181,7 @@ Result coolant(Context& context) {
 Result overrides(Context& context) {
     Modal& modal = context.state.modal;
     const int code = context.block.code(Group::Override);
-    if (code == Block::kNoCode) { return {}; }
+    if (code == LineWords::kNoCode) { return {}; }
     if (auto checked = context.refuse_compensated(Group::Override); !checked) { return checked; }
     const bool on = code == 480 || (code != 490 && context.block.find('P').value_or(1) != 0);
     const auto set = [&](bool& value, EventKind kind) {

@@ -5,7 +5,7 @@ namespace lockstep::gcode {
 
 Result set_units(Context& context) {
     const int code = context.block.code(Group::Units);
-    if (code != Block::kNoCode) { context.state.modal.inches = code == 200; }
+    if (code != LineWords::kNoCode) { context.state.modal.inches = code == 200; }
     return {};
 }
 
@@ -38,7 +38,7 @@ Result set_feed(Context& context) {
 
 Result set_plane(Context& context) {
     const int code = context.block.code(Group::Plane);
-    if (code == Block::kNoCode) { return {}; }
+    if (code == LineWords::kNoCode) { return {}; }
     const Plane plane = code == 170 ? Plane::XY : code == 180 ? Plane::ZX : Plane::YZ;
     if (context.is_compensated() && plane != context.state.modal.plane) {
         return context.refuse(Group::Plane, " is not possible while cutter compensation is on; write G40 before it");
@@ -49,7 +49,7 @@ Result set_plane(Context& context) {
 
 Result set_path_mode(Context& context) {
     const int code = context.block.code(Group::PathMode);
-    if (code == Block::kNoCode) { return {}; }
+    if (code == LineWords::kNoCode) { return {}; }
     if (auto checked = context.refuse_compensated(Group::PathMode); !checked) { return checked; }
     Modal& modal = context.state.modal;
     modal.path_mode = code;
@@ -60,7 +60,7 @@ Result set_path_mode(Context& context) {
 
 Result set_distance_modes(Context& context) {
     Modal& modal = context.state.modal;
-    const Block& block = context.block;
+    const LineWords& block = context.block;
     if (block.has(Group::Distance)) { modal.relative = block.code(Group::Distance) == 910; }
     if (block.has(Group::CentreDistance)) { modal.centres_absolute = block.code(Group::CentreDistance) == 901; }
     if (block.has(Group::Retract)) { modal.retract_to_start = block.code(Group::Retract) == 980; }

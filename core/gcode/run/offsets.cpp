@@ -84,7 +84,7 @@ void offsets_changed(Context& context) {
 }
 
 Result set_system(Context& context) {
-    const Block& block = context.block;
+    const LineWords& block = context.block;
     const auto system = system_of(context);
     if (!system) { return std::unexpected(system.error()); }
     const bool by_place = whole(block['L']) == 20;
@@ -116,7 +116,7 @@ Result set_system(Context& context) {
 
 Result choose_system(Context& context) {
     const int code = context.block.code(Group::System);
-    if (code == Block::kNoCode) { return {}; }
+    if (code == LineWords::kNoCode) { return {}; }
     const auto system = static_cast<std::size_t>(code <= 590 ? (code - 540) / 10 : 5 + code - 590);
     if (auto checked = context.refuse_compensated(Group::System); !checked) { return checked; }
     if (system != context.state.modal.system) { begin_system(context.state, system); }

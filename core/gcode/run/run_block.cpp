@@ -21,7 +21,7 @@ constexpr std::array kSteps{
 constexpr std::array kPlainSteps{set_feed, run_motion};
 
 bool is_plain(const Context& context) {
-    const Block& block = context.block;
+    const LineWords& block = context.block;
     if (block.comment || block.distance || block.angle || block.has_any("DEHIJKLPQRST")) { return false; }
     const int motion = block.code(Group::Motion);
     const bool is_straight = motion == 0 || motion == 10;
@@ -43,7 +43,7 @@ Result run_all(Context& context, const Steps& steps) {
 /// @ and ^: the distance from the program's zero and the angle from X become X and Y. In G91 they are added to those of
 /// the place where the axes stand.
 Result resolve_polar(Context& context) {
-    Block& block = context.block;
+    LineWords& block = context.block;
     if (!block.distance && !block.angle) { return {}; }
     if (block.has('X') || block.has('Y')) {
         return context.refuse(block.has('X') ? 'X' : 'Y',

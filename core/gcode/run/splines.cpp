@@ -56,7 +56,7 @@ void emit_spline(Context& context, Spline spline, const Point& end) {
 /// I J: from the start to the first control point; P Q: from the end to the second. A G5 behind a G5 continues
 /// smoothly without I and J.
 Result cubic_spline(Context& context) {
-    const Block& block = context.block;
+    const LineWords& block = context.block;
     if (auto checked = check_spline(context); !checked) { return checked; }
     if (auto checked = check_has_end(context); !checked) { return checked; }
     if (!block.has('P') || !block.has('Q')) {
@@ -81,7 +81,7 @@ Result cubic_spline(Context& context) {
 
 /// I J: from the start to the control point.
 Result quadratic_spline(Context& context) {
-    const Block& block = context.block;
+    const LineWords& block = context.block;
     if (auto checked = check_spline(context); !checked) { return checked; }
     if (auto checked = check_has_end(context); !checked) { return checked; }
     if (!block.has('I') || !block.has('J')) {
@@ -130,7 +130,7 @@ Result end_nurbs(Context& context) {
 /// G5.2 and the blocks behind it give control points, X and Y with the weight P; G5.3 ends the curve.
 Result nurbs(Context& context) {
     if (context.motion == 53) { return end_nurbs(context); }
-    const Block& block = context.block;
+    const LineWords& block = context.block;
     if (auto checked = check_spline(context); !checked) { return checked; }
     if (block.has(Group::Motion) || !context.state.spline.nurbs) {
         if (auto begun = begin_nurbs(context); !begun) { return begun; }

@@ -10,7 +10,7 @@ std::string no_tool(int tool) {
 
 /// G43: the offset of the tool in the spindle, or of the tool that H names.
 std::expected<Point, GcodeError> tool_offset(const Context& context) {
-    const Block& block = context.block;
+    const LineWords& block = context.block;
     int tool = context.state.tool;
     if (block.has('H')) {
         const auto named = whole(block['H']);
@@ -35,7 +35,7 @@ void set_words(const Context& context, Point& offset) {
 
 /// G43.2: adds to the offset in use.
 Result add_offset(Context& context) {
-    const Block& block = context.block;
+    const LineWords& block = context.block;
     if (block.has('H') && block.has_axes()) {
         return context.refuse('H', " is in the same block as axis words; write one or the other");
     }
@@ -90,7 +90,7 @@ Result select_tool(Context& context) {
 Result change_tool(Context& context) {
     State& state = context.state;
     const int code = context.block.code(Group::Tool);
-    if (code == Block::kNoCode) { return {}; }
+    if (code == LineWords::kNoCode) { return {}; }
     if (auto checked = context.refuse_compensated(Group::Tool); !checked) { return checked; }
     if (code == 60) {
         state.tool = state.selected_tool;
@@ -109,7 +109,7 @@ Result change_tool(Context& context) {
 
 Result tool_length(Context& context) {
     const int code = context.block.code(Group::ToolLength);
-    if (code == Block::kNoCode) { return {}; }
+    if (code == LineWords::kNoCode) { return {}; }
     if (auto checked = context.refuse_compensated(Group::ToolLength); !checked) { return checked; }
     Point& offset = context.state.offsets.tool;
     if (code == 490) { offset = {}; }
@@ -127,7 +127,7 @@ Result tool_length(Context& context) {
 }
 
 Result set_tool(Context& context) {
-    const Block& block = context.block;
+    const LineWords& block = context.block;
     const int kind = whole(block['L']).value_or(0);
     const auto number = block.has('P') ? whole(block['P']) : std::nullopt;
     if (!number || *number < 1) {

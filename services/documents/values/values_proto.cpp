@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/gcode/block.hpp"
+#include "core/gcode/line_words.hpp"
 #include "core/gcode/system_names.hpp"
 #include "core/number_text.hpp"
 #include "idl/proto/values.pb.h"

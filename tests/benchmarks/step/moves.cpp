@@ -44,7 +44,7 @@ Trapezoid continuous(const Limits& limits) {
 
 Trapezoid in_whole_ticks(const Limits& limits) {
     const Profile profile = plan(limits);
-    const auto ticks = [](const Phase& phase) { return static_cast<double>(phase.duration.ceil().value); };
+    const auto ticks = [](const ProfilePhase& phase) { return static_cast<double>(phase.duration.ceil().value); };
     const bool is_triangle = profile.phases.size() == 2;
     return {limits.start_velocity / kTicksPerSecond, profile.peak_velocity(), ticks(profile.phases.front()),
             is_triangle ? 0 : ticks(profile.phases[1]), ticks(profile.phases.back())};

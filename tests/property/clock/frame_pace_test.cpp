@@ -239,7 +239,7 @@ TEST(FramePace, ATailMakesUpForAllThatABodyMakesUpForInParts) {
     const Ticks lasts{200'000};
     FramePace pace(lasts, some_limits());
     pace.begin(Tick{1'000'000}, 0);
-    const FramePace::Stretch late{lasts, 1, Tick{1'000'000} + lasts + Ticks{5}, 0};
+    const FramePace::Part late{lasts, 1, Tick{1'000'000} + lasts + Ticks{5}, 0};
     EXPECT_EQ(pace.tail(late).end, late.asked_end);
     EXPECT_LT(pace.body(late).end, late.asked_end);
 }

@@ -95,7 +95,7 @@ TEST(Planner, KeepsSpeedAndAccelerationLimitsInEveryPhase) {
         ASSERT_LE(p.peak_velocity(), l.max_velocity * (1 + 1e-9) + 1e-14) << "run " << run;
         ASSERT_LE(p.velocity_at({0}), l.start_velocity * (1 + 1e-9) + 1e-14) << "run " << run;
         ASSERT_LE(p.velocity_at(p.duration()), l.start_velocity * (1 + 1e-6) + 1e-12) << "run " << run;
-        for (const Phase& phase : p.phases) {
+        for (const ProfilePhase& phase : p.phases) {
             ASSERT_LE(phase.acceleration(), l.max_acceleration * (1 + 1e-6) + 1e-15) << "run " << run;
             ASSERT_GE(phase.acceleration(), -l.max_deceleration * (1 + 1e-6) - 1e-15) << "run " << run;
         }

@@ -23,7 +23,7 @@ Profile fastest(std::int64_t steps, const PathLimits& l) {
 TEST(PlanFastest, ALongMoveIsATrapezoidInWholeTicks) {
     const Profile p = fastest(12'000, limits(500, 6'000, 4'200, 4'200));
     ASSERT_EQ(p.phases.size(), 3u);
-    for (const Phase& phase : p.phases) { EXPECT_EQ(phase.duration.value % kSubticksPerTick, 0); }
+    for (const ProfilePhase& phase : p.phases) { EXPECT_EQ(phase.duration.value % kSubticksPerTick, 0); }
     EXPECT_LE(p.peak_velocity(), 6'000 * kPerSecond * (1 + 1e-9));
     EXPECT_GT(p.peak_velocity(), 5'999.9 * kPerSecond);
 }
@@ -72,7 +72,7 @@ TEST(PlanBrakeThrough, TakesAtLeastASubtick) {
 TEST(PlanFastest, TheProfileIsAnchoredAtBothEndsOfEveryPhase) {
     const Profile p = fastest(12'345, limits(500, 6'000, 4'200, 2'100));
     Subticks clock;
-    for (const Phase& phase : p.phases) {
+    for (const ProfilePhase& phase : p.phases) {
         EXPECT_EQ(p.at(clock), phase.from);
         clock = clock + phase.duration;
         EXPECT_EQ(p.at(clock), phase.to);

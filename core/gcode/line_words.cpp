@@ -1,4 +1,4 @@
-#include "core/gcode/block.hpp"
+#include "core/gcode/line_words.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ std::string spaced(std::string_view letters) {
 
 class BlockReader {
 public:
-    BlockReader(Reader& reader, const Line& line, std::string_view axes, Block& block)
+    BlockReader(Reader& reader, const Line& line, std::string_view axes, LineWords& block)
         : reader_(reader), line_(line), axes_(axes), block_(block) {}
 
     std::optional<GcodeError> read() {
@@ -147,13 +147,13 @@ private:
     Reader& reader_;
     const Line& line_;
     std::string_view axes_;
-    Block& block_;
+    LineWords& block_;
     int m_codes_ = 0;
 };
 
 }  // namespace
 
-void Block::clear() {
+void LineWords::clear() {
     present_ = 0;
     codes_.fill(kNoCode);
     assignments.clear();
@@ -162,17 +162,17 @@ void Block::clear() {
     angle.reset();
 }
 
-bool Block::has_any(std::string_view letters) const {
+bool LineWords::has_any(std::string_view letters) const {
     return std::ranges::any_of(letters, [this](char letter) { return has(letter); });
 }
 
-void Block::set(char letter, double value, std::size_t place) {
+void LineWords::set(char letter, double value, std::size_t place) {
     present_ |= letter_bit(letter);
     values_[index(letter)] = value;
     places_[index(letter)] = static_cast<std::uint16_t>(place);
 }
 
-void Block::set(const Code& code, std::size_t place) {
+void LineWords::set(const Code& code, std::size_t place) {
     constexpr int kCancel = 800;
     const auto group = static_cast<std::size_t>(code.group);
     if (code.tenths == kCancel && code.group == Group::Motion && codes_[group] != kNoCode) { return; }
@@ -180,7 +180,7 @@ void Block::set(const Code& code, std::size_t place) {
     code_places_[group] = static_cast<std::uint16_t>(place);
 }
 
-std::optional<GcodeError> read_block(Reader& reader, const Line& line, std::string_view axes, Block& block) {
+std::optional<GcodeError> read_block(Reader& reader, const Line& line, std::string_view axes, LineWords& block) {
     return BlockReader(reader, line, axes, block).read();
 }
 

@@ -33,7 +33,7 @@ struct Assignment {
     double value = 0;
 };
 
-class Block {
+class LineWords {
 public:
     static constexpr int kNoCode = -1;
 
@@ -70,7 +70,7 @@ private:
 };
 
 /// Reads the rest of the line into a cleared block. `axes` are the letters of the machine's axes.
-std::optional<GcodeError> read_block(Reader& reader, const Line& line, std::string_view axes, Block& block);
+std::optional<GcodeError> read_block(Reader& reader, const Line& line, std::string_view axes, LineWords& block);
 
 /// The word that begins at a place, as written, without blanks.
 std::string word_text(const Line& line, std::size_t place);
