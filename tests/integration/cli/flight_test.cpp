@@ -106,9 +106,10 @@ TEST_F(Flight, AnEmergencyStopAtRestAndOneInMotionAreTwoIncidents) {
     run_job();
     EXPECT_EQ(run_lockstep({"estop"}).code, 0);
     ASSERT_TRUE(all_write());
-    ASSERT_TRUE(eventually([&] { return incident().incidents_size() == 2; }));
-    EXPECT_EQ(incident().moving_size(), 2);
-    EXPECT_TRUE(incident().has_rest_s());
+    const auto is_whole = [](const proto::IncidentReport& report) {
+        return report.incidents_size() == 2 && report.moving_size() == 2 && report.has_rest_s();
+    };
+    ASSERT_TRUE(eventually([&] { return is_whole(incident()); })) << "each process writes its file in its own time";
     const auto first = incident("1");
     EXPECT_EQ(first.cause(), "emergency-stop");
     EXPECT_EQ(first.moving_size(), 0);
