@@ -35,7 +35,11 @@ VetoReason reason_of(const FailedCheck& check) {
 }  // namespace
 
 AxisFlight::AxisFlight(std::size_t axis, const MachineConfig& machine, FlightLog& log)
-    : axis_(axis), machine_(machine), log_(log), loop_(machine), owner_(kFlightCoordinator, silence_limits(machine)) {
+    : axis_(axis),
+      ticks_per_second_(machine.ticks_per_second()),
+      log_(log),
+      loop_(machine),
+      owner_(kFlightCoordinator, silence_limits(machine)) {
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         axes_.emplace_back(flight_axis(i), silence_limits(machine));
     }
@@ -145,7 +149,7 @@ void AxisFlight::end_epoch(Tick now) {
 
 /// Notes the state at each change of phase, and ten times a second.
 void AxisFlight::note_state(Tick now, const AxisState& state) {
-    const Ticks period{static_cast<std::int64_t>(machine_.ticks_per_second() / 10)};
+    const Ticks period{static_cast<std::int64_t>(ticks_per_second_ / 10)};
     const bool is_new_phase = phase_ != state.phase;
     phase_ = state.phase;
     if (!is_new_phase && noted_ && now - *noted_ < period) { return; }
@@ -157,7 +161,7 @@ void AxisFlight::note_state(Tick now, const AxisState& state) {
               .epoch = state.epoch,
               .frame = state.ran,
               .count = state.position.count(),
-              .amount = state.velocity.steps_per_tick() * machine_.ticks_per_second(),
+              .amount = state.velocity.steps_per_tick() * ticks_per_second_,
               .lasts = state.clock_error});
 }
 

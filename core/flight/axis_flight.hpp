@@ -27,7 +27,7 @@ private:
     void note_state(Tick now, const AxisState& state);
 
     std::size_t axis_;
-    MachineConfig machine_;
+    double ticks_per_second_;
     FlightLog& log_;
     LoopWatch loop_;
     std::vector<PeerWatch> axes_;

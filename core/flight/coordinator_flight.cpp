@@ -30,7 +30,7 @@ std::optional<FlightKind> kind_of(CoordinatorNotice::Kind kind) {
 }  // namespace
 
 CoordinatorFlight::CoordinatorFlight(const MachineConfig& machine, FlightLog& log)
-    : machine_(machine),
+    : ticks_per_second_(machine.ticks_per_second()),
       log_(log),
       loop_(machine),
       other_owner_(kFlightCoordinator, silence_limits(machine)),
@@ -137,7 +137,7 @@ void CoordinatorFlight::send(Tick now, const CoordinatorOutputs& out) {
 
 /// Notes the state at each change of phase, and ten times a second.
 void CoordinatorFlight::note_state(Tick now, const MachineState& state) {
-    const Ticks period{static_cast<std::int64_t>(machine_.ticks_per_second() / 10)};
+    const Ticks period{static_cast<std::int64_t>(ticks_per_second_ / 10)};
     const bool is_new_phase = phase_ != state.phase;
     phase_ = state.phase;
     if (!is_new_phase && noted_ && now - *noted_ < period) { return; }

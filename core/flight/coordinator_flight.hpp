@@ -32,7 +32,7 @@ private:
     void send(Tick now, const CoordinatorOutputs& out);
     void note_state(Tick now, const MachineState& state);
 
-    MachineConfig machine_;
+    double ticks_per_second_;
     FlightLog& log_;
     LoopWatch loop_;
     std::vector<PeerWatch> axes_;

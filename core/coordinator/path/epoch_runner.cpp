@@ -4,7 +4,7 @@
 
 namespace lockstep {
 
-EpochRunner::EpochRunner(const MachineConfig& machine) : machine_(machine), slot_(machine.slot_ticks()) {}
+EpochRunner::EpochRunner(const MachineConfig& machine) : timing_(machine.timing), slot_(machine.slot_ticks()) {}
 
 void EpochRunner::begin(Epoch epoch, const PathPlace& place, const AxisPositions& at, const Overrides& overrides) {
     epoch_ = epoch;
@@ -33,7 +33,7 @@ void EpochRunner::begin(Epoch epoch, const PathPlace& place, const AxisPositions
 void EpochRunner::start_when_ready(Slot now) {
     constexpr Slot kMargin = 2;
     if (source_->is_ready()) {
-        start_ = rests_ = rules::start_of(now + machine_.timing.send_ahead_slots + kMargin, slot_);
+        start_ = rests_ = rules::start_of(now + timing_.send_ahead_slots + kMargin, slot_);
     } else if (source_->is_done()) {
         end(Ending::Empty);
     }
@@ -66,7 +66,7 @@ void EpochRunner::repeat_frames(Slot now, FrameNumber held_by_all) {
     while (!in_flight_.empty() && now >= rules::slot_of(in_flight_.front().start, slot_)) { in_flight_.pop_front(); }
     for (std::size_t k = 0; k < in_flight_.size(); ++k) {
         const Frame& frame = in_flight_[k];
-        const bool in_time = rules::may_send(now, rules::slot_of(frame.start, slot_), machine_.timing);
+        const bool in_time = rules::may_send(now, rules::slot_of(frame.start, slot_), timing_);
         const bool may_run = !veto() || *veto() > frame.number;
         if (in_time && may_run && frame.number > held_by_all) { to_send_.push_back(frame); }
     }
@@ -75,8 +75,8 @@ void EpochRunner::repeat_frames(Slot now, FrameNumber held_by_all) {
 void EpochRunner::make_frames(Slot now) {
     while (start_ && !ending_) {
         const Slot start = rules::slot_of(*start_ + made_ticks_, slot_);
-        if (now < rules::first_send_slot(start, machine_.timing)) { return; }
-        if (!rules::may_send(now, start, machine_.timing)) {
+        if (now < rules::first_send_slot(start, timing_)) { return; }
+        if (!rules::may_send(now, start, timing_)) {
             return end(lacked_blocks_ || source_->lacks_blocks() ? Ending::LacksProgram : Ending::Late);
         }
         try_overrides();
@@ -171,7 +171,7 @@ void EpochRunner::stop(Slot next) {
     veto_ = sent_ + 1;
     for (std::size_t k = 0; k < in_flight_.size() && *veto_ > sent_; ++k) {
         const Slot start = rules::slot_of(in_flight_[k].start, slot_);
-        if (rules::coordinator_may_veto(next, start, machine_.timing)) { veto_ = in_flight_[k].number; }
+        if (rules::coordinator_may_veto(next, start, timing_)) { veto_ = in_flight_[k].number; }
     }
 }
 
@@ -194,7 +194,7 @@ std::optional<EpochEnd> EpochRunner::evaluate(Slot now, std::span<const AxisView
     std::optional<FrameNumber> ran;
     EpochEnd end;
     for (std::size_t i = 0; i < axes.size(); ++i) {
-        if (!axes[i].present(now, machine_.timing)) { continue; }
+        if (!axes[i].present(now, timing_)) { continue; }
         const AxisState& state = *axes[i].state;
         const bool took_part = state.epoch == epoch_;
         const bool settled = state.at_rest && (took_part || state.stamp > first_start + rules::kHopSlots);
@@ -211,7 +211,7 @@ std::optional<EpochEnd> EpochRunner::evaluate(Slot now, std::span<const AxisView
     const Made& last = made_frame(*ran);
     end = {last.complete ? EpochEnd::Kind::Complete : EpochEnd::Kind::Interrupted, 0, *ran, last.rest, last.positions};
     for (std::size_t i = 0; i < axes.size(); ++i) {
-        if (axes[i].present(now, machine_.timing) && axes[i].state->position != last.positions[i] && *ran > 0) {
+        if (axes[i].present(now, timing_) && axes[i].state->position != last.positions[i] && *ran > 0) {
             end.kind = EpochEnd::Kind::Misplaced;
             end.axis = i;
         }

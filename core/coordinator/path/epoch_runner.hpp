@@ -71,7 +71,7 @@ public:
     /// All sent frames and their tails ended long ago, but the result is still open. Even a device that was silent as
     /// long as it may be, and a report that was equally late, do not explain that. Only slots with a call of `send`
     /// count, because this process receives nothing while it stalls.
-    bool is_overdue() const { return slots_over_ > 2 * rules::silence_slots(machine_.timing) + rules::kHopSlots; }
+    bool is_overdue() const { return slots_over_ > 2 * rules::silence_slots(timing_) + rules::kHopSlots; }
 
     /// Returns the events with places that the motion has reached by `now`, each once, in frames that an axis has
     /// begun. Their times are those of the motion. Valid until the next call.
@@ -134,7 +134,7 @@ private:
     const Made& made_frame(FrameNumber number) const { return made_[number - oldest()]; }
     FrameNumber oldest() const { return sent_ + 1 - made_.size(); }
 
-    MachineConfig machine_;
+    ProtocolTiming timing_;
     Ticks slot_;
     OwnedSource source_;
     Epoch epoch_ = 0;
