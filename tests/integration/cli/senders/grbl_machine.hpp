@@ -125,11 +125,14 @@ protected:
         EXPECT_EQ(process_->wait().code, 0);
         OwnMachine::TearDown();
     }
+    /// Connects again while the machine still serves a sender that has just left.
     static Sender connected() {
         std::optional<Sender> sender;
         EXPECT_TRUE(eventually([&] {
-            if (auto opened = Sender::over_tcp()) { sender.emplace(std::move(*opened)); }
-            return sender.has_value();
+            auto opened = Sender::over_tcp();
+            if (!opened) { return false; }
+            sender.emplace(std::move(*opened));
+            return sender->is_served();
         }));
         EXPECT_TRUE(sender->receives("Grbl 1.1h ['$' for help]"));
         return std::move(*sender);
