@@ -174,6 +174,24 @@ TEST_F(Running, StandingDownForgetsTheJobWithoutARecord) {
     EXPECT_EQ(state.outcome, JobOutcome::Stopped);
 }
 
+TEST_F(Running, StandingDownEndsAPauseAndAJogInIt) {
+    programs.accept(1, {.name = "pause", .axes = {"X", "Y"}, .start_mm = {0, 0}, .blocks = {{1, Pause{}}}});
+    const Command jog{.client = 4, .sequence = 1, .kind = CommandKind::Jog, .jogs = {{.axis = 0, .speed_mm_s = 5}}};
+    for (const bool is_jogged : {false, true}) {
+        ASSERT_EQ(run(), FaultCode::None);
+        EXPECT_EQ(jobs.activity().phase(), MachinePhase::Paused);
+        if (is_jogged) {
+            EXPECT_TRUE(ask([&](auto& l) { return commands::jog(jog, jobs, l); }));
+            EXPECT_EQ(jobs.activity().phase(), MachinePhase::Jogging);
+        }
+        ask([&](auto& l) { jobs.stand_down(l); });
+        EXPECT_EQ(jobs.activity().phase(), MachinePhase::Standby);
+        EXPECT_FALSE(jobs.has_job());
+        EXPECT_EQ(jobs.count().outcome(), JobOutcome::Stopped);
+        enter_idle(jobs);
+    }
+}
+
 class RunningByLai : public CoordinatorParts {
 protected:
     RunningByLai() {

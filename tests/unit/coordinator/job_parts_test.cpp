@@ -201,6 +201,19 @@ TEST_F(CoordinatorParts, AJobThatIsContinuedRemembersWhichEventsWerePublished) {
     EXPECT_EQ(jobs.path().events().from(), 0u);
 }
 
+TEST_F(CoordinatorParts, AJobThatIsContinuedBehindItsLastMoveIsDone) {
+    JobLifecycle jobs(machine);
+    jobs.activity().become(MachineEvent::Claimed, activity::Waiting{}, out);
+    accept(1, 20, 40);
+    receive_all();
+    CoordinatorLoop l = loop();
+    PathTask task{.job = {.number = 3, .program = programs.find(1)}};
+    const PathNext next = jobs.path().continue_rest(task, {.done = LegEnd{.block = 1}}, 0, l, out.events);
+    jobs.follow(task, next, {}, l);
+    EXPECT_EQ(jobs.activity().phase(), MachinePhase::Idle);
+    EXPECT_EQ(jobs.count().outcome(), JobOutcome::Done);
+}
+
 /// A hold before the first frame was requested, so it says nothing about the path.
 TEST(PathTask, IsGivenUpAfterInterruptionsWithoutAFrameAndNotAfterHolds) {
     PathTask task;
