@@ -41,25 +41,25 @@ Result Interpreter::call(Reader& reader, const OWord& word) {
     has_returned_ = false;
     returned_ = 0;
     parameters_.enter(arguments);
-    frames_.push_back(
+    levels_.push_back(
         {.body = &subroutines_.find(*word.label)->second, .next = 1, .is_call = true, .kept = {}, .repeats = {}});
     return {};
 }
 
 /// Handles return or endsub, with a value or without.
-Result Interpreter::leave(Frame& frame, Reader& reader) {
+Result Interpreter::leave(Level& level, Reader& reader) {
     if (reader.peek() == '[') {
         returned_ = reader.expression();
         has_returned_ = true;
     }
     if (auto empty = rest_is_empty(reader); !empty) { return empty; }
-    frame.next = frame.body->lines.size();
+    level.next = level.body->lines.size();
     return {};
 }
 
 void Interpreter::end_call() {
-    if (frames_.back().is_call) {
-        const KeptModes kept = frames_.back().kept;
+    if (levels_.back().is_call) {
+        const KeptModes kept = levels_.back().kept;
         if (kept.modal && kept.restores_at_return) {
             Context here = context();
             restore(here, *kept.modal);
@@ -67,12 +67,12 @@ void Interpreter::end_call() {
         parameters_.leave();
         --calls_;
     }
-    frames_.pop_back();
+    levels_.pop_back();
 }
 
 void Interpreter::unwind() {
-    for (; !frames_.empty(); frames_.pop_back()) {
-        if (!frames_.back().is_call) { continue; }
+    for (; !levels_.empty(); levels_.pop_back()) {
+        if (!levels_.back().is_call) { continue; }
         parameters_.leave();
         --calls_;
     }

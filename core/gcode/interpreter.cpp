@@ -17,7 +17,7 @@ Interpreter::Interpreter(Setup setup, Memory memory, Sink sink)
       state_(std::move(memory.state)),
       sink_([this, take = std::move(sink)](const Action& action, int line) {
           idle_lines_ = 0;
-          repeated_lines_ += frames_.empty() ? 0 : 1;
+          repeated_lines_ += levels_.empty() ? 0 : 1;
           take(action, line);
       }),
       parameters_(state_.parameters, *this, std::move(memory.local)),
@@ -91,7 +91,7 @@ bool Interpreter::skip_head(const Line& line, Reader& reader) const {
 
 Context Interpreter::context() {
     KeptModes* kept = &kept_;
-    for (BodyRun& frame : frames_) { kept = frame.is_call ? &frame.kept : kept; }
+    for (Level& level : levels_) { kept = level.is_call ? &level.kept : kept; }
     return {setup_, state_, parameters_, sink_, line_, block_, *kept};
 }
 
@@ -160,7 +160,7 @@ Result Interpreter::close_body() {
         return {};
     }
     const std::size_t lines = body.lines.size();
-    frames_.push_back({.body = &body, .kept = {}, .repeats = {}});
+    levels_.push_back({.body = &body, .kept = {}, .repeats = {}});
     auto done = do_frames();
     kept_lines_ -= lines;
     return done;

@@ -48,7 +48,7 @@ public:
     const LineWords& block() const { return block_; }
 
 private:
-    struct BodyRun {
+    struct Level {
         const Body* body = nullptr;
         std::size_t next = 0;
         bool is_call = false;
@@ -73,16 +73,16 @@ private:
 
     // Kept lines: loops.cpp
     Result do_frames();
-    Result do_kept(BodyRun& frame, const KeptLine& line);
-    Result do_flow(BodyRun& frame, std::size_t at, Reader& reader);
+    Result do_kept(Level& level, const KeptLine& line);
+    Result do_flow(Level& level, std::size_t at, Reader& reader);
     Result note_opening(const OWord& word);
-    Result choose_branch(BodyRun& frame);
-    Result go_round(BodyRun& frame, std::size_t at, Reader& reader);
+    Result choose_branch(Level& level);
+    Result go_round(Level& level, std::size_t at, Reader& reader);
     Result count_lines();
 
     // Subroutines: calls.cpp
     Result call(Reader& reader, const OWord& word);
-    Result leave(BodyRun& frame, Reader& reader);
+    Result leave(Level& level, Reader& reader);
     Result find_subroutine(const OWord& word);
     Result load(const OWord& word, std::string_view text);
     Result load_later(const OWord& word);
@@ -119,7 +119,7 @@ private:
     /// The keyword that opened a branch or a loop, by its label. Each subroutine has labels of its own.
     std::map<std::pair<std::string, std::string>, Opening> openings_;
     int program_line_ = 0;  // the last line taken of the program itself
-    std::vector<BodyRun> frames_;
+    std::vector<Level> levels_;
     int calls_ = 0;
     std::int64_t repeated_lines_ = 0;  // lines of loops and subroutines that were run, and their actions
     std::int64_t idle_lines_ = 0;      // since the last action

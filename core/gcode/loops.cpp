@@ -6,15 +6,15 @@
 namespace lockstep::gcode {
 
 Result Interpreter::do_frames() {
-    while (!frames_.empty() && !ended_) {
-        Frame& frame = frames_.back();
-        if (frame.next >= frame.body->lines.size()) {
+    while (!levels_.empty() && !ended_) {
+        Level& level = levels_.back();
+        if (level.next >= level.body->lines.size()) {
             end_call();
             continue;
         }
-        const Body& body = *frame.body;
-        const KeptLine& line = body.lines[frame.next];
-        auto done = do_kept(frame, line);
+        const Body& body = *level.body;
+        const KeptLine& line = body.lines[level.next];
+        auto done = do_kept(level, line);
         if (!done) {
             if (!body.file.empty()) { done.error().message += " (in " + body.file + ")"; }
             unwind();
@@ -35,10 +35,10 @@ Result Interpreter::count_lines() {
                         " lines; check that each loop ends");
 }
 
-Result Interpreter::do_kept(Frame& frame, const KeptLine& kept) {
+Result Interpreter::do_kept(Level& level, const KeptLine& kept) {
     if (auto wrong = line_.read(kept.text, kept.number)) { return std::unexpected(*std::move(wrong)); }
     if (auto counted = count_lines(); !counted) { return counted; }
-    const std::size_t at = frame.next++;
+    const std::size_t at = level.next++;
     Reader reader(line_, parameters_);
     if (!skip_head(reader) || reader.done()) { return {}; }
     if (kept.keyword == Keyword::None) { return do_plain(reader); }
@@ -48,14 +48,14 @@ Result Interpreter::do_kept(Frame& frame, const KeptLine& kept) {
     if (opens(kept.keyword)) {
         if (auto noted = note_opening(word); !noted) { return noted; }
     }
-    return do_flow(frame, at, reader);
+    return do_flow(level, at, reader);
 }
 
 /// A label opens one thing only, of those that run. A do loop may open the label of another do loop again.
 Result Interpreter::note_opening(const OWord& word) {
     if (!word.label) { return std::unexpected(word.label.error()); }
     std::string subroutine;
-    for (const Frame& frame : frames_) { subroutine = frame.is_call ? frame.body->label : subroutine; }
+    for (const Level& level : levels_) { subroutine = level.is_call ? level.body->label : subroutine; }
     const auto [before, is_new] =
         openings_.try_emplace({std::move(subroutine), *word.label}, Opening{word.keyword, line_.number()});
     const bool is_do_again = word.keyword == Keyword::Do && before->second.keyword == Keyword::Do;
@@ -76,47 +76,47 @@ Result Interpreter::rest_is_empty(Reader& reader) const {
     return reader.error() ? Result(std::unexpected(*reader.error())) : Result{};
 }
 
-/// Frame::next is already the next line.
-Result Interpreter::do_flow(Frame& frame, std::size_t at, Reader& reader) {
-    const KeptLine& line = frame.body->lines[at];
+/// Level::next is already the next line.
+Result Interpreter::do_flow(Level& level, std::size_t at, Reader& reader) {
+    const KeptLine& line = level.body->lines[at];
     switch (line.keyword) {
         case Keyword::If:
         case Keyword::While: {
             const bool holds = reader.expression() != 0;
             if (auto empty = rest_is_empty(reader); !empty) { return empty; }
-            if (!holds) { frame.next = line.keyword == Keyword::If ? line.branch : line.end + 1; }
+            if (!holds) { level.next = line.keyword == Keyword::If ? line.branch : line.end + 1; }
             if (line.keyword == Keyword::While || holds) { return {}; }
-            return choose_branch(frame);
+            return choose_branch(level);
         }
         case Keyword::ElseIf:
-        case Keyword::Else: frame.next = line.end + 1; return {};
+        case Keyword::Else: level.next = line.end + 1; return {};
         case Keyword::Repeat: {
             const double count = std::ceil(reader.expression());
             if (auto empty = rest_is_empty(reader); !empty) { return empty; }
-            frame.repeats[at] = count;
-            if (count < 1) { frame.next = line.end + 1; }
+            level.repeats[at] = count;
+            if (count < 1) { level.next = line.end + 1; }
             return {};
         }
         case Keyword::EndWhile:
-        case Keyword::EndRepeat: return go_round(frame, at, reader);
-        case Keyword::Break: frame.next = line.end + 1; return rest_is_empty(reader);
+        case Keyword::EndRepeat: return go_round(level, at, reader);
+        case Keyword::Break: level.next = line.end + 1; return rest_is_empty(reader);
         case Keyword::Continue:
-            frame.next = frame.body->lines[line.begin].keyword == Keyword::While ? line.begin : line.end;
+            level.next = level.body->lines[line.begin].keyword == Keyword::While ? line.begin : line.end;
             return rest_is_empty(reader);
         case Keyword::Return:
-        case Keyword::EndSub: return leave(frame, reader);
+        case Keyword::EndSub: return leave(level, reader);
         default: return rest_is_empty(reader);
     }
 }
 
 /// Called at the elseif, else or endif behind an if that does not hold.
-Result Interpreter::choose_branch(Frame& frame) {
+Result Interpreter::choose_branch(Level& level) {
     while (true) {
-        const KeptLine& line = frame.body->lines[frame.next];
+        const KeptLine& line = level.body->lines[level.next];
         if (line.keyword == Keyword::EndIf) { return {}; }
         if (auto wrong = line_.read(line.text, line.number)) { return std::unexpected(*std::move(wrong)); }
         if (auto counted = count_lines(); !counted) { return counted; }
-        ++frame.next;
+        ++level.next;
         if (line.keyword == Keyword::Else) { return {}; }
         Reader reader(line_, parameters_);
         (void)skip_head(reader);
@@ -124,20 +124,20 @@ Result Interpreter::choose_branch(Frame& frame) {
         const bool holds = reader.expression() != 0;
         if (auto empty = rest_is_empty(reader); !empty) { return empty; }
         if (holds) { return {}; }
-        frame.next = line.branch;
+        level.next = line.branch;
     }
 }
 
 /// Called at the end of a loop.
-Result Interpreter::go_round(Frame& frame, std::size_t at, Reader& reader) {
-    const std::size_t begin = frame.body->lines[at].begin;
+Result Interpreter::go_round(Level& level, std::size_t at, Reader& reader) {
+    const std::size_t begin = level.body->lines[at].begin;
     bool again = true;
-    switch (frame.body->lines[begin].keyword) {
-        case Keyword::While: frame.next = begin; return rest_is_empty(reader);
+    switch (level.body->lines[begin].keyword) {
+        case Keyword::While: level.next = begin; return rest_is_empty(reader);
         case Keyword::Do: again = reader.expression() != 0; break;
-        default: again = --frame.repeats[begin] >= 1; break;
+        default: again = --level.repeats[begin] >= 1; break;
     }
-    if (again) { frame.next = begin + 1; }
+    if (again) { level.next = begin + 1; }
     return rest_is_empty(reader);
 }
 

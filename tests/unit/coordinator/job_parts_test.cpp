@@ -214,6 +214,20 @@ TEST_F(CoordinatorParts, AJobThatIsContinuedBehindItsLastMoveIsDone) {
     EXPECT_EQ(jobs.count().outcome(), JobOutcome::Done);
 }
 
+TEST_F(CoordinatorParts, AJobThatIsContinuedBeforeAPausePauses) {
+    JobLifecycle jobs(machine);
+    jobs.activity().become(MachineEvent::Claimed, activity::Waiting{}, out);
+    const std::vector<Block> blocks{{1, ProgramMove{{20, 40}, 20}}, {2, Pause{}}};
+    programs.accept(1, {.name = "pause", .axes = {"X", "Y"}, .start_mm = {0, 0}, .blocks = blocks});
+    receive_all();
+    CoordinatorLoop l = loop();
+    PathTask task{.job = {.number = 3, .program = programs.find(1)}};
+    const LegEnd end{.kind = LegEnd::Kind::Pause, .block = 1};
+    const PathNext next = jobs.path().continue_rest(task, {.done = end}, 0, l, out.events);
+    jobs.follow(task, next, {}, l);
+    EXPECT_EQ(jobs.activity().phase(), MachinePhase::Paused);
+}
+
 /// A hold before the first frame was requested, so it says nothing about the path.
 TEST(PathTask, IsGivenUpAfterInterruptionsWithoutAFrameAndNotAfterHolds) {
     PathTask task;
