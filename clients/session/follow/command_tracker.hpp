@@ -12,7 +12,7 @@
 
 namespace lockstep {
 
-/// What the caller does now. Answered and GaveUp are final: a command that is over is never sent again.
+/// The caller's next action. After Answered or GaveUp the command is never sent again.
 enum class CommandStep : std::uint8_t { Wait, Send, Answered, GaveUp };
 
 constexpr bool is_over(CommandStep step) { return step == CommandStep::Answered || step == CommandStep::GaveUp; }
@@ -26,7 +26,7 @@ public:
     static constexpr std::chrono::milliseconds kRenewJogAfter{5};
     static constexpr std::chrono::seconds kPatience{3};
     static constexpr std::chrono::seconds kPlanPatience{60};  // an owner that plans a large program answers late
-    static constexpr int kMostOwners = 4;                     // each new owner gets the patience anew
+    static constexpr int kMostOwners = 4;                     // the patience begins again with each new owner
     static constexpr const char* kNoAnswer = "the coordinator does not answer";  // the reason of GaveUp
 
     /// `patience`: from the first sending to an owner until the command is given up. A command with a program waits

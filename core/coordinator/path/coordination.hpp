@@ -1,4 +1,4 @@
-// What the method that coordinates the axes of a machine can do. Callers ask for a capability, not for a method.
+// The capabilities of the method that coordinates a machine's axes. Callers ask for a capability, not for a method.
 #pragma once
 
 #include "core/coordinator/path/lai_periods.hpp"

@@ -1,4 +1,5 @@
-// One loop of the coordinator: what its parts may read, and what the job and the coordinator itself may do.
+// The data of one loop of the coordinator: a view for all its parts, and the outputs, which only the job and the
+// coordinator itself write.
 #pragma once
 
 #include <string>
@@ -12,7 +13,7 @@
 
 namespace lockstep {
 
-/// What every part may read.
+/// The inputs and the state that all parts may read.
 struct LoopView {
     const MachineConfig& machine;
     const AxisRoster& axes;
