@@ -1,7 +1,8 @@
 #include "clients/grbl/lines/line_program.hpp"
-#include "core/coordinator/path/coordination.hpp"
 
 #include <utility>
+
+#include "core/coordinator/path/coordination.hpp"
 
 namespace lockstep::grbl {
 

@@ -1,4 +1,5 @@
 #include "clients/grbl/lines/line_runner.hpp"
+
 #include "core/coordinator/path/coordination.hpp"
 
 namespace lockstep::grbl {

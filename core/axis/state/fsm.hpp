@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "core/protocol/names.hpp"
+#include "core/protocol/transition_table.hpp"
 
 namespace lockstep {
 
@@ -87,10 +88,7 @@ inline constexpr std::array kAxisTransitions{
 
 /// Returns the row of kAxisTransitions, or nullopt if the event means nothing in this state.
 constexpr std::optional<std::size_t> find_transition(AxisPhase from, AxisEvent event) {
-    for (std::size_t row = 0; row < kAxisTransitions.size(); ++row) {
-        if (kAxisTransitions[row].from == from && kAxisTransitions[row].event == event) { return row; }
-    }
-    return std::nullopt;
+    return find_row(kAxisTransitions, from, event);
 }
 
 /// Whether an event may come in a state that has no transition for it. The device reports speed and stops, and a person

@@ -87,6 +87,7 @@ Intent MachineActivity::intent() const {
     const activity::Motion* const motion = motion_in(activity_);
     return motion != nullptr ? motion->intent : Intent::GoOn;
 }
+
 const MachineJob* MachineActivity::job() const { return job_in(activity_); }
 MachineJob* MachineActivity::job() { return job_in(activity_); }
 

@@ -9,10 +9,6 @@ namespace {
 void settle_interrupted(activity::OnPath& path, const EpochEnd& end, JobLifecycle& jobs, CoordinatorLoop& loop) {
     PathTask& task = path.task;
     task.interrupt(end);
-    const bool is_return = path.pause.has_value();
-    if (path.intent == Intent::Stop || (path.intent == Intent::Hold && is_return)) {
-        return jobs.end(JobOutcome::Stopped, loop);
-    }
     if (path.intent == Intent::Hold) {
         activity::Holding holding{std::move(task), end.place, end.positions};
         return jobs.activity().become(MachineEvent::RestsOnPath, std::move(holding), loop.out);
@@ -28,10 +24,6 @@ void settle_interrupted(activity::OnPath& path, const EpochEnd& end, JobLifecycl
 
 /// A whole leg was run.
 void settle_complete(activity::OnPath& path, JobLifecycle& jobs, CoordinatorLoop& loop) {
-    const bool is_return = path.pause.has_value();
-    if (path.intent == Intent::Stop || (path.intent == Intent::Hold && is_return)) {
-        return jobs.end(JobOutcome::Stopped, loop);
-    }
     if (path.intent == Intent::Hold) {
         activity::Paused paused{std::move(path.task), {}};
         paused.why = jobs.path().hold_behind_leg(paused.task);
@@ -46,11 +38,15 @@ void settle(activity::OnPath& path, const EpochEnd& end, JobLifecycle& jobs, Coo
     loop.out.epoch_end = {end.kind, path.intent};
     jobs.path().end_epoch(path.task, end, loop, loop.out.events);
     if (path.intent == Intent::Abort) { return jobs.fail_at_rest(path.fault, loop); }
+    const bool is_held_return = path.intent == Intent::Hold && path.pause;
+    const bool ends = path.intent == Intent::Stop || is_held_return;
     switch (end.kind) {
         case EpochEnd::Kind::FramesDiffer: return jobs.fail_at_rest({FaultCode::FramesDiffer, end.axis}, loop);
         case EpochEnd::Kind::Misplaced: return jobs.fail_at_rest({FaultCode::PositionMismatch, end.axis}, loop);
-        case EpochEnd::Kind::Interrupted: return settle_interrupted(path, end, jobs, loop);
-        case EpochEnd::Kind::Complete: return settle_complete(path, jobs, loop);
+        case EpochEnd::Kind::Interrupted:
+            return ends ? jobs.end(JobOutcome::Stopped, loop) : settle_interrupted(path, end, jobs, loop);
+        case EpochEnd::Kind::Complete:
+            return ends ? jobs.end(JobOutcome::Stopped, loop) : settle_complete(path, jobs, loop);
     }
 }
 

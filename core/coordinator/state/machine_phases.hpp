@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/protocol/messages.hpp"
+#include "core/protocol/transition_table.hpp"
 
 namespace lockstep {
 
@@ -105,10 +106,7 @@ inline constexpr std::array kMachineTransitions{
 
 /// Returns the row of kMachineTransitions, or nullopt if the event cannot happen in this phase.
 constexpr std::optional<std::size_t> find_transition(MachinePhase from, MachineEvent event) {
-    for (std::size_t row = 0; row < kMachineTransitions.size(); ++row) {
-        if (kMachineTransitions[row].from == from && kMachineTransitions[row].event == event) { return row; }
-    }
-    return std::nullopt;
+    return find_row(kMachineTransitions, from, event);
 }
 
 constexpr std::string_view name_of(MachineEvent event) {
