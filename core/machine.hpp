@@ -1,6 +1,7 @@
 // The configuration of a machine in its user's units (mm, mm/s), and the conversion to the units of motion.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -36,6 +37,21 @@ struct PlantConfig {
     double max_jump_mm_s = 0;           // it also loses steps at larger jumps of speed
 };
 
+/// A `motor` block of an axis: what this motor has of its own. What is left out is the axis's.
+struct MotorBlock {
+    std::string name;
+    std::string host;
+    std::string device = "sim";
+    std::optional<double> steps_per_mm;
+    std::optional<double> start_velocity_mm_s;
+    std::optional<double> max_velocity_mm_s;
+    std::optional<double> max_accel_mm_s2;
+    std::optional<double> max_decel_mm_s2;
+    double switch_offset_mm = 0;  // its switch closes so far behind the axis's switch_position_mm
+    std::optional<PlantConfig> plant;
+};
+
+/// A coordinate that programs name. Without `motors` it has one motor, with its name, whose properties stand here.
 struct AxisConfig {
     std::string name;
     std::string host;            // on which it runs; empty: any host
@@ -52,6 +68,45 @@ struct AxisConfig {
     std::optional<double> safe_height_mm;    // where it is clear of the work; none: not known
     HomingConfig homing;
     PlantConfig plant;
+    std::vector<MotorBlock> motors;
+    std::optional<double> max_skew_mm;  // by how much its motors may differ while they square; several motors only
+};
+
+/// A share of an axis in the place of a motor.
+struct AxisShare {
+    std::string axis;
+    double factor = 0;  // mm of the motor per mm of the axis
+    bool operator==(const AxisShare&) const = default;
+};
+
+/// The place of a motor that is not that of its axis alone.
+struct MotorRow {
+    std::string motor;
+    std::vector<AxisShare> of;
+    bool operator==(const MotorRow&) const = default;
+};
+
+/// Two axes that are moved by two belts: the motors of the first turn by the sum, those of the second by the difference.
+struct CoreXy {
+    std::string first;
+    std::string second;
+    bool operator==(const CoreXy&) const = default;
+};
+
+/// The guide of an axis is not square to that of another: x moves by mm_per_m for each metre of y.
+struct Skew {
+    std::string x;
+    std::string y;
+    double mm_per_m = 0;
+    bool operator==(const Skew&) const = default;
+};
+
+/// Which motors move an axis, where that is not one motor of its own.
+struct KinematicsConfig {
+    std::optional<CoreXy> core_xy;
+    std::vector<MotorRow> matrix;
+    std::vector<Skew> skews;
+    bool operator==(const KinematicsConfig&) const = default;
 };
 
 struct NetworkConfig {
@@ -123,6 +178,7 @@ struct MachineConfig {
     std::string subroutine_directory;  // searched after the program's own; empty: only that
     std::optional<WebConfig> web;      // none: `lockstep up` starts no page
     std::vector<AxisConfig> axes;
+    KinematicsConfig kinematics;
 
     std::vector<std::string> axis_names() const;
     constexpr double ticks_per_second() const { return 1e9 / static_cast<double>(tick_ns); }
@@ -150,10 +206,29 @@ struct AxisLimits {
     std::int64_t max_steps = 0;
 };
 
-AxisLimits limits_of(const AxisConfig& axis, std::int64_t tick_ns);
+/// A motor, or an axis: whatever has steps, limits and a travel.
+template <typename Part>
+concept Moving = requires(const Part& part) {
+    part.steps_per_mm;
+    part.max_velocity_mm_s;
+    part.position_min_mm;
+};
 
 /// The nearest whole step to a place in mm.
-std::int64_t to_steps(const AxisConfig& axis, double mm);
-double to_mm(const AxisConfig& axis, double steps);
+std::int64_t to_steps(const Moving auto& part, double mm) { return std::llround(mm * part.steps_per_mm); }
+double to_mm(const Moving auto& part, double steps) { return steps / part.steps_per_mm; }
+
+AxisLimits limits_of(const Moving auto& part, std::int64_t tick_ns) {
+    const double tick_s = static_cast<double>(tick_ns) * 1e-9;
+    const double per_tick = part.steps_per_mm * tick_s;
+    return {
+        .start_velocity = part.start_velocity_mm_s * per_tick,
+        .max_velocity = part.max_velocity_mm_s * per_tick,
+        .max_acceleration = part.max_accel_mm_s2 * per_tick * tick_s,
+        .max_deceleration = part.max_decel_mm_s2 * per_tick * tick_s,
+        .min_steps = to_steps(part, part.position_min_mm),
+        .max_steps = to_steps(part, part.position_max_mm),
+    };
+}
 
 }  // namespace lockstep

@@ -1,9 +1,11 @@
 #include "core/motion/frame_limits.hpp"
 
 namespace lockstep {
+namespace {
 
-AxisLimits frame_limits_of(const MachineConfig& machine, std::size_t axis) {
-    AxisLimits limits = limits_of(machine.axes[axis], machine.tick_ns);
+template <Moving Part>
+AxisLimits with_reserves(const MachineConfig& machine, const Part& part) {
+    AxisLimits limits = limits_of(part, machine.tick_ns);
     if (machine.timing.time_source != TimeSource::Network) { return limits; }
     limits.max_velocity *= 1 - clock_reserve::kSpeed;
     limits.start_velocity *= 1 - clock_reserve::kAcceleration;
@@ -12,11 +14,26 @@ AxisLimits frame_limits_of(const MachineConfig& machine, std::size_t axis) {
     return limits;
 }
 
-std::vector<AxisLimits> frame_limits_of(const MachineConfig& machine) {
+template <Moving Part>
+std::vector<AxisLimits> all_with_reserves(const MachineConfig& machine, const std::vector<Part>& parts) {
     std::vector<AxisLimits> limits;
-    limits.reserve(machine.axes.size());
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) { limits.push_back(frame_limits_of(machine, i)); }
+    limits.reserve(parts.size());
+    for (const Part& part : parts) { limits.push_back(with_reserves(machine, part)); }
     return limits;
+}
+
+}  // namespace
+
+AxisLimits frame_limits_of(const MachineConfig& machine, std::size_t motor) {
+    return with_reserves(machine, motors_of(machine)[motor]);
+}
+
+std::vector<AxisLimits> frame_limits_of(const MachineConfig& machine) {
+    return all_with_reserves(machine, motors_of(machine));
+}
+
+std::vector<AxisLimits> axis_frame_limits_of(const MachineConfig& machine) {
+    return all_with_reserves(machine, machine.axes);
 }
 
 }  // namespace lockstep

@@ -1,4 +1,4 @@
-// The limits of an axis in frames: its own limits minus reserves for its device's clock.
+// The limits of a motor in frames: its own limits minus reserves for its device's clock.
 //
 // If each board has its own clock (TimeSource::Network), frames are planned in machine time and executed in device
 // time, in which the axis's limits hold at every step. The two rates differ by at most ClockEstimator::kMaxRate, and
@@ -10,7 +10,7 @@
 
 #include <vector>
 
-#include "core/machine.hpp"
+#include "core/kinematics/motors.hpp"
 
 namespace lockstep::clock_reserve {
 
@@ -22,8 +22,10 @@ inline constexpr double kCorrectionShare = 8e-3;  // of the acceleration, for co
 
 namespace lockstep {
 
-AxisLimits frame_limits_of(const MachineConfig& machine, std::size_t axis);
-/// The same limits of all axes, by their places in the configuration.
+AxisLimits frame_limits_of(const MachineConfig& machine, std::size_t motor);
+/// The same limits of all motors, in the order of motors_of.
 std::vector<AxisLimits> frame_limits_of(const MachineConfig& machine);
+/// What the machine's file allows the axes themselves, with the same reserves.
+std::vector<AxisLimits> axis_frame_limits_of(const MachineConfig& machine);
 
 }  // namespace lockstep

@@ -91,9 +91,10 @@ void ArcCutter::skip(const PathSetup& setup, int turns) {
     at_ = place(setup, turned(begin_, next_), next_ * kQuarter);
 }
 
-/// Steps per mm of the finer axis of its plane.
+/// The most steps of a motor per mm of its plane.
 double ArcCutter::scale(const PathSetup& setup) const {
-    return std::max(setup.steps_per_mm[arc_.first], setup.steps_per_mm[arc_.second]);
+    const auto of_axis = [&](std::size_t axis) { return setup.steps_per_mm[axis] / setup.step_of_motors(axis); };
+    return std::max(of_axis(arc_.first), of_axis(arc_.second));
 }
 
 ArcCutter::Direction ArcCutter::direction(const PathSetup& setup, const AxisVector& at, double& radius_mm) const {
@@ -149,7 +150,7 @@ AxisVector ArcCutter::place(const PathSetup& setup, Direction d, double done) co
     at[arc_.second] = (arc_.centre_second_mm + radius * y) * setup.steps_per_mm[arc_.second];
     for (std::size_t i = 0; i < at.size(); ++i) {
         if (is_off_) { at[i] += off_[i] * (1 - share); }
-        const TravelEnds travel = travel_ends_of(setup.limits[i]);
+        const TravelEnds travel = travel_ends_of(setup.limits_of_axis(i));
         at[i] = std::clamp(at[i], travel.least, travel.greatest);
     }
     return at;

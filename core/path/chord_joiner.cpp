@@ -153,7 +153,7 @@ bool ChordJoiner::try_chords(std::size_t chords, Quadratic& best) {
 bool ChordJoiner::is_within_travel(const Quadratic& piece) const {
     for (std::size_t i = 0; i < setup_.axes(); ++i) {
         const double turn = piece.bend[i] == 0 ? 0 : piece.length / 2 - piece.slope[i] / piece.bend[i];
-        const TravelEnds travel = travel_ends_of(setup_.limits[i]);
+        const TravelEnds travel = travel_ends_of(setup_.limits_of_axis(i));
         for (const double u : {std::clamp(turn, 0.0, piece.length), piece.length}) {
             const double at = piece.place(i, u);
             if (at < travel.least || at > travel.greatest) { return false; }
@@ -213,9 +213,10 @@ AxisVector ChordJoiner::end_at(std::size_t k) const {
 
 void ChordJoiner::set_tolerance(const MoveSettings& settings) {
     tolerance_steps_.clear();
-    for (const double per_mm : setup_.steps_per_mm) {
-        const double whole = std::max(1.0, settings.tolerance_mm * per_mm);
-        tolerance_steps_.push_back(whole - kPulseShare - kFitShare - kRoundingShare);
+    for (std::size_t i = 0; i < setup_.axes(); ++i) {
+        const double step = setup_.step_of_motors(i);
+        const double whole = std::max(step, settings.tolerance_mm * setup_.steps_per_mm[i]);
+        tolerance_steps_.push_back(whole - kPulseShare * step - kFitShare * step - kRoundingShare * step);
     }
 }
 

@@ -144,7 +144,7 @@ void FramePlanner::brake() {
     note_places(frame, held_tail_);
     note_begins(frame.ticks);
     Cursor behind = cursor_at(held_tail_, frame.ticks, true);
-    for (std::size_t i = 0; i < setup_.axes(); ++i) {
+    for (std::size_t i = 0; i < setup_.motors(); ++i) {
         AxisTrack& track = frame.axes[i];
         track.from = at_.points[i].position;
         track.body.clear();
@@ -168,15 +168,15 @@ void FramePlanner::brake() {
 
 std::optional<FitFailure> FramePlanner::fit_body(PathFrame& frame, Cursor& next) {
     auto points = at_.points;
-    frame.axes.resize(setup_.axes());
-    for (std::size_t i = 0; i < setup_.axes(); ++i) {
+    frame.axes.resize(setup_.motors());
+    for (std::size_t i = 0; i < setup_.motors(); ++i) {
         frame.axes[i].from = points[i].position;
         frame.axes[i].body.clear();
         frame.axes[i].tail.clear();
     }
     const auto failure = fit_.fit(path_, frame.ticks, setup_.body_pieces, {points.begin(), points.size()});
     if (failure) { return failure; }
-    for (std::size_t i = 0; i < setup_.axes(); ++i) {
+    for (std::size_t i = 0; i < setup_.motors(); ++i) {
         for (const Piece& piece : fit_.pieces(i)) { frame.axes[i].body.append(piece); }
         if (frame.last && !may_rest(points[i], setup_.limits[i])) { return FitFailure{frame.ticks}; }
     }
@@ -239,7 +239,7 @@ bool FramePlanner::fit_tail(PathFrame& frame, const Cursor& from) {
     if (tail_.phases().empty() || end <= Ticks{}) { return true; }
     auto points = from.points;
     if (fit_.fit(tail_, end, kMaxTailPieces, {points.begin(), points.size()})) { return false; }
-    for (std::size_t i = 0; i < setup_.axes(); ++i) {
+    for (std::size_t i = 0; i < setup_.motors(); ++i) {
         for (const Piece& piece : fit_.pieces(i)) { frame.axes[i].tail.append(piece); }
         if (!may_rest(points[i], setup_.limits[i])) { return false; }
     }

@@ -73,7 +73,7 @@ void PathGeometry::come_to_rest() {
     joiner_.finish(end, trail_);
     at_ = end;
     if (trail_.end() == ready_) { return; }
-    if (!move_end(end)) { trail_.pop_back(); }
+    move_end(end) ? trail_.rest_at_end() : trail_.pop_back();
 }
 
 /// Moves the end of the last piece. Returns false if the piece begins at this place.

@@ -1,5 +1,7 @@
 #include "core/path/path_planner.hpp"
 
+#include "core/path/motor_rows.hpp"
+
 namespace lockstep {
 
 PathPlanner::PathPlanner(const PathSetup& setup)
@@ -21,7 +23,8 @@ void PathPlanner::begin(std::span<const Position> at) {
     passed_ = 0;
     is_finished_ = false;
     geometry_.begin(at);
-    resume({}, at);
+    const AxisPositions motors = motors_at_rest(setup_, at);
+    resume({}, {motors.begin(), motors.size()});
 }
 
 void PathPlanner::resume(const PathPlace& place, std::span<const Position> at) {

@@ -19,9 +19,9 @@ public:
     PathPlanner(const PathPlanner& other);
     PathPlanner& operator=(const PathPlanner&) = delete;
 
-    /// Begins a path. The axes rest at `at`.
+    /// Begins a path. The axes rest at `at`, on whole steps, and the motors where the map places them.
     void begin(std::span<const Position> at);
-    /// The axes rest at `at`: the place of rest of one of the last kFramesKept frames, or the begin of the path. The
+    /// The motors rest at `at`: the place of rest of one of the last kFramesKept frames, or the begin of the path. The
     /// next frame continues from there.
     ///
     /// Another planner that was begun at the begin of the stream's first move, and then gets the same moves, continues

@@ -2,23 +2,37 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <span>
 #include <vector>
 
-#include "core/machine.hpp"
+#include "core/kinematics/motors.hpp"
 #include "core/motion/frame_limits.hpp"
 #include "core/path/axis_vector.hpp"
 #include "core/protocol/frame_room.hpp"
 
 namespace lockstep {
 
+/// Geometry is in steps of the axes; speeds are limited and pieces fitted in rows. If each axis is moved by a motor of
+/// its own, with the axis's steps, the rows are the axes. Otherwise they are the motors, and behind them the axes.
 struct PathSetup {
-    std::vector<AxisLimits> limits;            // of frames: frame_limits_of, as planned_limits
-    std::vector<double> steps_per_mm;          // or per degree
+    std::vector<AxisLimits> limits;            // of the rows in frames: frame_limits_of, as planned_limits
+    std::vector<double> steps_per_mm;          // of the axes, or per degree
     Ticks frame_ticks;                         // a frame's length: pieces end at the edges of frames
-    std::size_t body_pieces = kMaxBodyPieces;  // for which a frame has room, for each axis
+    std::size_t body_pieces = kMaxBodyPieces;  // for which a frame has room, for each motor
+    LinearMap motor_map;                       // steps of the motors by those of the axes; empty: each axis is a motor
+    /// Steps of each axis: if all axes deviate by so much, no motor deviates by more than a step. Empty: 1.
+    std::vector<double> motor_step;
 
-    std::size_t axes() const { return limits.size(); }
+    std::size_t axes() const { return steps_per_mm.size(); }
+    std::size_t motors() const { return has_map() ? motor_map.motors() : limits.size(); }
+    std::size_t rows() const { return limits.size(); }
+    bool has_map() const { return motor_map.axes() > 0; }
+    std::size_t first_axis_row() const { return motor_map.motors(); }
+    const AxisLimits& limits_of_axis(std::size_t axis) const { return limits[first_axis_row() + axis]; }
+    double step_of_motors(std::size_t axis) const { return has_map() ? motor_step[axis] : 1; }
+    /// The motors are moved by `map`. `limits` are those of the motors so far; `axes` are appended.
+    void use_map(const LinearMap& map, std::span<const AxisLimits> axes);
     AxisVector to_steps(std::span<const double> mm) const {
         AxisVector steps;
         for (std::size_t i = 0; i < axes(); ++i) { steps.append(mm[i] * steps_per_mm[i]); }
@@ -27,12 +41,25 @@ struct PathSetup {
     /// Moves a place beyond the travel, which rounds to its last step, to this step.
     AxisVector within_travel(AxisVector at) const {
         for (std::size_t i = 0; i < axes(); ++i) {
-            at[i] =
-                std::clamp(at[i], static_cast<double>(limits[i].min_steps), static_cast<double>(limits[i].max_steps));
+            const AxisLimits& axis = limits_of_axis(i);
+            at[i] = std::clamp(at[i], static_cast<double>(axis.min_steps), static_cast<double>(axis.max_steps));
         }
         return at;
     }
 };
+
+inline void PathSetup::use_map(const LinearMap& map, std::span<const AxisLimits> axes) {
+    motor_map = map;
+    limits.insert(limits.end(), axes.begin(), axes.end());
+    motor_step.assign(map.axes(), std::numeric_limits<double>::infinity());
+    for (std::size_t m = 0; m < map.motors(); ++m) {
+        double sum = 0;
+        for (const double share : map.row(m)) { sum += std::abs(share); }
+        for (std::size_t i = 0; i < map.axes(); ++i) {
+            if (map.factor(m, i) != 0) { motor_step[i] = std::min(motor_step[i], 1 / sum); }
+        }
+    }
+}
 
 /// An axis that would reach its start velocity within a few ticks accelerates less. Otherwise a rounding to whole ticks
 /// could change its speed by more than the start velocity, and no motion from rest would keep the limits. Its speed
@@ -53,7 +80,10 @@ inline PathSetup path_setup_of(const MachineConfig& machine) {
                     .steps_per_mm = {},
                     .frame_ticks = machine.frame_ticks(),
                     .body_pieces = static_cast<std::size_t>(body_pieces(machine.timing))};
-    for (AxisLimits& axis : setup.limits) { axis = planned_limits(axis); }
+    if (LinearMap map = step_map_of(machine); !map.is_identity()) {
+        setup.use_map(map, axis_frame_limits_of(machine));
+    }
+    for (AxisLimits& row : setup.limits) { row = planned_limits(row); }
     for (const AxisConfig& axis : machine.axes) { setup.steps_per_mm.push_back(axis.steps_per_mm); }
     return setup;
 }
@@ -64,7 +94,7 @@ inline constexpr double kPulseShare = 0.5;      // steps
 inline constexpr double kFitShare = 0.03;       // steps
 inline constexpr double kRoundingShare = 0.01;  // steps
 
-inline constexpr double kNothing = 1e-12;  // steps per mm: an axis with less does not move
+inline constexpr double kNothing = 1e-12;  // steps per mm: a row with less does not move
 
 /// The smaller of its acceleration and deceleration, steps per tick^2.
 inline double weaker(const AxisLimits& axis) { return std::min(axis.max_acceleration, axis.max_deceleration); }

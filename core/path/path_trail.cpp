@@ -18,6 +18,7 @@ void PathTrail::clear() {
     pieces_.clear();
     marks_.clear();
     first_ = 0;
+    is_at_rest_ = true;
 }
 
 void PathTrail::mark(double u, std::uint32_t block, double along) {
@@ -29,9 +30,11 @@ void PathTrail::add_rest(const Quadratic& rest, std::uint32_t block) {
     const Displacement along = is_at_end ? place_of({end() - 1, pieces_.back().length}).along : Displacement{};
     marks_.push_back({{end(), 0}, block, along});
     add(rest);
+    is_at_rest_ = true;
 }
 
 void PathTrail::pop_back() {
+    is_at_rest_ = pieces_.back().begins_at_rest;
     pieces_.pop_back();
     while (!marks_.empty() && marks_.back().at.piece == end()) { marks_.pop_back(); }
 }

@@ -29,9 +29,18 @@ public:
     /// at its begin and one for each move that begins on it. Blocks ascend. All marks of a move must be added before a
     /// place in it is looked up.
     void mark(double u, std::uint32_t block, double along);
-    void add(const Quadratic& piece) { pieces_.push_back(piece); }
+    void add(const Quadratic& piece) {
+        pieces_.push_back(piece);
+        pieces_.back().begins_at_rest = is_at_rest_;
+        is_at_rest_ = false;
+    }
     /// Adds a rest, as a separate move or at the end of the last move.
     void add_rest(const Quadratic& rest, std::uint32_t block);
+    /// The machine rests at the end of the last piece, at whole steps.
+    void rest_at_end() {
+        pieces_.back().ends_at_rest = true;
+        is_at_rest_ = true;
+    }
     /// Removes the last piece and its marks.
     void pop_back();
     /// Drops the pieces before this one.
@@ -69,6 +78,7 @@ private:
     ReusedQueue<Quadratic> pieces_;
     SlidingVector<Mark> marks_;
     std::size_t first_ = 0;
+    bool is_at_rest_ = true;  // at the end of the last piece
 };
 
 }  // namespace lockstep

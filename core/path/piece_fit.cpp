@@ -22,11 +22,11 @@ Position position_of(double steps) {
 
 PieceFit::PieceFit(const PathSetup& setup)
     : setup_(setup),
-      fitted_(setup.axes()),
-      pieces_(setup.axes()),
-      points_(setup.axes()),
-      try_pieces_(setup.axes()),
-      try_points_(setup.axes()) {
+      fitted_(setup.motors()),
+      pieces_(setup.motors()),
+      points_(setup.motors()),
+      try_pieces_(setup.motors()),
+      try_points_(setup.motors()) {
     for (std::vector<Piece>& pieces : fitted_) { pieces.reserve(std::max(setup.body_pieces, kMaxTailPieces)); }
 }
 
@@ -121,7 +121,7 @@ bool PieceFit::try_piece(Ticks begin, Ticks end, std::span<const MotionPoint> po
     const PathPhase& last = path_->phases()[s.last];
     const PathPhase& first = path_->phases()[s.first];
     const PathPhase& at_end = phase_at(s);
-    for (std::size_t i = 0; i < setup_.axes(); ++i) {
+    for (std::size_t i = 0; i < setup_.motors(); ++i) {
         const double a = acceleration(s, i);
         const Position to = position_of(at_end.place(i, to_double(end)));
         const double v0 = (to - points[i].position).as_steps() / ticks - a * ticks / 2;
@@ -132,7 +132,7 @@ bool PieceFit::try_piece(Ticks begin, Ticks end, std::span<const MotionPoint> po
         if (tolerance_ <= 1 && is_hard_turn(i, v0, a, ticks)) { return false; }
         try_pieces_[i] = solve_piece(points[i].position, to, end - begin, a);
     }
-    for (std::size_t i = 0; i < setup_.axes(); ++i) {
+    for (std::size_t i = 0; i < setup_.motors(); ++i) {
         try_points_[i] = points[i];
         if (check_pieces({&try_pieces_[i], 1}, setup_.limits[i], try_points_[i]) != FaultCode::None) { return false; }
     }
@@ -199,7 +199,7 @@ std::optional<FitFailure> PieceFit::fit(const TimedPath& path, Ticks end, std::s
         }
         if (ticks == Ticks{}) { return FitFailure{now}; }
         if (made == most) { return FitFailure{now, true}; }
-        for (std::size_t i = 0; i < setup_.axes(); ++i) {
+        for (std::size_t i = 0; i < setup_.motors(); ++i) {
             points[i] = points_[i];
             fitted_[i].push_back(pieces_[i]);
         }

@@ -1,4 +1,4 @@
-// A piece of geometry: each axis is a quadratic function of the distance u along the piece.
+// A piece of geometry: each axis, or row of PathSetup, is a quadratic function of the distance u along the piece.
 //
 //     x(u) = from + slope u + bend u (u - length) / 2,   0 <= u <= length
 //
@@ -21,6 +21,8 @@ struct Quadratic {
     std::optional<double> feed_mm_per_tick;  // nullopt: as fast as the axes allow
     bool is_feed_fixed = false;              // the feed override has no effect
     bool is_straight = true;                 // bend is 0
+    bool begins_at_rest = false;             // the machine rests at its begin, and there at whole steps
+    bool ends_at_rest = false;
     Ticks rest;                              // duration if length is 0
 
     double place(std::size_t i, double u) const {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/path/motor_rows.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -14,10 +16,10 @@ constexpr int kMostHalves = 40;
 constexpr std::size_t kLeastParts = 4;  // of a piece that may be faster than the joints at its ends
 
 /// The angle by which a piece turns over `length`, rad.
-double turn_of(const Quadratic& piece, double length, std::span<const double> steps_per_mm) {
+double turn_of(const Quadratic& piece, double length, const PathSetup& setup) {
     double square = 0;
-    for (std::size_t i = 0; i < steps_per_mm.size(); ++i) {
-        const double bend = piece.bend.begin()[i] / steps_per_mm[i];
+    for (std::size_t i = 0; i < setup.axes(); ++i) {
+        const double bend = piece.bend.begin()[setup.first_axis_row() + i] / setup.steps_per_mm[i];
         square += bend * bend;
     }
     return std::sqrt(square) * length;
@@ -41,6 +43,10 @@ void SpeedWindow::restart(const Overrides& overrides, const PathSpot& begin) {
 }
 
 void SpeedWindow::add(const Quadratic& piece) {
+    setup_.has_map() ? add_rows(rows_of(setup_, piece)) : add_rows(piece);
+}
+
+void SpeedWindow::add_rows(const Quadratic& piece) {
     if (pending_) { close_pending(&piece); }
     pending_ = piece;
     if (end() - final_ >= due_) { look_ahead(); }
@@ -66,7 +72,7 @@ SpeedWindow::Joint SpeedWindow::joint(const Quadratic* before, const Quadratic* 
     Joint joint{kMost, 0};
     const bool is_stop = before == nullptr || after == nullptr;
     const bool is_rest = (before != nullptr && before->length == 0) || (after != nullptr && after->length == 0);
-    for (std::size_t i = 0; i < setup_.axes(); ++i) {
+    for (std::size_t i = 0; i < setup_.rows(); ++i) {
         const double t0 = before == nullptr || before->length == 0 ? 0 : before->slope_at(i, before->length);
         const double t1 =
             after == nullptr || after->length == 0 ? 0 : after->slope_at(i, before == nullptr ? begin_u_ : 0);
@@ -121,7 +127,7 @@ SpeedWindow::FastPassage SpeedWindow::fast_passage(const JoinedPiece& piece, con
     const Interval whole{.kind = kind, .from = from, .to = shape.length};
     const double top = IntervalBounds(setup_, piece, whole).cap(overrides_);
     double path_acceleration = kMost;
-    for (std::size_t i = 0; i < setup_.axes(); ++i) {
+    for (std::size_t i = 0; i < setup_.rows(); ++i) {
         const double slope = std::abs(shape.slope.begin()[i]);
         if (slope > kNothing) { path_acceleration = std::min(path_acceleration, weaker(setup_.limits[i]) / slope); }
     }
@@ -143,7 +149,7 @@ void SpeedWindow::charge(JoinedPiece& piece, const Neighbours& beside) const {
     const bool goes_on = beside.goes_on();
     piece.is_charged = false;
     piece.charged = shape.bend;
-    for (std::size_t i = 0; i < setup_.axes(); ++i) {
+    for (std::size_t i = 0; i < setup_.rows(); ++i) {
         const double turn0 = follows ? shape.slope_at(i, 0) - before->slope_at(i, before->length) : 0;
         const double turn1 = goes_on ? next->slope_at(i, 0) - shape.slope_at(i, shape.length) : 0;
         const double jumps = (turn0 * fast.v0 + turn1 * fast.v1) / 2;
@@ -221,7 +227,7 @@ void SpeedWindow::cut_piece(const JoinedPiece& piece, const Joint& begin, const 
     } else if (shape.is_straight && !piece.is_charged) {
         part.kind = IntervalKind::Straight;
         part.acceleration = part.deceleration = kMost;
-        for (std::size_t i = 0; i < setup_.axes(); ++i) {
+        for (std::size_t i = 0; i < setup_.rows(); ++i) {
             const double slope = std::abs(shape.slope.begin()[i]);
             if (slope <= kNothing) { continue; }
             part.acceleration = std::min(part.acceleration, setup_.limits[i].max_acceleration / slope);
@@ -229,7 +235,7 @@ void SpeedWindow::cut_piece(const JoinedPiece& piece, const Joint& begin, const 
         }
     } else {
         const double by_length = length / kMaxInterval_mm;
-        const double by_turn = turn_of(shape, length, setup_.steps_per_mm) / kMaxTurn;
+        const double by_turn = turn_of(shape, length, setup_) / kMaxTurn;
         parts = 1 + static_cast<std::size_t>(std::max(by_length, by_turn));
         if (parts < kLeastParts && (shape.is_straight || is_slow_at_ends(piece, begin, end))) { parts = kLeastParts; }
     }

@@ -35,7 +35,7 @@ public:
     /// added.
     void restart(const Overrides& overrides, const PathSpot& begin);
 
-    /// Adds a piece that begins where the last one ends. A length of 0 is a rest.
+    /// Adds a piece that begins where the last one ends, in steps of the axes. A length of 0 is a rest.
     void add(const Quadratic& piece);
     /// Ends the path at rest at the end of the last piece. All intervals are then final.
     void finish();
@@ -93,6 +93,7 @@ private:
     struct FastPassage;
 
     const Quadratic* before() const { return before_ ? &*before_ : nullptr; }
+    void add_rows(const Quadratic& piece);
     void close_pending(const Quadratic* next);
     void close_end();
     bool is_passed(const Quadratic& piece, const Quadratic* next) const;

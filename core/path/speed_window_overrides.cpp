@@ -38,7 +38,7 @@ bool SpeedWindow::may_rise(std::size_t piece) const {
     const auto is_paid = [&](std::size_t axis, const JoinedPiece& as) {
         return as.is_charged && as.charged.begin()[axis] != as.shape.bend.begin()[axis];
     };
-    for (std::size_t axis = 0; axis < setup_.axes(); ++axis) {
+    for (std::size_t axis = 0; axis < setup_.rows(); ++axis) {
         if (is_paid(axis, turned) && !is_paid(axis, begun)) { return false; }
     }
     return true;
@@ -69,7 +69,7 @@ void SpeedWindow::recut_behind(std::size_t piece) {
     before_ = pieces_.back().shape;
     joint_.reset();
     pending_.reset();
-    for (; !ahead_.empty(); ahead_.pop_back()) { add(ahead_.back()); }
+    for (; !ahead_.empty(); ahead_.pop_back()) { add_rows(ahead_.back()); }
 }
 
 /// Raises caps and tops for braking from w at the beginning of an interval. An interval that arrives later is limited

@@ -208,7 +208,7 @@ private:
 
 /// Frames follow each other bit by bit, keep the limits, and every tail leads to rest.
 inline void expect_within_limits(const PathSetup& setup, const PathRun& run) {
-    for (std::size_t i = 0; i < setup.axes(); ++i) {
+    for (std::size_t i = 0; i < setup.motors(); ++i) {
         SpeedWatch watch(setup.limits[i]);
         Position at = run.from.empty() ? Position{} : run.from[i];
         for (std::size_t k = 0; k < run.frames.size(); ++k) {

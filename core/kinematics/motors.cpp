@@ -1,0 +1,157 @@
+#include "core/kinematics/motors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lockstep {
+namespace {
+
+std::size_t axis_named(const MachineConfig& machine, const std::string& name) {
+    return static_cast<std::size_t>(std::ranges::find(machine.axes, name, &AxisConfig::name) - machine.axes.begin());
+}
+
+MotorConfig motor_of_axis(const AxisConfig& axis, std::size_t place) {
+    return {.name = axis.name,
+            .axis = place,
+            .host = axis.host,
+            .device = axis.device,
+            .steps_per_mm = axis.steps_per_mm,
+            .method = axis.method,
+            .unhomed_jog_mm_s = axis.unhomed_jog_mm_s,
+            .homing = axis.homing,
+            .plant = axis.plant};
+}
+
+MotorConfig motor_of_block(const AxisConfig& axis, std::size_t place, const MotorBlock& block) {
+    MotorConfig motor = motor_of_axis(axis, place);
+    motor.name = block.name;
+    motor.host = block.host;
+    motor.device = block.device;
+    motor.steps_per_mm = block.steps_per_mm.value_or(axis.steps_per_mm);
+    motor.homing.switch_position_mm += block.switch_offset_mm;
+    motor.plant = block.plant.value_or(axis.plant);
+    return motor;
+}
+
+/// What the axes demand of a motor: the sum of the shares of their limits.
+template <typename Limit>
+double demand(const MachineConfig& machine, std::span<const double> shares, Limit limit) {
+    double sum = 0;
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        if (shares[i] != 0) { sum += std::abs(shares[i]) * (machine.axes[i].*limit); }
+    }
+    return sum;
+}
+
+void set_limits(MotorConfig& motor, const MachineConfig& machine, const MotorBlock* block,
+                std::span<const double> shares) {
+    const auto limit = [&](auto of_axis, auto of_block) {
+        return block != nullptr && block->*of_block ? *(block->*of_block) : demand(machine, shares, of_axis);
+    };
+    motor.start_velocity_mm_s = limit(&AxisConfig::start_velocity_mm_s, &MotorBlock::start_velocity_mm_s);
+    motor.max_velocity_mm_s = limit(&AxisConfig::max_velocity_mm_s, &MotorBlock::max_velocity_mm_s);
+    motor.max_accel_mm_s2 = limit(&AxisConfig::max_accel_mm_s2, &MotorBlock::max_accel_mm_s2);
+    motor.max_decel_mm_s2 = limit(&AxisConfig::max_decel_mm_s2, &MotorBlock::max_decel_mm_s2);
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        const AxisConfig& axis = machine.axes[i];
+        if (shares[i] == 0) { continue; }
+        const double a = shares[i] * axis.position_min_mm;
+        const double b = shares[i] * axis.position_max_mm;
+        motor.position_min_mm += std::min(a, b);
+        motor.position_max_mm += std::max(a, b);
+    }
+}
+
+void set_share(LinearMap& map, std::size_t motor, const MachineConfig& machine, const std::string& axis, double share) {
+    const std::size_t place = axis_named(machine, axis);
+    if (place < machine.axes.size()) { map.factor(motor, place) = share; }
+}
+
+}  // namespace
+
+std::size_t motor_count(const MachineConfig& machine) {
+    std::size_t count = 0;
+    for (const AxisConfig& axis : machine.axes) { count += std::max<std::size_t>(axis.motors.size(), 1); }
+    return count;
+}
+
+std::vector<std::string> motor_names(const MachineConfig& machine) {
+    std::vector<std::string> names;
+    for (const AxisConfig& axis : machine.axes) {
+        if (axis.motors.empty()) { names.push_back(axis.name); }
+        for (const MotorBlock& motor : axis.motors) { names.push_back(motor.name); }
+    }
+    return names;
+}
+
+LinearMap motor_map_of(const MachineConfig& machine) {
+    const KinematicsConfig& kinematics = machine.kinematics;
+    const std::vector<std::string> names = motor_names(machine);
+    LinearMap map(names.size(), machine.axes.size());
+    std::size_t motor = 0;
+    for (std::size_t a = 0; a < machine.axes.size(); ++a) {
+        const AxisConfig& axis = machine.axes[a];
+        for (std::size_t k = 0; k < std::max<std::size_t>(axis.motors.size(), 1); ++k, ++motor) {
+            map.factor(motor, a) = 1;
+            if (!kinematics.core_xy) { continue; }
+            if (axis.name == kinematics.core_xy->first) { set_share(map, motor, machine, kinematics.core_xy->second, 1); }
+            if (axis.name == kinematics.core_xy->second) {
+                set_share(map, motor, machine, kinematics.core_xy->first, 1);
+                map.factor(motor, a) = -1;
+            }
+        }
+    }
+    for (const MotorRow& row : kinematics.matrix) {
+        const auto found = std::ranges::find(names, row.motor);
+        if (found == names.end()) { continue; }
+        const auto place = static_cast<std::size_t>(found - names.begin());
+        for (std::size_t i = 0; i < map.axes(); ++i) { map.factor(place, i) = 0; }
+        for (const AxisShare& share : row.of) { set_share(map, place, machine, share.axis, share.factor); }
+    }
+    for (const Skew& skew : kinematics.skews) {
+        LinearMap shear = LinearMap::identity(machine.axes.size());
+        constexpr double kMetre_mm = 1000;
+        const std::size_t x = axis_named(machine, skew.x);
+        if (x < machine.axes.size()) { set_share(shear, x, machine, skew.y, skew.mm_per_m / kMetre_mm); }
+        map = map.after(shear);
+    }
+    return map;
+}
+
+std::vector<MotorConfig> motors_of(const MachineConfig& machine) {
+    const LinearMap map = motor_map_of(machine);
+    std::vector<MotorConfig> motors;
+    const auto add = [&](MotorConfig motor, const MotorBlock* block) {
+        const std::size_t place = motors.size();
+        const auto shares = map.row(place);
+        set_limits(motor, machine, block, shares);
+        motor.moves_one_axis = map.only_axis_of(place) == motor.axis;
+        if (!motor.moves_one_axis) {
+            motor.unhomed_jog_mm_s.reset();
+            motor.plant.start_position_mm = 0;
+            for (std::size_t i = 0; i < shares.size(); ++i) {
+                motor.plant.start_position_mm += shares[i] * machine.axes[i].plant.start_position_mm;
+            }
+        }
+        motors.push_back(std::move(motor));
+    };
+    for (std::size_t a = 0; a < machine.axes.size(); ++a) {
+        const AxisConfig& axis = machine.axes[a];
+        if (axis.motors.empty()) { add(motor_of_axis(axis, a), nullptr); }
+        for (const MotorBlock& block : axis.motors) { add(motor_of_block(axis, a, block), &block); }
+    }
+    return motors;
+}
+
+LinearMap step_map_of(const MachineConfig& machine) {
+    LinearMap map = motor_map_of(machine);
+    const std::vector<MotorConfig> motors = motors_of(machine);
+    for (std::size_t m = 0; m < motors.size(); ++m) {
+        for (std::size_t i = 0; i < map.axes(); ++i) {
+            map.factor(m, i) *= motors[m].steps_per_mm / machine.axes[i].steps_per_mm;
+        }
+    }
+    return map;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,47 @@
+// The motors of a machine: each is moved by one device and served by one process.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/kinematics/linear_map.hpp"
+#include "core/machine.hpp"
+
+namespace lockstep {
+
+/// A motor, with everything that its process and its device need. Its mm are those of its own way: of a belt, not of
+/// the axis, where these differ.
+struct MotorConfig {
+    std::string name;
+    std::size_t axis = 0;         // in whose configuration it stands
+    bool moves_one_axis = true;   // its place is that of this axis; false: it also follows other axes
+    std::string host;             // on which it runs; empty: any host
+    std::string device = "sim";
+    double steps_per_mm = 0;
+    double start_velocity_mm_s = 0;
+    double max_velocity_mm_s = 0;
+    double max_accel_mm_s2 = 0;
+    double max_decel_mm_s2 = 0;
+    double position_min_mm = 0;
+    double position_max_mm = 0;
+    StepMethod method = StepMethod::Ranade;
+    std::optional<double> unhomed_jog_mm_s;  // greatest speed of a jog while unhomed; none: no such jog
+    HomingConfig homing;
+    PlantConfig plant;
+};
+
+/// The motors in the order of the axes in whose configuration they stand. A limit that a motor has not of its own is
+/// what the axes' limits demand of it at most, and its travel is what the axes' travels do. `machine` must be one that
+/// machine_from_text (services/documents) has accepted.
+std::vector<MotorConfig> motors_of(const MachineConfig& machine);
+std::size_t motor_count(const MachineConfig& machine);
+std::vector<std::string> motor_names(const MachineConfig& machine);
+
+/// The places of the motors in mm by those of the axes in mm (or degrees).
+LinearMap motor_map_of(const MachineConfig& machine);
+/// The same in steps of the motors by steps of the axes.
+LinearMap step_map_of(const MachineConfig& machine);
+
+}  // namespace lockstep
