@@ -1,5 +1,5 @@
 // An arc, helix or spiral between two places: its length, its extent and its chords. Travel checks, estimates and
-// pictures use it. The planner cuts arcs with core/path/arc_cutter.hpp.
+// pictures use it. The planner cuts arcs with core/path/geometry/arc_cutter.hpp.
 #pragma once
 
 #include <cmath>

@@ -130,6 +130,8 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
       "see the sender's message; run the rest of the program: {run-rest}", {}) \
     X(AwayFromPause, 146, "away-from-pause", "axes were moved in the pause, and the job continues only from the place where it paused", \
       "a resume first shows the way back, then moves the axes there", either(Remedy::Resume, Remedy::Stop)) \
+    X(MotorsSkewed, 147, "motors-skewed", "the motors of an axis are not at the same place of it, or came apart by more than max_skew_mm while they homed", \
+      "find out what holds the slower side back; the machine may be racked", in_order(Remedy::Reset, Remedy::Home)) \
     X(WriterHeld, 150, "writer-held", "another writer has the machine; other clients can only watch, hold and stop it", \
       "wait until the writer gives it back; or take it over: {take}", {})
 // clang-format on

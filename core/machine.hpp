@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/axis_set.hpp"
+#include "core/device_name.hpp"
 #include "core/protocol/timing.hpp"
 #include "core/unassigned_words.hpp"
 #include "core/units.hpp"
@@ -19,7 +20,8 @@ enum class StepMethod : std::uint8_t { Ranade, Spielauer, Lai, Lam, Carrica };
 
 /// How an axis finds its zero. Speeds are positive; `toward_min` says which end it searches.
 struct HomingConfig {
-    int sequence = 0;  // axes with lower numbers home first; equal ones together
+    int sequence = 0;       // axes with lower numbers home first; equal ones together
+    bool in_place = false;  // no switch: where the axis stands is park_mm
     bool toward_min = true;
     double search_velocity_mm_s = 0;   // not above start_velocity: the switch stops the pulses at once
     double latch_velocity_mm_s = 0;    // the slow second approach that sets the zero
@@ -41,7 +43,7 @@ struct PlantConfig {
 struct MotorBlock {
     std::string name;
     std::string host;
-    std::string device = "sim";
+    DeviceName device;
     std::optional<double> steps_per_mm;
     std::optional<double> start_velocity_mm_s;
     std::optional<double> max_velocity_mm_s;
@@ -54,8 +56,8 @@ struct MotorBlock {
 /// A coordinate that programs name. Without `motors` it has one motor, with its name, whose properties stand here.
 struct AxisConfig {
     std::string name;
-    std::string host;            // on which it runs; empty: any host
-    std::string device = "sim";  // simulated in its process; "shm:NAME": one of lockstep-fpga; "uio:PATH": mapped
+    std::string host;  // on which it runs; empty: any host
+    DeviceName device;
     double steps_per_mm = 0;
     double start_velocity_mm_s = 0;
     double max_velocity_mm_s = 0;
@@ -86,7 +88,8 @@ struct MotorRow {
     bool operator==(const MotorRow&) const = default;
 };
 
-/// Two axes that are moved by two belts: the motors of the first turn by the sum, those of the second by the difference.
+/// Two axes that are moved by two belts: the motors of the first turn by the sum, those of the second by the
+/// difference.
 struct CoreXy {
     std::string first;
     std::string second;

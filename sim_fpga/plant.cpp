@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/kinematics/motors.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -16,37 +18,37 @@ std::int64_t steps_up(double steps) { return std::llround(std::ceil(steps - kRou
 
 }  // namespace
 
-Plant::Plant(const AxisConfig& axis, std::int64_t tick_ns)
-    : steps_per_mm_(axis.steps_per_mm), start_mm_(axis.plant.start_position_mm) {
+Plant::Plant(const MotorConfig& motor, std::int64_t tick_ns)
+    : steps_per_mm_(motor.steps_per_mm), start_mm_(motor.plant.start_position_mm) {
     const auto steps_to = [&](double mm) { return (mm - start_mm_) * steps_per_mm_; };
-    limit_min_at_ = steps_down(steps_to(axis.position_min_mm - axis.plant.travel_margin_mm));
-    limit_max_at_ = steps_up(steps_to(axis.position_max_mm + axis.plant.travel_margin_mm));
-    home_toward_min_ = axis.homing.toward_min;
-    const double home = steps_to(axis.homing.switch_position_mm);
+    limit_min_at_ = steps_down(steps_to(motor.position_min_mm - motor.plant.travel_margin_mm));
+    limit_max_at_ = steps_up(steps_to(motor.position_max_mm + motor.plant.travel_margin_mm));
+    home_toward_min_ = motor.homing.toward_min;
+    const double home = steps_to(motor.homing.switch_position_mm);
     home_at_ = home_toward_min_ ? steps_down(home) : steps_up(home);
-    keep_limits_open(axis);
+    keep_limits_open(motor);
 
     const double tick_s = static_cast<double>(tick_ns) * 1e-9;
-    max_acceleration_ = axis.plant.max_torque_accel_mm_s2 * steps_per_mm_ * tick_s * tick_s;
-    max_gap_ = axis.plant.max_jump_mm_s * steps_per_mm_ * tick_s + std::sqrt(2 * max_acceleration_);
+    max_acceleration_ = motor.plant.max_torque_accel_mm_s2 * steps_per_mm_ * tick_s * tick_s;
+    max_gap_ = motor.plant.max_jump_mm_s * steps_per_mm_ * tick_s + std::sqrt(2 * max_acceleration_);
 }
 
 /// The places that the axis must reach, in steps since power-up. After homing the axis counts from its switch, so an
 /// end of travel is a number of whole steps from there.
-void Plant::keep_limits_open(const AxisConfig& axis) {
+void Plant::keep_limits_open(const MotorConfig& motor) {
     const auto counted = [&](double mm) {
-        return home_at_ + to_steps(axis, mm) - to_steps(axis, axis.homing.switch_position_mm);
+        return home_at_ + to_steps(motor, mm) - to_steps(motor, motor.homing.switch_position_mm);
     };
     const std::array<std::pair<double, std::int64_t>, 4> places{
         {{start_mm_, 0},
-         {axis.homing.switch_position_mm, home_at_},
-         {axis.position_min_mm, counted(axis.position_min_mm)},
-         {axis.position_max_mm, counted(axis.position_max_mm)}}};
+         {motor.homing.switch_position_mm, home_at_},
+         {motor.position_min_mm, counted(motor.position_min_mm)},
+         {motor.position_max_mm, counted(motor.position_max_mm)}}};
     for (const auto& [mm, steps] : places) {
-        if (mm > axis.position_min_mm - axis.plant.travel_margin_mm) {
+        if (mm > motor.position_min_mm - motor.plant.travel_margin_mm) {
             limit_min_at_ = std::min(limit_min_at_, steps - 1);
         }
-        if (mm < axis.position_max_mm + axis.plant.travel_margin_mm) {
+        if (mm < motor.position_max_mm + motor.plant.travel_margin_mm) {
             limit_max_at_ = std::max(limit_max_at_, steps + 1);
         }
     }

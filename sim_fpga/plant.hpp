@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "core/machine.hpp"
+#include "core/kinematics/motors.hpp"
 #include "core/step/segment.hpp"
 
 namespace lockstep {
@@ -35,7 +35,7 @@ class Plant {
 public:
     /// The slide starts at plant.start_position_mm. plant.max_jump_mm_s and max_torque_accel_mm_s2 are the motor's
     /// capability: at 0 it loses every step.
-    Plant(const AxisConfig& axis, std::int64_t tick_ns);
+    Plant(const MotorConfig& motor, std::int64_t tick_ns);
 
     /// One pulse. Ticks must rise from call to call.
     void step(StepEdge edge) {
@@ -67,7 +67,7 @@ private:
 
     /// A limit switch closes at least a step beyond every place that is within the limit switches, even if both are
     /// within one step.
-    void keep_limits_open(const AxisConfig& axis);
+    void keep_limits_open(const MotorConfig& motor);
     void evaluate(StepEdge edge);
 
     double steps_per_mm_;

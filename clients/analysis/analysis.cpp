@@ -12,6 +12,8 @@
 #include "clients/analysis/recorder.hpp"
 #include "clients/analysis/sorter.hpp"
 #include "clients/analysis/stages/stage_thread.hpp"
+#include "core/axis_unit.hpp"
+#include "core/kinematics/motors.hpp"
 
 namespace lockstep::analysis {
 namespace {
@@ -40,21 +42,24 @@ bool is_dwell(const MoveLog& move) {
            std::ranges::none_of(move.axes, [](const AxisMove& axis) { return axis.asked_steps != 0; });
 }
 
-const AxisConfig* Analysis::axis_config(const std::string& name) const {
-    if (!config) { return nullptr; }
-    const auto found = std::ranges::find(config->axes, name, &AxisConfig::name);
-    return found == config->axes.end() ? nullptr : &*found;
+const MotorConfig* Analysis::motor_config(const std::string& name) const {
+    const auto found = std::ranges::find(motors, name, &MotorConfig::name);
+    return found == motors.end() ? nullptr : &*found;
+}
+
+std::string_view Analysis::unit_of(const std::string& motor) const {
+    const MotorConfig* configured = motor_config(motor);
+    return lockstep::unit_of(configured ? config->axes[configured->axis].name : motor);
 }
 
 std::optional<double> Analysis::steps_per_mm(const AxisLog& axis) const {
-    const AxisConfig* configured = axis_config(axis.name());
+    const MotorConfig* configured = motor_config(axis.name());
     return configured ? std::optional(configured->steps_per_mm) : axis.steps_per_mm();
 }
 
 std::vector<std::string> Analysis::absent_axes() const {
     std::vector<std::string> absent;
-    if (!config) { return absent; }
-    for (const AxisConfig& axis : config->axes) {
+    for (const MotorConfig& axis : motors) {
         const auto is_it = [&](const auto& recorded) { return recorded->name() == axis.name; };
         if (std::ranges::none_of(axes, is_it)) { absent.push_back(axis.name); }
     }

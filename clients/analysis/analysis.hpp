@@ -21,6 +21,7 @@
 #include "clients/analysis/measure/skew.hpp"
 #include "clients/drawing/svg.hpp"
 #include "clients/verification/findings.hpp"
+#include "core/kinematics/motors.hpp"
 #include "core/machine.hpp"
 #include "core/program.hpp"
 #include "services/record/reading/damage.hpp"
@@ -76,6 +77,7 @@ struct Analysis {
     std::string machine;
     verification::Findings verified;             // the comparison of all steps with their frames and programs
     std::optional<MachineConfig> config;         // of the last job that has one
+    std::vector<MotorConfig> motors;             // of config
     std::vector<std::unique_ptr<AxisLog>> axes;  // in the configuration's order; by name without one
     std::vector<JobLog> jobs;                    // in the order they began, the first kJobsKept
     std::uint64_t jobs_not_kept = 0;
@@ -98,7 +100,10 @@ struct Analysis {
 
     std::int64_t tick_ns() const { return config ? config->tick_ns : MachineConfig{}.tick_ns; }
     /// The configured axis of this name, or null.
-    const AxisConfig* axis_config(const std::string& name) const;
+    /// Null if the configuration is not known, or lacks the motor.
+    const MotorConfig* motor_config(const std::string& name) const;
+    /// mm or deg.
+    std::string_view unit_of(const std::string& motor) const;
     /// From the configuration, else from the axis's own messages; nullopt if neither contains it.
     std::optional<double> steps_per_mm(const AxisLog& axis) const;
     /// Whether the log has the frames of steps, as logs of all but early versions have.

@@ -8,6 +8,7 @@
 #include "clients/analysis/findings.hpp"
 #include "clients/text/event_text.hpp"
 #include "core/axis_unit.hpp"
+#include "core/kinematics/motors.hpp"
 #include "core/number_text.hpp"
 
 namespace lockstep::analysis {
@@ -72,11 +73,11 @@ std::string axis_row(const Analysis& analysis, const AxisLog& axis) {
     const auto place = [&](const std::optional<StepPlace>& at) {
         return at ? fmt::format("{:.3f}", in.position(at->position_steps)) : std::string("-");
     };
-    const AxisConfig* config = analysis.axis_config(axis.name());
+    const MotorConfig* config = analysis.motor_config(axis.name());
     const auto limit = [&](double of) { return config != nullptr ? fmt::format("{:g}", of) : std::string("-"); };
     const auto commanded = axis.commanded_steps_per_tick2();
     return fmt::format("{:<10} {:>5} {:>13} {:>10} {:>10} {:>9.2f} {:>7} {:>9} {:>7} {:>9.0f} {:>8}\n", axis.name(),
-                       steps_per_mm ? unit_of(axis.name()) : "steps", grouped(found.steps()),
+                       steps_per_mm ? analysis.unit_of(axis.name()) : "steps", grouped(found.steps()),
                        found.first() ? fmt::format("{:.3f}", in.position(found.start_steps())) : "-",
                        place(found.last()), in.speed(found.peak_steps_per_tick()),
                        limit(config != nullptr ? config->max_velocity_mm_s : 0),

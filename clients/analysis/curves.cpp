@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/axis_unit.hpp"
+#include "core/kinematics/motors.hpp"
 
 namespace lockstep::analysis {
 namespace {
@@ -31,7 +32,7 @@ Scaled scaled(const Analysis& analysis, const AxisLog& axis) {
     const auto steps_per_mm = analysis.steps_per_mm(axis);
     Scaled out{.origin = analysis.first_tick().value_or(Tick{})};
     out.curve.axis = axis.name();
-    out.curve.unit = steps_per_mm ? unit_of(axis.name()) : "steps";
+    out.curve.unit = steps_per_mm ? analysis.unit_of(axis.name()) : "steps";
     out.length_per_step = steps_per_mm ? 1 / *steps_per_mm : 1;
     out.ticks_per_s = 1e9 / static_cast<double>(analysis.tick_ns());
     for (const Break& what : axis.statistics().breaks()) {
@@ -71,7 +72,7 @@ std::vector<Sample> known_speed(const AxisLog& axis) {
 
 drawing::AxisCurve speed_curve(const Analysis& analysis, const AxisLog& axis) {
     Scaled out = scaled(analysis, axis);
-    if (const AxisConfig* config = analysis.axis_config(axis.name())) { out.curve.limit = config->max_velocity_mm_s; }
+    if (const MotorConfig* config = analysis.motor_config(axis.name())) { out.curve.limit = config->max_velocity_mm_s; }
     if (!axis.statistics().first()) { return std::move(out.curve); }
     out.add(*analysis.first_tick(), 0);
     add_samples(known_speed(axis), out.ticks_per_s * out.length_per_step, out);
@@ -94,7 +95,7 @@ drawing::AxisCurve position_curve(const Analysis& analysis, const AxisLog& axis)
 
 drawing::AxisCurve acceleration_curve(const Analysis& analysis, const AxisLog& axis) {
     Scaled out = scaled(analysis, axis);
-    if (const AxisConfig* config = analysis.axis_config(axis.name())) { out.curve.limit = config->max_accel_mm_s2; }
+    if (const MotorConfig* config = analysis.motor_config(axis.name())) { out.curve.limit = config->max_accel_mm_s2; }
     add_samples(axis.statistics().acceleration(), out.ticks_per_s * out.ticks_per_s * out.length_per_step, out);
     return std::move(out.curve);
 }

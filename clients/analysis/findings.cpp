@@ -10,6 +10,7 @@
 #include "clients/analysis/moves/deviation.hpp"
 #include "core/axis_unit.hpp"
 #include "core/coordinator/path/coordination.hpp"
+#include "core/kinematics/motors.hpp"
 #include "core/number_text.hpp"
 
 namespace lockstep::analysis {
@@ -139,14 +140,14 @@ void check_jobs(const Analysis& analysis, Findings& found) {
 /// The frames on record say by how much an axis accelerated. Over a window of steps a permitted jump of speed would
 /// count as acceleration too.
 void check_acceleration(const Analysis& analysis, const AxisLog& axis, Findings& found) {
-    const AxisConfig* config = analysis.axis_config(axis.name());
+    const MotorConfig* config = analysis.motor_config(axis.name());
     if (config == nullptr || !axis.commanded_steps_per_tick2()) { return; }
     const double ticks_per_s = 1e9 / static_cast<double>(analysis.tick_ns());
     const double most = *axis.commanded_steps_per_tick2() * ticks_per_s * ticks_per_s / config->steps_per_mm;
     const double limit = std::max(config->max_accel_mm_s2, config->max_decel_mm_s2);
     if (most <= limit * kOverLimit) { return; }
     found.push_back({Grade::Bad, fmt::format("{}: {:.0f} {unit}/s² is above its limit of {:.0f} {unit}/s²", axis.name(),
-                                             most, limit, fmt::arg("unit", unit_of(axis.name())))});
+                                             most, limit, fmt::arg("unit", analysis.unit_of(axis.name())))});
 }
 
 void check_axis(const Analysis& analysis, const AxisLog& axis, Findings& found) {
@@ -157,13 +158,13 @@ void check_axis(const Analysis& analysis, const AxisLog& axis, Findings& found) 
         found.push_back({Grade::Doubtful, fmt::format("{}: {} of steps are not in the log; {}", axis.name(),
                                                       plural(messages, "message"), kWhereTheRestIs)});
     }
-    const AxisConfig* config = analysis.axis_config(axis.name());
+    const MotorConfig* config = analysis.motor_config(axis.name());
     check_acceleration(analysis, axis, found);
     const double peak = axis.statistics().peak_steps_per_tick() * 1e9 / static_cast<double>(analysis.tick_ns());
     if (config == nullptr || peak <= config->max_velocity_mm_s * config->steps_per_mm * kOverLimit) { return; }
     found.push_back({Grade::Bad, fmt::format("{}: {:.2f} {unit}/s is above its limit of {:.2f} {unit}/s", axis.name(),
                                              peak / config->steps_per_mm, config->max_velocity_mm_s,
-                                             fmt::arg("unit", unit_of(axis.name())))});
+                                             fmt::arg("unit", analysis.unit_of(axis.name())))});
 }
 
 void check_events(const Analysis& analysis, Findings& found) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "clients/analysis/plane_path.hpp"
+#include "core/kinematics/motors.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/record/reading/job_of.hpp"
 #include "services/record/reading/run.hpp"
@@ -161,6 +162,7 @@ std::shared_ptr<const RecordedProgram> Recorder::read_documents(const RecordedJo
     auto config = parse_machine(message.config);
     if (config) {
         analysis_.config = std::move(*config);
+        analysis_.motors = motors_of(*analysis_.config);
     } else {
         on_damage(place, to_text("the configuration recorded with the job", config.error()));
     }
@@ -251,9 +253,9 @@ Analysis Recorder::finish(Sorter& sorter) {
         axis->take(std::move(std::ranges::find(lanes_, axis->name(), &Lane::axis)->late));
     }
     if (analysis_.config) {
-        const auto& order = analysis_.config->axes;
+        const auto& order = analysis_.motors;
         std::ranges::stable_sort(analysis_.axes, {}, [&](const auto& log) {
-            return std::ranges::find(order, log->name(), &AxisConfig::name) - order.begin();
+            return std::ranges::find(order, log->name(), &MotorConfig::name) - order.begin();
         });
     }
     return std::move(analysis_);

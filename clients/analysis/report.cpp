@@ -9,6 +9,7 @@
 #include "clients/analysis/moves/deviation.hpp"
 #include "clients/analysis/record_state.hpp"
 #include "clients/text/event_text.hpp"
+#include "core/kinematics/motors.hpp"
 #include "services/wire/lcm/translate_lcm.hpp"
 
 namespace lockstep::analysis {
@@ -106,7 +107,7 @@ void fill_axes(const Analysis& analysis, const JobLog& job, proto::JobAnalysis& 
         out.set_unit(std::string(name_of(unit)));
         out.set_largest(largest);
     }
-    for (const AxisConfig& axis : analysis.config->axes) {
+    for (const MotorConfig& axis : analysis.motors) {
         if (!has_all_steps_of(analysis, job, axis.name)) { report.add_axes_not_known(axis.name); }
     }
 }
@@ -149,7 +150,7 @@ void fill(const Analysis& analysis, const Event& event, proto::LogEvent& report)
         proto::FinalPosition& position = *report.add_positions();
         position.set_name(axis);
         position.set_position_steps(steps);
-        const AxisConfig* config = analysis.axis_config(axis);
+        const MotorConfig* config = analysis.motor_config(axis);
         if (config != nullptr) { position.set_position_mm(to_mm(*config, static_cast<double>(steps))); }
     }
 }
@@ -161,7 +162,7 @@ void fill(const Analysis& analysis, const ProgramPlace& place,
         proto::FinalPosition& position = *out.Add();
         position.set_name(axis);
         position.set_position_mm(mm);
-        if (const AxisConfig* config = analysis.axis_config(axis)) {
+        if (const MotorConfig* config = analysis.motor_config(axis)) {
             position.set_position_steps(to_steps(*config, mm));
         }
     }

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "core/if_positive.hpp"
+#include "core/kinematics/motors.hpp"
 #include "core/protocol/frame_room.hpp"
 #include "services/documents/edit/timing_edit.hpp"
 
@@ -76,7 +77,7 @@ Finding rate_send_buffer(std::int64_t needed, std::int64_t given) {
 
 Finding rate_states(const MachineConfig& machine, const std::expected<std::string, std::string>& memory) {
     constexpr std::size_t kMany = 16;  // axes; on a host with so many, their states are most of its work
-    const std::size_t axes = machine.axes.size();
+    const std::size_t axes = motor_count(machine);
     const bool shares = machine.network.one_host;
     if (shares && !memory) {
         return {Rating::Bad, "axes' states", memory.error(), "df -h /dev/shm; or leave network.one_host out"};
@@ -152,9 +153,9 @@ Finding rate_clock(TimeSource source, const ClockFacts& facts) {
     return {Rating::Good, "clock", "the kernel uses the clock " + facts.source, ""};
 }
 
-Finding rate_device(const AxisConfig& axis, const std::expected<void, std::string>& answer) {
-    if (answer) { return {Rating::Good, "device of " + axis.name, axis.device, ""}; }
-    return {Rating::Bad, "device of " + axis.name, axis.device + ": " + answer.error(),
+Finding rate_device(const MotorConfig& axis, const std::expected<void, std::string>& answer) {
+    if (answer) { return {Rating::Good, "device of " + axis.name, axis.device.text(), ""}; }
+    return {Rating::Bad, "device of " + axis.name, axis.device.text() + ": " + answer.error(),
             "power it up, or correct `device` of axis " + axis.name + " in the machine's file"};
 }
 

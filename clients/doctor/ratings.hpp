@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "clients/doctor/finding.hpp"
+#include "core/kinematics/motors.hpp"
 #include "core/machine.hpp"
 
 namespace lockstep::doctor {
@@ -63,7 +64,7 @@ struct ClockFacts {
 Finding rate_clock(TimeSource source, const ClockFacts& facts);
 
 /// answer: the result of attaching to the device.
-Finding rate_device(const AxisConfig& axis, const std::expected<void, std::string>& answer);
+Finding rate_device(const MotorConfig& axis, const std::expected<void, std::string>& answer);
 
 /// not_writable: the reason why `path` cannot be written, or empty.
 Finding rate_directory(const std::string& what, const std::string& path, const std::string& not_writable);

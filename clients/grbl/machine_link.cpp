@@ -195,13 +195,15 @@ MachineView MachineLink::view() {
     const auto& state = session_.state();
     if (!state) { return {}; }
     std::vector<const AxisState*> axes;
+    std::vector<double> speeds;
     bool is_received = !session_.is_silent();
     for (std::size_t i = 0; i < session_.config().axes.size(); ++i) {
         const auto& axis = session_.axis(i);
         axes.push_back(axis ? &axis->state : nullptr);
+        speeds.push_back(session_.axis_speed(i));
         is_received = is_received && session_.axis_present(i);
     }
-    MachineView view = view_of(session_.config(), state->state, axes);
+    MachineView view = view_of(session_.config(), state->state, axes, speeds);
     view.is_received = is_received;
     if (const auto way = way_back(session_)) { view.way_back = text_of_way(*way); }
     if (const auto values = session_.newest_values()) { values_ = values->values; }

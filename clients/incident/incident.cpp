@@ -11,14 +11,15 @@
 
 #include "clients/incident/file_groups.hpp"
 #include "clients/incident/separation.hpp"
+#include "core/kinematics/motors.hpp"
 
 namespace lockstep::incident {
 namespace {
 
 /// The axis with this process; any other process is a coordinator.
 FlightPeer who_is(const MachineConfig& machine, const std::string& process) {
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        if (process == flight_process(machine.axes[i].name)) { return flight_axis(i); }
+    for (std::size_t i = 0; i < motor_count(machine); ++i) {
+        if (process == flight_process(motor_name(machine, i))) { return flight_axis(i); }
     }
     return kFlightCoordinator;
 }
@@ -26,7 +27,7 @@ FlightPeer who_is(const MachineConfig& machine, const std::string& process) {
 int order_of(FlightPeer who) { return who.kind == FlightPeer::Kind::Coordinator ? -1 : who.axis; }
 
 std::string name_of(const MachineConfig& machine, FlightPeer who) {
-    return who.kind == FlightPeer::Kind::Coordinator ? "coordinator" : "axis " + machine.axes[who.axis].name;
+    return who.kind == FlightPeer::Kind::Coordinator ? "coordinator" : "axis " + motor_name(machine, who.axis);
 }
 
 /// A stretch of machine time: from `from`, before `to`.
@@ -137,7 +138,7 @@ void name_the_absent(Incident& incident) {
         return std::ranges::find(incident.processes, who, &Process::who) == incident.processes.end();
     };
     if (lacks(kFlightCoordinator)) { incident.absent.push_back("coordinator"); }
-    for (std::size_t i = 0; i < incident.machine.axes.size(); ++i) {
+    for (std::size_t i = 0; i < motor_count(incident.machine); ++i) {
         if (lacks(flight_axis(i))) { incident.absent.push_back(name_of(incident.machine, flight_axis(i))); }
     }
 }

@@ -2,6 +2,7 @@
 
 #include "clients/incident/notes.hpp"
 #include "clients/incident/sentences.hpp"
+#include "core/kinematics/motors.hpp"
 
 namespace lockstep::incident {
 namespace {
@@ -36,7 +37,7 @@ void add(const Incident& incident, const Entry& entry, Tick zero, proto::Inciden
     const FlightPeer who = incident.processes[entry.process].who;
     const bool is_place = event.kind == FlightKind::State || event.kind == FlightKind::Phase;
     if (!is_place || who.kind != FlightPeer::Kind::Axis) { return; }
-    const double steps_per_mm = incident.machine.axes[who.axis].steps_per_mm;
+    const double steps_per_mm = motor_steps_per_mm(incident.machine, who.axis);
     out.set_position_mm(static_cast<double>(event.count) / steps_per_mm);
     out.set_velocity_mm_s(event.amount / steps_per_mm);
 }
@@ -52,8 +53,8 @@ proto::IncidentReport to_report(const Incident& incident, const Evaluation& eval
     if (evaluation.cause.at) { report.set_cause_at_s(incident.seconds(*evaluation.cause.at - evaluation.noticed)); }
     if (evaluation.cause.lasts > Ticks{}) { report.set_cause_lasts_s(incident.seconds(evaluation.cause.lasts)); }
     if (evaluation.rest) { report.set_rest_s(incident.seconds(*evaluation.rest - evaluation.noticed)); }
-    for (std::size_t i = 0; i < incident.machine.axes.size(); ++i) {
-        if (has_axis(evaluation.moving, i)) { report.add_moving(incident.machine.axes[i].name); }
+    for (std::size_t i = 0; i < motor_count(incident.machine); ++i) {
+        if (has_axis(evaluation.moving, i)) { report.add_moving(motor_name(incident.machine, i)); }
     }
     report.set_noticed_tick(evaluation.noticed.value);
     for (const std::string& sentence : evaluation.story) { report.add_story(sentence); }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/kinematics/motors.hpp"
 #include "core/protocol/names.hpp"
 #include "core/protocol/needs_lease.hpp"
 #include "core/protocol/reception_watch.hpp"
@@ -208,7 +209,7 @@ std::string sentence(const Incident& incident, const Entry& entry) {
 std::string peer_name(const MachineConfig& machine, FlightPeer peer) {
     if (peer.kind == FlightPeer::Kind::Coordinator) { return "the coordinator"; }
     if (peer.kind == FlightPeer::Kind::None) { return "no process"; }
-    return "axis " + (peer.axis < machine.axes.size() ? machine.axes[peer.axis].name : std::to_string(peer.axis));
+    return "axis " + (peer.axis < motor_count(machine) ? motor_name(machine, peer.axis) : std::to_string(peer.axis));
 }
 
 std::string axes_named(const MachineConfig& machine, AxisSet axes) {

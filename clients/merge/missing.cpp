@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/kinematics/motors.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/record/reading/log_step.hpp"
 #include "services/wire/lcm/lcm_decode.hpp"
@@ -132,7 +133,7 @@ void MissingWatch::note_machine(const std::vector<std::uint8_t>& data) {
     if (!job || job->config.empty()) { return; }
     if (std::exchange(newest_config_[job->machine], job->config) == job->config) { return; }
     const auto machine = parse_machine(job->config);
-    if (machine) { axes_wanted_[job->machine] = machine->axis_names(); }
+    if (machine) { axes_wanted_[job->machine] = motor_names(*machine); }
 }
 
 std::vector<std::string> MissingWatch::absent_axes() const {

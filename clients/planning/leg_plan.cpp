@@ -5,6 +5,8 @@
 #include <optional>
 #include <utility>
 
+#include "core/kinematics/kinematics.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -42,10 +44,11 @@ private:
 
 class LegPlanner {
 public:
-    LegPlanner(const ProgramPlanner& planner, const std::shared_ptr<const ProgramBlocks>& blocks, const Leg& leg)
+    LegPlanner(const ProgramPlanner& planner, const Kinematics& kinematics,
+               const std::shared_ptr<const ProgramBlocks>& blocks, const Leg& leg)
         : source_(planner.frames(blocks, leg.first, leg.from)), moves_(planner, *blocks, leg), waiting_(moves_.read()) {
         std::vector<Position> at;
-        for (const std::int64_t count : leg.from) {
+        for (const std::int64_t count : kinematics.motors_at(leg.from).steps) {
             at.push_back(Position::steps(count));
             plan_.axes.emplace_back(at.back());
         }
@@ -124,13 +127,14 @@ Position AxisMotion::at(Ticks t) const {
 std::expected<std::vector<LegPlan>, PlanError> plan_legs(const MachineConfig& machine, const Program& program,
                                                          const AxisCounts& start) {
     const ProgramPlanner planner(machine);
+    const Kinematics kinematics(machine);
     const auto legs = planner.plan(program, start);
     if (!legs) { return std::unexpected(legs.error()); }
     const auto blocks = std::make_shared<WholeProgram>(borrowed(program));
     std::vector<LegPlan> plans;
     for (const Leg& leg : *legs) {
         if (!leg.moves) { continue; }
-        auto plan = LegPlanner(planner, blocks, leg).run({});
+        auto plan = LegPlanner(planner, kinematics, blocks, leg).run({});
         if (!plan) { return std::unexpected(plan.error()); }
         plans.push_back(*std::move(plan));
     }
@@ -141,12 +145,13 @@ std::expected<PlannedLegs, PlanError> each_planned_move(const MachineConfig& mac
                                                         const std::shared_ptr<const ProgramBlocks>& blocks,
                                                         const AxisCounts& start, const OnPlannedMove& visit) {
     const ProgramPlanner planner(machine);
+    const Kinematics kinematics(machine);
     const auto legs = planner.plan(head, *blocks, start);
     if (!legs) { return std::unexpected(legs.error()); }
     PlannedLegs planned;
     for (const Leg& leg : *legs) {
         if (!leg.moves) { continue; }
-        const auto plan = LegPlanner(planner, blocks, leg).run(visit);
+        const auto plan = LegPlanner(planner, kinematics, blocks, leg).run(visit);
         if (!plan) { return std::unexpected(plan.error()); }
         ++planned.legs;
         planned.duration += plan->duration;

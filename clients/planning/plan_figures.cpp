@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/kinematics/motors.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -30,19 +32,23 @@ Position place_at(const AxisTrack& track, Ticks t) {
 }  // namespace
 
 PlanDrawing::PlanDrawing(const MachineConfig& machine)
-    : ticks_per_s_(machine.ticks_per_second()), x_(place_of(machine, "X", 0)), y_(place_of(machine, "Y", 1)) {
-    for (const AxisConfig& axis : machine.axes) {
-        axes_.push_back({axis.name, axis.steps_per_mm, axis.max_velocity_mm_s, {}});
+    : machine_(machine),
+      kinematics_(machine),
+      ticks_per_s_(machine.ticks_per_second()),
+      x_(place_of(machine, "X", 0)),
+      y_(place_of(machine, "Y", 1)) {
+    for (const MotorConfig& motor : kinematics_.motors()) {
+        motors_.push_back({motor.name, motor.steps_per_mm, motor.max_velocity_mm_s, {}});
     }
 }
 
 void PlanDrawing::take(const PlannedFrame& planned) {
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
-        if (planned.is_first) { axes_[i].speed.add({static_cast<double>(planned.begin.value) / ticks_per_s_, 0}); }
-        add_speeds(planned.frame.axes[i], planned.begin, axes_[i]);
+    for (std::size_t i = 0; i < motors_.size(); ++i) {
+        if (planned.is_first) { motors_[i].speed.add({static_cast<double>(planned.begin.value) / ticks_per_s_, 0}); }
+        add_speeds(planned.frame.axes[i], planned.begin, motors_[i]);
         if (!planned.frame.last) { continue; }
         const Ticks end = planned.begin + planned.frame.ticks;
-        axes_[i].speed.add({static_cast<double>(end.value) / ticks_per_s_, 0});
+        motors_[i].speed.add({static_cast<double>(end.value) / ticks_per_s_, 0});
     }
     add_places(planned.frame);
 }
@@ -60,18 +66,22 @@ void PlanDrawing::add_speeds(const AxisTrack& track, Ticks begin, Axis& axis) {
     }
 }
 
-/// Adds the points at both ends of each piece of both axes.
+/// Adds the points at both ends of each piece of the motors that move both axes.
 void PlanDrawing::add_places(const PathFrame& frame) {
     std::vector<Ticks> ends{Ticks{}};
-    for (const std::size_t axis : {x_, y_}) {
+    const AxisSet plane = kinematics_.motors_of_axes(axis_bit(x_) | axis_bit(y_));
+    for (std::size_t m = 0; m < motors_.size(); ++m) {
+        if (!has_axis(plane, m)) { continue; }
         Ticks end;
-        for (const Piece& piece : frame.axes[axis].body) { ends.push_back(end += piece.ticks); }
+        for (const Piece& piece : frame.axes[m].body) { ends.push_back(end += piece.ticks); }
     }
     std::ranges::sort(ends);
     ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
     for (const Ticks t : ends) {
-        path_.add({place_at(frame.axes[x_], t).as_steps() / axes_[x_].steps_per_mm,
-                   place_at(frame.axes[y_], t).as_steps() / axes_[y_].steps_per_mm});
+        std::vector<Position> at;
+        for (const AxisTrack& track : frame.axes) { at.push_back(place_at(track, t)); }
+        path_.add({to_mm(machine_.axes[x_], kinematics_.axis_steps(x_, at)),
+                   to_mm(machine_.axes[y_], kinematics_.axis_steps(y_, at))});
     }
 }
 
@@ -81,13 +91,13 @@ drawing::Figure PlanDrawing::path(const ProgramPlan& plan) const {
         way.x.push_back(point.x);
         way.y.push_back(point.y);
     }
-    return drawing::path_figure(plan.program + ": path", in_a_line(plan), {.x = axes_[x_].name, .y = axes_[y_].name},
-                                way, {});
+    return drawing::path_figure(plan.program + ": path", in_a_line(plan),
+                                {.x = machine_.axes[x_].name, .y = machine_.axes[y_].name}, way, {});
 }
 
 drawing::Figure PlanDrawing::speed(const ProgramPlan& plan) const {
     std::vector<drawing::AxisCurve> curves;
-    for (const Axis& axis : axes_) {
+    for (const Axis& axis : motors_) {
         curves.push_back({.axis = axis.name, .limit = axis.max_velocity_mm_s});
         for (const drawing::Point& point : axis.speed.points()) {
             curves.back().time_s.push_back(point.x);

@@ -8,6 +8,7 @@
 #include "clients/drawing/motion_figures.hpp"
 #include "clients/drawing/thinned.hpp"
 #include "clients/planning/plan_summary.hpp"
+#include "core/kinematics/kinematics.hpp"
 
 namespace lockstep {
 
@@ -34,8 +35,10 @@ private:
     void add_speeds(const AxisTrack& track, Ticks begin, Axis& axis);
     void add_places(const PathFrame& frame);
 
+    MachineConfig machine_;
+    Kinematics kinematics_;
     double ticks_per_s_;
-    std::vector<Axis> axes_;
+    std::vector<Axis> motors_;
     std::size_t x_;  // the plane's axes
     std::size_t y_;
     drawing::ThinnedPath path_;  // mm

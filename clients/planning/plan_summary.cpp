@@ -7,6 +7,7 @@
 #include "clients/planning/lai_legs.hpp"
 #include "clients/planning/timed_legs.hpp"
 #include "core/coordinator/path/coordination.hpp"
+#include "core/kinematics/kinematics.hpp"
 
 namespace lockstep {
 namespace {
@@ -16,6 +17,7 @@ class LegByLeg {
 public:
     LegByLeg(const MachineConfig& machine, std::shared_ptr<const CountedBlocks> blocks, const Planning& planning)
         : planner_(machine),
+          kinematics_(machine),
           blocks_(std::move(blocks)),
           planning_(planning),
           at_(planning.start),
@@ -38,7 +40,7 @@ public:
 
 private:
     std::expected<void, PlanError> plan(FrameSource& source, std::uint32_t first) {
-        source.resume({first, {}}, positions_of(at_), planning_.overrides);
+        source.resume({first, {}}, positions_of(kinematics_.motors_at(at_).steps), planning_.overrides);
         bool is_first = true;
         for (source.read_ahead(); !source.is_done(); source.read_ahead()) {
             const auto frame = source.next();
@@ -56,6 +58,7 @@ private:
     }
 
     ProgramPlanner planner_;
+    Kinematics kinematics_;
     std::shared_ptr<const CountedBlocks> blocks_;
     const Planning& planning_;
     AxisCounts at_;
@@ -67,9 +70,9 @@ private:
 /// by frames, so that a program that cannot run is not reported as correct.
 bool may_get_stuck(const MachineConfig& machine) {
     constexpr double kTicks = 8;
-    return std::ranges::any_of(machine.axes, [&](const AxisConfig& axis) {
-        const double change_mm_s = std::max(axis.max_accel_mm_s2, axis.max_decel_mm_s2) / machine.ticks_per_second();
-        return axis.start_velocity_mm_s < kTicks * change_mm_s;
+    return std::ranges::any_of(motors_of(machine), [&](const MotorConfig& motor) {
+        const double change_mm_s = std::max(motor.max_accel_mm_s2, motor.max_decel_mm_s2) / machine.ticks_per_second();
+        return motor.start_velocity_mm_s < kTicks * change_mm_s;
     });
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/coordinator/path/coordination.hpp"
 #include "core/coordinator/path/lai_path.hpp"
+#include "core/kinematics/kinematics.hpp"
 
 namespace lockstep {
 namespace {
@@ -14,11 +15,14 @@ void raise(double& peak, double value) { peak = std::max(peak, value); }
 
 }  // namespace
 
-PlanTotals::PlanTotals(const MachineConfig& machine, const AxisCounts& start) : machine_(machine) {
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        const double mm = to_mm(machine.axes[i], static_cast<double>(start[i]));
-        axes_.push_back({.name = machine.axes[i].name, .min_mm = mm, .max_mm = mm});
-        now_.push_back({.count = start[i], .speed = 0});
+PlanTotals::PlanTotals(const MachineConfig& machine, const AxisCounts& start)
+    : machine_(machine), motors_(motors_of(machine)) {
+    const MotorCounts at = Kinematics(machine).motors_at(start);
+    for (std::size_t m = 0; m < motors_.size(); ++m) {
+        const double mm = to_mm(motors_[m], static_cast<double>(at[m]));
+        axes_.push_back(
+            {.axis = machine.axes[motors_[m].axis].name, .name = motors_[m].name, .min_mm = mm, .max_mm = mm});
+        now_.push_back({.count = at[m], .speed = 0});
     }
 }
 
@@ -49,7 +53,7 @@ void PlanTotals::note_way(const Piece& piece, Position from, std::size_t axis) {
 
 void PlanTotals::note_place(std::size_t axis, std::int64_t count) {
     AxisPlan& plan = axes_[axis];
-    const double mm = to_mm(machine_.axes[axis], static_cast<double>(count));
+    const double mm = to_mm(motors_[axis], static_cast<double>(count));
     plan.steps += std::abs(count - now_[axis].count);
     plan.min_mm = std::min(plan.min_mm, mm);
     plan.max_mm = std::max(plan.max_mm, mm);
@@ -60,7 +64,7 @@ void PlanTotals::note_pieces(const AxisTrack& track, std::size_t axis) {
     AxisPlan& plan = axes_[axis];
     Axis& now = now_[axis];
     const double per_s = machine_.ticks_per_second();
-    const double mm = 1 / machine_.axes[axis].steps_per_mm;
+    const double mm = 1 / motors_[axis].steps_per_mm;
     Ticks begin;
     Position at = track.from;
     for (const Piece& piece : track.body) {
@@ -80,7 +84,7 @@ void PlanTotals::note_pieces(const AxisTrack& track, std::size_t axis) {
 /// If the speed jumps from period to period, the jumps within a move count as acceleration.
 void PlanTotals::note_jump(std::size_t axis, double change, bool is_between_moves) {
     AxisPlan& plan = axes_[axis];
-    const double mm_s = std::abs(change) / machine_.axes[axis].steps_per_mm * machine_.ticks_per_second();
+    const double mm_s = std::abs(change) / motors_[axis].steps_per_mm * machine_.ticks_per_second();
     const double period_s = coordination_of(machine_).speed_period_s;
     if (period_s == 0 || is_between_moves) { return raise(plan.peak_jump_mm_s, mm_s); }
     raise(plan.peak_acceleration_mm_s2, mm_s / period_s);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/kinematics/motors.hpp"
 #include "core/machine.hpp"
 #include "core/motion/path.hpp"
 #include "core/path/frame_planner.hpp"
@@ -12,6 +13,7 @@
 namespace lockstep {
 
 struct AxisPlan {
+    std::string axis;  // in whose block it stands
     std::string name;
     std::int64_t steps = 0;  // in both directions together
     double peak_velocity_mm_s = 0;
@@ -53,7 +55,8 @@ private:
     void note_jump(std::size_t axis, double change, bool is_between_moves);
 
     const MachineConfig& machine_;
-    std::vector<AxisPlan> axes_;
+    std::vector<MotorConfig> motors_;
+    std::vector<AxisPlan> axes_;  // of the motors
     std::vector<Axis> now_;
     Ticks duration_;
     std::vector<Ticks> corners_;  // where moves begin in the frame, ascending

@@ -3,12 +3,18 @@
 #include <cmath>
 
 #include "core/coordinator/path/program_moves.hpp"
+#include "core/kinematics/kinematics.hpp"
 #include "core/path/timing/path_timer.hpp"
 
 namespace lockstep {
 namespace {
 
 Ticks rounded_up(double ticks) { return {static_cast<std::int64_t>(std::ceil(ticks - 0x1p-20))}; }
+
+std::vector<std::int64_t> motors_at(const MachineConfig& machine, const AxisCounts& axes) {
+    const MotorCounts motors = Kinematics(machine).motors_at(axes);
+    return {motors.steps.begin(), motors.steps.end()};
+}
 
 class LegTimer {
 public:
@@ -20,7 +26,7 @@ public:
           progress_(progress),
           moves_(machine),
           timer_(path_setup_of(machine)),
-          load_({start.begin(), start.size()}) {}
+          load_(motors_at(machine, start)) {}
 
     LegEnd time(std::uint32_t first, const AxisCounts& from) {
         constexpr std::uint32_t kBlocksBetween = 1024;  // calls of progress
@@ -47,9 +53,10 @@ private:
     Ticks duration_;
 };
 
-AxisPlan plan_of(const AxisConfig& axis, const AxisLoad& load, double ticks_per_s) {
+AxisPlan plan_of(const std::string& of, const MotorConfig& axis, const AxisLoad& load, double ticks_per_s) {
     const double mm_s = ticks_per_s / axis.steps_per_mm;
-    return {.name = axis.name,
+    return {.axis = of,
+            .name = axis.name,
             .steps = load.steps,
             .peak_velocity_mm_s = load.peak_velocity * mm_s,
             .peak_acceleration_mm_s2 = load.peak_acceleration * mm_s * ticks_per_s,
@@ -73,8 +80,10 @@ PlannedTotals time_legs(const MachineConfig& machine, const std::shared_ptr<cons
         first = end.block + 1;
     }
     totals.duration = timer.duration();
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        totals.axes.push_back(plan_of(machine.axes[i], timer.load().axes()[i], machine.ticks_per_second()));
+    const std::vector<MotorConfig> motors = motors_of(machine);
+    for (std::size_t m = 0; m < motors.size(); ++m) {
+        totals.axes.push_back(
+            plan_of(machine.axes[motors[m].axis].name, motors[m], timer.load().axes()[m], machine.ticks_per_second()));
     }
     return totals;
 }

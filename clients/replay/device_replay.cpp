@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/kinematics/motors.hpp"
 #include "services/axis/device_driver.hpp"
 #include "sim_fpga/device.hpp"
 
@@ -15,9 +16,9 @@ constexpr std::int64_t kTick_ns = 1000;  // any value, the same for device and d
 constexpr std::size_t kStepsAtOnce = registers::kCaptureRingEntries / 2;
 
 /// An axis without a switch within reach.
-AxisConfig endless_axis() {
+MotorConfig endless_axis() {
     constexpr double kFar_mm = 1e15;
-    AxisConfig axis;
+    MotorConfig axis;
     axis.steps_per_mm = 1;
     axis.position_min_mm = -kFar_mm;
     axis.position_max_mm = kFar_mm;

@@ -4,6 +4,7 @@
 
 #include "clients/session/reports.hpp"
 #include "clients/text/format.hpp"
+#include "core/kinematics/motors.hpp"
 #include "core/protocol/names.hpp"
 #include "services/runtime/clock.hpp"
 
@@ -26,9 +27,9 @@ bool shows_effect(CommandKind command, MachinePhase phase) {
 
 std::string missing_axes(const Session& session) {
     std::string names;
-    for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
+    for (std::size_t i = 0; i < session.kinematics().motors().size(); ++i) {
         if (has_axis(session.state()->state.axes_present, i)) { continue; }
-        names += (names.empty() ? "" : ", ") + session.config().axes[i].name;
+        names += (names.empty() ? "" : ", ") + motor_name(session.config(), i);
     }
     return names;
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/kinematics/kinematics.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -33,15 +35,15 @@ std::string axis_state(const MachineConfig& machine, const KnownParts& known, st
 
 KnownParts known_parts(const Session& session) {
     KnownParts known{.coordinator_present = session.state() && !session.is_silent(), .present = session.present()};
-    for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
-        if (session.axis_present(i)) { known.axes_present |= axis_bit(i); }
+    for (std::size_t i = 0; i < session.kinematics().motors().size(); ++i) {
+        if (session.motor_present(i)) { known.axes_present |= axis_bit(i); }
     }
     if (known.coordinator_present) { known.axes_present_at_coordinator = session.state()->state.axes_present; }
     return known;
 }
 
 std::string part_name(const MachineConfig& machine, std::optional<std::size_t> axis) {
-    return axis ? "axis " + machine.axes[*axis].name : "coordinator";
+    return axis ? Kinematics(machine).label(*axis) : "coordinator";
 }
 
 std::vector<proto::AwaitedPart> awaited_parts(const MachineConfig& machine, const KnownParts& known) {
@@ -51,10 +53,11 @@ std::vector<proto::AwaitedPart> awaited_parts(const MachineConfig& machine, cons
         parts.push_back(awaited(part_name(machine, {}), machine.coordinator_host,
                                 is_there ? "started, but its messages are not received" : kAbsent));
     }
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    const std::vector<MotorConfig> motors = motors_of(machine);
+    for (std::size_t i = 0; i < motors.size(); ++i) {
         const bool is_known = !known.coordinator_present || has_axis(known.axes_present_at_coordinator, i);
         if (has_axis(known.axes_present, i) && is_known) { continue; }
-        parts.push_back(awaited(part_name(machine, i), machine.axes[i].host, axis_state(machine, known, i)));
+        parts.push_back(awaited(part_name(machine, i), motors[i].host, axis_state(machine, known, i)));
     }
     return parts;
 }

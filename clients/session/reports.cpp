@@ -1,6 +1,7 @@
 #include "clients/session/reports.hpp"
 
 #include "clients/session/remedy_words.hpp"
+#include "core/kinematics/kinematics.hpp"
 
 #include <fmt/format.h>
 
@@ -64,8 +65,8 @@ proto::FaultReport fault_report(FaultCode fault, const std::string& axis) {
 
 std::optional<proto::FaultReport> fault_of(const MachineState& state, const MachineConfig& machine) {
     if (state.fault == FaultCode::None) { return std::nullopt; }
-    const bool has_axis = state.fault_axis && *state.fault_axis < machine.axes.size();
-    return fault_report(state.fault, has_axis ? machine.axes[*state.fault_axis].name : "");
+    const bool has_axis = state.fault_axis && *state.fault_axis < motor_count(machine);
+    return fault_report(state.fault, has_axis ? motor_name(machine, *state.fault_axis) : "");
 }
 
 std::optional<proto::DevicesReport> devices_report(const ProgramDevices& devices) {
@@ -89,22 +90,21 @@ std::string fault_text(const proto::FaultReport& fault) {
     return wrapped("fault: " + what, 80, "       ") + "\n" + wrapped("to do: " + fault.remedy(), 80, "       ");
 }
 
-proto::AxisStatus axis_status(const AxisConfig& axis, std::int64_t tick_ns, const AxisState* state, bool present) {
+proto::AxisStatus axis_status(const Scale& scale, const AxisState* state, double steps_per_tick) {
     proto::AxisStatus status;
-    status.set_name(axis.name);
-    status.set_present(present);
+    status.set_name(scale.name);
     if (state == nullptr) { return status; }
-    status.set_position_mm(to_mm(axis, state->position.as_steps()));
+    status.set_position_mm(state->position.as_steps() / scale.steps_per_mm);
     status.set_position_steps(state->position.count());
-    status.set_velocity_mm_s(state->velocity.steps_per_tick() * 1e9 / static_cast<double>(tick_ns) / axis.steps_per_mm);
+    status.set_velocity_mm_s(steps_per_tick * scale.ticks_per_s / scale.steps_per_mm);
     status.set_state(std::string(name_of(state->phase)));
     status.set_homed(state->homed);
-    if (state->fault != FaultCode::None) { *status.mutable_fault() = fault_report(state->fault, axis.name); }
-    if (state->unproved != FaultCode::None) { *status.mutable_unproved() = fault_report(state->unproved, axis.name); }
+    if (state->fault != FaultCode::None) { *status.mutable_fault() = fault_report(state->fault, scale.name); }
+    if (state->unproved != FaultCode::None) { *status.mutable_unproved() = fault_report(state->unproved, scale.name); }
     status.set_at_rest(state->at_rest);
     status.set_following_error_steps(state->following_error_steps);
     status.set_refused_frames(state->refused_frames);
-    const double error_us = static_cast<double>(state->clock_error.value) * static_cast<double>(tick_ns) * 1e-3;
+    const double error_us = static_cast<double>(state->clock_error.value) / scale.ticks_per_s * 1e6;
     if (error_us > 0) { status.set_clock_error_us(error_us); }
     return status;
 }
@@ -134,13 +134,49 @@ std::optional<proto::PauseReport> pause_report(const Session& session) {
     report.set_text(text_of(pause.why));
     const auto& axes = session.config().axes;
     for (std::size_t i = 0; i < std::min(axes.size(), pause.place.size()); ++i) {
-        AxisState at;
-        at.position = Position::steps(pause.place[i]);
-        *report.add_place() = place_of(axes[i], at);
+        *report.add_place() = place_of(axes[i], pause.place[i]);
     }
     if (const auto way = way_back(session)) { report.set_way_back(text_of_way(*way)); }
     return report;
 }
+
+namespace {
+
+void add_health(const Session& session, std::size_t motor, proto::AxisStatus& row) {
+    const auto& health = session.health(motor);
+    if (health) { *row.mutable_health() = health_report(*health, session.config()); }
+}
+
+void add_axes(const Session& session, proto::StatusReport& report) {
+    const MachineConfig& machine = session.config();
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        const AxisConfig& config = machine.axes[i];
+        const auto& axis = session.axis(i);
+        proto::AxisStatus& row = *report.add_axes();
+        row = axis_status({config.name, config.steps_per_mm, machine.ticks_per_second()}, axis ? &axis->state : nullptr,
+                          session.axis_speed(i));
+        row.set_present(session.axis_present(i));
+        if (const auto own = session.kinematics().own_motor(i)) { add_health(session, *own, row); }
+    }
+}
+
+/// Motors that are not an axis's own.
+void add_motors(const Session& session, proto::StatusReport& report) {
+    const Kinematics& kinematics = session.kinematics();
+    for (std::size_t m = 0; m < kinematics.motors().size(); ++m) {
+        const MotorConfig& config = kinematics.motors()[m];
+        if (kinematics.own_motor(config.axis) == m) { continue; }
+        const auto& motor = session.motor(m);
+        proto::AxisStatus& row = *report.add_motors();
+        row = axis_status({config.name, config.steps_per_mm, session.config().ticks_per_second()},
+                          motor ? &motor->state : nullptr, motor ? motor->state.velocity.steps_per_tick() : 0);
+        row.set_axis(session.config().axes[config.axis].name);
+        row.set_present(session.motor_present(m));
+        add_health(session, m, row);
+    }
+}
+
+}  // namespace
 
 proto::StatusReport status_report(const Session& session) {
     proto::StatusReport report;
@@ -156,22 +192,24 @@ proto::StatusReport status_report(const Session& session) {
     if (auto pause = pause_report(session)) { *report.mutable_pause() = *std::move(pause); }
     report.set_standby(session.has_standby());
     report.set_unsaved_values(session.values_unsaved_since().has_value());
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        const auto& axis = session.axis(i);
-        *report.add_axes() =
-            axis_status(machine.axes[i], machine.tick_ns, axis ? &axis->state : nullptr, session.axis_present(i));
-        const auto& health = session.health(i);
-        if (health) { *report.mutable_axes()->rbegin()->mutable_health() = health_report(*health, machine); }
-    }
+    add_axes(session, report);
+    add_motors(session, report);
     return report;
 }
 
-proto::FinalPosition place_of(const AxisConfig& axis, const AxisState& state) {
+proto::FinalPosition place_of(const AxisConfig& axis, std::int64_t count) {
     proto::FinalPosition place;
     place.set_name(axis.name);
-    place.set_position_steps(state.position.count());
-    place.set_position_mm(to_mm(axis, static_cast<double>(state.position.count())));
+    place.set_position_steps(count);
+    place.set_position_mm(to_mm(axis, static_cast<double>(count)));
     return place;
+}
+
+std::vector<const proto::AxisStatus*> rows_of(const proto::StatusReport& status) {
+    std::vector<const proto::AxisStatus*> rows;
+    for (const proto::AxisStatus& axis : status.axes()) { rows.push_back(&axis); }
+    for (const proto::AxisStatus& motor : status.motors()) { rows.push_back(&motor); }
+    return rows;
 }
 
 void add_incidents(const MachineConfig& machine, proto::StatusReport& report) {

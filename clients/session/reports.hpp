@@ -24,8 +24,14 @@ std::string fault_text(const proto::FaultReport& fault);
 /// The devices that programs have switched; nullopt if all are off and no tool is known.
 std::optional<proto::DevicesReport> devices_report(const ProgramDevices& devices);
 
-/// The newest state of an axis; for an axis that was never received, only its name.
-proto::AxisStatus axis_status(const AxisConfig& axis, std::int64_t tick_ns, const AxisState* state, bool present);
+/// Of an axis or a motor.
+struct Scale {
+    std::string name;
+    double steps_per_mm = 1;
+    double ticks_per_s = 1;
+};
+/// Its newest state, without whether it is present; if it was never received, only its name.
+proto::AxisStatus axis_status(const Scale& scale, const AxisState* state, double steps_per_tick);
 
 /// The way back to the place of the pause, by the newest states. Nullopt if there is no pause, the axes are there, or
 /// an axis was never received.
@@ -39,6 +45,9 @@ proto::StatusReport status_report(const Session& session);
 void add_incidents(const MachineConfig& machine, proto::StatusReport& report);
 
 /// The position of an axis, in mm and in steps.
-proto::FinalPosition place_of(const AxisConfig& axis, const AxisState& state);
+proto::FinalPosition place_of(const AxisConfig& axis, std::int64_t count);
+
+/// The rows of the axes, then those of the motors that are not an axis's own.
+std::vector<const proto::AxisStatus*> rows_of(const proto::StatusReport& status);
 
 }  // namespace lockstep

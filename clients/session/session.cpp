@@ -6,6 +6,8 @@
 #include <random>
 #include <ranges>
 
+#include "core/kinematics/axis_states.hpp"
+#include "core/kinematics/motors.hpp"
 #include "core/protocol/rules.hpp"
 #include "services/documents/placement.hpp"
 #include "services/documents/program_document.hpp"
@@ -55,8 +57,12 @@ Session::Session(const ChosenMachine& machine, Bus bus)
       client_(new_identity()),
       lease_(client_, {.name = "client", .host = host_name()}),
       owner_(longest_silence(machine.config) + 2s),
-      axes_(machine.config.axes.size()),
-      healths_(axes_.size()) {}
+      kinematics_(machine.config),
+      motors_(kinematics_.motors().size()),
+      axes_(kinematics_.axes()),
+      healths_(motors_.size()) {
+    for (std::size_t i = 0; i < axes_.size(); ++i) { needed_.push_back(motors_needed_for(i, kinematics_)); }
+}
 
 std::expected<Session, Failure> Session::join(const ChosenMachine& machine, Purpose purpose) {
     forward_dds_log([](const std::string&) {});  // silent() quotes the log; only the verb writes to the terminal
@@ -92,13 +98,13 @@ std::expected<void, Failure> Session::reach(nanoseconds patience) {
 std::expected<void, Failure> Session::reach_axes() {
     const nanoseconds deadline = monotonic_now() + kReachPatience;
     const Slot known = state() ? state()->state.stamp : Slot{};
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
-        const auto is_known = [&] { return axis_present(i) && axes_[i]->state.stamp >= known; };
+    for (std::size_t i = 0; i < motors_.size(); ++i) {
+        const auto is_known = [&] { return motor_present(i) && motors_[i]->state.stamp >= known; };
         while (!is_known() && monotonic_now() <= deadline) { receive(50ms); }
-        if (!axis_present(i)) {
-            return std::unexpected(unreachable(fmt::format(
-                "no messages are received from axis {} of machine '{}'; start its lockstep-axis, or see its log",
-                config().axes[i].name, config().name)));
+        if (!motor_present(i)) {
+            return std::unexpected(unreachable(
+                fmt::format("no messages are received from {} of machine '{}'; start its lockstep-axis, or see its log",
+                            kinematics_.label(i), config().name)));
         }
     }
     return {};
@@ -108,15 +114,15 @@ void Session::await_axes() {
     const nanoseconds begin = monotonic_now();
     const auto may_come = [&](std::size_t i) {
         const bool is_received = state() && has_axis(state()->state.axes_present, i);
-        return !axis_present(i) && monotonic_now() - begin < (is_received ? kReceivedPatience : kAbsentPatience);
+        return !motor_present(i) && monotonic_now() - begin < (is_received ? kReceivedPatience : kAbsentPatience);
     };
-    while (std::ranges::any_of(std::views::iota(std::size_t{0}, axes_.size()), may_come)) { receive(50ms); }
+    while (std::ranges::any_of(std::views::iota(std::size_t{0}, motors_.size()), may_come)) { receive(50ms); }
 }
 
 void Session::await_healths(nanoseconds patience) {
     const nanoseconds deadline = monotonic_now() + patience;
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
-        while (axes_[i] && !healths_[i] && monotonic_now() < deadline) { receive(20ms); }
+    for (std::size_t i = 0; i < motors_.size(); ++i) {
+        while (motors_[i] && !healths_[i] && monotonic_now() < deadline) { receive(20ms); }
     }
 }
 
@@ -155,9 +161,7 @@ void Session::take_messages() {
         }
         owner_.take(state, now);
     });
-    viewer_bus().states.take([&](AxisState&& state) {
-        if (state.axis < axes_.size()) { axes_[state.axis] = {state, now}; }
-    });
+    viewer_bus().states.take([&](AxisState&& state) { take(std::move(state), now); });
     viewer_bus().healths.take([&](AxisHealth&& health) {
         if (health.axis < healths_.size()) { healths_[health.axis] = health; }
     });
@@ -180,8 +184,34 @@ void Session::take_replies() {
     });
 }
 
-bool Session::axis_present(std::size_t i) const {
-    return axes_[i] && monotonic_now() - axes_[i]->time <= longest_silence(config());
+bool Session::is_recent(const std::optional<Received<AxisState>>& state) const {
+    return state && monotonic_now() - state->time <= longest_silence(config());
+}
+
+std::vector<const AxisState*> Session::motor_states() const {
+    std::vector<const AxisState*> states;
+    for (const auto& motor : motors_) { states.push_back(motor ? &motor->state : nullptr); }
+    return states;
+}
+
+double Session::axis_speed(std::size_t i) const { return axis_speed_of(i, kinematics_, motor_states()); }
+
+/// An axis is as old as the oldest state that its place needs.
+void Session::take(AxisState&& state, nanoseconds now) {
+    if (state.axis >= motors_.size()) { return; }
+    const std::size_t motor = state.axis;
+    motors_[motor] = {std::move(state), now};
+    const std::vector<const AxisState*> states = motor_states();
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+        if (!has_axis(needed_[i], motor)) { continue; }
+        auto axis = axis_state_of(i, kinematics_, states);
+        if (!axis) { continue; }
+        nanoseconds oldest = now;
+        for (std::size_t m = 0; m < motors_.size(); ++m) {
+            if (has_axis(needed_[i], m)) { oldest = std::min(oldest, motors_[m]->time); }
+        }
+        axes_[i] = {*std::move(axis), oldest};
+    }
 }
 
 /// The owner may have been the standby before; then its old state does not count.
@@ -201,8 +231,8 @@ std::string Session::place_text() const {
 
 std::string Session::received_axes() const {
     std::string names;
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
-        if (axis_present(i)) { names += (names.empty() ? "" : ", ") + config().axes[i].name; }
+    for (std::size_t i = 0; i < motors_.size(); ++i) {
+        if (motor_present(i)) { names += (names.empty() ? "" : ", ") + motor_name(config(), i); }
     }
     return names;
 }
@@ -210,8 +240,8 @@ std::string Session::received_axes() const {
 std::string Session::present_axes() const {
     std::string names;
     for (const PresentProcess& process : present()) {
-        if (!process.axis || *process.axis >= axes_.size()) { continue; }
-        names += (names.empty() ? "" : ", ") + config().axes[*process.axis].name + " on " + process.host;
+        if (!process.axis || *process.axis >= motors_.size()) { continue; }
+        names += (names.empty() ? "" : ", ") + motor_name(config(), *process.axis) + " on " + process.host;
     }
     return names;
 }

@@ -17,6 +17,7 @@
 #include "clients/session/program_sender.hpp"
 #include "clients/text/failure.hpp"
 #include "core/gcode/kept_values.hpp"
+#include "core/kinematics/kinematics.hpp"
 #include "core/program.hpp"
 #include "core/protocol/axis_health.hpp"
 #include "core/protocol/messages.hpp"
@@ -82,10 +83,17 @@ public:
 
     /// The newest one received; nullopt before the first.
     const std::optional<Received<MachineState>>& state() const { return owner_.state(); }
+    const Kinematics& kinematics() const { return kinematics_; }
+    /// The newest state of a motor, of an axis by its motors (axis_state_of), and the axis's speed in steps per tick.
+    const std::optional<Received<AxisState>>& motor(std::size_t i) const { return motors_[i]; }
     const std::optional<Received<AxisState>>& axis(std::size_t i) const { return axes_[i]; }
-    const std::optional<AxisHealth>& health(std::size_t i) const { return healths_[i]; }
-    /// Whether a state came within the time after which the machine counts an axis as absent.
-    bool axis_present(std::size_t i) const;
+    double axis_speed(std::size_t i) const;
+    /// Of a motor.
+    const std::optional<AxisHealth>& health(std::size_t motor) const { return healths_[motor]; }
+    /// Whether a state came within the time after which the machine counts a motor as absent.
+    bool motor_present(std::size_t i) const { return is_recent(motors_[i]); }
+    /// The same of all motors that the axis's place needs.
+    bool axis_present(std::size_t i) const { return is_recent(axes_[i]); }
     /// Whether a standby coordinator is received.
     bool has_standby() const;
     /// True if no state of the coordinator came for longer than any stall that the machine's timing allows, while this
@@ -171,6 +179,9 @@ private:
     void take_messages();
     void take_replies();
     std::string place_text() const;
+    bool is_recent(const std::optional<Received<AxisState>>& state) const;
+    void take(AxisState&& state, std::chrono::nanoseconds now);
+    std::vector<const AxisState*> motor_states() const;
     std::string received_axes() const;
     std::string present_axes() const;
 
@@ -184,7 +195,10 @@ private:
     std::optional<Reader<PublishedEvent>> events_;
     std::optional<MachineValues> values_;  // the owner's
     std::optional<std::chrono::nanoseconds> unsaved_since_;
-    std::vector<std::optional<Received<AxisState>>> axes_;
+    Kinematics kinematics_;
+    std::vector<std::optional<Received<AxisState>>> motors_;
+    std::vector<std::optional<Received<AxisState>>> axes_;  // by their motors
+    std::vector<AxisSet> needed_;                           // of each axis: motors_needed_for
     std::vector<std::optional<AxisHealth>> healths_;
     std::map<std::uint64_t, Reply> replies_;  // to this client, not read yet
     std::uint32_t programs_ = 0;              // sent so far

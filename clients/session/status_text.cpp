@@ -47,10 +47,10 @@ std::string axis_row(const proto::AxisStatus& axis) {
 /// The maximum clock error of each axis with its own clock; empty if there is none.
 std::string clock_line(const proto::StatusReport& status) {
     std::string text;
-    for (const proto::AxisStatus& axis : status.axes()) {
-        if (!axis.has_clock_error_us()) { continue; }
-        text += (text.empty() ? "clock error at most: " : ", ") + axis.name() + " " + fixed(axis.clock_error_us(), 0) +
-                " us";
+    for (const proto::AxisStatus* const axis : rows_of(status)) {
+        if (!axis->has_clock_error_us()) { continue; }
+        text += (text.empty() ? "clock error at most: " : ", ") + axis->name() + " " +
+                fixed(axis->clock_error_us(), 0) + " us";
     }
     return text.empty() ? text : wrapped(text, 80, "  ") + "\n";
 }
@@ -58,14 +58,14 @@ std::string clock_line(const proto::StatusReport& status) {
 /// The reason why axes are not homed, if it is not obvious.
 std::string unproved_lines(const proto::StatusReport& status) {
     std::string text;
-    for (const proto::AxisStatus& axis : status.axes()) {
-        if (!axis.has_unproved() || axis.unproved().number() == static_cast<unsigned>(FaultCode::PositionNotKept)) {
+    for (const proto::AxisStatus* const axis : rows_of(status)) {
+        if (!axis->has_unproved() || axis->unproved().number() == static_cast<unsigned>(FaultCode::PositionNotKept)) {
             continue;
         }
-        const proto::FaultReport& why = axis.unproved();
-        text +=
-            wrapped(axis.name() + " is not homed, " + why.name() + ": " + why.cause() + "; " + why.remedy(), 80, "  ") +
-            "\n";
+        const proto::FaultReport& why = axis->unproved();
+        text += wrapped(axis->name() + " is not homed, " + why.name() + ": " + why.cause() + "; " + why.remedy(), 80,
+                        "  ") +
+                "\n";
     }
     return text;
 }
@@ -80,7 +80,7 @@ std::string count_line(const std::string& label, std::uint64_t coordinator, cons
         if (count > 0) { text += fmt::format("{}{} {}", text.empty() ? label + ": " : ", ", process, count); }
     };
     add("coordinator", coordinator);
-    for (const proto::AxisStatus& axis : status.axes()) { add(axis.name(), of_axis(axis.health())); }
+    for (const proto::AxisStatus* const axis : rows_of(status)) { add(axis->name(), of_axis(axis->health())); }
     return text.empty() ? text : wrapped(text, 80, "  ") + "\n";
 }
 
@@ -128,7 +128,7 @@ std::string age_text(const proto::StatusReport& status) {
 std::string status_text(const proto::StatusReport& status) {
     std::string text =
         headline(status) + pause_lines(status) + row("axis", "position mm", "velocity mm/s", "state", "homed");
-    for (const proto::AxisStatus& axis : status.axes()) { text += axis_row(axis); }
+    for (const proto::AxisStatus* const axis : rows_of(status)) { text += axis_row(*axis); }
     if (const std::string turned = overrides_text(status); !turned.empty()) { text += "overrides: " + turned + "\n"; }
     if (const std::string on = devices_text(status); !on.empty()) {
         text += wrapped("devices: " + on, 80, "  ") + "\n";
@@ -139,10 +139,10 @@ std::string status_text(const proto::StatusReport& status) {
     if (status.has_ended_early()) {
         text += fmt::format("the last job ended near line {}\n{}\n", status.line(), fault_text(status.ended_early()));
     }
-    for (const proto::AxisStatus& axis : status.axes()) {
-        const bool is_printed = status.has_fault() && status.fault().number() == axis.fault().number() &&
-                                status.fault().axis() == axis.name();
-        if (axis.has_fault() && !is_printed) { text += fault_text(axis.fault()) + "\n"; }
+    for (const proto::AxisStatus* const axis : rows_of(status)) {
+        const bool is_printed = status.has_fault() && status.fault().number() == axis->fault().number() &&
+                                status.fault().axis() == axis->name();
+        if (axis->has_fault() && !is_printed) { text += fault_text(axis->fault()) + "\n"; }
     }
     if (const std::string lost = record_loss_text(status); !lost.empty()) { text += wrapped(lost, 80, "  ") + "\n"; }
     if (status.unsaved_values()) {
@@ -193,19 +193,19 @@ std::string progress_text(const proto::StatusReport& status) {
 
 std::string homing_text(const proto::StatusReport& status) {
     std::string text;
-    for (const proto::AxisStatus& axis : status.axes()) {
-        const std::string state = axis.homed()     ? "homed at " + fixed(axis.position_mm(), 3)
-                                  : axis.present() ? axis.state()
-                                                   : "not received";
-        text += (text.empty() ? "" : "   ") + axis.name() + " " + state;
+    for (const proto::AxisStatus* const axis : rows_of(status)) {
+        const std::string state = axis->homed()     ? "homed at " + fixed(axis->position_mm(), 3)
+                                  : axis->present() ? axis->state()
+                                                    : "not received";
+        text += (text.empty() ? "" : "   ") + axis->name() + " " + state;
     }
     return text;
 }
 
 std::string unhomed_text(const proto::StatusReport& status) {
     std::string names;
-    for (const proto::AxisStatus& axis : status.axes()) {
-        if (!axis.homed()) { names += (names.empty() ? "" : ", ") + axis.name(); }
+    for (const proto::AxisStatus* const axis : rows_of(status)) {
+        if (!axis->homed()) { names += (names.empty() ? "" : ", ") + axis->name(); }
     }
     return names.empty() ? names : "not homed: " + names + "; home: lockstep home";
 }

@@ -2,12 +2,13 @@
 
 #include <utility>
 
+#include "core/kinematics/motors.hpp"
 #include "services/documents/program_document.hpp"
 
 namespace lockstep {
 
 MachineRecorder::MachineRecorder(VirtualMachine& vm, RecordSink& sink)
-    : machine_(vm.machine()), sink_(sink), axes_(machine_.axes.size()), found_(machine_.axes.size()) {
+    : machine_(vm.machine()), sink_(sink), axes_(motor_count(machine_)), found_(motor_count(machine_)) {
     vm.observe(*this);
 }
 

@@ -7,6 +7,7 @@
 #include "clients/simulation/motion_clock.hpp"
 #include "clients/simulation/program_feed.hpp"
 #include "clients/simulation/sliding_rows.hpp"
+#include "core/kinematics/kinematics.hpp"
 #include "services/documents/machine_file.hpp"
 
 namespace lockstep {
@@ -120,7 +121,9 @@ SimulationResult Simulation::finish(SimulationResult result) {
     }
     result.trouble = trouble_;
     result.steps = recorder_.steps();
-    for (const auto& axis : vm_.axis_states()) { result.final_counts.push_back(axis ? axis->position.count() : 0); }
+    MotorCounts motors;
+    for (const auto& motor : vm_.axis_states()) { motors.steps.append(motor ? motor->position.count() : 0); }
+    for (const std::int64_t count : Kinematics(vm_.machine()).axes_at(motors)) { result.final_counts.push_back(count); }
     return result;
 }
 

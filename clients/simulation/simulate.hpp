@@ -34,7 +34,7 @@ struct SimulationResult {
     std::optional<std::size_t> fault_axis;
     std::string trouble;                     // as text; empty if there was none
     Ticks motion;                            // duration of the program's motion, without pauses
-    std::vector<std::int64_t> final_counts;  // machine coordinates, steps
+    std::vector<std::int64_t> final_counts;  // of the axes, steps
     std::int64_t steps = 0;                  // of all axes, homing included
     std::uint64_t most_blocks_kept = 0;      // at once, of a program that was read while it ran
     SimulatedStage homing;

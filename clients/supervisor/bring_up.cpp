@@ -9,6 +9,7 @@
 #include "clients/supervisor/own_parts.hpp"
 #include "clients/supervisor/program_folder.hpp"
 #include "clients/supervisor/supervisor.hpp"
+#include "core/kinematics/motors.hpp"
 #include "services/axis/position_file.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/network/host_name.hpp"
@@ -134,15 +135,15 @@ Failure missing(const Session& session, const OwnParts& parts, const StateDirect
     if (!session.state()) {
         return failed(with_log("no messages are received from the coordinator", "coordinator", state));
     }
-    for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
-        const std::string& name = session.config().axes[i].name;
+    for (std::size_t i = 0; i < session.kinematics().motors().size(); ++i) {
+        const std::string& name = motor_name(session.config(), i);
         if (!has_axis(session.state()->state.axes_present, i)) {
             return failed(with_log("no messages are received from axis " + name, "axis-" + name, state));
         }
     }
-    for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
-        const std::string& name = session.config().axes[i].name;
-        const auto& axis = session.axis(i);
+    for (std::size_t i = 0; i < session.kinematics().motors().size(); ++i) {
+        const std::string& name = motor_name(session.config(), i);
+        const auto& axis = session.motor(i);
         if (axis && axis->state.unproved == FaultCode::DeviceMissing) {
             return failed(with_log("axis " + name + " waits for its device", "axis-" + name, state));
         }
@@ -154,8 +155,9 @@ Failure missing(const Session& session, const OwnParts& parts, const StateDirect
 std::string part_without_host(const MachineConfig& machine) {
     if (hosts_of(machine).size() < 2) { return ""; }
     if (machine.coordinator_host.empty()) { return part_name(machine, {}); }
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        if (machine.axes[i].host.empty()) { return part_name(machine, i); }
+    const std::vector<MotorConfig> motors = motors_of(machine);
+    for (std::size_t i = 0; i < motors.size(); ++i) {
+        if (motors[i].host.empty()) { return part_name(machine, i); }
     }
     return "";
 }
@@ -204,15 +206,15 @@ std::expected<ProcessRecord, Failure> supervise_in_background(const StateDirecto
 
 bool is_whole(const Session& session) {
     if (!session.state()) { return false; }
-    for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
-        if (!session.axis_present(i) || !has_axis(session.state()->state.axes_present, i)) { return false; }
+    for (std::size_t i = 0; i < session.kinematics().motors().size(); ++i) {
+        if (!session.motor_present(i) || !has_axis(session.state()->state.axes_present, i)) { return false; }
     }
     const MachinePhase phase = session.state()->state.phase;
     return phase == MachinePhase::Idle || phase == MachinePhase::Fault;
 }
 
 bool is_alone(const MachineConfig& machine, const Placement& placed) {
-    return placed.coordinator && placed.axes.size() == machine.axes.size();
+    return placed.coordinator && placed.axes.size() == motor_count(machine);
 }
 
 std::expected<Session, Failure> wait_until_up(const ChosenMachine& machine, const OwnParts& parts,
@@ -220,7 +222,7 @@ std::expected<Session, Failure> wait_until_up(const ChosenMachine& machine, cons
     auto session = Session::join(machine, Purpose::Look);
     if (!session) { return session; }
     const bool alone = is_alone(machine.config, parts.placed);
-    const nanoseconds deadline = monotonic_now() + kUpPatience + kUpPatienceEach * machine.config.axes.size();
+    const nanoseconds deadline = monotonic_now() + kUpPatience + kUpPatienceEach * motor_count(machine.config);
     for (;;) {
         const auto present = session->present();
         if (const auto what = trouble(machine.config, parts, state, supervisor, present)) {

@@ -1,16 +1,18 @@
 #include "clients/supervisor/service_lines.hpp"
 
+#include "core/kinematics/motors.hpp"
+
 namespace lockstep {
 namespace {
 
-std::string shared_name(const MachineConfig& machine, const AxisConfig& axis) {
-    return "lockstep-" + machine.name + "-" + axis.name;
+std::string shared_name(const MachineConfig& machine, const std::string& motor) {
+    return "lockstep-" + machine.name + "-" + motor;
 }
 
 }  // namespace
 
-std::string shared_device(const MachineConfig& machine, const AxisConfig& axis) {
-    return "shm:" + shared_name(machine, axis);
+DeviceName shared_device(const MachineConfig& machine, const std::string& motor) {
+    return {DeviceName::Kind::Shared, shared_name(machine, motor)};
 }
 
 std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Placement& placed, const Layout& layout,
@@ -26,9 +28,9 @@ std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Place
     std::vector<ServiceLine> lines;
     for (const std::size_t i : placed.axes) {
         if (layout.fpga != FpgaKind::Shared) { break; }
-        const AxisConfig& axis = machine.axes[i];
-        lines.push_back(line("fpga-" + axis.name, begin("lockstep-fpga"),
-                             {"--axis", axis.name, "--name", shared_name(machine, axis)}));
+        const std::string& motor = motor_name(machine, i);
+        lines.push_back(
+            line("fpga-" + motor, begin("lockstep-fpga"), {"--axis", motor, "--name", shared_name(machine, motor)}));
     }
     for (const char* name : {"coordinator", "coordinator-2"}) {
         if (!placed.coordinator) { break; }
@@ -40,11 +42,13 @@ std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Place
         if (!layout.standby) { break; }
     }
     for (const std::size_t i : placed.axes) {
-        const AxisConfig& axis = machine.axes[i];
-        const std::string name = "axis-" + axis.name;
-        std::vector<std::string> more{"--axis", axis.name, "--log", state.log_file(name).string()};
+        const std::string& motor = motor_name(machine, i);
+        const std::string name = "axis-" + motor;
+        std::vector<std::string> more{"--axis", motor, "--log", state.log_file(name).string()};
         if (layout.fpga == FpgaKind::Sim) { more.insert(more.end(), {"--fpga", "sim"}); }
-        if (layout.fpga == FpgaKind::Shared) { more.insert(more.end(), {"--fpga", shared_device(machine, axis)}); }
+        if (layout.fpga == FpgaKind::Shared) {
+            more.insert(more.end(), {"--fpga", shared_device(machine, motor).text()});
+        }
         lines.push_back(line(name, begin("lockstep-axis"), more));
     }
     if (placed.coordinator && (layout.web || machine.web)) {

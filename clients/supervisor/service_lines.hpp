@@ -30,7 +30,7 @@ struct ServiceLine {
 inline constexpr const char* kWeb = "web";
 
 /// The name, for open_window(), of a device that runs in its own process.
-std::string shared_device(const MachineConfig& machine, const AxisConfig& axis);
+DeviceName shared_device(const MachineConfig& machine, const std::string& motor);
 
 /// The machine's parts that are `placed` on this host. Devices come first, because axes attach to them. The page comes
 /// last, on the coordinator's host. `programs`: the directory of the services' executables.

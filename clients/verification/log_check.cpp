@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/faults.hpp"
+#include "core/kinematics/motors.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/record/reading/log_step.hpp"
 
@@ -149,9 +150,9 @@ void LogCheck::on_position(const axis_position_t& message, analysis::LogPlace pl
 void LogCheck::check_place(const axis_position_t& message, const Machine& of) {
     constexpr double kRounding_steps = 1e-3;
     if (make_follower_ || !of.config) { return; }
-    const auto axis = std::ranges::find(of.config->axes, message.axis, &AxisConfig::name);
-    if (axis == of.config->axes.end()) { return; }
-    const double steps = message.position_mm * axis->steps_per_mm;
+    const auto motor = motor_named(*of.config, message.axis);
+    if (!motor) { return; }
+    const double steps = message.position_mm * motor_steps_per_mm(*of.config, *motor);
     const auto counted = static_cast<double>(message.position_steps);
     if (std::abs(steps - counted) <= kRounding_steps + std::abs(counted) * 1e-9) { return; }
     findings_.differ(
@@ -192,7 +193,7 @@ void LogCheck::Machine::set_config(const std::string& text) {
 /// The log must have messages of each axis of the machine's file, and of no other.
 void LogCheck::Machine::check_axes(Findings& findings) const {
     if (!config) { return; }
-    const auto names = config->axis_names();
+    const auto names = motor_names(*config);
     for (const std::string& name : marked_axes) {
         if (axes.contains(name) || std::ranges::find(names, name) != names.end()) { continue; }
         findings.add_missing("axis " + name + ": marks count its messages, but the machine has no such axis");

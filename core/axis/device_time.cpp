@@ -6,6 +6,7 @@
 
 #include "core/axis/device/retime.hpp"
 #include "core/check.hpp"
+#include "core/kinematics/motors.hpp"
 
 namespace lockstep {
 DeviceTime::DeviceTime(std::size_t axis, const MachineConfig& machine)
@@ -14,7 +15,7 @@ DeviceTime::DeviceTime(std::size_t axis, const MachineConfig& machine)
       ptp_error_(source_ == TimeSource::Ptp ? machine.clock_error_limit() : Ticks{}),
       machine_(machine.tick_ns),
       shown_(machine.tick_ns),
-      pace_(machine.frame_ticks(), limits_of(machine.axes[axis], machine.tick_ns)) {}
+      pace_(machine.frame_ticks(), limits_of(motors_of(machine)[axis], machine.tick_ns)) {}
 
 bool DeviceTime::look(Tick own, const Device& device, bool in_use) {
     const bool stands_still = std::exchange(device_, device.now) == device.now;

@@ -5,6 +5,7 @@
 #include "core/coordinator/jobs/job_advance.hpp"
 #include "core/coordinator/jobs/job_commands.hpp"
 #include "core/coordinator/reply.hpp"
+#include "core/kinematics/motors.hpp"
 #include "core/protocol/needs_lease.hpp"
 
 namespace lockstep {
@@ -17,12 +18,13 @@ constexpr std::size_t kRepliesAtOnce = 16;  // more than a loop usually gives
 Coordinator::Coordinator(const MachineConfig& machine, Identity identity, std::uint64_t config_hash,
                          BeginSteps begin_steps, std::optional<OnTakeover> standby, MakeRows make_rows)
     : machine_(machine),
+      kinematics_(machine),
       config_hash_(config_hash),
       stands_by_(standby.has_value()),
       slot_(machine.slot_ticks()),
       ownership_(identity, machine.timing),
       axes_(machine),
-      orders_(machine.axes.size()),
+      orders_(motor_count(machine)),
       lease_(machine),
       programs_(machine, std::move(make_rows)),
       begin_steps_(begin_steps),
@@ -34,10 +36,10 @@ Coordinator::Coordinator(const MachineConfig& machine, Identity identity, std::u
 CoordinatorOutputs& Coordinator::step(const CoordinatorInputs& inputs) {
     out_.clear();
     const Slot slot = rules::slot_of(inputs.now, slot_);
-    CoordinatorLoop loop{
-        {machine_, axes_, programs_, inputs.now, slot, gate_.next(slot), ownership_.term(), is_late(inputs.now)},
-        orders_,
-        out_};
+    CoordinatorLoop loop{{machine_, kinematics_, axes_, programs_, inputs.now, slot, gate_.next(slot),
+                          ownership_.term(), is_late(inputs.now)},
+                         orders_,
+                         out_};
     axes_.forgive(gate_.missed(slot), slot);
     receive(inputs, loop);
     change_owner(loop);

@@ -70,6 +70,7 @@ private:
     void report(CoordinatorLoop& loop) const;
 
     MachineConfig machine_;
+    Kinematics kinematics_;
     std::uint64_t config_hash_;
     bool stands_by_;  // while another coordinator owns the machine; otherwise it quits
     Ticks slot_;

@@ -4,6 +4,8 @@
 
 #include <variant>
 
+#include "core/kinematics/motors.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -40,7 +42,7 @@ AxisFlight::AxisFlight(std::size_t axis, const MachineConfig& machine, FlightLog
       log_(log),
       loop_(machine),
       owner_(kFlightCoordinator, silence_limits(machine)) {
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (std::size_t i = 0; i < motor_count(machine); ++i) {
         axes_.emplace_back(flight_axis(i), silence_limits(machine));
     }
 }

@@ -1,5 +1,6 @@
 #include "core/flight/coordinator_flight.hpp"
 
+#include "core/kinematics/motors.hpp"
 #include "core/protocol/needs_lease.hpp"
 
 namespace lockstep {
@@ -34,8 +35,8 @@ CoordinatorFlight::CoordinatorFlight(const MachineConfig& machine, FlightLog& lo
       log_(log),
       loop_(machine),
       other_owner_(kFlightCoordinator, silence_limits(machine)),
-      orders_(machine.axes.size()) {
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+      orders_(motor_count(machine)) {
+    for (std::size_t i = 0; i < motor_count(machine); ++i) {
         axes_.emplace_back(flight_axis(i), silence_limits(machine));
     }
 }

@@ -33,7 +33,7 @@ public:
     template <typename Places>
     double place(std::size_t motor, const Places& axes) const {
         double sum = 0;
-        for (std::size_t i = 0; i < axes_; ++i) { sum += factor(motor, i) * axes[i]; }
+        for (std::size_t i = 0; i < axes_; ++i) { sum += factor(motor, i) * static_cast<double>(axes[i]); }
         return sum;
     }
 

@@ -2,12 +2,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "core/check.hpp"
 
 namespace lockstep {
 namespace {
 
 std::size_t axis_named(const MachineConfig& machine, const std::string& name) {
     return static_cast<std::size_t>(std::ranges::find(machine.axes, name, &AxisConfig::name) - machine.axes.begin());
+}
+
+/// Where a motor stands in the configuration; `block` is null if it is the axis's only one.
+struct MotorPlace {
+    const AxisConfig& axis;
+    const MotorBlock* block = nullptr;
+};
+
+MotorPlace place_of(const MachineConfig& machine, std::size_t motor) {
+    for (const AxisConfig& axis : machine.axes) {
+        const std::size_t count = std::max<std::size_t>(axis.motors.size(), 1);
+        if (motor < count) { return {axis, axis.motors.empty() ? nullptr : &axis.motors[motor]}; }
+        motor -= count;
+    }
+    check(false, "the machine has the motor");
+    std::unreachable();
 }
 
 MotorConfig motor_of_axis(const AxisConfig& axis, std::size_t place) {
@@ -62,6 +81,40 @@ void set_limits(MotorConfig& motor, const MachineConfig& machine, const MotorBlo
     }
 }
 
+/// What stands in the axis, in mm of the motor's way. A motor that also follows other axes has no switch of its own: it
+/// parks where the axes do.
+void scale(MotorConfig& motor, bool has_own_plant, const MachineConfig& machine, std::span<const double> shares) {
+    if (motor.moves_one_axis) {
+        const double share = shares[motor.axis];
+        const double size = std::abs(share);
+        HomingConfig& homing = motor.homing;
+        homing.toward_min = homing.toward_min == (share > 0);
+        for (double* mm : {&homing.search_velocity_mm_s, &homing.latch_velocity_mm_s, &homing.pulloff_mm,
+                           &homing.touch_tolerance_mm, &motor.plant.travel_margin_mm}) {
+            *mm *= size;
+        }
+        for (double* mm : {&homing.switch_position_mm, &homing.park_mm, &motor.plant.start_position_mm}) {
+            *mm *= share;
+        }
+        if (motor.unhomed_jog_mm_s) { *motor.unhomed_jog_mm_s *= size; }
+        return;
+    }
+    motor.unhomed_jog_mm_s.reset();
+    motor.homing.in_place = true;
+    motor.homing.park_mm = 0;
+    if (!has_own_plant) { motor.plant = {}; }
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        const AxisConfig& axis = machine.axes[i];
+        const double size = std::abs(shares[i]);
+        motor.homing.park_mm += shares[i] * axis.homing.park_mm;
+        if (has_own_plant) { continue; }
+        motor.plant.start_position_mm += shares[i] * axis.plant.start_position_mm;
+        motor.plant.travel_margin_mm += size * axis.plant.travel_margin_mm;
+        motor.plant.max_torque_accel_mm_s2 += size * axis.plant.max_torque_accel_mm_s2;
+        motor.plant.max_jump_mm_s += size * axis.plant.max_jump_mm_s;
+    }
+}
+
 void set_share(LinearMap& map, std::size_t motor, const MachineConfig& machine, const std::string& axis, double share) {
     const std::size_t place = axis_named(machine, axis);
     if (place < machine.axes.size()) { map.factor(motor, place) = share; }
@@ -84,6 +137,22 @@ std::vector<std::string> motor_names(const MachineConfig& machine) {
     return names;
 }
 
+const std::string& motor_name(const MachineConfig& machine, std::size_t motor) {
+    const auto [axis, block] = place_of(machine, motor);
+    return block == nullptr ? axis.name : block->name;
+}
+
+double motor_steps_per_mm(const MachineConfig& machine, std::size_t motor) {
+    const auto [axis, block] = place_of(machine, motor);
+    return block == nullptr ? axis.steps_per_mm : block->steps_per_mm.value_or(axis.steps_per_mm);
+}
+
+std::optional<std::size_t> motor_named(const MachineConfig& machine, std::string_view name) {
+    const std::vector<std::string> names = motor_names(machine);
+    const auto found = std::ranges::find(names, name);
+    return found == names.end() ? std::nullopt : std::optional<std::size_t>(found - names.begin());
+}
+
 LinearMap motor_map_of(const MachineConfig& machine) {
     const KinematicsConfig& kinematics = machine.kinematics;
     const std::vector<std::string> names = motor_names(machine);
@@ -94,7 +163,9 @@ LinearMap motor_map_of(const MachineConfig& machine) {
         for (std::size_t k = 0; k < std::max<std::size_t>(axis.motors.size(), 1); ++k, ++motor) {
             map.factor(motor, a) = 1;
             if (!kinematics.core_xy) { continue; }
-            if (axis.name == kinematics.core_xy->first) { set_share(map, motor, machine, kinematics.core_xy->second, 1); }
+            if (axis.name == kinematics.core_xy->first) {
+                set_share(map, motor, machine, kinematics.core_xy->second, 1);
+            }
             if (axis.name == kinematics.core_xy->second) {
                 set_share(map, motor, machine, kinematics.core_xy->first, 1);
                 map.factor(motor, a) = -1;
@@ -126,13 +197,7 @@ std::vector<MotorConfig> motors_of(const MachineConfig& machine) {
         const auto shares = map.row(place);
         set_limits(motor, machine, block, shares);
         motor.moves_one_axis = map.only_axis_of(place) == motor.axis;
-        if (!motor.moves_one_axis) {
-            motor.unhomed_jog_mm_s.reset();
-            motor.plant.start_position_mm = 0;
-            for (std::size_t i = 0; i < shares.size(); ++i) {
-                motor.plant.start_position_mm += shares[i] * machine.axes[i].plant.start_position_mm;
-            }
-        }
+        scale(motor, block != nullptr && block->plant.has_value(), machine, shares);
         motors.push_back(std::move(motor));
     };
     for (std::size_t a = 0; a < machine.axes.size(); ++a) {

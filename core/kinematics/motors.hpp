@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/kinematics/linear_map.hpp"
@@ -15,10 +16,10 @@ namespace lockstep {
 /// the axis, where these differ.
 struct MotorConfig {
     std::string name;
-    std::size_t axis = 0;         // in whose configuration it stands
-    bool moves_one_axis = true;   // its place is that of this axis; false: it also follows other axes
-    std::string host;             // on which it runs; empty: any host
-    std::string device = "sim";
+    std::size_t axis = 0;        // in whose configuration it stands
+    bool moves_one_axis = true;  // its place is that of this axis; false: it also follows other axes
+    std::string host;            // on which it runs; empty: any host
+    DeviceName device;
     double steps_per_mm = 0;
     double start_velocity_mm_s = 0;
     double max_velocity_mm_s = 0;
@@ -38,6 +39,10 @@ struct MotorConfig {
 std::vector<MotorConfig> motors_of(const MachineConfig& machine);
 std::size_t motor_count(const MachineConfig& machine);
 std::vector<std::string> motor_names(const MachineConfig& machine);
+const std::string& motor_name(const MachineConfig& machine, std::size_t motor);
+double motor_steps_per_mm(const MachineConfig& machine, std::size_t motor);
+/// The number of the motor with this name; nullopt if there is none.
+std::optional<std::size_t> motor_named(const MachineConfig& machine, std::string_view name);
 
 /// The places of the motors in mm by those of the axes in mm (or degrees).
 LinearMap motor_map_of(const MachineConfig& machine);

@@ -102,14 +102,6 @@ std::string text_of(const Unsuited& unsuited) {
            " steps/s";
 }
 
-SpeedLimits speed_limits_of(const AxisConfig& axis, std::int64_t tick_ns) {
-    return {.start = axis.start_velocity_mm_s * axis.steps_per_mm,
-            .max = axis.max_velocity_mm_s * axis.steps_per_mm,
-            .acceleration = axis.max_accel_mm_s2 * axis.steps_per_mm,
-            .deceleration = axis.max_decel_mm_s2 * axis.steps_per_mm,
-            .tick_s = static_cast<double>(tick_ns) * 1e-9};
-}
-
 Suits suits(StepMethod method, const SpeedLimits& limits) {
     if (method == StepMethod::Ranade) { return {}; }
     const double fastest = 1 / (kMinTicksPerStep * limits.tick_s);

@@ -24,7 +24,13 @@ struct SpeedLimits {
     double tick_s = 0;
 };
 
-SpeedLimits speed_limits_of(const AxisConfig& axis, std::int64_t tick_ns);
+SpeedLimits speed_limits_of(const Moving auto& part, std::int64_t tick_ns) {
+    return {.start = part.start_velocity_mm_s * part.steps_per_mm,
+            .max = part.max_velocity_mm_s * part.steps_per_mm,
+            .acceleration = part.max_accel_mm_s2 * part.steps_per_mm,
+            .deceleration = part.max_decel_mm_s2 * part.steps_per_mm,
+            .tick_s = static_cast<double>(tick_ns) * 1e-9};
+}
 
 /// Why a method does not suit an axis.
 struct Unsuited {

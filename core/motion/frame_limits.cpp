@@ -1,5 +1,7 @@
 #include "core/motion/frame_limits.hpp"
 
+#include "core/kinematics/motors.hpp"
+
 namespace lockstep {
 namespace {
 

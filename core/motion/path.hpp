@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/kinematics/places.hpp"
 #include "core/machine.hpp"
 #include "core/motion/profile.hpp"
 #include "core/path_place.hpp"
@@ -12,11 +13,9 @@
 
 namespace lockstep {
 
-using AxisCounts = StaticVector<std::int64_t, kMaxAxes>;
-using AxisPositions = StaticVector<Position, kMaxAxes>;
-
-inline AxisPositions positions_of(const AxisCounts& counts) {
-    AxisPositions positions;
+/// Places of rest of the axes, exactly.
+inline StaticVector<Position, kMaxAxes> positions_of(const AxisCounts& counts) {
+    StaticVector<Position, kMaxAxes> positions;
     for (const std::int64_t count : counts) { positions.append(Position::steps(count)); }
     return positions;
 }

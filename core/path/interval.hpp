@@ -14,8 +14,8 @@
 #pragma once
 
 #include "core/overrides.hpp"
+#include "core/path/geometry/quadratic.hpp"
 #include "core/path/path_setup.hpp"
-#include "core/path/quadratic.hpp"
 
 namespace lockstep {
 

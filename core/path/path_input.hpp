@@ -1,7 +1,7 @@
 // Takes the moves of a program and adds them to the geometry of a path, as a stream.
 #pragma once
 
-#include "core/path/path_geometry.hpp"
+#include "core/path/geometry/path_geometry.hpp"
 
 namespace lockstep {
 

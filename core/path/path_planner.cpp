@@ -1,6 +1,6 @@
 #include "core/path/path_planner.hpp"
 
-#include "core/path/motor_rows.hpp"
+#include "core/path/geometry/motor_rows.hpp"
 
 namespace lockstep {
 
@@ -23,7 +23,7 @@ void PathPlanner::begin(std::span<const Position> at) {
     passed_ = 0;
     is_finished_ = false;
     geometry_.begin(at);
-    const AxisPositions motors = motors_at_rest(setup_, at);
+    const MotorPositions motors = motors_at_rest(setup_, at);
     resume({}, {motors.begin(), motors.size()});
 }
 

@@ -80,9 +80,7 @@ inline PathSetup path_setup_of(const MachineConfig& machine) {
                     .steps_per_mm = {},
                     .frame_ticks = machine.frame_ticks(),
                     .body_pieces = static_cast<std::size_t>(body_pieces(machine.timing))};
-    if (LinearMap map = step_map_of(machine); !map.is_identity()) {
-        setup.use_map(map, axis_frame_limits_of(machine));
-    }
+    if (LinearMap map = step_map_of(machine); !map.is_identity()) { setup.use_map(map, axis_frame_limits_of(machine)); }
     for (AxisLimits& row : setup.limits) { row = planned_limits(row); }
     for (const AxisConfig& axis : machine.axes) { setup.steps_per_mm.push_back(axis.steps_per_mm); }
     return setup;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/path/motor_rows.hpp"
+#include "core/path/geometry/motor_rows.hpp"
 
 namespace lockstep {
 namespace {
@@ -42,9 +42,7 @@ void SpeedWindow::restart(const Overrides& overrides, const PathSpot& begin) {
     is_finished_ = false;
 }
 
-void SpeedWindow::add(const Quadratic& piece) {
-    setup_.has_map() ? add_rows(rows_of(setup_, piece)) : add_rows(piece);
-}
+void SpeedWindow::add(const Quadratic& piece) { setup_.has_map() ? add_rows(rows_of(setup_, piece)) : add_rows(piece); }
 
 void SpeedWindow::add_rows(const Quadratic& piece) {
     if (pending_) { close_pending(&piece); }

@@ -14,8 +14,8 @@
 
 #include <optional>
 
+#include "core/path/geometry/path_trail.hpp"
 #include "core/path/interval.hpp"
-#include "core/path/path_trail.hpp"
 #include "core/path/sliding_vector.hpp"
 #include "core/reused_queue.hpp"
 

@@ -4,6 +4,7 @@
 
 #include <bit>
 
+#include "core/kinematics/motors.hpp"
 #include "services/network/host_name.hpp"
 #include "services/wire/dds/present_processes.hpp"
 
@@ -47,7 +48,7 @@ std::expected<AxisNetwork, std::string> AxisNetwork::open(const Setup& setup) {
 
 /// Receiving allocates no memory after a stall either, when more states wait than ever before.
 AxisNetwork::AxisNetwork(const Setup& setup, std::unique_ptr<Link> link) : axis_(setup.axis), link_(std::move(link)) {
-    received_.states.reserve(Reader<AxisState>::most_waiting(setup.machine.axes.size()));
+    received_.states.reserve(Reader<AxisState>::most_waiting(motor_count(setup.machine)));
 }
 
 const AxisReceived& AxisNetwork::receive() {

@@ -4,14 +4,15 @@
 #include <functional>
 #include <utility>
 
+#include "core/kinematics/motors.hpp"
 #include "core/methods/paper_steps.hpp"
 
 namespace lockstep {
 
-AxisDevice simulated_device(const AxisConfig& axis, std::int64_t tick_ns, Tick now) {
+AxisDevice simulated_device(const MotorConfig& motor, std::int64_t tick_ns, Tick now) {
     const RegisterWindow window = RegisterWindow::in_process();
     return {window,
-            std::make_unique<SimulatedDevice>(window, Plant(axis, tick_ns), tick_ns, now,
+            std::make_unique<SimulatedDevice>(window, Plant(motor, tick_ns), tick_ns, now,
                                               static_cast<std::uint64_t>(now.value)),
             true};
 }

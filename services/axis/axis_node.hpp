@@ -15,6 +15,7 @@
 #include "core/axis/health_meter.hpp"
 #include "core/clock/clock_reset.hpp"
 #include "core/flight/axis_flight.hpp"
+#include "core/kinematics/motors.hpp"
 #include "services/axis/device_driver.hpp"
 #include "sim_fpga/device.hpp"
 
@@ -28,7 +29,7 @@ struct AxisDevice {
 };
 
 /// A simulated device in this process, powered up at `now`.
-AxisDevice simulated_device(const AxisConfig& axis, std::int64_t tick_ns, Tick now);
+AxisDevice simulated_device(const MotorConfig& motor, std::int64_t tick_ns, Tick now);
 
 /// Opens an axis's device. `own` is the current reading of this process's clock. Error: why there is no device. Never
 /// waits.

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <memory>
 
+#include "core/kinematics/motors.hpp"
 #include "core/protocol/rival.hpp"
 #include "core/protocol/second_process.hpp"
 #include "services/axis/axis_network.hpp"
@@ -15,7 +16,6 @@
 #include "services/axis/position_file.hpp"
 #include "services/documents/edit/kept_settings.hpp"
 #include "services/documents/machine_file.hpp"
-#include "services/documents/names.hpp"
 #include "services/documents/placement.hpp"
 #include "services/flight/check_report.hpp"
 #include "services/flight/flight_recorder.hpp"
@@ -40,12 +40,12 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-OpenDevice opener_of(const std::string& fpga, const AxisConfig& axis, std::int64_t tick_ns) {
-    if (fpga == "sim") {
+OpenDevice opener_of(const DeviceName& device, const MotorConfig& axis, std::int64_t tick_ns) {
+    if (device.kind == DeviceName::Kind::Simulated) {
         return [axis, tick_ns](Tick now) { return simulated_device(axis, tick_ns, now); };
     }
-    return [fpga](Tick) -> std::expected<AxisDevice, std::string> {
-        auto window = open_window(fpga);
+    return [device](Tick) -> std::expected<AxisDevice, std::string> {
+        auto window = open_window(device);
         if (!window) { return std::unexpected(window.error()); }
         return AxisDevice{std::move(*window), nullptr, true};
     };
@@ -65,16 +65,15 @@ KeptOrNot kept_position(const MachineConfig& machine, std::size_t axis) {
 /// The state of the process's loop.
 class AxisService {
 public:
-    /// `fpga` has the format of AxisConfig::device.
-    AxisService(const AxisNode::Setup& setup, const std::string& fpga, const MachineClock& clock, AxisNetwork network,
+    AxisService(const AxisNode::Setup& setup, const DeviceName& device, const MachineClock& clock, AxisNetwork network,
                 std::unique_ptr<RecordSink> sink)
         : setup_(setup),
-          fpga_(fpga),
+          device_(device.text()),
           clock_(clock),
-          node_(setup, opener_of(fpga, setup.machine.axes[setup.axis], setup.machine.tick_ns)),
+          node_(setup, opener_of(device, motors_of(setup.machine)[setup.axis], setup.machine.tick_ns)),
           network_(std::move(network)),
           sink_(std::move(sink)),
-          flight_log_(open_flight(setup.machine, setup.machine.axes[setup.axis].name, setup.identity)),
+          flight_log_(open_flight(setup.machine, motor_name(setup.machine, setup.axis), setup.identity)),
           flight_(setup.axis, setup.machine, *flight_log_),
           recorder_(setup.machine, setup.axis, setup.identity, *sink_),
           keeper_(position_file(setup.machine, setup.axis), report_disk_failure),
@@ -171,10 +170,10 @@ private:
         const bool has_device = node_.lacks().empty();
         if (has_device == has_device_) { return; }
         has_device_ = has_device;
-        has_device ? log_info("device " + fpga_ + " is present") : report_missing_device();
+        has_device ? log_info("device " + device_ + " is present") : report_missing_device();
     }
 
-    void report_missing_device() const { log_warning("waits for its device " + fpga_ + ": " + node_.lacks()); }
+    void report_missing_device() const { log_warning("waits for its device " + device_ + ": " + node_.lacks()); }
 
     /// Logs every few seconds that the coordinator, its clock or the device is missing, and new refused messages, lost
     /// records and device errors.
@@ -210,10 +209,10 @@ private:
             node_.clock_error().value * setup_.machine.tick_ns / 1'000'000'000, own_name());
     }
 
-    const std::string& own_name() const { return setup_.machine.axes[setup_.axis].name; }
+    const std::string& own_name() const { return motor_name(setup_.machine, setup_.axis); }
 
     AxisNode::Setup setup_;
-    std::string fpga_;
+    std::string device_;  // its name
     MachineClock clock_;
     AxisNode node_;
     AxisNetwork network_;
@@ -237,24 +236,24 @@ private:
     std::string end_reason_;
 };
 
-int run(const AxisServiceOptions& options, const MachineConfig& machine, std::size_t axis) {
+int run(const AxisServiceOptions& options, const MachineConfig& machine, std::size_t axis, const DeviceName& device) {
     StopSignal stop;
     const EndGuard guard(stop);
     for (const std::string& line : ask_for_real_time(machine.real_time)) { log_info(line); }
     const MachineClock clock(machine.tick_ns, machine.timing.time_source, options.clock_error);
     const AxisNode::Setup setup{axis, machine, static_cast<Identity>(monotonic_now().count()), config_hash(machine),
                                 kept_position(machine, axis)};
-    const std::string fpga = options.fpga.empty() ? machine.axes[axis].device : options.fpga;
     const auto admission = admit_service(machine, axis_member(machine, axis));
     if (!admission) { return end_with_failure(admission.error()); }
     auto network = AxisNetwork::open({machine, static_cast<std::uint32_t>(axis), setup.identity, clock, *admission});
     if (!network) { return end_with_failure(network.error()); }
-    AxisService service(setup, fpga, clock, std::move(*network),
-                        open_record(machine, machine.axes[axis].name, options.record));
-    log_info(fmt::format("axis {} of machine {} is up, device {}", machine.axes[axis].name, machine.name, fpga));
+    AxisService service(setup, device, clock, std::move(*network),
+                        open_record(machine, motor_name(machine, axis), options.record));
+    log_info(
+        fmt::format("axis {} of machine {} is up, device {}", motor_name(machine, axis), machine.name, device.text()));
 
     ServiceManager manager;
-    manager.ready(fmt::format("axis {} of machine {}", machine.axes[axis].name, machine.name));
+    manager.ready(fmt::format("axis {} of machine {}", motor_name(machine, axis), machine.name));
     PeriodicLoop periodic(loop_period(machine));
     std::optional<LoopWatchdog> watchdog([&] { service.end_as_stuck(); });
     periodic.run(stop, [&](nanoseconds begun) {
@@ -278,23 +277,21 @@ int serve_axis(const AxisServiceOptions& options) {
     const MachineConfig& machine = loaded->config;
     const auto axis = axis_to_run(machine, options.axis, host_name());
     if (!axis) { return end_with_bad_input(options.machine_file.string() + ": " + axis.error()); }
-    const AxisConfig& config = machine.axes[*axis];
-    const bool simulated = (options.fpga.empty() ? config.device : options.fpga) == "sim";
+    const MotorConfig config = motors_of(machine)[*axis];
+    const auto device = options.fpga.empty() ? config.device : read_device_name(options.fpga);
+    if (!device) { return end_with_bad_input("--fpga " + options.fpga + ": " + device.error()); }
     if (options.clock_error != ClockError{} && machine.timing.time_source != TimeSource::Network) {
         return end_with_bad_input(
             "--clock-error needs time_source: NETWORK; with the machine's time_source nothing would correct the clock");
     }
-    if (options.clock_error != ClockError{} && !simulated) {
+    if (options.clock_error != ClockError{} && device->kind != DeviceName::Kind::Simulated) {
         return end_with_bad_input("--clock-error needs --fpga sim, because the clock of lockstep-fpga has no error");
-    }
-    if (!options.fpga.empty() && !is_device_name(options.fpga)) {
-        return end_with_bad_input("--fpga " + options.fpga + ": it must be sim, shm:NAME or uio:PATH");
     }
     if (auto log = open_log({"axis", config.name, options.log_file, true}); !log) {
         return end_with_bad_input(log.error());
     }
     if (!loaded->settings.empty()) { log_info(settings_notice(loaded->settings)); }
-    return run(options, machine, *axis);
+    return run(options, machine, *axis, *device);
 }
 
 }  // namespace lockstep

@@ -1,15 +1,13 @@
 #include "services/axis/device_window.hpp"
 
-#include <string_view>
+#include "core/check.hpp"
 
 namespace lockstep {
 
-std::expected<RegisterWindow, std::string> open_window(const std::string& device) {
-    constexpr std::string_view kShared = "shm:";
-    constexpr std::string_view kMapped = "uio:";
-    if (device.starts_with(kShared)) { return RegisterWindow::open_shared(device.substr(kShared.size())); }
-    if (device.starts_with(kMapped)) { return RegisterWindow::open_file(device.substr(kMapped.size())); }
-    return std::unexpected("the device \"" + device + "\" is not known; it must be sim, shm:NAME or uio:PATH");
+std::expected<RegisterWindow, std::string> open_window(const DeviceName& device) {
+    check(device.kind != DeviceName::Kind::Simulated, "a device in its axis's process has no window to open");
+    return device.kind == DeviceName::Kind::Shared ? RegisterWindow::open_shared(device.place)
+                                                   : RegisterWindow::open_file(device.place);
 }
 
 }  // namespace lockstep

@@ -4,12 +4,12 @@
 #include <expected>
 #include <string>
 
+#include "core/device_name.hpp"
 #include "sim_fpga/register_window.hpp"
 
 namespace lockstep {
 
-/// `device` is "shm:NAME" or "uio:PATH" (AxisConfig::device). Error: `device` is neither, or the registers cannot be
-/// mapped.
-std::expected<RegisterWindow, std::string> open_window(const std::string& device);
+/// `device` is shared or mapped, not simulated. Error: the registers cannot be mapped.
+std::expected<RegisterWindow, std::string> open_window(const DeviceName& device);
 
 }  // namespace lockstep

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/kinematics/motors.hpp"
 #include "services/axis/position_document.hpp"
 #include "services/files/directories.hpp"
 #include "services/files/text_file.hpp"
@@ -36,7 +37,7 @@ std::filesystem::path position_file(const MachineConfig& machine, std::size_t ax
     const std::filesystem::path directory = machine.position_directory.empty()
                                                 ? position_directory(machine.name)
                                                 : std::filesystem::path(machine.position_directory);
-    return directory / (machine.axes[axis].name + ".textproto");
+    return directory / (motor_name(machine, axis) + ".textproto");
 }
 
 ReadPosition read_position(const std::filesystem::path& path) {

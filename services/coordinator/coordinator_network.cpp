@@ -2,6 +2,8 @@
 
 #include <bit>
 
+#include "core/kinematics/motors.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -18,7 +20,7 @@ std::expected<std::unique_ptr<CoordinatorLink>, std::string> open_link(const Coo
 
 AxisSet all_axes(const MachineConfig& machine) {
     AxisSet axes = 0;
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) { axes |= axis_bit(i); }
+    for (std::size_t i = 0; i < motor_count(machine); ++i) { axes |= axis_bit(i); }
     return axes;
 }
 
@@ -43,8 +45,8 @@ std::expected<CoordinatorNetwork, std::string> CoordinatorNetwork::open(const Se
 /// Receiving allocates no memory after a stall either, when more messages wait than ever before.
 CoordinatorNetwork::CoordinatorNetwork(const MachineConfig& machine, std::unique_ptr<Link> link)
     : axes_(all_axes(machine)), link_(std::move(link)) {
-    received_.states.reserve(Reader<AxisState>::most_waiting(machine.axes.size()));
-    received_.healths.reserve(Reader<AxisHealth>::most_waiting(machine.axes.size()));
+    received_.states.reserve(Reader<AxisState>::most_waiting(motor_count(machine)));
+    received_.healths.reserve(Reader<AxisHealth>::most_waiting(motor_count(machine)));
 }
 
 const CoordinatorReceived& CoordinatorNetwork::receive() {

@@ -11,6 +11,7 @@
 #include "core/coordinator/coordinator.hpp"
 #include "core/coordinator/path/coordination.hpp"
 #include "core/flight/coordinator_flight.hpp"
+#include "core/kinematics/motors.hpp"
 #include "core/methods/paper_steps.hpp"
 #include "core/protocol/names.hpp"
 #include "services/coordinator/coordinator_network.hpp"
@@ -100,7 +101,7 @@ private:
         const CoordinatorReceived& received = network_.receive();
         read_chunks(received.chunks);
         for (const AxisState& state : received.states) {
-            if (state.axis >= machine_.axes.size()) { continue; }
+            if (state.axis >= motor_count(machine_)) { continue; }
             received_axes_ |= axis_bit(state.axis);
             config_hashes_[state.axis] = state.config_hash;
         }
@@ -180,7 +181,7 @@ private:
     }
 
     std::string axis_name(std::uint64_t axis) const {
-        return axis < machine_.axes.size() ? machine_.axes[axis].name : std::to_string(axis);
+        return axis < motor_count(machine_) ? motor_name(machine_, axis) : std::to_string(axis);
     }
 
     void log_notice(const CoordinatorNotice& notice) const {
@@ -250,12 +251,12 @@ private:
         const Ticks period{5'000'000'000 / machine_.tick_ns};
         if (now - reported_ < period) { return; }
         reported_ = now;
-        for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
+        for (std::size_t i = 0; i < motor_count(machine_); ++i) {
             if (!has_axis(received_axes_, i)) {
-                log_info("waits for axis " + machine_.axes[i].name + " " + network_.place_of_states());
+                log_info("waits for axis " + motor_name(machine_, i) + " " + network_.place_of_states());
             }
         }
-        for (std::size_t axis = 0; axis < machine_.axes.size(); ++axis) {
+        for (std::size_t axis = 0; axis < motor_count(machine_); ++axis) {
             const std::uint64_t hash = config_hashes_[axis];
             if (!has_axis(received_axes_, axis) || hash == config_hash_) { continue; }
             log_warning(

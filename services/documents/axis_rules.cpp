@@ -21,10 +21,6 @@ using namespace axis_ranges;
 
 constexpr double kMinTravelSteps = 4;    // for homing: off the switch and back
 constexpr double kMaxRampSeconds = 600;  // slower is a mistake in the units
-constexpr double kMaxSteps = 0x1p40;     // within the range where plans in double are exact
-
-bool at_most(double value, double limit) { return value <= limit * (1 + kTextRounding); }
-bool at_least(double value, double limit) { return value >= limit * (1 - kTextRounding); }
 
 class AxisRules {
 public:
@@ -40,16 +36,39 @@ public:
         check_travel();
         check_durations();
         check_homing_speeds();
-        check_capture();
+        if (has_own_motor()) { check_capture(); }
         check_unhomed_jog();
         check_homing_places();
         check_plant();
-        check_method();
+        if (has_own_motor()) { check_method(); }
         check_place();
+        check_motors();
         return problems_.take();
     }
 
 private:
+    /// Otherwise the steps are those of its motors, which have their own rules (motor_problems).
+    bool has_own_motor() const { return axis_.motors.empty(); }
+
+    void check_motors() {
+        if (axis_.motors.size() < 2 || !axis_.max_skew_mm) { return; }
+        length("max_skew_mm", *axis_.max_skew_mm);
+        problems_.require_between(
+            {"max_skew_mm", "homing.pulloff_mm"}, *axis_.max_skew_mm >= axis_.homing.pulloff_mm,
+            fmt::format("max_skew_mm is {}, below homing.pulloff_mm {}: a motor that has found its switch pulls off "
+                        "while the other still searches; increase it",
+                        number_text(*axis_.max_skew_mm), number_text(axis_.homing.pulloff_mm)));
+        const double beside = axis_.homing.switch_position_mm +
+                              (axis_.homing.toward_min ? axis_.homing.pulloff_mm : -axis_.homing.pulloff_mm);
+        problems_.require_between(
+            {"homing.park_mm", "homing.pulloff_mm", "homing.switch_position_mm"},
+            axis_.homing.in_place || std::abs(axis_.homing.park_mm - beside) <= *axis_.max_skew_mm,
+            fmt::format(
+                "homing.park_mm is {}: each of several motors parks by itself, so it must be within max_skew_mm "
+                "of {}, where homing pulls off; leave it out",
+                number_text(axis_.homing.park_mm), number_text(beside)));
+    }
+
     void check_name() {
         problems_.require(
             is_axis_name(axis_.name), "name",
@@ -80,7 +99,9 @@ private:
     }
 
     void check_ranges() {
-        problems_.require_range("steps_per_mm", axis_.steps_per_mm, kMinStepsPerMm, kMaxStepsPerMm);
+        if (has_own_motor()) {
+            problems_.require_range("steps_per_mm", axis_.steps_per_mm, kMinStepsPerMm, kMaxStepsPerMm);
+        }
         speed("start_velocity_mm_s", axis_.start_velocity_mm_s);
         speed("max_velocity_mm_s", axis_.max_velocity_mm_s);
         accel("max_accel_mm_s2", axis_.max_accel_mm_s2);
@@ -106,9 +127,10 @@ private:
             {"max_velocity_mm_s", "start_velocity_mm_s"}, axis_.max_velocity_mm_s >= axis_.start_velocity_mm_s,
             fmt::format("max_velocity_mm_s is {}, below start_velocity_mm_s {}; increase it",
                         number_text(axis_.max_velocity_mm_s), number_text(axis_.start_velocity_mm_s)));
+        if (!has_own_motor()) { return; }
         const double fastest = kMaxPlannedStepsPerTick / (tick_s() * axis_.steps_per_mm);
         problems_.require_between(
-            {"max_velocity_mm_s", "steps_per_mm"}, at_most(axis_.max_velocity_mm_s, fastest),
+            {"max_velocity_mm_s", "steps_per_mm"}, is_at_most(axis_.max_velocity_mm_s, fastest),
             fmt::format("max_velocity_mm_s is {}, more than {} steps per tick; it must be at most "
                         "{}, or decrease tick_ns or steps_per_mm",
                         number_text(axis_.max_velocity_mm_s), number_text(kMaxPlannedStepsPerTick),
@@ -121,7 +143,7 @@ private:
         const double longest_s = 1e-6 * static_cast<double>(t.slot_us) * (t.stall_slots + 1);
         const double most = kDeviceCaptureEntries / longest_s / axis_.steps_per_mm;
         problems_.require_between(
-            {"max_velocity_mm_s", "steps_per_mm"}, at_most(axis_.max_velocity_mm_s, most),
+            {"max_velocity_mm_s", "steps_per_mm"}, is_at_most(axis_.max_velocity_mm_s, most),
             fmt::format("max_velocity_mm_s is {}: in timing.stall_slots + 1 slots of {} s together, the axis would "
                         "make more than the {} steps that its device can record; it must be at most {}, or decrease "
                         "timing.slot_us or timing.stall_slots",
@@ -133,12 +155,12 @@ private:
         const std::string what = std::string(key) + " is " + number_text(value);
         const double most = kMaxStepsPerTick / (tick_s() * tick_s() * axis_.steps_per_mm);
         problems_.require_between(
-            {key, "steps_per_mm"}, at_most(value, most),
+            {key, "steps_per_mm"}, !has_own_motor() || is_at_most(value, most),
             fmt::format("{}, which reaches full speed within a tick; it must be at most {}; decrease it or tick_ns",
                         what, number_text(most)));
         const double least = axis_.max_velocity_mm_s / kMaxRampSeconds;
         problems_.require_between(
-            {key, "max_velocity_mm_s"}, at_least(value, least),
+            {key, "max_velocity_mm_s"}, is_at_least(value, least),
             fmt::format("{}, so max_velocity_mm_s would take more than {} s; it must be at least {}", what,
                         number_text(kMaxRampSeconds), number_text(least)));
     }
@@ -149,7 +171,7 @@ private:
         const double least = 2 * travel_mm / kLongestMotion_s;
         const auto check = [&](std::string_view key, double speed_mm_s) {
             problems_.require_between(
-                {key, "position_max_mm", "position_min_mm"}, speed_mm_s <= 0 || at_least(speed_mm_s, least),
+                {key, "position_max_mm", "position_min_mm"}, speed_mm_s <= 0 || is_at_least(speed_mm_s, least),
                 fmt::format("{} is {}, so twice the travel would take more than 30 days; it must be at least {}", key,
                             number_text(speed_mm_s), number_text(least)));
         };
@@ -235,7 +257,7 @@ private:
         const double pulloff = axis_.homing.pulloff_mm;
         const std::string what = "homing.pulloff_mm is " + number_text(pulloff);
         problems_.require_between(
-            {"homing.pulloff_mm", "steps_per_mm"}, at_least(pulloff * axis_.steps_per_mm, 1),
+            {"homing.pulloff_mm", "steps_per_mm"}, is_at_least(pulloff * axis_.steps_per_mm, 1),
             what + ", less than a step; it must be at least " + number_text(1 / axis_.steps_per_mm));
         problems_.require_between(
             {"homing.pulloff_mm", "homing.switch_position_mm", "position_min_mm", "position_max_mm"}, pulloff < room,
@@ -273,9 +295,6 @@ private:
     void check_place() {
         problems_.require(axis_.host.empty() || is_host_name(axis_.host), "host",
                           "host is \"" + axis_.host + "\"; it must be the name of a host: letters, digits, - and .");
-        problems_.require(
-            is_device_name(axis_.device), "device",
-            "device is \"" + axis_.device + "\"; it must be sim, shm:NAME or uio:PATH, such as uio:/dev/uio0");
     }
 
     double tick_s() const { return static_cast<double>(machine_.tick_ns) * 1e-9; }

@@ -45,8 +45,11 @@ Problems problems_of(const MachineDraft& draft, const Text& text) {
     const auto add = [&](const Problems& more) { problems.insert(problems.end(), more.begin(), more.end()); };
     if (is_whole({})) { add(machine_problems(draft.machine)); }
     for (std::size_t axis = 0; axis < std::min(draft.machine.axes.size(), kMaxAxes); ++axis) {
-        if (is_whole(axis)) { add(axis_problems(draft.machine, axis, text)); }
+        if (!is_whole(axis)) { continue; }
+        add(axis_problems(draft.machine, axis, text));
+        add(motor_problems(draft.machine, axis));
     }
+    if (problems.empty()) { add(kinematics_problems(draft.machine)); }
     return problems;
 }
 

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "core/kinematics/motors.hpp"
 #include "services/documents/machine_proto.hpp"
 #include "services/documents/rules/axis_ranges.hpp"
 
@@ -148,23 +150,28 @@ double nearest_in_travel(const AxisConfig& axis, double mm) {
     return std::min(std::max(mm, axis.position_min_mm), axis.position_max_mm);
 }
 
+double place_behind_pulloff(const HomingConfig& homing, const AxisConfig& axis) {
+    const double pulloff = homing.toward_min ? homing.pulloff_mm : -homing.pulloff_mm;
+    return nearest_in_travel(axis, homing.switch_position_mm + pulloff);
+}
+
 /// 0, unless the axis would then cross most of its travel after homing, as a Z that homes at the top would. Then beside
 /// the switch. `homing` has all other values.
 double usual_park(const HomingConfig& homing, const AxisConfig& axis) {
     const double zero = nearest_in_travel(axis, 0);
     const double middle = (axis.position_min_mm + axis.position_max_mm) / 2;
     if (homing.toward_min ? zero <= middle : zero >= middle) { return zero; }
-    const double pulloff = homing.toward_min ? homing.pulloff_mm : -homing.pulloff_mm;
-    return nearest_in_travel(axis, homing.switch_position_mm + pulloff);
+    return place_behind_pulloff(homing, axis);
 }
 
 /// 0 if the file has no valid scale.
 double step_mm(const AxisConfig& axis) { return axis.steps_per_mm > 0 ? 1 / axis.steps_per_mm : 0; }
 
-HomingConfig read_homing(const proto::Homing& message, const AxisConfig& axis) {
+HomingConfig read_homing(const proto::Homing& message, const AxisConfig& axis, bool has_several_motors) {
     const double travel = axis.position_max_mm - axis.position_min_mm;
     HomingConfig homing;
     homing.sequence = message.sequence();
+    homing.in_place = message.in_place();
     homing.toward_min = message.has_toward_min() ? message.toward_min() : homing.toward_min;
     homing.search_velocity_mm_s =
         message.has_search_velocity_mm_s() ? message.search_velocity_mm_s() : axis.start_velocity_mm_s;
@@ -181,7 +188,9 @@ HomingConfig read_homing(const proto::Homing& message, const AxisConfig& axis) {
     homing.switch_position_mm = message.has_switch_position_mm() ? message.switch_position_mm()
                                 : homing.toward_min              ? axis.position_min_mm
                                                                  : axis.position_max_mm;
-    homing.park_mm = message.has_park_mm() ? message.park_mm() : usual_park(homing, axis);
+    homing.park_mm = message.has_park_mm() ? message.park_mm()
+                     : has_several_motors  ? place_behind_pulloff(homing, axis)
+                                           : usual_park(homing, axis);
     return homing;
 }
 
@@ -214,10 +223,108 @@ std::string method_name(proto::Method method) {
     return proto::Method_IsValid(method) ? proto::Method_Name(method) : std::to_string(method);
 }
 
+DeviceName read_device(const std::string& text, const std::string& key, Reader& reader) {
+    if (text.empty()) { return {}; }
+    auto device = read_device_name(text);
+    if (device) { return std::move(*device); }
+    reader.refuse(key, fmt::format("{} is \"{}\"; {}, such as uio:/dev/uio0", key, text, device.error()));
+    return {};
+}
+
+MotorBlock read_motor(const proto::Motor& message, const AxisConfig& axis, const std::string& place, Reader& reader) {
+    const auto given = [](bool is_given, double value) { return is_given ? std::optional(value) : std::nullopt; };
+    MotorBlock motor;
+    reader.require(message.has_name(), message.name(), motor.name, place + ".name");
+    motor.host = message.has_host() ? message.host() : axis.host;
+    motor.device = message.has_device() ? read_device(message.device(), place + ".device", reader) : axis.device;
+    motor.steps_per_mm = message.has_steps_per_mm() ? message.steps_per_mm() : axis.steps_per_mm;
+    motor.start_velocity_mm_s = given(message.has_start_velocity_mm_s(), message.start_velocity_mm_s());
+    motor.max_velocity_mm_s = given(message.has_max_velocity_mm_s(), message.max_velocity_mm_s());
+    motor.max_accel_mm_s2 = given(message.has_max_accel_mm_s2(), message.max_accel_mm_s2());
+    motor.max_decel_mm_s2 = message.has_max_decel_mm_s2() ? message.max_decel_mm_s2() : motor.max_accel_mm_s2;
+    motor.switch_offset_mm = message.switch_offset_mm();
+    if (message.has_plant()) { motor.plant = read_plant(message.plant(), axis); }
+    return motor;
+}
+
+void read_motors(const proto::Axis& message, AxisConfig& axis, Reader& reader) {
+    bool all_have_steps = message.motor_size() > 0;
+    for (int k = 0; k < message.motor_size(); ++k) {
+        axis.motors.push_back(read_motor(message.motor(k), axis, fmt::format("motor[{}]", k), reader));
+        all_have_steps = all_have_steps && message.motor(k).has_steps_per_mm();
+    }
+    if (message.has_max_skew_mm()) { axis.max_skew_mm = message.max_skew_mm(); }
+    if (!all_have_steps) {
+        reader.require(message.has_steps_per_mm(), message.steps_per_mm(), axis.steps_per_mm, "steps_per_mm");
+    }
+    const bool needs_skew = message.motor_size() > 1;
+    double skew = 0;
+    if (needs_skew) { reader.require(message.has_max_skew_mm(), message.max_skew_mm(), skew, "max_skew_mm"); }
+}
+
+KinematicsConfig read_kinematics(const proto::Machine& message, Reader reader) {
+    KinematicsConfig kinematics;
+    if (message.kinematics().has_core_xy()) {
+        const proto::CoreXy& core = message.kinematics().core_xy();
+        kinematics.core_xy.emplace();
+        reader.require(core.has_first(), core.first(), kinematics.core_xy->first, "kinematics.core_xy.first");
+        reader.require(core.has_second(), core.second(), kinematics.core_xy->second, "kinematics.core_xy.second");
+    }
+    for (int r = 0; r < message.kinematics().matrix().row_size(); ++r) {
+        const proto::MatrixRow& row = message.kinematics().matrix().row(r);
+        const std::string place = fmt::format("kinematics.matrix.row[{}]", r);
+        MotorRow& motor = kinematics.matrix.emplace_back();
+        reader.require(row.has_motor(), row.motor(), motor.motor, place + ".motor");
+        for (int k = 0; k < row.of_size(); ++k) {
+            AxisShare& share = motor.of.emplace_back();
+            const std::string of = fmt::format("{}.of[{}]", place, k);
+            reader.require(row.of(k).has_axis(), row.of(k).axis(), share.axis, of + ".axis");
+            reader.require(row.of(k).has_factor(), row.of(k).factor(), share.factor, of + ".factor");
+        }
+    }
+    for (int k = 0; k < message.skew_size(); ++k) {
+        const std::string place = fmt::format("skew[{}]", k);
+        Skew& skew = kinematics.skews.emplace_back();
+        reader.require(message.skew(k).has_x(), message.skew(k).x(), skew.x, place + ".x");
+        reader.require(message.skew(k).has_y(), message.skew(k).y(), skew.y, place + ".y");
+        reader.require(message.skew(k).has_mm_per_m(), message.skew(k).mm_per_m(), skew.mm_per_m, place + ".mm_per_m");
+    }
+    return kinematics;
+}
+
+/// An axis that is not simply moved by a motor with its steps gets a motor block, and steps of its own: those of its
+/// motors if they follow it one to one, otherwise so fine ones that rounding to them does not matter.
+void set_steps_of_axes(MachineConfig& machine) {
+    constexpr double kFiner = 16;
+    const LinearMap map = motor_map_of(machine);
+    std::vector<double> finest(machine.axes.size(), 0.0);
+    std::vector<bool> is_simple(machine.axes.size(), true);
+    const std::vector<MotorConfig> motors = motors_of(machine);
+    for (std::size_t m = 0; m < motors.size(); ++m) {
+        for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+            const double share = map.factor(m, i);
+            if (share == 0) { continue; }
+            const double steps = std::abs(share) * motors[m].steps_per_mm;
+            const bool follows = std::abs(share) == 1 && map.only_axis_of(m) == i;
+            is_simple[i] = is_simple[i] && follows && (finest[i] == 0 || finest[i] == steps);
+            finest[i] = std::max(finest[i], steps);
+        }
+    }
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        AxisConfig& axis = machine.axes[i];
+        const double before = axis.steps_per_mm;
+        if (finest[i] > 0) { axis.steps_per_mm = is_simple[i] ? finest[i] : kFiner * finest[i]; }
+        const bool is_own = is_simple[i] && axis.motors.empty();
+        if (is_own || !axis.motors.empty()) { continue; }
+        axis.motors.push_back(
+            {.name = axis.name, .host = axis.host, .device = axis.device, .steps_per_mm = before, .plant = {}});
+    }
+}
+
 AxisConfig read_axis(const proto::Axis& message, Reader reader) {
     AxisConfig axis;
     reader.require(message.has_name(), message.name(), axis.name, "name");
-    reader.require(message.has_steps_per_mm(), message.steps_per_mm(), axis.steps_per_mm, "steps_per_mm");
+    axis.steps_per_mm = message.steps_per_mm();
     reader.require(message.has_start_velocity_mm_s(), message.start_velocity_mm_s(), axis.start_velocity_mm_s,
                    "start_velocity_mm_s");
     reader.require(message.has_max_velocity_mm_s(), message.max_velocity_mm_s(), axis.max_velocity_mm_s,
@@ -233,9 +340,10 @@ AxisConfig read_axis(const proto::Axis& message, Reader reader) {
     if (message.has_unhomed_jog_mm_s()) { axis.unhomed_jog_mm_s = message.unhomed_jog_mm_s(); }
     if (message.has_safe_height_mm()) { axis.safe_height_mm = message.safe_height_mm(); }
     axis.host = message.host();
-    axis.device = message.has_device() ? message.device() : axis.device;
-    axis.homing = read_homing(message.homing(), axis);
+    axis.device = read_device(message.device(), "device", reader);
+    axis.homing = read_homing(message.homing(), axis, message.motor_size() > 1);
     axis.plant = read_plant(message.plant(), axis);
+    read_motors(message, axis, reader);
     return axis;
 }
 
@@ -277,7 +385,9 @@ MachineDraft machine_from_proto(const proto::Machine& message) {
     for (const proto::Axis& axis : message.axis()) {
         draft.machine.axes.push_back(read_axis(axis, Reader(draft.missing, draft.machine.axes.size())));
     }
-    draft.machine.network.processes = draft.machine.axes.size() + 1;  // the coordinator
+    draft.machine.kinematics = read_kinematics(message, Reader(draft.missing));
+    set_steps_of_axes(draft.machine);
+    draft.machine.network.processes = motor_count(draft.machine) + 1;  // the coordinator
     return draft;
 }
 

@@ -29,4 +29,10 @@ std::vector<Problem> machine_problems(const MachineConfig& machine);
 /// Checks the keys of one axis, and that no axis before it has the same name.
 std::vector<Problem> axis_problems(const MachineConfig& machine, std::size_t axis);
 
+/// Checks the motor blocks of one axis.
+std::vector<Problem> motor_problems(const MachineConfig& machine, std::size_t axis);
+
+/// Checks which motors move which axes, after all axes and motors were found sound.
+std::vector<Problem> kinematics_problems(const MachineConfig& machine);
+
 }  // namespace lockstep

@@ -74,6 +74,7 @@ void write_homing(const HomingConfig& homing, proto::Homing& message) {
     message.set_touch_tolerance_mm(homing.touch_tolerance_mm);
     message.set_switch_position_mm(homing.switch_position_mm);
     message.set_park_mm(homing.park_mm);
+    if (homing.in_place) { message.set_in_place(true); }
 }
 
 void write_plant(const PlantConfig& plant, proto::Plant& message) {
@@ -88,9 +89,45 @@ proto::Method method_to_proto(StepMethod method) {
     return kMethods[static_cast<std::size_t>(method)];
 }
 
+void write_motor(const MotorBlock& motor, proto::Motor& message) {
+    message.set_name(motor.name);
+    if (motor.steps_per_mm) { message.set_steps_per_mm(*motor.steps_per_mm); }
+    if (motor.start_velocity_mm_s) { message.set_start_velocity_mm_s(*motor.start_velocity_mm_s); }
+    if (motor.max_velocity_mm_s) { message.set_max_velocity_mm_s(*motor.max_velocity_mm_s); }
+    if (motor.max_accel_mm_s2) { message.set_max_accel_mm_s2(*motor.max_accel_mm_s2); }
+    if (motor.max_decel_mm_s2) { message.set_max_decel_mm_s2(*motor.max_decel_mm_s2); }
+    if (!motor.host.empty()) { message.set_host(motor.host); }
+    message.set_device(motor.device.text());
+    message.set_switch_offset_mm(motor.switch_offset_mm);
+    if (motor.plant) { write_plant(*motor.plant, *message.mutable_plant()); }
+}
+
+void write_kinematics(const KinematicsConfig& kinematics, proto::Machine& message) {
+    if (kinematics.core_xy) {
+        proto::CoreXy& core = *message.mutable_kinematics()->mutable_core_xy();
+        core.set_first(kinematics.core_xy->first);
+        core.set_second(kinematics.core_xy->second);
+    }
+    for (const MotorRow& motor : kinematics.matrix) {
+        proto::MatrixRow& row = *message.mutable_kinematics()->mutable_matrix()->add_row();
+        row.set_motor(motor.motor);
+        for (const AxisShare& share : motor.of) {
+            proto::AxisShare& of = *row.add_of();
+            of.set_axis(share.axis);
+            of.set_factor(share.factor);
+        }
+    }
+    for (const Skew& skew : kinematics.skews) {
+        proto::Skew& out = *message.add_skew();
+        out.set_x(skew.x);
+        out.set_y(skew.y);
+        out.set_mm_per_m(skew.mm_per_m);
+    }
+}
+
 void write_axis(const AxisConfig& axis, proto::Axis& message) {
     message.set_name(axis.name);
-    message.set_steps_per_mm(axis.steps_per_mm);
+    if (axis.motors.empty()) { message.set_steps_per_mm(axis.steps_per_mm); }  // otherwise each motor has its own
     message.set_start_velocity_mm_s(axis.start_velocity_mm_s);
     message.set_max_velocity_mm_s(axis.max_velocity_mm_s);
     message.set_max_accel_mm_s2(axis.max_accel_mm_s2);
@@ -101,9 +138,11 @@ void write_axis(const AxisConfig& axis, proto::Axis& message) {
     if (axis.unhomed_jog_mm_s) { message.set_unhomed_jog_mm_s(*axis.unhomed_jog_mm_s); }
     if (axis.safe_height_mm) { message.set_safe_height_mm(*axis.safe_height_mm); }
     if (!axis.host.empty()) { message.set_host(axis.host); }
-    if (axis.device != AxisConfig{}.device) { message.set_device(axis.device); }
+    if (axis.device != AxisConfig{}.device) { message.set_device(axis.device.text()); }
     write_homing(axis.homing, *message.mutable_homing());
     write_plant(axis.plant, *message.mutable_plant());
+    for (const MotorBlock& motor : axis.motors) { write_motor(motor, *message.add_motor()); }
+    if (axis.max_skew_mm) { message.set_max_skew_mm(*axis.max_skew_mm); }
 }
 
 }  // namespace
@@ -127,6 +166,7 @@ proto::Machine machine_to_proto(const MachineConfig& machine) {
     if (machine.web) { write_web(*machine.web, *message.mutable_web()); }
     message.set_coordination(method_to_proto(machine.coordination));
     for (const AxisConfig& axis : machine.axes) { write_axis(axis, *message.add_axis()); }
+    write_kinematics(machine.kinematics, message);
     return message;
 }
 

@@ -48,13 +48,6 @@ bool is_loopback_address(const std::string& text) {
     return six && IN6_IS_ADDR_LOOPBACK(&*six);
 }
 
-bool is_device_name(std::string_view name) {
-    constexpr std::string_view kShared = "shm:";
-    constexpr std::string_view kMapped = "uio:/";
-    if (name.starts_with(kShared)) { return name.size() > kShared.size() && !name.contains('/'); }
-    return name == "sim" || (name.starts_with(kMapped) && name.size() > kMapped.size());
-}
-
 bool same_name(std::string_view one, std::string_view other) {
     return std::ranges::equal(one, other, {}, small, small);
 }

@@ -20,8 +20,6 @@ bool is_host_name(std::string_view name);
 bool is_ip_address(const std::string& text);
 /// Whether the text is an address that only this host can reach.
 bool is_loopback_address(const std::string& text);
-/// "sim", "shm:NAME", or "uio:PATH" with an absolute path.
-bool is_device_name(std::string_view name);
 /// Whether the names are equal except for upper and lower case.
 bool same_name(std::string_view one, std::string_view other);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/kinematics/motors.hpp"
 #include "services/documents/names.hpp"
 
 namespace lockstep {
@@ -15,13 +16,13 @@ bool is_placed(const std::string& where, std::string_view host) { return where.e
 
 std::string names_of(const MachineConfig& machine, const std::vector<std::size_t>& axes) {
     std::string names;
-    for (const std::size_t i : axes) { names += (names.empty() ? "" : " ") + machine.axes[i].name; }
+    for (const std::size_t i : axes) { names += (names.empty() ? "" : " ") + motor_name(machine, i); }
     return names;
 }
 
 std::string places_of(const MachineConfig& machine) {
     std::string places;
-    for (const AxisConfig& axis : machine.axes) {
+    for (const MotorConfig& axis : motors_of(machine)) {
         places += " " + axis.name + " (" + (axis.host.empty() ? "no host" : axis.host) + ")";
     }
     return places;
@@ -41,14 +42,15 @@ std::vector<std::string> hosts_of(const MachineConfig& machine) {
         if (!host.empty() && std::ranges::none_of(hosts, is_it)) { hosts.push_back(host); }
     };
     add(machine.coordinator_host);
-    for (const AxisConfig& axis : machine.axes) { add(axis.host); }
+    for (const MotorConfig& motor : motors_of(machine)) { add(motor.host); }
     return hosts;
 }
 
 Placement placed_on(const MachineConfig& machine, std::string_view host) {
     Placement placement{.coordinator = is_placed(machine.coordinator_host, host)};
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        if (is_placed(machine.axes[i].host, host)) { placement.axes.push_back(i); }
+    const std::vector<MotorConfig> motors = motors_of(machine);
+    for (std::size_t i = 0; i < motors.size(); ++i) {
+        if (is_placed(motors[i].host, host)) { placement.axes.push_back(i); }
     }
     return placement;
 }
@@ -56,8 +58,9 @@ Placement placed_on(const MachineConfig& machine, std::string_view host) {
 std::expected<std::size_t, std::string> axis_to_run(const MachineConfig& machine, std::string_view named,
                                                     std::string_view host) {
     std::vector<std::size_t> fit;
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        const AxisConfig& axis = machine.axes[i];
+    const std::vector<MotorConfig> motors = motors_of(machine);
+    for (std::size_t i = 0; i < motors.size(); ++i) {
+        const MotorConfig& axis = motors[i];
         const bool here = !axis.host.empty() && same_host(axis.host, host);
         if (named.empty() ? here : axis.name == named) { fit.push_back(i); }
     }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/kinematics/motors.hpp"
 #include "services/wire/lcm/lcm_decode.hpp"
 #include "services/wire/lcm/translate_lcm.hpp"
 
@@ -18,14 +19,14 @@ std::string name_in(const MachineConfig& machine, FlightPeer peer) {
         case FlightPeer::Kind::Coordinator: return flight_process("");
         case FlightPeer::Kind::Axis: break;
     }
-    return peer.axis < machine.axes.size() ? flight_process(machine.axes[peer.axis].name) : "";
+    return peer.axis < motor_count(machine) ? flight_process(motor_name(machine, peer.axis)) : "";
 }
 
 std::optional<FlightPeer> peer_in(const MachineConfig& machine, const std::string& name) {
     if (name.empty()) { return FlightPeer{}; }
     if (name == flight_process("")) { return kFlightCoordinator; }
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        if (name == flight_process(machine.axes[i].name)) { return flight_axis(i); }
+    for (std::size_t i = 0; i < motor_count(machine); ++i) {
+        if (name == flight_process(motor_name(machine, i))) { return flight_axis(i); }
     }
     return std::nullopt;
 }

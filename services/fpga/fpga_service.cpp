@@ -10,6 +10,7 @@
 #include <random>
 #include <utility>
 
+#include "core/kinematics/motors.hpp"
 #include "services/documents/edit/kept_settings.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/end_guard.hpp"
@@ -32,7 +33,7 @@ std::uint64_t drawn_number() {
 /// up again, and the slide stays where it is.
 class Board {
 public:
-    Board(const FpgaOptions& options, const AxisConfig& axis, const MachineConfig& machine)
+    Board(const FpgaOptions& options, const MotorConfig& axis, const MachineConfig& machine)
         : options_(options),
           tick_ns_(machine.tick_ns),
           clock_(machine.tick_ns, machine.timing.time_source),
@@ -72,11 +73,9 @@ std::expected<Board, std::string> set_up(const FpgaOptions& options) {
     const auto loaded = load_machine(options.machine_file);
     if (!loaded) { return std::unexpected(to_text(options.machine_file, loaded.error())); }
     const MachineConfig& machine = loaded->config;
-    const auto axis = std::ranges::find(machine.axes, options.axis, &AxisConfig::name);
-    if (axis == machine.axes.end()) {
-        return std::unexpected(options.machine_file + ": no axis \"" + options.axis + "\"");
-    }
-    Board board(options, *axis, machine);
+    const auto axis = motor_named(machine, options.axis);
+    if (!axis) { return std::unexpected(options.machine_file + ": no axis \"" + options.axis + "\""); }
+    Board board(options, motors_of(machine)[*axis], machine);
     if (auto up = board.power_up(); !up) { return std::unexpected(up.error()); }
     return board;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/kinematics/motors.hpp"
+
 namespace lockstep {
 
 AxisRecorder::AxisRecorder(const MachineConfig& machine, std::size_t axis, Identity incarnation, RecordSink& sink)
@@ -10,14 +12,14 @@ AxisRecorder::AxisRecorder(const MachineConfig& machine, std::size_t axis, Ident
       axis_(axis),
       incarnation_(incarnation),
       sink_(sink),
-      channels_(channels_of(machine.name, machine.axes[axis].name)),
+      channels_(channels_of(machine.name, motor_name(machine, axis))),
       batcher_({.machine = machine.name,
-                .axis = machine.axes[axis].name,
+                .axis = motor_name(machine, axis),
                 .axis_index = static_cast<std::uint32_t>(axis),
                 .incarnation = incarnation,
                 .tick_ns = machine.tick_ns},
                0, [this](step_batch_t& batch) { publish(batch); }),
-      marker_(machine, machine.axes[axis].name, sink) {}
+      marker_(machine, motor_name(machine, axis), sink) {}
 
 /// Sets the count before the first recorded step to the axis's position minus its steps so far.
 void AxisRecorder::place(const AxisState& state) {
@@ -37,7 +39,7 @@ void AxisRecorder::batch_steps() {
 void AxisRecorder::finish() {
     batch_steps();
     batcher_.flush();
-    marker_.note_end(machine_.axes[axis_].name, incarnation_, counts_, clock_.other);
+    marker_.note_end(motor_name(machine_, axis_), incarnation_, counts_, clock_.other);
 }
 
 /// Adds the steps' machine times from the newest clock estimate. An improved estimate may put them before the end of
@@ -59,7 +61,7 @@ void AxisRecorder::publish(step_batch_t& batch) {
 
 void AxisRecorder::loop(const AxisOutputs& out, std::int64_t zero_count, std::uint64_t lost_captures) {
     clock_ = out.device_clock;
-    if (out.state) { marker_.note(machine_.axes[axis_].name, incarnation_, counts_, clock_.other); }
+    if (out.state) { marker_.note(motor_name(machine_, axis_), incarnation_, counts_, clock_.other); }
     if (out.device_changed) { placed_ = false; }
     if (!placed_ && out.state) {
         place(*out.state);
@@ -68,7 +70,7 @@ void AxisRecorder::loop(const AxisOutputs& out, std::int64_t zero_count, std::ui
     batch_steps();
     for (const ExecutedTrack& track : out.tracks) {
         const RunRecord record{.machine = machine_.name,
-                               .axis = machine_.axes[axis_].name,
+                               .axis = motor_name(machine_, axis_),
                                .incarnation = incarnation_,
                                .sequence = counts_.runs++,
                                .epoch = track.epoch,

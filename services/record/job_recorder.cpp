@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "core/kinematics/motors.hpp"
 #include "core/protocol/names.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/documents/program_document.hpp"
@@ -22,8 +23,8 @@ JobRecorder::JobRecorder(const MachineConfig& machine, Identity coordinator, Rec
       marker_(machine, "", sink) {}
 
 void JobRecorder::note_axis(const AxisHealth& health) {
-    if (health.axis >= machine_.axes.size()) { return; }
-    marker_.note(machine_.axes[health.axis].name, health.identity, health.published, health.tick);
+    if (health.axis >= motor_count(machine_)) { return; }
+    marker_.note(motor_name(machine_, health.axis), health.identity, health.published, health.tick);
 }
 
 void JobRecorder::record(Tick now, const JobEvent& event) {

@@ -1,5 +1,6 @@
 #include "services/security/rights.hpp"
 
+#include "core/kinematics/motors.hpp"
 #include "services/wire/dds/topics.hpp"
 
 namespace lockstep {
@@ -20,12 +21,12 @@ std::string_view name_of(Role role) {
 }
 
 Member axis_member(const MachineConfig& machine, std::size_t axis) {
-    return {"axis-" + machine.axes[axis].name, Axis, static_cast<std::uint32_t>(axis)};
+    return {"axis-" + motor_name(machine, axis), Axis, static_cast<std::uint32_t>(axis)};
 }
 
 std::vector<Member> members_of(const MachineConfig& machine) {
     std::vector<Member> members{coordinator_member(), standby_member()};
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) { members.push_back(axis_member(machine, i)); }
+    for (std::size_t i = 0; i < motor_count(machine); ++i) { members.push_back(axis_member(machine, i)); }
     members.push_back(client_member());
     members.push_back(viewer_member());
     return members;

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/kinematics/motors.hpp"
 #include "core/protocol/rules.hpp"
 
 namespace lockstep {
 
 VirtualClient::VirtualClient(const MachineConfig& machine)
-    : silence_(machine.slot_ticks() * rules::silence_slots(machine.timing)), axes_(machine.axes.size()) {}
+    : silence_(machine.slot_ticks() * rules::silence_slots(machine.timing)), axes_(motor_count(machine)) {}
 
 const Command& VirtualClient::ask(Command command) {
     command.client = kIdentity;

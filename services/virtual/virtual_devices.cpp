@@ -3,6 +3,8 @@
 #include <random>
 #include <utility>
 
+#include "core/kinematics/motors.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -34,8 +36,9 @@ void mislead_newest_frame(RegisterWindow& window) {
 
 VirtualDevices::VirtualDevices(const MachineConfig& machine, const MachineClocks& clocks, std::uint64_t seed, Tick now)
     : clocks_(clocks), tick_ns_(machine.tick_ns), seed_(seed) {
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        devices_.push_back({.device = simulated_device(machine.axes[i], tick_ns_, clocks.device(i, now))});
+    const std::vector<MotorConfig> motors = motors_of(machine);
+    for (std::size_t i = 0; i < motors.size(); ++i) {
+        devices_.push_back({.device = simulated_device(motors[i], tick_ns_, clocks.device(i, now))});
     }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/kinematics/motors.hpp"
 #include "core/methods/paper_steps.hpp"
 
 namespace lockstep {
@@ -12,10 +13,10 @@ VirtualMachine::VirtualMachine(const VirtualOptions& options)
       now_(options.start),
       clocks_(options.clocks, options.start),
       devices_(options.machine, clocks_, options.seed, now_),
-      post_(options.network, options.seed, options.machine.axes.size(), options.coordinators),
+      post_(options.network, options.seed, motor_count(options.machine), options.coordinators),
       client_(options.machine),
       schedule_(post_.processes(), {options.machine.slot_ticks().value / options.loops_per_slot}),
-      axes_(options.machine.axes.size()),
+      axes_(motor_count(options.machine)),
       coordinators_(options.coordinators),
       stalls_(post_.processes()) {
     for (std::size_t i = 0; i < post_.processes(); ++i) { start(i); }

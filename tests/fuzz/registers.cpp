@@ -4,6 +4,7 @@
 #include <cstring>
 #include <span>
 
+#include "core/kinematics/motors.hpp"
 #include "services/axis/device_driver.hpp"
 #include "sim_fpga/device.hpp"
 #include "tests/fuzz/require.hpp"
@@ -11,8 +12,8 @@
 namespace lockstep {
 namespace {
 
-AxisConfig axis() {
-    AxisConfig axis{.name = "X", .steps_per_mm = 100, .start_velocity_mm_s = 10, .max_velocity_mm_s = 100};
+MotorConfig axis() {
+    MotorConfig axis{.name = "X", .steps_per_mm = 100, .start_velocity_mm_s = 10, .max_velocity_mm_s = 100};
     axis.position_max_mm = 100;
     axis.plant = {.start_position_mm = 50, .travel_margin_mm = 2, .max_torque_accel_mm_s2 = 1500, .max_jump_mm_s = 15};
     return axis;

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "clients/planning/plan_summary.hpp"
+#include "core/kinematics/kinematics.hpp"
 
 namespace lockstep::analysis {
 namespace {
@@ -36,6 +37,11 @@ Ticks stepping_time(const AxisMotion& motion, const PlannedStroke& first, const 
 
 std::expected<AskedPath, std::string> AskedPath::of(const MachineConfig& machine, const ProgramHead& head,
                                                     const std::shared_ptr<const ProgramBlocks>& blocks) {
+    if (!Kinematics(machine).is_direct()) {
+        return std::unexpected(
+            "several motors move one of its axes, and the steps of such moves are not assigned yet: verify "
+            "compares them with the plan");
+    }
     AskedPath asked;
     asked.strokes_.resize(machine.axes.size());
     for (const AxisConfig& axis : machine.axes) { asked.mm_per_step_.push_back(1 / axis.steps_per_mm); }

@@ -4,8 +4,8 @@
 
 namespace lockstep::grbl {
 
-MachineView view_of(const MachineConfig& machine, const MachineState& state,
-                    const std::vector<const AxisState*>& axes) {
+MachineView view_of(const MachineConfig& machine, const MachineState& state, const std::vector<const AxisState*>& axes,
+                    std::span<const double> steps_per_tick) {
     MachineView view;
     view.is_received = true;
     view.phase = state.phase;
@@ -26,7 +26,7 @@ MachineView view_of(const MachineConfig& machine, const MachineState& state,
         view.axes.push_back({to_mm(config, static_cast<double>(axis.position.count())), axis.homed, axis.at_rest});
         const char letter = config.name.front();  // Y2 is a second Y
         if (axis.switches.any() && !view.closed_switches.contains(letter)) { view.closed_switches += letter; }
-        const double mm_min = axis.velocity.steps_per_tick() * machine.ticks_per_second() / config.steps_per_mm * 60;
+        const double mm_min = steps_per_tick[i] * machine.ticks_per_second() / config.steps_per_mm * 60;
         squares += mm_min * mm_min;
     }
     view.feed_mm_min = std::sqrt(squares);

@@ -46,6 +46,7 @@ struct MachineView {
 };
 
 /// `axes`: the newest state of each axis; null if none was received. The caller sets the other fields of the view.
-MachineView view_of(const MachineConfig& machine, const MachineState& state, const std::vector<const AxisState*>& axes);
+MachineView view_of(const MachineConfig& machine, const MachineState& state, const std::vector<const AxisState*>& axes,
+                    std::span<const double> steps_per_tick);
 
 }  // namespace lockstep::grbl

@@ -21,7 +21,7 @@ void add_final_positions(Session& session, proto::RunReport& report) {
             return session.axis(i) && session.axis(i)->time > end && session.axis(i)->state.at_rest;
         };
         if (session.receive_until(end + kFinalStatePatience - monotonic_now(), rests)) {
-            *report.add_final_positions() = place_of(machine.axes[i], session.axis(i)->state);
+            *report.add_final_positions() = place_of(machine.axes[i], session.axis(i)->state.position.count());
         }
     }
 }

@@ -14,6 +14,7 @@
 #include "clients/text/format.hpp"
 #include "clients/text/output.hpp"
 #include "core/coordinator/path/return_way.hpp"
+#include "core/kinematics/motors.hpp"
 #include "core/protocol/names.hpp"
 #include "idl/proto/report.pb.h"
 
@@ -109,17 +110,17 @@ ExitCode interrupt_machine(const InterruptOptions& options, const Interrupt& int
 
 /// Whether the axis is at rest with a fault, so that nothing moves it before a reset.
 bool is_stopped(const Session& session, std::size_t axis) {
-    const bool is_known = session.axis_present(axis);
-    return is_known && session.axis(axis)->state.at_rest && session.axis(axis)->state.fault != FaultCode::None;
+    const bool is_known = session.motor_present(axis);
+    return is_known && session.motor(axis)->state.at_rest && session.motor(axis)->state.fault != FaultCode::None;
 }
 
 /// Reports which axes have stopped by themselves, if no coordinator replies.
 ExitCode report_axes(const Session& session, Output& output) {
     std::string stopped;
     std::string other;
-    for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
+    for (std::size_t i = 0; i < session.kinematics().motors().size(); ++i) {
         std::string& list = is_stopped(session, i) ? stopped : other;
-        list += (list.empty() ? "" : ", ") + session.config().axes[i].name;
+        list += (list.empty() ? "" : ", ") + motor_name(session.config(), i);
     }
     if (stopped.empty()) { return output.fail(session.silent()); }
     proto::CommandReport report;

@@ -10,6 +10,7 @@
 #include "clients/session/session.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/output.hpp"
+#include "core/kinematics/motors.hpp"
 #include "idl/proto/report.pb.h"
 #include "services/axis/device_driver.hpp"
 #include "services/axis/device_window.hpp"
@@ -68,7 +69,7 @@ void examine_host(const MachineConfig& machine, double seconds, Output& output, 
     findings.push_back(doctor::rate_stalls(machine.timing, watch_for_stalls(machine.timing.slot_us, seconds, output)));
 }
 
-std::expected<void, std::string> try_device(const AxisConfig& axis, std::int64_t tick_ns) {
+std::expected<void, std::string> try_device(const MotorConfig& axis, std::int64_t tick_ns) {
     const auto window = open_window(axis.device);
     if (!window) { return std::unexpected(window.error()); }
     const auto driver = DeviceDriver::attach(*window, tick_ns);
@@ -78,8 +79,10 @@ std::expected<void, std::string> try_device(const AxisConfig& axis, std::int64_t
 void examine_parts_here(const MachineConfig& machine, Findings& findings) {
     const Placement here = placed_on(machine, host_name());
     for (const std::size_t i : here.axes) {
-        const AxisConfig& axis = machine.axes[i];
-        if (axis.device != "sim") { findings.push_back(doctor::rate_device(axis, try_device(axis, machine.tick_ns))); }
+        const MotorConfig axis = motors_of(machine)[i];
+        if (axis.device.kind != DeviceName::Kind::Simulated) {
+            findings.push_back(doctor::rate_device(axis, try_device(axis, machine.tick_ns)));
+        }
     }
     if (here.empty() || !machine.record.own_logs) { return; }
     const std::string directory =
@@ -124,9 +127,9 @@ void examine_processes(const ChosenMachine& machine, Findings& findings) {
     };
     const auto& owner = session->state();
     add_process("coordinator", std::nullopt, owner.has_value(), owner ? owner->state.config_hash : 0);
-    for (std::size_t i = 0; i < machine.config.axes.size(); ++i) {
-        const auto& axis = session->axis(i);
-        add_process("axis " + machine.config.axes[i].name, i, axis.has_value(), axis ? axis->state.config_hash : 0);
+    for (std::size_t i = 0; i < motor_count(machine.config); ++i) {
+        const auto& axis = session->motor(i);
+        add_process("axis " + motor_name(machine.config, i), i, axis.has_value(), axis ? axis->state.config_hash : 0);
     }
 }
 

@@ -16,6 +16,7 @@
 #include "clients/supervisor/other_hosts.hpp"
 #include "clients/supervisor/page.hpp"
 #include "clients/supervisor/take_down.hpp"
+#include "core/kinematics/motors.hpp"
 #include "services/documents/rules/machine_warnings.hpp"
 #include "services/network/host_name.hpp"
 
@@ -38,7 +39,7 @@ constexpr double kWaitForAll_s = 60;  // with --all, which starts all parts
 
 std::string names_here(const MachineConfig& machine, const Placement& placed) {
     std::string names = placed.coordinator ? "the coordinator" : "";
-    for (const std::size_t i : placed.axes) { names += (names.empty() ? "" : ", ") + machine.axes[i].name; }
+    for (const std::size_t i : placed.axes) { names += (names.empty() ? "" : ", ") + motor_name(machine, i); }
     return names;
 }
 

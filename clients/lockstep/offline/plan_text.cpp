@@ -18,7 +18,7 @@ std::string places(const PlannedFile& input) {
 
 std::string row(const AxisPlan& axis) {
     return fmt::format("\n{:<16} {:>4} {:>12} {:>10.2f} {:>10.0f} {:>10.2f} {:>11.3f} {:>11.3f}", axis.name,
-                       unit_of(axis.name), axis.steps, axis.peak_velocity_mm_s, axis.peak_acceleration_mm_s2,
+                       unit_of(axis.axis), axis.steps, axis.peak_velocity_mm_s, axis.peak_acceleration_mm_s2,
                        axis.peak_jump_mm_s, axis.min_mm, axis.max_mm);
 }
 

@@ -23,7 +23,7 @@ struct CheckOptions {
 std::string axis_line(const AxisConfig& axis) {
     const std::string unit(unit_of(axis.name));
     return fmt::format("  {}  {} to {} {}, {} {}/s, device {}{}", axis.name, fixed(axis.position_min_mm, 3),
-                       fixed(axis.position_max_mm, 3), unit, fixed(axis.max_velocity_mm_s, 1), unit, axis.device,
+                       fixed(axis.position_max_mm, 3), unit, fixed(axis.max_velocity_mm_s, 1), unit, axis.device.text(),
                        (axis.host.empty() ? "" : ", host " + axis.host));
 }
 

@@ -16,6 +16,7 @@
 #include "clients/text/notes.hpp"
 #include "clients/text/output.hpp"
 #include "core/coordinator/path/coordination.hpp"
+#include "core/kinematics/motors.hpp"
 #include "core/protocol/names.hpp"
 #include "services/documents/program_file.hpp"
 #include "services/record/new_log_file.hpp"
@@ -46,7 +47,7 @@ proto::RunReport run_report(const PlannedFile& input, const SimulationResult& re
     report.set_planned_s(input.plan.duration_s);
     report.set_real_s(static_cast<double>(result.motion.value) / input.machine.ticks_per_second());
     if (result.fault != FaultCode::None) {
-        const std::string axis = result.fault_axis ? input.machine.axes[*result.fault_axis].name : "";
+        const std::string axis = result.fault_axis ? motor_name(input.machine, *result.fault_axis) : "";
         *report.mutable_fault() = fault_report(result.fault, axis);
     }
     for (std::size_t i = 0; i < result.final_counts.size(); ++i) {

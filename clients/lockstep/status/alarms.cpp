@@ -8,6 +8,8 @@
 #include "clients/session/record_loss.hpp"
 #include "clients/text/format.hpp"
 
+#include "clients/session/reports.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -60,17 +62,18 @@ std::vector<std::string> alarms_of(const proto::StatusReport& status, const Slac
         if (std::ranges::find(alarms, alarm) == alarms.end()) { alarms.push_back(alarm); }
     };
     if (status.has_fault()) { add(sentence(status.fault())); }
-    for (const proto::AxisStatus& axis : status.axes()) {
-        if (axis.has_fault()) { add(sentence(axis.fault())); }
-        if (!axis.present()) {
-            add("no messages are received from axis " + axis.name() + "; check that its process runs: lockstep status");
+    for (const proto::AxisStatus* const axis : rows_of(status)) {
+        if (axis->has_fault()) { add(sentence(axis->fault())); }
+        if (!axis->present()) {
+            add("no messages are received from axis " + axis->name() +
+                "; check that its process runs: lockstep status");
         }
     }
     if (status.has_fault() && status.has_incidents()) {
         add("the events before it: lockstep analyze --incident " + status.incidents().directory());
     }
-    for (const proto::AxisStatus& axis : status.axes()) {
-        if (axis.has_health()) { add_health_alarms(axis, scale, alarms); }
+    for (const proto::AxisStatus* const axis : rows_of(status)) {
+        if (axis->has_health()) { add_health_alarms(*axis, scale, alarms); }
     }
     if (const std::string lost = record_loss_text(status); !lost.empty()) { add(lost); }
     return alarms;

@@ -11,6 +11,8 @@
 #include "clients/text/format.hpp"
 #include "core/axis_unit.hpp"
 
+#include "clients/session/reports.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -74,7 +76,8 @@ std::string axis_row(const proto::AxisStatus& axis, const SlackScale& scale, Ink
 
 std::string place_text(const proto::AxisStatus& axis) {
     if (!axis.present()) { return "not received"; }
-    return axis.homed() ? fixed(axis.position_mm(), 3) + " " + std::string(unit_of(axis.name())) + " " + axis.state()
+    return axis.homed() ? fixed(axis.position_mm(), 3) + " " +
+                              std::string(unit_of(axis.has_axis() ? axis.axis() : axis.name())) + " " + axis.state()
                         : "not homed";
 }
 
@@ -111,7 +114,7 @@ std::string watch_text(const proto::StatusReport& status, const SlackScale& scal
     const std::string heading = spread(status.machine() + ": " + phase + job, age_text(status));
     std::string text = painted(heading, kBold, ink) + "\n" + job_row(status, ink) + "\n" + conditions_row(status, ink) +
                        "\n" + devices_row(status, ink) + painted(title_row(), kFaint, ink) + "\n";
-    for (const proto::AxisStatus& axis : status.axes()) { text += axis_row(axis, scale, ink) + "\n"; }
+    for (const proto::AxisStatus* const axis : rows_of(status)) { text += axis_row(*axis, scale, ink) + "\n"; }
     const auto alarms = alarms_of(status, scale);
     text += "\n" + (alarms.empty() ? painted("no alarms", kFaint, ink) + "\n" : "");
     for (const std::string& alarm : alarms) { text += painted(wrapped(alarm, kColumns, "  "), kBad, ink) + "\n"; }
@@ -120,10 +123,10 @@ std::string watch_text(const proto::StatusReport& status, const SlackScale& scal
 
 std::string watch_line(const proto::StatusReport& status, const SlackScale& scale) {
     std::string text = status.machine() + ": " + progress_text(status);
-    for (const proto::AxisStatus& axis : status.axes()) {
-        text += "; " + axis.name() + " ";
-        text += place_text(axis);
-        const auto& health = axis.health();
+    for (const proto::AxisStatus* const axis : rows_of(status)) {
+        text += "; " + axis->name() + " ";
+        text += place_text(*axis);
+        const auto& health = axis->health();
         if (health.has_setpoint_slack_ms()) { text += " slack " + fixed(health.setpoint_slack_ms().min(), 0) + " ms"; }
     }
     if (status.has_pause()) { text += "; paused: " + status.pause().text(); }

@@ -7,6 +7,7 @@
 
 #include "clients/incident/cause.hpp"
 #include "clients/scenario/model/name_rules.hpp"
+#include "core/kinematics/motors.hpp"
 
 namespace lockstep::scenario {
 namespace {
@@ -75,7 +76,7 @@ private:
         problems_.require_one_of("expect.cause.kind", cause.kind(), kinds, "cause");
         if (!cause.has_process()) { return; }
         std::vector<std::string> noted{"coordinator"};  // the processes that keep notes; a standby is a coordinator
-        for (const AxisConfig& axis : machine_.axes) { noted.push_back("axis-" + axis.name); }
+        for (const std::string& motor : motor_names(machine_)) { noted.push_back("axis-" + motor); }
         problems_.require_one_of("expect.cause.process", cause.process(), noted, "process that a cause can name");
         const auto is_kind = [&](CauseKind kind) { return name_of(kind) == cause.kind(); };
         problems_.require(std::ranges::none_of(kOfNoProcess, is_kind), "expect.cause.process",

@@ -2,6 +2,7 @@
 
 #include "clients/scenario/model/rules.hpp"
 #include "core/gcode/gcode.hpp"
+#include "core/kinematics/motors.hpp"
 #include "services/documents/machine_errors.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/documents/program_file.hpp"
@@ -78,9 +79,10 @@ bool has_links(Asked::Place place) { return place == Asked::NAMESPACE || place =
 std::vector<std::string> processes_of(const Asked& asked, const MachineConfig& machine) {
     std::vector<std::string> names{"coordinator"};
     if (asked.standby()) { names.emplace_back("coordinator-2"); }
-    for (const AxisConfig& axis : machine.axes) { names.push_back("axis-" + axis.name); }
-    for (const AxisConfig& axis : machine.axes) {
-        if (asked.separate_devices()) { names.push_back("fpga-" + axis.name); }
+    const std::vector<std::string> motors = motor_names(machine);
+    for (const std::string& motor : motors) { names.push_back("axis-" + motor); }
+    for (const std::string& motor : motors) {
+        if (asked.separate_devices()) { names.push_back("fpga-" + motor); }
     }
     return names;
 }
@@ -105,7 +107,11 @@ MachineConfig isolated(MachineConfig machine, Asked::Place place) {
     machine.coordinator_host.clear();
     for (AxisConfig& axis : machine.axes) {
         axis.host.clear();
-        axis.device = "sim";
+        axis.device = {};
+        for (MotorBlock& motor : axis.motors) {
+            motor.host.clear();
+            motor.device = {};
+        }
     }
     return machine;
 }

@@ -8,6 +8,7 @@
 #include "clients/merge/report.hpp"
 #include "clients/scenario/model/evaluation.hpp"
 #include "clients/verification/verification.hpp"
+#include "core/kinematics/motors.hpp"
 #include "services/files/directories.hpp"
 #include "services/flight/incident_file.hpp"
 #include "services/record/new_log_file.hpp"
@@ -32,7 +33,7 @@ std::expected<proto::MergeReport, std::string> merge_logs(const MachineConfig& m
 
 std::string name_of_peer(const incident::Incident& incident, const FlightPeer& peer) {
     if (peer.kind == FlightPeer::Kind::None) { return ""; }
-    return peer.kind == FlightPeer::Kind::Axis ? "axis-" + incident.machine.axes[peer.axis].name : "coordinator";
+    return peer.kind == FlightPeer::Kind::Axis ? "axis-" + motor_name(incident.machine, peer.axis) : "coordinator";
 }
 
 /// Ignores vetoes for an axis's own fault or stop.
@@ -50,7 +51,7 @@ void read_incident_files(const MachineConfig& machine, Evidence& evidence) {
         for (const incident::Entry& entry : incident.timeline) {
             const FlightPeer& who = incident.processes[entry.process].who;
             if (lacks_something(entry.event) && who.kind == FlightPeer::Kind::Axis) {
-                evidence.vetoed_by.insert(incident.machine.axes[who.axis].name);
+                evidence.vetoed_by.insert(motor_name(incident.machine, who.axis));
             }
         }
     }

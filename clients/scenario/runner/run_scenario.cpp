@@ -18,6 +18,7 @@
 #include "clients/supervisor/flight_files.hpp"
 #include "clients/supervisor/program_folder.hpp"
 #include "clients/text/format.hpp"
+#include "core/kinematics/motors.hpp"
 #include "core/number_text.hpp"
 #include "services/axis/device_window.hpp"
 #include "services/documents/machine_file.hpp"
@@ -80,12 +81,12 @@ private:
 
 /// Waits for each device, so that the scenario's time starts when axes can attach.
 std::expected<void, std::string> start_devices(const Scenario& scenario, ProcessSet& processes) {
-    for (const AxisConfig& axis : scenario.machine.axes) {
-        const std::string name = "fpga-" + axis.name;
+    for (const std::string& motor : motor_names(scenario.machine)) {
+        const std::string name = "fpga-" + motor;
         if (const auto started = processes.start(name); !started) { return started; }
         const auto deadline = monotonic_now() + kStartPatience;
-        for (auto window = open_window(shared_device(scenario.machine, axis)); !window;
-             window = open_window(shared_device(scenario.machine, axis))) {
+        for (auto window = open_window(shared_device(scenario.machine, motor)); !window;
+             window = open_window(shared_device(scenario.machine, motor))) {
             if (monotonic_now() > deadline) { return std::unexpected(name + ": " + window.error()); }
             std::this_thread::sleep_for(5ms);
         }

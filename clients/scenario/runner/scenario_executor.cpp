@@ -7,6 +7,7 @@
 #include "clients/session/move_program.hpp"
 #include "clients/session/reports.hpp"
 #include "clients/text/format.hpp"
+#include "core/kinematics/motors.hpp"
 
 namespace lockstep::scenario {
 namespace {
@@ -100,11 +101,11 @@ bool ScenarioExecutor::wait_for(Asked::Phase phase) {
 }
 
 bool ScenarioExecutor::receives_all(nanoseconds since) {
-    const auto& axes = scenario_.machine.axes;
-    for (std::size_t i = 0; i < axes.size(); ++i) {
+    const std::vector<std::string> motors = motor_names(scenario_.machine);
+    for (std::size_t i = 0; i < motors.size(); ++i) {
         const bool is_received =
-            session_.axis(i) && session_.axis(i)->time > since && has_axis(session_.state()->state.axes_present, i);
-        if (processes_.is_active("axis-" + axes[i].name) && !is_received) { return false; }
+            session_.motor(i) && session_.motor(i)->time > since && has_axis(session_.state()->state.axes_present, i);
+        if (processes_.is_active("axis-" + motors[i]) && !is_received) { return false; }
     }
     return true;
 }
@@ -194,8 +195,8 @@ std::optional<ScenarioExecutor::Ended> ScenarioExecutor::ended(WatchedJob& watch
 
 /// Ignores axes with overdue states.
 bool ScenarioExecutor::all_present_rest() const {
-    for (std::size_t i = 0; i < scenario_.machine.axes.size(); ++i) {
-        if (session_.axis_present(i) && !session_.axis(i)->state.at_rest) { return false; }
+    for (std::size_t i = 0; i < motor_count(scenario_.machine); ++i) {
+        if (session_.motor_present(i) && !session_.motor(i)->state.at_rest) { return false; }
     }
     return true;
 }
@@ -222,8 +223,8 @@ void ScenarioExecutor::inject_due(EventSchedule& schedule, nanoseconds begun) {
         add_check(text_of(*during), done ? "done at " + fixed(at_s(at), 3) + " s" : done.error(), done.has_value());
         if (!during->has_rests_within_frames()) { continue; }
         AwaitedRest rest{text_of(during->act()), at, during->rests_within_frames(), {}};
-        for (const AxisConfig& axis : scenario_.machine.axes) {
-            if (processes_.is_active("axis-" + axis.name)) { rest.axes.push_back(axis.name); }
+        for (const std::string& motor : motor_names(scenario_.machine)) {
+            if (processes_.is_active("axis-" + motor)) { rest.axes.push_back(motor); }
         }
         observed_.rests.push_back(std::move(rest));
     }
@@ -259,9 +260,9 @@ void ScenarioExecutor::check_ending(const Step& step, const Ended& found) {
 void ScenarioExecutor::settle() {
     const nanoseconds since = monotonic_now();
     const auto is_settled = [&] {
-        const auto& axes = scenario_.machine.axes;
-        for (std::size_t i = 0; i < axes.size(); ++i) {
-            if (session_.axis_present(i) != processes_.is_active("axis-" + axes[i].name)) { return false; }
+        const std::vector<std::string> motors = motor_names(scenario_.machine);
+        for (std::size_t i = 0; i < motors.size(); ++i) {
+            if (session_.motor_present(i) != processes_.is_active("axis-" + motors[i])) { return false; }
         }
         return !acts_.has_more_to_undo();
     };

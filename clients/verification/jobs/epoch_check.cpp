@@ -30,7 +30,7 @@ Run planned_run(const Frame& frame, std::size_t axis, bool tail, Ticks clock_err
 
 }  // namespace
 
-EpochCheck::EpochCheck(const MachineConfig& machine, EpochReplay replay, const AxisPositions& at)
+EpochCheck::EpochCheck(const MachineConfig& machine, EpochReplay replay, const MotorPositions& at)
     : machine_(machine), replay_(std::move(replay)) {
     for (const Position place : at) { axes_.push_back({.at = place}); }
 }

@@ -31,7 +31,7 @@ struct Shortfall {
 class EpochCheck {
 public:
     /// `at`: where each axis rests before the epoch.
-    EpochCheck(const MachineConfig& machine, EpochReplay replay, const AxisPositions& at);
+    EpochCheck(const MachineConfig& machine, EpochReplay replay, const MotorPositions& at);
 
     Epoch epoch() const { return replay_.epoch(); }
     EpochReplay& replay() { return replay_; }

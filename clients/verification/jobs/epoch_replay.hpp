@@ -13,8 +13,8 @@ namespace lockstep::verification {
 /// The start of an epoch.
 struct EpochStart {
     OwnedSource source;
-    PathPlace place;   // on the program
-    AxisPositions at;  // of each axis, exactly
+    PathPlace place;    // on the program
+    MotorPositions at;  // of each axis, exactly
 };
 
 /// How far an axis came in an epoch: frames begun, and where it rests.

@@ -6,13 +6,14 @@
 #include <utility>
 
 #include "clients/verification/jobs/record_text.hpp"
+#include "core/kinematics/motors.hpp"
 #include "services/documents/machine_file.hpp"
 
 namespace lockstep::verification {
 namespace {
 
 std::size_t index_of(const MachineConfig& machine, const std::string& axis) {
-    return static_cast<std::size_t>(std::ranges::find(machine.axes, axis, &AxisConfig::name) - machine.axes.begin());
+    return motor_named(machine, axis).value_or(motor_count(machine));
 }
 
 }  // namespace
@@ -151,7 +152,7 @@ void JobProgress::begin_epoch(const RecordedJob& record) {
         events_.check_rest(start->place.block, start->place.block);
         events_.begin_epoch(epoch, record.coordinator);
     }
-    const AxisPositions at = start->at;
+    const MotorPositions at = start->at;
     const MachineConfig& machine = job_->replay->machine();
     epoch_.emplace(machine, EpochReplay(machine, epoch, std::move(*start), overrides, {record.start_tick}), at);
     labels_.emplace_back(epoch, job_->label);
@@ -202,7 +203,7 @@ void JobProgress::end(const RecordedJob& record) {
 void JobProgress::take(const AxisRun& of) {
     const auto& [name, run, is_behind_gap] = of;
     const std::size_t axis = index_of(job_->replay->machine(), name);
-    if (axis == job_->replay->machine().axes.size()) {
+    if (axis == motor_count(job_->replay->machine())) {
         return differ("axis " + name + " ran a frame of a machine that has no such axis", name, &run);
     }
     if (is_behind_gap && !epoch_->follows(axis, run)) {
@@ -224,7 +225,7 @@ void JobProgress::close_epoch(bool goes_on, bool lacks_events) {
     if (!epoch_) { return; }
     plan_next(epoch_->replay());
     job_->ran = epoch_->ran();
-    const std::size_t axes = job_->replay->machine().axes.size();
+    const std::size_t axes = motor_count(job_->replay->machine());
     std::optional<Shortfall> found = epoch_->shortfall();
     for (std::size_t i = 0; goes_on && i < axes && found && suspect(*found); ++i) { found = epoch_->shortfall(); }
     found ? break_off(*found) : check_epoch(lacks_events);
@@ -234,7 +235,7 @@ void JobProgress::close_epoch(bool goes_on, bool lacks_events) {
 /// If an axis has nothing more in the log, its runs may be missing. The epoch is then taken for complete, if others ran
 /// further; the axis's next run shows whether runs are missing.
 bool JobProgress::suspect(const Shortfall& shortfall) {
-    const std::string& axis = job_->replay->machine().axes[shortfall.axis].name;
+    const std::string& axis = motor_name(job_->replay->machine(), shortfall.axis);
     if (shortfall.kind != Shortfall::Kind::Silent) { return false; }
     const FrameNumber most = epoch_->ran();
     if (!epoch_->assume_complete(shortfall.axis)) { return false; }
@@ -260,7 +261,7 @@ void JobProgress::check_epoch(bool lacks_events) {
 }
 
 void JobProgress::break_off(const Shortfall& shortfall) {
-    job_->broken_axis = job_->replay->machine().axes[shortfall.axis].name;
+    job_->broken_axis = motor_name(job_->replay->machine(), shortfall.axis);
     job_->broken = "axis " + job_->broken_axis + " " + shortfall.text;
 }
 
@@ -276,8 +277,8 @@ void JobProgress::leave_in_motion() {
 /// Handles a job without an end, although all axes have come to rest, or their processes have ended.
 void JobProgress::leave_at_rest(const LogEnd& end) {
     if (job_->replay && epoch_) {
-        for (std::size_t i = 0; i < job_->replay->machine().axes.size(); ++i) {
-            const std::string& axis = job_->replay->machine().axes[i].name;
+        for (std::size_t i = 0; i < motor_count(job_->replay->machine()); ++i) {
+            const std::string& axis = motor_name(job_->replay->machine(), i);
             const auto found = epoch_->shortfall_of(i);
             if (!found || found->kind == Shortfall::Kind::Cut || end.has_ended(axis)) { continue; }
             break_off(*found);
@@ -296,8 +297,8 @@ void JobProgress::leave_at_rest(const LogEnd& end) {
 
 /// Plans what each axis may run after its newest run.
 void JobProgress::plan_next(EpochReplay replay) {
-    const auto& axes = job_->replay->machine().axes;
-    for (std::size_t i = 0; i < axes.size(); ++i) { planned_[axes[i].name] = epoch_->courses_of(i, replay); }
+    const std::vector<std::string> motors = motor_names(job_->replay->machine());
+    for (std::size_t i = 0; i < motors.size(); ++i) { planned_[motors[i]] = epoch_->courses_of(i, replay); }
 }
 
 /// A copy of the replay makes the frames ahead, because the epoch's own frames may still be planned differently.

@@ -5,7 +5,11 @@
 namespace lockstep::verification {
 
 JobReplay::JobReplay(const MachineConfig& machine, SharedProgram program, std::vector<Leg> legs)
-    : machine_(machine), planner_(machine), program_(std::move(program)), legs_(std::move(legs)) {}
+    : machine_(machine),
+      kinematics_(machine),
+      planner_(machine),
+      program_(std::move(program)),
+      legs_(std::move(legs)) {}
 
 std::expected<JobReplay, std::string> JobReplay::plan(const MachineConfig& machine, SharedProgram program,
                                                       const std::vector<std::int64_t>& start_counts) {
@@ -27,7 +31,7 @@ std::optional<EpochStart> JobReplay::next() {
         if (!source_) {
             source_ = planner_.frames(program_, leg.first, leg.from);
             place_ = {leg.first, {}};
-            positions_ = positions_of(leg.from);
+            positions_ = positions_of(kinematics_.motors_at(leg.from).steps);
         }
         source_->resume(place_, positions_, {});
         source_->read_ahead();

@@ -9,6 +9,7 @@
 
 #include "clients/verification/jobs/epoch_replay.hpp"
 #include "core/coordinator/path/program_plan.hpp"
+#include "core/kinematics/kinematics.hpp"
 #include "core/machine.hpp"
 #include "services/record/reading/recorded_program.hpp"
 
@@ -42,6 +43,7 @@ private:
     JobReplay(const MachineConfig& machine, SharedProgram program, std::vector<Leg> legs);
 
     MachineConfig machine_;
+    Kinematics kinematics_;
     ProgramPlanner planner_;
     SharedProgram program_;
     std::vector<Leg> legs_;
@@ -49,7 +51,7 @@ private:
     // Of the leg in progress; source_ is null if the leg has not begun.
     OwnedSource source_;
     PathPlace place_;
-    AxisPositions positions_;
+    MotorPositions positions_;
 };
 
 }  // namespace lockstep::verification

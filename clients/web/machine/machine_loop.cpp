@@ -33,7 +33,7 @@ MachineLoop::MachineLoop(Session session, const std::string& writer, Publish pub
       lease_(session_, writer),
       jog_(session_),
       publish_(std::move(publish)),
-      healths_(session_.config().axes.size()),
+      healths_(session_.kinematics().motors().size()),
       snapshot_(std::make_shared<const Snapshot>(taken())),
       thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
@@ -181,7 +181,11 @@ Snapshot MachineLoop::taken() const {
     snapshot.has_standby = session_.has_standby();
     snapshot.config_differs = session_.config_differs();
     for (std::size_t i = 0; i < session_.config().axes.size(); ++i) {
-        AxisSnapshot axis{.is_present = session_.axis_present(i), .state = {}, .health = healths_[i]};
+        AxisSnapshot axis{.is_present = session_.axis_present(i),
+                          .steps_per_tick = session_.axis_speed(i),
+                          .state = {},
+                          .health = {}};
+        if (const auto own = session_.kinematics().own_motor(i)) { axis.health = healths_[*own]; }
         if (const auto& state = session_.axis(i)) { axis.state = Seen<AxisState>{state->state, state->time}; }
         snapshot.axes.push_back(axis);
     }

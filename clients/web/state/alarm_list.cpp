@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/kinematics/motors.hpp"
 #include "core/number_text.hpp"
 #include "services/documents/values/values_trouble.hpp"
 
@@ -35,8 +36,8 @@ void add_once(json& alarms, json alarm) {
 void add_faults(const Snapshot& snapshot, const MachineConfig& machine, json& alarms) {
     if (snapshot.machine && snapshot.machine->value.fault != FaultCode::None) {
         const MachineState& state = snapshot.machine->value;
-        const bool has_axis = state.fault_axis && *state.fault_axis < machine.axes.size();
-        const std::string axis = has_axis ? machine.axes[*state.fault_axis].name : "";
+        const bool has_axis = state.fault_axis && *state.fault_axis < motor_count(machine);
+        const std::string axis = has_axis ? motor_name(machine, *state.fault_axis) : "";
         add_once(alarms, as_alarm(fault_json(state.fault, axis), "fault"));
     }
     for (std::size_t i = 0; i < snapshot.axes.size(); ++i) {

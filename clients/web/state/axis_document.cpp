@@ -75,7 +75,7 @@ json axis_json(const Snapshot& snapshot, std::size_t i, const MachineConfig& mac
     if (!seen.state) { return never_received(); }
     const AxisConfig& axis = machine.axes[i];
     const AxisState& state = seen.state->value;
-    const double velocity = state.velocity.steps_per_tick() * machine.ticks_per_second() / axis.steps_per_mm;
+    const double velocity = seen.steps_per_tick * machine.ticks_per_second() / axis.steps_per_mm;
     return {{"present", seen.is_present},
             {"age_ms", age_ms(seen.state->time, snapshot.time)},
             {"position", rounded(to_mm(axis, state.position.as_steps()), kPlaceDigits)},

@@ -24,6 +24,7 @@ struct Seen {
 
 struct AxisSnapshot {
     bool is_present = false;
+    double steps_per_tick = 0;  // its speed
     std::optional<Seen<AxisState>> state;
     std::optional<Seen<AxisHealth>> health;
 };

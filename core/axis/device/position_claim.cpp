@@ -2,10 +2,12 @@
 
 #include <cstdlib>
 
+#include "core/kinematics/motors.hpp"
+
 namespace lockstep {
 
 PositionScale scale_of(const MachineConfig& machine, std::size_t axis) {
-    const AxisConfig& config = machine.axes[axis];
+    const MotorConfig config = motors_of(machine)[axis];
     return {machine.name, config.name, config.steps_per_mm, config.homing.switch_position_mm, config.homing.toward_min};
 }
 

@@ -15,7 +15,7 @@
 
 #include "core/axis/device/device.hpp"
 #include "core/faults.hpp"
-#include "core/machine.hpp"
+#include "core/kinematics/motors.hpp"
 
 namespace lockstep {
 

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "core/kinematics/motors.hpp"
 #include "core/motion/frame_limits.hpp"
 
 namespace lockstep {
@@ -17,11 +18,11 @@ Position start_from(Position asked, Position rest) {
 
 SetpointFollower::SetpointFollower(std::size_t axis, const MachineConfig& machine)
     : axis_(axis),
-      axes_(machine.axes.size()),
+      axes_(motor_count(machine)),
       timing_(machine.timing),
       slot_(machine.slot_ticks()),
       limits_(frame_limits_of(machine, axis)),
-      peers_(machine.axes.size()) {}
+      peers_(motor_count(machine)) {}
 
 void SetpointFollower::receive(const AxisState& peer) {
     if (peer.axis >= axes_ || peer.axis == axis_) { return; }

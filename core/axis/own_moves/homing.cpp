@@ -6,11 +6,14 @@
 namespace lockstep {
 
 std::int64_t Homing::toward_switch(double mm) const {
-    const std::int64_t steps = to_steps(axis_, mm);
-    return axis_.homing.toward_min ? -steps : steps;
+    const std::int64_t steps = to_steps(motor_, mm);
+    return motor_.homing.toward_min ? -steps : steps;
 }
 
-HomingStep Homing::begin(bool home_closed) {
+HomingStep Homing::begin(bool home_closed, std::int64_t count) {
+    if (motor_.homing.in_place) {
+        return {.zeroed = true, .zero_count = count - to_steps(motor_, motor_.homing.park_mm), .done = true};
+    }
     pull_offs_ = 0;
     touches_ = 0;
     last_.reset();
@@ -19,10 +22,10 @@ HomingStep Homing::begin(bool home_closed) {
 
 HomingStep Homing::search(HomingStage stage) {
     stage_ = stage;
-    const double travel_mm = axis_.position_max_mm - axis_.position_min_mm;
-    const double beyond_mm = std::max(travel_mm + axis_.homing.pulloff_mm, 2 * axis_.plant.travel_margin_mm);
-    const std::int64_t reach = toward_switch(travel_mm + axis_.homing.pulloff_mm + beyond_mm);
-    const double speed = axis_.homing.search_velocity_mm_s;
+    const double travel_mm = motor_.position_max_mm - motor_.position_min_mm;
+    const double beyond_mm = std::max(travel_mm + motor_.homing.pulloff_mm, 2 * motor_.plant.travel_margin_mm);
+    const std::int64_t reach = toward_switch(travel_mm + motor_.homing.pulloff_mm + beyond_mm);
+    const double speed = motor_.homing.search_velocity_mm_s;
     if (stage == HomingStage::Release) { return {.move = LocalMove{-reach, speed, Trigger::HomeOpens}}; }
     return {.move = LocalMove{reach, speed, Trigger::HomeCloses}};
 }
@@ -35,8 +38,8 @@ HomingStep Homing::next(const LocalEnd& end) {
             if (end.by_limit) { return fail(FaultCode::LimitHit); }
             if (end.home_closed) { return search(HomingStage::Release); }
             stage_ = HomingStage::Latch;
-            const double speed = axis_.homing.latch_velocity_mm_s;
-            return {.move = LocalMove{toward_switch(2 * axis_.homing.pulloff_mm), speed, Trigger::HomeCloses}};
+            const double speed = motor_.homing.latch_velocity_mm_s;
+            return {.move = LocalMove{toward_switch(2 * motor_.homing.pulloff_mm), speed, Trigger::HomeCloses}};
         }
         case HomingStage::Latch: return end.by_trigger ? touch(end) : miss(end);
         case HomingStage::Park:
@@ -50,14 +53,14 @@ HomingStep Homing::next(const LocalEnd& end) {
 HomingStep Homing::pull_off() {
     if (++pull_offs_ > kMaxPullOffs) { return fail(FaultCode::HomeSwitchStuck); }
     stage_ = HomingStage::PullOff;
-    const double speed = axis_.homing.search_velocity_mm_s;
-    return {.move = LocalMove{-toward_switch(axis_.homing.pulloff_mm), speed, Trigger::None}};
+    const double speed = motor_.homing.search_velocity_mm_s;
+    return {.move = LocalMove{-toward_switch(motor_.homing.pulloff_mm), speed, Trigger::None}};
 }
 
 /// If the switch sticks or bounces, or the slide is pushed, this touch is elsewhere than the one before. If the slide
 /// is pushed after the touch, the switch does not show it, but the encoder differs.
 HomingStep Homing::touch(const LocalEnd& end) {
-    const std::int64_t tolerance = std::max<std::int64_t>(1, to_steps(axis_, axis_.homing.touch_tolerance_mm));
+    const std::int64_t tolerance = std::max<std::int64_t>(1, to_steps(motor_, motor_.homing.touch_tolerance_mm));
     const Touch here{end.trigger_count, end.encoder_ahead};
     const bool agrees = last_ && std::abs(here.count - last_->count) <= tolerance &&
                         std::abs(here.encoder_ahead - last_->encoder_ahead) <= tolerance;
@@ -75,10 +78,11 @@ HomingStep Homing::miss(const LocalEnd& end) {
 
 HomingStep Homing::zero_and_park(const LocalEnd& end) {
     stage_ = HomingStage::Park;
-    HomingStep step{.zeroed = true, .zero_count = end.trigger_count - to_steps(axis_, axis_.homing.switch_position_mm)};
+    HomingStep step{.zeroed = true,
+                    .zero_count = end.trigger_count - to_steps(motor_, motor_.homing.switch_position_mm)};
     const std::int64_t here = end.count - step.zero_count;
-    const double speed = axis_.max_velocity_mm_s;
-    step.move = LocalMove{to_steps(axis_, axis_.homing.park_mm) - here, speed, Trigger::None};
+    const double speed = motor_.max_velocity_mm_s;
+    step.move = LocalMove{to_steps(motor_, motor_.homing.park_mm) - here, speed, Trigger::None};
     return step;
 }
 

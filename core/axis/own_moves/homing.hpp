@@ -1,6 +1,7 @@
 // The homing sequence: search the switch, pull off, touch it again slowly, and repeat until two touches in a row agree.
-// Then set the zero there and park. An axis that stands behind its switch first moves away until the switch opens. The
-// device itself ends a move at the switch and keeps the count, so no network is between the switch and the stop.
+// Then set the zero there and park. A motor that homes in place sets the zero where it stands. An axis that stands
+// behind its switch first moves away until the switch opens. The device itself ends a move at the switch and keeps the
+// count, so no network is between the switch and the stop.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +9,7 @@
 
 #include "core/axis/device/device.hpp"
 #include "core/faults.hpp"
-#include "core/machine.hpp"
+#include "core/kinematics/motors.hpp"
 
 namespace lockstep {
 
@@ -43,10 +44,11 @@ struct HomingStep {
 
 class Homing {
 public:
-    explicit Homing(const AxisConfig& axis) : axis_(axis) {}
+    explicit Homing(const MotorConfig& motor) : motor_(motor) {}
 
-    /// Begins with the search, or moves away from the switch if it is already closed.
-    HomingStep begin(bool home_closed);
+    /// Begins with the search, or moves away from the switch if it is already closed. `count`: the device's. In place,
+    /// this is the whole homing.
+    HomingStep begin(bool home_closed, std::int64_t count);
     /// Call it after the end of each move.
     HomingStep next(const LocalEnd& end);
     void abandon() { stage_ = HomingStage::Idle; }
@@ -70,7 +72,7 @@ private:
     static constexpr int kMaxPullOffs = 16;
     static constexpr int kMaxTouches = 4;
 
-    AxisConfig axis_;
+    MotorConfig motor_;
     HomingStage stage_ = HomingStage::Idle;
     int pull_offs_ = 0;
     int touches_ = 0;  // attempts to touch the switch, with those that missed it

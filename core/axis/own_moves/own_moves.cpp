@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/axis/own_moves/own_pieces.hpp"
+#include "core/kinematics/motors.hpp"
 #include "core/program.hpp"
 
 namespace lockstep {
@@ -20,8 +21,8 @@ constexpr std::int64_t kToWholeStep_ns = 10'000'000;  // how much longer than br
 }  // namespace
 
 OwnMoves::OwnMoves(std::size_t axis, const MachineConfig& machine, BeginSteps begin_steps)
-    : axis_(machine.axes[axis]),
-      limits_(limits_of(axis_, machine.tick_ns)),
+    : motor_(motors_of(machine)[axis]),
+      limits_(limits_of(motor_, machine.tick_ns)),
       tick_ns_(machine.tick_ns),
       slot_(machine.slot_ticks()),
       frame_{kFrame_ns / machine.tick_ns},
@@ -32,7 +33,7 @@ OwnMoves::OwnMoves(std::size_t axis, const MachineConfig& machine, BeginSteps be
       to_whole_step_{kToWholeStep_ns / machine.tick_ns},
       half_step_{static_cast<std::int64_t>(std::ceil(0.5 / limits_.start_velocity))},
       begin_steps_(begin_steps),
-      homing_(axis_) {}
+      homing_(motor_) {}
 
 void OwnMoves::home(const AxisCommand& order, bool is_resting, AxisLoop& loop) {
     AxisCondition& axis = loop.condition;
@@ -42,7 +43,7 @@ void OwnMoves::home(const AxisCommand& order, bool is_resting, AxisLoop& loop) {
     axis.phases.clear_fault();
     axis.position.begin_homing();
     axis.phases.happen(AxisEvent::HomingBegins);
-    take_homing_step(homing_.begin(loop.device.status().home), loop);
+    take_homing_step(homing_.begin(loop.device.status().home, loop.device.status().position.count()), loop);
 }
 
 void OwnMoves::move(const AxisCommand& order, bool is_resting, AxisLoop& loop) {
@@ -51,7 +52,7 @@ void OwnMoves::move(const AxisCommand& order, bool is_resting, AxisLoop& loop) {
     const FaultCode why = refusal_of(order, steps, is_resting, loop);
     if (why != FaultCode::None) { return loop.refuse(order, why); }
     if (steps == 0) { return loop.condition.orders.end(FaultCode::None); }
-    start({.steps = steps, .speed_mm_s = axis_.max_velocity_mm_s, .ticks = order.ticks}, 0, loop);
+    start({.steps = steps, .speed_mm_s = motor_.max_velocity_mm_s, .ticks = order.ticks}, 0, loop);
 }
 
 FaultCode OwnMoves::refusal_of(const AxisCommand& order, std::int64_t steps, bool is_resting,
@@ -62,8 +63,8 @@ FaultCode OwnMoves::refusal_of(const AxisCommand& order, std::int64_t steps, boo
     if (order.target_steps < limits_.min_steps || order.target_steps > limits_.max_steps) {
         return FaultCode::OutsideTravel;
     }
-    const OwnMoveRequest request{std::max<std::int64_t>(1, std::abs(steps)), axis_.max_velocity_mm_s, order.ticks};
-    const bool possible = OwnPieces::plan(axis_, tick_ns_, axis_.method, request, begin_steps_).has_value();
+    const OwnMoveRequest request{std::max<std::int64_t>(1, std::abs(steps)), motor_.max_velocity_mm_s, order.ticks};
+    const bool possible = OwnPieces::plan(motor_, tick_ns_, motor_.method, request, begin_steps_).has_value();
     return possible ? FaultCode::None : FaultCode::BadProgram;
 }
 
@@ -74,7 +75,7 @@ void OwnMoves::jog(const AxisCommand& order, bool is_resting, AxisLoop& loop) {
     const std::int64_t steps = order.target_steps - here.count();
     if (steps == 0) { return loop.condition.orders.end(FaultCode::None); }
     const double fastest =
-        loop.condition.position.homed() ? axis_.max_velocity_mm_s : axis_.unhomed_jog_mm_s.value_or(0);
+        loop.condition.position.homed() ? motor_.max_velocity_mm_s : motor_.unhomed_jog_mm_s.value_or(0);
     start_jog({.steps = steps, .speed_mm_s = std::min(order.speed_mm_s, fastest)}, order.until, loop);
 }
 
@@ -83,7 +84,7 @@ FaultCode OwnMoves::jog_refusal_of(const AxisCommand& order, bool is_resting, co
     if (loop.condition.phases.has_fault()) { return FaultCode::InFault; }
     if (!loop.device.is_present()) { return FaultCode::DeviceMissing; }
     if (order.speed_mm_s < kLeastSpeed_mm_s) { return FaultCode::BadProgram; }
-    if (!loop.condition.position.homed()) { return axis_.unhomed_jog_mm_s ? FaultCode::None : FaultCode::NotHomed; }
+    if (!loop.condition.position.homed()) { return motor_.unhomed_jog_mm_s ? FaultCode::None : FaultCode::NotHomed; }
     const bool is_within = order.target_steps >= limits_.min_steps && order.target_steps <= limits_.max_steps;
     return is_within ? FaultCode::None : FaultCode::OutsideTravel;
 }
@@ -97,7 +98,7 @@ void OwnMoves::start_jog(const LocalMove& move, Tick until, AxisLoop& loop) {
     }
     const std::int64_t count = loop.device.status().position.count();
     const Position from = rest_position(count - loop.condition.position.zero_count(), move.steps < 0);
-    auto pieces = OwnPieces::plan(axis_, tick_ns_, StepMethod::Ranade, {std::abs(move.steps), move.speed_mm_s}, {});
+    auto pieces = OwnPieces::plan(motor_, tick_ns_, StepMethod::Ranade, {std::abs(move.steps), move.speed_mm_s}, {});
     OwnMove frames(std::move(*pieces), {from, move.steps < 0, std::abs(move.steps), start}, limits_, jog_frame_,
                    to_whole_step_);
     run_.emplace(move, std::move(frames), count + move.steps, 0, ahead_);
@@ -116,9 +117,9 @@ void OwnMoves::renew(const AxisCommand& order, const AxisLoop& loop) {
 /// Plans by the axis's method, or by Ranade's if homing is slower or longer than the method allows.
 OwnMove OwnMoves::frames_of(const LocalMove& move, Position from, Tick start) const {
     const OwnMoveRequest request{std::abs(move.steps), move.speed_mm_s, move.ticks};
-    auto pieces = OwnPieces::plan(axis_, tick_ns_, axis_.method, request, begin_steps_);
+    auto pieces = OwnPieces::plan(motor_, tick_ns_, motor_.method, request, begin_steps_);
     if (!pieces) {
-        pieces = OwnPieces::plan(axis_, tick_ns_, StepMethod::Ranade, {request.steps, move.speed_mm_s}, begin_steps_);
+        pieces = OwnPieces::plan(motor_, tick_ns_, StepMethod::Ranade, {request.steps, move.speed_mm_s}, begin_steps_);
     }
     return OwnMove(std::move(*pieces), {from, move.steps < 0, request.steps, start}, limits_, frame_, to_whole_step_);
 }

@@ -8,6 +8,7 @@
 #include "core/axis/own_moves/homing.hpp"
 #include "core/axis/own_moves/own_run.hpp"
 #include "core/axis/state/axis_loop.hpp"
+#include "core/kinematics/motors.hpp"
 
 namespace lockstep {
 
@@ -52,7 +53,7 @@ private:
 
     static constexpr int kMaxTries = 10;
 
-    AxisConfig axis_;
+    MotorConfig motor_;
     AxisLimits limits_;
     std::int64_t tick_ns_;
     Ticks slot_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/kinematics/motors.hpp"
 #include "core/motion/interpolate.hpp"
 #include "core/number_text.hpp"
 #include "core/program.hpp"
@@ -11,20 +12,20 @@
 namespace lockstep {
 namespace {
 
-std::string text_in_time(const Infeasible& lack, const AxisConfig& axis, std::int64_t tick_ns,
+std::string text_in_time(const Infeasible& lack, const MotorConfig& motor, std::int64_t tick_ns,
                          const OwnMoveRequest& move) {
     const double tick_s = static_cast<double>(tick_ns) * 1e-9;
     const std::string time = short_number(static_cast<double>(move.ticks->value) * tick_s) + " s";
-    return short_number(to_mm(axis, static_cast<double>(move.steps))) + " mm in " + time +
-           " would exceed the limits of axis " + axis.name + ": the move takes at least " +
+    return short_number(to_mm(motor, static_cast<double>(move.steps))) + " mm in " + time +
+           " would exceed the limits of axis " + motor.name + ": the move takes at least " +
            short_number(static_cast<double>(lack.least_ticks.value) * tick_s) + " s, and the distance in " + time +
-           " is at most " + short_number(std::max(0.0, to_mm(axis, lack.longest.as_steps()))) + " mm";
+           " is at most " + short_number(std::max(0.0, to_mm(motor, lack.longest.as_steps()))) + " mm";
 }
 
 /// A plan in the time that was asked for.
-std::expected<Profile, OwnMoveError> profile_in_time(const AxisConfig& axis, std::int64_t tick_ns,
+std::expected<Profile, OwnMoveError> profile_in_time(const MotorConfig& motor, std::int64_t tick_ns,
                                                      const OwnMoveRequest& move, const PathLimits& limits) {
-    const double most_s = std::min(kLongestMotion_s, to_mm(axis, static_cast<double>(move.steps)) / kLeastSpeed_mm_s);
+    const double most_s = std::min(kLongestMotion_s, to_mm(motor, static_cast<double>(move.steps)) / kLeastSpeed_mm_s);
     if (static_cast<double>(move.ticks->value) * static_cast<double>(tick_ns) * 1e-9 > most_s) {
         return std::unexpected(BelowLeastSpeed{most_s});
     }
@@ -35,47 +36,48 @@ std::expected<Profile, OwnMoveError> profile_in_time(const AxisConfig& axis, std
 
 }  // namespace
 
-std::string text_of(const OwnMoveError& error, const AxisConfig& axis, std::int64_t tick_ns,
+std::string text_of(const OwnMoveError& error, const MotorConfig& motor, std::int64_t tick_ns,
                     const OwnMoveRequest& move) {
     if (const auto* other = std::get_if<NotInTime>(&error)) {
-        return "axis " + axis.name + " cannot move in a given time by method " + std::string(name_of(other->method)) +
+        return "axis " + motor.name + " cannot move in a given time by method " + std::string(name_of(other->method)) +
                "; omit the time, or configure method RANADE";
     }
     if (const auto* slow = std::get_if<BelowLeastSpeed>(&error)) {
-        return "axis " + axis.name + " would be slower than " + short_number(kLeastSpeed_mm_s) +
-               " mm/s: " + short_number(to_mm(axis, static_cast<double>(move.steps))) + " mm may take at most " +
+        return "axis " + motor.name + " would be slower than " + short_number(kLeastSpeed_mm_s) +
+               " mm/s: " + short_number(to_mm(motor, static_cast<double>(move.steps))) + " mm may take at most " +
                short_number(slow->most_s) + " s";
     }
-    if (const auto* lack = std::get_if<Infeasible>(&error)) { return text_in_time(*lack, axis, tick_ns, move); }
-    return "axis " + axis.name + ": " + text_of(std::get<StepError>(error));
+    if (const auto* lack = std::get_if<Infeasible>(&error)) { return text_in_time(*lack, motor, tick_ns, move); }
+    return "axis " + motor.name + ": " + text_of(std::get<StepError>(error));
 }
 
-StepMove step_move_of(const AxisConfig& axis, const OwnMoveRequest& move) {
-    const double per_mm = axis.steps_per_mm;
+StepMove step_move_of(const MotorConfig& motor, const OwnMoveRequest& move) {
+    const double per_mm = motor.steps_per_mm;
     const double max = move.speed_mm_s * per_mm;
-    return {move.steps, std::min(axis.start_velocity_mm_s * per_mm, max), max, axis.max_accel_mm_s2 * per_mm,
-            axis.max_decel_mm_s2 * per_mm};
+    return {move.steps, std::min(motor.start_velocity_mm_s * per_mm, max), max, motor.max_accel_mm_s2 * per_mm,
+            motor.max_decel_mm_s2 * per_mm};
 }
 
-std::expected<OwnPieces, OwnMoveError> OwnPieces::plan(const AxisConfig& axis, std::int64_t tick_ns, StepMethod method,
-                                                       const OwnMoveRequest& move, BeginSteps begin_steps) {
-    if (method == StepMethod::Ranade) { return planned(axis, tick_ns, move); }
-    if (!move.ticks) { return stepped(axis, tick_ns, method, move, begin_steps); }
+std::expected<OwnPieces, OwnMoveError> OwnPieces::plan(const MotorConfig& motor, std::int64_t tick_ns,
+                                                       StepMethod method, const OwnMoveRequest& move,
+                                                       BeginSteps begin_steps) {
+    if (method == StepMethod::Ranade) { return planned(motor, tick_ns, move); }
+    if (!move.ticks) { return stepped(motor, tick_ns, method, move, begin_steps); }
     return std::unexpected(NotInTime{method});
 }
 
-std::expected<OwnPieces, OwnMoveError> OwnPieces::planned(const AxisConfig& axis, std::int64_t tick_ns,
+std::expected<OwnPieces, OwnMoveError> OwnPieces::planned(const MotorConfig& motor, std::int64_t tick_ns,
                                                           const OwnMoveRequest& move) {
-    const AxisLimits of_axis = limits_of(axis, tick_ns);
+    const AxisLimits of_axis = limits_of(motor, tick_ns);
     const double speed =
-        std::min(move.speed_mm_s * axis.steps_per_mm * static_cast<double>(tick_ns) * 1e-9, kMaxPlannedStepsPerTick);
+        std::min(move.speed_mm_s * motor.steps_per_mm * static_cast<double>(tick_ns) * 1e-9, kMaxPlannedStepsPerTick);
     const PathLimits limits{std::min(of_axis.start_velocity, speed), speed, of_axis.max_acceleration,
                             of_axis.max_deceleration};
     const Displacement way = Displacement::steps(move.steps);
     Profile profile;
     if (!move.ticks) {
         profile = plan_fastest({{}, way, limits.start_velocity, limits.start_velocity, limits});
-    } else if (auto in_time = profile_in_time(axis, tick_ns, move, limits)) {
+    } else if (auto in_time = profile_in_time(motor, tick_ns, move, limits)) {
         profile = *in_time;
     } else {
         return std::unexpected(in_time.error());
@@ -83,12 +85,12 @@ std::expected<OwnPieces, OwnMoveError> OwnPieces::planned(const AxisConfig& axis
     return OwnPieces(Planned{pieces_of(profile, Position{}, +1)});
 }
 
-std::expected<OwnPieces, OwnMoveError> OwnPieces::stepped(const AxisConfig& axis, std::int64_t tick_ns,
+std::expected<OwnPieces, OwnMoveError> OwnPieces::stepped(const MotorConfig& motor, std::int64_t tick_ns,
                                                           StepMethod method, const OwnMoveRequest& move,
                                                           BeginSteps begin_steps) {
     const double ticks_per_s = 1e9 / static_cast<double>(tick_ns);
-    const double start = axis.start_velocity_mm_s * axis.steps_per_mm;
-    const StepMove asked = step_move_of(axis, move);
+    const double start = motor.start_velocity_mm_s * motor.steps_per_mm;
+    const StepMove asked = step_move_of(motor, move);
     auto source = begin_steps(method, asked);
     if (!source) { return std::unexpected(source.error()); }
     const LimitWatch watch({start, asked.acceleration, asked.deceleration});

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/axis/own_moves/step_pieces.hpp"
-#include "core/machine.hpp"
+#include "core/kinematics/motors.hpp"
 #include "core/motion/limit_watch.hpp"
 #include "core/motion/profile.hpp"
 #include "core/motion/step_source.hpp"
@@ -40,17 +40,18 @@ struct BelowLeastSpeed {
 using OwnMoveError = std::variant<NotInTime, BelowLeastSpeed, Infeasible, StepError>;
 
 /// Says why the move is impossible and what would be possible, in the user's units.
-std::string text_of(const OwnMoveError& error, const AxisConfig& axis, std::int64_t tick_ns,
+std::string text_of(const OwnMoveError& error, const MotorConfig& motor, std::int64_t tick_ns,
                     const OwnMoveRequest& move);
 
 /// The move in steps and seconds, within the axis's limits.
-StepMove step_move_of(const AxisConfig& axis, const OwnMoveRequest& move);
+StepMove step_move_of(const MotorConfig& motor, const OwnMoveRequest& move);
 
 class OwnPieces {
 public:
     /// Plans the move by `method`, the axis's own or another. `begin_steps` begins the methods other than Ranade's.
-    static std::expected<OwnPieces, OwnMoveError> plan(const AxisConfig& axis, std::int64_t tick_ns, StepMethod method,
-                                                       const OwnMoveRequest& move, BeginSteps begin_steps);
+    static std::expected<OwnPieces, OwnMoveError> plan(const MotorConfig& motor, std::int64_t tick_ns,
+                                                       StepMethod method, const OwnMoveRequest& move,
+                                                       BeginSteps begin_steps);
 
     /// Returns the next piece. It lasts at most twice as long as `most`, at every speed. Returns nullopt after the last
     /// piece, or if the next step would break the axis's limits.
@@ -89,9 +90,9 @@ private:
     using Maker = std::variant<Planned, Stepped>;
     explicit OwnPieces(Maker maker) : maker_(std::move(maker)) {}
 
-    static std::expected<OwnPieces, OwnMoveError> planned(const AxisConfig& axis, std::int64_t tick_ns,
+    static std::expected<OwnPieces, OwnMoveError> planned(const MotorConfig& motor, std::int64_t tick_ns,
                                                           const OwnMoveRequest& move);
-    static std::expected<OwnPieces, OwnMoveError> stepped(const AxisConfig& axis, std::int64_t tick_ns,
+    static std::expected<OwnPieces, OwnMoveError> stepped(const MotorConfig& motor, std::int64_t tick_ns,
                                                           StepMethod method, const OwnMoveRequest& move,
                                                           BeginSteps begin_steps);
 

@@ -27,7 +27,7 @@ enum class AxisEvent : std::uint8_t {
     LimitStops,    // a limit switch ended the motion
     HostStops,     // an emergency stop ended it
     PositionKept,  // the device has proved the position that was kept at rest
-    Zeroed,        // after a stop at the switch the zero is set; homing parks the axis
+    Zeroed,        // the zero is set, after a stop at the switch or in place; homing parks the axis
     Released,      // after a limit or emergency stop: back to Initialize, to be homed again
     HomingBegins,
     Fails,
@@ -51,6 +51,7 @@ inline constexpr std::array kAxisTransitions{
     AxisTransition{AxisPhase::Initialize, AxisEvent::HostStops, AxisPhase::Stop},
     AxisTransition{AxisPhase::Initialize, AxisEvent::Fails, AxisPhase::Fault},
     AxisTransition{AxisPhase::Initialize, AxisEvent::PositionKept, AxisPhase::Standby},
+    AxisTransition{AxisPhase::Initialize, AxisEvent::Zeroed, AxisPhase::Standby},  // in place
     // Standby: homed, at rest. From rest the speed can only rise.
     AxisTransition{AxisPhase::Standby, AxisEvent::HomingBegins, AxisPhase::Initialize},
     AxisTransition{AxisPhase::Standby, AxisEvent::SpeedRises, AxisPhase::Accelerate},

@@ -90,9 +90,9 @@ AxisSet AxisRoster::present(Slot now) const {
     return present;
 }
 
-AxisCounts AxisRoster::counts() const {
-    AxisCounts counts;
-    for (const AxisView& view : views_) { counts.append(view.state ? view.state->position.count() : 0); }
+MotorCounts AxisRoster::counts() const {
+    MotorCounts counts;
+    for (const AxisView& view : views_) { counts.steps.append(view.state ? view.state->position.count() : 0); }
     return counts;
 }
 

@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "core/coordinator/axes/axis_view.hpp"
-#include "core/machine.hpp"
+#include "core/kinematics/motors.hpp"
 #include "core/motion/path.hpp"
 
 namespace lockstep {
 
 class AxisRoster {
 public:
-    explicit AxisRoster(const MachineConfig& machine) : timing_(machine.timing), views_(machine.axes.size()) {}
+    explicit AxisRoster(const MachineConfig& machine) : timing_(machine.timing), views_(motor_count(machine)) {}
 
     /// How a received state relates to what is known of its axis.
     enum class Arrival : std::uint8_t {
@@ -51,8 +51,8 @@ public:
     std::optional<std::size_t> moving(Slot now) const;
     bool all_rest() const;
     AxisSet present(Slot now) const;
-    /// Positions in whole steps; 0 for an axis that is not known.
-    AxisCounts counts() const;
+    /// Positions in whole steps; 0 for a motor that is not known.
+    MotorCounts counts() const;
 
 private:
     ProtocolTiming timing_;

@@ -8,6 +8,7 @@
 #include "core/coordinator/jobs/jogs.hpp"
 #include "core/coordinator/jobs/own_targets.hpp"
 #include "core/coordinator/jobs/path_task.hpp"
+#include "core/coordinator/jobs/skew_watch.hpp"
 #include "core/coordinator/state/machine_phases.hpp"
 #include "core/faults.hpp"
 
@@ -44,7 +45,7 @@ struct Paused {
 struct Holding {
     PathTask task;
     PathPlace place;
-    AxisPositions positions;
+    MotorPositions positions;
 };
 struct InFault {
     MachineFault fault;
@@ -59,6 +60,7 @@ struct Motion {
 struct Homing : Motion {
     MachineJob job;
     HomingSequence sequence;
+    SkewWatch skew;
 };
 /// Axes move to their places, each by itself.
 struct OwnMoves : Motion {

@@ -59,6 +59,7 @@ void advance_path(activity::OnPath& path, JobLifecycle& jobs, CoordinatorLoop& l
 }
 
 void advance_homing(activity::Homing& homing, JobLifecycle& jobs, CoordinatorLoop& loop) {
+    if (const auto motor = homing.skew.look(loop.axes)) { return jobs.fail({FaultCode::MotorsSkewed, *motor}, loop); }
     for (std::size_t i = 0; i < loop.axes.size(); ++i) {
         if (!loop.is_order_done(i)) { return; }
         const auto& order = loop.orders.newest(i);
@@ -66,17 +67,15 @@ void advance_homing(activity::Homing& homing, JobLifecycle& jobs, CoordinatorLoo
         const bool refused = order && state && state->command_fault != FaultCode::None;
         if (refused && order->kind == AxisCommandKind::Home) { return jobs.fail({state->command_fault, i}, loop); }
     }
-    const AxisSet group = homing.sequence.next_group(loop.machine);
-    if (group == 0) { return jobs.end(JobOutcome::Done, loop); }
-    loop.order_each(group, AxisCommandKind::Home);
+    if (!home_next_group(homing, loop)) { jobs.end(JobOutcome::Done, loop); }
 }
 
-/// The axes that the job ordered to a place. `targets`: where they must be, if the job was not stopped.
-void settle_alone(AxisSet axes, const OwnTargets* targets, JobLifecycle& jobs, CoordinatorLoop& loop) {
+/// The motors that the job ordered to a place. `targets`: where they must be, if the job was not stopped.
+void settle_alone(AxisSet motors, const OwnTargets* targets, JobLifecycle& jobs, CoordinatorLoop& loop) {
     const Intent intent = jobs.activity().intent();
     if (intent == Intent::Abort) { return jobs.fail_at_rest(jobs.activity().fault(), loop); }
     for (std::size_t i = 0; i < loop.axes.size(); ++i) {
-        if (!has_axis(axes, i) || !loop.axes.state(i)) { continue; }
+        if (!has_axis(motors, i) || !loop.axes.state(i)) { continue; }
         const AxisState& state = *loop.axes.state(i);
         if (state.command_fault != FaultCode::None) { return jobs.fail({state.command_fault, i}, loop); }
         if (targets == nullptr || intent != Intent::GoOn) { continue; }
@@ -112,6 +111,13 @@ void report_on_path(const activity::OnPath& moving, const PathRunner& path, Mach
 
 }  // namespace
 
+bool home_next_group(activity::Homing& homing, CoordinatorLoop& loop) {
+    const AxisSet group = homing.sequence.next_group(loop.machine);
+    loop.order_each(loop.kinematics.motors_of_axes(group), AxisCommandKind::Home);
+    homing.skew.begin(loop.axes);
+    return group != 0;
+}
+
 void advance_job(JobLifecycle& jobs, CoordinatorLoop& loop) {
     MachineActivity& activity = jobs.activity();
     if (auto* const path = activity.as<activity::OnPath>()) { return advance_path(*path, jobs, loop); }
@@ -119,9 +125,11 @@ void advance_job(JobLifecycle& jobs, CoordinatorLoop& loop) {
     auto* const homing = activity.as<activity::Homing>();
     if (homing != nullptr && homing->intent == Intent::GoOn) { return advance_homing(*homing, jobs, loop); }
     if (!are_orders_done(loop)) { return; }
-    if (homing != nullptr) { return settle_alone(homing->sequence.axes(), nullptr, jobs, loop); }
+    if (homing != nullptr) {
+        return settle_alone(loop.kinematics.motors_of_axes(homing->sequence.axes()), nullptr, jobs, loop);
+    }
     if (const auto* const moves = activity.as<activity::OwnMoves>()) {
-        return settle_alone(moves->targets.axes(), &moves->targets, jobs, loop);
+        return settle_alone(moves->targets.motors(), &moves->targets, jobs, loop);
     }
     if (!activity.is_jogging() || activity.as<activity::Jogging>()->jogs.none()) {
         settle_alone(0, nullptr, jobs, loop);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/check.hpp"
+#include "core/coordinator/jobs/job_advance.hpp"
 #include "core/coordinator/path/coordination.hpp"
 #include "core/coordinator/path/return_way.hpp"
 #include "core/protocol/names.hpp"
@@ -29,14 +30,14 @@ std::expected<std::shared_ptr<const KnownProgram>, Refusal> program_of(const Com
 /// Checks that the program begins where the axes stand and has not been cut.
 CommandResult check_program(const KnownProgram& program, const ProgramPlanner& planner, const LoopView& loop) {
     if (const auto& cut = program.cut()) { return refuse(cut->why, line_label(cut->line) + cut->text); }
-    const auto fits = planner.check_start(program.head(), program.places(), loop.axes.counts());
+    const auto fits = planner.check_start(program.head(), program.places(), loop.counts());
     return fits ? CommandResult{} : refuse(fits.error().fault, fits.error().text);
 }
 
 /// Moves may be too slow for the LAI method.
 CommandResult check_lai_moves(const KnownProgram& program, const ProgramPlanner& planner, const LoopView& loop) {
     if (!coordination_of(loop.machine).has_least_feed) { return {}; }
-    AxisCounts at = loop.axes.counts();
+    AxisCounts at = loop.counts();
     for (std::uint32_t number = 0; !program.ends_before(number); ++number) {
         const Block& block = check_found(program.block(number), "a program that is planned as a whole is known");
         const auto move = planner.move_of(block, number, program.places(), at);
@@ -60,6 +61,27 @@ CommandResult check_ready(const MachineActivity& activity, const LoopView& loop)
     return refuse(FaultCode::NotReady, "some axes do not follow the coordinator yet, or are not at rest");
 }
 
+/// A motor that moves several axes must home with all of them, because their places are known together or not at all.
+CommandResult check_homes_alone(AxisSet axes, const LoopView& loop) {
+    for (std::size_t m = 0; m < loop.kinematics.motors().size(); ++m) {
+        const AxisSet moved = loop.kinematics.axes_of_motor(m);
+        if ((moved & axes) == 0 || loop.kinematics.motors()[m].moves_one_axis) { continue; }
+        if ((moved & ~axes) != 0) {
+            return refuse(FaultCode::BadProgram,
+                          loop.label_of(m) + " moves several axes, which can only be homed together: name all of them");
+        }
+        for (std::size_t i = 0; i < loop.machine.axes.size(); ++i) {
+            const AxisConfig& axis = loop.machine.axes[i];
+            if (!has_axis(moved, i) || axis.homing.in_place) { continue; }
+            return refuse(FaultCode::BadProgram,
+                          "the switch of axis " + axis.name + " would have to stop motors of several devices, " +
+                              "which is not possible yet; put the axis to its park_mm by hand, and set "
+                              "homing { in_place: true } in its block");
+        }
+    }
+    return {};
+}
+
 /// Axes may also be jogged in a pause.
 CommandResult check_jog(const MachineActivity& activity, const LoopView& loop) {
     const bool may_join = activity.is_jogging() || activity.is<activity::Paused>();
@@ -68,8 +90,8 @@ CommandResult check_jog(const MachineActivity& activity, const LoopView& loop) {
 
 /// The job goes on only from where it paused, because its next move begins there.
 CommandResult check_place(const AxisCounts& place, const LoopView& loop) {
-    if (loop.axes.counts() == place) { return {}; }
-    const Program way = return_way(loop.machine, loop.axes.counts(), place);
+    if (loop.counts() == place) { return {}; }
+    const Program way = return_way(loop.machine, loop.counts(), place);
     return refuse(
         FaultCode::AwayFromPause,
         "axes were moved in the pause, but the job continues only from the place where it paused. Way back: " +
@@ -77,7 +99,7 @@ CommandResult check_place(const AxisCounts& place, const LoopView& loop) {
 }
 
 CommandResult begin_return(const activity::Paused& pause, JobLifecycle& jobs, CoordinatorLoop& loop) {
-    const AxisCounts here = loop.axes.counts();
+    const AxisCounts here = loop.counts();
     const Program way = return_way(loop.machine, here, pause.task.from);
     if (auto fits = jobs.path().planner().check_start(way.head(), here); !fits) {
         return refuse(fits.error().fault, fits.error().text);
@@ -111,12 +133,15 @@ CommandResult interrupt_alone(Intent intent, JobLifecycle& jobs, CoordinatorLoop
 
 CommandResult home(const Command& command, JobLifecycle& jobs, CoordinatorLoop& loop) {
     if (auto ready = check_ready(jobs.activity(), loop); !ready) { return ready; }
-    const AxisSet all = all_axes(loop.axes.size());
+    const AxisSet all = all_axes(loop.machine.axes.size());
     if ((command.axes & ~all) != 0) { return refuse(FaultCode::BadProgram, "the machine does not have this axis"); }
+    const AxisSet axes = command.axes == 0 ? all : command.axes;
+    if (auto alone = check_homes_alone(axes, loop); !alone) { return alone; }
     activity::Homing homing{{},
                             jobs.begin(JobKind::Home, command, nullptr, {}, loop),
-                            HomingSequence(command.axes == 0 ? all : command.axes)};
-    loop.order_each(homing.sequence.next_group(loop.machine), AxisCommandKind::Home);
+                            HomingSequence(axes),
+                            SkewWatch(loop.machine, loop.kinematics)};
+    (void)home_next_group(homing, loop);
     jobs.activity().become(MachineEvent::HomingBegins, std::move(homing), loop.out);
     return {};
 }
@@ -126,11 +151,12 @@ CommandResult run(const Command& command, JobLifecycle& jobs, CoordinatorLoop& l
     const auto program = program_of(command, loop, coordination_of(loop.machine).plans_whole);
     if (!program) { return std::unexpected(program.error()); }
     if (auto homed = check_homed(loop); !homed) { return homed; }
+    if (auto square = check_square(loop); !square) { return square; }
     if (auto clocks = check_clocks(loop); !clocks) { return clocks; }
     PathRunner& path = jobs.path();
     if (auto fits = check_program(**program, path.planner(), loop); !fits) { return fits; }
     if (auto slow = check_lai_moves(**program, path.planner(), loop); !slow) { return slow; }
-    const AxisCounts start = loop.axes.counts();
+    const AxisCounts start = loop.counts();
     const JobKind kind = command.kind == CommandKind::Move ? JobKind::Move : JobKind::Run;
     PathTask task{.job = jobs.begin(kind, command, *program, start, loop), .from = start};
     path.events().begin();

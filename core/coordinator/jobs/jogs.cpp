@@ -74,14 +74,16 @@ std::expected<Jogs::Jog, Refusal> Jogs::jog_of(const JogAxis& asked, const Comma
     if (before && before->client != command.client) {
         return refuse(FaultCode::Busy, "axis " + axis.name + " is jogged by another client");
     }
-    const AxisState& state = *loop.axes.state(asked.axis);
+    const auto motor = loop.kinematics.own_motor(asked.axis);
+    if (!motor) { return refuse(FaultCode::BadProgram, loop.kinematics.needs_frames(asked.axis)); }
+    const AxisState& state = *loop.axes.state(*motor);
     if (auto homed = check_homed(axis, state); !homed) { return std::unexpected(homed.error()); }
     if (auto speed = check_speed(axis, asked.speed_mm_s); !speed) { return std::unexpected(speed.error()); }
     if (const std::int64_t target = jog_target(asked, axis, state); state.at_rest && target == state.position.count()) {
         return refuse(FaultCode::OutsideTravel, "axis " + axis.name + " is at the end of its travel, " +
                                                     short_number(to_mm(axis, static_cast<double>(target))) + " mm");
     }
-    Jog jog{command.client, command.sequence, asked, loop.is_late ? loop.now - hold_ : loop.now, {}};
+    Jog jog{*motor, command.client, command.sequence, asked, loop.is_late ? loop.now - hold_ : loop.now, {}};
     if (before && !asked.distance_mm && before->asked == asked) { jog.target = before->target; }
     return jog;
 }
@@ -105,32 +107,33 @@ bool Jogs::none() const {
 
 std::optional<std::size_t> Jogs::advance(const LoopView& loop, AxisOrders& orders, std::vector<AxisCommand>& out) {
     for (std::size_t i = 0; i < jogs_.size(); ++i) {
-        switch (next(i, loop, orders)) {
+        const auto own = loop.kinematics.own_motor(i);
+        if (!own) { continue; }
+        switch (next(i, *own, loop, orders)) {
             case Next::Nothing: break;
             case Next::Order: out.push_back(order(i, loop, orders)); break;
-            case Next::Renew: orders.renew(i, jogs_[i]->renewed + hold_, out); break;
-            case Next::Halt: out.push_back(orders.give(i, AxisCommandKind::Halt, loop.term)); break;
+            case Next::Renew: orders.renew(*own, jogs_[i]->renewed + hold_, out); break;
+            case Next::Halt: out.push_back(orders.give(*own, AxisCommandKind::Halt, loop.term)); break;
             case Next::Forget: jogs_[i].reset(); break;
-            case Next::Report: return i;
+            case Next::Report: return *own;
         }
     }
     return std::nullopt;
 }
 
-Jogs::Next Jogs::next(std::size_t axis, const LoopView& loop, const AxisOrders& orders) const {
+Jogs::Next Jogs::next(std::size_t axis, std::size_t motor, const LoopView& loop, const AxisOrders& orders) const {
     const auto& jog = jogs_[axis];
-    if (orders.is_done(axis, loop.axes)) { return jog ? next_at_rest(axis, loop) : Next::Nothing; }
-    if (!orders.is_open(axis, AxisCommandKind::Jog, loop.axes)) { return Next::Nothing; }
-    const AxisCommand& order = *orders.newest(axis);
+    if (orders.is_done(motor, loop.axes)) { return jog ? next_at_rest(*jog, loop) : Next::Nothing; }
+    if (!orders.is_open(motor, AxisCommandKind::Jog, loop.axes)) { return Next::Nothing; }
+    const AxisCommand& order = *orders.newest(motor);
     const bool is_for_it = jog && jog->target == order.target_steps;
     if (!is_for_it) { return Next::Halt; }
     return jog->renewed + hold_ > order.until ? Next::Renew : Next::Nothing;
 }
 
 /// An axis that came to rest because renewals were late moves on when they arrive.
-Jogs::Next Jogs::next_at_rest(std::size_t axis, const LoopView& loop) const {
-    const Jog& jog = *jogs_[axis];
-    const auto& state = loop.axes.state(axis);
+Jogs::Next Jogs::next_at_rest(const Jog& jog, const LoopView& loop) {
+    const auto& state = loop.axes.state(jog.motor);
     if (!state || loop.now - jog.renewed > Ticks{kForgetAfter_ns / loop.machine.tick_ns}) { return Next::Forget; }
     if (jog.target && state->command_fault != FaultCode::None) { return Next::Report; }
     if (jog.target == state->position.count()) { return Next::Forget; }
@@ -139,8 +142,8 @@ Jogs::Next Jogs::next_at_rest(std::size_t axis, const LoopView& loop) const {
 
 const AxisCommand& Jogs::order(std::size_t axis, const LoopView& loop, AxisOrders& orders) {
     Jog& jog = *jogs_[axis];
-    if (!jog.target) { jog.target = jog_target(jog.asked, loop.machine.axes[axis], *loop.axes.state(axis)); }
-    AxisCommand& order = orders.give(axis, AxisCommandKind::Jog, loop.term);
+    if (!jog.target) { jog.target = jog_target(jog.asked, loop.machine.axes[axis], *loop.axes.state(jog.motor)); }
+    AxisCommand& order = orders.give(jog.motor, AxisCommandKind::Jog, loop.term);
     order.target_steps = *jog.target;
     order.speed_mm_s = std::abs(jog.asked.speed_mm_s);
     order.until = jog.renewed + hold_;

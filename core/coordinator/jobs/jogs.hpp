@@ -40,6 +40,7 @@ public:
 
 private:
     struct Jog {
+        std::size_t motor = 0;  // the axis's own
         Identity client = 0;
         std::uint64_t sequence = 0;  // of the command that began the jog
         JogAxis asked;
@@ -50,8 +51,8 @@ private:
     enum class Next { Nothing, Order, Renew, Halt, Forget, Report };
 
     std::expected<Jog, Refusal> jog_of(const JogAxis& asked, const Command& command, const LoopView& loop) const;
-    Next next(std::size_t axis, const LoopView& loop, const AxisOrders& orders) const;
-    Next next_at_rest(std::size_t axis, const LoopView& loop) const;
+    Next next(std::size_t axis, std::size_t motor, const LoopView& loop, const AxisOrders& orders) const;
+    static Next next_at_rest(const Jog& jog, const LoopView& loop);
     const AxisCommand& order(std::size_t axis, const LoopView& loop, AxisOrders& orders);
 
     Ticks hold_;

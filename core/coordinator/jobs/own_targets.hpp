@@ -1,4 +1,5 @@
-// Axes that move to their places, each by itself: where they start, where they go, and their progress.
+// Axes that move to their places, each by itself with its own motor: where they start, where they go, and their
+// progress.
 #pragma once
 
 #include "core/axis_set.hpp"
@@ -13,15 +14,16 @@ class OwnTargets {
 public:
     OwnTargets() = default;
     /// The targets are where a whole program ends, independently of its path. `ticks`: how long each move lasts;
-    /// nullopt: as fast as the axis can. Error: a move that its axis cannot make. Each axis's move is planned here,
-    /// too, so that the client gets the reason.
+    /// nullopt: as fast as the axis can. Errors: a move that its axis cannot make, and one of an axis that needs
+    /// several motors. Each axis's move is planned here, too, so that the client gets the reason.
     static std::expected<OwnTargets, Refusal> plan(const KnownProgram& program, std::optional<Ticks> ticks,
                                                    const LoopView& loop, BeginSteps begin_steps);
 
-    /// The axes that move.
-    AxisSet axes() const { return axes_; }
+    /// The motors that move.
+    AxisSet motors() const { return motors_; }
+    /// Where the axes were.
     const AxisCounts& from() const { return from_; }
-    std::int64_t target(std::size_t axis) const { return to_[axis]; }
+    std::int64_t target(std::size_t motor) const { return ends_[motor]; }
     void order(AxisOrders& orders, const Term& term) const;
 
     /// 0 to 1, by the axis with the least progress.
@@ -29,9 +31,10 @@ public:
     double remaining_s(Tick now, const MachineConfig& machine) const;
 
 private:
-    AxisSet axes_ = 0;
+    AxisSet motors_ = 0;
     AxisCounts from_;
-    AxisCounts to_;
+    MotorCounts begins_;
+    MotorCounts ends_;
     std::optional<Ticks> ticks_;
     Tick begun_;
     double planned_s_ = 0;

@@ -62,7 +62,7 @@ PathNext PathRunner::begin_leg(PathTask& task, const LoopView& loop, std::vector
     }
     if (task.job.program->ends_before(task.next)) { return ProgramDone{}; }
     load_leg(task);
-    begin_epoch(task, {task.next, {}}, positions_of(task.from), loop);
+    begin_epoch(task, {task.next, {}}, {}, loop);
     return EpochBegun{};
 }
 
@@ -98,7 +98,7 @@ Epoch PathRunner::next_epoch(const LoopView& loop) {
     return ++epoch_;
 }
 
-void PathRunner::begin_epoch(PathTask& task, const PathPlace& place, AxisPositions at, const LoopView& loop) {
+void PathRunner::begin_epoch(PathTask& task, const PathPlace& place, MotorPositions at, const LoopView& loop) {
     for (std::size_t i = at.size(); i < loop.axes.size(); ++i) {
         at.append(Position::steps(loop.axes.state(i)->position.count()));
     }

@@ -27,7 +27,7 @@ public:
     PathNext begin_leg(PathTask& task, const LoopView& loop, std::vector<PublishedEvent>& out);
     /// Begins an epoch from this place of the leg in progress. `at`: where the axes rest there, exactly; empty: on
     /// whole steps, where they stand.
-    void begin_epoch(PathTask& task, const PathPlace& place, AxisPositions at, const LoopView& loop);
+    void begin_epoch(PathTask& task, const PathPlace& place, MotorPositions at, const LoopView& loop);
     /// Continues the task of another coordinator. `events_from`: the events before this block were published.
     PathNext continue_rest(PathTask& task, const JobRest& rest, std::uint32_t events_from, const LoopView& loop,
                            std::vector<PublishedEvent>& out);

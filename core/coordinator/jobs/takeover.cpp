@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/arc_path.hpp"
+#include "core/kinematics/kinematics.hpp"
 
 namespace lockstep {
 namespace {
@@ -37,15 +38,14 @@ using Places = std::vector<double>;  // mm, of each axis of the machine
 
 /// The places of the axes before a block of the program. Axes that the program does not name keep their places.
 Places places_before(std::uint32_t block, const KnownProgram& program, const MachineConfig& machine,
-                     std::span<const AxisView> axes) {
+                     const AxisCounts& at) {
     const std::span<const double> named = program.place_before(block).value();
     Places places;
-    for (std::size_t i = 0; i < axes.size(); ++i) {
+    for (std::size_t i = 0; i < at.size(); ++i) {
         const auto found = std::ranges::find(program.axes(), machine.axes[i].name);
         const auto place = static_cast<std::size_t>(found - program.axes().begin());
         const bool is_named = found != program.axes().end();
-        const auto count = static_cast<double>(axes[i].state->position.count());
-        places.push_back(is_named ? named[place] : to_mm(machine.axes[i], count));
+        places.push_back(is_named ? named[place] : to_mm(machine.axes[i], static_cast<double>(at[i])));
     }
     return places;
 }
@@ -86,10 +86,9 @@ struct MoveWay {
     }
 };
 
-MoveWay way_of(std::uint32_t block, const KnownProgram& program, const MachineConfig& machine,
-               std::span<const AxisView> axes) {
-    MoveWay way{.from = places_before(block, program, machine, axes),
-                .to = places_before(block + 1, program, machine, axes),
+MoveWay way_of(std::uint32_t block, const KnownProgram& program, const MachineConfig& machine, const AxisCounts& at) {
+    MoveWay way{.from = places_before(block, program, machine, at),
+                .to = places_before(block + 1, program, machine, at),
                 .arc = {}};
     const Block* const known = program.block(block);
     const auto* move = known != nullptr ? std::get_if<ProgramMove>(&known->action) : nullptr;
@@ -105,17 +104,19 @@ MoveWay way_of(std::uint32_t block, const KnownProgram& program, const MachineCo
 /// Checks that the axes are near the place that the program alone gives. Frames join moves within a step of the
 /// program, or within the tolerance that it gives.
 std::expected<void, TakeoverDoubt> check_place(const FrameRest& rest, const MoveWay& way, const MachineConfig& machine,
-                                               std::span<const Position> at) {
+                                               const Kinematics& kinematics, std::span<const double> axis_steps) {
     const double length = way.length();
     double near_mm = way.tolerance_mm + kNear_share * length;
     double most_mm = 0;
-    for (const AxisConfig& axis : machine.axes) { most_mm = std::max(most_mm, kNear_steps / axis.steps_per_mm); }
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        most_mm = std::max(most_mm, kNear_steps * kinematics.step_mm(i));
+    }
     near_mm += most_mm;
     const double along = rest.place.along.as_steps();  // mm
     if (along < 0 || along > length + near_mm) { return Doubt(TakeoverDoubt::OtherPlan); }
     const Places place = way.at(rest.last ? 1 : length > 0 ? std::min(along / length, 1.0) : 0);
     for (std::size_t i = 0; i < place.size(); ++i) {
-        const double off = to_mm(machine.axes[i], at[i].as_steps()) - place[i];
+        const double off = to_mm(machine.axes[i], axis_steps[i]) - place[i];
         if (std::abs(off) > near_mm) { return Doubt(TakeoverDoubt::Misplaced); }
     }
     return {};
@@ -155,8 +156,8 @@ bool is_at_hand(const MachineState& last, const KnownProgram& program) {
 }
 
 std::expected<JobRest, TakeoverDoubt> rest_of_job(const MachineState& last, const KnownProgram& program,
-                                                  const MachineConfig& machine, std::span<const AxisView> axes) {
-    const auto ran = last_frame(last, axes);
+                                                  const MachineConfig& machine, std::span<const AxisView> motors) {
+    const auto ran = last_frame(last, motors);
     if (!ran) { return Doubt(ran.error()); }
     const auto said = std::ranges::find(last.rests, *ran, &FrameRest::frame);
     if (said == last.rests.end()) { return Doubt(TakeoverDoubt::UnreceivedFrames); }
@@ -166,15 +167,22 @@ std::expected<JobRest, TakeoverDoubt> rest_of_job(const MachineState& last, cons
     if (block >= program.known() || !first || *first < program.first_kept()) {
         return Doubt(TakeoverDoubt::UnknownProgram);
     }
+    const Kinematics kinematics(machine);
+    MotorPositions positions;
+    for (const AxisView& motor : motors) { positions.append(motor.state->position); }
+    Places axis_steps;
+    AxisCounts at;
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        axis_steps.push_back(kinematics.axis_steps(i, {positions.begin(), positions.size()}));
+        at.append(std::llround(axis_steps[i]));
+    }
     JobRest rest{.first = *first,
-                 .from = counts_of(places_before(*first, program, machine, axes), machine),
+                 .from = counts_of(places_before(*first, program, machine, at), machine),
                  .done = {},
                  .place = said->place,
                  .positions = {}};
-    AxisPositions positions;
-    for (const AxisView& axis : axes) { positions.append(axis.state->position); }
-    const MoveWay way = way_of(block, program, machine, axes);
-    const auto fits = check_place(*said, way, machine, positions);
+    const MoveWay way = way_of(block, program, machine, at);
+    const auto fits = check_place(*said, way, machine, kinematics, axis_steps);
     if (!fits) { return Doubt(fits.error()); }
     if (said->last) {
         const auto end = end_behind(program, machine, block, counts_of(way.to, machine));

@@ -25,13 +25,13 @@ struct JobRest {
     AxisCounts from;             // where this leg begins
     std::optional<LegEnd> done;  // the leg's end, if it was reached
     PathPlace place;             // otherwise: where the job continues
-    AxisPositions positions;     // where the axes rest, exactly; empty: on whole steps, as in their states
+    MotorPositions positions;    // where the axes rest, exactly; empty: on whole steps, as in their states
 };
 
 /// Returns false while blocks that rest_of_job needs are being fetched. Ask again in a later loop.
 bool is_at_hand(const MachineState& last, const KnownProgram& program);
-/// `last`: the owner's last state. `axes`: at rest, all following the new owner.
+/// `last`: the owner's last state. `motors`: at rest, all following the new owner.
 std::expected<JobRest, TakeoverDoubt> rest_of_job(const MachineState& last, const KnownProgram& program,
-                                                  const MachineConfig& machine, std::span<const AxisView> axes);
+                                                  const MachineConfig& machine, std::span<const AxisView> motors);
 
 }  // namespace lockstep

@@ -6,7 +6,7 @@ namespace lockstep {
 
 EpochRunner::EpochRunner(const MachineConfig& machine) : timing_(machine.timing), slot_(machine.slot_ticks()) {}
 
-void EpochRunner::begin(Epoch epoch, const PathPlace& place, const AxisPositions& at, const Overrides& overrides) {
+void EpochRunner::begin(Epoch epoch, const PathPlace& place, const MotorPositions& at, const Overrides& overrides) {
     epoch_ = epoch;
     begin_ = {place, overrides};
     at_ = at;

@@ -30,8 +30,8 @@ struct EpochEnd {
     Kind kind = Kind::Complete;
     std::size_t axis = 0;  // Misplaced, FramesDiffer: the axis concerned
     FrameNumber ran = 0;
-    PathPlace place;          // on the program
-    AxisPositions positions;  // the exact ones
+    PathPlace place;           // on the program
+    MotorPositions positions;  // the exact ones
 };
 
 class EpochRunner {
@@ -42,7 +42,7 @@ public:
     void load(OwnedSource source) { source_ = std::move(source); }
     /// The epoch starts when its first frame can be made, as soon as the send-ahead allows. `at` is where each axis
     /// rests, exactly.
-    void begin(Epoch epoch, const PathPlace& place, const AxisPositions& at, const Overrides& overrides);
+    void begin(Epoch epoch, const PathPlace& place, const MotorPositions& at, const Overrides& overrides);
 
     /// Returns the frames to send in this slot: new frames that are due, until an axis vetoes one, and frames that an
     /// axis lacks. The frames are valid until the next call. The caller fills in their term.
@@ -118,7 +118,7 @@ private:
         Ticks end;                         // from the epoch's start
         std::array<PathPlace, 16> places;  // in equal parts of its time
         PathPlace rest;                    // where the machine rests if it is the last one run
-        AxisPositions positions;
+        MotorPositions positions;
         bool complete = false;
     };
     static constexpr std::size_t kMadeKept = kMaxRests;
@@ -143,7 +143,7 @@ private:
     Ticks made_ticks_;     // duration of the frames made so far
     Tick rests_;           // by when the machine rests, for any of the frames made so far as the last one run
     Slot slots_over_ = 0;  // slots since then with a call of `send`
-    AxisPositions at_;
+    MotorPositions at_;
     FrameNumber sent_ = 0;
     std::optional<Overrides> wanted_;          // not planned with yet
     std::optional<FrameNumber> tried_behind_;  // the last frame after which that was tried

@@ -100,7 +100,7 @@ void LaiFrames::note_begins() {
     }
 }
 
-PathPlace LaiFrames::fill_tail(PathFrame& frame, AxisPositions at) {
+PathPlace LaiFrames::fill_tail(PathFrame& frame, MotorPositions at) {
     brake_from(path_, subticks(made_), limits_, tail_);
     if (tail_.empty()) { return place_at(made_); }
     PieceSource source(tail_, Ticks{0}, tail_.duration().ceil(), {at.begin(), at.size()});

@@ -45,7 +45,7 @@ private:
     PathPlace place_of(const PathMove& move, Displacement along) const;
     PathPlace place_at(Ticks t) const;
     void note_begins();
-    PathPlace fill_tail(PathFrame& frame, AxisPositions at);
+    PathPlace fill_tail(PathFrame& frame, MotorPositions at);
 
     MachineConfig machine_;
     std::shared_ptr<const ProgramBlocks> program_;
@@ -57,7 +57,7 @@ private:
     PathPlace passed_;
     Ticks made_;  // duration of the frames made so far
     Ticks last_;  // duration of the last frame
-    AxisPositions at_;
+    MotorPositions at_;
     PathFrame frame_;                // the last frame
     std::vector<MoveBegin> begins_;  // moves that begin in it
     std::vector<FrameEvent> due_;    // events due in it

@@ -42,7 +42,8 @@ Ticks ticks_of(const Dwell& dwell, double tick_s) {
     return {static_cast<std::int64_t>(std::ceil(std::min(dwell.seconds, kMaxDwell_s) / tick_s))};
 }
 
-ProgramPlanner::ProgramPlanner(const MachineConfig& machine) : machine_(machine), limits_(frame_limits_of(machine)) {
+ProgramPlanner::ProgramPlanner(const MachineConfig& machine)
+    : machine_(machine), limits_(axis_frame_limits_of(machine)) {
     for (const AxisConfig& axis : machine.axes) { steps_per_mm_.push_back(axis.steps_per_mm); }
 }
 

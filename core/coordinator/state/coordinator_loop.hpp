@@ -9,6 +9,7 @@
 #include "core/coordinator/axes/axis_roster.hpp"
 #include "core/coordinator/program/program_store.hpp"
 #include "core/coordinator/state/coordinator_io.hpp"
+#include "core/kinematics/kinematics.hpp"
 #include "core/machine.hpp"
 
 namespace lockstep {
@@ -16,6 +17,7 @@ namespace lockstep {
 /// The inputs and the state that all parts may read.
 struct LoopView {
     const MachineConfig& machine;
+    const Kinematics& kinematics;
     const AxisRoster& axes;
     const ProgramStore& programs;
     Tick now;
@@ -24,7 +26,10 @@ struct LoopView {
     Term term;             // the coordinator's own, if it owns the machine
     bool is_late = false;  // the process stalled, so messages received in this loop may be old
 
-    const std::string& name_of_axis(std::size_t axis) const { return machine.axes[axis].name; }
+    /// Where the axes are, in whole steps.
+    AxisCounts counts() const { return kinematics.axes_at(axes.counts()); }
+    /// How messages to people name a motor.
+    std::string label_of(std::size_t motor) const { return kinematics.label(motor); }
 };
 
 /// The same, with the orders to axes and the loop's outputs.

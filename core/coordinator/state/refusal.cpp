@@ -1,5 +1,8 @@
 #include "core/coordinator/state/refusal.hpp"
 
+#include <cmath>
+
+#include "core/number_text.hpp"
 #include "core/protocol/names.hpp"
 
 namespace lockstep {
@@ -7,13 +10,21 @@ namespace lockstep {
 CommandResult check_present(const LoopView& loop) {
     const auto missing = loop.axes.missing(loop.slot);
     if (!missing) { return {}; }
-    return refuse(FaultCode::AxisMissing, "no messages are received from axis " + loop.name_of_axis(*missing));
+    return refuse(FaultCode::AxisMissing, "no messages are received from " + loop.label_of(*missing));
 }
 
 CommandResult check_homed(const LoopView& loop) {
     const auto axis = loop.axes.not_homed();
     if (!axis) { return {}; }
-    return refuse(FaultCode::NotHomed, "axis " + loop.name_of_axis(*axis) + " is not homed");
+    return refuse(FaultCode::NotHomed, loop.label_of(*axis) + " is not homed");
+}
+
+CommandResult check_square(const LoopView& loop) {
+    const auto astray = loop.kinematics.astray(loop.axes.counts());
+    if (!astray) { return {}; }
+    return refuse(FaultCode::MotorsSkewed, loop.label_of(astray->motor) + " is " +
+                                               short_number(std::abs(astray->off_mm)) +
+                                               " mm from where the other motors place its axis");
 }
 
 CommandResult check_clocks(const LoopView& loop) {
@@ -25,9 +36,9 @@ CommandResult check_clocks(const LoopView& loop) {
         return std::to_string(static_cast<std::int64_t>(Int128{t.value} * machine.tick_ns / 1000)) + " us";
     };
     return refuse(FaultCode::ClockUncertain,
-                  "axis " + loop.name_of_axis(*axis) + ": its clock error may be " +
-                      us(loop.axes.state(*axis)->clock_error) + ", and the limit to begin a motion is " + us(limit) +
-                      " (timing.clock_error_limit_us is " + std::to_string(machine.timing.clock_error_limit_us) +
+                  loop.label_of(*axis) + ": its clock error may be " + us(loop.axes.state(*axis)->clock_error) +
+                      ", and the limit to begin a motion is " + us(limit) + " (timing.clock_error_limit_us is " +
+                      std::to_string(machine.timing.clock_error_limit_us) +
                       "); wait some seconds until the axis has measured the "
                       "coordinator's clock, check the network to the axis, or increase timing.slot_us");
 }
@@ -40,7 +51,7 @@ std::unexpected<Refusal> refuse_in_fault(FaultCode fault) {
 
 std::unexpected<Refusal> refuse_without_device(std::size_t axis, const LoopView& loop) {
     return refuse(FaultCode::DeviceMissing,
-                  "axis " + loop.name_of_axis(axis) + " waits for its device; the axis's log names the device");
+                  loop.label_of(axis) + " waits for its device; the axis's log names the device");
 }
 
 }  // namespace lockstep

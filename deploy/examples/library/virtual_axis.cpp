@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "core/axis/axis_controller.hpp"
+#include "core/kinematics/motors.hpp"
 #include "core/methods/paper_steps.hpp"
 #include "services/axis/device_driver.hpp"
 #include "sim_fpga/device.hpp"
@@ -34,7 +35,7 @@ MachineConfig machine_of_one_axis() {
 class VirtualAxis {
 public:
     VirtualAxis()
-        : device_(window_, Plant(machine_.axes[0], machine_.tick_ns), machine_.tick_ns, Tick{}),
+        : device_(window_, Plant(motors_of(machine_)[0], machine_.tick_ns), machine_.tick_ns, Tick{}),
           driver_(DeviceDriver::attach(window_, machine_.tick_ns).value()),
           axis_(0, machine_, kIdentity, kConfigHash, methods::begin_steps,
                 std::unexpected(FaultCode::PositionNotKept)) {}

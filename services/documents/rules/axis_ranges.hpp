@@ -1,6 +1,8 @@
 // The ranges of an axis's values.
 #pragma once
 
+#include "core/number_text.hpp"
+
 namespace lockstep::axis_ranges {
 
 inline constexpr double kMinStepsPerMm = 1e-3;
@@ -10,5 +12,10 @@ inline constexpr double kMaxSpeed_mm_s = 1e6;
 inline constexpr double kMinAccel_mm_s2 = 1e-3;
 inline constexpr double kMaxAccel_mm_s2 = 1e9;
 inline constexpr double kMinMargin_mm = 1e-9;  // less is lost in the rounding of places
+
+inline constexpr double kMaxSteps = 0x1p40;  // within the range where plans in double are exact
+
+inline bool is_at_most(double value, double limit) { return value <= limit * (1 + kTextRounding); }
+inline bool is_at_least(double value, double limit) { return value >= limit * (1 - kTextRounding); }
 
 }  // namespace lockstep::axis_ranges

@@ -26,7 +26,7 @@ public:
     explicit WeakMotors(std::vector<std::string>& warnings) : warnings_(warnings) {}
 
     void check(const AxisConfig& axis) {
-        if (axis.device != "sim") { return; }
+        if (axis.device.kind != DeviceName::Kind::Simulated) { return; }
         const double torque = axis.plant.max_torque_accel_mm_s2;
         compare(axis, "plant.max_torque_accel_mm_s2", torque, "max_accel_mm_s2", axis.max_accel_mm_s2);
         compare(axis, "plant.max_torque_accel_mm_s2", torque, "max_decel_mm_s2", axis.max_decel_mm_s2);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/axis/state/fsm.hpp"
+#include "core/kinematics/motors.hpp"
 #include "core/protocol/names.hpp"
 
 namespace lockstep {
@@ -22,19 +23,19 @@ constexpr std::array<std::string_view, ProgramEvent::kKinds> kEventKinds{
 std::int64_t utime_of(Tick machine, std::int64_t tick_ns) { return machine.value * tick_ns / 1000; }
 
 axis_position_t to_lcm(const MachineConfig& machine, const AxisState& state, RecordNumber number) {
-    const AxisConfig& axis = machine.axes.at(state.axis);
+    const double steps_per_mm = motor_steps_per_mm(machine, state.axis);
     const double steps_per_s = state.velocity.steps_per_tick() * machine.ticks_per_second();
     axis_position_t out{};
     out.utime = utime_of(state.tick, machine.tick_ns);
     out.tick = state.tick.value;
     out.machine = machine.name;
-    out.axis = axis.name;
+    out.axis = motor_name(machine, state.axis);
     out.incarnation = bits(number.incarnation);
     out.sequence = bits(number.sequence);
     out.position_steps = state.position.count();
-    out.position_mm = to_mm(axis, static_cast<double>(state.position.count()));
+    out.position_mm = static_cast<double>(state.position.count()) / steps_per_mm;
     out.velocity_steps_per_s = steps_per_s;
-    out.velocity_mm_per_s = steps_per_s / axis.steps_per_mm;
+    out.velocity_mm_per_s = steps_per_s / steps_per_mm;
     out.state = name_of(state.phase);
     out.homed = state.homed ? 1 : 0;
     out.fault = static_cast<std::int32_t>(state.fault);
@@ -48,7 +49,7 @@ axis_health_t to_lcm(const MachineConfig& machine, const AxisHealth& health, Rec
     out.utime = utime_of(health.tick, machine.tick_ns);
     out.tick = health.tick.value;
     out.machine = machine.name;
-    out.axis = machine.axes.at(health.axis).name;
+    out.axis = motor_name(machine, health.axis);
     out.incarnation = bits(number.incarnation);
     out.sequence = bits(number.sequence);
     out.steps_compared = bits(health.step_lateness.count);

@@ -29,7 +29,7 @@ protected:
 
 TEST_F(Deployment, ADeviceThatIsMappedIsDrivenAsOneInTheProcess) {
     const std::string registers = write("x.registers", "");
-    change([&](MachineConfig& machine) { machine.axes[0].device = "uio:" + registers; });
+    change([&](MachineConfig& machine) { machine.axes[0].device = {DeviceName::Kind::Mapped, registers}; });
     const ChildProcess fpga(LOCKSTEP_FPGA, {"--machine", file(), "--axis", "X", "--file", registers});
     bring_up_and_home();
     EXPECT_THAT(log_of("axis-X"), HasSubstr("is up, device uio:" + registers));
@@ -87,8 +87,8 @@ TEST_F(Deployment, TheDoctorFindsNothingWrongWithAMachineThatIsUp) {
 TEST_F(Deployment, TheDoctorNamesProblemsAndTheirRemedies) {
     bring_up();
     MachineConfig machine = load_machine_file(file()).value();
-    machine.axes[0].device = "uio:/dev/uio77";  // no such device
-    machine.timing.clock_error_limit_us = 1;    // another configuration than the running one
+    machine.axes[0].device = {DeviceName::Kind::Mapped, "/dev/uio77"};  // no such device
+    machine.timing.clock_error_limit_us = 1;                            // another configuration than the running one
     machine.timing.time_source = TimeSource::Ptp;
     const std::string broken = write("broken.textproto", machine_text(machine));
     const Ran ran = run_lockstep({"doctor", "--machine", broken, "--seconds", "0.1", "--json"});

@@ -124,7 +124,7 @@ class LateDevice : public OwnMachine {
 protected:
     void configure(MachineConfig& machine) override {
         device_ = "lockstep-" + machine.name + "-late";
-        machine.axes[1].device = "shm:" + device_;
+        machine.axes[1].device = {DeviceName::Kind::Shared, device_};
     }
     std::string device_;
 };

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "core/kinematics/motors.hpp"
 #include "tests/unit/sim_fpga/drive.hpp"
 
 namespace lockstep {
@@ -10,7 +11,7 @@ namespace {
 double number_in(int low, int high) { return *rc::gen::inRange(low, high); }
 
 struct Motor {
-    AxisConfig axis;
+    MotorConfig axis;
     double jump;
     double accel;
     double fastest;  // a step per 3 ticks, or so

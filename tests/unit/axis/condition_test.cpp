@@ -43,8 +43,10 @@ TEST(PhaseMachine, HomingOfAnUnhomedAxisBeginsWhereItIs) {
 }
 
 /// It would be homed and never ready.
-TEST(PhaseMachineDeathTest, AZeroThatIsSetOutsideOfAStopIsADefect) {
+TEST(PhaseMachineDeathTest, AZeroThatIsSetInMotionIsADefect) {
     PhaseMachine phases;
+    phases.happen(AxisEvent::PositionKept);
+    phases.happen(AxisEvent::SpeedRises);
     EXPECT_DEATH(phases.happen(AxisEvent::Zeroed), "an axis decides only what its state allows");
     phases.fail(FaultCode::DeviceFault);
     phases.happen(AxisEvent::Zeroed);

@@ -17,7 +17,7 @@ using P = AxisPhase;
 // Columns: SpeedRises, SpeedSteady, SpeedFalls, MotionEnds, SwitchStops, LimitStops, HostStops, PositionKept, Zeroed,
 // Released, HomingBegins, Fails, ResetHomed, ResetUnhomed. A dash: the state ignores the event.
 constexpr std::array<std::string_view, 7> kExpected{
-    "- - - - T T T S - - I F - -", "A - - - - T T - - - I F - -", "- C D S - T T - - - - F - -",
+    "- - - - T T T S S - I F - -", "A - - - - T T - - - I F - -", "- C D S - T T - - - - F - -",
     "A - D S - T T - - - - F - -", "A C - S - T T - - - - F - -", "- - - - - - - - S I I F - -",
     "- - - - - - - - - - - - S I",
 };

@@ -2,14 +2,15 @@
 #include <gtest/gtest.h>
 
 #include "core/axis/own_moves/homing.hpp"
+#include "core/kinematics/motors.hpp"
 
 namespace lockstep {
 namespace {
 
 class HomingSequence : public testing::Test {
 protected:
-    static AxisConfig axis() {
-        AxisConfig axis{.name = "X", .steps_per_mm = 100, .position_max_mm = 100};
+    static MotorConfig axis() {
+        MotorConfig axis{.name = "X", .steps_per_mm = 100, .position_max_mm = 100};
         axis.max_velocity_mm_s = 50;
         axis.homing = {.search_velocity_mm_s = 10, .latch_velocity_mm_s = 2, .pulloff_mm = 1, .park_mm = 5};
         return axis;
@@ -28,8 +29,17 @@ protected:
     Homing homing{axis()};
 };
 
+TEST_F(HomingSequence, InPlaceTakesWhereItStandsForThePark) {
+    MotorConfig still = axis();
+    still.homing.in_place = true;
+    const HomingStep step = Homing(still).begin(true, -3000);
+    EXPECT_TRUE(step.zeroed && step.done);
+    EXPECT_FALSE(step.move);
+    EXPECT_EQ(step.zero_count, -3500);
+}
+
 TEST_F(HomingSequence, TwoTouchesThatAgreeSetTheZeroAtTheSecond) {
-    EXPECT_EQ(homing.begin(false).move->trigger, Trigger::HomeCloses);
+    EXPECT_EQ(homing.begin(false, 0).move->trigger, Trigger::HomeCloses);
     EXPECT_EQ(touch(-700).move->speed_mm_s, 2);
     const HomingStep zero = touch(-701);
     EXPECT_TRUE(zero.zeroed);
@@ -39,7 +49,7 @@ TEST_F(HomingSequence, TwoTouchesThatAgreeSetTheZeroAtTheSecond) {
 }
 
 TEST_F(HomingSequence, TouchesFurtherApartThanTheToleranceAreTriedAgain) {
-    homing.begin(false);
+    homing.begin(false, 0);
     touch(-700);
     EXPECT_FALSE(touch(-697).zeroed) << "3 steps: 0.03 mm, and the tolerance is 0.02";
     EXPECT_EQ(homing.stage(), HomingStage::Latch);
@@ -47,7 +57,7 @@ TEST_F(HomingSequence, TouchesFurtherApartThanTheToleranceAreTriedAgain) {
 }
 
 TEST_F(HomingSequence, ASlideThatIsPushedBehindTheTouchIsTouchedAgain) {
-    homing.begin(false);
+    homing.begin(false, 0);
     touch(-700);
     LocalEnd pushed = closes_at(-700);
     pushed.encoder_ahead = 40;
@@ -62,23 +72,23 @@ TEST_F(HomingSequence, ASlideThatIsPushedBehindTheTouchIsTouchedAgain) {
 }
 
 TEST_F(HomingSequence, ASwitchThatClosesSomewhereElseEachTimeIsRefused) {
-    homing.begin(false);
+    homing.begin(false, 0);
     for (const std::int64_t count : {-700, -600, -650}) { EXPECT_FALSE(touch(count).zeroed); }
     EXPECT_EQ(touch(-620).fault, FaultCode::HomeSwitchUnsteady);
     EXPECT_EQ(homing.stage(), HomingStage::Idle);
 }
 
 TEST_F(HomingSequence, AToleranceBelowAStepIsAStep) {
-    AxisConfig coarse = axis();
+    MotorConfig coarse = axis();
     coarse.homing.touch_tolerance_mm = 0.0001;
     homing = Homing(coarse);
-    homing.begin(false);
+    homing.begin(false, 0);
     touch(-700);
     EXPECT_TRUE(touch(-699).zeroed);
 }
 
 TEST_F(HomingSequence, WhereTheSecondTouchMissesTheSwitchIsSearchedAnew) {
-    homing.begin(false);
+    homing.begin(false, 0);
     touch(-300);
     const HomingStep missed = homing.next(stands_at(-400));
     EXPECT_EQ(homing.stage(), HomingStage::Search);
@@ -88,7 +98,7 @@ TEST_F(HomingSequence, WhereTheSecondTouchMissesTheSwitchIsSearchedAnew) {
 }
 
 TEST_F(HomingSequence, TheFourthTouchIsTheLastEvenIfItMisses) {
-    homing.begin(false);
+    homing.begin(false, 0);
     touch(-700);
     touch(-600);
     EXPECT_EQ(homing.next(stands_at(-500)).fault, FaultCode::None);
@@ -97,7 +107,7 @@ TEST_F(HomingSequence, TheFourthTouchIsTheLastEvenIfItMisses) {
 }
 
 TEST_F(HomingSequence, AnAxisThatStartsBehindItsSwitchTouchesItTwiceToo) {
-    EXPECT_EQ(homing.begin(true).move->trigger, Trigger::HomeOpens);
+    EXPECT_EQ(homing.begin(true, 0).move->trigger, Trigger::HomeOpens);
     homing.next({.by_trigger = true, .count = 0, .trigger_count = 0});
     homing.next(stands_at(100));
     EXPECT_FALSE(touch(0).zeroed) << "where it opens is not where it closes";
@@ -105,13 +115,13 @@ TEST_F(HomingSequence, AnAxisThatStartsBehindItsSwitchTouchesItTwiceToo) {
 }
 
 TEST_F(HomingSequence, ALimitSwitchOnTheWayToTheSwitchEndsIt) {
-    homing.begin(false);
+    homing.begin(false, 0);
     touch(-700);
     EXPECT_EQ(homing.next({.by_limit = true, .count = -800}).fault, FaultCode::HomeSwitchNotFound);
 }
 
 TEST_F(HomingSequence, ASwitchThatClosesAgainAfterEachOfSixteenPullOffsIsStuck) {
-    ASSERT_EQ(homing.begin(true).move->trigger, Trigger::HomeOpens);
+    ASSERT_EQ(homing.begin(true, 0).move->trigger, Trigger::HomeOpens);
     const LocalEnd opens{.by_trigger = true};
     const LocalEnd closed_again{.home_closed = true};
     for (int pull_off = 1; pull_off <= 16; ++pull_off) {

@@ -1,5 +1,6 @@
 // The frames of an own move join each other and end on the last step. The axis can come to rest from each of them.
 #include "core/axis/own_moves/own_move.hpp"
+#include "core/kinematics/motors.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,15 +16,15 @@ namespace lockstep {
 namespace {
 
 /// An axis of 80 steps/mm, as fast as the method allows.
-AxisConfig axis_by(StepMethod method) {
-    AxisConfig axis{.name = "X",
-                    .steps_per_mm = 80,
-                    .start_velocity_mm_s = 10,
-                    .max_velocity_mm_s = 150,
-                    .max_accel_mm_s2 = 1500,
-                    .max_decel_mm_s2 = 1500,
-                    .position_max_mm = 200,
-                    .method = method};
+MotorConfig axis_by(StepMethod method) {
+    MotorConfig axis{.name = "X",
+                     .steps_per_mm = 80,
+                     .start_velocity_mm_s = 10,
+                     .max_velocity_mm_s = 150,
+                     .max_accel_mm_s2 = 1500,
+                     .max_decel_mm_s2 = 1500,
+                     .position_max_mm = 200,
+                     .method = method};
     if (method == StepMethod::Lai) { axis.max_velocity_mm_s = 50; }
     if (method == StepMethod::Lam) { axis.max_velocity_mm_s = 20; }
     return axis;
@@ -38,7 +39,7 @@ struct ByMethod : testing::TestWithParam<StepMethod> {
         return OwnMove(OwnPieces::plan(axis, 1000, GetParam(), request, methods::begin_steps).value(),
                        {rest_position(0, backward), backward, steps, kStart}, limits, kSpan, kSpan);
     }
-    AxisConfig axis = axis_by(GetParam());
+    MotorConfig axis = axis_by(GetParam());
     AxisLimits limits = limits_of(axis, 1000);
 };
 
@@ -140,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(All, ByMethod,
                          [](const auto& method) { return std::string(name_of(method.param)); });
 
 TEST(OwnPieces, StopBeforeAPieceThatBreaksTheLimits) {
-    AxisConfig axis = axis_by(StepMethod::Lam);
+    MotorConfig axis = axis_by(StepMethod::Lam);
     axis.max_velocity_mm_s = 100;
     const AxisLimits limits = limits_of(axis, 1000);
     auto pieces = OwnPieces::plan(axis, 1000, StepMethod::Lam, {1'000, axis.max_velocity_mm_s}, methods::begin_steps);
@@ -169,7 +170,7 @@ TEST(OwnPieces, OnlyRanadeMovesInAGivenTime) {
 }
 
 TEST(OwnPieces, RefuseATimeThatWouldBeTooSlow) {
-    const AxisConfig axis = axis_by(StepMethod::Ranade);
+    const MotorConfig axis = axis_by(StepMethod::Ranade);
     const auto in_s = [&](double seconds) {
         const OwnMoveRequest request{4, 150, Ticks{static_cast<std::int64_t>(seconds * 1e6)}};  // 0.05 mm
         const auto pieces = OwnPieces::plan(axis, 1000, StepMethod::Ranade, request, methods::begin_steps);

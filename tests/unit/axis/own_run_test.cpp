@@ -1,5 +1,6 @@
 // What is left of an own move whose run ended.
 #include "core/axis/own_moves/own_run.hpp"
+#include "core/kinematics/motors.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,7 @@ constexpr Ticks kLasts{2'000'000};
 /// A run that lasts some ten times as long as the axis needs.
 OwnRun slow_run() {
     const MachineConfig machine = pair_machine();
-    const AxisConfig& axis = machine.axes[0];
+    const MotorConfig axis = motors_of(machine)[0];
     const OwnMoveRequest request{kSteps, axis.max_velocity_mm_s, kLasts};
     OwnMove frames(OwnPieces::plan(axis, machine.tick_ns, axis.method, request, methods::begin_steps).value(),
                    {rest_position(0, false), false, kSteps, Tick{5000}}, limits_of(axis, machine.tick_ns), Ticks{5000},

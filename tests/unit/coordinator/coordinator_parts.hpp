@@ -35,7 +35,7 @@ protected:
     }
     CoordinatorLoop loop() {
         out = {};
-        return {{machine, axes, programs, Tick{slot * 1000}, slot, slot, term}, orders, out};
+        return {{machine, kinematics, axes, programs, Tick{slot * 1000}, slot, slot, term}, orders, out};
     }
     void accept(std::uint64_t id, double x_mm, double y_mm) {
         programs.accept(
@@ -57,6 +57,7 @@ protected:
     bool has_job_event(JobEvent::Kind kind) const { return std::ranges::count(out.jobs, kind, &JobEvent::kind) != 0; }
 
     MachineConfig machine = two_axes();
+    Kinematics kinematics{machine};
     Slot slot = 1000;
     Term term{5, 1};
     AxisRoster axes{machine};

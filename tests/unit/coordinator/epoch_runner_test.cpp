@@ -48,7 +48,7 @@ EpochRunner runner_of(const MachineConfig& machine, const Program& program) {
     const auto legs = planner.plan(program, start).value();
     EpochRunner runner(machine);
     runner.load(planner.frames(std::make_shared<const Program>(program), legs[0]));
-    AxisPositions at;
+    MotorPositions at;
     for (std::size_t i = 0; i < axes; ++i) { at.append({}); }
     runner.begin(1, {legs[0].first, {}}, at, {});
     (void)runner.send(100, {});

@@ -84,7 +84,7 @@ protected:
 TEST_F(OwnTargetsOfTwo, OrderOnlyTheAxesThatMove) {
     const auto to = targets(0, 30);
     ASSERT_TRUE(to);
-    EXPECT_EQ(to->axes(), axis_bit(1));
+    EXPECT_EQ(to->motors(), axis_bit(1));
     to->order(orders, term);
     EXPECT_FALSE(orders.newest(0));
     EXPECT_EQ(orders.newest(1)->target_steps, 3000);

@@ -105,7 +105,7 @@ public:
 
 private:
     void see() {
-        MachineView view = view_of(machine_.machine(), *machine_.state(), axes());
+        MachineView view = view_of(machine_.machine(), *machine_.state(), axes(), speeds());
         view.values = values;
         lines_.report(*machine_.state(), view);
         grbl_.see(view);
@@ -114,6 +114,11 @@ private:
         std::vector<const AxisState*> axes;
         for (const auto& axis : machine_.axis_states()) { axes.push_back(axis ? &*axis : nullptr); }
         return axes;
+    }
+    std::vector<double> speeds() const {
+        std::vector<double> speeds;
+        for (const AxisState* axis : axes()) { speeds.push_back(axis ? axis->velocity.steps_per_tick() : 0); }
+        return speeds;
     }
     bool rests() const {
         return std::ranges::all_of(axes(), [](const AxisState* axis) { return axis != nullptr && axis->at_rest; });

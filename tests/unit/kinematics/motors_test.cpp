@@ -17,14 +17,14 @@ AxisConfig axis(const std::string& name) {
     axis.max_decel_mm_s2 = 2000;
     axis.position_min_mm = -1;
     axis.position_max_mm = 300;
-    axis.device = "shm:" + name;
+    axis.device = {DeviceName::Kind::Shared, name};
     axis.homing.switch_position_mm = -1;
     axis.plant.start_position_mm = 40;
     return axis;
 }
 
 MotorBlock motor(const std::string& name, std::optional<double> steps_per_mm = std::nullopt) {
-    return {.name = name, .host = "", .device = "sim", .steps_per_mm = steps_per_mm};
+    return {.name = name, .host = "", .steps_per_mm = steps_per_mm};
 }
 
 TEST(Motors, AreTheAxesOfAMachineWithoutMotorBlocks) {

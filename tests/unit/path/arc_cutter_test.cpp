@@ -1,4 +1,4 @@
-#include "core/path/arc_cutter.hpp"
+#include "core/path/geometry/arc_cutter.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/path/chord_joiner.hpp"
+#include "core/path/geometry/chord_joiner.hpp"
 
 #include <gtest/gtest.h>
 

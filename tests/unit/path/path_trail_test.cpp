@@ -1,4 +1,4 @@
-#include "core/path/path_trail.hpp"
+#include "core/path/geometry/path_trail.hpp"
 
 #include <gtest/gtest.h>
 

@@ -28,8 +28,10 @@ proto::StatusReport running() {
                           .position = Position::steps(-400),
                           .velocity = {static_cast<std::int64_t>(-0x1p64 * 0.0008)}};
     const MachineConfig machine = two_axes();
-    *status.add_axes() = axis_status(machine.axes[0], machine.tick_ns, &state, true);
-    *status.add_axes() = axis_status(machine.axes[1], machine.tick_ns, nullptr, false);
+    *status.add_axes() = axis_status({"X", machine.axes[0].steps_per_mm, machine.ticks_per_second()}, &state,
+                                     state.velocity.steps_per_tick());
+    status.mutable_axes(0)->set_present(true);
+    *status.add_axes() = axis_status({"Y"}, nullptr, 0);
     return status;
 }
 

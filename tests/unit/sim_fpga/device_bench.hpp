@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "core/kinematics/motors.hpp"
 #include "services/axis/device_driver.hpp"
 #include "sim_fpga/device.hpp"
 
@@ -19,8 +20,8 @@ inline constexpr Tick kStart{1000};
 inline constexpr Tick kMuchLater{100'000};
 
 /// In the middle of 100 mm, 80 steps a mm, with a motor stronger than any motion requires.
-inline AxisConfig bench_axis() {
-    AxisConfig axis;
+inline MotorConfig bench_axis() {
+    MotorConfig axis;
     axis.name = "X";
     axis.steps_per_mm = 80;
     axis.position_min_mm = 0;
@@ -31,8 +32,8 @@ inline AxisConfig bench_axis() {
 }
 
 /// No switch within reach: only the steps matter.
-inline AxisConfig endless_axis() {
-    AxisConfig axis = bench_axis();
+inline MotorConfig endless_axis() {
+    MotorConfig axis = bench_axis();
     axis.position_min_mm = -1e6;
     axis.position_max_mm = 1e6;
     axis.homing.switch_position_mm = -1e6;
@@ -54,7 +55,8 @@ inline device::LoadFrame last_frame(FrameNumber number) {
 }
 
 struct DeviceBench {
-    explicit DeviceBench(const AxisConfig& axis = bench_axis(), RegisterWindow registers = RegisterWindow::in_process())
+    explicit DeviceBench(const MotorConfig& axis = bench_axis(),
+                         RegisterWindow registers = RegisterWindow::in_process())
         : window(std::move(registers)),
           device(window, Plant(axis, kTick_ns), kTick_ns, Tick{0}),
           driver(DeviceDriver::attach(window, kTick_ns).value()) {}

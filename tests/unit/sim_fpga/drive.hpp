@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/kinematics/motors.hpp"
 #include "core/step/engine.hpp"
 #include "sim_fpga/plant.hpp"
 
@@ -16,7 +17,7 @@ struct Ramp {
     double seconds = 0;
 };
 
-inline Piece piece_of(const Ramp& ramp, const AxisConfig& axis) {
+inline Piece piece_of(const Ramp& ramp, const MotorConfig& axis) {
     constexpr double kTick_s = 1e-6;
     const double unit = axis.steps_per_mm * kTick_s * 0x1p64;
     const double ticks = std::max(1.0, std::round(ramp.seconds / kTick_s));
@@ -31,7 +32,7 @@ inline std::vector<Ramp> trapezoid(double jump_mm_s, double speed_mm_s, double a
 }
 
 /// How many steps the motor loses in the motion.
-inline std::int64_t steps_lost(const AxisConfig& axis, const std::vector<Ramp>& ramps) {
+inline std::int64_t steps_lost(const MotorConfig& axis, const std::vector<Ramp>& ramps) {
     Plant plant(axis, 1000);
     StepEngine engine(Tick{1'000'000}, rest_position(0, ramps.front().from_mm_s + ramps.front().to_mm_s < 0));
     for (const Ramp& ramp : ramps) {

@@ -1,5 +1,6 @@
 // When the simulated motor loses steps, and when its switches close.
 #include "sim_fpga/plant.hpp"
+#include "core/kinematics/motors.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +12,8 @@ namespace {
 constexpr double kJump = 20;
 constexpr double kAccel = 2000;
 
-AxisConfig axis() {
-    AxisConfig result;
+MotorConfig axis() {
+    MotorConfig result;
     result.steps_per_mm = 80;
     result.position_max_mm = 100;
     result.homing.switch_position_mm = 1;
@@ -22,7 +23,7 @@ AxisConfig axis() {
 }
 
 /// The switches at a count of the machine after homing.
-PlantInputs inputs_at(const AxisConfig& axis, std::int64_t count) {
+PlantInputs inputs_at(const MotorConfig& axis, std::int64_t count) {
     Plant plant(axis, 1000);
     const std::int64_t from = to_steps(axis, axis.homing.switch_position_mm);
     while (plant.inputs().home) { plant.push(1); }
@@ -34,7 +35,7 @@ PlantInputs inputs_at(const AxisConfig& axis, std::int64_t count) {
 TEST(LimitSwitches, AreOpenAtTheEndsOfTravelOffTheStepGrid) {
     for (const double margin : {1e-9, 0.001, 0.02}) {
         for (int i = 0; i < 40; ++i) {
-            AxisConfig off = axis();
+            MotorConfig off = axis();
             off.position_min_mm = 0.003 + i * 0.0007;
             off.position_max_mm = 10.0041 - i * 0.0009;
             off.homing.switch_position_mm = off.position_min_mm;
@@ -50,7 +51,7 @@ TEST(LimitSwitches, AreOpenAtTheEndsOfTravelOffTheStepGrid) {
 }
 
 TEST(LimitSwitches, AreOpenAtPowerUpWithinOneStepOfThem) {
-    AxisConfig coarse = axis();
+    MotorConfig coarse = axis();
     coarse.steps_per_mm = 0.001;
     coarse.plant.start_position_mm = -1.9;
     EXPECT_FALSE(Plant(coarse, 1000).inputs().limit_min);
@@ -138,7 +139,7 @@ TEST(Slide, TheHomeSwitchIsClosedFromItsPositionOnTowardItsEnd) {
     down.push(-1);
     EXPECT_TRUE(down.inputs().home);
 
-    AxisConfig toward_max = axis();
+    MotorConfig toward_max = axis();
     toward_max.homing.toward_min = false;
     toward_max.homing.switch_position_mm = 99;
     Plant up(toward_max, 1000);

@@ -1,4 +1,5 @@
 // Limit switches, the home input and the host stop pulses.
+#include "core/kinematics/motors.hpp"
 #include "tests/unit/sim_fpga/device_bench.hpp"
 
 namespace lockstep {
@@ -22,8 +23,8 @@ void run_once_more(DeviceBench& bench, int direction) {
     bench.order(device::Arm{1});
 }
 
-AxisConfig standing_at(double mm) {
-    AxisConfig axis = bench_axis();
+MotorConfig standing_at(double mm) {
+    MotorConfig axis = bench_axis();
     axis.plant.start_position_mm = mm;
     return axis;
 }

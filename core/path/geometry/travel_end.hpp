@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/path/geometry/quadratic.hpp"
 #include "core/path/path_setup.hpp"
-#include "core/path/quadratic.hpp"
 
 namespace lockstep {
 

@@ -1,4 +1,4 @@
-#include "core/path/chord_fit.hpp"
+#include "core/path/geometry/chord_fit.hpp"
 
 #include <cmath>
 

@@ -5,9 +5,9 @@
 
 #include <span>
 
-#include "core/path/arc_cutter.hpp"
-#include "core/path/chord_joiner.hpp"
-#include "core/path/path_trail.hpp"
+#include "core/path/geometry/arc_cutter.hpp"
+#include "core/path/geometry/chord_joiner.hpp"
+#include "core/path/geometry/path_trail.hpp"
 
 namespace lockstep {
 
@@ -38,8 +38,8 @@ public:
     /// The spot of a place; nullopt if its piece has not been added.
     std::optional<PathSpot> spot_of(const PathPlace& place) const;
 
-    /// As in ArcCutter. 0 if the turns of the arc do not repeat, and if a motor may follow an axis of the arc's plane and
-    /// another one together: then its steps do not repeat.
+    /// As in ArcCutter. 0 if the turns of the arc do not repeat, and if a motor may follow an axis of the arc's plane
+    /// and another one together: then its steps do not repeat.
     int turns_that_repeat() const {
         return has_more() && !setup_.has_map() && arc_.repeats(setup_) ? arc_.turns_left() : 0;
     }

@@ -23,7 +23,7 @@ struct Quadratic {
     bool is_straight = true;                 // bend is 0
     bool begins_at_rest = false;             // the machine rests at its begin, and there at whole steps
     bool ends_at_rest = false;
-    Ticks rest;                              // duration if length is 0
+    Ticks rest;  // duration if length is 0
 
     double place(std::size_t i, double u) const {
         return from.begin()[i] + (slope.begin()[i] + bend.begin()[i] * (u - length) / 2) * u;

@@ -1,9 +1,9 @@
-#include "core/path/chord_joiner.hpp"
+#include "core/path/geometry/chord_joiner.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/path/travel_end.hpp"
+#include "core/path/geometry/travel_end.hpp"
 
 namespace lockstep {
 namespace {

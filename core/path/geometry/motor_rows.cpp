@@ -1,4 +1,4 @@
-#include "core/path/motor_rows.hpp"
+#include "core/path/geometry/motor_rows.hpp"
 
 #include <cmath>
 
@@ -36,8 +36,8 @@ Quadratic rows_of(const PathSetup& setup, const Quadratic& axes) {
     return rows;
 }
 
-AxisPositions motors_at_rest(const PathSetup& setup, std::span<const Position> at) {
-    AxisPositions motors;
+MotorPositions motors_at_rest(const PathSetup& setup, std::span<const Position> at) {
+    MotorPositions motors;
     if (!setup.has_map()) {
         for (const Position& position : at) { motors.append(position); }
         return motors;

@@ -14,9 +14,9 @@
 
 #include <vector>
 
-#include "core/path/chord_fit.hpp"
+#include "core/path/geometry/chord_fit.hpp"
+#include "core/path/geometry/path_trail.hpp"
 #include "core/path/path_setup.hpp"
-#include "core/path/path_trail.hpp"
 
 namespace lockstep {
 

@@ -1,9 +1,9 @@
-#include "core/path/path_geometry.hpp"
+#include "core/path/geometry/path_geometry.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/path/travel_end.hpp"
+#include "core/path/geometry/travel_end.hpp"
 
 namespace lockstep {
 

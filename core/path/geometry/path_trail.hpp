@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/path/quadratic.hpp"
+#include "core/path/geometry/quadratic.hpp"
 #include "core/path/sliding_vector.hpp"
 #include "core/path_place.hpp"
 #include "core/reused_queue.hpp"

@@ -5,9 +5,9 @@
 // This needs only sums, products, quotients and roots, so the pieces are the same on every machine.
 #pragma once
 
+#include "core/path/geometry/path_trail.hpp"
+#include "core/path/geometry/primitive.hpp"
 #include "core/path/path_setup.hpp"
-#include "core/path/path_trail.hpp"
-#include "core/path/primitive.hpp"
 
 namespace lockstep {
 

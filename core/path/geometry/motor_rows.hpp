@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/motion/path.hpp"
+#include "core/path/geometry/quadratic.hpp"
 #include "core/path/path_setup.hpp"
-#include "core/path/quadratic.hpp"
 
 namespace lockstep {
 
@@ -11,6 +11,6 @@ namespace lockstep {
 Quadratic rows_of(const PathSetup& setup, const Quadratic& axes);
 
 /// Where the motors rest if the axes rest at `at`.
-AxisPositions motors_at_rest(const PathSetup& setup, std::span<const Position> at);
+MotorPositions motors_at_rest(const PathSetup& setup, std::span<const Position> at);
 
 }  // namespace lockstep

@@ -1,9 +1,9 @@
-#include "core/path/arc_cutter.hpp"
+#include "core/path/geometry/arc_cutter.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/path/travel_end.hpp"
+#include "core/path/geometry/travel_end.hpp"
 
 namespace lockstep {
 namespace {

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "core/path/axis_vector.hpp"
-#include "core/path/primitive.hpp"
-#include "core/path/quadratic.hpp"
+#include "core/path/geometry/primitive.hpp"
+#include "core/path/geometry/quadratic.hpp"
 #include "core/path/sliding_vector.hpp"
 
 namespace lockstep {

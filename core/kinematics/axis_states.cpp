@@ -1,0 +1,63 @@
+#include "core/kinematics/axis_states.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/kinematics/kinematics.hpp"
+
+namespace lockstep {
+
+AxisSet motors_needed_for(std::size_t axis, const Kinematics& kinematics) {
+    AxisSet axes = axis_bit(axis);
+    for (AxisSet before = 0; before != axes;) {
+        before = axes;
+        for (std::size_t m = 0; m < kinematics.motors().size(); ++m) {
+            const AxisSet moved = kinematics.axes_of_motor(m);
+            if ((moved & axes) != 0) { axes |= moved; }
+        }
+    }
+    return kinematics.motors_of_axes(axes);
+}
+
+std::optional<AxisState> axis_state_of(std::size_t axis, const Kinematics& kinematics,
+                                       std::span<const AxisState* const> motors) {
+    if (const auto own = kinematics.own_motor(axis)) {
+        return motors[*own] == nullptr ? std::nullopt : std::optional(*motors[*own]);
+    }
+    const AxisSet needed = motors_needed_for(axis, kinematics);
+    std::vector<Position> places(motors.size());
+    std::optional<AxisState> state;
+    for (std::size_t m = 0; m < motors.size(); ++m) {
+        if (!has_axis(needed, m)) { continue; }
+        if (motors[m] == nullptr) { return std::nullopt; }
+        const AxisState& motor = *motors[m];
+        places[m] = motor.position;
+        if (!state) { state = motor; }
+        if (state->fault == FaultCode::None && motor.fault != FaultCode::None) {
+            state->fault = motor.fault;
+            state->phase = motor.phase;
+            state->switches = motor.switches;
+        }
+        if (state->unproved == FaultCode::None) { state->unproved = motor.unproved; }
+        state->homed = state->homed && motor.homed;
+        state->at_rest = state->at_rest && motor.at_rest;
+        state->hears_owner = state->hears_owner && motor.hears_owner;
+        state->clock_error = std::max(state->clock_error, motor.clock_error);
+        state->stamp = std::min(state->stamp, motor.stamp);
+    }
+    state->axis = static_cast<std::uint32_t>(axis);
+    state->position = Position::steps(std::llround(kinematics.axis_steps(axis, places)));
+    state->velocity = {};
+    return state;
+}
+
+double axis_speed_of(std::size_t axis, const Kinematics& kinematics, std::span<const AxisState* const> motors) {
+    double speed = 0;
+    for (std::size_t m = 0; m < motors.size(); ++m) {
+        if (motors[m] != nullptr) { speed += kinematics.axis_share(axis, m) * motors[m]->velocity.steps_per_tick(); }
+    }
+    return speed;
+}
+
+}  // namespace lockstep

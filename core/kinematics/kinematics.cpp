@@ -1,0 +1,94 @@
+#include "core/kinematics/kinematics.hpp"
+
+#include <cmath>
+
+namespace lockstep {
+
+Kinematics::Kinematics(const MachineConfig& machine)
+    : motors_(lockstep::motors_of(machine)),
+      axis_names_(machine.axis_names()),
+      map_(step_map_of(machine)),
+      inverse_(map_.inverse().value_or(LinearMap(map_.axes(), map_.motors()))),
+      is_direct_(map_.is_identity()) {
+    for (std::size_t i = 0; i < map_.axes(); ++i) {
+        own_motors_.push_back(find_own_motor(i));
+        axis_steps_per_mm_.push_back(machine.axes[i].steps_per_mm);
+        double steps = 0;
+        for (std::size_t m = 0; m < motors_.size(); ++m) { steps += std::abs(inverse_.factor(i, m)); }
+        steps_mm_.push_back(steps / machine.axes[i].steps_per_mm);
+    }
+}
+
+MotorCounts Kinematics::motors_at(const AxisCounts& axes) const {
+    if (is_direct_) { return {axes}; }
+    MotorCounts motors;
+    for (std::size_t m = 0; m < motors_.size(); ++m) { motors.steps.append(std::llround(map_.place(m, axes))); }
+    return motors;
+}
+
+AxisCounts Kinematics::axes_at(const MotorCounts& motors) const {
+    if (is_direct_) { return motors.steps; }
+    AxisCounts axes;
+    for (std::size_t i = 0; i < inverse_.motors(); ++i) { axes.append(std::llround(inverse_.place(i, motors.steps))); }
+    return axes;
+}
+
+double Kinematics::axis_steps(std::size_t axis, std::span<const Position> motors) const {
+    if (is_direct_) { return motors[axis].as_steps(); }
+    double sum = 0;
+    for (std::size_t m = 0; m < motors_.size(); ++m) { sum += inverse_.factor(axis, m) * motors[m].as_steps(); }
+    return sum;
+}
+
+std::optional<MotorAstray> Kinematics::astray(const MotorCounts& motors) const {
+    if (is_direct_) { return std::nullopt; }
+    const MotorCounts placed = motors_at(axes_at(motors));
+    for (std::size_t m = 0; m < motors_.size(); ++m) {
+        const std::int64_t off = motors[m] - placed[m];
+        if (std::abs(off) > 1) { return MotorAstray{m, to_mm(motors_[m], static_cast<double>(off))}; }
+    }
+    return std::nullopt;
+}
+
+AxisSet Kinematics::motors_of_axes(AxisSet axes) const {
+    AxisSet motors = 0;
+    for (std::size_t m = 0; m < motors_.size(); ++m) {
+        for (std::size_t i = 0; i < map_.axes(); ++i) {
+            if (has_axis(axes, i) && map_.factor(m, i) != 0) { motors |= axis_bit(m); }
+        }
+    }
+    return motors;
+}
+
+AxisSet Kinematics::axes_of_motor(std::size_t motor) const {
+    AxisSet axes = 0;
+    for (std::size_t i = 0; i < map_.axes(); ++i) { axes |= map_.factor(motor, i) != 0 ? axis_bit(i) : 0; }
+    return axes;
+}
+
+std::optional<std::size_t> Kinematics::find_own_motor(std::size_t axis) const {
+    std::optional<std::size_t> own;
+    for (std::size_t m = 0; m < motors_.size(); ++m) {
+        if (map_.factor(m, axis) == 0) { continue; }
+        if (own || map_.factor(m, axis) != 1 || map_.only_axis_of(m) != axis) { return std::nullopt; }
+        own = m;
+    }
+    return own;
+}
+
+std::string Kinematics::needs_frames(std::size_t axis) const {
+    const AxisSet motors = motors_of_axes(axis_bit(axis));
+    std::string names;
+    for (std::size_t m = 0; m < motors_.size(); ++m) {
+        if (has_axis(motors, m)) { names += (names.empty() ? "" : ", ") + motors_[m].name; }
+    }
+    return "axis " + axis_names_[axis] + " moves only on a path, because its motors must move together: " + names;
+}
+
+std::string Kinematics::label(std::size_t motor) const {
+    const MotorConfig& config = motors_[motor];
+    const bool is_own = own_motor(config.axis) == motor && config.name == axis_names_[config.axis];
+    return (is_own ? "axis " : "motor ") + config.name;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,73 @@
+// Where the motors are when the axes are somewhere, and the other way round. The only place that knows which motors
+// move an axis.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/axis_set.hpp"
+#include "core/kinematics/motors.hpp"
+#include "core/kinematics/places.hpp"
+
+namespace lockstep {
+
+/// A motor that is not where the other motors of its axes place it.
+struct MotorAstray {
+    std::size_t motor = 0;
+    double off_mm = 0;  // of the motor's way
+};
+
+class Kinematics {
+public:
+    /// `machine` as in motors_of.
+    explicit Kinematics(const MachineConfig& machine);
+
+    const std::vector<MotorConfig>& motors() const { return motors_; }
+    std::size_t axes() const { return map_.axes(); }
+    /// Each axis is moved by a motor of its own, with the axis's number, limits and steps.
+    bool is_direct() const { return is_direct_; }
+
+    /// Where the motors rest while the axes rest on whole steps: each within half a step of its place.
+    MotorCounts motors_at(const AxisCounts& axes) const;
+    /// The place of the axes that is nearest to the motors' places, in whole steps.
+    AxisCounts axes_at(const MotorCounts& motors) const;
+    /// The place of an axis in steps, exactly where the motors are.
+    double axis_steps(std::size_t axis, std::span<const Position> motors) const;
+    /// mm of an axis that a motor moves alone, for each step of the motor.
+    double axis_mm(std::size_t axis, std::size_t motor) const {
+        return 1 / (map_.factor(motor, axis) * axis_steps_per_mm_[axis]);
+    }
+    /// Steps of an axis for each step of a motor, if the others stand still.
+    double axis_share(std::size_t axis, std::size_t motor) const { return inverse_.factor(axis, motor); }
+    /// How far an axis is moved at most if each motor moves by one step, in mm.
+    double step_mm(std::size_t axis) const { return steps_mm_[axis]; }
+    /// A motor that is more than a step from where the axes' place puts it; nullopt if there is none. Motors of one
+    /// axis differ after a fault, and before the axis is homed.
+    std::optional<MotorAstray> astray(const MotorCounts& motors) const;
+
+    /// The motors that move when one of these axes moves.
+    AxisSet motors_of_axes(AxisSet axes) const;
+    AxisSet axes_of_motor(std::size_t motor) const;
+    /// The only motor of an axis, if it moves no other axis and has the axis's steps; otherwise nullopt.
+    const std::optional<std::size_t>& own_motor(std::size_t axis) const { return own_motors_[axis]; }
+    /// Says why an axis without a motor of its own does not move by itself.
+    std::string needs_frames(std::size_t axis) const;
+    /// How messages to people name a motor: `axis Y` if it is the axis's own, otherwise `motor Y2`.
+    std::string label(std::size_t motor) const;
+
+private:
+    std::optional<std::size_t> find_own_motor(std::size_t axis) const;
+
+    std::vector<MotorConfig> motors_;
+    std::vector<std::string> axis_names_;
+    std::vector<std::optional<std::size_t>> own_motors_;  // of each axis
+    std::vector<double> steps_mm_;                        // of each axis
+    std::vector<double> axis_steps_per_mm_;
+    LinearMap map_;      // steps by steps
+    LinearMap inverse_;  // steps by steps
+    bool is_direct_ = false;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,153 @@
+// Machines whose axes are not moved by one motor each: a gantry that squares itself, and two belts.
+#include <cmath>
+
+#include "core/kinematics/kinematics.hpp"
+#include "tests/unit/virtual/rig.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::size_t kY1 = 1;
+constexpr std::size_t kY2 = 2;
+
+/// Y has two motors. The slide of the second stands `racked_mm` ahead, and its switch closes a quarter of a mm later.
+MachineConfig gantry(double racked_mm) {
+    MachineConfig machine = small_machine();
+    AxisConfig& y = machine.axes[1];
+    y.max_skew_mm = 2;
+    y.homing.pulloff_mm = 1;
+    y.homing.park_mm = 0;
+    y.motors = {{.name = "Y1", .host = "", .steps_per_mm = y.steps_per_mm, .plant = {}},
+                {.name = "Y2", .host = "", .steps_per_mm = y.steps_per_mm, .switch_offset_mm = 0.25, .plant = y.plant}};
+    y.motors[1].plant->start_position_mm += racked_mm;
+    return machine;
+}
+
+class Gantry : public Rig {
+protected:
+    explicit Gantry(double racked_mm = 0.8) : Rig({.machine = gantry(racked_mm)}) {}
+    /// In steps since power-up.
+    std::int64_t slide(std::size_t motor) const { return vm.device(motor).plant().encoder(); }
+};
+
+TEST_F(Gantry, IsSquareAfterEachMotorHasFoundItsSwitch) {
+    home();
+    EXPECT_EQ(counts(), (std::vector<std::int64_t>{500, 0, 0}));
+    const MotorConfig first = motors_of(vm.machine())[kY1];
+    const MotorConfig second = motors_of(vm.machine())[kY2];
+    EXPECT_EQ(first.homing.switch_position_mm, -1);
+    EXPECT_EQ(second.homing.switch_position_mm, -0.75);
+}
+
+TEST_F(Gantry, MovesBothMotorsByTheSameStepsAtTheSameTicks) {
+    home();
+    StepLog log;
+    vm.observe(log);
+    ASSERT_EQ(run(program_of({{20, 15}, {5, 30}}, 0, {5, 0})).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 30)) << describe();
+    EXPECT_EQ(counts(), (std::vector<std::int64_t>{500, 3000, 3000}));
+    std::vector<std::int64_t> first;
+    std::vector<std::int64_t> second;
+    for (const StepLog::Step& step : log.steps) {
+        if (step.axis == kY1) { first.push_back(step.tick); }
+        if (step.axis == kY2) { second.push_back(step.tick); }
+    }
+    EXPECT_EQ(first.size(), 3000U);
+    EXPECT_EQ(first, second);
+}
+
+TEST_F(Gantry, RefusesWhatWouldMoveOneMotorAlone) {
+    home();
+    const Program line = program_of({{5, 10}}, 0, {5, 0});
+    vm.give_program(7, line);
+    const Reply own = ask(CommandKind::MoveOwn, 0, 7);
+    EXPECT_EQ(own.status, ReplyStatus::Refused);
+    EXPECT_NE(own.text.find("its motors must move together: Y1, Y2"), std::string::npos) << own.text;
+    Command jog{.client = 5, .sequence = 1, .kind = CommandKind::Jog, .jogs = {{.axis = 1, .speed_mm_s = 5}}};
+    vm.send(jog);
+    wait(0.5);
+    EXPECT_EQ(counts(), (std::vector<std::int64_t>{500, 0, 0}));
+}
+
+/// The switch of one side never closes: its motor would go on while the other one stands.
+TEST_F(Gantry, IsStoppedWhileHomingWhereItsMotorsComeApart) {
+    vm.schedule({.kind = VirtualFault::Kind::Stick,
+                 .process = kY2,
+                 .lasts = Ticks{60'000'000},
+                 .contact = &PlantInputs::home,
+                 .closed = false});
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
+    ASSERT_EQ(ask(CommandKind::Home).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Fault, 20)) << describe();
+    EXPECT_EQ(fault(), FaultCode::MotorsSkewed);
+    wait(0.2);
+    const double steps_per_mm = vm.machine().axes[1].steps_per_mm;
+    const double apart = std::abs(static_cast<double>(slide(kY1) - slide(kY2))) / steps_per_mm;
+    constexpr double kBraking_mm = 0.5;
+    EXPECT_LE(apart, *vm.machine().axes[1].max_skew_mm + kBraking_mm);
+}
+
+/// Two belts at 45 degrees: A turns by X + Y, B by X - Y.
+MachineConfig two_belts() {
+    MachineConfig machine = small_machine();
+    for (std::size_t i = 0; i < 2; ++i) {
+        AxisConfig& axis = machine.axes[i];
+        axis.motors = {{.name = i == 0 ? "A" : "B", .host = "", .steps_per_mm = axis.steps_per_mm, .plant = {}}};
+        axis.steps_per_mm *= 16;
+        axis.homing.in_place = true;
+        axis.homing.park_mm = axis.plant.start_position_mm = 5;
+    }
+    machine.kinematics.core_xy = {.first = "X", .second = "Y"};
+    return machine;
+}
+
+class TwoBelts : public Rig {
+protected:
+    TwoBelts() : Rig({.machine = two_belts()}) {}
+};
+
+TEST_F(TwoBelts, AreHomedWhereTheyStand) {
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
+    StepLog log;
+    vm.observe(log);
+    ASSERT_EQ(ask(CommandKind::Home).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
+    EXPECT_TRUE(log.steps.empty());
+    EXPECT_EQ(counts(), (std::vector<std::int64_t>{1000, 0}));
+}
+
+TEST_F(TwoBelts, AreHomedTogetherOnly) {
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
+    const Reply reply = ask(CommandKind::Home, axis_bit(0));
+    EXPECT_EQ(reply.status, ReplyStatus::Refused);
+    EXPECT_NE(reply.text.find("motor A moves several axes"), std::string::npos) << reply.text;
+}
+
+/// At every step the place of the tool, computed here from both counts, is on the square that the program names.
+TEST_F(TwoBelts, FollowASquareWithinAStepOfEachBelt) {
+    home();
+    StepLog log;
+    vm.observe(log);
+    const double mm_per_step = 1 / motors_of(vm.machine())[0].steps_per_mm;
+    ASSERT_EQ(run(program_of({{20, 5}, {20, 15}, {5, 15}, {5, 5}}, 0, {5, 5})).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 30)) << describe();
+    EXPECT_EQ(counts(), (std::vector<std::int64_t>{1000, 0}));
+    std::int64_t a = 1000;
+    std::int64_t b = 0;
+    double furthest_x = 0;
+    for (std::size_t k = 0; k < log.steps.size(); ++k) {
+        const StepLog::Step& step = log.steps[k];
+        (step.axis == 0 ? a : b) += step.direction;
+        if (k + 1 < log.steps.size() && log.steps[k + 1].tick == step.tick) { continue; }  // both belts step at once
+        const double x = static_cast<double>(a + b) / 2 * mm_per_step;
+        const double y = static_cast<double>(a - b) / 2 * mm_per_step;
+        const double off_x = std::min(std::abs(x - 5), std::abs(x - 20));
+        const double off_y = std::min(std::abs(y - 5), std::abs(y - 15));
+        ASSERT_LE(std::min(off_x, off_y), mm_per_step * (1 + 1e-9)) << x << " " << y;
+        furthest_x = std::max(furthest_x, x);
+    }
+    EXPECT_NEAR(furthest_x, 20, mm_per_step);
+}
+
+}  // namespace
+}  // namespace lockstep
