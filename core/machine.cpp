@@ -1,11 +1,21 @@
 #include "core/machine.hpp"
 
+#include <algorithm>
+
 namespace lockstep {
 
 std::vector<std::string> MachineConfig::axis_names() const {
     std::vector<std::string> names;
     for (const AxisConfig& axis : axes) { names.push_back(axis.name); }
     return names;
+}
+
+bool MachineConfig::estimates_clocks() const {
+    if (timing.time_source == TimeSource::Network) { return true; }
+    return std::ranges::any_of(axes, [](const AxisConfig& axis) {
+        const auto has_own = [](const MotorBlock& motor) { return motor.device.has_own_clock(); };
+        return axis.motors.empty() ? axis.device.has_own_clock() : std::ranges::any_of(axis.motors, has_own);
+    });
 }
 
 }  // namespace lockstep

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/axis_set.hpp"
-#include "core/device_name.hpp"
+#include "core/device/device_name.hpp"
 #include "core/protocol/timing.hpp"
 #include "core/unassigned_words.hpp"
 #include "core/units.hpp"
@@ -191,10 +191,12 @@ struct MachineConfig {
     Ticks slot_ticks() const { return {timing.slot_us * 1000 / tick_ns}; }
     Ticks jog_hold_ticks() const { return {timing.jog_hold_us * 1000 / tick_ns}; }
     Ticks clock_error_limit() const { return {timing.clock_error_limit_us * 1000 / tick_ns}; }
-    /// The limit for beginning a move: over the network three quarters, since the bound grows while exchanges are lost.
+    /// Whether a motor estimates a clock to time its frames (estimates_clock in core/kinematics/motors.hpp).
+    bool estimates_clocks() const;
+    /// The limit for beginning a move. It is three quarters if clocks are estimated, since the bound grows while
+    /// exchanges are lost.
     Ticks clock_error_to_begin() const {
-        return timing.time_source == TimeSource::Network ? Ticks{(clock_error_limit().value * 3 + 3) / 4}
-                                                         : clock_error_limit();
+        return estimates_clocks() ? Ticks{(clock_error_limit().value * 3 + 3) / 4} : clock_error_limit();
     }
     Ticks frame_ticks() const { return slot_ticks() * timing.frame_slots; }
 };

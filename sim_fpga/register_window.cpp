@@ -52,10 +52,8 @@ bool remove_stale(const std::string& name) {
     return stale;
 }
 
-bool long_enough(int file) {
-    struct stat status {};
-    return ::fstat(file, &status) == 0 &&
-           (!S_ISREG(status.st_mode) || status.st_size >= static_cast<off_t>(registers::kWindowBytes));
+bool long_enough(const struct stat& status) {
+    return !S_ISREG(status.st_mode) || status.st_size >= static_cast<off_t>(registers::kWindowBytes);
 }
 
 }  // namespace
@@ -108,7 +106,8 @@ std::expected<RegisterWindow, std::string> RegisterWindow::open_file(const std::
 
 std::expected<RegisterWindow, std::string> RegisterWindow::map(int file, const std::string& what,
                                                                std::string unlink_name) {
-    if (!long_enough(file)) {
+    struct stat status {};
+    if (::fstat(file, &status) != 0 || !long_enough(status)) {
         ::close(file);
         return std::unexpected(what + ": shorter than the register window's " +
                                std::to_string(registers::kWindowBytes) + " bytes");
@@ -121,7 +120,8 @@ std::expected<RegisterWindow, std::string> RegisterWindow::map(int file, const s
     }
     auto guard = std::make_shared<PageGuard>(memory, registers::kWindowBytes);
     return RegisterWindow(std::shared_ptr<std::uint64_t[]>(static_cast<std::uint64_t*>(memory),
-                                                           Unmap{file, std::move(unlink_name), std::move(guard)}));
+                                                           Unmap{file, std::move(unlink_name), std::move(guard)}),
+                          !S_ISREG(status.st_mode));
 }
 
 }  // namespace lockstep

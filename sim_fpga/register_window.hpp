@@ -35,12 +35,17 @@ public:
     /// Attaches to a file or device that can be mapped read-write from its start. Also fails if a file is too short.
     static std::expected<RegisterWindow, std::string> open_file(const std::filesystem::path& path);
 
+    /// Whether the memory is that of a device that can be mapped, such as /dev/uio0. All other memory is written by a
+    /// process of this host.
+    bool is_hardware() const { return is_hardware_; }
+
     /// offset: in bytes, a multiple of 8, below registers::kWindowBytes.
     std::uint64_t load(std::size_t offset) const { return word(offset).load(std::memory_order_acquire); }
     void store(std::size_t offset, std::uint64_t value) { word(offset).store(value, std::memory_order_release); }
 
 private:
-    explicit RegisterWindow(std::shared_ptr<std::uint64_t[]> words) : words_(std::move(words)) {}
+    explicit RegisterWindow(std::shared_ptr<std::uint64_t[]> words, bool is_hardware = false)
+        : words_(std::move(words)), is_hardware_(is_hardware) {}
     std::atomic_ref<std::uint64_t> word(std::size_t offset) const {
         return std::atomic_ref(words_[static_cast<std::ptrdiff_t>(offset / sizeof(std::uint64_t))]);
     }
@@ -48,6 +53,7 @@ private:
 
     static_assert(std::atomic_ref<std::uint64_t>::is_always_lock_free, "words are shared between processes");
     std::shared_ptr<std::uint64_t[]> words_;
+    bool is_hardware_;
 };
 
 }  // namespace lockstep

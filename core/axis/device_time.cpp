@@ -11,57 +11,62 @@
 namespace lockstep {
 DeviceTime::DeviceTime(std::size_t axis, const MachineConfig& machine)
     : tick_ns_(machine.tick_ns),
-      source_(machine.timing.time_source),
-      ptp_error_(source_ == TimeSource::Ptp ? machine.clock_error_limit() : Ticks{}),
-      machine_(machine.tick_ns),
+      machine_(machine.tick_ns, machine.timing.time_source,
+               machine.timing.time_source == TimeSource::Ptp ? machine.clock_error_limit() : Ticks{}),
       shown_(machine.tick_ns),
       pace_(machine.frame_ticks(), limits_of(motors_of(machine)[axis], machine.tick_ns)) {}
 
-bool DeviceTime::look(Tick own, const Device& device, bool in_use) {
-    const bool stands_still = std::exchange(device_, device.now) == device.now;
-    if (source_ != TimeSource::Network) {
-        now_ = own;
-        return true;
-    }
-    const bool proves_nothing = stands_still && !device.shares_clock && shown_.known();
-    stood_still_ = stood_still_ || proves_nothing;
-    if (!proves_nothing && !certain(own, device.shares_clock ? own : device.now)) { return false; }
-    if (!machine_.known()) { return false; }
+bool DeviceTime::look(Tick own, const std::optional<Device>& device, bool in_use) {
+    if (device) { clock_ = device->clock; }
+    if (device && device->reading && !certain(*device->reading)) { return false; }
+    own_ = own;
+    if (!machine_.known() || (clock_ == DeviceClock::Own && !shown_.known())) { return false; }
     now_ = machine_.advance(own, in_use);
     return true;
 }
 
-/// Takes a look at the device's clock. Returns false if this look leaves a doubt.
-bool DeviceTime::certain(Tick own, Tick shown) {
+/// Takes a reading of the device. Returns false if it leaves a doubt.
+bool DeviceTime::certain(const ClockExchange& reading) {
+    const bool stands_still = std::exchange(device_, reading.received) == reading.received;
+    if (clock_ == DeviceClock::Host) { return true; }
+    if (stands_still && shown_.known()) {
+        stood_still_ = true;
+        return true;
+    }
     if (std::exchange(changed_, false)) { shown_ = ClockEstimator(tick_ns_); }
-    const auto finding = shown_.offer({own, shown, shown, own});
+    const bool is_first = !shown_.known();
+    const Ticks within{(reading.arrived - reading.sent).value / 2};
+    const Tick own = reading.sent + within;
+    const auto finding = shown_.offer(reading);
     if (finding == ClockEstimator::Finding::Doubtful) { return false; }
-    if (finding == ClockEstimator::Finding::ClockSet) { own_was_set(own, shown); }
+    const bool was_set = finding == ClockEstimator::Finding::ClockSet;
+    if (was_set) { own_was_set(own, reading.received, within); }
     stood_still_ = false;
-    own_ = own;
-    seen_ = shown;
+    const double aged = std::abs(static_cast<double>((reading.received - agreed_.shown).value)) * shown_.rate_error();
+    const bool tells_more = static_cast<double>((within - agreed_.within).value) <= aged;
+    if (is_first || was_set || tells_more) { agreed_ = {own, within, reading.received}; }
     return true;
 }
 
-/// This process's clock was set by the time that it counted since the last look beyond what the device's clock counted.
-/// If the device's clock stood still meanwhile, this says nothing about machine time, and the exchanges with the
-/// coordinator have to correct it.
-void DeviceTime::own_was_set(Tick own, Tick shown) {
-    const auto by_device = static_cast<double>((shown - seen_).value);
+/// This process's clock was set by the time that it counted since the agreed reading beyond what the device's clock
+/// counted. If the device's clock stood still meanwhile, this says nothing about machine time, and the exchanges with
+/// the coordinator have to correct it.
+void DeviceTime::own_was_set(Tick own, Tick shown, Ticks within) {
+    const auto by_device = static_cast<double>((shown - agreed_.shown).value);
     const Ticks passed{std::llround(by_device / (1 + shown_.rate()))};
-    const Ticks error{2 + std::llround(std::ceil(std::abs(by_device) * shown_.rate_error()))};
-    const Ticks by = own - own_ - passed;
+    const Ticks rounding{2 + std::llround(std::ceil(std::abs(by_device) * shown_.rate_error()))};
+    const Ticks error = rounding + within + agreed_.within;
+    const Ticks by = own - agreed_.own - passed;
     if (!stood_still_) { machine_.own_was_set(by, error); }
     shown_.own_was_set(by, error);
 }
 
 Ticks DeviceTime::error_at(Tick machine) const {
     const Tick own = machine_.own_at(machine);
-    return machine_.error(own) + shown_.at(own).error;
+    return machine_.error(own) + shown_at(own).error;
 }
 
 Ticks DeviceTime::error() const {
-    if (source_ != TimeSource::Network) { return ptp_error_; }
     Ticks most = error_at(now_);
     for (const Loaded& loaded : loaded_) {
         if (loaded.end > device_) { most = std::max(most, loaded.error); }
@@ -69,17 +74,17 @@ Ticks DeviceTime::error() const {
     return most;
 }
 
-/// Converts relative to the last look. This is accurate, because the two rates differ by parts in ten thousand and a
-/// status is at most one loop old.
+/// Converts relative to the last look, by the rate of the clocks.
 Tick DeviceTime::to_machine(Tick device) const {
-    if (source_ != TimeSource::Network) { return device; }
-    return machine_.at(own_ + (device - shown_.at(own_).other));
+    const ClockView shown = shown_at(own_);
+    const auto since = static_cast<double>((device - shown.other).value);
+    return machine_.at(own_ + Ticks{std::llround(since / (1 + shown.rate))});
 }
 
 ClockView DeviceTime::device_clock() const {
-    if (source_ != TimeSource::Network) { return {.own = device_, .other = device_, .error = ptp_error_}; }
-    const ClockView shown = shown_.view(own_);
-    const ClockView machine = machine_.estimate().view(own_);
+    if (is_one_clock()) { return {.own = device_, .other = device_, .error = machine_.error(device_)}; }
+    const ClockView shown = shown_at(own_);
+    const ClockView machine = machine_.estimate(own_);
     return {.own = shown.other,
             .other = machine.other,
             .rate = (1 + machine.rate) / (1 + shown.rate) - 1,
@@ -93,7 +98,7 @@ DeviceStatus DeviceTime::in_machine_time(DeviceStatus status) const {
 }
 
 DeviceOrder DeviceTime::in_device_time(DeviceOrder order) {
-    if (source_ != TimeSource::Network) { return order; }
+    if (is_one_clock()) { return order; }
     if (const auto* begin = std::get_if<device::BeginRun>(&order)) {
         own_run_ = begin->own;
         machine_end_.reset();
@@ -149,8 +154,8 @@ void DeviceTime::pace(device::LoadFrame& frame, Tick machine_end, Loaded& loaded
 
 ExecutedTrack DeviceTime::in_device_time(ExecutedTrack track) {
     track.commanded_start = track.start;
-    track.clock_error = ptp_error_;
-    if (source_ != TimeSource::Network) { return track; }
+    track.clock_error = machine_.error(own_);
+    if (is_one_clock()) { return track; }
     while (!loaded_.empty() && loaded_.front().frame.number < track.frame) { loaded_.pop_front(); }
     check(!loaded_.empty() && loaded_.front().frame.number == track.frame,
           "a frame is remembered as the device was given it until it is recorded");

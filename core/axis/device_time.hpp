@@ -1,11 +1,12 @@
 // Converts between the controller, which uses machine time, and the device, which counts ticks of its own clock.
 //
-// If machine time is shared, or kept by PTP, both are the same number and everything passes unchanged. Over the network
-// there are three clocks: the coordinator's (machine time), this process's, and the device's. The coordinator's clock
-// is estimated from message exchanges, the device's from looks at the device. Their rates and offsets may change at any
-// time. So each frame's end is mapped when the frame is loaded, and its start is where the frame before ended. A change
-// of the estimates between two loads is corrected within the axis's limits (core/axis/device/frame_pace.hpp). The part
-// not corrected yet counts as error.
+// There are three clocks: the coordinator's (machine time), this process's, and the device's. If machine time is
+// shared, or kept by PTP, the first two are the same, and if the device counts the host's clock, the last two. If all
+// are the same, everything passes unchanged. Otherwise the coordinator's clock is estimated from message exchanges, and
+// the device's from its readings, which are such exchanges too. Their rates and offsets may change at any time. So each
+// frame's end is mapped when the frame is loaded, and its start is where the frame before ended. A change of the
+// estimates between two loads is corrected within the axis's limits (core/axis/device/frame_pace.hpp). The part not
+// corrected yet counts as error.
 //
 // An axis's own moves are not coordinated. They keep the device's ticks, so that each step is made at exactly the tick
 // of its method. Only their start is mapped. Steps and tracks are recorded in the device's time, together with their
@@ -17,6 +18,7 @@
 
 #include "core/axis/axis_controller.hpp"
 #include "core/axis/device/device.hpp"
+#include "core/axis/device/device_reading.hpp"
 #include "core/axis/device/frame_pace.hpp"
 #include "core/clock/machine_time.hpp"
 
@@ -30,16 +32,19 @@ public:
     /// Takes an exchange with the coordinator, by this process's clock.
     void take(const ClockExchange& exchange) { machine_.take(exchange); }
 
+    /// The device's clock in one loop. The clock of a lost device counts until another is found: what the lost one has
+    /// run is still converted by it.
     struct Device {
-        Tick now;                   // the tick that it shows
-        bool shares_clock = false;  // it counts the ticks of this process's clock, but may show them late
+        DeviceClock clock = DeviceClock::Host;
+        std::optional<ClockExchange> reading;  // none: there is no new one since the last loop
     };
     /// Call it in each loop. `own`: the reading of this process's clock. `in_use`: the axis moves, so machine time is
-    /// slewed and not set. Returns false while machine time is not known yet. Also returns false for one loop if this
-    /// process's clock disagrees with the device's. No one can set the device's clock, so it shows by how much this
-    /// process's clock was set. A device's clock that stands still proves nothing. If it does so for long, the device
-    /// is given up (core/axis/device/device_watch.hpp). Until then its axis still publishes.
-    bool look(Tick own, const Device& device, bool in_use);
+    /// slewed and not set. Returns false while machine time or the device's own clock is not known yet. Also returns
+    /// false for one loop if this process's clock disagrees with the device's own. No one can set the device's clock,
+    /// so it shows by how much this process's clock was set. A device's clock that stands still proves nothing. If it
+    /// does so for long, the device is given up (core/axis/device/device_watch.hpp). Until then its axis still
+    /// publishes.
+    bool look(Tick own, const std::optional<Device>& device, bool in_use);
 
     /// From the next look on the clock is that of another device.
     void change_device() { changed_ = true; }
@@ -71,9 +76,14 @@ private:
         Ticks tail_error;
     };
 
-    bool certain(Tick own, Tick shown);
-    void own_was_set(Tick own, Tick shown);
-    Tick to_device(Tick machine) const { return shown_.at(machine_.own_at(machine)).other; }
+    bool certain(const ClockExchange& reading);
+    void own_was_set(Tick own, Tick shown, Ticks within);
+    /// All clocks are the same.
+    bool is_one_clock() const { return machine_.is_own_clock() && clock_ == DeviceClock::Host; }
+    ClockView shown_at(Tick own) const {
+        return clock_ == DeviceClock::Own ? shown_.view(own) : ClockView{.own = own, .other = own};
+    }
+    Tick to_device(Tick machine) const { return shown_at(machine_.own_at(machine)).other; }
     Tick to_machine(Tick device) const;
     Ticks error_at(Tick machine) const;
     void load(device::LoadFrame& frame);
@@ -83,16 +93,21 @@ private:
     double clocks() const { return 1 / (1 + device_clock().rate) - 1; }
 
     std::int64_t tick_ns_;
-    TimeSource source_;
-    Ticks ptp_error_;
     MachineTime machine_;
-    ClockEstimator shown_;      // the device's clock
-    bool changed_ = false;      // the next look is at another device
-    Tick own_;                  // this process's clock at the last look without doubt
-    Tick seen_;                 // the device's clock at that look
+    DeviceClock clock_ = DeviceClock::Host;
+    ClockEstimator shown_;  // the device's own clock
+    bool changed_ = false;  // the next reading is that of another device
+    /// A reading without doubt, the one that tells most about both clocks now.
+    struct Agreed {
+        Tick own;      // the middle of its interval
+        Ticks within;  // of this process's clock
+        Tick shown;
+    };
+    Agreed agreed_;
     bool stood_still_ = false;  // the device's clock stood still at a look since
+    Tick own_;                  // at the last look
     Tick now_;
-    Tick device_;
+    Tick device_;  // the tick that the device showed last
 
     bool own_run_ = false;
     std::optional<Tick> machine_end_;  // end of the frame loaded last in this run

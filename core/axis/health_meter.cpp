@@ -27,11 +27,12 @@ HealthMeter::HealthMeter(std::size_t axis, Identity identity, std::int64_t tick_
       identity_(identity),
       period_{1'000'000'000 / kReportsPerSecond / tick_ns} {}
 
-void HealthMeter::look(Tick now, const DeviceStatus& device) {
+void HealthMeter::look(Tick now, const DeviceStatus* device) {
     now_ = now;
-    free_segments_.add({device.free_segments});
-    if (!device.moving) { last_step_.reset(); }  // a standstill is no interval between steps
-    if (device.finished && device.run == run_) { newest_setpoint_.reset(); }
+    const bool is_moving = device != nullptr && device->moving;
+    if (!is_moving) { last_step_.reset(); }  // a standstill is no interval between steps
+    if (device == nullptr || (device->finished && device->run == run_)) { newest_setpoint_.reset(); }
+    if (device != nullptr) { free_segments_.add({device->free_segments}); }
 }
 
 void HealthMeter::take(const AxisOutputs& out) {

@@ -27,7 +27,8 @@ public:
 
     // Call these functions in each loop, in this order. Times are machine time.
 
-    void look(Tick now, const DeviceStatus& device);
+    /// `device`: null if the axis has none.
+    void look(Tick now, const DeviceStatus* device);
     /// Takes what the controller decided, before its orders and tracks are converted to the device's time.
     void take(const AxisOutputs& out);
     void step(StepEdge step);

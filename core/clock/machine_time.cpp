@@ -7,6 +7,7 @@
 namespace lockstep {
 
 Tick MachineTime::advance(Tick own, bool in_use) {
+    if (is_own_clock_) { return own_ = machine_ = own; }
     const Tick estimate = coordinator_.at(own).other;
     if (!begun_) {
         begun_ = true;
@@ -35,6 +36,7 @@ Tick MachineTime::own_at(Tick machine) const {
 }
 
 Ticks MachineTime::error(Tick own) const {
+    if (is_own_clock_) { return kept_within_; }
     const auto [other, bound] = coordinator_.at(own);
     return {std::abs((other - at(own)).value) + bound.value + 1};
 }

@@ -1,8 +1,10 @@
-// Machine time of one process, made from its estimate of the coordinator's clock. It never goes backwards. While the
-// axis moves, it is slewed instead of set: it gains or loses at most kMaxSlew until it agrees with the estimate.
+// Machine time of one process. It is the process's own clock if the time source keeps the clocks of all processes equal
+// (Shared, Ptp). Otherwise it is made from the estimate of the coordinator's clock. It then never goes backwards. While
+// the axis moves, it is slewed instead of set: it gains or loses at most kMaxSlew until it agrees with the estimate.
 #pragma once
 
 #include "core/clock/clock_estimator.hpp"
+#include "core/protocol/timing.hpp"
 
 namespace lockstep {
 
@@ -10,7 +12,11 @@ class MachineTime {
 public:
     static constexpr double kMaxSlew = 500e-6;
 
-    explicit MachineTime(std::int64_t tick_ns) : coordinator_(tick_ns) {}
+    /// `kept_within`: bound on the error of the own clock if it is machine time.
+    MachineTime(std::int64_t tick_ns, TimeSource source, Ticks kept_within = {})
+        : is_own_clock_(source != TimeSource::Network), kept_within_(kept_within), coordinator_(tick_ns) {}
+
+    bool is_own_clock() const { return is_own_clock_; }
 
     /// Takes an exchange with the coordinator.
     void take(const ClockExchange& exchange) { coordinator_.take(exchange); }
@@ -20,7 +26,7 @@ public:
         own_ += by;
     }
     /// Whether the coordinator has answered yet. Before that no other time may be read.
-    bool known() const { return coordinator_.known(); }
+    bool known() const { return is_own_clock_ || coordinator_.known(); }
 
     /// Advances to the machine time at which the own clock reads `own`. `in_use`: machine time is slewed, not set.
     Tick advance(Tick own, bool in_use);
@@ -32,11 +38,16 @@ public:
     /// Bound on the error of `at` against the coordinator's clock: the part not slewed yet plus the estimate's bound.
     Ticks error(Tick own) const;
 
-    const ClockEstimator& estimate() const { return coordinator_; }
+    /// Machine time as the exchanges determine it when the own clock reads `own`, towards which `at` is slewed.
+    ClockView estimate(Tick own) const {
+        return is_own_clock_ ? ClockView{.own = own, .other = own, .error = kept_within_} : coordinator_.view(own);
+    }
 
 private:
     double rate() const { return 1 + coordinator_.rate(); }
 
+    bool is_own_clock_;
+    Ticks kept_within_;
     ClockEstimator coordinator_;
     bool begun_ = false;
     Tick own_;           // at the last call

@@ -142,6 +142,12 @@ const std::string& motor_name(const MachineConfig& machine, std::size_t motor) {
     return block == nullptr ? axis.name : block->name;
 }
 
+bool estimates_clock(const MachineConfig& machine, std::size_t motor) {
+    const auto [axis, block] = place_of(machine, motor);
+    const DeviceName& device = block == nullptr ? axis.device : block->device;
+    return machine.timing.time_source == TimeSource::Network || device.has_own_clock();
+}
+
 double motor_steps_per_mm(const MachineConfig& machine, std::size_t motor) {
     const auto [axis, block] = place_of(machine, motor);
     return block == nullptr ? axis.steps_per_mm : block->steps_per_mm.value_or(axis.steps_per_mm);

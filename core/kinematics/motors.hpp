@@ -40,6 +40,8 @@ std::vector<MotorConfig> motors_of(const MachineConfig& machine);
 std::size_t motor_count(const MachineConfig& machine);
 std::vector<std::string> motor_names(const MachineConfig& machine);
 const std::string& motor_name(const MachineConfig& machine, std::size_t motor);
+/// Whether a motor estimates a clock to time its frames: the coordinator's, or its device's own.
+bool estimates_clock(const MachineConfig& machine, std::size_t motor);
 double motor_steps_per_mm(const MachineConfig& machine, std::size_t motor);
 /// The number of the motor with this name; nullopt if there is none.
 std::optional<std::size_t> motor_named(const MachineConfig& machine, std::string_view name);

@@ -6,9 +6,9 @@ namespace lockstep {
 namespace {
 
 template <Moving Part>
-AxisLimits with_reserves(const MachineConfig& machine, const Part& part) {
+AxisLimits with_reserves(const MachineConfig& machine, const Part& part, bool estimates_clock) {
     AxisLimits limits = limits_of(part, machine.tick_ns);
-    if (machine.timing.time_source != TimeSource::Network) { return limits; }
+    if (!estimates_clock) { return limits; }
     limits.max_velocity *= 1 - clock_reserve::kSpeed;
     limits.start_velocity *= 1 - clock_reserve::kAcceleration;
     limits.max_acceleration *= 1 - clock_reserve::kAcceleration;
@@ -16,26 +16,26 @@ AxisLimits with_reserves(const MachineConfig& machine, const Part& part) {
     return limits;
 }
 
-template <Moving Part>
-std::vector<AxisLimits> all_with_reserves(const MachineConfig& machine, const std::vector<Part>& parts) {
-    std::vector<AxisLimits> limits;
-    limits.reserve(parts.size());
-    for (const Part& part : parts) { limits.push_back(with_reserves(machine, part)); }
-    return limits;
-}
-
 }  // namespace
 
 AxisLimits frame_limits_of(const MachineConfig& machine, std::size_t motor) {
-    return with_reserves(machine, motors_of(machine)[motor]);
+    return with_reserves(machine, motors_of(machine)[motor], estimates_clock(machine, motor));
 }
 
 std::vector<AxisLimits> frame_limits_of(const MachineConfig& machine) {
-    return all_with_reserves(machine, motors_of(machine));
+    std::vector<AxisLimits> limits;
+    for (const MotorConfig& motor : motors_of(machine)) {
+        limits.push_back(with_reserves(machine, motor, estimates_clock(machine, limits.size())));
+    }
+    return limits;
 }
 
 std::vector<AxisLimits> axis_frame_limits_of(const MachineConfig& machine) {
-    return all_with_reserves(machine, machine.axes);
+    std::vector<AxisLimits> limits;
+    for (const AxisConfig& axis : machine.axes) {
+        limits.push_back(with_reserves(machine, axis, machine.estimates_clocks()));
+    }
+    return limits;
 }
 
 }  // namespace lockstep

@@ -1,11 +1,12 @@
 // The limits of a motor in frames: its own limits minus reserves for its device's clock.
 //
-// If each board has its own clock (TimeSource::Network), frames are planned in machine time and executed in device
-// time, in which the axis's limits hold at every step. The two rates differ by at most ClockEstimator::kMaxRate, and
-// during a correction by MachineTime::kMaxSlew more: 700 ppm in all. The speed changes when a correction begins or
-// ends, with kCorrectionShare of the axis's acceleration (core/axis/device/frame_pace.hpp). So the planner keeps the
-// reserves below, and an axis refuses frames that do not. Plan, frame check, steps and their analysis use the same
-// limits. With any other time source, and in an axis's own moves, which are timed in device ticks, the reserves are 0.
+// If a board or a device has its own clock (estimates_clock), frames are planned in machine time and
+// executed in device time, in which the axis's limits hold at every step. The two rates differ by at most
+// ClockEstimator::kMaxRate, and during a correction by MachineTime::kMaxSlew more: 700 ppm in all. The speed changes
+// when a correction begins or ends, with kCorrectionShare of the axis's acceleration (core/axis/device/frame_pace.hpp).
+// So the planner keeps the reserves below, and an axis refuses frames that do not. Plan, frame check, steps and their
+// analysis use the same limits. If all clocks are the same, and in an axis's own moves, which are timed in device
+// ticks, the reserves are 0.
 #pragma once
 
 #include <vector>
@@ -25,7 +26,7 @@ namespace lockstep {
 AxisLimits frame_limits_of(const MachineConfig& machine, std::size_t motor);
 /// The same limits of all motors, in the order of motors_of.
 std::vector<AxisLimits> frame_limits_of(const MachineConfig& machine);
-/// What the machine's file allows the axes themselves, with the same reserves.
+/// What the machine's file allows the axes themselves, with reserves if a motor estimates a clock.
 std::vector<AxisLimits> axis_frame_limits_of(const MachineConfig& machine);
 
 }  // namespace lockstep

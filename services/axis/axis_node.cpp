@@ -9,14 +9,6 @@
 
 namespace lockstep {
 
-AxisDevice simulated_device(const MotorConfig& motor, std::int64_t tick_ns, Tick now) {
-    const RegisterWindow window = RegisterWindow::in_process();
-    return {window,
-            std::make_unique<SimulatedDevice>(window, Plant(motor, tick_ns), tick_ns, now,
-                                              static_cast<std::uint64_t>(now.value)),
-            true};
-}
-
 AxisNode::AxisNode(const Setup& setup, OpenDevice open)
     : open_(std::move(open)),
       machine_(setup.machine),
@@ -27,17 +19,15 @@ AxisNode::AxisNode(const Setup& setup, OpenDevice open)
 
 const AxisOutputs& AxisNode::step(Tick own, const AxisMail& mail, const OnStep& on_step) {
     decide(own, mail, on_step);
-    carry_out(own, out_);
+    carry_out(out_);
     return out_;
 }
 
 const AxisOutputs& AxisNode::decide(Tick own, const AxisMail& mail, const OnStep& on_step) {
     if (!found_) { seek_device(own); }
-    advance_simulated(own);
     for (const ClockExchange& exchange : mail.clock) { time_.take(exchange); }
     look(own);
-    const bool shares_clock = !has_device() || found_->device.shares_clock;
-    knows_time_ = time_.look(own, {status_.now, shares_clock}, !controller_.at_rest());
+    knows_time_ = time_.look(own, device_clock(), !controller_.at_rest());
     out_.clear();
     if (knows_time_ && !is_looking()) { control(mail); }
     const auto owns = [](const MachineState& state) { return state.phase != MachinePhase::Standby; };
@@ -47,14 +37,7 @@ const AxisOutputs& AxisNode::decide(Tick own, const AxisMail& mail, const OnStep
     return out_;
 }
 
-void AxisNode::carry_out(Tick own, const AxisOutputs& decided) {
-    give(decided.orders);
-    advance_simulated(own);
-}
-
-void AxisNode::advance_simulated(Tick own) {
-    if (found_ && found_->device.simulated) { found_->device.simulated->advance(own); }
-}
+void AxisNode::carry_out(const AxisOutputs& decided) { give(decided.orders); }
 
 void AxisNode::seek_device(Tick own) {
     const Ticks period{std::chrono::nanoseconds(kSeekPeriod).count() / machine_.tick_ns};
@@ -64,16 +47,14 @@ void AxisNode::seek_device(Tick own) {
 }
 
 std::expected<void, std::string> AxisNode::find_device(Tick own) {
-    auto device = open_(own);
-    if (!device) { return std::unexpected(device.error()); }
-    auto driver = DeviceDriver::attach(device->window, machine_.tick_ns);
-    if (!driver) { return std::unexpected(driver.error()); }
-    found_.emplace(Found{std::move(*device), std::move(*driver), DeviceWatch(machine_)});
+    auto port = open_(own);
+    if (!port) { return std::unexpected(port.error()); }
+    found_.emplace(Found{.port = std::move(*port), .watch = DeviceWatch(machine_), .newest = {}, .first = {}});
     return {};
 }
 
 void AxisNode::lose_device(Tick own, const std::string& why) {
-    (void)found_->driver.apply(device::Veto{1});
+    (void)found_->port->apply(device::Veto{1});
     troubles_ += has_device() ? 1 : 0;
     if (has_device()) { time_.change_device(); }
     found_.reset();
@@ -91,10 +72,10 @@ void AxisNode::drain(Tick own, const OnStep& on_step, const ClockView& machine_t
         on_step(step);
         if (meter != nullptr) { meter->step({machine_time.at(step.tick), step.direction}); }
     };
-    const auto drained = found_->driver.drain_capture(std::cref(take));  // by reference: a copy would be allocated
-    if (!drained) { return lose_device(own, drained.error()); }
-    lost_captures_ = found_->driver.lost_captures();
-    if (meter != nullptr) { meter->end_loop(static_cast<std::uint32_t>(registers::kCaptureRingEntries - *drained)); }
+    const auto free_captures = found_->port->drain(std::cref(take));  // by reference: a copy would be allocated
+    if (!free_captures) { return lose_device(own, free_captures.error()); }
+    lost_captures_ = found_->port->lost_captures();
+    if (meter != nullptr) { meter->end_loop(*free_captures); }
 }
 
 void AxisNode::control(const AxisMail& mail) {
@@ -113,7 +94,7 @@ void AxisNode::control(const AxisMail& mail) {
     out_ = controller_.step(in);
     if (flight_ != nullptr) { flight_->take(in, out_); }
     if (meter_ != nullptr) {
-        meter_->look(time_.now(), status);
+        meter_->look(time_.now(), has_device() ? &status : nullptr);
         meter_->take(out_);
     }
     for (ExecutedTrack& track : out_.tracks) { track = time_.in_device_time(std::move(track)); }
@@ -123,14 +104,25 @@ void AxisNode::control(const AxisMail& mail) {
 
 void AxisNode::look(Tick own) {
     if (!found_) { return; }
-    const auto status = found_->driver.read();
-    if (!status) { return lose_device(own, status.error()); }
-    if (const auto doubt = found_->watch.doubt_of(own, *status)) { return lose_device(own, "device: " + *doubt); }
-    status_ = *status;
-    found_->first = found_->first.value_or(status->now);
-    if (found_->lives || status->now == *found_->first) { return; }
+    const auto reading = found_->port->read(own);
+    if (!reading) { return lose_device(own, reading.error()); }
+    const auto doubt = *reading ? found_->watch.doubt_of(own, (*reading)->status) : found_->watch.doubt_of_silence(own);
+    if (doubt) { return lose_device(own, "device: " + *doubt); }
+    if (!*reading) { return; }
+    found_->is_new = !found_->newest || found_->newest->asked != (*reading)->asked;
+    found_->newest = *reading;
+    status_ = (*reading)->status;
+    found_->first = found_->first.value_or(status_.now);
+    if (found_->lives || status_.now == *found_->first) { return; }
     found_->lives = true;
     time_.change_device();
+}
+
+std::optional<DeviceTime::Device> AxisNode::device_clock() const {
+    if (!has_device()) { return std::nullopt; }
+    DeviceTime::Device device{found_->port->clock(), {}};
+    if (found_->is_new) { device.reading = exchange_of(*found_->newest); }
+    return device;
 }
 
 void AxisNode::note(std::string trouble) {
@@ -142,7 +134,7 @@ void AxisNode::note(std::string trouble) {
 void AxisNode::give(const std::vector<DeviceOrder>& orders) {
     for (const DeviceOrder& order : orders) {
         if (!has_device()) { return; }
-        const auto given = found_->driver.apply(order);
+        const auto given = found_->port->apply(order);
         given ? found_->watch.take(order) : note(given.error());
     }
 }

@@ -15,25 +15,13 @@
 #include "core/axis/health_meter.hpp"
 #include "core/clock/clock_reset.hpp"
 #include "core/flight/axis_flight.hpp"
-#include "core/kinematics/motors.hpp"
-#include "services/axis/device_driver.hpp"
-#include "sim_fpga/device.hpp"
+#include "services/axis/device_port.hpp"
 
 namespace lockstep {
 
-/// The device of an axis: a window onto its registers and, if it is simulated here, the device behind it.
-struct AxisDevice {
-    RegisterWindow window;
-    std::unique_ptr<SimulatedDevice> simulated;  // null if the device is hardware or in another process
-    bool shares_clock = false;                   // the device counts the ticks of this process's clock
-};
-
-/// A simulated device in this process, powered up at `now`.
-AxisDevice simulated_device(const MotorConfig& motor, std::int64_t tick_ns, Tick now);
-
 /// Opens an axis's device. `own` is the current reading of this process's clock. Error: why there is no device. Never
 /// waits.
-using OpenDevice = std::function<std::expected<AxisDevice, std::string>(Tick own)>;
+using OpenDevice = std::function<std::expected<std::unique_ptr<DevicePort>, std::string>(Tick own)>;
 
 /// The messages of one loop.
 struct AxisMail {
@@ -54,22 +42,22 @@ public:
         std::uint64_t config_hash = 0;
         KeptOrNot kept = std::unexpected(FaultCode::PositionNotKept);
     };
-    using OnStep = std::function<void(StepEdge)>;
+    using OnStep = DevicePort::OnStep;
 
     /// While the device is missing or lost, the node searches for it every kSeekPeriod.
     AxisNode(const Setup& setup, OpenDevice open);
     static constexpr std::chrono::milliseconds kSeekPeriod{200};
 
     /// Runs one loop. `own` is the reading of this process's clock, which is machine time if the clock is shared. The
-    /// node advances a simulated device to `own`, decides, and gives the device its orders. It passes every step made
-    /// since the last loop to on_step, in order, in the device's time. A device error becomes a fault. Before the node
+    /// node reads its device, decides, and gives the device its orders. It passes every step read since the last loop
+    /// to on_step, in order, in the device's time. A device error becomes a fault. Before the node
     /// closes a failed device, it orders the device to rest, in case the device still runs. The node decides and
     /// publishes nothing before it knows the machine time. The result is valid until the next loop.
     const AxisOutputs& step(Tick own, const AxisMail& mail, const OnStep& on_step);
 
     /// The two halves of step(): decide() makes the decisions, carry_out() gives the device its orders.
     const AxisOutputs& decide(Tick own, const AxisMail& mail, const OnStep& on_step);
-    void carry_out(Tick own, const AxisOutputs& decided);
+    void carry_out(const AxisOutputs& decided);
 
     /// Measures every loop from the next step on. `meter` must outlive the node.
     void measure(HealthMeter& meter) { meter_ = &meter; }
@@ -96,8 +84,8 @@ private:
     void seek_device(Tick own);
     std::expected<void, std::string> find_device(Tick own);
     void lose_device(Tick own, const std::string& why);
-    void advance_simulated(Tick own);
     void look(Tick own);
+    std::optional<DeviceTime::Device> device_clock() const;
     void control(const AxisMail& mail);
     void drain(Tick own, const OnStep& on_step, const ClockView& machine_time);
     void note(std::string trouble);
@@ -105,9 +93,10 @@ private:
 
     /// A device that was found. The memory of a dead device looks the same, but its clock stands still.
     struct Found {
-        AxisDevice device;
-        DeviceDriver driver;
+        std::unique_ptr<DevicePort> port;
         DeviceWatch watch;
+        std::optional<DeviceReading> newest;
+        bool is_new = false;        // `newest` was not there in the loop before
         std::optional<Tick> first;  // its first clock reading
         bool lives = false;         // its clock advances
     };
@@ -126,9 +115,9 @@ private:
     bool knows_time_ = false;
     ClockReset clock_reset_;
     bool must_restart_ = false;
-    DeviceStatus status_{.free_segments = registers::kSegmentRingEntries};  // the last status read
-    std::uint64_t lost_captures_ = 0;                                       // of this device
-    std::uint64_t lost_before_ = 0;                                         // of the devices before it
+    DeviceStatus status_;              // the last status read
+    std::uint64_t lost_captures_ = 0;  // of this device
+    std::uint64_t lost_before_ = 0;    // of the devices before it
     std::string trouble_;
     std::uint64_t troubles_ = 0;
     HealthMeter* meter_ = nullptr;  // null: nothing is measured

@@ -14,6 +14,7 @@
 #include "services/axis/axis_notices.hpp"
 #include "services/axis/device_window.hpp"
 #include "services/axis/position_file.hpp"
+#include "services/axis/window_port.hpp"
 #include "services/documents/edit/kept_settings.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/documents/placement.hpp"
@@ -40,14 +41,19 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-OpenDevice opener_of(const DeviceName& device, const MotorConfig& axis, std::int64_t tick_ns) {
+OpenDevice opener_of(const DeviceName& device, const MotorConfig& axis, const MachineClock& clock,
+                     std::int64_t tick_ns) {
     if (device.kind == DeviceName::Kind::Simulated) {
-        return [axis, tick_ns](Tick now) { return simulated_device(axis, tick_ns, now); };
+        return [axis, tick_ns](Tick now) { return simulated_port(axis, tick_ns, now); };
     }
-    return [device](Tick) -> std::expected<AxisDevice, std::string> {
+    return [device, clock, tick_ns](Tick) -> std::expected<std::unique_ptr<DevicePort>, std::string> {
         auto window = open_window(device);
         if (!window) { return std::unexpected(window.error()); }
-        return AxisDevice{std::move(*window), nullptr, true};
+        const bool has_own_clock = window->is_hardware();
+        auto driver = DeviceDriver::attach(std::move(*window), tick_ns);
+        if (!driver) { return std::unexpected(driver.error()); }
+        if (!has_own_clock) { return std::make_unique<WindowPort>(std::move(*driver)); }
+        return std::make_unique<WindowPort>(std::move(*driver), [clock] { return clock.now(); });
     };
 }
 
@@ -70,7 +76,7 @@ public:
         : setup_(setup),
           device_(device.text()),
           clock_(clock),
-          node_(setup, opener_of(device, motors_of(setup.machine)[setup.axis], setup.machine.tick_ns)),
+          node_(setup, opener_of(device, motors_of(setup.machine)[setup.axis], clock, setup.machine.tick_ns)),
           network_(std::move(network)),
           sink_(std::move(sink)),
           flight_log_(open_flight(setup.machine, motor_name(setup.machine, setup.axis), setup.identity)),
@@ -278,14 +284,20 @@ int serve_axis(const AxisServiceOptions& options) {
     const auto axis = axis_to_run(machine, options.axis, host_name());
     if (!axis) { return end_with_bad_input(options.machine_file.string() + ": " + axis.error()); }
     const MotorConfig config = motors_of(machine)[*axis];
-    const auto device = options.fpga.empty() ? config.device : read_device_name(options.fpga);
-    if (!device) { return end_with_bad_input("--fpga " + options.fpga + ": " + device.error()); }
+    const auto device = options.fpga.empty() ? std::optional(config.device) : read_device_name(options.fpga);
+    if (!device) { return end_with_bad_input(fmt::format("--fpga {}: it must be {}", options.fpga, kDeviceNames)); }
     if (options.clock_error != ClockError{} && machine.timing.time_source != TimeSource::Network) {
         return end_with_bad_input(
             "--clock-error needs time_source: NETWORK; with the machine's time_source nothing would correct the clock");
     }
     if (options.clock_error != ClockError{} && device->kind != DeviceName::Kind::Simulated) {
         return end_with_bad_input("--clock-error needs --fpga sim, because the clock of lockstep-fpga has no error");
+    }
+    if (device->has_own_clock() && !estimates_clock(machine, *axis)) {
+        return end_with_bad_input("--fpga " + options.fpga +
+                                  ": such a device has a clock of its own, for which the frames must leave room; set "
+                                  "it in the machine's file, as `device` of axis " +
+                                  config.name + ", so that the coordinator knows");
     }
     if (auto log = open_log({"axis", config.name, options.log_file, true}); !log) {
         return end_with_bad_input(log.error());

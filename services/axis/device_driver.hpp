@@ -27,6 +27,8 @@ public:
     /// still.
     std::expected<DeviceStatus, std::string> read();
     static constexpr int kMaxStaleReads = 1000;
+    /// The last read() returned the previous reading.
+    bool is_stale() const { return stale_reads_ > 0; }
 
     /// Errors, which change nothing: a frame that does not fit into the ring, has no body, or precedes any run; a run
     /// number that is 0 or not new.

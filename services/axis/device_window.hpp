@@ -4,7 +4,7 @@
 #include <expected>
 #include <string>
 
-#include "core/device_name.hpp"
+#include "core/device/device_name.hpp"
 #include "sim_fpga/register_window.hpp"
 
 namespace lockstep {

@@ -227,7 +227,7 @@ DeviceName read_device(const std::string& text, const std::string& key, Reader& 
     if (text.empty()) { return {}; }
     auto device = read_device_name(text);
     if (device) { return std::move(*device); }
-    reader.refuse(key, fmt::format("{} is \"{}\"; {}, such as uio:/dev/uio0", key, text, device.error()));
+    reader.refuse(key, fmt::format("{} is \"{}\"; it must be {}, such as uio:/dev/uio0", key, text, kDeviceNames));
     return {};
 }
 

@@ -65,11 +65,21 @@ void check_protocol(const ProtocolTiming& t, ProblemList& problems) {
             t.frame_slots, least, t.send_ahead_slots));
 }
 
+/// With PTP an axis reports the whole limit as the error of its host's clock.
+void check_device_clocks(const MachineConfig& machine, ProblemList& problems) {
+    if (machine.timing.time_source != TimeSource::Ptp) { return; }
+    for (const AxisConfig& axis : machine.axes) {
+        problems.require(!axis.device.has_own_clock(), "timing.time_source",
+                         "timing.time_source is PTP, which leaves no room for the clock error of device " +
+                             axis.device.text() + " of axis " + axis.name + "; set NETWORK");
+    }
+}
+
 /// Checks the limit of the clock error. In the setpoint protocol a hop must cover twice this error and the network's
 /// delay.
 void check_clocks(const MachineConfig& machine, ProblemList& problems) {
     const ProtocolTiming& t = machine.timing;
-    if (t.time_source == TimeSource::Shared) { return; }
+    if (t.time_source == TimeSource::Shared && !machine.estimates_clocks()) { return; }
     const std::int64_t most = t.most_clock_error_us();
     problems.require_between(
         {"timing.clock_error_limit_us", "timing.slot_us"},
@@ -78,7 +88,7 @@ void check_clocks(const MachineConfig& machine, ProblemList& problems) {
             "timing.clock_error_limit_us is {}; it must be from 1 to {} (a quarter of slot_us); decrease it, or "
             "increase slot_us",
             t.clock_error_limit_us, most));
-    if (t.time_source != TimeSource::Network) { return; }
+    if (!machine.estimates_clocks()) { return; }
     const std::int64_t least = (kLeastClockTicks * machine.tick_ns + 999) / 1000;
     problems.require_between(
         {"timing.clock_error_limit_us", "timing.slot_us", "tick_ns"}, t.clock_error_limit_us >= least,
@@ -196,6 +206,7 @@ std::vector<Problem> machine_problems(const MachineConfig& machine) {
     check_timing(machine, problems);
     check_protocol(machine.timing, problems);
     check_clocks(machine, problems);
+    check_device_clocks(machine, problems);
     check_network(machine.network, problems);
     check_directory("security.directory", machine.security.directory, problems);
     check_record(machine.record, problems);

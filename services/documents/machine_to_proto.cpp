@@ -5,7 +5,8 @@
 namespace lockstep {
 namespace {
 
-void write_timing(const ProtocolTiming& timing, proto::Timing& message) {
+void write_timing(const MachineConfig& machine, proto::Timing& message) {
+    const ProtocolTiming& timing = machine.timing;
     message.set_slot_us(timing.slot_us);
     message.set_stall_slots(timing.stall_slots);
     message.set_late_check_slots(timing.late_check_slots);
@@ -15,9 +16,10 @@ void write_timing(const ProtocolTiming& timing, proto::Timing& message) {
     if (timing.jog_hold_us != ProtocolTiming{}.jog_hold_us) {
         message.set_jog_hold_ms(static_cast<std::int32_t>(timing.jog_hold_us / 1000));
     }
-    if (timing.time_source == TimeSource::Shared) { return; }  // the limit has no meaning
+    const bool is_shared = timing.time_source == TimeSource::Shared;
     constexpr std::array kSources{proto::SHARED, proto::NETWORK, proto::PTP};
-    message.set_time_source(kSources[static_cast<std::size_t>(timing.time_source)]);
+    if (!is_shared) { message.set_time_source(kSources[static_cast<std::size_t>(timing.time_source)]); }
+    if (is_shared && !machine.estimates_clocks()) { return; }  // the limit has no meaning
     message.set_clock_error_limit_us(timing.clock_error_limit_us);
 }
 
@@ -151,7 +153,7 @@ proto::Machine machine_to_proto(const MachineConfig& machine) {
     proto::Machine message;
     message.set_name(machine.name);
     message.set_tick_ns(machine.tick_ns);
-    write_timing(machine.timing, *message.mutable_timing());
+    write_timing(machine, *message.mutable_timing());
     write_network(machine.network, *message.mutable_network());
     if (machine.security.enabled()) { message.mutable_security()->set_directory(machine.security.directory); }
     if (machine.record != RecordConfig{}) { write_record(machine.record, *message.mutable_record()); }

@@ -34,21 +34,46 @@ void mislead_newest_frame(RegisterWindow& window) {
 
 }  // namespace
 
-VirtualDevices::VirtualDevices(const MachineConfig& machine, const MachineClocks& clocks, std::uint64_t seed, Tick now)
-    : clocks_(clocks), tick_ns_(machine.tick_ns), seed_(seed) {
+VirtualDevices::VirtualDevices(const MachineConfig& machine, const MachineClocks& clocks,
+                               const std::vector<LinkDelay>& links, std::uint64_t seed, Tick now)
+    : clocks_(clocks), machine_(machine), seed_(seed) {
     const std::vector<MotorConfig> motors = motors_of(machine);
     for (std::size_t i = 0; i < motors.size(); ++i) {
-        devices_.push_back({.device = simulated_device(motors[i], tick_ns_, clocks.device(i, now))});
+        devices_.push_back({.window = RegisterWindow::in_process(), .simulated = nullptr, .link = {}});
+        const bool has_link = i < links.size() && links[i].most > Ticks{};
+        if (has_link) { devices_[i].link.emplace(links[i], seed + i); }
+        power_up(i, devices_[i].window, Plant(motors[i], machine.tick_ns), now);
     }
 }
 
-std::expected<AxisDevice, std::string> VirtualDevices::open(std::size_t axis) const {
+std::expected<std::unique_ptr<DevicePort>, std::string> VirtualDevices::open(std::size_t axis) {
     if (devices_[axis].is_gone) { return std::unexpected("no process holds its registers"); }
-    return AxisDevice{devices_[axis].device.window, nullptr};
+    auto driver = DeviceDriver::attach(devices_[axis].window, machine_.tick_ns);
+    if (!driver) { return std::unexpected(driver.error()); }
+    if (!estimates_clock(machine_, axis)) { return std::make_unique<WindowPort>(std::move(*driver)); }
+    const auto now = [this, axis] { return devices_[axis].now; };
+    const auto process_clock = [this, axis](Tick at) { return clocks_.process(axis, at); };
+    if (!devices_[axis].link) {
+        return std::make_unique<WindowPort>(std::move(*driver), [=] { return process_clock(now()); });
+    }
+    devices_[axis].link->attach(std::move(*driver));
+    return std::make_unique<LatePort>(*devices_[axis].link, now, process_clock);
 }
 
 void VirtualDevices::advance(std::size_t axis, Tick now) {
-    if (!devices_[axis].is_stopped) { (*this)[axis].advance(clocks_.device(axis, now)); }
+    Device& device = devices_[axis];
+    device.now = now;
+    if (device.is_stopped) { return; }
+    if (device.link) { deliver(axis, now); }
+    device.simulated->advance(clocks_.device(axis, now));
+}
+
+void VirtualDevices::deliver(std::size_t axis, Tick now) {
+    Device& device = devices_[axis];
+    for (auto at = device.link->next(); at && *at <= now; at = device.link->next()) {
+        device.simulated->advance(clocks_.device(axis, *at));
+        device.link->arrive();
+    }
 }
 
 void VirtualDevices::apply(const VirtualFault& fault, bool begins, Tick now) {
@@ -64,7 +89,7 @@ void VirtualDevices::disturb(const VirtualFault& fault, bool begins) {
     } else if (fault.kind == VirtualFault::Kind::Push && begins) {
         (*this)[i].plant().push(fault.push_steps);
     } else if (begins) {
-        RegisterWindow& window = devices_[i].device.window;
+        RegisterWindow& window = devices_[i].window;
         fault.ends_elsewhere ? mislead_newest_frame(window) : damage_newest_frame(window);
     }
 }
@@ -72,27 +97,29 @@ void VirtualDevices::disturb(const VirtualFault& fault, bool begins) {
 void VirtualDevices::strike(const VirtualFault& fault, bool begins, Tick now) {
     using Kind = VirtualFault::Kind;
     Device& device = devices_[fault.process];
+    if (device.link && device.is_stopped) { device.link->hold_until(now); }
     device.is_stopped = begins && fault.kind != Kind::Overwrite;
     device.is_gone = begins && fault.kind == Kind::KillDevice;
     if (fault.kind == Kind::Overwrite) {
         begins ? overwrite(fault.process, fault.garbage, now)
-               : power_up_again(fault.process, device.device.window, now);
+               : power_up(fault.process, device.window, (*this)[fault.process].plant(), now);
     } else if (fault.kind == Kind::KillDevice && !begins) {
-        power_up_again(fault.process, RegisterWindow::in_process(), now);
+        power_up(fault.process, RegisterWindow::in_process(), (*this)[fault.process].plant(), now);
     }
 }
 
-void VirtualDevices::power_up_again(std::size_t axis, RegisterWindow window, Tick now) {
-    AxisDevice& it = devices_[axis].device;
-    it.simulated = std::make_unique<SimulatedDevice>(window, it.simulated->plant(), tick_ns_, clocks_.device(axis, now),
-                                                     static_cast<std::uint64_t>(now.value));
-    it.window = std::move(window);
+void VirtualDevices::power_up(std::size_t axis, const RegisterWindow& window, Plant plant, Tick now) {
+    const Tick shown = clocks_.device(axis, now);
+    if (devices_[axis].link) { devices_[axis].link->power_up(); }
+    devices_[axis].window = window;
+    devices_[axis].simulated = std::make_unique<SimulatedDevice>(window, std::move(plant), machine_.tick_ns, shown,
+                                                                 static_cast<std::uint64_t>(now.value));
 }
 
 void VirtualDevices::overwrite(std::size_t axis, bool garbage, Tick now) {
     std::mt19937_64 random(seed_ ^ static_cast<std::uint64_t>(now.value));
     for (std::size_t word = 0; word < registers::kWindowBytes; word += sizeof(std::uint64_t)) {
-        devices_[axis].device.window.store(word, garbage ? random() : 0);
+        devices_[axis].window.store(word, garbage ? random() : 0);
     }
 }
 

@@ -2,10 +2,14 @@
 #pragma once
 
 #include <expected>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "services/axis/axis_node.hpp"
+#include "services/axis/window_port.hpp"
+#include "services/virtual/late_link.hpp"
 #include "services/virtual/machine_clocks.hpp"
 #include "services/virtual/virtual_fault.hpp"
 
@@ -13,14 +17,17 @@ namespace lockstep {
 
 class VirtualDevices {
 public:
-    /// Powers up all devices at `now`. `clocks` must outlive this object.
-    VirtualDevices(const MachineConfig& machine, const MachineClocks& clocks, std::uint64_t seed, Tick now);
+    /// Powers up all devices at `now`. `clocks` must outlive this object. `links`: of each axis; without an entry there
+    /// is none, and the axis uses the registers themselves.
+    VirtualDevices(const MachineConfig& machine, const MachineClocks& clocks, const std::vector<LinkDelay>& links,
+                   std::uint64_t seed, Tick now);
 
-    SimulatedDevice& operator[](std::size_t axis) { return *devices_[axis].device.simulated; }
-    const SimulatedDevice& operator[](std::size_t axis) const { return *devices_[axis].device.simulated; }
+    SimulatedDevice& operator[](std::size_t axis) { return *devices_[axis].simulated; }
+    const SimulatedDevice& operator[](std::size_t axis) const { return *devices_[axis].simulated; }
 
-    /// Opens the device for its axis. Error: no process holds its registers.
-    std::expected<AxisDevice, std::string> open(std::size_t axis) const;
+    /// Opens the device for its axis. Errors: no process holds its registers, or they are not those of a device.
+    std::expected<std::unique_ptr<DevicePort>, std::string> open(std::size_t axis);
+    /// Call it before the axis uses its device at `now`, and after that.
     void advance(std::size_t axis, Tick now);
 
     /// Begins or ends a fault of an axis's slide, switches or device. The device runs up to `now` before and reads its
@@ -30,18 +37,22 @@ public:
 
 private:
     struct Device {
-        AxisDevice device;
+        RegisterWindow window;
+        std::unique_ptr<SimulatedDevice> simulated;
+        std::optional<LateLink> link;
+        Tick now;  // the true time
         bool is_stopped = false;
         bool is_gone = false;
     };
+    void deliver(std::size_t axis, Tick now);
+    void power_up(std::size_t axis, const RegisterWindow& window, Plant plant, Tick now);
     void apply(const VirtualFault& fault, bool begins, Tick now);
     void disturb(const VirtualFault& fault, bool begins);
     void strike(const VirtualFault& fault, bool begins, Tick now);
-    void power_up_again(std::size_t axis, RegisterWindow window, Tick now);
     void overwrite(std::size_t axis, bool garbage, Tick now);
 
     const MachineClocks& clocks_;
-    std::int64_t tick_ns_;
+    MachineConfig machine_;
     std::uint64_t seed_;
     std::vector<Device> devices_;
 };

@@ -12,7 +12,7 @@ VirtualMachine::VirtualMachine(const VirtualOptions& options)
     : options_(options),
       now_(options.start),
       clocks_(options.clocks, options.start),
-      devices_(options.machine, clocks_, options.seed, now_),
+      devices_(options.machine, clocks_, options.links, options.seed, now_),
       post_(options.network, options.seed, motor_count(options.machine), options.coordinators),
       client_(options.machine),
       schedule_(post_.processes(), {options.machine.slot_ticks().value / options.loops_per_slot}),
@@ -202,7 +202,7 @@ const AxisOutputs& VirtualMachine::decide_axis(std::size_t i) {
 
 void VirtualMachine::carry_out(std::size_t i, const AxisOutputs& out) {
     devices_.advance(i, now_);
-    axes_[i].node->carry_out(clocks_.process(i, now_), out);
+    axes_[i].node->carry_out(out);
     devices_.advance(i, now_);  // the device carries out its orders
     ask_time(i);
     if (out.rests && options_.keeps_positions) { axes_[i].kept = *out.rests; }

@@ -49,6 +49,9 @@ struct VirtualOptions {
     /// The clocks of each axis. Axes without an entry read the true time, like the coordinator. Clocks that differ need
     /// a machine with time_source Network.
     std::vector<AxisClocks> clocks;
+    /// How late the device of each axis answers. Axes without an entry use its registers. A device that answers late
+    /// has its own clock, so its axis must estimate one (estimates_clock).
+    std::vector<LinkDelay> links;
     /// Returns the flight log of a process; called at each of its starts. Empty: no process has one.
     std::function<FlightLog&(std::size_t process)> flight;
     /// Makes the stores in which coordinators keep programs.

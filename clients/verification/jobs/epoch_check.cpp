@@ -43,7 +43,8 @@ std::optional<RunDifference> EpochCheck::compare(std::size_t axis, const Run& ru
     if (frame == nullptr) { return RunDifference{" is not in the plan", std::nullopt, run.start}; }
     const Run planned = planned_run(*frame, axis, run.tail, run.clock_error);
     const auto joins = is_behind_gap ? std::nullopt : progress.end;
-    if (auto found = has_own_clocks() ? compare_retimed(planned, run, joins) : compare_runs(planned, run)) {
+    const bool is_retimed = estimates_clock(machine_, axis) && !run.commanded_ticks.empty();
+    if (auto found = is_retimed ? compare_retimed(planned, run, joins) : compare_runs(planned, run)) {
         found->text = " " + found->text;
         return found;
     }

@@ -69,9 +69,8 @@ private:
         std::optional<Tick> end;  // of its last run
     };
 
-    bool has_own_clocks() const { return machine_.timing.time_source == TimeSource::Network; }
     /// The largest clock error with which an axis moves.
-    Ticks known_within() const { return has_own_clocks() ? machine_.clock_error_limit() : Ticks{}; }
+    Ticks known_within() const { return machine_.estimates_clocks() ? machine_.clock_error_limit() : Ticks{}; }
     std::string out_of_order(const Progress& axis, const Run& run) const;
     Shortfall silent(std::size_t axis) const;
     std::size_t least_far() const;

@@ -2,10 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace lockstep::verification {
 
+/// The axis times its frames by the clock of the coordinator's host.
+bool ClockCheck::shares_clock(const std::string& axis) const {
+    if (machine_->timing.time_source != TimeSource::Shared) { return false; }
+    const auto found = std::ranges::find(machine_->axes, axis, &AxisConfig::name);
+    return found == machine_->axes.end() || !found->device.has_own_clock();
+}
+
 std::optional<std::string> ClockCheck::take(const std::string& axis, const analysis::StepBatch& batch) const {
-    if (!machine_ || !shares_clock()) { return std::nullopt; }
+    if (!machine_ || !shares_clock(axis)) { return std::nullopt; }
     if (batch.clock_error == Ticks{} && batch.ahead_first == Ticks{} && batch.ahead_last == Ticks{}) {
         return std::nullopt;
     }
@@ -17,7 +26,7 @@ std::optional<std::string> ClockCheck::take(const std::string& axis, const analy
 
 std::optional<std::string> ClockCheck::take(const std::string& axis, const analysis::Run& run) const {
     if (!machine_) { return std::nullopt; }
-    if (shares_clock() && (run.clock_error != Ticks{} || run.ahead != Ticks{})) {
+    if (shares_clock(axis) && (run.clock_error != Ticks{} || run.ahead != Ticks{})) {
         return fmt::format(
             "axis {}: {} gives times of a clock of its own ({} ticks ahead, within {}), but the machine's "
             "processes share one clock (timing.time_source)",

@@ -25,7 +25,7 @@ public:
     std::optional<std::string> take_in_frame(const std::string& axis, const analysis::Run& run, Ticks error) const;
 
 private:
-    bool shares_clock() const { return machine_->timing.time_source == TimeSource::Shared; }
+    bool shares_clock(const std::string& axis) const;
     /// Twice the limit: the bound may grow while a frame that was armed in time is run.
     Ticks most() const { return machine_->clock_error_limit() * 2; }
 

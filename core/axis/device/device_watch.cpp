@@ -1,6 +1,7 @@
 #include "core/axis/device/device_watch.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/protocol/rules.hpp"
 
@@ -26,12 +27,11 @@ void DeviceWatch::take(const DeviceOrder& order) {
 }
 
 std::optional<std::string> DeviceWatch::doubt_of(Tick own, const DeviceStatus& status) {
-    const Ticks passed = last_ ? std::clamp(own - looked_, Ticks{}, slot_) : Ticks{};
+    const Ticks passed = pass_until(own);
     if (auto what = contradiction(status)) { return what; }
     const bool stands = last_ && status.now == last_->now;
     stood_ = stands ? stood_ + passed : Ticks{};
     overdue_ = is_overdue(status) ? overdue_ + passed : Ticks{};
-    looked_ = own;
     last_ = status;
     if (stood_ > patience_) {
         return "its clock stopped at tick " + text(status.now) + ": its process or its board has stopped";
@@ -41,6 +41,18 @@ std::optional<std::string> DeviceWatch::doubt_of(Tick own, const DeviceStatus& s
                ", although its frames end at tick " + text(ends_);
     }
     return std::nullopt;
+}
+
+std::optional<std::string> DeviceWatch::doubt_of_silence(Tick own) {
+    stood_ += pass_until(own);
+    if (stood_ <= patience_) { return std::nullopt; }
+    return "it has not answered: its process, its board or the link to it has stopped";
+}
+
+/// Returns the time since the last look that counts.
+Ticks DeviceWatch::pass_until(Tick own) {
+    const Tick before = std::exchange(looked_, own).value_or(own);
+    return std::clamp(own - before, Ticks{}, slot_);
 }
 
 /// Applies to a run that this process ordered. Switches and vetoes can only end it sooner.

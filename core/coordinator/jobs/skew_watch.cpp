@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/kinematics/motors.hpp"
+
 namespace lockstep {
 
 SkewWatch::SkewWatch(const MachineConfig& machine, const Kinematics& kinematics) {

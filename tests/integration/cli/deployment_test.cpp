@@ -41,13 +41,23 @@ TEST_F(Deployment, ADeviceThatIsMappedIsDrivenAsOneInTheProcess) {
 TEST_F(Deployment, RefusesAForeignDeviceByItsRegisters) {
     const std::string registers = write("x.registers", std::string(registers::kWindowBytes, '\0'));
     const std::string log = write("axis.log", "");
-    ChildProcess axis(LOCKSTEP_AXIS, {"--machine", file(), "--axis", "X", "--fpga", "uio:" + registers, "--log", log});
+    change([&](MachineConfig& machine) { machine.axes[0].device = {DeviceName::Kind::Mapped, registers}; });
+    ChildProcess axis(LOCKSTEP_AXIS, {"--machine", file(), "--axis", "X", "--log", log});
     EXPECT_TRUE(eventually([&] { return tail_of(log, 50).find("waits for its device") != std::string::npos; }));
     EXPECT_THAT(tail_of(log, 50), HasSubstr("waits for its device uio:" + registers));
     EXPECT_THAT(tail_of(log, 50), HasSubstr("MAGIC reads 0x0"));
     EXPECT_THAT(tail_of(log, 50), HasSubstr("check that this is a Lockstep axis device"));
     axis.signal(SIGTERM);
     EXPECT_EQ(axis.wait().code, 0);
+}
+
+/// The coordinator plans frames with room for the clock of such a device only if the machine's file names the device.
+TEST_F(Deployment, RefusesADeviceWithItsOwnClockThatTheMachinesFileDoesNotName) {
+    ChildProcess axis(LOCKSTEP_AXIS, {"--machine", file(), "--axis", "X", "--fpga", "uio:/dev/uio0"});
+    const Ran ran = axis.wait();
+    EXPECT_EQ(ran.code, 2);
+    EXPECT_THAT(ran.err, HasSubstr("--fpga uio:/dev/uio0: such a device has a clock of its own"));
+    EXPECT_THAT(ran.err, HasSubstr("as `device` of axis X"));
 }
 
 TEST_F(Deployment, StartsOnlyThePartsOfThisHost) {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <numeric>
 #include <optional>
+#include <random>
 
 #include "tests/property/clock/two_clocks.hpp"
 
@@ -17,6 +18,11 @@ constexpr double kDeviceDrift = 80e-6;  // against this process's clock
 
 Tick device_shows(Tick own) {
     return Tick{12'345} + Ticks{std::llround(static_cast<double>(own.value) * (1 + kDeviceDrift))};
+}
+
+/// The clock of a device whose registers take no time to read.
+DeviceTime::Device shown_at_once(Tick own, Tick shown) {
+    return {DeviceClock::Own, ClockExchange{own, shown, shown, own}};
 }
 
 /// 25 mm/s at 400 steps/mm, reached in 83 ms.
@@ -79,7 +85,7 @@ private:
     void look(bool in_use) {
         time_->take(clocks_.exchange());
         const Tick own = clocks_.own(clocks_.truth());
-        (void)time_->look(own, {.now = device_shows(own)}, in_use);
+        (void)time_->look(own, shown_at_once(own, device_shows(own)), in_use);
     }
 
     MachineConfig machine_;
@@ -106,7 +112,7 @@ TEST(DeviceTime, IsRightAgainAfterTheClockWasSetBackWhileTheDeviceStoodStill) {
         if (!stands_still) { shown += kLoop; }
         const Tick own = now + own_ahead;
         if (++loops % 5 == 0) { time.take({own - Ticks{200}, now - Ticks{100}, now - Ticks{100}, own}); }
-        return time.look(own, {.now = shown}, true);
+        return time.look(own, shown_at_once(own, shown), true);
     };
     for (int i = 0; i < 2000; ++i) { look(false); }
     ASSERT_LE(std::abs((time.now() - now).value), time.error().value);
@@ -151,7 +157,7 @@ TEST(DeviceTime, OfClocksThatGoAlikeTheRateIsNoneAndTheyPassTheSameTime) {
     DeviceTime time(0, machine);
     for (Tick now{500}; now < Tick{1'000'000}; now += Ticks{500}) {
         time.take({now - Ticks{200}, now - Ticks{100}, now - Ticks{100}, now});
-        (void)time.look(now, {.now = now + kAhead}, true);
+        (void)time.look(now, shown_at_once(now, now + kAhead), true);
     }
     EXPECT_NEAR(time.device_clock().rate, 0, 2 * ClockEstimator::kMaxRate);
     const auto machine_at = [&](Ticks after) {
@@ -173,6 +179,99 @@ TEST(DeviceTime, AShortFrameIsNotAcceleratedToCorrectALongOne) {
             ASSERT_NEAR(static_cast<double>(total_ticks(track.pieces).value), by_clocks, most)
                 << "seed " << seed << ", frame " << i;
         }
+    }
+}
+
+/// A device that answers late, on the host whose clock is machine time.
+class LateAnswers {
+public:
+    explicit LateAnswers(std::uint64_t seed, TimeSource source = TimeSource::Shared) : random_(seed) {
+        machine_.timing.time_source = source;
+        machine_.axes = {screw()};
+        machine_.axes[0].device = {DeviceName::Kind::Mapped, "/dev/late"};
+        time_.emplace(0, machine_);
+    }
+
+    /// Asks, and gets the answer after 0.1 to 5 ms, in which the loop runs without one. Returns whether the answer
+    /// leaves no doubt.
+    bool exchange() {
+        const Tick asked = own();
+        now_ += Ticks{draw(50, 2500)};
+        const Tick shown = device_at(now_);
+        if (draw(0, 1) == 1) { (void)time_->look(own(), no_answer(), true); }
+        now_ += Ticks{draw(50, 2500)};
+        return time_->look(own(), DeviceTime::Device{DeviceClock::Own, ClockExchange{asked, shown, shown, own()}},
+                           true);
+    }
+    bool pass(Ticks time) {
+        now_ += time;
+        return time_->look(own(), no_answer(), true);
+    }
+    void ask_coordinator() { time_->take({own() - Ticks{200}, now_ - Ticks{100}, now_ - Ticks{100}, own()}); }
+    void set_own(Ticks forward) { ahead_ += forward; }
+
+    const DeviceTime& time() const { return *time_; }
+    Tick now() const { return now_; }
+    /// The error of what the device shows now, converted to machine time.
+    Ticks off() const { return length_of(time_->in_machine_time({.now = device_at(now_)}).now - now_); }
+
+private:
+    static DeviceTime::Device no_answer() { return {DeviceClock::Own, std::nullopt}; }
+    static Tick device_at(Tick truth) { return device_shows(truth); }
+    Tick own() const { return now_ + ahead_; }
+    std::int64_t draw(std::int64_t least, std::int64_t most) {
+        return std::uniform_int_distribution(least, most)(random_);
+    }
+
+    std::mt19937_64 random_;
+    MachineConfig machine_;
+    std::optional<DeviceTime> time_;
+    Tick now_{1'000'000};  // machine time
+    Ticks ahead_;          // this process's clock
+};
+
+TEST(DeviceTime, ADeviceThatAnswersLateIsWithinTheReportedError) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        LateAnswers late(seed);
+        for (int i = 0; i < 3000; ++i) {
+            ASSERT_TRUE(late.exchange());
+            ASSERT_EQ(late.time().now(), late.now()) << "machine time is the host's clock";
+            ASSERT_LE(late.off(), late.time().error()) << "seed " << seed << ", answer " << i;
+        }
+        EXPECT_GE(late.time().error(), Ticks{50}) << "half the shortest way there and back";
+        EXPECT_LE(late.time().error(), Ticks{400});
+    }
+}
+
+TEST(DeviceTime, TheReportedErrorGrowsWithTheAgeOfAReading) {
+    LateAnswers late(1);
+    for (int i = 0; i < 3000; ++i) { (void)late.exchange(); }
+    const Ticks fresh = late.time().error();
+    EXPECT_TRUE(late.pass(Ticks{60'000'000}));
+    EXPECT_GT(late.time().error(), fresh + Ticks{60}) << "1 ppm at least";
+    EXPECT_LE(late.off(), late.time().error());
+}
+
+TEST(DeviceTime, NothingIsKnownOfADeviceBeforeItsFirstAnswer) {
+    LateAnswers late(1);
+    EXPECT_FALSE(late.pass(Ticks{1000}));
+    EXPECT_TRUE(late.exchange());
+}
+
+/// Between the two answers that prove it, this process's clock was wrong.
+TEST(DeviceTime, LateAnswersShowByHowMuchThisProcessesClockWasSet) {
+    for (const Ticks by : {Ticks{7'251'060}, Ticks{-7'251'060}, Ticks{40'000}}) {
+        LateAnswers late(3, TimeSource::Network);
+        for (int i = 0; i < 3000; ++i) {
+            if (i % 10 == 0) { late.ask_coordinator(); }
+            (void)late.exchange();
+        }
+        late.set_own(by);
+        int doubts = 0;
+        while (!late.exchange()) { ++doubts; }
+        EXPECT_EQ(doubts, 1);
+        EXPECT_LE(length_of(late.time().now() - late.now()), late.time().error()) << by.value;
+        EXPECT_LE(late.time().error(), Ticks{3000}) << "by the uncertainty of two readings";
     }
 }
 

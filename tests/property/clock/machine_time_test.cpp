@@ -14,7 +14,7 @@ namespace {
 TEST(MachineTime, IsWithinItsBound) {
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
         TwoClocks clocks(seed);
-        MachineTime time(kTick_ns);
+        MachineTime time(kTick_ns, TimeSource::Network);
         for (int i = 0; i < 400; ++i) {
             time.take(clocks.exchange());
             const Tick own = clocks.own(clocks.truth());
@@ -28,7 +28,7 @@ TEST(MachineTime, IsWithinItsBound) {
 TEST(MachineTime, NeverGoesBackwardsWhenTheUnderlyingClockIsSet) {
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
         TwoClocks clocks(seed);
-        MachineTime time(kTick_ns);
+        MachineTime time(kTick_ns, TimeSource::Network);
         Tick last{INT64_MIN};
         for (int i = 0; i < 400; ++i) {
             time.take(clocks.exchange());
@@ -43,7 +43,7 @@ TEST(MachineTime, NeverGoesBackwardsWhenTheUnderlyingClockIsSet) {
 TEST(MachineTime, IsNotSetWhileInUse) {
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
         TwoClocks clocks(seed);
-        MachineTime time(kTick_ns);
+        MachineTime time(kTick_ns, TimeSource::Network);
         time.take(clocks.exchange());
         Tick own = clocks.own(clocks.truth());
         Tick last = time.advance(own, true);
@@ -62,7 +62,7 @@ TEST(MachineTime, IsNotSetWhileInUse) {
 
 TEST(MachineTime, TheOwnClockAtAMachineTimeIsTheOneThatShowsIt) {
     TwoClocks clocks(3);
-    MachineTime time(kTick_ns);
+    MachineTime time(kTick_ns, TimeSource::Network);
     for (int i = 0; i < 100; ++i) {
         time.take(clocks.exchange());
         const Tick now = time.advance(clocks.own(clocks.truth()), true);

@@ -80,6 +80,10 @@ int main(int argc, char** argv) {
         .in_range(1, 32);
     parser.add_flag("--long-searches", options.machine.long_searches,
                     "include machines that search their switches for minutes: about twice the time");
+    parser.add_flag(
+        "--late-devices", options.machine.late_devices,
+        "about half of the devices answer after up to 5 ms and have their own clocks, in machines with slots "
+        "of 2 ms or more");
     parser
         .add_option("--faults", options.faults,
                     "none, all (half of the kinds in each run), or a list of the kinds below")

@@ -47,6 +47,18 @@ TEST_F(Watch, BelievesADeviceThatCounts) {
     }
 }
 
+/// The time begins when the device was found.
+TEST_F(Watch, ToleratesADeviceThatHasNeverAnsweredForTheSameTime) {
+    int ms = 0;
+    std::string doubt;
+    for (; doubt.empty() && ms < 1000; ++ms) {
+        doubt = watch_.doubt_of_silence(own_).value_or("");
+        own_ += Ticks{1000};
+    }
+    EXPECT_EQ(doubt, "it has not answered: its process, its board or the link to it has stopped");
+    EXPECT_EQ(ms, 18);
+}
+
 TEST_F(Watch, ToleratesAStoppedClockOnlyForTheSilenceTime) {
     (void)look();
     EXPECT_EQ(patience(Ticks{500}), 16);

@@ -12,7 +12,7 @@ protected:
     /// A loop at `now` in which `out` was decided and `steps` were made.
     void loop(Tick now, const AxisOutputs& out = {}, const std::vector<StepEdge>& steps = {}) {
         device_.now = now;
-        meter_.look(now, device_);
+        meter_.look(now, &device_);
         meter_.take(out);
         for (const StepEdge step : steps) { meter_.step(step); }
         meter_.end_loop(free_captures_);

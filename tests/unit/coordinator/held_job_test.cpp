@@ -9,6 +9,7 @@
 #include "core/kinematics/motors.hpp"
 #include "core/methods/paper_steps.hpp"
 #include "services/axis/axis_node.hpp"
+#include "services/axis/window_port.hpp"
 #include "tests/unit/allocations/quick_machine.hpp"
 
 namespace lockstep {
@@ -20,7 +21,7 @@ protected:
     HeldJob() {
         for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
             nodes_.push_back(std::make_unique<AxisNode>(AxisNode::Setup{i, machine_, 7 + i, 1}, [this, i](Tick now) {
-                return simulated_device(motors_of(machine_)[i], machine_.tick_ns, now);
+                return simulated_port(motors_of(machine_)[i], machine_.tick_ns, now);
             }));
         }
     }

@@ -1,4 +1,4 @@
-#include "core/device_name.hpp"
+#include "core/device/device_name.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,9 +21,7 @@ TEST(DeviceName, OnlyHardwareHasAClockOfItsOwn) {
 
 TEST(DeviceName, RefusesNamesWithoutAPlaceOrOfAnotherKind) {
     for (const char* text : {"", "s", "usb", "sim:", "shm:", "shm:a/b", "uio:", "uio:/", "uio:uio0", "SIM"}) {
-        const auto device = read_device_name(text);
-        ASSERT_FALSE(device) << text;
-        EXPECT_EQ(device.error(), "it must be sim, shm:NAME or uio:PATH");
+        EXPECT_FALSE(read_device_name(text)) << text;
     }
 }
 

@@ -118,6 +118,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Refusal{axis_with("host: \"a b\""), 10, 3, "host is \"a b\"; it must be the name of a host"},
                     Refusal{axis_with("device: \"usb\""), 10, 3, "sim, shm:NAME or uio:PATH"},
                     Refusal{axis_with("device: \"uio:uio0\""), 10, 3, "such as uio:/dev/uio0"},
+                    Refusal{axis_with("device: \"uio:/dev/uio0\"") + "timing { time_source: PTP }", 12, 10,
+                            "leaves no room for the clock error of device uio:/dev/uio0 of axis X; set NETWORK"},
                     Refusal{machine_with("coordinator_host: \"-\""), 11, 1, "the name of a host"},
                     Refusal{machine_with("real_time { priority: 100 }"), 11, 13, "0 to 99"},
                     Refusal{machine_with("real_time { cpus: 0 cpus: 1024 }"), 11, 1, "has 1024"},

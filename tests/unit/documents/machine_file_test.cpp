@@ -47,6 +47,17 @@ TEST(MachineFile, TimeComesFromOneHostByDefault) {
     EXPECT_EQ(parse(machine_text(parse(ptp))).timing.time_source, TimeSource::Ptp);
 }
 
+/// On one host such a device has the only clock that is estimated.
+TEST(MachineFile, ADeviceWithItsOwnClockHasAClockErrorLimit) {
+    const MachineConfig machine =
+        parse(axis_with("device: \"uio:/dev/uio0\"") + "timing { slot_us: 4000 clock_error_limit_us: 400 }");
+    EXPECT_EQ(machine.axes[0].device, (DeviceName{DeviceName::Kind::Mapped, "/dev/uio0"}));
+    const MachineConfig again = parse(machine_text(machine));
+    EXPECT_EQ(again.timing.time_source, TimeSource::Shared);
+    EXPECT_EQ(again.timing.clock_error_limit_us, 400);
+    EXPECT_EQ(again.axes[0].device, machine.axes[0].device);
+}
+
 TEST(MachineFile, AnAxisHasASafeHeightOnlyIfItIsGiven) {
     const MachineConfig machine = parse(axis_with("safe_height_mm: 40"));
     EXPECT_EQ(machine.axes.at(0).safe_height_mm, 40);

@@ -30,6 +30,14 @@ TEST(FrameLimits, LeaveRoomForWhatTheClocksChange) {
     EXPECT_EQ(frames.max_steps, own.max_steps);
 }
 
+TEST(FrameLimits, LeaveRoomOnlyForAnAxisWhoseDeviceHasAClockOfItsOwn) {
+    MachineConfig machine = machine_by(TimeSource::Shared);
+    machine.axes.push_back(machine.axes[0]);
+    machine.axes[1].device = {DeviceName::Kind::Mapped, "/dev/uio0"};
+    EXPECT_EQ(frame_limits_of(machine, 0).max_velocity, limits_of(machine.axes[0], machine.tick_ns).max_velocity);
+    EXPECT_LT(frame_limits_of(machine, 1).max_velocity, limits_of(machine.axes[1], machine.tick_ns).max_velocity);
+}
+
 TEST(FrameLimits, AreTheAxisOwnWhereAllHaveOneClock) {
     const MachineConfig machine = machine_by(TimeSource::Ptp);
     EXPECT_EQ(frame_limits_of(machine, 0).start_velocity, limits_of(machine.axes[0], machine.tick_ns).start_velocity);

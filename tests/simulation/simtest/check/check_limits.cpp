@@ -27,8 +27,7 @@ struct OwnClock {
 };
 
 OwnClock own_clock(const MachineConfig& machine) {
-    return machine.timing.time_source == TimeSource::Network ? OwnClock{.hurry = 1 + 700e-6, .rounding = 2}
-                                                             : OwnClock{};
+    return machine.estimates_clocks() ? OwnClock{.hurry = 1 + 700e-6, .rounding = 2} : OwnClock{};
 }
 
 struct Limits {

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "tests/simulation/simtest/draw/draw_fault.hpp"
+#include "tests/simulation/simtest/draw/draw_late_devices.hpp"
 #include "tests/simulation/simtest/draw/draw_machine.hpp"
 #include "tests/simulation/simtest/draw/draw_plant_fault.hpp"
 #include "tests/simulation/simtest/draw/draw_program.hpp"
@@ -279,6 +280,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     give_dense_curves(seed, scenario);
     if (asked.curve) { give_curves(seed, asked.mixed, scenario); }
     if (asked.stream) { give_streams(seed, asked.mixed, scenario); }
+    if (kind.late_devices) { give_late_devices(seed, scenario); }
     return scenario;
 }
 

@@ -11,6 +11,7 @@
 #include "core/machine.hpp"
 #include "core/program.hpp"
 #include "core/protocol/messages.hpp"
+#include "services/virtual/late_link.hpp"
 #include "services/virtual/virtual_clock.hpp"
 #include "services/virtual/virtual_fault.hpp"
 #include "services/virtual/virtual_network.hpp"
@@ -69,6 +70,7 @@ constexpr FaultKinds FaultKinds::all() {
 struct MachineKind {
     std::optional<std::size_t> axes;  // not given: 1 to 6
     bool long_searches = false;       // draw_machine.hpp
+    bool late_devices = false;        // some devices answer late and have their own clocks
 };
 
 /// A command that the machine must refuse, and the reason. The machine must continue as if it had not been given.
@@ -146,6 +148,7 @@ struct Scenario {
     NetworkBehaviour network;
     Tick power_up{1'000'000};
     std::vector<AxisClocks> clocks;  // empty: one clock for all
+    std::vector<LinkDelay> links;    // empty: every axis uses its device's registers
     std::size_t coordinators = 1;
     OnTakeover on_takeover = OnTakeover::Stop;
     std::vector<WrongCommand> before_homing;
@@ -155,6 +158,8 @@ struct Scenario {
     std::vector<PlannedFault> homing_faults;
     std::vector<Task> tasks;
 
+    /// The time until this axis's device answers, at most; 0 without a link.
+    Ticks lateness(std::size_t axis) const { return axis < links.size() ? links[axis].most : Ticks{}; }
     /// Messages may be lost or damaged.
     bool lossy() const { return network.lost > 0 || network.corrupted > 0; }
 };

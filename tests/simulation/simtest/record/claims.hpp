@@ -19,7 +19,9 @@ public:
           pulses_(recording.axes.size(), 0),
           power_up_(recording.axes.size(), Tick{std::numeric_limits<std::int64_t>::min()}),
           has_device_(recording.axes.size(), true),
-          unnoticed_(recording.axes.size()) {}
+          unnoticed_(recording.axes.size()),
+          encoder_(recording.axes.size()),
+          moved_(recording.axes.size()) {}
 
     /// Pulses of a device that was replaced meanwhile can be reported late.
     void on_step(std::size_t axis, StepEdge step) override {
@@ -39,6 +41,8 @@ private:
     std::vector<bool> has_device_;      // the device works, and the axis uses it
     std::vector<std::optional<Slot>>
         unnoticed_;  // the states of an axis since it lost its device; none when it has noticed
+    std::vector<std::int64_t> encoder_;
+    std::vector<Tick> moved_;  // when the slide had last moved
 };
 
 }  // namespace lockstep::simtest

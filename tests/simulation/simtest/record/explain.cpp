@@ -21,6 +21,7 @@ enum class Cause : std::uint8_t {
     DamagedFrame,
     Device,
     SilentDevice,
+    SilentLink,
     OwnClocks
 };
 
@@ -71,6 +72,8 @@ constexpr std::array kExplanations{
     Explanation{Cause::Device, FaultCode::DeviceLost},
     // A device that takes no segments can run out of room for frames before it counts as lost.
     Explanation{Cause::SilentDevice, FaultCode::DeviceFault},
+    // Orders that wait for a link reach the device after the start of their frame. It runs the tail then.
+    Explanation{Cause::SilentLink, FaultCode::FramesDiffer},
     // A process that does not receive the coordinator's clock for long is no longer certain of the time.
     Explanation{Cause::OwnClocks, FaultCode::ClockUncertain},
 };
@@ -106,12 +109,12 @@ std::vector<Cause> causes_in(const Recording& recording) {
         const bool is_silent =
             fault.kind == VirtualFault::Kind::StopDevice || fault.kind == VirtualFault::Kind::KillDevice;
         if (is_silent) { causes.push_back(Cause::SilentDevice); }
+        const bool has_link = is_silent && recording.axes[fault.process].lateness > Ticks{};
+        if (has_link) { causes.push_back(Cause::SilentLink); }
         if (fault.in_loop) { causes.push_back(Cause::Stall); }
     }
     const bool disturbed = recording.lossy() || !recording.faults.empty();
-    if (disturbed && recording.machine.timing.time_source == TimeSource::Network) {
-        causes.push_back(Cause::OwnClocks);
-    }
+    if (disturbed && recording.machine.estimates_clocks()) { causes.push_back(Cause::OwnClocks); }
     return causes;
 }
 
@@ -151,7 +154,7 @@ Tick unread_from(const VirtualFault& fault, const Recording& recording) {
         const bool mine = away.process == fault.process && (away.kind == Kind::Crash || away.kind == Kind::Freeze);
         if (mine && away.at <= fault.at && away.end() + starting >= fault.at) { from = std::min(from, away.at); }
     }
-    return from - slot;
+    return from - slot - recording.axes[fault.process].lateness;
 }
 
 bool may_be_stopped(const Recording& recording, std::size_t axis, Tick from, Tick until) {

@@ -189,8 +189,7 @@ private:
 
     /// The time error of a step: the clock error bound, the rounding in time, and the rounding in this check.
     Ticks error_at(std::size_t i, Tick truth) const {
-        const bool own_clocks = recording_.machine.timing.time_source == TimeSource::Network;
-        return own_clocks ? recording_.axes[i].bound_at(truth) + Ticks{3} : Ticks{};
+        return estimates_clock(recording_.machine, i) ? recording_.axes[i].bound_at(truth) + Ticks{3} : Ticks{};
     }
     StepTimes times_of(std::size_t i, const StepEdge& step) const {
         const Tick truth = recording_.axes[i].truth(step);

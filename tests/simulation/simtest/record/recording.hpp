@@ -63,6 +63,7 @@ struct GivenOrder {
 struct AxisRecord {
     Tick power_up;
     VirtualClock clock{};           // of the device: steps and tracks are in its time
+    Ticks lateness{};               // until the device answers, at most
     std::vector<StepEdge> steps{};  // from power-up on
     std::vector<Track> tracks{};
     std::vector<LostRun> lost{};

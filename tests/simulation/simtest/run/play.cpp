@@ -77,6 +77,7 @@ Played play(const Scenario& scenario, VirtualObserver* also) {
     played.recording.axes.resize(scenario.machine.axes.size(), {.power_up = scenario.power_up});
     for (std::size_t i = 0; i < scenario.clocks.size(); ++i) {
         played.recording.axes[i].clock = scenario.clocks[i].device;
+        played.recording.axes[i].lateness = scenario.lateness(i);
     }
     {
         Bench bench(scenario, played);

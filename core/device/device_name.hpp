@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <expected>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,19 +12,21 @@ struct DeviceName {
     enum class Kind : std::uint8_t {
         Simulated,  // "sim": in the process of its axis
         Shared,     // "shm:NAME": a lockstep-fpga on the same host, by the name of its shared memory
-        Mapped,     // "uio:PATH": hardware with the register map, by the absolute path that maps it
+        Mapped,     // "uio:PATH": hardware with the register map, by the absolute path that maps it; for tests a file
     };
     Kind kind = Kind::Simulated;
     std::string place;  // NAME or PATH; empty for Simulated
 
-    /// Simulated devices count the ticks of the host's clock. Hardware counts those of its own oscillator.
+    /// Hardware counts the ticks of its own oscillator, for which frames must leave room. Simulated devices count those
+    /// of the host's clock, and so does a process that maps a file.
     bool has_own_clock() const { return kind == Kind::Mapped; }
     /// As in the machine's file.
     std::string text() const;
     bool operator==(const DeviceName&) const = default;
 };
 
-/// Error: what the text must be.
-std::expected<DeviceName, std::string> read_device_name(std::string_view text);
+inline constexpr std::string_view kDeviceNames = "sim, shm:NAME or uio:PATH";
+/// Returns nullopt if the text is none of kDeviceNames.
+std::optional<DeviceName> read_device_name(std::string_view text);
 
 }  // namespace lockstep

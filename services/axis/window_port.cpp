@@ -1,0 +1,35 @@
+#include "services/axis/window_port.hpp"
+
+#include "core/kinematics/motors.hpp"
+
+namespace lockstep {
+
+/// While the device is in the middle of an update, the driver shows what it read before.
+std::expected<std::optional<DeviceReading>, std::string> WindowPort::read(Tick own) {
+    if (simulated_) { simulated_->advance(own); }
+    const Tick asked = now(own);
+    const auto status = driver_.read();
+    if (!status) { return std::unexpected(status.error()); }
+    if (newest_ && driver_.is_stale()) {
+        newest_->status = *status;
+    } else {
+        newest_ = DeviceReading{*status, asked, now(own)};
+    }
+    return newest_;
+}
+
+std::expected<std::uint32_t, std::string> WindowPort::drain(const OnStep& on_step) {
+    const auto captured = driver_.drain_capture(on_step);
+    if (!captured) { return std::unexpected(captured.error()); }
+    return static_cast<std::uint32_t>(registers::kCaptureRingEntries - *captured);
+}
+
+std::unique_ptr<DevicePort> simulated_port(const MotorConfig& motor, std::int64_t tick_ns, Tick now) {
+    const RegisterWindow window = RegisterWindow::in_process();
+    auto device = std::make_unique<SimulatedDevice>(window, Plant(motor, tick_ns), tick_ns, now,
+                                                    static_cast<std::uint64_t>(now.value));
+    DeviceDriver driver = DeviceDriver::attach(window, tick_ns).value();
+    return std::make_unique<WindowPort>(std::move(driver), std::move(device));
+}
+
+}  // namespace lockstep

@@ -1,0 +1,49 @@
+// The port to a device with a register window in memory: of another process, of hardware, or of a simulation in this
+// process.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "core/kinematics/motors.hpp"
+#include "core/machine.hpp"
+#include "services/axis/device_driver.hpp"
+#include "services/axis/device_port.hpp"
+#include "sim_fpga/device.hpp"
+
+namespace lockstep {
+
+class WindowPort : public DevicePort {
+public:
+    /// Reads the clock of this process.
+    using ReadClock = std::function<Tick()>;
+
+    /// A device that counts the host's clock. `simulated`: the device itself, if it is simulated in this process. It
+    /// runs up to the present whenever it is read.
+    explicit WindowPort(DeviceDriver driver, std::unique_ptr<SimulatedDevice> simulated = nullptr)
+        : driver_(std::move(driver)), simulated_(std::move(simulated)) {}
+    /// A device with a clock of its own. `host_clock` is read before and after the registers.
+    WindowPort(DeviceDriver driver, ReadClock host_clock)
+        : driver_(std::move(driver)), host_clock_(std::move(host_clock)) {}
+
+    DeviceClock clock() const override { return host_clock_ ? DeviceClock::Own : DeviceClock::Host; }
+    std::expected<std::optional<DeviceReading>, std::string> read(Tick own) override;
+    std::expected<void, std::string> apply(const DeviceOrder& order) override { return driver_.apply(order); }
+    std::expected<std::uint32_t, std::string> drain(const OnStep& on_step) override;
+    std::uint64_t lost_captures() const override { return driver_.lost_captures(); }
+
+private:
+    Tick now(Tick own) const { return host_clock_ ? host_clock_() : own; }
+
+    DeviceDriver driver_;
+    std::unique_ptr<SimulatedDevice> simulated_;
+    ReadClock host_clock_;  // empty: the device counts it
+    std::optional<DeviceReading> newest_;
+};
+
+/// The port to a device that is simulated in this process, powered up at `now`.
+std::unique_ptr<DevicePort> simulated_port(const MotorConfig& motor, std::int64_t tick_ns, Tick now);
+
+}  // namespace lockstep

@@ -1,0 +1,58 @@
+#include "services/axis/window_port.hpp"
+
+#include "tests/unit/sim_fpga/device_bench.hpp"
+
+namespace lockstep {
+namespace {
+
+TEST(WindowPort, AReadingOfADeviceWithItsOwnClockHasTheIntervalInWhichItWasMade) {
+    DeviceBench bench;
+    Tick host{1'000'000};
+    const auto host_clock = [&] {
+        host += Ticks{7};
+        (void)bench.at(bench.device.now() + Ticks{5});  // reading the registers takes this time
+        return host;
+    };
+    WindowPort port(DeviceDriver::attach(bench.window, kTick_ns).value(), host_clock);
+    EXPECT_EQ(port.clock(), DeviceClock::Own);
+    const DeviceReading reading = port.read(Tick{0}).value().value();
+    EXPECT_EQ(reading.asked, Tick{1'000'007});
+    EXPECT_EQ(reading.answered, Tick{1'000'014});
+    EXPECT_EQ(reading.status.now, Tick{5}) << "read in between";
+}
+
+TEST(WindowPort, AReadingOfADeviceThatIsHeldUpKeepsItsAge) {
+    DeviceBench bench;
+    (void)bench.at(Tick{5});
+    WindowPort port(DeviceDriver::attach(bench.window, kTick_ns).value());
+    EXPECT_EQ(port.clock(), DeviceClock::Host);
+    EXPECT_EQ(port.read(Tick{100}).value()->asked, Tick{100});
+    bench.window.store(registers::kSequence, 7);
+    EXPECT_EQ(port.read(Tick{200}).value()->asked, Tick{100}) << "in the middle of an update";
+    (void)bench.at(Tick{8});
+    EXPECT_EQ(port.read(Tick{300}).value()->asked, Tick{300});
+}
+
+TEST(WindowPort, ASimulatedDeviceRunsUpToThePresentWhenItIsRead) {
+    const auto port = simulated_port(bench_axis(), kTick_ns, kStart);
+    EXPECT_EQ(port->clock(), DeviceClock::Host);
+    EXPECT_EQ(port->read(kStart).value()->status.now, kStart);
+    EXPECT_EQ(port->read(kStart + Ticks{500}).value()->status.now, kStart + Ticks{500});
+}
+
+TEST(WindowPort, SaysHowMuchRoomTheDeviceHadForSteps) {
+    DeviceBench bench;
+    WindowPort port(DeviceDriver::attach(bench.window, kTick_ns).value());
+    bench.order(device::BeginRun{1});
+    bench.order(last_frame(1));
+    bench.order(device::Arm{1});
+    (void)bench.at(kMuchLater);
+    int steps = 0;
+    const auto count = [&](StepEdge) { ++steps; };
+    EXPECT_EQ(port.drain(count).value(), registers::kCaptureRingEntries - 10);
+    EXPECT_EQ(port.drain(count).value(), registers::kCaptureRingEntries);
+    EXPECT_EQ(steps, 10);
+}
+
+}  // namespace
+}  // namespace lockstep
