@@ -11,10 +11,11 @@ import os
 import pathlib
 import random
 import re
+import resource
 import shutil
+import signal
 import subprocess
 import sys
-import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -22,7 +23,9 @@ sys.path.insert(0, str(HERE))
 from make_mutants import find, rewrite  # noqa: E402
 from programs import TARGETS, steps  # noqa: E402
 
-FOLDERS = [f"core/{f}" for f in ("axis", "coordinator", "protocol", "motion", "clock", "step")]
+FOLDERS = [f"core/{f}" for f in ("axis", "coordinator", "protocol", "motion", "clock", "step", "path", "gcode")]
+
+MEMORY_LIMIT = 4 << 30  # bytes: a mutant may append to a vector without an end
 
 
 def copy_sources(copy):
@@ -73,13 +76,23 @@ def make(copy):
 
 
 def run(copy, step, environment, limit):
-    """Runs one step. Returns None if it passed, otherwise how it failed."""
+    """Runs one step, with a limit of its processor time in seconds, which a busy host does not change, and of its
+    memory. Returns None if it passed, otherwise how it failed."""
+    def limited():
+        resource.setrlimit(resource.RLIMIT_CPU, (limit, limit))
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY_LIMIT, MEMORY_LIMIT))
     try:
-        done = subprocess.run(step.command(copy / "build/bin"), cwd=copy, env=os.environ | environment, timeout=limit,
+        done = subprocess.run(["nice", "-n", "5", *step.command], cwd=copy, preexec_fn=limited, timeout=20 * limit,
+                              env=os.environ | step.environment | environment,
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     except subprocess.TimeoutExpired:
         return "time"
-    return None if done.returncode == 0 else "failed"
+    return None if done.returncode == 0 else "time" if done.returncode == -signal.SIGKILL else "failed"
+
+
+def processor_seconds():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def measure(copy, wanted):
@@ -89,10 +102,11 @@ def measure(copy, wanted):
     for step in wanted:
         reached = kept / (step.name.replace(" ", "_") + ".txt")
         if not reached.exists():
-            begun = time.monotonic()
+            begun = processor_seconds()
             if run(copy, step, {"LOCKSTEP_REACHED": str(reached)}, 900):
                 raise SystemExit(f"{step.name} fails without any change")
-            reached.write_text(f"{time.monotonic() - begun}\n" + (reached.read_text() if reached.exists() else ""))
+            seconds = processor_seconds() - begun
+            reached.write_text(f"{seconds}\n" + (reached.read_text() if reached.exists() else ""))
         seconds, *numbers = reached.read_text().split()
         step.seconds, step.reaches = float(seconds), set(map(int, numbers))
 
@@ -101,7 +115,7 @@ def kill(copy, n, wanted):
     """The step that detects mutant n, and how it failed."""
     for step in wanted:
         if n in step.reaches:
-            how = run(copy, step, {"LOCKSTEP_MUTANT": str(n)}, 5 * step.seconds + 2)
+            how = run(copy, step, {"LOCKSTEP_MUTANT": str(n)}, int(5 * step.seconds) + 2)
             if how:
                 return f"{step.name}: {how}"
     return None
@@ -141,7 +155,8 @@ def main():
     options.add_argument("--folder", type=pathlib.Path, default=ROOT / "build-mutants")
     options.add_argument("--seed", type=int, default=1)
     options.add_argument("--sample", type=int, default=400)
-    options.add_argument("--runs", type=int, default=1000, help="of lockstep-simtest")
+    options.add_argument("--runs", type=int, default=1000, help="of drawn machines, at most those of steps.txt")
+    options.add_argument("--quick", type=float, default=1e9, help="leaves out the programs that take more seconds")
     options.add_argument("--only", help="numbers of mutants, with commas")
     options.add_argument("--survivors", action="store_true", help="only the mutants that survived the last time")
     options.add_argument("--built", action="store_true", help="continue with the existing copy and its results")
@@ -163,6 +178,7 @@ def main():
         chosen = [int(n) for n in given.only.split(",")]
     wanted = steps(given.runs)
     measure(copy, wanted)
+    wanted = sorted((step for step in wanted if step.seconds <= given.quick), key=lambda step: step.seconds)
     for n in random.Random(given.seed).sample(chosen, len(chosen)):  # random order: the results so far are a sample too
         if n in results and not (results[n] is None and (given.survivors or given.only)):
             continue
