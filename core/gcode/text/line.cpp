@@ -90,7 +90,7 @@ std::size_t Line::end_of_comment(std::size_t place) const { return std::min(text
 
 int Line::checksum() const {
     unsigned char sum = 0;
-    for (const char c : raw_.substr(0, raw_.rfind('*'))) { sum ^= static_cast<unsigned char>(c); }
+    for (const char c : raw().substr(0, raw_.rfind('*'))) { sum ^= static_cast<unsigned char>(c); }
     return sum;
 }
 

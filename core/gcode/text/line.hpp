@@ -15,7 +15,8 @@ inline constexpr std::size_t kMaxLineLength = 256;
 
 class Line {
 public:
-    /// `raw` is the line without its end; it must outlive the reading, because errors give columns in it.
+    /// `raw` is the line without its end. It is copied, because an error may give a column in it after its body has
+    /// ended.
     std::optional<GcodeError> read(std::string_view raw, int number);
 
     std::string_view text() const { return {kept_.data(), size_}; }
@@ -33,7 +34,7 @@ private:
     std::optional<GcodeError> keep_comment(std::size_t& from);
     GcodeError raw_error(std::size_t place, std::string message) const;
 
-    std::string_view raw_;
+    std::string raw_;
     int number_ = 0;
     std::size_t size_ = 0;
     std::array<char, kMaxLineLength> kept_{};
