@@ -7,6 +7,7 @@ PROGRAMS = """
   papers_lai papers_spielauer papers_methods unit_states
 """.split()
 PARTS = {"property_path": 8, "unit_states": 4}  # the programs that take longest run in so many parts
+QUICKEST = {"property_gcode": "GcodeMeanings.*", "property_path": "PathFramesOfPrograms.*"}  # tests that also run alone
 SEEDS_AT_A_TIME = 25
 TABLES = {  # the scripts that compare what a program computes with the tables of the documents
     "planners": (["tests/benchmarks/planners/compare", "build", "--check"], "lockstep-planner-times"),
@@ -41,5 +42,6 @@ def machines(runs):
 
 
 def steps(runs):
+    alone = [Step(tests.split(".")[0], [f"build/bin/{name}", f"--gtest_filter={tests}"]) for name, tests in QUICKEST.items()]
     tables = [Step(name, command) for name, (command, _) in TABLES.items()]
-    return [*(step for name in PROGRAMS for step in parts(name)), *machines(runs), *tables]
+    return [*(step for name in PROGRAMS for step in parts(name)), *alone, *machines(runs), *tables]
