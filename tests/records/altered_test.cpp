@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "tests/records/alterations/alterations.hpp"
+#include "tests/records/kept_verdicts.hpp"
 
 namespace lockstep::records {
 namespace {
@@ -19,7 +20,9 @@ TEST_P(AlteredRecord, IsJudgedByWhatWasAltered) {
     const auto& [base, alteration] = GetParam();
     Record record = record_of(base);
     ASSERT_TRUE(alteration.alter(record)) << "the record has no place for this alteration";
-    expect_judged(judge(record), alteration.expected, alteration.altered);
+    const Judgement judgement = judge(record);
+    keep_verdicts(GetParam().name(), judgement);
+    expect_judged(judgement, alteration.expected, alteration.altered);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, AlteredRecord, testing::ValuesIn(altered_bases()),
@@ -43,7 +46,11 @@ INSTANTIATE_TEST_SUITE_P(All, UnalteredBase, testing::ValuesIn(bases()),
 
 class DamagedFile : public testing::TestWithParam<FileAlteration> {};
 
-TEST_P(DamagedFile, IsReadAsFarAsItCan) { expect_judged(judge_damaged(GetParam()), GetParam().expected, kNoMotion); }
+TEST_P(DamagedFile, IsReadAsFarAsItCan) {
+    const Judgement judgement = judge_damaged(GetParam());
+    keep_verdicts("damaged " + GetParam().name, judgement);
+    expect_judged(judgement, GetParam().expected, kNoMotion);
+}
 
 INSTANTIATE_TEST_SUITE_P(All, DamagedFile, testing::ValuesIn(file_alterations()),
                          [](const auto& damage) { return damage.param.name; });
