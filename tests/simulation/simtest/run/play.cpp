@@ -70,7 +70,7 @@ void play_on(Bench& bench, const Scenario& scenario, Played& played) {
 
 }  // namespace
 
-Played play(const Scenario& scenario, VirtualObserver* also) {
+Played play(const Scenario& scenario, std::span<VirtualObserver* const> also) {
     Played played;
     played.recording.machine = scenario.machine;
     played.recording.network = scenario.network;
@@ -81,7 +81,7 @@ Played play(const Scenario& scenario, VirtualObserver* also) {
     }
     {
         Bench bench(scenario, played);
-        if (also != nullptr) { bench.vm().observe(*also); }
+        for (VirtualObserver* const observer : also) { bench.vm().observe(*observer); }
         play_on(bench, scenario, played);
     }
     append(played.violations, played.recording.untrue);

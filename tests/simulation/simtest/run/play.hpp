@@ -1,6 +1,8 @@
 // Plays a scenario on a machine in virtual time: gives its commands and injects its faults.
 #pragma once
 
+#include <span>
+
 #include "tests/simulation/simtest/draw/scenario.hpp"
 #include "tests/simulation/simtest/record/recording.hpp"
 #include "tests/simulation/simtest/record/violation.hpp"
@@ -14,7 +16,7 @@ struct Played {
     Violations violations;  // wrong answers and missed deadlines
 };
 
-/// also: another observer, or null.
-Played play(const Scenario& scenario, VirtualObserver* also = nullptr);
+/// `also`: more observers.
+Played play(const Scenario& scenario, std::span<VirtualObserver* const> also = {});
 
 }  // namespace lockstep::simtest

@@ -88,8 +88,8 @@ void print_run(std::uint64_t seed, const RunResult& result, const Options& optio
     const bool faulted = result.fault != FaultCode::None;
     const std::string fault = faulted ? ", was in Fault: " + std::string(name_of(result.fault)) : "";
     std::FILE* to = options.json ? stderr : stdout;
-    std::fprintf(to, "seed %" PRIu64 ": %" PRIu64 " steps in %.3f s, hash %016" PRIx64 "%s\n", seed, result.steps,
-                 result.simulated_s, result.hash, fault.c_str());
+    std::fprintf(to, "seed %" PRIu64 ": %" PRIu64 " steps in %.3f s, hash %016" PRIx64 ", published %016" PRIx64 "%s\n",
+                 seed, result.steps, result.simulated_s, result.hash, result.published, fault.c_str());
     constexpr std::size_t kMostPrinted = 8;
     for (std::size_t n = 0; n < std::min(kMostPrinted, result.violations.size()); ++n) {
         const Violation& v = result.violations[n];

@@ -3,6 +3,7 @@
 #include "services/documents/machine_rules.hpp"
 #include "tests/simulation/simtest/check/checks.hpp"
 #include "tests/simulation/simtest/record/epoch_runs.hpp"
+#include "tests/simulation/simtest/record/publication.hpp"
 #include "tests/simulation/simtest/run/play.hpp"
 #include "tests/simulation/simtest/run/trace.hpp"
 
@@ -27,7 +28,10 @@ RunResult run_seed(std::uint64_t seed, const RunOptions& options) {
     RunResult result{.violations = check_configuration(scenario.machine)};
     if (!result.violations.empty()) { return result; }
     Trace trace(scenario.machine);
-    Played played = play(scenario, options.trace ? &trace : nullptr);
+    PublicationHash published;
+    std::vector<VirtualObserver*> also{&published};
+    if (options.trace) { also.push_back(&trace); }
+    Played played = play(scenario, also);
     const Recording& recording = played.recording;
     result.violations = std::move(played.violations);
     result.fault = recording.fault;
@@ -36,6 +40,7 @@ RunResult run_seed(std::uint64_t seed, const RunOptions& options) {
     append(result.violations, check_all(recording));
     result.steps = recording.steps();
     result.hash = recording.hash();
+    result.published = published.value();
     result.simulated_s =
         static_cast<double>((recording.ended - recording.began).value) / scenario.machine.ticks_per_second();
     if (options.twice && play(scenario).recording.hash() != result.hash) {

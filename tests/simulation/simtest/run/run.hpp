@@ -10,7 +10,8 @@ namespace lockstep::simtest {
 struct RunResult {
     Violations violations;
     std::uint64_t steps = 0;
-    std::uint64_t hash = 0;  // over all steps
+    std::uint64_t hash = 0;       // over all steps
+    std::uint64_t published = 0;  // PublicationHash
     double simulated_s = 0;
     Coverage coverage;
     std::uint64_t parted = 0;           // epochs in which not all axes ran the same frames

@@ -1,0 +1,112 @@
+#include "tests/simulation/simtest/record/publication.hpp"
+
+#include <cmath>
+#include <concepts>
+#include <optional>
+#include <ranges>
+#include <string>
+
+namespace lockstep::simtest {
+namespace {
+
+/// FNV-1a over whole words.
+struct Hash {
+    std::uint64_t& value;
+
+    template <typename... Parts>
+    void of(const Parts&... parts) {
+        (add(parts), ...);
+    }
+
+    template <typename Number>
+    requires std::integral<Number> || std::is_enum_v<Number>
+    void add(Number number) { value = (value ^ static_cast<std::uint64_t>(number)) * 0x100000001b3U; }
+    /// To a millionth: the last bits may depend on the compiler.
+    void add(double number) { add(std::llround(number * 1e6)); }
+    void add(Tick tick) { add(tick.value); }
+    void add(Ticks ticks) { add(ticks.value); }
+    void add(Velocity velocity) { add(velocity.raw); }
+    void add(Position at) { of(at.count(), at.phase()); }
+    void add(const std::string& text) {
+        add(text.size());
+        for (const char c : text) { add(c); }
+    }
+    template <typename Value>
+    void add(const std::optional<Value>& maybe) {
+        add(maybe.has_value());
+        if (maybe) { add(*maybe); }
+    }
+    template <std::ranges::input_range List>
+    void add(const List& list) {
+        add(std::ranges::distance(list));
+        for (const auto& one : list) { add(one); }
+    }
+
+    void add(const Term& term) { of(term.number, term.coordinator); }
+    void add(const Piece& piece) { of(piece.ticks, piece.velocity, piece.acceleration.raw); }
+    void add(const AxisTrack& track) { of(track.from, track.body, track.tail); }
+    void add(const PathPlace& place) { of(place.block, static_cast<std::int64_t>(place.along.raw >> 32)); }
+    void add(const Overrides& overrides) { of(overrides.feed_percent, overrides.rapid_percent); }
+    void add(const Frame& f) { of(f.term, f.epoch, f.number, f.start, f.ticks, f.last, f.axes); }
+    void add(const Switches& s) { of(s.limit_min, s.limit_max, s.home); }
+    void add(const AxisState& s) {
+        of(s.identity, s.axis, s.stamp, s.epoch, s.held, s.veto, s.ran, s.at_rest, s.homed, s.phase, s.fault,
+           s.position, s.velocity, s.tick, s.following_error_steps, s.command_done, s.command_fault, s.config_hash,
+           s.refused_frames, s.clock_error, s.term, s.hears_owner, s.unproved, s.switches);
+    }
+    void add(const AxisCommand& c) {
+        of(c.term, c.sequence, c.axis, c.kind, c.target_steps, c.ticks, c.speed_mm_s, c.until);
+    }
+    void add(const ProgramDevices& d) { of(d.spindle, d.spindle_rpm, d.mist, d.flood, d.tool, d.outputs); }
+    void add(const HeldLease& lease) { of(lease.writer.id, lease.writer.name, lease.writer.host, lease.since); }
+    void add(const MachinePause& pause) { of(pause.why.reason, pause.why.tool, pause.why.text, pause.place); }
+    void add(const FrameRest& rest) { of(rest.frame, rest.place, rest.last, rest.digest); }
+    void add(const MachineState& s) {
+        of(s.term, s.stamp, s.tick, s.phase, s.fault, s.fault_axis, s.epoch, s.sent, s.veto, s.job, s.outcome,
+           s.job_begun, s.line, s.job_fault, s.lacks_blocks, s.progress, s.remaining_s, s.overrides, s.axes_present,
+           s.config_hash, s.devices, s.lease, s.pause, s.job_kind, s.program, s.events_from, s.rests);
+    }
+    void add(const ProgramEvent& event) { of(event.kind, event.index, event.value); }
+    void add(const PublishedEvent& e) {
+        of(e.term, e.sequence, e.job, e.epoch, e.tick, e.at_rest, e.is_of_program, e.block, e.line, e.event);
+    }
+    void add(const Reply& r) { of(r.client, r.sequence, r.status, r.fault, r.job, r.text, r.parts, r.free_blocks); }
+    void add(const TakenPart& part) { of(part.program, part.index); }
+    void add(const JobEvent& e) {
+        of(e.kind, e.job, e.job_kind, e.outcome, e.program != nullptr, e.program_id, e.epoch, e.start, e.place,
+           e.overrides, e.behind, e.start_counts);
+    }
+    void add(const CoordinatorNotice& n) { of(n.kind, n.fault, n.number, n.doubt); }
+    void add(const EpochOutcome& outcome) { of(outcome.kind, outcome.intent); }
+    void add(const FailedCheck& c) { of(c.too_late, c.held, c.lacking, c.no_coordinator); }
+    void add(const AxisNotice& n) { of(n.kind, n.fault, n.number, n.check); }
+    void add(const ExecutedTrack& t) {
+        of(t.epoch, t.frame, t.tail, t.start, t.from, t.pieces, t.cut, t.stop_count, t.zero_count, t.commanded_start,
+           t.commanded_ticks, t.clock_error);
+    }
+    void add(const DeviceOrder& order) {
+        add(order.index());
+        std::visit([this](const auto& one) { add_order(one); }, order);
+    }
+    void add_order(const device::BeginRun& run) { of(run.run, run.trigger, run.own); }
+    void add_order(const device::LoadFrame& load) { of(load.number, load.start, load.last, load.track); }
+    void add_order(const device::Arm& arm) { add(arm.number); }
+    void add_order(const device::Veto& veto) { add(veto.number); }
+    void add_order(const device::StopNow&) {}
+};
+
+}  // namespace
+
+void PublicationHash::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode&) {
+    if (!out.state && out.orders.empty() && out.tracks.empty() && out.notices.empty()) { return; }
+    Hash{hash_}.of(axis, now, out.state, out.orders, out.tracks, out.notices, out.device_changed);
+}
+
+void PublicationHash::on_coordinator(std::size_t process, Tick now, const CoordinatorOutputs& out) {
+    Hash hash{hash_};
+    if (out.state) { hash.of(process, now, *out.state); }
+    hash.of(out.frames, out.axis_commands, out.replies, out.taken, out.jobs, out.events, out.notices, out.transitions,
+            out.epoch_end, out.must_quit);
+}
+
+}  // namespace lockstep::simtest
