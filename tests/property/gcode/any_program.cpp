@@ -30,7 +30,15 @@ constexpr std::string_view kCodes =
     "G98 G99 G99.5 G100 M0 M1 M2 M3 M4 M5 M6 M7 M8 M9 M19 M30 M48 M49 M50 M51 M52 M53 M60 M61 M62 M63 M64 M65 M66 M67 "
     "M68 M70 M71 M72 M73 M98 M99 M100 M199 M200 G1.05 M3.5 G-1";
 
-constexpr std::array<std::string_view, 84> kStatements{"G0 @ ^",
+constexpr std::array<std::string_view, 92> kStatements{"G91 G2 X10 Y0 I5 J0",
+                                                       "G91 G3 X0 Y10 I0 J5 Z",
+                                                       "G91 G18 G2 X6 Z0 I3 K0",
+                                                       "G91 G19 G3 Y6 Z0 J3 K0",
+                                                       "G91 G2 X8 Y8 I8 J0 P2",
+                                                       "G93 G91 G2 X10 Y0 I5 J0 F",
+                                                       "G93 G3 X Y R F4",
+                                                       "G93 G91 G1 X Y F",
+                                                       "G0 @ ^",
                                                        "G1 ^",
                                                        "G1 @",
                                                        "G91 G1 @1 ^30 F300",
@@ -273,6 +281,23 @@ std::string AnyProgram::flow(int depth) {
     }
 }
 
+/// Relative lines and arcs with cutter compensation, where most corners leave room for the cutter.
+std::string AnyProgram::contour() {
+    std::string text = joined({"G90 G0 X10 Y10\nG91 ", one_in(8) ? "G18 " : "", word_of("G41.1 G42.1"), " D",
+                               word_of("1 2 6 0.5 -2"), "\nG1 X", number(), " Y5\n"});
+    for (int n = pick(3, 8); n > 0; --n) {
+        const std::string way = std::to_string(pick(-30, 30));
+        switch (pick(0, 5)) {
+            case 0: text += "G2 X10 Y0 I5 J0\n"; break;
+            case 1: text += "G3 X" + way + " Y10 R40\n"; break;
+            case 2: text += joined({"G1 Z", number(), "\n"}); break;
+            case 3: text += joined({one_of(kModes), "\n"}); break;
+            default: text += joined({"G1 X", way, " Y", std::to_string(pick(-30, 30)), "\n"});
+        }
+    }
+    return text + "G40\nG90 G0 X0 Y0\n";
+}
+
 std::string AnyProgram::body(int depth) {
     std::string text;
     for (int n = pick(0, 2); n > 0; --n) { text += (one_in(3) ? line() : statement()) + "\n"; }
@@ -281,7 +306,8 @@ std::string AnyProgram::body(int depth) {
 
 std::string AnyProgram::text() {
     std::string text = "G21 F600\n";
-    for (int n = pick(1, 4); n > 0; --n) { text += joined({body(1), flow(2)}); }
+    if (one_in(2)) { text += contour(); }
+    for (int n = pick(0, 3); n > 0; --n) { text += joined({body(1), flow(2)}); }
     return one_in(4) ? text + "M2\nG7\n" : text;
 }
 

@@ -15,7 +15,7 @@ public:
 
     /// Without its line end.
     std::string line();
-    /// Lines with branches, loops and subroutines.
+    /// Lines with compensated contours, branches, loops and subroutines.
     std::string text();
 
 private:
@@ -41,6 +41,7 @@ private:
     std::string garbage();
     std::string with_noise(std::string line);
     std::string body(int depth);
+    std::string contour();
     std::string flow(int depth);
     std::string label();
 
