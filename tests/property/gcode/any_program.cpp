@@ -264,7 +264,10 @@ std::string AnyProgram::flow(int depth) {
     const std::string o = label();
     const std::string inside = body(depth - 1);
     const std::string leave = one_in(3) ? joined({o, " ", word_of("break continue"), "\n"}) : "";
-    switch (pick(0, 6)) {
+    switch (pick(0, 7)) {
+        case 7:  // a second else, or a branch behind it
+            return joined(
+                {o, " if [0]\n", inside, o, " else\n", o, " ", word_of("else elseif"), " [1]\n", o, " endif\n"});
         case 0: return joined({o, " if ", condition(), inside, o, " endif\n"});
         case 1:
             return joined({o, " if ", condition(), inside, o, " elseif ", condition(), body(depth - 1), o, " else\n",
@@ -287,7 +290,8 @@ std::string AnyProgram::contour() {
                                word_of("1 2 6 0.5 -2"), "\nG1 X", number(), " Y5\n"});
     for (int n = pick(3, 8); n > 0; --n) {
         const std::string way = std::to_string(pick(-30, 30));
-        switch (pick(0, 5)) {
+        switch (pick(0, 6)) {
+            case 6: text += "G1 X" + way + " Y10 A5 V2\n"; break;
             case 0: text += "G2 X10 Y0 I5 J0\n"; break;
             case 1: text += "G3 X" + way + " Y10 R40\n"; break;
             case 2: text += joined({"G1 Z", number(), "\n"}); break;

@@ -73,7 +73,10 @@ TEST(PlanFastest, JoinsItsPhasesBetweenAnyTwoReachableSpeeds) {
         const double entry = l.max_velocity * log_uniform(random, 1e-4, 1);
         const double most = std::min(l.max_velocity, std::sqrt(entry * entry + 2 * l.max_acceleration * n));
         const double least = std::sqrt(std::max(0.0, entry * entry - 2 * l.max_deceleration * n));
-        const double exit = least + (most - least) * log_uniform(random, 1e-3, 1);
+        const std::uint64_t which = random() % 4;  // also exactly the speeds that can just be reached
+        const double exit = which == 0   ? most
+                            : which == 1 ? least
+                                         : least + (most - least) * log_uniform(random, 1e-3, 1);
         const std::int64_t quantum = random() % 2 == 0 ? kSubticksPerTick : 1;
         const Displacement to = Displacement::steps(static_cast<std::int64_t>(n));
         const Profile p = plan_fastest({{}, to, entry, exit, l, quantum});

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "core/coordinator/path/program_plan.hpp"
 
@@ -377,24 +378,34 @@ TEST_F(EndOfEpoch, IsInterruptedWhereAllRestWhereTheirFramesEnd) {
 }
 
 TEST_F(EndOfEpoch, NamesTheAxisThatRanOtherFrames) {
-    axes[2].state->ran = kRan - 1;
-    const auto end = runner.evaluate(slot, axes);
-    ASSERT_TRUE(end.has_value());
-    EXPECT_EQ(end->kind, EpochEnd::Kind::FramesDiffer);
-    EXPECT_EQ(end->axis, 2u);
+    for (std::size_t i = 1; i < axes.size(); ++i) {
+        axes[i].state->ran = kRan - 1;
+        const auto end = runner.evaluate(slot, axes);
+        ASSERT_TRUE(end.has_value());
+        EXPECT_EQ(end->kind, EpochEnd::Kind::FramesDiffer);
+        EXPECT_EQ(end->axis, i);
+        axes[i].state->ran = kRan;
+    }
 }
 
 TEST_F(EndOfEpoch, NamesTheAxisThatIsMisplaced) {
-    axes[1].state->position = Position::steps(1);
-    const auto end = runner.evaluate(slot, axes);
-    ASSERT_TRUE(end.has_value());
-    EXPECT_EQ(end->kind, EpochEnd::Kind::Misplaced);
-    EXPECT_EQ(end->axis, 1u);
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        const Position rest = std::exchange(axes[i].state->position, Position::steps(1));
+        const auto end = runner.evaluate(slot, axes);
+        ASSERT_TRUE(end.has_value());
+        EXPECT_EQ(end->kind, EpochEnd::Kind::Misplaced);
+        EXPECT_EQ(end->axis, i);
+        axes[i].state->position = rest;
+    }
 }
 
-TEST_F(EndOfEpoch, WaitsForAnAxisThatMoves) {
-    axes[1].state->at_rest = false;
-    EXPECT_FALSE(runner.evaluate(slot, axes).has_value());
+TEST_F(EndOfEpoch, WaitsForAnyAxisThatMoves) {
+    for (AxisView& axis : axes) {
+        axis.state->at_rest = false;
+        EXPECT_FALSE(runner.evaluate(slot, axes).has_value());
+        axis.state->at_rest = true;
+    }
+    EXPECT_TRUE(runner.evaluate(slot, axes).has_value());
 }
 
 TEST_F(EndOfEpoch, LeavesOutAnAxisThatIsNotPresent) {
