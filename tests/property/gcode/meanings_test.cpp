@@ -3,12 +3,15 @@
 // --gtest_filter='GcodeMeanings.Stay*'
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
 
+#include "core/gcode/flow/o_word.hpp"
 #include "core/gcode/modal_state.hpp"
 #include "core/gcode/session/gcode_session.hpp"
+#include "core/gcode/text_lines.hpp"
 #include "tests/property/gcode/any_program.hpp"
 #include "tests/property/recorded_hashes.hpp"
 
@@ -96,6 +99,10 @@ void add(Text& text, const GcodeError& error) {
     text.end_line();
 }
 
+void add(Text& text, const gcode::OWord& word) {
+    text << "O" << word.written << static_cast<std::int64_t>(word.keyword) << (word.label ? *word.label : "unknown");
+}
+
 gcode::KeptValues values_with_tools() {
     gcode::KeptValues values;
     values.systems[1] = {.origin = {10, 5, 2}, .rotation = 30};
@@ -152,6 +159,16 @@ Reader any_reader(std::uint32_t seed) {
     }
 }
 
+ProgramDevices devices(int number) {
+    using Spindle = ProgramDevices::Spindle;
+    constexpr std::array kSpindles{Spindle::Stopped, Spindle::Forward, Spindle::Reverse};
+    const auto n = static_cast<std::size_t>(number);
+    return {.spindle = kSpindles[n % kSpindles.size()],
+            .spindle_rpm = 100.0 * number,
+            .mist = n % 2 == 1,
+            .flood = n % 4 < 2};
+}
+
 /// Lines given one by one. A wrong line changes nothing.
 std::string meaning_of_lines(GcodeSession& session, const Reader& used, AnyProgram& random, int lines) {
     SessionStart at{.place_mm = std::vector<double>(used.setup.axes.size(), 80), .values = used.setup.values};
@@ -160,6 +177,8 @@ std::string meaning_of_lines(GcodeSession& session, const Reader& used, AnyProgr
         const std::string line = k == 0 ? "F600" : random.line();
         text << line;
         text.end_line();
+        if (const auto word = gcode::find_o_word(line)) { add(text, *word); }
+        if (k % 5 == 4) { session.set_devices(devices(k)); }
         auto read = session.read(line, at);
         if (!read) {
             add(text, read.error());
@@ -171,6 +190,8 @@ std::string meaning_of_lines(GcodeSession& session, const Reader& used, AnyProgr
         text << read->changes_values << read->ends_program << read->message << read->place_mm;
         at = {read->place_mm, read->values};
         session.commit(*read);
+        if (read->ends_program) { session.end_program(); }
+        text << session.offsets(at.values).origin;
         for (const std::string& word : active_words(session.state())) { text << word; }
         text.end_line();
     }
@@ -190,6 +211,10 @@ std::string meaning_of_text(std::uint32_t seed) {
     const std::string program = AnyProgram(seed).text();
     Text text;
     text << program;
+    gcode::for_each_line(program, [&](std::string_view line, int) {
+        if (const auto word = gcode::find_o_word(line)) { add(text, *word); }
+        return true;
+    });
     if (const auto read = read_gcode(program, used.setup)) {
         add(text, read->program.blocks);
         add(text, read->notes);
