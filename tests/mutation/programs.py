@@ -42,6 +42,7 @@ def machines(runs):
 
 
 def steps(runs):
-    alone = [Step(tests.split(".")[0], [f"build/bin/{name}", f"--gtest_filter={tests}"]) for name, tests in QUICKEST.items()]
+    alone = [Step(tests.split(".")[0], [f"build/bin/{name}", f"--gtest_filter={tests}"])
+             for name, tests in QUICKEST.items()]
     tables = [Step(name, command) for name, (command, _) in TABLES.items()]
     return [*(step for name in PROGRAMS for step in parts(name)), *alone, *machines(runs), *tables]
