@@ -11,7 +11,7 @@ UNTESTED := -DBUILD_TESTING=OFF -DLOCKSTEP_SPY=OFF
 QUICK := $(UNTESTED) -DCCACHE= -DSOON=-O0 -DLOCKSTEP_WERROR=OFF "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"
 DEMO  ?= $(if $(wildcard $(BUILD)/CMakeCache.txt),$(BUILD),build-demo)
 FIRST   = $(BUILD)/CMakeCache.txt
-OPTIONS = -DBUILD_TESTING=ON -DLOCKSTEP_SPY=ON
+OPTIONS = -DBUILD_TESTING=ON -DLOCKSTEP_SPY=ON -DLOCKSTEP_RTL=ON
 PRODUCT = core/all sim_fpga/all services/all clients/all
 # All programs, and what tests of live machines need. While these tests run, tests/run builds all other tests.
 LIVE    = $(PRODUCT) tests/integration/all tests/benchmarks/all package_files
