@@ -8,12 +8,17 @@
 #pragma once
 
 #include "core/methods/method.hpp"
+#include "core/step/segment.hpp"
 
 namespace lockstep::methods {
 
 struct RanadeParameters {
     double tick_s = 1e-6;
 };
+
+/// What the engine executes, from rest on a whole step. Returns the errors of ranade().
+std::expected<std::vector<Piece>, StepError> ranade_pieces(const StepMove& move,
+                                                           const RanadeParameters& parameters = {});
 
 /// Expresses every move. Returns an error if it is faster than one step per two ticks.
 StepResult ranade(const StepMove& move, Fit fit, const RanadeParameters& parameters = {});
