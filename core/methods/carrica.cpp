@@ -10,10 +10,6 @@
 namespace lockstep::methods {
 namespace {
 
-constexpr double kOne = 0x1p60;  // one step; speeds are in steps per clock period
-
-std::int64_t rounded_up(double steps) { return static_cast<std::int64_t>(std::ceil(steps * kOne)); }
-
 /// The first of from ... to for which the condition holds. It must hold for `to`, and for all values behind the first.
 template <typename Condition>
 std::int64_t first_where(std::int64_t from, std::int64_t to, const Condition& holds) {
@@ -52,14 +48,12 @@ std::int64_t CarricaSteps::Reference::after(std::int64_t clocks) const {
     return speed;
 }
 
-bool CarricaSteps::Reference::steps_at(std::int64_t clocks) const {
-    return Int128{clocks} * after(clocks) >= static_cast<Int128>(kOne);
-}
+bool CarricaSteps::Reference::steps_at(std::int64_t clocks) const { return Int128{clocks} * after(clocks) >= one; }
 
 /// While V_ref falls, n V_ref rises to a peak, and rises again only after V_min. The step is in one of the two rises.
 std::int64_t CarricaSteps::Reference::wait() const {
     const auto holds = [this](std::int64_t clocks) { return steps_at(clocks); };
-    const auto longest = [](std::int64_t slowest) { return static_cast<std::int64_t>(kOne) / slowest + 1; };
+    const auto longest = [this](std::int64_t slowest) { return one / slowest + 1; };
     if (slope != Slope::Falling) { return first_where(1, longest(speed), holds); }
     const std::int64_t down = (speed - min + change - 1) / change;
     const std::int64_t peak = std::min(down, (speed + change) / (2 * change));
@@ -71,23 +65,21 @@ std::int64_t CarricaSteps::Reference::wait() const {
 /// Call it after each step. V_ref falls while the remaining steps are needed for braking. If it has begun to fall and
 /// more steps remain than braking needs, it stays level.
 void CarricaSteps::Reference::brake_for(std::int64_t remaining) {
-    const bool too_fast = static_cast<double>(remaining) <= brake_steps();
+    // remaining <= (V_ref^2 - V_min^2)/(2a), without a rounding: both sides are whole.
+    const bool too_fast = Int128{remaining} * 2 * change <= (Int128{speed} * speed - Int128{min} * min) / one;
     if (too_fast) { slope = Slope::Falling; }
     if (!too_fast && slope == Slope::Falling) { slope = Slope::Level; }
 }
 
-/// The steps needed to slow down from here to V_min.
-double CarricaSteps::Reference::brake_steps() const {
-    const double v = static_cast<double>(speed) / kOne;
-    const double v0 = static_cast<double>(min) / kOne;
-    return (v * v - v0 * v0) / (2 * static_cast<double>(change) / kOne);
-}
-
-CarricaSteps::CarricaSteps(const StepMove& made, double clock_s, std::string nearest)
-    : clock_s_(clock_s), nearest_(std::move(nearest)), remaining_(made.steps) {
-    reference_.speed = reference_.min = rounded_up(made.start * clock_s);
-    reference_.max = rounded_up(made.max * clock_s);
-    reference_.change = rounded_up(made.acceleration * clock_s * clock_s);
+CarricaSteps::CarricaSteps(const StepMove& made, const CarricaParameters& parameters, std::string nearest)
+    : clock_s_(parameters.clock_s), nearest_(std::move(nearest)), remaining_(made.steps) {
+    reference_.one = std::int64_t{1} << parameters.fraction_bits;
+    const auto rounded_up = [this](double steps) {
+        return static_cast<std::int64_t>(std::ceil(steps * static_cast<double>(reference_.one)));
+    };
+    reference_.speed = reference_.min = rounded_up(made.start * clock_s_);
+    reference_.max = rounded_up(made.max * clock_s_);
+    reference_.change = rounded_up(made.acceleration * clock_s_ * clock_s_);
 }
 
 std::expected<CarricaSteps, StepError> CarricaSteps::of(const StepMove& move, Fit fit,
@@ -101,7 +93,7 @@ std::expected<CarricaSteps, StepError> CarricaSteps::of(const StepMove& move, Fi
     const StepMove made = expressible(move, changed);
     if (auto allowed = changed.allowed_by(fit); !allowed) { return std::unexpected(allowed.error()); }
     if (auto valid = check_length(made, clock_s); !valid) { return std::unexpected(valid.error()); }
-    return CarricaSteps(made, clock_s, changed.text());
+    return CarricaSteps(made, parameters, changed.text());
 }
 
 double CarricaSteps::next_s() {

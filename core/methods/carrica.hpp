@@ -8,9 +8,9 @@
 // each at or below the reference; near speed V adjacent speeds differ by about V^2 T_c.
 //
 // The paper leaves the following open; chosen here: V_ref changes every T_c, in fixed point of 2^-60 step per T_c,
-// rounded up so that a speed with a period of whole T_c gets exactly that period. It falls while the remaining steps
-// are at most (V_ref^2 - V_min^2)/(2a), checked after each step. The steps are a little slower than the reference, so
-// if it fell by time alone, it would reach V_min long before the last step.
+// or of fewer bits as in sim_fpga/rtl/carrica, rounded up so that a speed with a period of whole T_c gets exactly that
+// period. It falls while the remaining steps are at most (V_ref^2 - V_min^2)/(2a), checked after each step. The steps
+// are a little slower than the reference, so if it fell by time alone, it would reach V_min long before the last step.
 #pragma once
 
 #include "core/methods/method.hpp"
@@ -19,6 +19,7 @@ namespace lockstep::methods {
 
 struct CarricaParameters {
     double clock_s = 800e-9;  // T_c of the experiment of Figs. 6 and 7; 400 ns for Fig. 8
+    int fraction_bits = 60;   // V_ref is a multiple of 2^-fraction_bits step per T_c
 };
 
 /// The quantisation of speed near `steps_per_s`: the difference of the two next speeds 1/(n T_c) at or below it.
@@ -36,9 +37,9 @@ public:
     double clock_s() const { return clock_s_; }
     const std::string& nearest() const { return nearest_; }
 
-private:
-    /// V_ref, in 2^-60 steps per clock period.
+    /// V_ref, in units of 1/one step per clock period.
     struct Reference {
+        std::int64_t one = 0;
         std::int64_t speed = 0;
         std::int64_t min = 0;
         std::int64_t max = 0;
@@ -50,9 +51,11 @@ private:
         bool steps_at(std::int64_t clocks) const;
         std::int64_t wait() const;
         void brake_for(std::int64_t remaining);
-        double brake_steps() const;
     };
-    CarricaSteps(const StepMove& made, double clock_s, std::string nearest);
+    const Reference& reference() const { return reference_; }
+
+private:
+    CarricaSteps(const StepMove& made, const CarricaParameters& parameters, std::string nearest);
 
     Reference reference_;
     double clock_s_;
