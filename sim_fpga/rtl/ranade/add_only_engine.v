@@ -34,9 +34,7 @@ module add_only_engine #(
     output reg [N-1:0] forward,
     output reg [N-1:0] backward
 );
-    // verilator lint_off WIDTH
     localparam [MOTOR_BITS-1:0] LAST = ROUNDS - 1, LAST_MOTOR = N - 1;
-    // verilator lint_on WIDTH
     localparam TICKS = 0, VLO = 1, PLO = 2, VHI = 3, PHI = 4, HOST = 5;
 
     // The slots, and which motor each belongs to, in all three stages.
@@ -102,8 +100,6 @@ module add_only_engine #(
     end
 
     reg [N-1:0] forward_next, backward_next;
-    // verilator lint_off WIDTH
-    // An index has MOTOR_BITS bits also if fewer are enough for N.
     always @(posedge clk) begin
         slot <= last_slot ? TICKS : slot + 1'b1;
         {slot1, slot2} <= {slot, slot1};
@@ -132,5 +128,4 @@ module add_only_engine #(
             backward <= backward_next;
         end
     end
-    // verilator lint_on WIDTH
 endmodule
