@@ -1,9 +1,10 @@
-// One motor that needs neither a timer nor a division: a step occurs when the clock periods since the last one, times the
-// reference speed, reach one.
+// One motor that needs neither a timer nor a division: a step occurs when the clock periods since the last one, times
+// the reference speed, reach one.
 //
-// Source: Carrica, Funes, Gonzalez, Fig. 5. A T_c has LAST + 1 clocks: 16 for the multiplication and two for the step. In
-// the paper it has 32 of 40 MHz, 800 ns. Every step is in the same T_c as that of CarricaSteps (core/methods/carrica.hpp)
-// with as many fraction bits; that file lists what the paper leaves open. The host computes the four numbers of a move.
+// Source: Carrica, Funes, Gonzalez, Fig. 5. A T_c has LAST + 1 clocks: 16 for the multiplication and two for the step.
+// In the paper it has 32 of 40 MHz, 800 ns. Every step is in the same T_c as that of CarricaSteps
+// (core/methods/carrica.hpp) with as many fraction bits; that file lists what the paper leaves open. The host computes
+// the four numbers of a move.
 module carrica_controller #(
     parameter FRACTION = 40,  // at least COUNT_BITS
     parameter STEP_BITS = 22,

@@ -1,8 +1,8 @@
 // The counter, the multiplier and the comparator: n V_ref T_c >= 1 is the condition for a step.
 //
-// Source: Carrica, Funes, Gonzalez, Eqs. (7) and (11), Fig. 5. The multiplier is sequential, as in the paper: one bit of
-// n in each clock, so 16 clocks for n of 16 bits. It adds from the lowest bit on and drops a bit of the sum each time.
-// The bits that remain decide whether the product has reached 2^FRACTION, which is one step.
+// Source: Carrica, Funes, Gonzalez, Eqs. (7) and (11), Fig. 5. The multiplier is sequential, as in the paper: one bit
+// of n in each clock, so 16 clocks for n of 16 bits. It adds from the lowest bit on and drops a bit of the sum each
+// time. The bits that remain decide whether the product has reached 2^FRACTION, which is one step.
 module comparator #(
     parameter FRACTION = 40,
     parameter COUNT_BITS = 16

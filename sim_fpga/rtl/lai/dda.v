@@ -1,7 +1,8 @@
 // The DDA: spreads the pulses of a sampling period evenly over its 256 clocks.
 //
-// Source: C.-K. Lai, W.-N. Chien, Y.-T. Tsao, "An FPGA-Based Multiple-Axis Velocity Controller and Stepping Motors Drives
-// Design", Fig. 3: an adder and two registers of 8 bits. A carry is a pulse. core/methods/lai_dda.hpp is the same in C++.
+// Source: C.-K. Lai, W.-N. Chien, Y.-T. Tsao, "An FPGA-Based Multiple-Axis Velocity Controller and Stepping Motors
+// Drives Design", Fig. 3: an adder and two registers of 8 bits. A carry is a pulse. core/methods/lai_dda.hpp is the
+// same in C++.
 module dda (
     input clk,
     input reset,

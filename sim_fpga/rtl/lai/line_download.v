@@ -1,8 +1,9 @@
 // A line that the host downloads: both displacements in pulses, in six bytes.
 //
-// Source: Lai, Chien, Tsao, Section 2 and 3.3.1, step 1: the displacements of the two axes are loaded ahead from the host.
-// The paper does not give the bytes. Here they are 0x4C, x high, x low, y high, y low in two's complement, and a last byte
-// that makes the sum of all six 0. A line with another sum is dropped, and the next 0x4C begins the next line.
+// Source: Lai, Chien, Tsao, Section 2 and 3.3.1, step 1: the displacements of the two axes are loaded ahead from the
+// host. The paper does not give the bytes. Here they are 0x4C, x high, x low, y high, y low in two's complement, and a
+// last byte that makes the sum of all six 0. A line with another sum is dropped, and the next 0x4C begins the next
+// line.
 module line_download (
     input clk,
     input reset,

@@ -1,5 +1,5 @@
-// The long axis: how many pulses it makes in each sampling period. The speed rises by one pulse per period to V_max, and
-// falls by one as soon as what remains is no more than the fall.
+// The long axis: how many pulses it makes in each sampling period. The speed rises by one pulse per period to V_max,
+// and falls by one as soon as what remains is no more than the fall.
 //
 // Source: Lai, Chien, Tsao, Section 3.3.1, Eqs. (5) to (11), with V_0 = 0 and a = 1. LaiLongAxis
 // (core/methods/lai_planner.hpp) with these two values makes the same pulses. The fall from speed v is

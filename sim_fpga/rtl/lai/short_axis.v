@@ -1,10 +1,11 @@
-// The short axis: follows the long one with the slope of the line, and changes its speed by one pulse per period at most.
+// The short axis: follows the long one with the slope of the line, and changes its speed by one pulse per period at
+// most.
 //
 // Source: Lai, Chien, Tsao, Section 3.3.2: the slope, Eq. (13), and the first compensation, Eqs. (14) and (15). The
 // second one, Eqs. (16) and (17), is in two_axis_planner.v, which has the root. LaiShortAxis
 // (core/methods/lai_planner.hpp) makes the same pulses.
-//   ideal      the slope times the long axis's pulses, halves up: each pulse adds 2 * length to the error and takes
-//              2 * long_length away, with a pulse, whenever that is possible. So there is no multiplication or division.
+//   ideal      the slope times the long axis's pulses, halves up: each pulse adds 2 * length to the error, and takes
+//              2 * long_length away, with a pulse, whenever that is possible, without multiplication or division
 module short_axis (
     input clk,
     input start,

@@ -1,7 +1,8 @@
-// Two axes from a serial line to the motors' phases: UART, download, velocity planner, a DDA and a driver for each axis.
+// Two axes from a serial line to the motors' phases: UART, download, velocity planner, a DDA and a driver for each
+// axis.
 //
-// Source: Lai, Chien, Tsao, Fig. 1. The period of 6.5 ms is 256 clocks of the DDA, here of 305 clocks of 12 MHz each. The
-// next line is downloaded while one runs, so lines follow each other without a pause.
+// Source: Lai, Chien, Tsao, Fig. 1. The period of 6.5 ms is 256 clocks of the DDA, here of 305 clocks of 12 MHz each.
+// The next line is downloaded while one runs, so lines follow each other without a pause.
 module two_axis_controller #(
     parameter CLOCKS_PER_BIT = 625, // 19,200 baud
     parameter BIT_BITS = 10,

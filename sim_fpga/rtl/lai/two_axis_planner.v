@@ -1,7 +1,8 @@
 // The velocity planner of a line: the pulses of both axes in each sampling period.
 //
-// Source: Lai, Chien, Tsao, Section 3.3 and Fig. 4. In the paper a soft-core 8051 does this; here it is a state machine,
-// which takes at most some 800 clocks for a period. plan_two_axes() (core/methods/lai_planner.hpp) makes the same pulses.
+// Source: Lai, Chien, Tsao, Section 3.3 and Fig. 4. In the paper a soft-core 8051 does this; here it is a state
+// machine, which takes at most some 800 clocks for a period. plan_two_axes() (core/methods/lai_planner.hpp) makes the
+// same pulses.
 module two_axis_planner (
     input clk,
     input reset,

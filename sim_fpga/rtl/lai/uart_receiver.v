@@ -1,7 +1,7 @@
 // A UART receiver: eight bits, no parity, one stop bit.
 //
-// Source: Lai, Chien, Tsao, Section 4: the host downloads by a UART at 19,200 baud. It samples each bit in its middle, so
-// the two clocks may differ by 4 %. A byte without a stop bit is dropped.
+// Source: Lai, Chien, Tsao, Section 4: the host downloads by a UART at 19,200 baud. It samples each bit in its middle,
+// so the two clocks may differ by 4 %. A byte without a stop bit is dropped.
 module uart_receiver #(
     parameter CLOCKS_PER_BIT = 625, // 12 MHz / 19,200; at least 4
     parameter BITS = 10        // of a number of clocks

@@ -1,7 +1,7 @@
 // The whole part of a square root, up to a limit: counts how many odd numbers 1, 3, 5 ... can be subtracted.
 //
-// Lai, Chien, Tsao need it twice: for V_max of a short move, Eq. (10), and for the second compensation, Eq. (17). It takes
-// a clock for each unit of the result. core/methods/lai_planner.cpp has whole_root().
+// Lai, Chien, Tsao need it twice: for V_max of a short move, Eq. (10), and for the second compensation, Eq. (17). It
+// takes a clock for each unit of the result. core/methods/lai_planner.cpp has whole_root().
 module whole_root (
     input clk,
     input start,

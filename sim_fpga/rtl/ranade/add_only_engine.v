@@ -11,9 +11,9 @@
 //   HOST    the host may write a word
 // A slot passes through three stages, one clock each: read, operands, sum and write.
 //
-// Each motor has two banks, each for one piece. The host writes a whole piece into the bank that is not full, then marks
-// it full. The engine runs a piece in its bank, marks the bank empty after the last tick and continues with the other
-// bank in the next tick, if that is full. So pieces follow each other without a gap.
+// Each motor has two banks, each for one piece. The host writes a whole piece into the bank that is not full, then
+// marks it full. The engine runs a piece in its bank, marks the bank empty after the last tick and continues with the
+// other bank in the next tick, if that is full. So pieces follow each other without a gap.
 module add_only_engine #(
     parameter N = 6,
     parameter MOTOR_BITS = 3,  // 2 to the power of it is at least N
@@ -44,8 +44,8 @@ module add_only_engine #(
     reg bank;                  // the motor's present one
     wire last_slot = slot == HOST;
 
-    // WORD: 0 TICKS, 2 VLO, 4 VHI of bank 0, and 1, 3, 5 of bank 1; 6 PLO, 7 PHI. Those are the words that change. 8, 10
-    // are the acceleration's low and high word of bank 0, 9, 11 of bank 1.
+    // WORD: 0 TICKS, 2 VLO, 4 VHI of bank 0, and 1, 3, 5 of bank 1; 6 PLO, 7 PHI. Those are the words that change. 8,
+    // 10 are the acceleration's low and high word of bank 0, 9, 11 of bank 1.
     (* no_rw_check *) reg [LIMB-1:0] changing[0:(8 << MOTOR_BITS)-1];
     (* no_rw_check *) reg [LIMB-1:0] constant[0:(4 << MOTOR_BITS)-1];
     reg [LIMB-1:0] changing_q, constant_q;
