@@ -20,7 +20,7 @@ module long_axis (
 
     wire [15:0] higher_fall = fall + {8'd0, speed} + 16'd1;
     wire falls = falling || (speed != 0 && left <= fall);
-    wire rises = !falls && speed < top && left >= higher_fall;
+    wire rises = !falls && speed < top; // with this top there is always room for the fall
     wire slows = falls && speed > 1;
     wire [7:0] next_speed = rises ? speed + 1'b1 : slows ? speed - 1'b1 : speed;
     assign pulses = left < {8'd0, next_speed} ? left[7:0] : next_speed;

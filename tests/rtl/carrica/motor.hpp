@@ -17,6 +17,8 @@ inline constexpr int kCarricaFraction = 40;
 
 class CarricaMotor {
 public:
+    static constexpr int kLongest = 50'000'000;  // clocks of a move
+
     CarricaMotor() { hardware_.reset(); }
 
     /// Makes a move. Returns the period T_c of each step, and calls on_clock(pins) after every clock.
@@ -36,7 +38,7 @@ public:
         pins.start = 0;
         std::vector<std::int64_t> periods;
         std::int64_t period = 0;
-        while (pins.moving != 0) {
+        for (int clock = 0; pins.moving != 0 && clock < kLongest; ++clock) {
             hardware_.clock();
             period += pins.period;
             if (pins.step != 0) { periods.push_back(period); }

@@ -64,6 +64,8 @@ using DdaClock = methods::PeriodPulses;
 
 class LaiMachine {
 public:
+    static constexpr int kLongest = 50'000'000;  // clocks of a run
+
     explicit LaiMachine(const LaiSettings& settings) {
         auto& pins = hardware_.pins;
         pins.serial = 1;
@@ -81,7 +83,8 @@ public:
         auto& pins = hardware_.pins;
         std::vector<DdaClock> clocks;
         std::vector<DdaClock> period;
-        for (int quiet = 0; quiet < 3;) {
+        int quiet = 0;  // periods without a pulse
+        for (int clock = 0; quiet < 3 && clock < kLongest; ++clock) {
             if (!lines.empty() && serial_.idle() && pins.line_waits == 0) {
                 for (const std::uint8_t byte : bytes_of(lines.front())) { serial_.send(byte); }
                 lines = lines.subspan(1);

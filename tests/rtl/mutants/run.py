@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+"""Changes the designs of sim_fpga/rtl one place at a time. The co-simulation must fail for each mutant.
+
+Usage: run.py RTL_FOLDER BUILD    Prints each mutant that no test detects; exits 1 if there is one.
+
+A mutant's library has the name of the one that the test program is linked with, so LD_PRELOAD replaces that.
+"""
+import concurrent.futures
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+TEST_DIRECTORY = pathlib.Path(__file__).resolve().parent.parent
+TIMEOUT_S = 100
+
+# Which tests of a program concern a library, where not all do.
+TESTS = {"add_only_axis": "RanadeHardware.*", "add_only_engine_1": "EngineHardware/0.*", "uart_receiver": "UartReceiver.*",
+         "add_only_engine_3": "EngineHardware/1.*", "add_only_engine_6": "EngineHardware/2.*", "phase_driver": "PhaseDriver.*",
+         "two_axis_controller": "LaiHardware.*:LineDownload.*", "carrica_controller": "CarricaHardware.*"}
+
+# (library, file, what is there once, what the mutant has instead)
+MUTANTS = [
+    ("lam_controller", "lam/lam_delay.v", "left <= due ? next", "left <= due ? delay"),
+    ("lam_controller", "lam/lam_delay.v", "cruising = shorter == CRUISE", "cruising = delay == CRUISE"),
+    ("lam_controller", "lam/lam_location.v", "to_right ? rightward[BITS-1:0] : leftward", "rightward[BITS-1:0]"),
+    ("lam_controller", "lam/lam_controller.v", "distance <= BRAKE + 1;", "distance <= BRAKE;"),
+    ("lam_controller", "lam/lam_controller.v", "right ? right_limit : left_limit", "right_limit || left_limit"),
+    ("lam_controller", "lam/lam_controller.v", "recovery == 0 && data_ready", "data_ready"),
+    ("carrica_controller", "carrica/comparator.v", "sum[FRACTION:FRACTION-COUNT_BITS]", "sum[FRACTION:FRACTION-COUNT_BITS+1]"),
+    ("carrica_controller", "carrica/reference_speed.v", "at_bound ? bound : next", "next"),
+    ("carrica_controller", "carrica/reference_speed.v", "falling ? 0 : braking_at_max", "falling ? 0 : next_braking"),
+    ("carrica_controller", "carrica/reference_speed.v", "else if (falling) slope <= LEVEL;", ""),
+    ("carrica_controller", "carrica/reference_speed.v", "{1'b0, speed} + next[FRACTION+1:0]", "{speed, 1'b0}"),
+    ("phase_driver", "drive/phase_driver.v", "backward ? eighth - turn : eighth + turn", "eighth + turn"),
+    ("two_axis_controller", "lai/dda.v", "clock && next[8]", "clock && next[7]"),
+    ("two_axis_controller", "lai/long_axis.v", "left <= fall)", "left < fall)"),
+    ("two_axis_controller", "lai/short_axis.v", "free < least ? least : free", "free"),
+    ("two_axis_controller", "lai/short_axis.v", "whole = more >=", "whole = more >"),
+    ("two_axis_controller", "lai/whole_root.v", "rest < {7'd0, odd}", "rest <= {7'd0, odd}"),
+    ("two_axis_controller", "lai/two_axis_planner.v", "limit_remaining ? root : wanted", "wanted"),
+    ("two_axis_controller", "lai/line_download.v", "next_sum == 0", "1"),
+    ("uart_receiver", "lai/uart_receiver.v", "valid <= level;", "valid <= 1;"),
+    ("add_only_axis", "ranade/add_only_axis.v", "{1'b0, phase} + {1'b0, faster}", "{1'b0, phase} + {1'b0, velocity}"),
+    ("add_only_engine_6", "ranade/add_only_engine.v", "(slot1 == VHI || slot1 == PHI) && carry1", "slot1 == VHI && carry1"),
+    ("add_only_engine_1", "ranade/add_only_engine.v", "present[motor] <= !bank;", ""),
+    ("add_only_engine_3", "ranade/add_only_engine.v", "run2 && slot2 != HOST", "slot2 != HOST"),
+    ("add_only_engine_6", "ranade/add_only_engine.v", "!sum[LIMB] && b[LIMB-1]", "b[LIMB-1]"),
+]
+
+
+def verilated(build, library):
+    """The folder in which CMake has verilated this library, and the test program beside it."""
+    out = next(build.glob(f"tests/rtl/*/verilated/{library}"))
+    return out, build / "bin" / f"rtl_{out.parent.parent.name}"
+
+
+def mutated(rtl, work, file, there, instead):
+    folder = work / "rtl"
+    shutil.copytree(rtl, folder)
+    source = (folder / file).read_text()
+    if source.count(there) != 1:
+        sys.exit(f"{file} has `{there}` {source.count(there)} times, not once")
+    (folder / file).write_text(source.replace(there, instead))
+    return folder
+
+
+def detected(rtl, build, mutant):
+    library, file, there, instead = mutant
+    out, program = verilated(build, library)
+    with tempfile.TemporaryDirectory() as work:
+        folder = mutated(rtl, pathlib.Path(work), file, there, instead)
+        top, name, part, *options = (out / "arguments").read_text().splitlines()
+        subprocess.run([TEST_DIRECTORY / "verilate", f"{work}/out", top, name, folder / pathlib.Path(part).name,
+                        *options, "-Wno-fatal"],
+                       env={**os.environ, "MODEL_FLAGS": "-O0"}, stderr=subprocess.DEVNULL, check=True)
+        try:
+            run = subprocess.run([program, "--gtest_fail_fast", f"--gtest_filter={TESTS.get(library, '*')}"],
+                                 env={**os.environ, "LD_PRELOAD": f"{work}/out/libV{name}.so"},
+                                 capture_output=True, timeout=TIMEOUT_S, check=False)
+        except subprocess.TimeoutExpired:
+            sys.exit(f"{file}: with `{instead}` the test does not end")
+        return run.returncode == 1  # a test failed
+
+
+def main():
+    rtl, build = (pathlib.Path(argument).resolve() for argument in sys.argv[1:])
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        found = list(pool.map(lambda mutant: detected(rtl, build, mutant), MUTANTS))
+    for (_, file, there, instead), was_detected in zip(MUTANTS, found):
+        if not was_detected:
+            print(f"{file}: no test notices `{instead}` in place of `{there}`")
+    print(f"{sum(found)} of {len(found)} mutants are detected")
+    return 0 if all(found) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
