@@ -20,13 +20,14 @@ FORBIDDEN_IN_CORE = re.compile(
 SENTENCE = re.compile(r"std::(un)?expected<.*std::string>[ (;]")
 MAY_RETURN_SENTENCES = {"core/coordinator/program/row_store.hpp"}
 MAX_LINES = 500
+MAX_WIDTH = 120  # of Verilog; clang-format knows the width of C++
 UNFINISHED = re.compile(r"\b(TODO|FIXME|XXX)\b")
 
 
 def sources(root):
     for layer in SOURCES:
         for path in sorted((root / layer).rglob("*")):
-            if path.suffix in (".hpp", ".cpp"):
+            if path.suffix in (".hpp", ".cpp", ".v", ".vh"):
                 yield layer, path
 
 
@@ -42,6 +43,20 @@ def breaches(root, layer, path):
             yield f"{name}:{number}: an error of core is a type with values, not a sentence: {line.strip()}"
         if UNFINISHED.search(line):
             yield f"{name}:{number}: unfinished: {line.strip()}"
+        if path.suffix in (".v", ".vh"):
+            yield from (f"{name}:{number}: {what}" for what in verilog_breaches(line))
+    if path.suffix == ".v" and not lines[0].startswith("// "):
+        yield f"{name}:1: a module begins with a comment that says what it does"
+
+
+def verilog_breaches(line):
+    """No formatter of Debian keeps these."""
+    if len(line) > MAX_WIDTH:
+        yield f"{len(line)} characters; at most {MAX_WIDTH}"
+    if "\t" in line or line != line.rstrip():
+        yield "a tab, or a blank at the end"
+    if not line.isascii():
+        yield "not all tools read characters beyond ASCII"
 
 
 def format_breaches(root, paths):
@@ -57,7 +72,7 @@ def main():
     files = list(sources(root))
     found = [b for layer, path in files for b in breaches(root, layer, path)]
     found += check_layers.breaches(root, check_layers.load(root))
-    found += format_breaches(root, [path for _, path in files])
+    found += format_breaches(root, [path for _, path in files if path.suffix in (".hpp", ".cpp")])
     print("\n".join(found) if found else f"{len(files)} files are in order")
     return 1 if found else 0
 

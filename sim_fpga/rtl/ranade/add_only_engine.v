@@ -93,10 +93,8 @@ module add_only_engine #(
         slot = 0; slot1 = HOST; slot2 = HOST; motor = 0; motor1 = 0; motor2 = 0; run = 0; run1 = 0; run2 = 0; bank = 0;
         word1 = 0; word2 = 0;
         banks_full = 0; present = 0; tick = 0; forward = 0; backward = 0; forward_next = 0; backward_next = 0;
-        for (i = 0; i < 1 << MOTOR_BITS; i = i + 1) begin
-            changing[8*i+6] = 0;
-            changing[8*i+7] = {1'b1, {(LIMB - 1){1'b0}}};
-        end
+        for (i = 0; i < 8 << MOTOR_BITS; i = i + 1) changing[i] = i % 8 == 7 ? {1'b1, {(LIMB - 1){1'b0}}} : 0;
+        for (i = 0; i < 4 << MOTOR_BITS; i = i + 1) constant[i] = 0;
     end
 
     reg [N-1:0] forward_next, backward_next;
@@ -128,4 +126,7 @@ module add_only_engine #(
             backward <= backward_next;
         end
     end
+`ifdef PROOF
+`include "add_only_engine_properties.vh"
+`endif
 endmodule
