@@ -19,7 +19,10 @@ HEAD = """\
 | design | axes | LUT4 | flip-flops | block RAM | UP5K, MHz | HX8K, MHz | steps/s for each axis, UP5K | HX8K |
 |---|---|---|---|---|---|---|---|---|
 """
-PARTS = {"UP5K": ["--up5k", "--package", "sg48", "--freq", "48"], "HX8K": ["--hx8k", "--package", "ct256", "--freq", "150"]}
+PARTS = {
+    "UP5K": ["--up5k", "--package", "sg48", "--freq", "48"],
+    "HX8K": ["--hx8k", "--package", "ct256", "--freq", "150"],
+}
 FLIP_FLOP, LUT, RAM = re.compile(r"SB_DFF"), re.compile(r"SB_LUT4"), re.compile(r"SB_RAM40_4K")
 
 
@@ -46,9 +49,11 @@ class Design:
 def designs():
     yield Design("Lam: delay counter and six states", "lam", "lam_controller", 2)
     yield Design("Carrica: comparator, 40 bits", "carrica", "carrica_controller", 18, LAST=17)
-    yield Design("Carrica: comparator, 24 bits", "carrica", "carrica_controller", 18, LAST=17, FRACTION=24, STEP_BITS=16)
+    yield Design("Carrica: comparator, 24 bits", "carrica", "carrica_controller", 18, LAST=17, FRACTION=24,
+                 STEP_BITS=16)
     yield Design("Lai: DDA", "lai", "dda", 256 / 255)
-    yield Design("Lai: serial line, planner, DDAs", "lai", "two_axis_controller", 256 / 255 * 5, (2,), True, LAST_CLOCK=4)
+    yield Design("Lai: serial line, planner, DDAs", "lai", "two_axis_controller", 256 / 255 * 5, (2,), True,
+                 LAST_CLOCK=4)
     yield Design("Ranade: two adders for each axis", "ranade", "add_only_axis", 4)
     for axes in (1, 3, 6):
         yield Design("Ranade: one adder for all axes", "ranade", "add_only_engine", 12 * axes, (axes,), True, N=axes,
@@ -165,7 +170,9 @@ def main():
         readme.write_text(before + BEGIN + text(rows) + END + after)
         return 0
     found = list(differences(rows, table))
-    print("\n".join(found + ["remedy: sim_fpga/rtl/measure.py sim_fpga/rtl/README.md"] if found else ["the table is current"]))
+    print("\n".join(found) or "the table is current")
+    if found:
+        print("remedy: sim_fpga/rtl/update-readme build")
     return 1 if found else 0
 
 
