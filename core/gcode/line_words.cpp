@@ -181,6 +181,7 @@ void LineWords::set(const Code& code, std::size_t place) {
 }
 
 std::optional<GcodeError> read_block(Reader& reader, const Line& line, std::string_view axes, LineWords& block) {
+    block.line = line.number();
     return BlockReader(reader, line, axes, block).read();
 }
 

@@ -54,6 +54,7 @@ public:
     void set(char letter, double value, std::size_t place);
     void set(const Code& code, std::size_t place);
 
+    int line = 0;                         // on which they stand
     std::vector<Assignment> assignments;  // carried out after the whole block has been read
     std::optional<std::size_t> comment;   // place of the last one; only this one can be a message
     std::optional<double> distance;       // @, polar

@@ -63,9 +63,12 @@ std::optional<GcodeError> slow_feed(const Interpreter& interpreter) {
     const LineWords& block = interpreter.block();
     if (!block.has('F') || block['F'] <= 0 || block['F'] >= kMinFeedPerMinute) { return std::nullopt; }
     if (interpreter.state().modal.feed_mode != FeedMode::PerMinute) { return std::nullopt; }
-    return interpreter.line().error(block.place('F'), word_text(interpreter.line(), block.place('F')) +
-                                                          " is too slow; F is per minute and must be at least " +
-                                                          number_text(kMinFeedPerMinute));
+    const Line& line = interpreter.line();
+    const std::string why = " is too slow; F is per minute and must be at least " + number_text(kMinFeedPerMinute);
+    if (line.number() != block.line) {  // the last line of a body that has ended
+        return GcodeError{block.line, 1, "F" + number_text(block['F']) + why};
+    }
+    return line.error(block.place('F'), word_text(line, block.place('F')) + why);
 }
 
 ModalState modal_of(const State& now, const GcodeSetup& setup) {

@@ -104,13 +104,13 @@ TEST(GcodeErrors, ByteOrderMarkAtTheStartIsAccepted) {
     EXPECT_EQ(wrong[0].column, 1) << "as an editor counts";
 }
 
-TEST(GcodeErrors, OfTheLastLineOfALoopHasItsColumnAfterTheLoop) {
+TEST(GcodeErrors, OfTheLastLineOfALoopNamesThisLine) {
     const auto found =
         errors("o1 repeat [1]\nG1 X 1  Y 1  F[0.001]  (a line that is longer than a short text)\no1 endrepeat\n");
     ASSERT_EQ(found.size(), 1U);
     EXPECT_EQ(found[0].line, 2);
-    EXPECT_EQ(found[0].column, 14);
-    EXPECT_THAT(found[0].message, HasSubstr("F[0.001] is too slow"));
+    EXPECT_EQ(found[0].column, 1);
+    EXPECT_THAT(found[0].message, HasSubstr("F0.001 is too slow"));
 }
 
 TEST(GcodeErrors, ReportsTheRestAfterAnEndInAWrongBlock) { EXPECT_EQ(errors("G7 M2\nG7\n").size(), 2U); }
