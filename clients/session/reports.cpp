@@ -1,6 +1,7 @@
 #include "clients/session/reports.hpp"
 
 #include "clients/session/remedy_words.hpp"
+#include "core/axis_unit.hpp"
 #include "core/kinematics/kinematics.hpp"
 
 #include <fmt/format.h>
@@ -203,6 +204,11 @@ proto::FinalPosition place_of(const AxisConfig& axis, std::int64_t count) {
     place.set_position_steps(count);
     place.set_position_mm(to_mm(axis, static_cast<double>(count)));
     return place;
+}
+
+std::string label_of(const proto::AxisStatus& row) {
+    if (!row.has_axis()) { return axis_label(row.name()); }
+    return is_rotary(row.axis()) ? row.name() + " (deg)" : row.name();
 }
 
 std::vector<const proto::AxisStatus*> rows_of(const proto::StatusReport& status) {

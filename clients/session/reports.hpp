@@ -47,6 +47,8 @@ void add_incidents(const MachineConfig& machine, proto::StatusReport& report);
 /// The position of an axis, in mm and in steps.
 proto::FinalPosition place_of(const AxisConfig& axis, std::int64_t count);
 
+/// The name of an axis or a motor, with its unit if that is not mm.
+std::string label_of(const proto::AxisStatus& row);
 /// The rows of the axes, then those of the motors that are not an axis's own.
 std::vector<const proto::AxisStatus*> rows_of(const proto::StatusReport& status);
 

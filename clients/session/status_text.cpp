@@ -39,8 +39,8 @@ std::string row(const std::string& name, const std::string& position, const std:
 }
 
 std::string axis_row(const proto::AxisStatus& axis) {
-    if (!axis.has_position_mm()) { return row(axis_label(axis.name()), "-", "-", "not received", "-"); }
-    return row(axis_label(axis.name()), fixed(axis.position_mm(), 4), fixed(axis.velocity_mm_s(), 3),
+    if (!axis.has_position_mm()) { return row(label_of(axis), "-", "-", "not received", "-"); }
+    return row(label_of(axis), fixed(axis.position_mm(), 4), fixed(axis.velocity_mm_s(), 3),
                axis.present() ? axis.state() : "not received", axis.homed() ? "yes" : "no");
 }
 

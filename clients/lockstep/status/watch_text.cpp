@@ -63,7 +63,7 @@ std::string_view colour_of(const proto::AxisStatus& axis) {
 }
 
 std::string axis_row(const proto::AxisStatus& axis, const SlackScale& scale, Ink ink) {
-    const std::string name = fmt::format("{:<10}", cut(axis_label(axis.name()), 10));
+    const std::string name = fmt::format("{:<10}", cut(label_of(axis), 10));
     if (!axis.present()) { return name + painted("   not received", kBad, ink); }
     const std::string state = fmt::format("{:<10}", axis.state());
     const std::string place = axis.homed() ? fixed(axis.position_mm(), 4) : "not homed";
