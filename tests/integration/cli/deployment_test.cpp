@@ -98,8 +98,8 @@ TEST_F(Deployment, TheDoctorNamesProblemsAndTheirRemedies) {
     bring_up();
     MachineConfig machine = load_machine_file(file()).value();
     machine.axes[0].device = {DeviceName::Kind::Mapped, "/dev/uio77"};  // no such device
-    machine.timing.clock_error_limit_us = 1;                            // another configuration than the running one
-    machine.timing.time_source = TimeSource::Ptp;
+    machine.timing.clock_error_limit_us = 16;                           // another configuration than the running one
+    machine.timing.time_source = TimeSource::Network;
     const std::string broken = write("broken.textproto", machine_text(machine));
     const Ran ran = run_lockstep({"doctor", "--machine", broken, "--seconds", "0.1", "--json"});
     EXPECT_EQ(ran.code, 1);

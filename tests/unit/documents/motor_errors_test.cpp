@@ -1,0 +1,122 @@
+// The errors in the motor blocks and the kinematics of a configuration, and what they mean when they are right.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/kinematics/motors.hpp"
+#include "services/documents/machine_file.hpp"
+
+namespace lockstep {
+namespace {
+
+using testing::HasSubstr;
+
+/// Two axes; `x` and `y` are further keys of them, `more` of the machine.
+std::string machine(const std::string& x, const std::string& y, const std::string& more = "") {
+    const auto axis = [](const std::string& name, const std::string& keys) {
+        return "axis { name: \"" + name +
+               "\" start_velocity_mm_s: 10 max_velocity_mm_s: 100 max_accel_mm_s2: 1000 position_min_mm: 0 "
+               "position_max_mm: 100 " +
+               keys + " }\n";
+    };
+    return "name: \"m\"\n" + axis("X", x) + axis("Y", y) + more;
+}
+
+constexpr const char* kSteps = "steps_per_mm: 80";
+constexpr const char* kPair = "steps_per_mm: 80 max_skew_mm: 3 motor { name: \"Y1\" } motor { name: \"Y2\" }";
+
+std::string error_in(const std::string& text) {
+    const auto read = parse_machine(text);
+    return read ? "no error" : to_text("m", read.error());
+}
+
+struct Wrong {
+    std::string text;
+    std::string message;
+    friend void PrintTo(const Wrong& wrong, std::ostream* out) { *out << wrong.message; }
+};
+class MotorsRefused : public testing::TestWithParam<Wrong> {};
+
+TEST_P(MotorsRefused, WithPlaceValueAndRemedy) {
+    const std::string found = error_in(GetParam().text);
+    EXPECT_THAT(found, HasSubstr(GetParam().message));
+    EXPECT_THAT(found, testing::MatchesRegex("m:[0-9]+:[0-9]+: [^\n]*\n?")) << "one error, with its place";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Blocks, MotorsRefused,
+    testing::Values(
+        Wrong{machine(kSteps, "motor { name: \"Y1\" }"), "steps_per_mm is missing"},
+        Wrong{machine(kSteps, "steps_per_mm: 80 motor { }"), "motor[0].name is missing"},
+        Wrong{machine(kSteps, "steps_per_mm: 80 motor { name: \"Y1\" } motor { name: \"Y2\" }"),
+              "max_skew_mm is missing"},
+        Wrong{machine(kSteps, "steps_per_mm: 80 max_skew_mm: 3 motor { name: \"Y1\" } motor { name: \"y1\" }"),
+              "names another motor or axis already"},
+        Wrong{machine(kSteps, "steps_per_mm: 80 motor { name: \"X\" }"), "names another motor or axis already"},
+        Wrong{machine(kSteps, "steps_per_mm: 80 motor { name: \"1Y\" }"), "a letter, then letters"},
+        Wrong{machine(kSteps, "steps_per_mm: 80 motor { name: \"Y1\" device: \"usb\" }"), "motor[0].device is \"usb\""},
+        Wrong{machine(kSteps, std::string(kPair) + " homing { pulloff_mm: 4 }"), "max_skew_mm is 3, below"},
+        Wrong{machine(kSteps, std::string(kPair) + " homing { park_mm: 50 }"), "homing.park_mm is 50"},
+        Wrong{machine(kSteps,
+                      "steps_per_mm: 80 max_skew_mm: 3 motor { name: \"Y1\" } motor { name: \"Y2\" "
+                      "switch_offset_mm: 3.5 }"),
+              "switch_offset_mm is 3.5; it must be from -3 to 3"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Kinematics, MotorsRefused,
+    testing::Values(
+        Wrong{machine(kSteps, kSteps, "kinematics { core_xy { first: \"X\" second: \"Z\" } }"),
+              "must be one of the machine's axes: X, Y"},
+        Wrong{machine(kSteps, kSteps, "kinematics { core_xy { first: \"X\" second: \"X\" } }"), "the same axis twice"},
+        Wrong{machine(kSteps, kSteps, "kinematics { core_xy { first: \"X\" } }"),
+              "kinematics.core_xy.second is missing"},
+        Wrong{machine(kSteps, kSteps, "kinematics { matrix { row { motor: \"Q\" of { axis: \"X\" factor: 1 } } } }"),
+              "must be one of the machine's motors: X, Y"},
+        Wrong{machine(kSteps, kSteps, "kinematics { matrix { row { motor: \"X\" of { axis: \"X\" factor: 0 } } } }"),
+              "without its sign it must be from"},
+        Wrong{machine(kSteps, kSteps, "kinematics { matrix { row { motor: \"X\" of { axis: \"Y\" factor: 1 } } } }"),
+              "different places of the axes give the same places of the motors"},
+        Wrong{machine(kSteps, kSteps, "skew { x: \"X\" y: \"Y\" mm_per_m: 200 }"), "it must be from -100 to 100"},
+        Wrong{machine(kSteps, kSteps, "coordination: LAI kinematics { core_xy { first: \"X\" second: \"Y\" } }"),
+              "set RANADE"},
+        Wrong{machine("steps_per_mm: 4000", "steps_per_mm: 4000",
+                      "kinematics { core_xy { first: \"X\" second: \"Y\" } }"),
+              "give the motor limits of its own"}));
+
+/// As a process writes it into a record, and as others read it from there.
+TEST(Motors, AreReadAgainAsTheyWereWritten) {
+    for (const std::string& text :
+         {machine(kSteps, kPair), machine(kSteps, kSteps, "kinematics { core_xy { first: \"X\" second: \"Y\" } }"),
+          machine("motor { name: \"A\" steps_per_mm: 50 host: \"left\" max_velocity_mm_s: 60 }", kSteps,
+                  "network { interface: \"eth0\" } timing { time_source: NETWORK } coordinator_host: \"left\" "
+                  "kinematics { matrix { row { motor: \"A\" of { axis: \"X\" factor: -2 } } } } "
+                  "skew { x: \"X\" y: \"Y\" mm_per_m: 1.5 }")}) {
+        const auto first = parse_machine(text);
+        ASSERT_TRUE(first) << to_text("m", first.error());
+        const std::string written = machine_text(*first);
+        const auto second = parse_machine(written);
+        ASSERT_TRUE(second) << to_text("m", second.error()) << written;
+        EXPECT_EQ(machine_text(*second), written);
+        EXPECT_EQ(second->axes[0].steps_per_mm, first->axes[0].steps_per_mm);
+        EXPECT_EQ(motor_names(*second), motor_names(*first));
+    }
+}
+
+/// Motors that follow an axis one to one give it their steps; others give it finer ones.
+TEST(Motors, GiveTheAxisItsSteps) {
+    EXPECT_EQ(parse_machine(machine(kSteps, kPair))->axes[1].steps_per_mm, 80);
+    const auto belts = parse_machine(machine(kSteps, kSteps, "kinematics { core_xy { first: \"X\" second: \"Y\" } }"));
+    ASSERT_TRUE(belts);
+    EXPECT_EQ(belts->axes[0].steps_per_mm, 16 * 80);
+    EXPECT_EQ(motors_of(*belts)[0].steps_per_mm, 80);
+    EXPECT_EQ(motor_names(*belts), (std::vector<std::string>{"X", "Y"}));
+}
+
+/// Each of two motors parks by itself, so both park where they have pulled off.
+TEST(Motors, OfOneAxisParkBesideTheirSwitches) {
+    const auto pair = parse_machine(machine(kSteps, kPair));
+    ASSERT_TRUE(pair);
+    EXPECT_EQ(pair->axes[1].homing.park_mm, pair->axes[1].homing.pulloff_mm);
+}
+
+}  // namespace
+}  // namespace lockstep
