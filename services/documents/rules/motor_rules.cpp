@@ -21,15 +21,19 @@ using namespace axis_ranges;
 constexpr double kMaxFactor = 1e6;
 constexpr double kMaxSkew_mm_per_m = 100;
 
-/// The motors with these names, and the axes other than `axis`, have the name too.
-std::size_t others_named(const MachineConfig& machine, const AxisConfig& axis, const std::string& name) {
-    std::size_t count = 0;
-    for (const std::string& motor : motor_names(machine)) { count += same_name(motor, name) ? 1 : 0; }
+/// Whether an axis other than `axis`, or a motor before number `motor` of it, has the name.
+bool is_taken(const MachineConfig& machine, const AxisConfig& axis, std::size_t motor, const std::string& name) {
     for (const AxisConfig& other : machine.axes) {
-        const bool has_block = !other.motors.empty();  // otherwise it was counted as a motor
-        count += &other != &axis && has_block && same_name(other.name, name) ? 1 : 0;
+        if (&other != &axis && same_name(other.name, name)) { return true; }
     }
-    return count - 1;
+    for (const AxisConfig& each : machine.axes) {
+        const std::size_t end = &each == &axis ? motor : each.motors.size();
+        for (std::size_t k = 0; k < end; ++k) {
+            if (same_name(each.motors[k].name, name)) { return true; }
+        }
+        if (&each == &axis) { return false; }
+    }
+    return false;
 }
 
 class MotorRules {
@@ -38,18 +42,20 @@ public:
         : machine_(machine), axis_(machine.axes[axis]), problems_(axis, "axis " + axis_.name + ": ") {}
 
     std::vector<Problem> check() {
-        for (std::size_t k = 0; k < axis_.motors.size(); ++k) { check(axis_.motors[k], fmt::format("motor[{}].", k)); }
+        for (std::size_t k = 0; k < axis_.motors.size(); ++k) {
+            check(axis_.motors[k], k, fmt::format("motor[{}].", k));
+        }
         return problems_.take();
     }
 
 private:
-    void check(const MotorBlock& motor, const std::string& at) {
+    void check(const MotorBlock& motor, std::size_t number, const std::string& at) {
         problems_.require(is_axis_name(motor.name), at + "name",
                           fmt::format("the motor's name is \"{}\"; it must be a letter, then letters, digits and _, at "
                                       "most {} characters",
                                       motor.name, kMaxAxisName));
         problems_.require(
-            others_named(machine_, axis_, motor.name) == 0, at + "name",
+            !is_taken(machine_, axis_, number, motor.name), at + "name",
             fmt::format("{} names another motor or axis already; give this motor another name", motor.name));
         problems_.require(motor.host.empty() || is_host_name(motor.host), at + "host",
                           "host is \"" + motor.host + "\"; it must be the name of a host: letters, digits, - and .");

@@ -29,12 +29,12 @@ std::string error_in(const std::string& text) {
     return read ? "no error" : to_text("m", read.error());
 }
 
-struct Wrong {
+struct MotorMistake {
     std::string text;
     std::string message;
-    friend void PrintTo(const Wrong& wrong, std::ostream* out) { *out << wrong.message; }
+    friend void PrintTo(const MotorMistake& wrong, std::ostream* out) { *out << wrong.message; }
 };
-class MotorsRefused : public testing::TestWithParam<Wrong> {};
+class MotorsRefused : public testing::TestWithParam<MotorMistake> {};
 
 TEST_P(MotorsRefused, WithPlaceValueAndRemedy) {
     const std::string found = error_in(GetParam().text);
@@ -45,42 +45,48 @@ TEST_P(MotorsRefused, WithPlaceValueAndRemedy) {
 INSTANTIATE_TEST_SUITE_P(
     Blocks, MotorsRefused,
     testing::Values(
-        Wrong{machine(kSteps, "motor { name: \"Y1\" }"), "steps_per_mm is missing"},
-        Wrong{machine(kSteps, "steps_per_mm: 80 motor { }"), "motor[0].name is missing"},
-        Wrong{machine(kSteps, "steps_per_mm: 80 motor { name: \"Y1\" } motor { name: \"Y2\" }"),
-              "max_skew_mm is missing"},
-        Wrong{machine(kSteps, "steps_per_mm: 80 max_skew_mm: 3 motor { name: \"Y1\" } motor { name: \"y1\" }"),
-              "names another motor or axis already"},
-        Wrong{machine(kSteps, "steps_per_mm: 80 motor { name: \"X\" }"), "names another motor or axis already"},
-        Wrong{machine(kSteps, "steps_per_mm: 80 motor { name: \"1Y\" }"), "a letter, then letters"},
-        Wrong{machine(kSteps, "steps_per_mm: 80 motor { name: \"Y1\" device: \"usb\" }"), "motor[0].device is \"usb\""},
-        Wrong{machine(kSteps, std::string(kPair) + " homing { pulloff_mm: 4 }"), "max_skew_mm is 3, below"},
-        Wrong{machine(kSteps, std::string(kPair) + " homing { park_mm: 50 }"), "homing.park_mm is 50"},
-        Wrong{machine(kSteps,
-                      "steps_per_mm: 80 max_skew_mm: 3 motor { name: \"Y1\" } motor { name: \"Y2\" "
-                      "switch_offset_mm: 3.5 }"),
-              "switch_offset_mm is 3.5; it must be from -3 to 3"}));
+        MotorMistake{machine(kSteps, "motor { name: \"Y1\" }"), "steps_per_mm is missing"},
+        MotorMistake{machine(kSteps, "steps_per_mm: 80 motor { }"), "motor[0].name is missing"},
+        MotorMistake{machine(kSteps, "steps_per_mm: 80 motor { name: \"Y1\" } motor { name: \"Y2\" }"),
+                     "max_skew_mm is missing"},
+        MotorMistake{machine(kSteps, "steps_per_mm: 80 max_skew_mm: 3 motor { name: \"Y1\" } motor { name: \"y1\" }"),
+                     "names another motor or axis already"},
+        MotorMistake{machine(kSteps, "steps_per_mm: 80 motor { name: \"X\" }"), "names another motor or axis already"},
+        MotorMistake{machine(kSteps, "steps_per_mm: 80 motor { name: \"1Y\" }"), "a letter, then letters"},
+        MotorMistake{machine(kSteps, "steps_per_mm: 80 motor { name: \"Y1\" device: \"usb\" }"),
+                     "motor[0].device is \"usb\""},
+        MotorMistake{machine(kSteps, std::string(kPair) + " homing { pulloff_mm: 4 }"), "max_skew_mm is 3, below"},
+        MotorMistake{machine(kSteps, std::string(kPair) + " homing { park_mm: 50 }"), "homing.park_mm is 50"},
+        MotorMistake{machine(kSteps,
+                             "steps_per_mm: 80 max_skew_mm: 3 motor { name: \"Y1\" } motor { name: \"Y2\" "
+                             "switch_offset_mm: 3.5 }"),
+                     "switch_offset_mm is 3.5; it must be from -3 to 3"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Kinematics, MotorsRefused,
     testing::Values(
-        Wrong{machine(kSteps, kSteps, "kinematics { core_xy { first: \"X\" second: \"Z\" } }"),
-              "must be one of the machine's axes: X, Y"},
-        Wrong{machine(kSteps, kSteps, "kinematics { core_xy { first: \"X\" second: \"X\" } }"), "the same axis twice"},
-        Wrong{machine(kSteps, kSteps, "kinematics { core_xy { first: \"X\" } }"),
-              "kinematics.core_xy.second is missing"},
-        Wrong{machine(kSteps, kSteps, "kinematics { matrix { row { motor: \"Q\" of { axis: \"X\" factor: 1 } } } }"),
-              "must be one of the machine's motors: X, Y"},
-        Wrong{machine(kSteps, kSteps, "kinematics { matrix { row { motor: \"X\" of { axis: \"X\" factor: 0 } } } }"),
-              "without its sign it must be from"},
-        Wrong{machine(kSteps, kSteps, "kinematics { matrix { row { motor: \"X\" of { axis: \"Y\" factor: 1 } } } }"),
-              "different places of the axes give the same places of the motors"},
-        Wrong{machine(kSteps, kSteps, "skew { x: \"X\" y: \"Y\" mm_per_m: 200 }"), "it must be from -100 to 100"},
-        Wrong{machine(kSteps, kSteps, "coordination: LAI kinematics { core_xy { first: \"X\" second: \"Y\" } }"),
-              "set RANADE"},
-        Wrong{machine("steps_per_mm: 4000", "steps_per_mm: 4000",
-                      "kinematics { core_xy { first: \"X\" second: \"Y\" } }"),
-              "give the motor limits of its own"}));
+        MotorMistake{machine(kSteps, kSteps, "kinematics { core_xy { first: \"X\" second: \"Z\" } }"),
+                     "must be one of the machine's axes: X, Y"},
+        MotorMistake{machine(kSteps, kSteps, "kinematics { core_xy { first: \"X\" second: \"X\" } }"),
+                     "the same axis twice"},
+        MotorMistake{machine(kSteps, kSteps, "kinematics { core_xy { first: \"X\" } }"),
+                     "kinematics.core_xy.second is missing"},
+        MotorMistake{
+            machine(kSteps, kSteps, "kinematics { matrix { row { motor: \"Q\" of { axis: \"X\" factor: 1 } } } }"),
+            "must be one of the machine's motors: X, Y"},
+        MotorMistake{
+            machine(kSteps, kSteps, "kinematics { matrix { row { motor: \"X\" of { axis: \"X\" factor: 0 } } } }"),
+            "without its sign it must be from"},
+        MotorMistake{
+            machine(kSteps, kSteps, "kinematics { matrix { row { motor: \"X\" of { axis: \"Y\" factor: 1 } } } }"),
+            "different places of the axes give the same places of the motors"},
+        MotorMistake{machine(kSteps, kSteps, "skew { x: \"X\" y: \"Y\" mm_per_m: 200 }"),
+                     "it must be from -100 to 100"},
+        MotorMistake{machine(kSteps, kSteps, "coordination: LAI kinematics { core_xy { first: \"X\" second: \"Y\" } }"),
+                     "set RANADE"},
+        MotorMistake{machine("steps_per_mm: 4000", "steps_per_mm: 4000",
+                             "kinematics { core_xy { first: \"X\" second: \"Y\" } }"),
+                     "give the motor limits of its own"}));
 
 /// As a process writes it into a record, and as others read it from there.
 TEST(Motors, AreReadAgainAsTheyWereWritten) {
