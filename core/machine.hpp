@@ -39,7 +39,7 @@ struct PlantConfig {
     double max_jump_mm_s = 0;           // it also loses steps at larger jumps of speed
 };
 
-/// A `motor` block of an axis: what this motor has of its own. What is left out is the axis's.
+/// A `motor` block of an axis. A value that it does not give is that of the axis.
 struct MotorBlock {
     std::string name;
     std::string host;

@@ -18,7 +18,8 @@
 
 namespace lockstep {
 
-/// From a question to its answer, each time anew, divided at random between the two ways. `most` 0: no link.
+/// From a question to its answer: drawn for each question, and divided at random between the two ways. `most` 0: no
+/// link.
 struct LinkDelay {
     Ticks least;
     Ticks most;

@@ -1,5 +1,5 @@
 // A hash of each of many results, kept in a file. So a change of code that should not change results shows that it
-// changes none. If it should, write the file anew with LOCKSTEP_WRITE_HASHES=1, and say in the commit what changes.
+// changes none. If it should, write the file again with LOCKSTEP_WRITE_HASHES=1, and say in the commit what changes.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -11,7 +11,7 @@ module lam_delay #(
     parameter STOP = 44
 ) (
     input clk,
-    input restart,    // the wait begins anew, with START
+    input restart,    // the wait begins again, with START
     input count,      // one clock of the wait passes
     input accelerate, // at the pulse: the next wait is shorter
     input decelerate, // at the pulse: the next wait is longer, unless it is STOP or more
