@@ -29,6 +29,20 @@ MotorPlace place_of(const MachineConfig& machine, std::size_t motor) {
     std::unreachable();
 }
 
+/// Calls visit(place of its axis, its axis, its block or null) for each motor, in order.
+template <typename Visit>
+void each_motor(const MachineConfig& machine, Visit visit) {
+    for (std::size_t a = 0; a < machine.axes.size(); ++a) {
+        const AxisConfig& axis = machine.axes[a];
+        if (axis.motors.empty()) { visit(a, axis, nullptr); }
+        for (const MotorBlock& block : axis.motors) { visit(a, axis, &block); }
+    }
+}
+
+const std::string& name_of(const AxisConfig& axis, const MotorBlock* block) {
+    return block == nullptr ? axis.name : block->name;
+}
+
 MotorConfig motor_of_axis(const AxisConfig& axis, std::size_t place) {
     return {.name = axis.name,
             .axis = place,
@@ -81,8 +95,8 @@ void set_limits(MotorConfig& motor, const MachineConfig& machine, const MotorBlo
     }
 }
 
-/// What stands in the axis, in mm of the motor's way. A motor that also follows other axes has no switch of its own: it
-/// parks where the axes do.
+/// Converts what the axis gives from mm of the axis to mm of the motor's way. A motor that moves several axes has no
+/// switch, and its park is where the park of each axis places it.
 void scale(MotorConfig& motor, bool has_own_plant, const MachineConfig& machine, std::span<const double> shares) {
     if (motor.moves_one_axis) {
         const double share = shares[motor.axis];
@@ -130,16 +144,15 @@ std::size_t motor_count(const MachineConfig& machine) {
 
 std::vector<std::string> motor_names(const MachineConfig& machine) {
     std::vector<std::string> names;
-    for (const AxisConfig& axis : machine.axes) {
-        if (axis.motors.empty()) { names.push_back(axis.name); }
-        for (const MotorBlock& motor : axis.motors) { names.push_back(motor.name); }
-    }
+    each_motor(machine, [&](std::size_t, const AxisConfig& axis, const MotorBlock* block) {
+        names.push_back(name_of(axis, block));
+    });
     return names;
 }
 
 const std::string& motor_name(const MachineConfig& machine, std::size_t motor) {
     const auto [axis, block] = place_of(machine, motor);
-    return block == nullptr ? axis.name : block->name;
+    return name_of(axis, block);
 }
 
 bool estimates_clock(const MachineConfig& machine, std::size_t motor) {
@@ -154,36 +167,35 @@ double motor_steps_per_mm(const MachineConfig& machine, std::size_t motor) {
 }
 
 std::optional<std::size_t> motor_named(const MachineConfig& machine, std::string_view name) {
-    const std::vector<std::string> names = motor_names(machine);
-    const auto found = std::ranges::find(names, name);
-    return found == names.end() ? std::nullopt : std::optional<std::size_t>(found - names.begin());
+    std::optional<std::size_t> found;
+    std::size_t motor = 0;
+    each_motor(machine, [&](std::size_t, const AxisConfig& axis, const MotorBlock* block) {
+        if (!found && name_of(axis, block) == name) { found = motor; }
+        ++motor;
+    });
+    return found;
 }
 
 LinearMap motor_map_of(const MachineConfig& machine) {
     const KinematicsConfig& kinematics = machine.kinematics;
-    const std::vector<std::string> names = motor_names(machine);
-    LinearMap map(names.size(), machine.axes.size());
+    LinearMap map(motor_count(machine), machine.axes.size());
     std::size_t motor = 0;
-    for (std::size_t a = 0; a < machine.axes.size(); ++a) {
-        const AxisConfig& axis = machine.axes[a];
-        for (std::size_t k = 0; k < std::max<std::size_t>(axis.motors.size(), 1); ++k, ++motor) {
-            map.factor(motor, a) = 1;
-            if (!kinematics.core_xy) { continue; }
-            if (axis.name == kinematics.core_xy->first) {
-                set_share(map, motor, machine, kinematics.core_xy->second, 1);
-            }
-            if (axis.name == kinematics.core_xy->second) {
-                set_share(map, motor, machine, kinematics.core_xy->first, 1);
-                map.factor(motor, a) = -1;
-            }
+    each_motor(machine, [&](std::size_t a, const AxisConfig& axis, const MotorBlock*) {
+        map.factor(motor, a) = 1;
+        if (kinematics.core_xy && axis.name == kinematics.core_xy->first) {
+            set_share(map, motor, machine, kinematics.core_xy->second, 1);
         }
-    }
+        if (kinematics.core_xy && axis.name == kinematics.core_xy->second) {
+            set_share(map, motor, machine, kinematics.core_xy->first, 1);
+            map.factor(motor, a) = -1;
+        }
+        ++motor;
+    });
     for (const MotorRow& row : kinematics.matrix) {
-        const auto found = std::ranges::find(names, row.motor);
-        if (found == names.end()) { continue; }
-        const auto place = static_cast<std::size_t>(found - names.begin());
-        for (std::size_t i = 0; i < map.axes(); ++i) { map.factor(place, i) = 0; }
-        for (const AxisShare& share : row.of) { set_share(map, place, machine, share.axis, share.factor); }
+        const auto found = motor_named(machine, row.motor);
+        if (!found) { continue; }
+        for (std::size_t i = 0; i < map.axes(); ++i) { map.factor(*found, i) = 0; }
+        for (const AxisShare& share : row.of) { set_share(map, *found, machine, share.axis, share.factor); }
     }
     for (const Skew& skew : kinematics.skews) {
         LinearMap shear = LinearMap::identity(machine.axes.size());
@@ -198,28 +210,22 @@ LinearMap motor_map_of(const MachineConfig& machine) {
 std::vector<MotorConfig> motors_of(const MachineConfig& machine) {
     const LinearMap map = motor_map_of(machine);
     std::vector<MotorConfig> motors;
-    const auto add = [&](MotorConfig motor, const MotorBlock* block) {
-        const std::size_t place = motors.size();
-        const auto shares = map.row(place);
+    each_motor(machine, [&](std::size_t a, const AxisConfig& axis, const MotorBlock* block) {
+        MotorConfig motor = block == nullptr ? motor_of_axis(axis, a) : motor_of_block(axis, a, *block);
+        const auto shares = map.row(motors.size());
         set_limits(motor, machine, block, shares);
-        motor.moves_one_axis = map.only_axis_of(place) == motor.axis;
+        motor.moves_one_axis = map.only_axis_of(motors.size()) == a;
         scale(motor, block != nullptr && block->plant.has_value(), machine, shares);
         motors.push_back(std::move(motor));
-    };
-    for (std::size_t a = 0; a < machine.axes.size(); ++a) {
-        const AxisConfig& axis = machine.axes[a];
-        if (axis.motors.empty()) { add(motor_of_axis(axis, a), nullptr); }
-        for (const MotorBlock& block : axis.motors) { add(motor_of_block(axis, a, block), &block); }
-    }
+    });
     return motors;
 }
 
 LinearMap step_map_of(const MachineConfig& machine) {
     LinearMap map = motor_map_of(machine);
-    const std::vector<MotorConfig> motors = motors_of(machine);
-    for (std::size_t m = 0; m < motors.size(); ++m) {
+    for (std::size_t m = 0; m < map.motors(); ++m) {
         for (std::size_t i = 0; i < map.axes(); ++i) {
-            map.factor(m, i) *= motors[m].steps_per_mm / machine.axes[i].steps_per_mm;
+            map.factor(m, i) *= motor_steps_per_mm(machine, m) / machine.axes[i].steps_per_mm;
         }
     }
     return map;

@@ -314,8 +314,7 @@ void set_steps_of_axes(MachineConfig& machine) {
         AxisConfig& axis = machine.axes[i];
         const double before = axis.steps_per_mm;
         if (finest[i] > 0) { axis.steps_per_mm = is_simple[i] ? finest[i] : kFiner * finest[i]; }
-        const bool is_own = is_simple[i] && axis.motors.empty();
-        if (is_own || !axis.motors.empty()) { continue; }
+        if (is_simple[i] || !axis.motors.empty()) { continue; }
         axis.motors.push_back(
             {.name = axis.name, .host = axis.host, .device = axis.device, .steps_per_mm = before, .plant = {}});
     }
