@@ -1,4 +1,4 @@
-// What an axis gets from its device: a status, when it was true, and whose clock the device counts.
+// A reading of a device: its status, and the time at which this status was true.
 #pragma once
 
 #include <cstdint>

@@ -22,7 +22,7 @@ void ClaimCheck::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, Axi
                "it reports step " + std::to_string(claimed) + " after " + std::to_string(pulses_[axis]) + " pulses");
     }
     if (state.at_rest && state.velocity != Velocity{}) { object(axis, now, "it reports that it rests, but moves"); }
-    // What a device that answers late has done since its reading, its axis cannot know yet.
+    // An axis does not know yet what its device has done since the last reading, if the device answers late.
     const bool is_late = recording_.axes[axis].lateness > Ticks{};
     if (is_late && state.tick - state.clock_error <= moved_[axis]) { return; }
     // The switch closes within a step of the reported position, and whole steps are off by at most half a step.
