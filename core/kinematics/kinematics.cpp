@@ -29,8 +29,43 @@ MotorCounts Kinematics::motors_at(const AxisCounts& axes) const {
 AxisCounts Kinematics::axes_at(const MotorCounts& motors) const {
     if (is_direct_) { return motors.steps; }
     AxisCounts axes;
-    for (std::size_t i = 0; i < inverse_.motors(); ++i) { axes.append(std::llround(inverse_.place(i, motors.steps))); }
+    for (std::size_t i = 0; i < inverse_.motors(); ++i) {
+        const double nearest = inverse_.place(i, motors.steps);
+        axes.append(moves_alone(i) ? place_of_all(i, nearest, motors) : std::llround(nearest));
+    }
     return axes;
+}
+
+/// Its motors follow no other axis.
+bool Kinematics::moves_alone(std::size_t axis) const {
+    for (std::size_t m = 0; m < motors_.size(); ++m) {
+        if (map_.factor(m, axis) != 0 && map_.only_axis_of(m) != axis) { return false; }
+    }
+    return true;
+}
+
+/// Motors with different steps rest at different places of their axis. Looks around the mean for one that rounds to
+/// all of them.
+std::int64_t Kinematics::place_of_all(std::size_t axis, double nearest, const MotorCounts& motors) const {
+    const auto is_of_all = [&](std::int64_t place) {
+        for (std::size_t m = 0; m < motors_.size(); ++m) {
+            const double share = map_.factor(m, axis);
+            if (share != 0 && std::llround(share * static_cast<double>(place)) != motors[m]) { return false; }
+        }
+        return true;
+    };
+    const std::int64_t mean = std::llround(nearest);
+    for (std::int64_t off = 0; off <= rest_steps(axis); ++off) {
+        for (const std::int64_t place : {mean + off, mean - off}) {
+            if (is_of_all(place)) { return place; }
+        }
+    }
+    return mean;
+}
+
+std::int64_t Kinematics::rest_steps(std::size_t axis) const {
+    if (own_motors_[axis]) { return 0; }
+    return static_cast<std::int64_t>(std::ceil(steps_mm_[axis] * axis_steps_per_mm_[axis] / 2 + 0.5));
 }
 
 double Kinematics::axis_steps(std::size_t axis, std::span<const Position> motors) const {
@@ -45,7 +80,7 @@ std::optional<MotorAstray> Kinematics::astray(const MotorCounts& motors) const {
     const MotorCounts placed = motors_at(axes_at(motors));
     for (std::size_t m = 0; m < motors_.size(); ++m) {
         const std::int64_t off = motors[m] - placed[m];
-        if (std::abs(off) > 1) { return MotorAstray{m, to_mm(motors_[m], static_cast<double>(off))}; }
+        if (off != 0) { return MotorAstray{m, to_mm(motors_[m], static_cast<double>(off))}; }
     }
     return std::nullopt;
 }

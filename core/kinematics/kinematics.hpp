@@ -31,8 +31,12 @@ public:
 
     /// Where the motors rest while the axes rest on whole steps: each within half a step of its place.
     MotorCounts motors_at(const AxisCounts& axes) const;
-    /// The place of the axes that is nearest to the motors' places, in whole steps.
+    /// The place of the axes that is nearest to the motors' places, in whole steps: one whose motors_at() they are, if
+    /// there is one.
     AxisCounts axes_at(const MotorCounts& motors) const;
+    /// How far axes_at() may be from the place at which the machine came to rest, because the motors rest on whole
+    /// steps, in steps of the axis.
+    std::int64_t rest_steps(std::size_t axis) const;
     /// The place of an axis in steps, exactly where the motors are.
     double axis_steps(std::size_t axis, std::span<const Position> motors) const;
     /// mm of an axis that a motor moves alone, for each step of the motor.
@@ -43,8 +47,8 @@ public:
     double axis_share(std::size_t axis, std::size_t motor) const { return inverse_.factor(axis, motor); }
     /// How far an axis is moved at most if each motor moves by one step, in mm.
     double step_mm(std::size_t axis) const { return steps_mm_[axis]; }
-    /// A motor that is more than a step from where the axes' place puts it; nullopt if there is none. Motors of one
-    /// axis differ after a fault, and before the axis is homed.
+    /// A motor that is not where the axes' place puts it; nullopt if there is none. Motors of one axis differ after an
+    /// emergency stop or a fault, and before the axis is homed. No path begins there.
     std::optional<MotorAstray> astray(const MotorCounts& motors) const;
 
     /// The motors that move when one of these axes moves.
@@ -59,6 +63,8 @@ public:
 
 private:
     std::optional<std::size_t> find_own_motor(std::size_t axis) const;
+    bool moves_alone(std::size_t axis) const;
+    std::int64_t place_of_all(std::size_t axis, double nearest, const MotorCounts& motors) const;
 
     std::vector<MotorConfig> motors_;
     std::vector<std::string> axis_names_;

@@ -85,6 +85,7 @@ void set_limits(MotorConfig& motor, const MachineConfig& machine, const MotorBlo
     motor.max_velocity_mm_s = limit(&AxisConfig::max_velocity_mm_s, &MotorBlock::max_velocity_mm_s);
     motor.max_accel_mm_s2 = limit(&AxisConfig::max_accel_mm_s2, &MotorBlock::max_accel_mm_s2);
     motor.max_decel_mm_s2 = limit(&AxisConfig::max_decel_mm_s2, &MotorBlock::max_decel_mm_s2);
+    bool follows_steps = true;
     for (std::size_t i = 0; i < shares.size(); ++i) {
         const AxisConfig& axis = machine.axes[i];
         if (shares[i] == 0) { continue; }
@@ -92,7 +93,12 @@ void set_limits(MotorConfig& motor, const MachineConfig& machine, const MotorBlo
         const double b = shares[i] * axis.position_max_mm;
         motor.position_min_mm += std::min(a, b);
         motor.position_max_mm += std::max(a, b);
+        follows_steps = follows_steps && std::abs(shares[i]) == 1 && motor.steps_per_mm == axis.steps_per_mm;
     }
+    if (follows_steps) { return; }
+    // The ends of the axes' travels are not on its steps: it rests on those beside them.
+    motor.position_min_mm -= 1 / motor.steps_per_mm;
+    motor.position_max_mm += 1 / motor.steps_per_mm;
 }
 
 /// Converts what the axis gives from mm of the axis to mm of the motor's way. A motor that moves several axes has no
@@ -103,8 +109,9 @@ void scale(MotorConfig& motor, bool has_own_plant, const MachineConfig& machine,
         const double size = std::abs(share);
         HomingConfig& homing = motor.homing;
         homing.toward_min = homing.toward_min == (share > 0);
-        for (double* mm : {&homing.search_velocity_mm_s, &homing.latch_velocity_mm_s, &homing.pulloff_mm,
-                           &homing.touch_tolerance_mm, &motor.plant.travel_margin_mm}) {
+        for (double* mm :
+             {&homing.search_velocity_mm_s, &homing.latch_velocity_mm_s, &homing.pulloff_mm, &homing.touch_tolerance_mm,
+              &motor.plant.travel_margin_mm, &motor.plant.max_torque_accel_mm_s2, &motor.plant.max_jump_mm_s}) {
             *mm *= size;
         }
         for (double* mm : {&homing.switch_position_mm, &homing.park_mm, &motor.plant.start_position_mm}) {

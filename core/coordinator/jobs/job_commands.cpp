@@ -90,7 +90,7 @@ CommandResult check_jog(const MachineActivity& activity, const LoopView& loop) {
 
 /// The job goes on only from where it paused, because its next move begins there.
 CommandResult check_place(const AxisCounts& place, const LoopView& loop) {
-    if (loop.counts() == place) { return {}; }
+    if (loop.kinematics.motors_at(place) == loop.axes.counts()) { return {}; }
     const Program way = return_way(loop.machine, loop.counts(), place);
     return refuse(
         FaultCode::AwayFromPause,

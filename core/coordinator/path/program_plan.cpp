@@ -9,6 +9,7 @@
 #include "core/coordinator/path/coordination.hpp"
 #include "core/coordinator/path/lai_frames.hpp"
 #include "core/coordinator/path/program_frames.hpp"
+#include "core/kinematics/kinematics.hpp"
 #include "core/motion/frame_limits.hpp"
 #include "core/number_text.hpp"
 
@@ -44,7 +45,11 @@ Ticks ticks_of(const Dwell& dwell, double tick_s) {
 
 ProgramPlanner::ProgramPlanner(const MachineConfig& machine)
     : machine_(machine), limits_(axis_frame_limits_of(machine)) {
-    for (const AxisConfig& axis : machine.axes) { steps_per_mm_.push_back(axis.steps_per_mm); }
+    const Kinematics kinematics(machine);
+    for (const AxisConfig& axis : machine.axes) {
+        steps_per_mm_.push_back(axis.steps_per_mm);
+        rest_steps_.push_back(kinematics.rest_steps(rest_steps_.size()));
+    }
 }
 
 std::expected<std::vector<std::size_t>, PlanError> ProgramPlanner::axes_of(
@@ -116,7 +121,9 @@ std::expected<void, PlanError> ProgramPlanner::check_start(const ProgramHead& pr
     for (std::size_t i = 0; i < start.size(); ++i) {
         const AxisConfig& axis = machine_.axes[i];
         const std::string unit = " " + std::string(unit_of(axis.name));
-        if (start[i] >= limits_[i].min_steps && start[i] <= limits_[i].max_steps) { continue; }
+        const bool is_within =
+            start[i] >= limits_[i].min_steps - rest_steps_[i] && start[i] <= limits_[i].max_steps + rest_steps_[i];
+        if (is_within) { continue; }
         return std::unexpected(PlanError{FaultCode::OutsideTravel, std::nullopt,
                                          "axis " + axis.name + " is at " +
                                              number(to_mm(axis, static_cast<double>(start[i]))) + unit +

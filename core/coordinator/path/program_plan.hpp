@@ -106,6 +106,7 @@ private:
     MachineConfig machine_;
     std::vector<AxisLimits> limits_;
     std::vector<double> steps_per_mm_;
+    std::vector<std::int64_t> rest_steps_;  // how far beyond its travel an axis may rest
 };
 
 }  // namespace lockstep

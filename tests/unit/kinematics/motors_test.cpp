@@ -109,5 +109,28 @@ TEST(Motors, FollowTheRowsOfTheMatrix) {
     EXPECT_EQ(map.place(1, std::vector<double>{3, 4}), -6.5);
 }
 
+/// The simulated motor of a geared axis is as strong as the axis needs.
+TEST(Motors, OfGearedAxesAreScaledWithTheirPlants) {
+    MachineConfig machine;
+    machine.axes = {axis("X")};
+    machine.axes[0].plant.max_torque_accel_mm_s2 = 5000;
+    machine.axes[0].plant.max_jump_mm_s = 8;
+    machine.kinematics.matrix = {{.motor = "X", .of = {{"X", -2}}}};
+    const MotorConfig motor = motors_of(machine)[0];
+    EXPECT_EQ(motor.plant.max_torque_accel_mm_s2, 10'000);
+    EXPECT_EQ(motor.plant.max_jump_mm_s, 16);
+    EXPECT_EQ(motor.plant.start_position_mm, -80);
+}
+
+/// Its steps do not meet the ends of the travel, and it rests on those beside them.
+TEST(Motors, OfGearedAxesMayRestAStepBeyondTheTravel) {
+    MachineConfig machine;
+    machine.axes = {axis("X")};
+    EXPECT_EQ(motors_of(machine)[0].position_max_mm, 300);
+    machine.kinematics.matrix = {{.motor = "X", .of = {{"X", 2}}}};
+    EXPECT_EQ(motors_of(machine)[0].position_max_mm, 600 + 1.0 / 80);
+    EXPECT_EQ(motors_of(machine)[0].position_min_mm, -2 - 1.0 / 80);
+}
+
 }  // namespace
 }  // namespace lockstep

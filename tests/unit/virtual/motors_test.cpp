@@ -14,7 +14,7 @@ constexpr std::size_t kY2 = 2;
 MachineConfig gantry(double racked_mm) {
     MachineConfig machine = small_machine();
     AxisConfig& y = machine.axes[1];
-    y.max_skew_mm = 2;
+    y.max_skew_mm = 1.5;
     y.homing.pulloff_mm = 1;
     y.homing.park_mm = 0;
     y.motors = {{.name = "Y1", .host = "", .steps_per_mm = y.steps_per_mm, .plant = {}},
@@ -37,6 +37,25 @@ TEST_F(Gantry, IsSquareAfterEachMotorHasFoundItsSwitch) {
     const MotorConfig second = motors_of(vm.machine())[kY2];
     EXPECT_EQ(first.homing.switch_position_mm, -1);
     EXPECT_EQ(second.homing.switch_position_mm, -0.75);
+}
+
+/// The first to find its switch waits there for the other one. Then both pull off and touch their switches together.
+TEST_F(Gantry, ComesNoFurtherApartWhileItSquaresThanItStood) {
+    class Apart : public VirtualObserver {
+    public:
+        void on_step(std::size_t axis, StepEdge step) override {
+            if (axis == kY1) { ahead -= step.direction; }
+            if (axis == kY2) { ahead += step.direction; }
+            most = std::max(most, std::abs(ahead));
+        }
+        std::int64_t ahead = 0;  // steps of Y2 minus those of Y1
+        std::int64_t most = 0;
+    } apart;
+    vm.observe(apart);
+    home();
+    constexpr double kNeeded_mm = 0.8;
+    constexpr double kBetweenOrders_mm = 0.1;
+    EXPECT_LE(static_cast<double>(apart.most) / vm.machine().axes[1].steps_per_mm, kNeeded_mm + kBetweenOrders_mm);
 }
 
 TEST_F(Gantry, MovesBothMotorsByTheSameStepsAtTheSameTicks) {
@@ -148,6 +167,37 @@ TEST_F(TwoBelts, FollowASquareWithinAStepOfEachBelt) {
         furthest_x = std::max(furthest_x, x);
     }
     EXPECT_NEAR(furthest_x, 20, mm_per_step);
+}
+
+/// The belts rest on whole steps, so the axes are not exactly where the program paused.
+TEST_F(TwoBelts, GoOnFromAPause) {
+    home();
+    Program program = program_of({{7.123, 6.789}, {20, 15}}, 0, {5, 5});
+    program.blocks.insert(program.blocks.begin() + 1, Block{.action = Pause{}});
+    ASSERT_EQ(run(program).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Paused, 20)) << describe();
+    const Reply reply = ask(CommandKind::Resume);
+    EXPECT_EQ(reply.status, ReplyStatus::Accepted) << reply.text;
+    EXPECT_TRUE(reaches(MachinePhase::Idle, 20)) << describe();
+}
+
+/// At the end of the travel the belts may rest half a step beyond it.
+TEST_F(TwoBelts, LeaveTheEndsOfTheTravel) {
+    home();
+    const Kinematics kinematics(vm.machine());
+    std::vector<double> at{5, 5};
+    const double end = vm.machine().axes[0].position_max_mm;
+    for (const double y : {5.0009, 5.0021, 5.0033, 5.0046, 5.0058}) {
+        const Reply reply = run(program_of({{end, y}}, 0, at));
+        ASSERT_EQ(reply.status, ReplyStatus::Accepted) << reply.text;
+        ASSERT_TRUE(reaches(MachinePhase::Idle, 20)) << describe();
+        MotorCounts motors;
+        for (const std::int64_t count : counts()) { motors.steps.append(count); }
+        const AxisCounts axes = kinematics.axes_at(motors);
+        for (std::size_t i = 0; i < at.size(); ++i) {
+            at[i] = to_mm(vm.machine().axes[i], static_cast<double>(axes[i]));
+        }
+    }
 }
 
 }  // namespace
