@@ -156,7 +156,8 @@ void AxisController::receive(const MachineState& state, AxisLoop& loop) {
 void AxisController::carry_out(const AxisCommand& order, AxisLoop& loop) {
     condition_.orders.begin(order.sequence);
     switch (order.kind) {
-        case AxisCommandKind::Home: return own_.home(order, is_resting(), loop);
+        case AxisCommandKind::Home:
+        case AxisCommandKind::Approach: return own_.home(order, is_resting(), loop);
         case AxisCommandKind::Reset: return reset(order, loop);
         case AxisCommandKind::StopNow: condition_.orders.end(FaultCode::None); return stop_now(loop);
         case AxisCommandKind::MoveOwn: return own_.move(order, is_resting(), loop);

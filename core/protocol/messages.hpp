@@ -130,8 +130,9 @@ struct ClockReply {
 };
 
 /// MoveOwn: the axis moves to a place by itself, not coordinated with others. Halt: it brakes and abandons a move of
-/// its own. Jog: it moves to a place by itself while the order is renewed.
-enum class AxisCommandKind : std::uint8_t { Home, Reset, StopNow, MoveOwn, Halt, Jog };
+/// its own. Jog: it moves to a place by itself while the order is renewed. Approach: it moves to its home switch and
+/// waits there, for the other motors of its axis.
+enum class AxisCommandKind : std::uint8_t { Home, Reset, StopNow, MoveOwn, Halt, Jog, Approach };
 
 /// An order of the coordinator to one axis. It is repeated each slot until the axis's state reports it as done.
 struct AxisCommand {

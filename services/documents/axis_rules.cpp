@@ -53,20 +53,17 @@ private:
     void check_motors() {
         if (axis_.motors.size() < 2 || !axis_.max_skew_mm) { return; }
         length("max_skew_mm", *axis_.max_skew_mm);
-        problems_.require_between(
-            {"max_skew_mm", "homing.pulloff_mm"}, *axis_.max_skew_mm >= axis_.homing.pulloff_mm,
-            fmt::format("max_skew_mm is {}, below homing.pulloff_mm {}: a motor that has found its switch pulls off "
-                        "while the other still searches; increase it",
-                        number_text(*axis_.max_skew_mm), number_text(axis_.homing.pulloff_mm)));
         const double beside = axis_.homing.switch_position_mm +
                               (axis_.homing.toward_min ? axis_.homing.pulloff_mm : -axis_.homing.pulloff_mm);
+        const double parked = axis_.homing.in_place ? 0 : std::abs(axis_.homing.park_mm - beside);
+        const double least = axis_.homing.pulloff_mm + parked;
         problems_.require_between(
-            {"homing.park_mm", "homing.pulloff_mm", "homing.switch_position_mm"},
-            axis_.homing.in_place || std::abs(axis_.homing.park_mm - beside) <= *axis_.max_skew_mm,
-            fmt::format(
-                "homing.park_mm is {}: each of several motors parks by itself, so it must be within max_skew_mm "
-                "of {}, where homing pulls off; leave it out",
-                number_text(axis_.homing.park_mm), number_text(beside)));
+            {"max_skew_mm", "homing.park_mm", "homing.pulloff_mm"}, *axis_.max_skew_mm >= least,
+            fmt::format("max_skew_mm is {}, below {}: a motor that has found its switch pulls off by "
+                        "homing.pulloff_mm {} and goes to homing.park_mm {} while the others still search; increase "
+                        "it, or leave park_mm out",
+                        number_text(*axis_.max_skew_mm), number_text(least), number_text(axis_.homing.pulloff_mm),
+                        number_text(axis_.homing.park_mm)));
     }
 
     void check_name() {

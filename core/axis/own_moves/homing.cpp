@@ -14,10 +14,17 @@ HomingStep Homing::begin(bool home_closed, std::int64_t count) {
     if (motor_.homing.in_place) {
         return {.zeroed = true, .zero_count = count - to_steps(motor_, motor_.homing.park_mm), .done = true};
     }
+    approaches_ = false;
     pull_offs_ = 0;
     touches_ = 0;
     last_.reset();
     return search(home_closed ? HomingStage::Release : HomingStage::Search);
+}
+
+HomingStep Homing::approach(bool home_closed) {
+    if (home_closed) { return {.done = true}; }
+    approaches_ = true;
+    return search(HomingStage::Search);
 }
 
 HomingStep Homing::search(HomingStage stage) {
@@ -32,7 +39,11 @@ HomingStep Homing::search(HomingStage stage) {
 
 HomingStep Homing::next(const LocalEnd& end) {
     switch (stage_) {
-        case HomingStage::Search: return end.by_trigger ? touch(end) : fail(FaultCode::HomeSwitchNotFound);
+        case HomingStage::Search:
+            if (!end.by_trigger) { return fail(FaultCode::HomeSwitchNotFound); }
+            if (!approaches_) { return touch(end); }
+            stage_ = HomingStage::Idle;
+            return {.done = true};
         case HomingStage::Release: return end.by_trigger ? pull_off() : fail(FaultCode::HomeSwitchStuck);
         case HomingStage::PullOff: {
             if (end.by_limit) { return fail(FaultCode::LimitHit); }

@@ -2,6 +2,9 @@
 // Then set the zero there and park. A motor that homes in place sets the zero where it stands. An axis that stands
 // behind its switch first moves away until the switch opens. The device itself ends a move at the switch and keeps the
 // count, so no network is between the switch and the stop.
+//
+// One of several motors of an axis first approaches its switch and waits there. When all of them have done so, all
+// home, from their switches on.
 #pragma once
 
 #include <cstdint>
@@ -49,6 +52,8 @@ public:
     /// Begins with the search, or moves away from the switch if it is already closed. `count`: the device's. In place,
     /// this is the whole homing.
     HomingStep begin(bool home_closed, std::int64_t count);
+    /// Only the search: done at the switch, without a zero.
+    HomingStep approach(bool home_closed);
     /// Call it after the end of each move.
     HomingStep next(const LocalEnd& end);
     void abandon() { stage_ = HomingStage::Idle; }
@@ -74,6 +79,7 @@ private:
 
     MotorConfig motor_;
     HomingStage stage_ = HomingStage::Idle;
+    bool approaches_ = false;
     int pull_offs_ = 0;
     int touches_ = 0;  // attempts to touch the switch, with those that missed it
     std::optional<Touch> last_;

@@ -43,7 +43,10 @@ void OwnMoves::home(const AxisCommand& order, bool is_resting, AxisLoop& loop) {
     axis.phases.clear_fault();
     axis.position.begin_homing();
     axis.phases.happen(AxisEvent::HomingBegins);
-    take_homing_step(homing_.begin(loop.device.status().home, loop.device.status().position.count()), loop);
+    const DeviceStatus& device = loop.device.status();
+    take_homing_step(order.kind == AxisCommandKind::Approach ? homing_.approach(device.home)
+                                                             : homing_.begin(device.home, device.position.count()),
+                     loop);
 }
 
 void OwnMoves::move(const AxisCommand& order, bool is_resting, AxisLoop& loop) {
@@ -215,7 +218,7 @@ void OwnMoves::take_homing_step(const HomingStep& step, AxisLoop& loop) {
     if (step.move && step.move->steps != 0) { return start(*step.move, 0, loop); }
     if (step.move) { return take_homing_step(homing_.next({.count = loop.device.status().position.count()}), loop); }
     if (step.done) {
-        loop.notice({AxisNotice::Kind::Homed, FaultCode::None, 0});
+        if (loop.condition.position.homed()) { loop.notice({AxisNotice::Kind::Homed, FaultCode::None, 0}); }
         loop.condition.orders.end(FaultCode::None);
     }
 }

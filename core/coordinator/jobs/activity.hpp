@@ -61,6 +61,7 @@ struct Homing : Motion {
     MachineJob job;
     HomingSequence sequence;
     SkewWatch skew;
+    AxisSet approaching = 0;  // motors that wait for each other at their switches before they home
 };
 /// Axes move to their places, each by itself.
 struct OwnMoves : Motion {

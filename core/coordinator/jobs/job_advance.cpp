@@ -64,8 +64,9 @@ void advance_homing(activity::Homing& homing, JobLifecycle& jobs, CoordinatorLoo
         if (!loop.is_order_done(i)) { return; }
         const auto& order = loop.orders.newest(i);
         const auto& state = loop.axes.state(i);
-        const bool refused = order && state && state->command_fault != FaultCode::None;
-        if (refused && order->kind == AxisCommandKind::Home) { return jobs.fail({state->command_fault, i}, loop); }
+        const bool refused = state && state->command_fault != FaultCode::None;
+        const bool homes = order && (order->kind == AxisCommandKind::Home || order->kind == AxisCommandKind::Approach);
+        if (refused && homes) { return jobs.fail({state->command_fault, i}, loop); }
     }
     if (!home_next_group(homing, loop)) { jobs.end(JobOutcome::Done, loop); }
 }
@@ -109,11 +110,28 @@ void report_on_path(const activity::OnPath& moving, const PathRunner& path, Mach
     }
 }
 
+/// Those of several motors of an axis that have switches.
+AxisSet approaching_motors(AxisSet axes, const CoordinatorLoop& loop) {
+    AxisSet motors = 0;
+    for (std::size_t i = 0; i < loop.machine.axes.size(); ++i) {
+        const AxisConfig& axis = loop.machine.axes[i];
+        if (!has_axis(axes, i) || axis.motors.size() < 2 || axis.homing.in_place) { continue; }
+        motors |= loop.kinematics.motors_of_axes(axis_bit(i));
+    }
+    return motors;
+}
+
 }  // namespace
 
 bool home_next_group(activity::Homing& homing, CoordinatorLoop& loop) {
+    if (homing.approaching != 0) {
+        loop.order_each(std::exchange(homing.approaching, 0), AxisCommandKind::Home);
+        return true;
+    }
     const AxisSet group = homing.sequence.next_group(loop.machine);
-    loop.order_each(loop.kinematics.motors_of_axes(group), AxisCommandKind::Home);
+    homing.approaching = approaching_motors(group, loop);
+    loop.order_each(homing.approaching, AxisCommandKind::Approach);
+    loop.order_each(loop.kinematics.motors_of_axes(group) & ~homing.approaching, AxisCommandKind::Home);
     homing.skew.begin(loop.axes);
     return group != 0;
 }

@@ -132,6 +132,7 @@ void JobLifecycle::halt_axes(CoordinatorLoop& loop) {
     for (std::size_t i = 0; i < loop.axes.size(); ++i) {
         const bool moves = loop.orders.is_open(i, AxisCommandKind::MoveOwn, loop.axes) ||
                            loop.orders.is_open(i, AxisCommandKind::Home, loop.axes) ||
+                           loop.orders.is_open(i, AxisCommandKind::Approach, loop.axes) ||
                            loop.orders.is_open(i, AxisCommandKind::Jog, loop.axes);
         if (moves) { (void)loop.order(i, AxisCommandKind::Halt); }
     }

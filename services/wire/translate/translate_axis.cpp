@@ -23,7 +23,7 @@ std::uint16_t to_bits(const Switches& switches) {
 
 // The enumerations on the wire have the same order as those in core.
 static_assert(lockstep_wire_AXIS_FAULT == static_cast<int>(AxisPhase::Fault));
-static_assert(lockstep_wire_AXIS_JOG == static_cast<int>(AxisCommandKind::Jog));
+static_assert(lockstep_wire_AXIS_APPROACH == static_cast<int>(AxisCommandKind::Approach));
 
 lockstep_wire_AxisState to_wire(const AxisState& state) {
     return {.axis = state.axis,
@@ -111,7 +111,7 @@ FromWire<AxisCommand> from_wire(const lockstep_wire_AxisCommand& wire) {
     Checks check("axis command");
     check.within<std::uint64_t>("sequence", wire.sequence_number, 0, kMostOrders);
     check.within<std::size_t>("axis", wire.axis, 0, kMaxAxes - 1);
-    const AxisCommandKind kind = check.choice("kind", wire.kind, AxisCommandKind::Jog);
+    const AxisCommandKind kind = check.choice("kind", wire.kind, AxisCommandKind::Approach);
     check.far("target_steps", wire.target_steps);
     check.within<std::int64_t>("ticks", wire.ticks, 0, kMaxWireTicks);
     check.finite("speed_mm_s", wire.speed_mm_s);

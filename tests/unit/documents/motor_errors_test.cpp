@@ -56,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(
         MotorMistake{machine(kSteps, "steps_per_mm: 80 motor { name: \"Y1\" device: \"usb\" }"),
                      "motor[0].device is \"usb\""},
         MotorMistake{machine(kSteps, std::string(kPair) + " homing { pulloff_mm: 4 }"), "max_skew_mm is 3, below"},
-        MotorMistake{machine(kSteps, std::string(kPair) + " homing { park_mm: 50 }"), "homing.park_mm is 50"},
+        MotorMistake{machine(kSteps, std::string(kPair) + " homing { park_mm: 50 }"), "max_skew_mm is 3, below 50"},
         MotorMistake{machine(kSteps,
                              "steps_per_mm: 80 max_skew_mm: 3 motor { name: \"Y1\" } motor { name: \"Y2\" "
                              "switch_offset_mm: 3.5 }"),
