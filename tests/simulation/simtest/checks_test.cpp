@@ -23,7 +23,7 @@ protected:
     }
     std::span<StepEdge> job_steps(std::size_t i) {
         const JobRecord& job = recording.jobs[1];
-        return std::span(recording.axes[i].steps).subspan(job.first_step[i], job.end_step[i] - job.first_step[i]);
+        return std::span(recording.motors[i].steps).subspan(job.first_step[i], job.end_step[i] - job.first_step[i]);
     }
     /// Cuts the axis off from all others for the whole job.
     void cut_off(std::size_t axis) {
@@ -32,7 +32,7 @@ protected:
             {.kind = VirtualFault::Kind::Cut, .process = axis, .at = from, .lasts = recording.ended - from});
     }
     void drop_last_frame_of(std::size_t i) {
-        AxisRecord& record = recording.axes[i];
+        MotorRecord& record = recording.motors[i];
         while (record.steps.back().tick > record.tracks.back().start) { record.steps.pop_back(); }
         record.tracks.pop_back();
     }
@@ -41,8 +41,8 @@ protected:
 };
 
 TEST_F(Checks, DetectAMissingStep) {
-    recording.axes[0].steps.erase(recording.axes[0].steps.begin() +
-                                  static_cast<std::ptrdiff_t>(recording.jobs[1].first_step[0]) + 500);
+    recording.motors[0].steps.erase(recording.motors[0].steps.begin() +
+                                    static_cast<std::ptrdiff_t>(recording.jobs[1].first_step[0]) + 500);
     --recording.jobs[1].end_step[0];
     EXPECT_TRUE(has(check_counts(recording), "exact"));
     EXPECT_FALSE(check_limits(recording).empty());
@@ -50,8 +50,8 @@ TEST_F(Checks, DetectAMissingStep) {
 }
 
 TEST_F(Checks, DetectAnExtraStep) {
-    const StepEdge last = recording.axes[0].steps.back();
-    recording.axes[0].steps.push_back({last.tick + Ticks{1000}, last.direction});
+    const StepEdge last = recording.motors[0].steps.back();
+    recording.motors[0].steps.push_back({last.tick + Ticks{1000}, last.direction});
     ++recording.jobs[1].end_step[0];
     EXPECT_TRUE(has(check_counts(recording), "exact"));
     EXPECT_TRUE(has(check_frames(recording), "frames"));
@@ -172,20 +172,20 @@ TEST_F(ChecksOfShortMoves, DetectAJumpBeyondOneStartVelocityHoweverManyTheyAre) 
 }
 
 TEST_F(Checks, DetectAFrameThatWasNotArmed) {
-    recording.axes[1].tracks.back().armed = 0;
+    recording.motors[1].tracks.back().armed = 0;
     EXPECT_TRUE(has(check_frames(recording), "frames"));
 }
 
 TEST_F(Checks, DetectAFrameRunTwiceOrNotAtAll) {
     Recording twice = recording;
-    twice.axes[0].tracks.push_back(twice.axes[0].tracks.back());
+    twice.motors[0].tracks.push_back(twice.motors[0].tracks.back());
     EXPECT_TRUE(has(check_frames(twice), "frames"));
-    recording.axes[1].tracks.pop_back();
+    recording.motors[1].tracks.pop_back();
     EXPECT_TRUE(has(check_frames(recording), "frames"));
 }
 
 TEST_F(Checks, DetectAFrameRunAtAnotherTime) {
-    recording.axes[0].tracks.back().start += Ticks{1};
+    recording.motors[0].tracks.back().start += Ticks{1};
     EXPECT_TRUE(has(check_frames(recording), "frames"));
 }
 
@@ -259,7 +259,7 @@ TEST(Joints, OfJoinedMovesAreThoseOfEveryAxis) {
 
 TEST(Claims, WithAnExtraStepAreUntrue) {
     const Scenario scenario = two_axes();
-    Recording recording{.machine = scenario.machine, .axes = std::vector<AxisRecord>(2)};
+    Recording recording{.machine = scenario.machine, .motors = std::vector<MotorRecord>(2)};
     VirtualMachine vm({.machine = scenario.machine});
     ClaimCheck claims(vm, recording);
     FalsifyingObserver falsifier(claims);

@@ -84,6 +84,8 @@ int main(int argc, char** argv) {
         "--late-devices", options.machine.late_devices,
         "about half of the devices answer after up to 5 ms and have their own clocks, in machines with slots "
         "of 2 ms or more");
+    parser.add_flag("--motors", options.machine.motors,
+                    "machines with several motors on an axis, belts that move two axes, gears or skewed guides");
     parser
         .add_option("--faults", options.faults,
                     "none, all (half of the kinds in each run), or a list of the kinds below")

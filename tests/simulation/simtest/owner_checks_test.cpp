@@ -33,7 +33,7 @@ protected:
     }
     /// The last track of an epoch that an axis ran.
     Track& track_of(std::size_t axis, Epoch epoch) {
-        auto& tracks = recording.axes[axis].tracks;
+        auto& tracks = recording.motors[axis].tracks;
         return *std::find_if(tracks.rbegin(), tracks.rend(), [&](const Track& t) { return t.epoch == epoch; });
     }
     bool detected() const { return has(check_owners(recording), "owners"); }
@@ -56,31 +56,31 @@ TEST_F(OwnerChecks, DetectAnOldOwnerThatReturns) {
 }
 
 TEST_F(OwnerChecks, DetectATermThatDecreases) {
-    auto& followed = recording.axes[0].followed;
+    auto& followed = recording.motors[0].followed;
     followed.push_back({recording.ended, followed.back().process, recording.epochs.at(first).writer});
     EXPECT_TRUE(detected());
 }
 
 TEST_F(OwnerChecks, DetectAnAxisThatChangesItsOwnerInMotion) {
     const Track& moved = track_of(0, last);
-    auto& followed = recording.axes[0].followed;
+    auto& followed = recording.motors[0].followed;
     const Term higher{followed.back().term.number + 1, 1};
     followed.push_back({moved.commanded + Ticks{1}, followed.back().process, higher});
     EXPECT_TRUE(detected());
 }
 
 TEST_F(OwnerChecks, DetectAnAxisMovedByAnOwnerThatItDoesNotFollowYet) {
-    recording.axes[0].followed.back().at = recording.ended;
+    recording.motors[0].followed.back().at = recording.ended;
     EXPECT_TRUE(detected());
 }
 
 TEST_F(OwnerChecks, DetectAnEpochBegunBeforeAllAxesFollow) {
-    recording.axes[0].followed.back().at = recording.epochs.at(last).first_sent + Ticks{1};
+    recording.motors[0].followed.back().at = recording.epochs.at(last).first_sent + Ticks{1};
     EXPECT_TRUE(detected());
 }
 
 TEST_F(OwnerChecks, DetectAFrameRunAgainMuchLater) {
-    recording.axes[0].tracks.push_back(track_of(0, first));
+    recording.motors[0].tracks.push_back(track_of(0, first));
     EXPECT_TRUE(detected());
 }
 
@@ -90,7 +90,7 @@ TEST_F(OwnerChecks, DetectAFrameRunDifferentlyThanSent) {
 }
 
 TEST_F(OwnerChecks, DetectAHomingWithoutOrder) {
-    recording.axes[1].orders.clear();
+    recording.motors[1].orders.clear();
     EXPECT_TRUE(detected());
 }
 

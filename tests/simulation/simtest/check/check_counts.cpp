@@ -10,8 +10,8 @@ std::int64_t sum(std::span<const StepEdge> steps) {
 }
 
 void check_order(const Recording& recording, Violations& violations) {
-    for (std::size_t i = 0; i < recording.axes.size(); ++i) {
-        const auto& steps = recording.axes[i].steps;
+    for (std::size_t i = 0; i < recording.motors.size(); ++i) {
+        const auto& steps = recording.motors[i].steps;
         for (std::size_t n = 1; n < steps.size(); ++n) {
             if (steps[n].tick <= steps[n - 1].tick) {
                 violations.push_back({"order", i, steps[n].tick.value, n, "not later than the previous step"});
@@ -38,7 +38,7 @@ void check_sum(const Recording& recording, const JobRecord& job, std::size_t i, 
 Violations check_counts(const Recording& recording) {
     Violations violations;
     check_order(recording, violations);
-    for (std::size_t i = 0; i < recording.axes.size(); ++i) {
+    for (std::size_t i = 0; i < recording.motors.size(); ++i) {
         std::size_t at = 0;
         for (const JobRecord& job : recording.jobs) {
             if (job.first_step[i] != at) {
@@ -48,7 +48,7 @@ Violations check_counts(const Recording& recording) {
             at = job.end_step[i];
             if (!job.homing) { check_sum(recording, job, i, violations); }
         }
-        if (at != recording.axes[i].steps.size()) {
+        if (at != recording.motors[i].steps.size()) {
             violations.push_back({"exact", i, {}, at, "steps after the last job"});
         }
     }

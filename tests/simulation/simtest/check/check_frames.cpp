@@ -14,7 +14,7 @@ public:
 
     void check() {
         for (const auto& [number, epoch] : recording_.epochs) { check_sent(epoch.frames); }
-        for (std::size_t i = 0; i < recording_.axes.size(); ++i) { check_axis(i); }
+        for (std::size_t i = 0; i < recording_.motors.size(); ++i) { check_axis(i); }
         check_same();
     }
 
@@ -33,8 +33,8 @@ private:
     }
 
     void check_axis(std::size_t i) {
-        const auto& tracks = recording_.axes[i].tracks;
-        const auto& steps = recording_.axes[i].steps;
+        const auto& tracks = recording_.motors[i].tracks;
+        const auto& steps = recording_.motors[i].steps;
         std::size_t step = 0;
         for (std::size_t n = 0; n < tracks.size(); ++n) {
             const Track& track = tracks[n];
@@ -58,7 +58,7 @@ private:
     /// All steps belong to a track. The exception: after the end of its process, a device runs its armed frames and
     /// a tail on its own.
     void check_between(std::size_t i, std::size_t tracks, std::size_t& step, Tick until) {
-        const AxisRecord& axis = recording_.axes[i];
+        const MotorRecord& axis = recording_.motors[i];
         const std::size_t first = step;
         std::int64_t net = 0;
         for (; step < axis.steps.size() && axis.steps[step].tick <= until; ++step) {

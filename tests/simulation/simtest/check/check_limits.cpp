@@ -4,6 +4,7 @@
 #include "tests/simulation/simtest/check/checks.hpp"
 #include "tests/simulation/simtest/record/explain.hpp"
 #include "tests/simulation/simtest/record/follow.hpp"
+#include "tests/simulation/simtest/record/motor_map.hpp"
 
 namespace lockstep::simtest {
 namespace {
@@ -37,20 +38,20 @@ struct Limits {
     double decel = 0;
 };
 
-Limits in_ticks(const AxisConfig& axis, const MachineConfig& machine) {
-    const double tick = static_cast<double>(machine.tick_ns) * 1e-9;
-    const double scale = axis.steps_per_mm * tick * kRounding;
-    return {axis.start_velocity_mm_s * scale, axis.max_velocity_mm_s * scale, axis.max_accel_mm_s2 * scale * tick,
-            axis.max_decel_mm_s2 * scale * tick};
+Limits in_ticks(const MotorMap& map, std::int64_t tick_ns, std::size_t motor) {
+    const MotorLimits& limits = map.limits(motor);
+    const double tick = static_cast<double>(tick_ns) * 1e-9;
+    const double scale = map.steps_per_mm(motor) * tick * kRounding;
+    return {limits.start * scale, limits.top * scale, limits.accel * scale * tick, limits.decel * scale * tick};
 }
 
-/// The steps of one axis in one job.
+/// The steps of one motor in one job.
 class LimitCheck {
 public:
     /// `following`: none while homing.
-    LimitCheck(const Recording& recording, const JobRecord& job, std::size_t axis, const Following* following,
-               Violations& violations)
-        : limits_(in_ticks(recording.machine.axes[axis], recording.machine)),
+    LimitCheck(const Recording& recording, const Limits& limits, const JobRecord& job, std::size_t axis,
+               const Following* following, Violations& violations)
+        : limits_(limits),
           steps_(recording.steps_of(job, axis)),
           course_(job.course),
           at_(following == nullptr ? nullptr : &following->at_step[axis]),
@@ -265,10 +266,12 @@ private:
 
 Violations check_limits(const Recording& recording, const Followings& followings) {
     Violations violations;
+    const MotorMap map(recording.machine);
     for (std::size_t k = 0; k < recording.jobs.size(); ++k) {
         const Following* following = followings[k] ? &*followings[k] : nullptr;
-        for (std::size_t i = 0; i < recording.axes.size(); ++i) {
-            LimitCheck(recording, recording.jobs[k], i, following, violations).check();
+        for (std::size_t i = 0; i < recording.motors.size(); ++i) {
+            const Limits limits = in_ticks(map, recording.machine.tick_ns, i);
+            LimitCheck(recording, limits, recording.jobs[k], i, following, violations).check();
         }
     }
     return violations;

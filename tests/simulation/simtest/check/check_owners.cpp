@@ -18,7 +18,7 @@ public:
           violations_(violations) {}
 
     void check() {
-        for (std::size_t i = 0; i < recording_.axes.size(); ++i) {
+        for (std::size_t i = 0; i < recording_.motors.size(); ++i) {
             check_terms_rise(i);
             check_run_once(i);
             check_orders(i);
@@ -34,7 +34,7 @@ private:
     /// The term of an axis process never decreases. A restarted process does not know any term.
     void check_terms_rise(std::size_t i) {
         const Followed* before = nullptr;
-        for (const Followed& now : recording_.axes[i].followed) {
+        for (const Followed& now : recording_.motors[i].followed) {
             if (before != nullptr && before->process == now.process && now.term <= before->term) {
                 object(i, now.at, "its term decreases");
             }
@@ -45,7 +45,7 @@ private:
     /// Each body and each tail runs once, with the content that was sent.
     void check_run_once(std::size_t i) {
         std::set<std::tuple<Epoch, FrameNumber, bool>> run;
-        for (const Track& track : recording_.axes[i].tracks) {
+        for (const Track& track : recording_.motors[i].tracks) {
             if (track.epoch == 0) { continue; }
             if (!run.insert({track.epoch, track.frame, track.tail}).second) {
                 object(i, track.start, "frame " + std::to_string(track.frame) + " ran a second time");
@@ -63,9 +63,11 @@ private:
     void check_orders(std::size_t i) {
         for (const Motion& motion : motions_) {
             if (motion.axis != i || motion.track == nullptr || motion.track->epoch != 0) { continue; }
-            const bool ordered = std::ranges::any_of(recording_.axes[i].orders, [&](const GivenOrder& given) {
-                return given.order.term == motion.writer && given.at <= motion.begin &&
-                       (given.order.kind == AxisCommandKind::Home || given.order.kind == AxisCommandKind::MoveOwn);
+            const bool ordered = std::ranges::any_of(recording_.motors[i].orders, [&](const GivenOrder& given) {
+                using Kind = AxisCommandKind;
+                const Kind kind = given.order.kind;
+                const bool moves = kind == Kind::Home || kind == Kind::Approach || kind == Kind::MoveOwn;
+                return given.order.term == motion.writer && given.at <= motion.begin && moves;
             });
             if (!ordered) { object(i, motion.begin, "its owner did not order this move"); }
         }
@@ -82,7 +84,7 @@ private:
 
     /// During a motion the axis follows the owner that moves it. A restarted process may not follow an owner yet.
     void check_followed(const Motion& motion) {
-        const AxisRecord& axis = recording_.axes[motion.axis];
+        const MotorRecord& axis = recording_.motors[motion.axis];
         const bool known = motion.track != nullptr;
         if (known && axis.followed_at(motion.begin).term != motion.writer) {
             object(motion.axis, motion.begin, "it moves for an owner that it does not follow");
@@ -112,8 +114,8 @@ private:
     /// An owner sends frames only after every axis has reported that it follows this owner. The axis can have changed
     /// its owner during the message delay, and its process can have restarted.
     void check_begun(Epoch number, const SentEpoch& epoch) {
-        for (std::size_t i = 0; i < recording_.axes.size(); ++i) {
-            const AxisRecord& axis = recording_.axes[i];
+        for (std::size_t i = 0; i < recording_.motors.size(); ++i) {
+            const MotorRecord& axis = recording_.motors[i];
             const Followed now = axis.followed_at(epoch.first_sent);
             const bool restarted = std::ranges::any_of(axis.followed, [&](const Followed& f) {
                 return f.at <= epoch.first_sent && f.term == epoch.writer && f.process != now.process;
@@ -132,7 +134,7 @@ private:
     /// a coordinator or one of its links failed. At startup every coordinator may claim.
     void check_needed(const Claim& before, const Claim& claim) {
         if (recording_.jobs.empty() || claim.at < recording_.jobs.front().began) { return; }
-        const auto is_coordinator = [&](std::size_t process) { return process >= recording_.axes.size(); };
+        const auto is_coordinator = [&](std::size_t process) { return process >= recording_.motors.size(); };
         const bool failed = std::ranges::any_of(recording_.faults, [&](const VirtualFault& fault) {
             const bool concerns = is_coordinator(fault.process) || (fault.peer && is_coordinator(*fault.peer));
             return concerns && fault.at <= claim.at && fault.end() + silence_ * 3 >= before.at;

@@ -28,9 +28,9 @@ bool is_faulty(const Recording& recording, Tick from, Tick until) {
 void check_emergency(const Recording& recording, const Emergency& emergency, Violations& violations) {
     const Tick ceased = emergency.asked + recording.machine.slot_ticks() * kCeaseSlots;
     if (recording.lossy() || is_faulty(recording, emergency.asked, ceased)) { return; }
-    for (std::size_t i = 0; i < recording.axes.size(); ++i) {
-        for (const StepEdge& step : recording.axes[i].steps) {
-            const Tick tick = recording.axes[i].truth(step);
+    for (std::size_t i = 0; i < recording.motors.size(); ++i) {
+        for (const StepEdge& step : recording.motors[i].steps) {
+            const Tick tick = recording.motors[i].truth(step);
             if (tick > ceased && tick <= emergency.rests) {
                 violations.push_back({"emergency", i, tick.value, {}, "a pulse after the limit for an emergency stop"});
                 break;
@@ -55,8 +55,8 @@ void check_limit(const Recording& recording, const VirtualFault& fault, Violatio
     if (!is_limit) { return; }
     const int towards = fault.contact == &PlantInputs::limit_min ? -1 : 1;
     const Ticks rounding{2};  // conversion from the device's time to the true time
-    for (const StepEdge& step : recording.axes[fault.process].steps) {
-        const Tick tick = recording.axes[fault.process].truth(step);
+    for (const StepEdge& step : recording.motors[fault.process].steps) {
+        const Tick tick = recording.motors[fault.process].truth(step);
         if (step.direction != towards || tick <= fault.at + rounding || tick + rounding > fault.end()) { continue; }
         if (is_stopped(recording, fault.process, tick)) { continue; }
         violations.push_back({"limit", fault.process, tick.value, {}, "a pulse towards a limit switch that is closed"});
@@ -95,7 +95,7 @@ void check_halt(const Recording& recording, std::size_t i, const GivenOrder& hal
     const Ticks within = recording.machine.slot_ticks() * kHaltSlots + Ticks{kHalt_ns / recording.machine.tick_ns};
     const Tick braked = halt.at + within;
     if (recording.lossy() || is_faulty(recording, halt.at, braked)) { return; }
-    for (const Track& track : recording.axes[i].tracks) {
+    for (const Track& track : recording.motors[i].tracks) {
         const bool is_own = track.epoch == 0 && !track.tail && track.commanded < until;
         if (is_own && track.commanded + track.commanded_ticks > braked && std::abs(track.net_steps) > 1) {
             violations.push_back(
@@ -106,7 +106,7 @@ void check_halt(const Recording& recording, std::size_t i, const GivenOrder& hal
 }
 
 void check_halts(const Recording& recording, std::size_t i, Violations& violations) {
-    const std::vector<GivenOrder>& orders = recording.axes[i].orders;
+    const std::vector<GivenOrder>& orders = recording.motors[i].orders;
     for (std::size_t n = 0; n < orders.size(); ++n) {
         if (orders[n].order.kind != AxisCommandKind::Halt) { continue; }
         check_halt(recording, i, orders[n], n + 1 < orders.size() ? orders[n + 1].at : recording.ended, violations);
@@ -127,8 +127,10 @@ Violations check_stops(const Recording& recording) {
         check_limit(recording, fault, violations);
         check_loss_is_reported(recording, fault, violations);
     }
-    for (std::size_t i = 0; i < recording.axes.size(); ++i) {
-        for (const Track& track : recording.axes[i].tracks) { check_cut_is_reported(recording, i, track, violations); }
+    for (std::size_t i = 0; i < recording.motors.size(); ++i) {
+        for (const Track& track : recording.motors[i].tracks) {
+            check_cut_is_reported(recording, i, track, violations);
+        }
         check_halts(recording, i, violations);
     }
     return violations;

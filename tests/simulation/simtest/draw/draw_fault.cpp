@@ -40,7 +40,7 @@ void draw_cut(Draw& draw, VirtualFault& fault, std::size_t processes) {
 /// Sets a clock by one slot to ten seconds. (An error below a round trip looks like delay.) The error ends when two
 /// exchanges have shown it.
 VirtualFault clock_set(Draw& draw, const MachineConfig& machine) {
-    VirtualFault fault{.kind = FaultKind::SetClock, .process = draw.index(machine.axes.size())};
+    VirtualFault fault{.kind = FaultKind::SetClock, .process = draw.index(motor_count(machine))};
     const double by_s =
         (draw.chance(0.5) ? 1 : -1) * draw.magnitude(1e-6 * static_cast<double>(machine.timing.slot_us), 10);
     fault.set_by = {static_cast<std::int64_t>(by_s * machine.ticks_per_second())};
@@ -56,10 +56,10 @@ std::optional<VirtualFault> draw_event(Draw& draw, const MachineConfig& machine,
     if (faults.stall) { kinds.push_back({.kind = FaultKind::Freeze, .in_loop = true}); }
     if (faults.clock) { kinds.push_back({.kind = FaultKind::SetClock}); }
     if (kinds.empty() || draw.chance(0.1)) { return std::nullopt; }
-    const std::size_t processes = machine.axes.size() + 1;
+    const std::size_t processes = motor_count(machine) + 1;
     VirtualFault fault = kinds[draw.index(kinds.size())];
     if (fault.kind == FaultKind::SetClock) { return clock_set(draw, machine); }
-    fault.process = draw.chance(0.35) ? machine.axes.size() : draw.index(processes);
+    fault.process = draw.chance(0.35) ? motor_count(machine) : draw.index(processes);
     const double slots = fault.kind == FaultKind::Freeze ? draw_freeze_slots(draw, machine.timing)
                                                          : draw_outage_slots(draw, machine.timing);
     fault.lasts = ticks_of(slots, machine);

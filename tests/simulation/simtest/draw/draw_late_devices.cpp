@@ -26,6 +26,15 @@ VirtualClock draw_oscillator(Draw& draw, const MachineConfig& machine) {
     return {.offset = {static_cast<std::int64_t>(offset_s * machine.ticks_per_second())}, .ppm = draw.real(-100, 100)};
 }
 
+DeviceName& device_of(MachineConfig& machine, std::size_t motor) {
+    std::vector<DeviceName*> devices;
+    for (AxisConfig& axis : machine.axes) {
+        if (axis.motors.empty()) { devices.push_back(&axis.device); }
+        for (MotorBlock& block : axis.motors) { devices.push_back(&block.device); }
+    }
+    return *devices[motor];
+}
+
 void shorten_network(Scenario& scenario) {
     const bool has_clocks = scenario.machine.timing.time_source == TimeSource::Network;
     const Ticks most{scenario.machine.slot_ticks().value / (has_clocks ? 16 : 4)};
@@ -51,12 +60,12 @@ void give_late_devices(std::uint64_t seed, Scenario& scenario) {
     scenario.power_up = {100'000'000};  // more than any clock is behind
     machine.timing.clock_error_limit_us = machine.timing.most_clock_error_us();
     const bool has_clocks = !scenario.clocks.empty();
-    if (!has_clocks) { scenario.clocks.resize(machine.axes.size()); }
-    scenario.links.resize(machine.axes.size());
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    if (!has_clocks) { scenario.clocks.resize(motor_count(machine)); }
+    scenario.links.resize(motor_count(machine));
+    for (std::size_t i = 0; i < motor_count(machine); ++i) {
         if (draw.chance(0.5)) { continue; }
         scenario.links[i] = draw_link(draw, machine);
-        machine.axes[i].device = {DeviceName::Kind::Mapped, "/dev/drawn"};
+        device_of(machine, i) = {DeviceName::Kind::Mapped, "/dev/drawn"};
         if (!has_clocks) { scenario.clocks[i].device = draw_oscillator(draw, machine); }
     }
     shorten_network(scenario);

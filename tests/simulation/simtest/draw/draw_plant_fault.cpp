@@ -2,20 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace lockstep::simtest {
 namespace {
 
-/// More than the rounding of a step, at most a twentieth of the travel.
-std::int64_t draw_push(Draw& draw, const AxisConfig& axis) {
-    const double travel = (axis.position_max_mm - axis.position_min_mm) * axis.steps_per_mm;
-    const auto steps = static_cast<std::int64_t>(draw.magnitude(6, std::max(7.0, travel / 20)));
+/// More than the rounding of a step, at most a twentieth of the travel. One of several motors of an axis cannot be
+/// pushed further than the axis bears.
+std::int64_t draw_push(Draw& draw, const MotorConfig& motor, const std::optional<double>& max_skew_mm) {
+    const double travel = (motor.position_max_mm - motor.position_min_mm) * motor.steps_per_mm;
+    const double most = max_skew_mm ? *max_skew_mm * motor.steps_per_mm : travel;
+    const auto steps = static_cast<std::int64_t>(draw.magnitude(6, std::max(7.0, std::min(most, travel) / 20)));
     return draw.chance(0.5) ? steps : -steps;
 }
 
 VirtualFault draw_of(Draw& draw, const MachineConfig& machine, FaultKind kind, double lasts_slots) {
-    VirtualFault fault{.kind = kind, .process = draw.index(machine.axes.size()), .lasts = {1}};
-    if (kind == FaultKind::Push) { fault.push_steps = draw_push(draw, machine.axes[fault.process]); }
+    VirtualFault fault{.kind = kind, .process = draw.index(motor_count(machine)), .lasts = {1}};
+    if (kind == FaultKind::Push) {
+        const MotorConfig motor = motors_of(machine)[fault.process];
+        fault.push_steps = draw_push(draw, motor, machine.axes[motor.axis].max_skew_mm);
+    }
     if (kind != FaultKind::Stick) { return fault; }
     fault.contact = draw.chance(0.5) ? &PlantInputs::limit_min : &PlantInputs::limit_max;
     const double slots = std::max(1.0, lasts_slots);
@@ -26,7 +32,7 @@ VirtualFault draw_of(Draw& draw, const MachineConfig& machine, FaultKind kind, d
 VirtualFault draw_loss(Draw& draw, const MachineConfig& machine) {
     const FaultKind kind = draw.any_of({FaultKind::KillDevice, FaultKind::KillDevice, FaultKind::StopDevice,
                                         FaultKind::StopDevice, FaultKind::Overwrite});
-    VirtualFault fault{.kind = kind, .process = draw.index(machine.axes.size())};
+    VirtualFault fault{.kind = kind, .process = draw.index(motor_count(machine))};
     const auto silence = static_cast<double>(rules::silence_slots(machine.timing));
     const bool is_short = kind == FaultKind::StopDevice && draw.chance(0.4);
     const double slots = is_short ? draw.real(0.1, silence / 2) : silence * draw.magnitude(1.5, 20);

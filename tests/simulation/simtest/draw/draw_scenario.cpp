@@ -3,6 +3,7 @@
 #include "tests/simulation/simtest/draw/draw_fault.hpp"
 #include "tests/simulation/simtest/draw/draw_late_devices.hpp"
 #include "tests/simulation/simtest/draw/draw_machine.hpp"
+#include "tests/simulation/simtest/draw/draw_motors.hpp"
 #include "tests/simulation/simtest/draw/draw_plant_fault.hpp"
 #include "tests/simulation/simtest/draw/draw_program.hpp"
 #include "tests/simulation/simtest/draw/draw_stream.hpp"
@@ -236,7 +237,7 @@ void give_clocks(Draw& draw, Scenario& scenario) {
         const double offset = offset_s * machine.ticks_per_second();
         return VirtualClock{.offset = {static_cast<std::int64_t>(offset)}, .ppm = draw.real(-100, 100)};
     };
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+    for (std::size_t m = 0; m < motor_count(machine); ++m) {
         const VirtualClock process = draw_clock();
         scenario.clocks.push_back({process, draw_clock()});
     }
@@ -251,6 +252,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     if (faults.clock) { faults.corrupt = false; }  // no clock bound holds with falsified replies
     const std::size_t drawn = 1 + draw.index(6);
     scenario.machine = draw_machine(draw, kind.axes.value_or(drawn), kind.long_searches);
+    if (kind.motors) { scenario.machine = with_motors(seed, std::move(scenario.machine)); }
     scenario.network = draw_network(draw, faults, scenario.machine.slot_ticks());
     if (faults.clock) {
         give_clocks(draw, scenario);

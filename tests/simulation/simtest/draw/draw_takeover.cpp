@@ -26,7 +26,7 @@ public:
     }
 
 private:
-    std::size_t axes() const { return machine_.axes.size(); }
+    std::size_t motors() const { return motor_count(machine_); }
 
     Victim draw_victim() {
         const double part = draw_.part();
@@ -49,7 +49,7 @@ private:
 
     void add(std::vector<PlannedFault>& planned, Victim victim) {
         PlannedFault one{.victim = victim};
-        one.fault.process = draw_.index(axes());  // used if an axis is the victim
+        one.fault.process = draw_.index(motors());  // used if an axis is the victim
         one.fault.kind = draw_.any_of({FaultKind::Freeze, FaultKind::Freeze, FaultKind::Crash, FaultKind::Cut});
         one.fault.in_loop = one.fault.kind == FaultKind::Freeze && draw_.chance(0.5);
         one.fault.lasts = draw_length();
@@ -89,10 +89,10 @@ private:
     /// The numbers of both coordinators stand for the other coordinator: no cut from itself is placed.
     std::vector<std::size_t> draw_peers() {
         std::vector<std::size_t> peers;
-        for (std::size_t i = 0; i < axes(); ++i) {
+        for (std::size_t i = 0; i < motors(); ++i) {
             if (draw_.chance(0.5)) { peers.push_back(i); }
         }
-        if (peers.empty() || draw_.chance(0.5)) { peers.insert(peers.end(), {axes(), axes() + 1}); }
+        if (peers.empty() || draw_.chance(0.5)) { peers.insert(peers.end(), {motors(), motors() + 1}); }
         return peers;
     }
 

@@ -71,6 +71,7 @@ struct MachineKind {
     std::optional<std::size_t> axes;  // not given: 1 to 6
     bool long_searches = false;       // draw_machine.hpp
     bool late_devices = false;        // some devices answer late and have their own clocks
+    bool motors = false;              // axes have several motors, or share them (draw_motors.hpp)
 };
 
 /// A command that the machine must refuse, and the reason. The machine must continue as if it had not been given.

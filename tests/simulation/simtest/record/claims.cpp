@@ -1,5 +1,6 @@
 #include "tests/simulation/simtest/record/claims.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -9,6 +10,7 @@ void ClaimCheck::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, Axi
     const std::int64_t encoder = vm_.device(axis).plant().encoder();
     const bool has_moved = std::exchange(encoder_[axis], encoder) != encoder || vm_.device(axis).in_motion();
     if (has_moved) { moved_[axis] = now; }
+    if (motors_[axis].homing.in_place) { note_zero(axis, out); }
     if (!out.state) { return; }
     const AxisState& state = *out.state;
     const std::int64_t claimed = state.position.count();
@@ -23,16 +25,26 @@ void ClaimCheck::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, Axi
     }
     if (state.at_rest && state.velocity != Velocity{}) { object(axis, now, "it reports that it rests, but moves"); }
     // An axis does not know yet what its device has done since the last reading, if the device answers late.
-    const bool is_late = recording_.axes[axis].lateness > Ticks{};
+    const bool is_late = recording_.motors[axis].lateness > Ticks{};
     if (is_late && state.tick - state.clock_error <= moved_[axis]) { return; }
     // The switch closes within a step of the reported position, and whole steps are off by at most half a step.
     constexpr double kHomedWithin = 2;
-    const double slide = vm_.device(axis).plant().position_mm() * vm_.machine().axes[axis].steps_per_mm;
-    if (state.homed && std::abs(slide - static_cast<double>(claimed)) > kHomedWithin) {
+    const double slide = vm_.device(axis).plant().position_mm() * motors_[axis].steps_per_mm;
+    if (state.homed && std::abs(slide - zero_[axis] - static_cast<double>(claimed)) > kHomedWithin) {
         object(axis, now,
                "it reports that it is homed at step " + std::to_string(claimed) + ", its slide is at step " +
                    std::to_string(slide));
     }
+}
+
+/// A motor that is homed in place calls the place where it stands its park.
+void ClaimCheck::note_zero(std::size_t motor, const AxisOutputs& out) {
+    const auto is_homed = [](const AxisNotice& notice) { return notice.kind == AxisNotice::Kind::Homed; };
+    if (std::ranges::any_of(out.notices, is_homed)) { is_zero_new_[motor] = true; }
+    if (!out.state || !out.state->homed || !is_zero_new_[motor]) { return; }
+    is_zero_new_[motor] = false;
+    zero_[motor] = vm_.device(motor).plant().position_mm() * motors_[motor].steps_per_mm -
+                   static_cast<double>(out.state->position.count());
 }
 
 /// Whether the axis may not know yet that its device is lost. It gives the device up after silence_slots of its own

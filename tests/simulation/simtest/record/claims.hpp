@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/kinematics/motors.hpp"
 #include "core/protocol/rules.hpp"
 #include "services/virtual/virtual_machine.hpp"
 #include "tests/simulation/simtest/record/recording.hpp"
@@ -16,12 +17,15 @@ public:
     ClaimCheck(VirtualMachine& vm, Recording& recording)
         : vm_(vm),
           recording_(recording),
-          pulses_(recording.axes.size(), 0),
-          power_up_(recording.axes.size(), Tick{std::numeric_limits<std::int64_t>::min()}),
-          has_device_(recording.axes.size(), true),
-          unnoticed_(recording.axes.size()),
-          encoder_(recording.axes.size()),
-          moved_(recording.axes.size()) {}
+          motors_(motors_of(vm.machine())),
+          pulses_(recording.motors.size(), 0),
+          power_up_(recording.motors.size(), Tick{std::numeric_limits<std::int64_t>::min()}),
+          has_device_(recording.motors.size(), true),
+          unnoticed_(recording.motors.size()),
+          encoder_(recording.motors.size()),
+          moved_(recording.motors.size()),
+          zero_(recording.motors.size()),
+          is_zero_new_(recording.motors.size()) {}
 
     /// Pulses of a device that was replaced meanwhile can be reported late.
     void on_step(std::size_t axis, StepEdge step) override {
@@ -32,17 +36,21 @@ public:
 
 private:
     bool has_yet_to_notice(std::size_t axis);
+    void note_zero(std::size_t motor, const AxisOutputs& out);
     void object(std::size_t axis, Tick now, const std::string& what);
 
     VirtualMachine& vm_;
     Recording& recording_;
+    std::vector<MotorConfig> motors_;
     std::vector<std::int64_t> pulses_;  // since the device's power-up
     std::vector<Tick> power_up_;        // in its own time
     std::vector<bool> has_device_;      // the device works, and the axis uses it
     std::vector<std::optional<Slot>>
         unnoticed_;  // the states of an axis since it lost its device; none when it has noticed
     std::vector<std::int64_t> encoder_;
-    std::vector<Tick> moved_;  // when the slide had last moved
+    std::vector<Tick> moved_;        // when the slide had last moved
+    std::vector<double> zero_;       // steps from a motor's zero to the slide's, after a homing in place
+    std::vector<bool> is_zero_new_;  // it was homed in place, and has not reported its place since
 };
 
 }  // namespace lockstep::simtest

@@ -7,11 +7,9 @@
 namespace lockstep::simtest {
 namespace {
 
-constexpr double kExactly = 0.5 + 0.04;  // steps: rounding to pulses, and what pieces of constant acceleration deviate
-constexpr double kArc = 1.04;            // the same, and up to half a step: an arc before a rest ends on whole steps
-constexpr double kSharp = 0.9;           // cosine: moves with a greater angle between their directions are not joined,
-constexpr double kLong_mm = 0.1;         // if both are longer than this
-constexpr double kJointHair = 1e-9;      // part of a stretch: a place this near to a joint is at the joint
+constexpr double kSharp = 0.9;       // cosine: moves with a greater angle between their directions are not joined,
+constexpr double kLong_mm = 0.1;     // if both are longer than this
+constexpr double kJointHair = 1e-9;  // part of a stretch: a place this near to a joint is at the joint
 
 double length_mm(const MachineConfig& machine, const Places& from, const Places& to) {
     double square = 0;
@@ -27,6 +25,7 @@ public:
     CourseMaker(const Program& program, const MachineConfig& machine, const Counts& from, double most_feed)
         : program_(program),
           machine_(machine),
+          motors_(machine),
           most_feed_(most_feed),
           at_(from.begin(), from.end()),
           programmed_mm_(program.start_mm),
@@ -98,8 +97,10 @@ private:
         if (move.mode == PathMode::ExactStop) { add(Dwell{}); }
     }
 
+    /// Steps of its coarsest motor, per mm.
     double scale_of(std::size_t axis) const {
-        return std::ranges::find(machine_.axes, program_.axes[axis], &AxisConfig::name)->steps_per_mm;
+        const auto found = std::ranges::find(machine_.axes, program_.axes[axis], &AxisConfig::name);
+        return found->steps_per_mm / motors_.step_of(static_cast<std::size_t>(found - machine_.axes.begin()));
     }
     /// How far the program's axes are from the programmed place: less than a step, because they rest on whole steps.
     std::vector<double> off_mm() const {
@@ -117,17 +118,21 @@ private:
         for (std::size_t i = 0; i < program_.axes.size(); ++i) {
             for (std::size_t a = 0; a < machine_.axes.size(); ++a) {
                 const AxisConfig& axis = machine_.axes[a];
-                if (axis.name != program_.axes[i]) { continue; }
-                stretch.to[a] = std::clamp(move.target_mm[i] * axis.steps_per_mm,
-                                           static_cast<double>(nearest_step(axis, axis.position_min_mm)),
-                                           static_cast<double>(nearest_step(axis, axis.position_max_mm)));
+                if (axis.name == program_.axes[i]) { stretch.to[a] = move.target_mm[i] * axis.steps_per_mm; }
             }
+        }
+        // An axis that rests beyond its travel, because its motors rest on whole steps, returns with the next move.
+        for (std::size_t a = 0; a < machine_.axes.size(); ++a) {
+            const AxisConfig& axis = machine_.axes[a];
+            stretch.to[a] = std::clamp(stretch.to[a], static_cast<double>(nearest_step(axis, axis.position_min_mm)),
+                                       static_cast<double>(nearest_step(axis, axis.position_max_mm)));
         }
         if (stretch.to == at_) { return; }
         feed_.push_back(move.rapid ? 0 : move.feed_mm_s);
         asked_.push_back(stretch.to);
         stretch.is_exact = move.mode != PathMode::Blend;
         stretch.tolerance = tolerance_of(move);
+        stretch.tolerance_mm = move.tolerance_mm;
         at_ = stretch.to;
         course_.stretches.push_back(std::move(stretch));
     }
@@ -139,7 +144,7 @@ private:
     }
     void add(const Dwell& dwell) {
         come_to_rest();
-        course_.stretches.push_back({.to = at_, .seconds = dwell.seconds, .rests = true});
+        course_.stretches.push_back({.to = at_, .seconds = dwell.seconds, .rests = true, .ends_at_rest = true});
         feed_.push_back(0);
         asked_.push_back(at_);
     }
@@ -147,7 +152,7 @@ private:
     void add(const Settle&) { add(Dwell{}); }
     void add(const Pause&) {
         come_to_rest();
-        course_.stretches.push_back({.to = at_, .rests = true, .pauses = true});
+        course_.stretches.push_back({.to = at_, .rests = true, .pauses = true, .ends_at_rest = true});
         feed_.push_back(0);
         asked_.push_back(at_);
         ++course_.pauses;
@@ -162,6 +167,7 @@ private:
         }
         if (course_.stretches.empty()) { return; }
         course_.stretches.back().to = at_;
+        course_.stretches.back().ends_at_rest = true;
         if (!course_.stretches.back().is_arc) { return; }
         for (std::size_t k = arc_; k < course_.stretches.size(); ++k) { course_.stretches[k].moved = moved; }
     }
@@ -188,7 +194,7 @@ private:
     void mark_joined(std::size_t k) {
         Stretch& stretch = course_.stretches[k];
         stretch.is_joined = !stretch.rests && !stretch.is_exact && !(is_sharp(k) && is_sharp(k + 1));
-        stretch.within = stretch.is_arc ? kArc : stretch.is_joined ? stretch.tolerance : kExactly;
+        stretch.within = within(stretch);
     }
 
     /// An upper bound for a move from rest to rest. At a corner an axis keeps at least half its start velocity, or the
@@ -209,7 +215,8 @@ private:
         return 2 * seconds;
     }
 
-    /// Sets the speeds of each axis, after all places are known. A joined move may begin and end half a step off.
+    /// Sets the speeds of each axis, after all places are known. A joined move may begin and end half a step of a motor
+    /// off.
     void limit() {
         for (std::size_t k = 0; k < course_.stretches.size(); ++k) {
             const Places from = start_of(k);
@@ -219,7 +226,8 @@ private:
                 const AxisConfig& axis = machine_.axes[i];
                 double mm_s = axis.max_velocity_mm_s;
                 if (feed_[k] > 0) {
-                    const double steps = std::abs(stretch.to[i] - from[i]) + (stretch.is_joined ? 1 : 0);
+                    const double off = stretch.is_joined ? motors_.step_of(i) : 0;
+                    const double steps = std::abs(stretch.to[i] - from[i]) + off;
                     const double share = stretch.is_arc ? 1 : std::min(1.0, steps / axis.steps_per_mm / length);
                     mm_s = std::min(mm_s, most_feed_ * feed_[k] * share);
                 }
@@ -230,6 +238,7 @@ private:
 
     const Program& program_;
     const MachineConfig& machine_;
+    MotorMap motors_;
     double most_feed_;
     Places at_;
     std::vector<double> programmed_mm_;  // the end of the last move, for the program's axes
@@ -241,8 +250,10 @@ private:
 
 }  // namespace
 
-std::int64_t nearest_step(const AxisConfig& axis, double mm) {
-    return static_cast<std::int64_t>(std::round(mm * axis.steps_per_mm));
+double within(const Stretch& stretch) {
+    constexpr double kExactly = 0.5 + 0.04;  // rounding to pulses, and what pieces of constant acceleration deviate
+    constexpr double kArc = 1.04;  // the same, and up to half a step: an arc before a rest ends on whole steps
+    return stretch.is_arc ? kArc : stretch.is_joined ? stretch.tolerance : kExactly;
 }
 
 Joints::Joints(const Course& course, std::size_t axis) : before_{0, 0} {

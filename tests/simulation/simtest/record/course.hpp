@@ -1,19 +1,22 @@
 // The requirements of a program on the axes, computed from the program and the configuration alone.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "core/machine.hpp"
 #include "core/program.hpp"
+#include "tests/simulation/simtest/record/motor_map.hpp"
 
 namespace lockstep::simtest {
 
 using Counts = std::vector<std::int64_t>;
-using Places = std::vector<double>;  // steps, of each axis
 
 /// The nearest whole step; halves are rounded away from zero. This is where an axis rests for "at 3.2 mm".
-std::int64_t nearest_step(const AxisConfig& axis, double mm);
+std::int64_t nearest_step(const Moving auto& axis, double mm) {
+    return static_cast<std::int64_t>(std::round(mm * axis.steps_per_mm));
+}
 
 /// A straight move, a dwell or a pause.
 struct Stretch {
@@ -23,12 +26,17 @@ struct Stretch {
     bool is_exact = false;   // corners are kept
     bool is_arc = false;     // a chord of an arc
     double tolerance = 1;    // steps, if it is joined
-    double within = 0;       // steps: how far an axis may be from it, with the rounding to pulses
-    Places moved = {};       // steps: how far the end of an arc before a rest is from the programmed end
-    double seconds = 0;      // of a dwell
-    bool rests = false;      // a dwell or pause
+    double tolerance_mm = 0;
+    double within = 0;   // steps: how far an axis may be from it, with the rounding to pulses
+    Places moved = {};   // steps: how far the end of an arc before a rest is from the programmed end
+    double seconds = 0;  // of a dwell
+    bool rests = false;  // a dwell or pause
     bool pauses = false;
+    bool ends_at_rest = false;
 };
+
+/// How far a motor may be from a stretch, in steps.
+double within(const Stretch& stretch);
 
 /// A place on a course is the number of a stretch plus a part of it, from 0 to the number of stretches.
 struct Course {

@@ -10,7 +10,7 @@ namespace {
 std::int64_t pulses_at(Position at) { return static_cast<std::int64_t>((at.raw + (Int128{1} << 63)) >> 64); }
 
 /// The net number of steps of an axis between two of its recorded tracks.
-std::int64_t unrecorded_steps(const AxisRecord& axis, std::size_t tracks) {
+std::int64_t unrecorded_steps(const MotorRecord& axis, std::size_t tracks) {
     const Tick from = tracks == 0 ? Tick{} : axis.tracks[tracks - 1].start + axis.tracks[tracks - 1].ticks;
     const bool more = tracks < axis.tracks.size();
     std::int64_t net = 0;
@@ -53,7 +53,7 @@ bool may_be_cut(const Recording& recording, const SentEpoch& epoch, std::size_t 
 LastFrame from_steps(const Recording& recording, const LostRun& lost, const SentEpoch& epoch, std::size_t i) {
     const LastFrame any{lost.recorded, lost.armed};
     if (may_be_cut(recording, epoch, i)) { return any; }
-    const std::int64_t net = unrecorded_steps(recording.axes[i], lost.tracks);
+    const std::int64_t net = unrecorded_steps(recording.motors[i], lost.tracks);
     std::optional<LastFrame> found;
     for (FrameNumber k = lost.recorded; k <= lost.armed && (k == 0 || epoch.frames.contains(k)); ++k) {
         if (steps_to_rest(epoch, i, lost.recorded, k) != net) { continue; }
@@ -72,7 +72,7 @@ bool has_lost_device(const Recording& recording, const SentEpoch& epoch, std::si
 /// One fault at a time separates at most its victim. Several faults, or ceasing pulses, may separate any axis.
 std::vector<bool> may_differ(const Recording& recording, const SentEpoch& epoch) {
     const std::vector<VirtualFault> faults = faults_in(recording, epoch);
-    const std::size_t axes = recording.axes.size();
+    const std::size_t axes = recording.motors.size();
     const bool several = faults.size() + (recording.lossy() ? 1 : 0) > 1;
     if (several || is_emergency_in(recording, epoch)) { return std::vector<bool>(axes, true); }
     std::vector<bool> may(axes, false);
@@ -86,8 +86,8 @@ EpochRuns runs_of(const Recording& recording, Epoch number, const SentEpoch& epo
     EpochRuns runs{.may_differ = may_differ(recording, epoch)};
     FrameNumber least = epoch.frames.rbegin()->first;
     FrameNumber most = 0;
-    for (std::size_t i = 0; i < recording.axes.size(); ++i) {
-        const AxisRecord& axis = recording.axes[i];
+    for (std::size_t i = 0; i < recording.motors.size(); ++i) {
+        const MotorRecord& axis = recording.motors[i];
         LastFrame last;
         for (const Track& track : axis.tracks) {
             if (track.epoch == number) { last.low = last.high = std::max(last.high, track.frame); }

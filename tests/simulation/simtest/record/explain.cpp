@@ -18,6 +18,7 @@ enum class Cause : std::uint8_t {
     SetClock,
     Switch,
     Push,
+    Hand,
     DamagedFrame,
     Device,
     SilentDevice,
@@ -70,6 +71,16 @@ constexpr std::array kExplanations{
     Explanation{Cause::DamagedFrame, FaultCode::DeviceFault},
     Explanation{Cause::DamagedFrame, FaultCode::FramesDiffer},
     Explanation{Cause::Device, FaultCode::DeviceLost},
+    // An operator moved it before a homing in place, and it was still homed.
+    Explanation{Cause::Hand, FaultCode::FollowingError},
+    // While motors of one axis search their switches, one stands and the other goes on.
+    Explanation{Cause::Freeze, FaultCode::MotorsSkewed},
+    Explanation{Cause::CrashOfAxis, FaultCode::MotorsSkewed},
+    Explanation{Cause::Cut, FaultCode::MotorsSkewed},
+    Explanation{Cause::SetClock, FaultCode::MotorsSkewed},
+    Explanation{Cause::Switch, FaultCode::MotorsSkewed},
+    Explanation{Cause::Push, FaultCode::MotorsSkewed},
+    Explanation{Cause::Device, FaultCode::MotorsSkewed},
     // A device that takes no segments can run out of room for frames before it counts as lost.
     Explanation{Cause::SilentDevice, FaultCode::DeviceFault},
     // Orders that wait for a link reach the device after the start of their frame. It runs the tail then.
@@ -79,7 +90,7 @@ constexpr std::array kExplanations{
 };
 
 bool is_coordinator(const VirtualFault& fault, const MachineConfig& machine) {
-    return fault.process >= machine.axes.size();
+    return fault.process >= motor_count(machine);
 }
 
 Cause cause_of(const VirtualFault& fault, const MachineConfig& machine) {
@@ -102,6 +113,7 @@ Cause cause_of(const VirtualFault& fault, const MachineConfig& machine) {
 std::vector<Cause> causes_in(const Recording& recording) {
     std::vector<Cause> causes;
     if (!recording.emergencies.empty()) { causes.push_back(Cause::EmergencyStop); }
+    if (recording.was_moved_by_hand) { causes.push_back(Cause::Hand); }
     if (recording.network.lost > 0) { causes.push_back(Cause::Loss); }
     if (recording.network.corrupted > 0) { causes.push_back(Cause::Corruption); }
     for (const VirtualFault& fault : recording.faults) {
@@ -109,7 +121,7 @@ std::vector<Cause> causes_in(const Recording& recording) {
         const bool is_silent =
             fault.kind == VirtualFault::Kind::StopDevice || fault.kind == VirtualFault::Kind::KillDevice;
         if (is_silent) { causes.push_back(Cause::SilentDevice); }
-        const bool has_link = is_silent && recording.axes[fault.process].lateness > Ticks{};
+        const bool has_link = is_silent && recording.motors[fault.process].lateness > Ticks{};
         if (has_link) { causes.push_back(Cause::SilentLink); }
         if (fault.in_loop) { causes.push_back(Cause::Stall); }
     }
@@ -154,7 +166,7 @@ Tick unread_from(const VirtualFault& fault, const Recording& recording) {
         const bool mine = away.process == fault.process && (away.kind == Kind::Crash || away.kind == Kind::Freeze);
         if (mine && away.at <= fault.at && away.end() + starting >= fault.at) { from = std::min(from, away.at); }
     }
-    return from - slot - recording.axes[fault.process].lateness;
+    return from - slot - recording.motors[fault.process].lateness;
 }
 
 bool may_be_stopped(const Recording& recording, std::size_t axis, Tick from, Tick until) {

@@ -103,8 +103,8 @@ private:
 class Follower {
 public:
     Follower(const Recording& recording, const JobRecord& job, const std::vector<Tick>& until)
-        : recording_(recording), places_(job.course), counts_(recording.axes.size()) {
-        for (std::size_t i = 0; i < recording.axes.size(); ++i) {
+        : recording_(recording), places_(job.course), counts_(recording.motors.size()) {
+        for (std::size_t i = 0; i < recording.motors.size(); ++i) {
             Axis axis{
                 .index = i, .steps = recording.steps_of(job, i), .until = until[i], .counts = {job.course.from[i]}};
             for (const StepEdge& step : axis.steps) {
@@ -189,10 +189,10 @@ private:
 
     /// The time error of a step: the clock error bound, the rounding in time, and the rounding in this check.
     Ticks error_at(std::size_t i, Tick truth) const {
-        return estimates_clock(recording_.machine, i) ? recording_.axes[i].bound_at(truth) + Ticks{3} : Ticks{};
+        return estimates_clock(recording_.machine, i) ? recording_.motors[i].bound_at(truth) + Ticks{3} : Ticks{};
     }
     StepTimes times_of(std::size_t i, const StepEdge& step) const {
-        const Tick truth = recording_.axes[i].truth(step);
+        const Tick truth = recording_.motors[i].truth(step);
         const Ticks error = error_at(i, truth);
         return {truth - error, truth + error};
     }
@@ -216,7 +216,7 @@ Following follow(const Recording& recording, const JobRecord& job, const std::ve
 
 std::vector<Tick> bound_until(const Recording& recording, const std::map<Epoch, EpochRuns>& epochs,
                               const JobRecord& job) {
-    std::vector<Tick> until(recording.axes.size(), job.emergency.value_or(job.ended));
+    std::vector<Tick> until(recording.motors.size(), job.emergency.value_or(job.ended));
     for (const auto& [number, runs] : epochs) {
         if (!runs.apart || *runs.parted < job.began || *runs.parted > job.ended) { continue; }
         for (std::size_t i = 0; i < until.size(); ++i) {
@@ -239,13 +239,14 @@ namespace {
 /// this move lead to these steps. Returns false if no move ends there.
 bool leads_to_rest(const Recording& recording, JobRecord& job) {
     std::vector<double> rest;
-    for (std::size_t i = 0; i < recording.axes.size(); ++i) {
+    for (std::size_t i = 0; i < recording.motors.size(); ++i) {
         std::int64_t count = job.course.from[i];
         for (const StepEdge& step : recording.steps_of(job, i)) { count += step.direction; }
         rest.push_back(static_cast<double>(count));
     }
     const auto is_its_end = [&rest](const Stretch& stretch) {
-        return std::ranges::equal(stretch.to, rest, {}, [](double place) { return std::round(place); });
+        return std::ranges::equal(stretch.to, rest,
+                                  [](double place, double at) { return std::abs(place - at) <= 0.57; });
     };
     const auto last = std::ranges::find_if(job.course.stretches, is_its_end);
     if (last == job.course.stretches.end()) { return false; }

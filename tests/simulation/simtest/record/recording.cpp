@@ -40,7 +40,7 @@ Track track_of(const ExecutedTrack& executed, FrameNumber armed) {
 
 std::uint64_t Recording::steps() const {
     std::uint64_t sum = 0;
-    for (const AxisRecord& axis : axes) { sum += axis.steps.size(); }
+    for (const MotorRecord& axis : motors) { sum += axis.steps.size(); }
     return sum;
 }
 
@@ -48,7 +48,7 @@ std::uint64_t Recording::steps() const {
 std::uint64_t Recording::hash() const {
     std::uint64_t hash = 0xcbf29ce484222325U;
     const auto take = [&hash](std::uint64_t word) { hash = (hash ^ word) * 0x100000001b3U; };
-    for (const AxisRecord& axis : axes) {
+    for (const MotorRecord& axis : motors) {
         take(axis.steps.size());
         for (const StepEdge& step : axis.steps) {
             take(static_cast<std::uint64_t>(step.tick.value) * 2 + (step.direction > 0 ? 1 : 0));
@@ -57,9 +57,9 @@ std::uint64_t Recording::hash() const {
     return hash;
 }
 
-Tick AxisRecord::truth(const StepEdge& step) const { return {std::llround(clock.truth(step.tick, power_up))}; }
+Tick MotorRecord::truth(const StepEdge& step) const { return {std::llround(clock.truth(step.tick, power_up))}; }
 
-Ticks AxisRecord::bound_at(Tick truth) const {
+Ticks MotorRecord::bound_at(Tick truth) const {
     const auto later = std::ranges::upper_bound(bounds, truth, {}, &PublishedBound::at);
     const Ticks published = later == bounds.begin() ? Ticks{} : std::prev(later)->error;
     const auto next = std::ranges::upper_bound(tracks, truth, {}, &Track::commanded);
@@ -67,7 +67,7 @@ Ticks AxisRecord::bound_at(Tick truth) const {
     return in_tail ? std::max(published, std::prev(next)->clock_error) : published;
 }
 
-Followed AxisRecord::followed_at(Tick truth) const {
+Followed MotorRecord::followed_at(Tick truth) const {
     const auto later = std::ranges::upper_bound(followed, truth, {}, &Followed::at);
     return later == followed.begin() ? Followed{} : *std::prev(later);
 }
@@ -75,7 +75,7 @@ Followed AxisRecord::followed_at(Tick truth) const {
 void Recorder::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) {
     if (out.state) { take_state(axis, *out.state, now); }
     for (const ExecutedTrack& executed : out.tracks) {
-        recording_.axes[axis].tracks.push_back(track_of(executed, armed_[axis]));
+        recording_.motors[axis].tracks.push_back(track_of(executed, armed_[axis]));
     }
     for (const AxisNotice& notice : out.notices) { take_notice(axis, notice, node); }
     for (const DeviceOrder& order : out.orders) {
@@ -95,7 +95,7 @@ void Recorder::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisN
 }
 
 void Recorder::take_state(std::size_t axis, const AxisState& state, Tick now) {
-    AxisRecord& record = recording_.axes[axis];
+    MotorRecord& record = recording_.motors[axis];
     record.bounds.push_back({now, state.clock_error});
     const Followed last = record.followed_at(now);
     if (last.process == state.identity && last.term == state.term) { return; }
@@ -112,7 +112,7 @@ void Recorder::take_notice(std::size_t axis, const AxisNotice& notice, const Axi
     const bool explained = explains(recording_, notice.fault);
     const bool refuses = notice.kind == Kind::FrameRefused && recording_.network.corrupted == 0;
     if (refuses || (notice.kind == Kind::Fault && !explained)) {
-        recording_.troubles.push_back(recording_.machine.axes[axis].name + ": " +
+        recording_.troubles.push_back(motor_name(recording_.machine, axis) + ": " +
                                       (refuses ? "frame refused: " : "fault ") + std::string(name_of(notice.fault)) +
                                       " " + node.trouble());
     }
@@ -142,19 +142,19 @@ void Recorder::on_fault(Tick now, const VirtualFault& fault, bool begins) {
     if (!begins) { return; }
     recording_.faults.push_back(fault);
     const std::size_t i = fault.process;
-    if (fault.kind == VirtualFault::Kind::Crash && i < recording_.axes.size()) { lose_run(i, now); }
+    if (fault.kind == VirtualFault::Kind::Crash && i < recording_.motors.size()) { lose_run(i, now); }
 }
 
 /// From now on no process reports what the device does.
 void Recorder::lose_run(std::size_t i, Tick now) {
-    AxisRecord& axis = recording_.axes[i];
+    MotorRecord& axis = recording_.motors[i];
     const bool some = !axis.tracks.empty() && axis.tracks.back().epoch == epoch_[i];
     axis.lost.push_back({now, axis.tracks.size(), epoch_[i], some ? axis.tracks.back().frame : 0, armed_[i]});
     epoch_[i] = 0;
 }
 
 void Recorder::keep(const AxisCommand& order, Tick now) {
-    auto& given = recording_.axes[order.axis].orders;
+    auto& given = recording_.motors[order.axis].orders;
     const bool known = std::ranges::any_of(given, [&](const GivenOrder& g) { return g.order == order; });
     if (!known) { given.push_back({now, order}); }
 }

@@ -60,7 +60,7 @@ struct GivenOrder {
     AxisCommand order;
 };
 
-struct AxisRecord {
+struct MotorRecord {
     Tick power_up;
     VirtualClock clock{};           // of the device: steps and tracks are in its time
     Ticks lateness{};               // until the device answers, at most
@@ -131,12 +131,13 @@ struct Emergency {
 struct Recording {
     MachineConfig machine;
     NetworkBehaviour network;
-    std::vector<AxisRecord> axes;
+    std::vector<MotorRecord> motors;
     std::vector<JobRecord> jobs;
     std::map<Epoch, SentEpoch> epochs;
     std::vector<VirtualFault> faults;  // as they began
     std::vector<Emergency> emergencies;
     std::vector<Claim> claims;
+    bool was_moved_by_hand = false;     // a slide, before a homing in place
     std::vector<Tick> epochs_begun;     // the coordinator began an epoch; it may not have sent a frame
     std::vector<Tick> interruptions;    // a motion was interrupted without a command
     std::vector<Tick> machine_faults;   // the coordinator enters Fault, or is about to
@@ -148,7 +149,7 @@ struct Recording {
 
     bool lossy() const { return network.lost > 0 || network.corrupted > 0; }
     std::span<const StepEdge> steps_of(const JobRecord& job, std::size_t axis) const {
-        return std::span(axes[axis].steps).subspan(job.first_step[axis], job.end_step[axis] - job.first_step[axis]);
+        return std::span(motors[axis].steps).subspan(job.first_step[axis], job.end_step[axis] - job.first_step[axis]);
     }
     std::uint64_t steps() const;
     /// Over every step: axis, tick, direction.
@@ -159,9 +160,9 @@ struct Recording {
 class Recorder : public VirtualObserver {
 public:
     explicit Recorder(Recording& recording)
-        : recording_(recording), epoch_(recording.axes.size(), 0), armed_(recording.axes.size(), 0) {}
+        : recording_(recording), epoch_(recording.motors.size(), 0), armed_(recording.motors.size(), 0) {}
 
-    void on_step(std::size_t axis, StepEdge step) override { recording_.axes[axis].steps.push_back(step); }
+    void on_step(std::size_t axis, StepEdge step) override { recording_.motors[axis].steps.push_back(step); }
     void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
     void on_coordinator(std::size_t process, Tick now, const CoordinatorOutputs& out) override;
     void on_fault(Tick now, const VirtualFault& fault, bool begins) override;

@@ -10,12 +10,14 @@ namespace lockstep::simtest {
 
 namespace {
 
-/// The longest stop from top speed, with only the axis's own limit.
+/// The longest stop from top speed, with only the motor's or the axis's own limit.
 double longest_stop_seconds(const MachineConfig& machine) {
     double longest = 0;
-    for (const AxisConfig& axis : machine.axes) {
-        longest = std::max(longest, axis.max_velocity_mm_s / axis.max_decel_mm_s2);
-    }
+    const auto take = [&](const Moving auto& part) {
+        longest = std::max(longest, part.max_velocity_mm_s / part.max_decel_mm_s2);
+    };
+    for (const AxisConfig& axis : machine.axes) { take(axis); }
+    for (const MotorConfig& motor : motors_of(machine)) { take(motor); }
     return longest;
 }
 
@@ -43,6 +45,8 @@ double outage_seconds(const Scenario& scenario) {
 
 Bench::Bench(const Scenario& scenario, Played& played)
     : scenario_(scenario),
+      kinematics_(scenario.machine),
+      map_(scenario.machine),
       played_(played),
       vm_({.machine = scenario.machine,
            .seed = scenario.seed,
@@ -57,7 +61,8 @@ Bench::Bench(const Scenario& scenario, Played& played)
       placer_(vm_),
       claims_(vm_, played.recording),
       coverage_(scenario.machine, played.coverage),
-      outage_s_(outage_seconds(scenario)) {
+      outage_s_(outage_seconds(scenario)),
+      by_hand_(kinematics_.motors().size()) {
     const std::initializer_list<VirtualObserver*> all{&recorder_, &watch_, &placer_, &claims_, &coverage_};
     for (VirtualObserver* observer : all) { vm_.observe(*observer); }
 }
@@ -65,6 +70,12 @@ Bench::Bench(const Scenario& scenario, Played& played)
 void Bench::object(const std::string& rule, const std::string& text) {
     played_.violations.push_back({rule, {}, vm_.now().value, {}, text});
     over_ = true;
+}
+
+void Bench::move_by_hand(std::size_t motor, std::int64_t steps) {
+    vm_.device(motor).plant().push(steps);
+    by_hand_[motor] += steps;
+    played_.recording.was_moved_by_hand = played_.recording.was_moved_by_hand || steps != 0;
 }
 
 void Bench::advance() {
@@ -122,7 +133,7 @@ void Bench::settle(double seconds) {
     const auto is_over = [&](const VirtualFault& fault) { return !fault.is_of_device() || fault.end() < vm_.now(); };
     const auto settled = [&] {
         return !vm_.faults_pending() && std::ranges::all_of(played_.recording.faults, is_over) &&
-               std::ranges::all_of(watch_.axes(), has_device) && vm_.now() - from > rest &&
+               std::ranges::all_of(watch_.motors(), has_device) && vm_.now() - from > rest &&
                vm_.now() - watch_.moved() > rest;
     };
     if (!advance_until(settled, limit + rest)) { object("liveness", "the machine did not come to rest"); }
@@ -203,7 +214,7 @@ std::uint64_t Bench::stream_program(Program program, const std::vector<SentPart>
 
 std::vector<std::size_t> Bench::steps_made() const {
     std::vector<std::size_t> made;
-    for (const AxisRecord& axis : played_.recording.axes) { made.push_back(axis.steps.size()); }
+    for (const MotorRecord& axis : played_.recording.motors) { made.push_back(axis.steps.size()); }
     return made;
 }
 

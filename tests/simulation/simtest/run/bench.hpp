@@ -4,7 +4,9 @@
 #include <functional>
 #include <string>
 
+#include "core/kinematics/kinematics.hpp"
 #include "tests/simulation/simtest/record/claims.hpp"
+#include "tests/simulation/simtest/record/motor_map.hpp"
 #include "tests/simulation/simtest/run/fault_placer.hpp"
 #include "tests/simulation/simtest/run/play.hpp"
 #include "tests/simulation/simtest/run/stream_sender.hpp"
@@ -51,9 +53,15 @@ public:
     std::uint64_t stream_program(Program program, const std::vector<SentPart>& parts);
     void end_stream() { stream_.reset(); }
 
+    void move_by_hand(std::size_t motor, std::int64_t steps);
+    /// The steps by which a motor's slide was moved by hand.
+    std::int64_t moved_by_hand(std::size_t motor) const { return by_hand_[motor]; }
+
     bool asks_in_fault() const { return scenario_.asks_in_fault; }
     const Watch& watch() const { return watch_; }
     const MachineConfig& machine() const { return scenario_.machine; }
+    const Kinematics& kinematics() const { return kinematics_; }
+    const MotorMap& map() const { return map_; }
     /// The highest feed override of any job; overrides persist.
     double most_feed() const;
     Recording& recording() { return played_.recording; }
@@ -78,6 +86,8 @@ private:
     }
 
     const Scenario& scenario_;
+    Kinematics kinematics_;
+    MotorMap map_;
     Played& played_;
     VirtualMachine vm_;
     Recorder recorder_;
@@ -88,6 +98,7 @@ private:
     double outage_s_;  // of all planned faults, and the time after each until all peers are received
     std::uint64_t programs_ = 0;
     std::optional<StreamSender> stream_;
+    std::vector<std::int64_t> by_hand_;  // steps, of each motor
     bool over_ = false;
 };
 

@@ -51,7 +51,7 @@ std::string row_name(const Row& row) {
 }
 
 std::string_view injected_name(const VirtualFault& fault, const MachineConfig& machine) {
-    const std::size_t coordinator = fault.process >= machine.axes.size() ? 1 : 0;
+    const std::size_t coordinator = fault.process >= motor_count(machine) ? 1 : 0;
     if (fault.in_loop) { return kInjectedNames[12 + coordinator]; }
     const bool home = fault.contact == &PlantInputs::home;
     switch (fault.kind) {
@@ -107,7 +107,7 @@ void Coverage::take(const AlterationCounts& alterations) {
 }
 
 CoverageWatch::CoverageWatch(const MachineConfig& machine, Coverage& coverage)
-    : machine_(machine), coverage_(coverage), transitions_(machine.axes.size()), epoch_(machine.axes.size(), 0) {}
+    : machine_(machine), coverage_(coverage), transitions_(motor_count(machine)), epoch_(motor_count(machine), 0) {}
 
 CoverageWatch::~CoverageWatch() {
     for (std::size_t i = 0; i < transitions_.size(); ++i) { take_transitions(i); }

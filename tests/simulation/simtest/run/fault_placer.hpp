@@ -12,7 +12,7 @@ namespace lockstep::simtest {
 
 class FaultPlacer : public VirtualObserver {
 public:
-    explicit FaultPlacer(VirtualMachine& vm) : vm_(vm), at_rest_(vm.machine().axes.size(), true) {}
+    explicit FaultPlacer(VirtualMachine& vm) : vm_(vm), at_rest_(motor_count(vm.machine()), true) {}
 
     /// The faults of the next job, in this order. Faults of the previous job that have not been placed are dropped.
     void plan(const std::vector<PlannedFault>& faults) {

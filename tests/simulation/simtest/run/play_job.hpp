@@ -7,7 +7,7 @@ namespace lockstep::simtest {
 
 class JobPlayer {
 public:
-    /// `at`: the positions of the axes, updated after the job.
+    /// `at`: the positions of the motors, updated after the job.
     JobPlayer(Bench& bench, const Task& task, Counts& at) : bench_(bench), task_(task), at_(at) {}
 
     /// Ends with the axes at rest and the job recorded; the machine is Idle if no fault occurred.

@@ -45,8 +45,8 @@ std::string text_of(const Reply& reply) {
 }  // namespace
 
 std::string Trace::process(std::size_t number) const {
-    if (number < machine_.axes.size()) { return machine_.axes[number].name; }
-    return number == machine_.axes.size() ? "coordinator" : "standby";
+    if (number < motor_count(machine_)) { return motor_name(machine_, number); }
+    return number == motor_count(machine_) ? "coordinator" : "standby";
 }
 
 void Trace::line(Tick now, const std::string& who, const std::string& what) const {

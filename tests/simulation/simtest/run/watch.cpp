@@ -38,7 +38,7 @@ void Watch::take_job(std::size_t process, const JobEvent& job) {
 void Watch::on_fault(Tick now, const VirtualFault& fault, bool begins) {
     if (begins) { disturbed_ = now; }
     moved_ = now;
-    if (!begins || fault.kind != VirtualFault::Kind::Crash || fault.process < axes_.size()) { return; }
+    if (!begins || fault.kind != VirtualFault::Kind::Crash || fault.process < motors_.size()) { return; }
     phases_.erase(fault.process);
     if (fault.process == job_of_) { orphan(JobOutcome::Failed); }
 }
@@ -59,7 +59,7 @@ void Watch::orphan(JobOutcome outcome) {
 void Watch::on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& /*node*/) {
     if (vm_.device(axis).in_motion()) { moved_ = now; }  // also while a restarted process sends nothing yet
     if (!out.state) { return; }
-    axes_[axis] = *out.state;
+    motors_[axis] = *out.state;
     if (!out.state->at_rest || out.state->velocity != Velocity{}) { moved_ = now; }
 }
 

@@ -12,7 +12,7 @@ namespace lockstep::simtest {
 class Watch : public VirtualObserver {
 public:
     Watch(const VirtualMachine& vm, OnTakeover on_takeover)
-        : vm_(vm), on_takeover_(on_takeover), axes_(vm.machine().axes.size()) {}
+        : vm_(vm), on_takeover_(on_takeover), motors_(motor_count(vm.machine())) {}
 
     void on_coordinator(std::size_t process, Tick now, const CoordinatorOutputs& out) override;
     /// A coordinator that ends loses its phase.
@@ -23,8 +23,8 @@ public:
     std::optional<Tick> disturbed() const { return disturbed_; }
     /// The last time at which an axis was in motion at its own device, or a fault began or ended.
     Tick moved() const { return moved_; }
-    /// The last state of each axis, even if it was not delivered.
-    const std::vector<AxisState>& axes() const { return axes_; }
+    /// The last state of each motor, even if it was not delivered.
+    const std::vector<AxisState>& motors() const { return motors_; }
     /// The phase of the machine is that of its owner; Waiting if it has no owner.
     MachinePhase phase() const;
     FaultCode fault() const { return fault_; }
@@ -53,7 +53,7 @@ private:
 
     const VirtualMachine& vm_;
     OnTakeover on_takeover_;
-    std::vector<AxisState> axes_;
+    std::vector<AxisState> motors_;
     std::optional<Tick> disturbed_;
     Tick moved_;
     std::map<std::size_t, MachinePhase> phases_;  // by coordinator
