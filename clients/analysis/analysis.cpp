@@ -39,12 +39,28 @@ std::string of_machine(const std::optional<std::string>& machine) { return machi
 
 bool is_dwell(const MoveLog& move) {
     return move.length_mm == 0 &&
-           std::ranges::none_of(move.axes, [](const AxisMove& axis) { return axis.asked_steps != 0; });
+           std::ranges::none_of(move.motors, [](const MotorMove& motor) { return motor.asked_steps != 0; });
+}
+
+std::span<const MotorConfig> Analysis::motors() const {
+    return kinematics != nullptr ? std::span(kinematics->motors()) : std::span<const MotorConfig>();
 }
 
 const MotorConfig* Analysis::motor_config(const std::string& name) const {
-    const auto found = std::ranges::find(motors, name, &MotorConfig::name);
-    return found == motors.end() ? nullptr : &*found;
+    const auto found = std::ranges::find(motors(), name, &MotorConfig::name);
+    return found == motors().end() ? nullptr : &*found;
+}
+
+const AxisConfig* Analysis::axis_config(const std::string& name) const {
+    if (!config) { return nullptr; }
+    const auto found = std::ranges::find(config->axes, name, &AxisConfig::name);
+    return found == config->axes.end() ? nullptr : &*found;
+}
+
+std::string Analysis::label_of(const std::string& motor) const {
+    const MotorConfig* configured = motor_config(motor);
+    if (configured == nullptr) { return "axis " + motor; }
+    return kinematics->label(static_cast<std::size_t>(configured - motors().data()));
 }
 
 std::string_view Analysis::unit_of(const std::string& motor) const {
@@ -59,7 +75,7 @@ std::optional<double> Analysis::steps_per_mm(const AxisLog& axis) const {
 
 std::vector<std::string> Analysis::absent_axes() const {
     std::vector<std::string> absent;
-    for (const MotorConfig& axis : motors) {
+    for (const MotorConfig& axis : motors()) {
         const auto is_it = [&](const auto& recorded) { return recorded->name() == axis.name; };
         if (std::ranges::none_of(axes, is_it)) { absent.push_back(axis.name); }
     }

@@ -12,16 +12,19 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "clients/analysis/axis_log.hpp"
 #include "clients/analysis/event_log.hpp"
+#include "clients/analysis/measure/axis_meter.hpp"
 #include "clients/analysis/measure/job_moves.hpp"
+#include "clients/analysis/measure/motor_skew.hpp"
 #include "clients/analysis/measure/skew.hpp"
 #include "clients/drawing/svg.hpp"
 #include "clients/verification/findings.hpp"
-#include "core/kinematics/motors.hpp"
+#include "core/kinematics/kinematics.hpp"
 #include "core/machine.hpp"
 #include "core/program.hpp"
 #include "services/record/reading/damage.hpp"
@@ -48,13 +51,13 @@ struct JobLog {
     std::vector<MoveLog> moves;    // the first ones, as many as are kept
     std::optional<Ticks> planned;  // as programmed
     bool overridden = false;       // it ran with feeds or rapids other than programmed
-    std::int64_t asked_steps = 0;  // of all axes in all moves, kept or not
+    std::int64_t asked_steps = 0;  // of all motors in all moves, kept or not
     std::int64_t made_steps = 0;
     std::int64_t unasked_steps = 0;  // that belong to no move
     std::int64_t moves_not_whole = 0;
     std::optional<double> largest_distance_mm;  // from the commanded line, if known
     std::int64_t moves_without_distance = 0;    // because steps are missing from the log or come too late in it
-    std::vector<std::string> axes_not_known;    // the log lacks steps of these axes
+    std::vector<std::string> axes_not_known;    // the log lacks steps of these motors
     TickHistogram late;                         // of its steps
 
     bool is_on_a_line() const { return kind != "own-move" && kind != "jog"; }  // its axes move together
@@ -75,11 +78,13 @@ struct Analysis {
 
     std::filesystem::path log;
     std::string machine;
-    verification::Findings verified;             // the comparison of all steps with their frames and programs
-    std::optional<MachineConfig> config;         // of the last job that has one
-    std::vector<MotorConfig> motors;             // of config
-    std::vector<std::unique_ptr<AxisLog>> axes;  // in the configuration's order; by name without one
-    std::vector<JobLog> jobs;                    // in the order they began, the first kJobsKept
+    verification::Findings verified;               // the comparison of all steps with their frames and programs
+    std::optional<MachineConfig> config;           // of the last job that has one
+    std::shared_ptr<const Kinematics> kinematics;  // of config; null without it
+    std::vector<std::unique_ptr<AxisLog>> axes;    // of the motors, in the configuration's order; by name without one
+    std::vector<AxisFigures> axis_figures;         // unless the motors are the axes
+    std::vector<MotorSkew> motor_skew;             // of axes with several motors, in all jobs
+    std::vector<JobLog> jobs;                      // in the order they began, the first kJobsKept
     std::uint64_t jobs_not_kept = 0;
     std::int64_t missing_job_events = 0;           // between the first and the last event of each coordinator
     RecordEnd end;                                 // messages missing after the last ones in the log
@@ -93,15 +98,21 @@ struct Analysis {
     std::vector<HappenedEvent> program_events;  // the first of the log, in the order of time
     std::uint64_t program_events_not_kept = 0;
     double tolerance_mm = 0;                                 // of joined moves, the greatest of any program
-    std::vector<PairSkew> step_skew;                         // between axes that ran frames together
+    std::vector<PairSkew> step_skew;                         // between motors that ran frames together
     std::optional<double> largest_distance_mm;               // of any step from the commanded line, all axes together
     std::vector<std::vector<drawing::Point>> asked_ways_mm;  // X-Y, of each program that differs from the previous one
-    std::vector<std::vector<drawing::Point>> stepped_ways;   // X-Y, steps
+    std::vector<std::vector<drawing::Point>> stepped_ways;   // X-Y, steps of the axes
 
     std::int64_t tick_ns() const { return config ? config->tick_ns : MachineConfig{}.tick_ns; }
-    /// The configured axis of this name, or null.
+    /// Each axis is moved by a motor of its own, as far as is known: then a motor is called an axis.
+    bool has_motors_as_axes() const { return kinematics == nullptr || kinematics->is_direct(); }
+    std::span<const MotorConfig> motors() const;
     /// Null if the configuration is not known, or lacks the motor.
     const MotorConfig* motor_config(const std::string& name) const;
+    /// Null if the configuration is not known, or lacks the axis.
+    const AxisConfig* axis_config(const std::string& name) const;
+    /// "axis X", "motor Y2"
+    std::string label_of(const std::string& motor) const;
     /// mm or deg.
     std::string_view unit_of(const std::string& motor) const;
     /// From the configuration, else from the axis's own messages; nullopt if neither contains it.
@@ -109,9 +120,9 @@ struct Analysis {
     /// Whether the log has the frames of steps, as logs of all but early versions have.
     bool is_verified() const { return runs > 0; }
     bool is_exact() const { return is_verified() && verified.verdict() == verification::Verdict::Exact; }
-    /// Configured axes without any message in the log.
+    /// Configured motors without any message in the log.
     std::vector<std::string> absent_axes() const;
-    /// The first and the last step of any axis; nullopt without steps.
+    /// The first and the last step of any motor; nullopt without steps.
     std::optional<Tick> first_tick() const;
     std::optional<Tick> last_tick() const;
     double seconds(Ticks ticks) const {

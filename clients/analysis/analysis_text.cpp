@@ -8,7 +8,7 @@
 #include "clients/analysis/findings.hpp"
 #include "clients/text/event_text.hpp"
 #include "core/axis_unit.hpp"
-#include "core/kinematics/motors.hpp"
+#include "core/kinematics/kinematics.hpp"
 #include "core/number_text.hpp"
 
 namespace lockstep::analysis {
@@ -27,7 +27,7 @@ std::int64_t total(const Analysis& analysis, std::int64_t (*of)(const AxisLog&))
 std::int64_t steps_of(const AxisLog& axis) { return axis.counts().steps; }
 std::int64_t missing_batches_of(const AxisLog& axis) { return axis.statistics().missing_batches(); }
 
-/// Axes with steps that the log lacks.
+/// Motors with steps that the log lacks.
 std::vector<std::string> axes_not_known(const Analysis& analysis) {
     std::vector<std::string> names = analysis.absent_axes();
     for (const JobLog& job : analysis.jobs) {
@@ -88,13 +88,48 @@ std::string axis_row(const Analysis& analysis, const AxisLog& axis) {
 
 std::string axis_table(const Analysis& analysis) {
     if (analysis.axes.empty()) { return "no axis has recorded anything\n"; }
-    std::string text =
-        fmt::format("{:<10} {:>5} {:>13} {:>10} {:>10} {:>9} {:>7} {:>9} {:>7} {:>9} {:>8}\n", "axis", "unit", "steps",
-                    "start", "end", "peak /s", "limit", "most /s²", "limit", "in 10 ms", "missing");
+    std::string text = fmt::format("{:<10} {:>5} {:>13} {:>10} {:>10} {:>9} {:>7} {:>9} {:>7} {:>9} {:>8}\n",
+                                   analysis.has_motors_as_axes() ? "axis" : "motor", "unit", "steps", "start", "end",
+                                   "peak /s", "limit", "most /s²", "limit", "in 10 ms", "missing");
     for (const auto& axis : analysis.axes) { text += axis_row(analysis, *axis); }
     return text +
            "most /s²: of the frames on record; in 10 ms: measured from steps, with jumps of up to start_velocity in "
            "it\n";
+}
+
+std::string axis_figures_table(const Analysis& analysis) {
+    if (analysis.axis_figures.empty()) { return ""; }
+    std::string text = fmt::format("\n{:<10} {:>5} {:>13} {:>10} {:>10} {:>9} {:>7} {:>9} {:>7}\n", "axis", "unit", "",
+                                   "start", "end", "peak /s", "limit", "most /s²", "limit");
+    const double ticks_per_s = 1e9 / static_cast<double>(analysis.tick_ns());
+    for (const AxisFigures& axis : analysis.axis_figures) {
+        const AxisConfig& config = *analysis.axis_config(axis.name);
+        text += fmt::format("{:<10} {:>5} {:>13} {:>10.3f} {:>10.3f} {:>9.2f} {:>7g} {:>9.0f} {:>7g}\n", axis.name,
+                            unit_of(axis.name), "", axis.start_mm, axis.end_mm, axis.peak_mm_per_tick * ticks_per_s,
+                            config.max_velocity_mm_s, axis.peak_mm_per_tick2 * ticks_per_s * ticks_per_s,
+                            std::max(config.max_accel_mm_s2, config.max_decel_mm_s2));
+    }
+    return text + "all of the frames on record\n";
+}
+
+std::string motor_skew_table(const Analysis& analysis) {
+    if (analysis.motor_skew.empty()) { return ""; }
+    std::string text = fmt::format("\n{:<27} {:>5} {:>10} {:>10} {:>10} {:>11}\n", "motors of an axis, apart by",
+                                   "unit", "in homing", "in motion", "at rest", "max_skew_mm");
+    const auto shown = [](const std::optional<double>& of) {
+        return of ? fmt::format("{:.4f}", *of) : std::string("-");
+    };
+    for (const MotorSkew& skew : analysis.motor_skew) {
+        const AxisConfig& axis = analysis.config->axes.at(skew.axis);
+        std::string names;
+        for (const MotorConfig& motor : analysis.motors()) {
+            if (motor.axis == skew.axis) { names += (names.empty() ? "" : ", ") + motor.name; }
+        }
+        text += fmt::format("{:<27} {:>5} {:>10} {:>10} {:>10} {:>11}\n", axis.name + ": " + names, unit_of(axis.name),
+                            shown(skew.in_homing_mm), shown(skew.in_motion_mm), shown(skew.at_rest_mm),
+                            axis.max_skew_mm ? fmt::format("{:g}", *axis.max_skew_mm) : "-");
+    }
+    return text;
 }
 
 std::string job_table(const Analysis& analysis) {
@@ -145,8 +180,9 @@ std::string program_event_table(const Analysis& analysis) {
 
 std::string skew_table(const Analysis& analysis) {
     if (analysis.step_skew.empty()) { return ""; }
-    std::string text = fmt::format("\n{:<26} {:>12} {:>9} {:>9} {:>9} {:>9}\n", "step skew between axes, us", "steps",
-                                   "p50", "p99", "max", "within");
+    const char* const title = analysis.has_motors_as_axes() ? "step skew between axes, us" : "step skew of motors, us";
+    std::string text =
+        fmt::format("\n{:<26} {:>12} {:>9} {:>9} {:>9} {:>9}\n", title, "steps", "p50", "p99", "max", "within");
     for (const PairSkew& skew : analysis.step_skew) {
         text +=
             fmt::format("{:<26} {:>12} {:>9.1f} {:>9.1f} {:>9.1f} {:>9}\n", skew.first + " - " + skew.second,
@@ -245,9 +281,14 @@ std::string log_notes(const Analysis& analysis) {
 }  // namespace
 
 std::string in_a_line(const Analysis& analysis) {
-    const auto axes = static_cast<std::int64_t>(analysis.axes.size());
-    return fmt::format("{} · {} · {:.3g} s · {}", axes == 1 ? "1 axis" : grouped(axes) + " axes",
-                       plural(total(analysis, steps_of), "step"), seconds(analysis), missing_in_short(analysis));
+    const auto recorded = static_cast<std::int64_t>(analysis.axes.size());
+    std::string parts = recorded == 1 ? "1 axis" : grouped(recorded) + " axes";
+    if (!analysis.has_motors_as_axes()) {
+        const std::size_t axes = analysis.kinematics->axes();
+        parts = fmt::format("{}, {}", axes == 1 ? "1 axis" : fmt::format("{} axes", axes), plural(recorded, "motor"));
+    }
+    return fmt::format("{} · {} · {:.3g} s · {}", parts, plural(total(analysis, steps_of), "step"), seconds(analysis),
+                       missing_in_short(analysis));
 }
 
 std::vector<std::string> notes(const Analysis& analysis) {
@@ -273,8 +314,8 @@ std::string summary(const Analysis& analysis) {
     std::string text =
         fmt::format("{}\nmachine {}: {}\n\n", analysis.log.string(), analysis.machine, in_a_line(analysis));
     text += findings_text(analysis) + "\n";
-    text += axis_table(analysis) + job_table(analysis) + program_event_table(analysis);
-    text += skew_table(analysis);
+    text += axis_table(analysis) + axis_figures_table(analysis) + job_table(analysis) + program_event_table(analysis);
+    text += motor_skew_table(analysis) + skew_table(analysis);
     auto lines = notes(analysis);
     for (std::string& line : open_sentences(analysis.end)) { lines.push_back(std::move(line)); }
     if (!lines.empty() || !analysis.damages.empty()) { text += "\n"; }

@@ -1,5 +1,8 @@
 #include "clients/analysis/curves.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -117,18 +120,53 @@ drawing::AxisCurve slack_curve(const Analysis& analysis, const AxisLog& axis) {
 std::vector<drawing::AxisCurve> curves(const Analysis& analysis,
                                        drawing::AxisCurve (*of)(const Analysis&, const AxisLog&)) {
     std::vector<drawing::AxisCurve> all;
-    for (const auto& axis : analysis.axes) { all.push_back(of(analysis, *axis)); }
+    for (const auto& axis : analysis.axes) {
+        drawing::AxisCurve curve = of(analysis, *axis);
+        if (!analysis.has_motors_as_axes()) { curve.axis = analysis.label_of(curve.axis); }
+        all.push_back(std::move(curve));
+    }
+    return all;
+}
+
+/// A quantity of the axes that have no motor of their own, before that of the motors.
+struct AxisQuantity {
+    std::vector<Sample> AxisFigures::*samples;
+    int per_s = 0;                        // 1: per second, 2: per second squared
+    double AxisConfig::*limit = nullptr;  // null: none
+};
+
+std::vector<drawing::AxisCurve> with_axes(const Analysis& analysis, const AxisQuantity& quantity,
+                                          drawing::AxisCurve (*of)(const Analysis&, const AxisLog&)) {
+    std::vector<drawing::AxisCurve> all;
+    const double ticks_per_s = 1e9 / static_cast<double>(analysis.tick_ns());
+    for (const AxisFigures& axis : analysis.axis_figures) {
+        if (analysis.motor_config(axis.name) != nullptr && analysis.label_of(axis.name).starts_with("axis")) {
+            continue;
+        }
+        Scaled out{.ticks_per_s = ticks_per_s, .origin = analysis.first_tick().value_or(Tick{})};
+        out.curve.axis = "axis " + axis.name;
+        out.curve.unit = lockstep::unit_of(axis.name);
+        const AxisConfig* config = analysis.axis_config(axis.name);
+        if (config != nullptr && quantity.limit != nullptr) { out.curve.limit = config->*quantity.limit; }
+        add_samples(axis.*quantity.samples, std::pow(ticks_per_s, quantity.per_s), out);
+        all.push_back(std::move(out.curve));
+    }
+    std::ranges::move(curves(analysis, of), std::back_inserter(all));
     return all;
 }
 
 }  // namespace
 
-std::vector<drawing::AxisCurve> speed_curves(const Analysis& analysis) { return curves(analysis, speed_curve); }
+std::vector<drawing::AxisCurve> speed_curves(const Analysis& analysis) {
+    return with_axes(analysis, {&AxisFigures::speed, 1, &AxisConfig::max_velocity_mm_s}, speed_curve);
+}
 
-std::vector<drawing::AxisCurve> position_curves(const Analysis& analysis) { return curves(analysis, position_curve); }
+std::vector<drawing::AxisCurve> position_curves(const Analysis& analysis) {
+    return with_axes(analysis, {&AxisFigures::position}, position_curve);
+}
 
 std::vector<drawing::AxisCurve> acceleration_curves(const Analysis& analysis) {
-    return curves(analysis, acceleration_curve);
+    return with_axes(analysis, {&AxisFigures::acceleration, 2, &AxisConfig::max_accel_mm_s2}, acceleration_curve);
 }
 
 std::vector<drawing::AxisCurve> lateness_curves(const Analysis& analysis) { return curves(analysis, lateness_curve); }

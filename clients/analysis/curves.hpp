@@ -1,5 +1,6 @@
-// The motion of each axis over time, as curves. Times are seconds after the log's first step. Lengths are mm, or steps
-// if the steps per mm are not known. A curve is broken where steps are missing.
+// The motion of each axis over time, as curves. If a machine's motors are not its axes, its motors have curves too.
+// Times are seconds after the log's first step. Lengths are mm, or steps if the steps per mm are not known. A curve is
+// broken where steps are missing.
 #pragma once
 
 #include <vector>

@@ -13,6 +13,8 @@ namespace {
 
 std::string title(const Analysis& analysis, const std::string& what) { return analysis.machine + ": " + what; }
 
+std::string part(const Analysis& analysis) { return analysis.has_motors_as_axes() ? "axis" : "axis and motor"; }
+
 /// Marks the events of programs in every row.
 drawing::Figure with_events(const Analysis& analysis, drawing::Figure figure) {
     drawing::Moments moments{.x = {}, .label = "events of programs"};
@@ -24,13 +26,13 @@ drawing::Figure with_events(const Analysis& analysis, drawing::Figure figure) {
 }  // namespace
 
 drawing::Figure speed_figure(const Analysis& analysis) {
-    return with_events(analysis, drawing::speed_figure(title(analysis, "speed of each axis"), in_a_line(analysis),
-                                                       speed_curves(analysis)));
+    return with_events(analysis, drawing::speed_figure(title(analysis, "speed of each " + part(analysis)),
+                                                       in_a_line(analysis), speed_curves(analysis)));
 }
 
 drawing::Figure position_figure(const Analysis& analysis) {
-    return with_events(analysis, drawing::position_figure(title(analysis, "position of each axis"), in_a_line(analysis),
-                                                          position_curves(analysis)));
+    return with_events(analysis, drawing::position_figure(title(analysis, "position of each " + part(analysis)),
+                                                          in_a_line(analysis), position_curves(analysis)));
 }
 
 drawing::Figure path_figure(const Analysis& analysis, const std::optional<PlanePaths>& plane) {
@@ -39,7 +41,8 @@ drawing::Figure path_figure(const Analysis& analysis, const std::optional<PlaneP
     Deviations distances;
     for (const JobLog& job : analysis.jobs) {
         if (!analysis.config) { break; }
-        add(distances, deviations(*analysis.config, job.moves, job.move_count, job.largest_distance_mm));
+        add(distances,
+            deviations(*analysis.config, *analysis.kinematics, job.moves, job.move_count, job.largest_distance_mm));
     }
     if (!distances.empty()) {
         subtitle = fmt::format("stepped is at most {} from commanded · ", to_text(distances)) + subtitle;

@@ -10,7 +10,7 @@
 #include "clients/analysis/moves/deviation.hpp"
 #include "core/axis_unit.hpp"
 #include "core/coordinator/path/coordination.hpp"
-#include "core/kinematics/motors.hpp"
+#include "core/kinematics/kinematics.hpp"
 #include "core/number_text.hpp"
 
 namespace lockstep::analysis {
@@ -137,7 +137,7 @@ void check_jobs(const Analysis& analysis, Findings& found) {
                                               plural(whole_jobs, "job"))});
 }
 
-/// The frames on record say by how much an axis accelerated. Over a window of steps a permitted jump of speed would
+/// The frames on record say by how much a motor accelerated. Over a window of steps a permitted jump of speed would
 /// count as acceleration too.
 void check_acceleration(const Analysis& analysis, const AxisLog& axis, Findings& found) {
     const MotorConfig* config = analysis.motor_config(axis.name());
@@ -165,6 +165,35 @@ void check_axis(const Analysis& analysis, const AxisLog& axis, Findings& found) 
     found.push_back({Grade::Bad, fmt::format("{}: {:.2f} {unit}/s is above its limit of {:.2f} {unit}/s", axis.name(),
                                              peak / config->steps_per_mm, config->max_velocity_mm_s,
                                              fmt::arg("unit", analysis.unit_of(axis.name())))});
+}
+
+/// The axes keep limits of their own, besides those of their motors.
+void check_axis_figures(const Analysis& analysis, const AxisFigures& axis, Findings& found) {
+    const AxisConfig* config = analysis.axis_config(axis.name);
+    if (config == nullptr) { return; }
+    const double ticks_per_s = 1e9 / static_cast<double>(analysis.tick_ns());
+    const auto check = [&](double most, double limit, const char* per) {
+        if (most <= limit * kOverLimit) { return; }
+        found.push_back(
+            {Grade::Bad, fmt::format("axis {}: {:.2f} {unit}{} is above its limit of {:.2f} {unit}{}", axis.name, most,
+                                     per, limit, per, fmt::arg("unit", lockstep::unit_of(axis.name)))});
+    };
+    check(axis.peak_mm_per_tick * ticks_per_s, config->max_velocity_mm_s, "/s");
+    check(axis.peak_mm_per_tick2 * ticks_per_s * ticks_per_s,
+          std::max(config->max_accel_mm_s2, config->max_decel_mm_s2), "/s²");
+}
+
+void check_motor_skew(const Analysis& analysis, const MotorSkew& skew, Findings& found) {
+    const AxisConfig& axis = analysis.config->axes.at(skew.axis);
+    if (!axis.max_skew_mm || skew.largest_mm().value_or(0) <= *axis.max_skew_mm) { return; }
+    if (!has_all_steps(analysis)) {
+        return found.push_back(unknown("how far apart the motors of axis " + axis.name + " were",
+                                       "not all of their steps are in this log"));
+    }
+    found.push_back({Grade::Bad, fmt::format("the motors of axis {} were {:.3f} {unit} apart, above its max_skew_mm of "
+                                             "{:g} {unit}",
+                                             axis.name, *skew.largest_mm(), *axis.max_skew_mm,
+                                             fmt::arg("unit", lockstep::unit_of(axis.name)))});
 }
 
 void check_events(const Analysis& analysis, Findings& found) {
@@ -252,18 +281,31 @@ double exact_steps_off(const Analysis& analysis) {
     return (analysis.config ? coordination_of(*analysis.config) : kStreamedPath).exact_steps_off;
 }
 
-/// The maximum distance from the curve that exact steps can have: of each axis these steps, or the tolerance within
-/// which the program lets moves be joined, and its motion within the uncertainty of its clock.
+/// By how many steps the motors of an axis may be off their places, because the times of their steps are uncertain.
+double steps_by_clocks(const Analysis& analysis, AxisSet motors) {
+    double most = 0;
+    for (std::size_t m = 0; m < analysis.motors().size(); ++m) {
+        const auto log = std::ranges::find(analysis.axes, analysis.motors()[m].name, &AxisLog::name);
+        if (!has_axis(motors, m) || log == analysis.axes.end()) { continue; }
+        const AxisStatistics& statistics = (*log)->statistics();
+        const auto error = static_cast<double>((kRounding + statistics.clock_error()).value);
+        most = std::max(most, statistics.peak_steps_per_tick() * error);
+    }
+    return most;
+}
+
+/// The maximum distance from the curve that exact steps can have: of each axis what these steps of its motors move it,
+/// or the tolerance within which the program lets moves be joined, and its motion within the uncertainty of its clocks.
 double exact_distance_mm(const Analysis& analysis) {
+    if (analysis.kinematics == nullptr) { return 0; }
     const double steps = exact_steps_off(analysis);
     double squares = 0;
     double by_clocks = 0;
-    for (const auto& axis : analysis.axes) {
-        const double mm_per_step = 1 / analysis.steps_per_mm(*axis).value_or(1);
-        const auto error = static_cast<double>((kRounding + axis->statistics().clock_error()).value);
-        const double most_mm = std::max(steps * mm_per_step, analysis.tolerance_mm);
+    for (std::size_t axis = 0; axis < analysis.kinematics->axes(); ++axis) {
+        const double step_mm = analysis.kinematics->step_mm(axis);
+        const double most_mm = std::max(steps * step_mm, analysis.tolerance_mm);
         squares += most_mm * most_mm;
-        by_clocks += axis->statistics().peak_steps_per_tick() * mm_per_step * error;
+        by_clocks += step_mm * steps_by_clocks(analysis, analysis.kinematics->motors_of_axes(axis_bit(axis)));
     }
     return std::sqrt(squares) + by_clocks;
 }
@@ -276,7 +318,8 @@ void check_distance(const Analysis& analysis, Findings& found) {
         Deviations largest;
         for (const JobLog& job : analysis.jobs) {
             if (!analysis.config) { break; }
-            add(largest, deviations(*analysis.config, job.moves, job.move_count, job.largest_distance_mm));
+            add(largest,
+                deviations(*analysis.config, *analysis.kinematics, job.moves, job.move_count, job.largest_distance_mm));
         }
         const std::string amount =
             largest.empty() ? fmt::format("{:.4f} mm", *analysis.largest_distance_mm) : to_text(largest);
@@ -323,6 +366,8 @@ std::vector<Finding> findings(const Analysis& analysis) {
     check_exactness(analysis, found);
     check_jobs(analysis, found);
     for (const auto& axis : analysis.axes) { check_axis(analysis, *axis, found); }
+    for (const AxisFigures& axis : analysis.axis_figures) { check_axis_figures(analysis, axis, found); }
+    for (const MotorSkew& skew : analysis.motor_skew) { check_motor_skew(analysis, skew, found); }
     check_end(analysis, found);
     check_record(analysis, found);
     check_times(analysis, found);

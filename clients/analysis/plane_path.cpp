@@ -14,6 +14,10 @@ constexpr double kChord_mm = 0.01;  // maximum distance of a drawn chord from it
 
 /// The steps per mm of this axis; nullopt if it has made no steps.
 std::optional<double> scale_of(const Analysis& analysis, const std::string& name) {
+    if (!analysis.has_motors_as_axes()) {
+        const AxisConfig* axis = analysis.axis_config(name);
+        return axis != nullptr && analysis.first_tick() ? std::optional(axis->steps_per_mm) : std::nullopt;
+    }
     for (const auto& log : analysis.axes) {
         if (log->name() == name && log->statistics().first()) { return analysis.steps_per_mm(*log); }
     }

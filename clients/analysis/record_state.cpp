@@ -56,7 +56,7 @@ RecordState record_state(const Analysis& analysis) {
         if (messages > 0) { state.missing.push_back(missing_between(process, messages, what)); }
     };
     for (const auto& axis : analysis.axes) {
-        const std::string process = "axis " + axis->name();
+        const std::string process = analysis.label_of(axis->name());
         note(process, axis->statistics().missing_batches(), "steps");
         note(process, axis->missing_positions(), "positions");
         note(process, axis->missing_figures(), "figures");

@@ -48,7 +48,12 @@ void Recorder::on_position(const axis_position_t& message) {
     merge_.stands(number, Tick{message.tick}, message.position_steps);
 }
 
-void Recorder::on_run(std::size_t lane, const Run& run) { events_.take(lanes_[lane].axis, run); }
+void Recorder::on_run(std::size_t lane, const Run& run) {
+    const std::string& motor = lanes_[lane].axis;
+    events_.take(motor, run);
+    const MotorConfig* config = axes_ ? analysis_.motor_config(motor) : nullptr;
+    if (config != nullptr) { axes_->take(static_cast<std::size_t>(config - analysis_.motors().data()), run); }
+}
 
 void Recorder::on_job(const RecordedJob& message, LogPlace place) {
     JobLog* record = job(message);
@@ -112,7 +117,8 @@ void Recorder::begin_job(const RecordedJob& message, JobLog& record, LogPlace pl
     if (record.begun_us) { return; }  // a repeat
     record.begun_us = message.utime;
     record.is_in_pause_of = paused_by(record);
-    const auto program = read_documents(message, place);
+    read_machine(message, place);
+    const auto program = read_program(message, place);
     if (program && !record.is_in_pause_of) { program_events_.begin(message, *program); }
     if (!message.lacks.empty()) { record.unplannable = message.lacks; }
     if (!analysis_.config) { return; }
@@ -132,7 +138,7 @@ void Recorder::begin_job(const RecordedJob& message, JobLog& record, LogPlace pl
         latest_program_ = message;
     }
     moves_.begin(number_of(record), analysis_.tick_at(message.utime), *analysis_.config,
-                 JobMoves(std::move(asked), record.is_on_a_line()));
+                 JobMoves(std::move(asked), record.is_on_a_line()), record.kind == "home");
 }
 
 void Recorder::on_late(const std::string& axis, const SharedLate& steps) {
@@ -157,15 +163,21 @@ void Recorder::keep_asked_way(const RecordedProgram& program) {
     analysis_.asked_ways_mm.push_back(std::move(way));
 }
 
-/// Reads the configuration into the analysis and returns the program; null if there is none, or if it cannot be read.
-std::shared_ptr<const RecordedProgram> Recorder::read_documents(const RecordedJob& message, LogPlace place) {
+void Recorder::read_machine(const RecordedJob& message, LogPlace place) {
+    if (analysis_.config && message.config == config_text_) { return; }
     auto config = parse_machine(message.config);
-    if (config) {
-        analysis_.config = std::move(*config);
-        analysis_.motors = motors_of(*analysis_.config);
-    } else {
-        on_damage(place, to_text("the configuration recorded with the job", config.error()));
-    }
+    if (!config) { return on_damage(place, to_text("the configuration recorded with the job", config.error())); }
+    config_text_ = message.config;
+    analysis_.config = std::move(*config);
+    analysis_.kinematics = std::make_shared<const Kinematics>(*analysis_.config);
+    analysis_.motor_skew = axes_with_skew(*analysis_.kinematics);
+    axes_.reset();
+    if (analysis_.has_motors_as_axes()) { return; }
+    axes_.emplace(*analysis_.config, analysis_.kinematics, options_.keeps_curves());
+}
+
+/// Returns null if there is none, or if it cannot be read.
+std::shared_ptr<const RecordedProgram> Recorder::read_program(const RecordedJob& message, LogPlace place) {
     if (!message.has_program() || !message.lacks.empty()) { return nullptr; }
     auto program = message.read_program();
     if (program) { return *std::move(program); }
@@ -173,16 +185,25 @@ std::shared_ptr<const RecordedProgram> Recorder::read_documents(const RecordedJo
     return nullptr;
 }
 
-/// Notes the axes with steps in the job that the log lacks.
-void Recorder::note_unknown(JobLog& job, const std::vector<std::string>& axes, JobMoves& moves) const {
+/// Notes the motors with steps in the job that the log lacks.
+void Recorder::note_unknown(JobLog& job, const std::vector<std::string>& motors, JobMoves& moves) const {
     const Tick begun = analysis_.tick_at(*job.begun_us + kSilence_us);
-    for (std::size_t axis = 0; axis < moves.asked().axes(); ++axis) {
-        const auto lane = static_cast<std::size_t>(std::ranges::find(lanes_, axes[axis], &Lane::axis) - lanes_.begin());
+    for (std::size_t motor = 0; motor < moves.asked().motors(); ++motor) {
+        const auto found = std::ranges::find(lanes_, motors[motor], &Lane::axis);
+        const auto lane = static_cast<std::size_t>(found - lanes_.begin());
         const bool begins_late = lane == lanes_.size() || merge_.known_from(lane) > begun;
         const Tick until = begins_late ? Tick{} : merge_.known_until(lane);
-        moves.know_until(axis, until);
+        moves.know_until(motor, until);
         const bool ends_early = job.ended_us && until < analysis_.tick_at(*job.ended_us - kSilence_us);
-        if (moves.lacks_steps_of(axis) && (begins_late || ends_early)) { job.axes_not_known.push_back(axes[axis]); }
+        if (moves.lacks_steps_of(motor) && (begins_late || ends_early)) { job.axes_not_known.push_back(motors[motor]); }
+    }
+}
+
+/// Jobs of a machine with other axes are left out.
+void Recorder::note_skew(MotorSkewMeter& skew) {
+    for (const MotorSkew& of : skew.finish()) {
+        const auto known = std::ranges::find(analysis_.motor_skew, of.axis, &MotorSkew::axis);
+        if (known != analysis_.motor_skew.end()) { known->add(of); }
     }
 }
 
@@ -201,9 +222,9 @@ void Recorder::note_move(JobLog& job, MoveLog move) {
     ++job.move_count;
     job.dwells += is_dwell(move) ? 1 : 0;
     job.moves_not_whole += move.is_whole() ? 0 : 1;
-    for (const AxisMove& axis : move.axes) {
-        job.asked_steps += axis.asked_steps;
-        job.made_steps += axis.made_steps;
+    for (const MotorMove& motor : move.motors) {
+        job.asked_steps += motor.asked_steps;
+        job.made_steps += motor.made_steps;
     }
     if (move.largest_distance_mm) {
         job.largest_distance_mm = std::max(job.largest_distance_mm.value_or(0), *move.largest_distance_mm);
@@ -247,13 +268,14 @@ Analysis Recorder::finish(Sorter& sorter) {
     analysis_.program_events_not_kept = program_events_.not_kept();
     analysis_.steps_of_no_job = moves_.steps_of_no_job();
     analysis_.stepped_ways = moves_.plane().ways();
+    if (axes_) { analysis_.axis_figures = axes_->finish(); }
     std::ranges::sort(analysis_.damages, {}, &Damage::first_byte);
     sorter.give(analysis_);
     for (auto& axis : analysis_.axes) {
         axis->take(std::move(std::ranges::find(lanes_, axis->name(), &Lane::axis)->late));
     }
     if (analysis_.config) {
-        const auto& order = analysis_.motors;
+        const auto order = analysis_.motors();
         std::ranges::stable_sort(analysis_.axes, {}, [&](const auto& log) {
             return std::ranges::find(order, log->name(), &MotorConfig::name) - order.begin();
         });

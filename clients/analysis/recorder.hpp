@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "clients/analysis/analysis.hpp"
+#include "clients/analysis/measure/axis_meter.hpp"
 #include "clients/analysis/measure/move_meter.hpp"
 #include "clients/analysis/measure/sorted_log.hpp"
 #include "clients/analysis/measure/step_merge.hpp"
@@ -49,22 +50,26 @@ private:
     std::size_t number_of(const JobLog& job) const { return static_cast<std::size_t>(&job - analysis_.jobs.data()); }
     std::optional<std::size_t> paused_by(const JobLog& begun) const;
     void begin_job(const RecordedJob& message, JobLog& job, LogPlace place);
-    std::shared_ptr<const RecordedProgram> read_documents(const RecordedJob& message, LogPlace place);
+    void read_machine(const RecordedJob& message, LogPlace place);
+    std::shared_ptr<const RecordedProgram> read_program(const RecordedJob& message, LogPlace place);
     bool is_during(Tick tick, const JobLog& job) const;
     void keep_asked_way(const RecordedProgram& program);
-    void note_unknown(JobLog& job, const std::vector<std::string>& axes, JobMoves& moves) const;
+    void note_unknown(JobLog& job, const std::vector<std::string>& motors, JobMoves& moves) const;
+    void note_skew(MotorSkewMeter& skew);
     void note_moves(JobLog& job, const JobMoves& moves);
     void note_move(JobLog& job, MoveLog move);
 
     const AnalysisOptions& options_;
     EventLog events_;
     ProgramEventLog program_events_;
-    using Names = std::vector<std::string>;
-    MoveMeter moves_{[this](std::size_t job, const Names& axes, JobMoves& moves) {
-                         note_unknown(analysis_.jobs[job], axes, moves);
-                         note_moves(analysis_.jobs[job], moves);
+    MoveMeter moves_{[this](std::size_t job, MoveMeter::Measured& measured) {
+                         note_unknown(analysis_.jobs[job], measured.motors, measured.moves);
+                         note_moves(analysis_.jobs[job], measured.moves);
+                         note_skew(measured.skew);
                      },
                      options_.keeps_curves()};
+    std::optional<AxisMeter> axes_;  // unless the motors are the axes
+    std::string config_text_;        // of the configuration that was read last
     struct WaitingLate {
         std::string axis;
         SharedLate steps;

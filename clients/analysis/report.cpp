@@ -9,7 +9,8 @@
 #include "clients/analysis/moves/deviation.hpp"
 #include "clients/analysis/record_state.hpp"
 #include "clients/text/event_text.hpp"
-#include "core/kinematics/motors.hpp"
+#include "core/axis_unit.hpp"
+#include "core/kinematics/kinematics.hpp"
 #include "services/wire/lcm/translate_lcm.hpp"
 
 namespace lockstep::analysis {
@@ -47,6 +48,11 @@ void fill(const Analysis& analysis, const TickHistogram& late, proto::StepTimeEr
 void fill(const Analysis& analysis, const AxisLog& axis, proto::AxisAnalysis& report) {
     const AxisStatistics& found = axis.statistics();
     report.set_name(axis.name());
+    if (analysis.steps_per_mm(axis)) { report.set_unit(std::string(analysis.unit_of(axis.name()))); }
+    const MotorConfig* config = analysis.motor_config(axis.name());
+    if (config != nullptr && !analysis.has_motors_as_axes()) {
+        report.set_axis(analysis.config->axes[config->axis].name);
+    }
     report.set_steps(found.steps());
     report.set_batches(axis.counts().batches);
     report.set_missing_steps(found.missing_steps() + std::abs(axis.unrecorded_steps()));
@@ -60,7 +66,7 @@ void fill(const Analysis& analysis, const AxisLog& axis, proto::AxisAnalysis& re
     fill_gaps(axis, report);
 }
 
-void fill(const Analysis& analysis, const AxisConfig& config, const AxisMove& move, proto::AxisMoveAnalysis& report) {
+void fill(const Analysis& analysis, const MotorConfig& config, const MotorMove& move, proto::AxisMoveAnalysis& report) {
     const double per_s = 1e9 / static_cast<double>(analysis.tick_ns());
     report.set_name(config.name);
     report.set_asked_steps(move.asked_steps);
@@ -75,10 +81,12 @@ void fill(const Analysis& analysis, const AxisConfig& config, const AxisMove& mo
 
 using Names = google::protobuf::RepeatedPtrField<std::string>;
 
-/// `not_known`: axes whose steps the log lacks.
+/// `not_known`: motors whose steps the log lacks.
 void fill(const Analysis& analysis, const MoveLog& move, const Names& not_known, proto::MoveAnalysis& report) {
     report.set_line(move.line);
-    if (analysis.config) { report.set_unit(std::string(name_of(motion_unit(*analysis.config, move)))); }
+    if (analysis.config) {
+        report.set_unit(std::string(name_of(motion_unit(*analysis.config, *analysis.kinematics, move))));
+    }
     report.set_dwell(is_dwell(move));
     report.set_length_mm(move.length_mm);
     report.set_planned_s(analysis.seconds(move.planned));
@@ -87,13 +95,13 @@ void fill(const Analysis& analysis, const MoveLog& move, const Names& not_known,
     if (move.largest_distance_mm) { report.set_largest_distance_mm(*move.largest_distance_mm); }
     report.set_skew_max_us(analysis.microseconds(move.skew));
     fill(analysis, move.late, *report.mutable_step_time_error());
-    const std::size_t axes = analysis.config ? std::min(move.axes.size(), analysis.config->axes.size()) : 0;
-    for (std::size_t i = 0; i < axes; ++i) {
-        if (move.axes[i].asked_steps == 0 && move.axes[i].made_steps == 0) { continue; }
-        const AxisConfig& axis = analysis.config->axes[i];
-        fill(analysis, axis, move.axes[i], *report.add_axes());
-        const bool is_short = move.axes[i].made_steps < move.axes[i].asked_steps;
-        const bool is_known = std::ranges::find(not_known, axis.name) == not_known.end();
+    for (std::size_t i = 0; i < std::min(move.motors.size(), analysis.motors().size()); ++i) {
+        const MotorMove& made = move.motors[i];
+        if (made.asked_steps == 0 && made.made_steps == 0) { continue; }
+        const MotorConfig& motor = analysis.motors()[i];
+        fill(analysis, motor, made, *report.add_axes());
+        const bool is_short = made.made_steps < made.asked_steps;
+        const bool is_known = std::ranges::find(not_known, motor.name) == not_known.end();
         report.mutable_axes()->rbegin()->set_made_unknown(is_short && !is_known);
     }
 }
@@ -102,13 +110,13 @@ void fill(const Analysis& analysis, const MoveLog& move, const Names& not_known,
 void fill_axes(const Analysis& analysis, const JobLog& job, proto::JobAnalysis& report) {
     if (!analysis.config) { return; }
     for (const auto& [unit, largest] :
-         deviations(*analysis.config, job.moves, job.move_count, job.largest_distance_mm)) {
+         deviations(*analysis.config, *analysis.kinematics, job.moves, job.move_count, job.largest_distance_mm)) {
         proto::Deviation& out = *report.add_deviations();
         out.set_unit(std::string(name_of(unit)));
         out.set_largest(largest);
     }
-    for (const MotorConfig& axis : analysis.motors) {
-        if (!has_all_steps_of(analysis, job, axis.name)) { report.add_axes_not_known(axis.name); }
+    for (const MotorConfig& motor : analysis.motors()) {
+        if (!has_all_steps_of(analysis, job, motor.name)) { report.add_axes_not_known(motor.name); }
     }
 }
 
@@ -162,7 +170,7 @@ void fill(const Analysis& analysis, const ProgramPlace& place,
         proto::FinalPosition& position = *out.Add();
         position.set_name(axis);
         position.set_position_mm(mm);
-        if (const MotorConfig* config = analysis.motor_config(axis)) {
+        if (const AxisConfig* config = analysis.axis_config(axis)) {
             position.set_position_steps(to_steps(*config, mm));
         }
     }
@@ -190,6 +198,30 @@ void fill_findings(const Analysis& analysis, proto::AnalysisReport& report) {
         out.set_grade(std::string(name_of(finding.grade)));
         out.set_text(finding.text);
     }
+}
+
+void fill(const Analysis& analysis, const AxisFigures& axis, proto::AxisMotion& report) {
+    const double ticks_per_s = 1e9 / static_cast<double>(analysis.tick_ns());
+    report.set_name(axis.name);
+    report.set_unit(std::string(unit_of(axis.name)));
+    report.set_position_start_mm(axis.start_mm);
+    report.set_position_end_mm(axis.end_mm);
+    report.set_peak_velocity_mm_s(axis.peak_mm_per_tick * ticks_per_s);
+    report.set_peak_acceleration_mm_s2(axis.peak_mm_per_tick2 * ticks_per_s * ticks_per_s);
+    const AxisConfig* config = analysis.axis_config(axis.name);
+    if (config == nullptr) { return; }
+    report.set_max_velocity_mm_s(config->max_velocity_mm_s);
+    report.set_max_acceleration_mm_s2(std::max(config->max_accel_mm_s2, config->max_decel_mm_s2));
+}
+
+void fill(const Analysis& analysis, const MotorSkew& skew, proto::MotorSkewReport& report) {
+    const AxisConfig& axis = analysis.config->axes.at(skew.axis);
+    report.set_axis(axis.name);
+    report.set_unit(std::string(unit_of(axis.name)));
+    if (skew.in_homing_mm) { report.set_in_homing_mm(*skew.in_homing_mm); }
+    if (skew.in_motion_mm) { report.set_in_motion_mm(*skew.in_motion_mm); }
+    if (skew.at_rest_mm) { report.set_at_rest_mm(*skew.at_rest_mm); }
+    if (axis.max_skew_mm) { report.set_max_skew_mm(*axis.max_skew_mm); }
 }
 
 void fill(const Analysis& analysis, const PairSkew& skew, proto::StepSkew& report) {
@@ -220,6 +252,8 @@ proto::AnalysisReport to_report(const Analysis& analysis) {
         report.set_duration_s(analysis.seconds(*analysis.last_tick() - *first));
     }
     for (const auto& axis : analysis.axes) { fill(analysis, *axis, *report.add_axes()); }
+    for (const AxisFigures& axis : analysis.axis_figures) { fill(analysis, axis, *report.add_axis_motion()); }
+    for (const MotorSkew& skew : analysis.motor_skew) { fill(analysis, skew, *report.add_motor_skew()); }
     for (const JobLog& job : analysis.jobs) { fill(analysis, job, *report.add_jobs()); }
     for (const PairSkew& skew : analysis.step_skew) { fill(analysis, skew, *report.add_step_skew_between_axes()); }
     if (analysis.largest_distance_mm) { report.set_largest_distance_mm(*analysis.largest_distance_mm); }

@@ -66,6 +66,14 @@ private:
     int pauses_ = 0;
 };
 
+/// Where the axes are when each motor rests on the whole step that is nearest to its park.
+AxisCounts parked_counts(const MachineConfig& machine) {
+    AxisCounts counts;
+    for (const AxisConfig& axis : machine.axes) { counts.append(to_steps(axis, axis.homing.park_mm)); }
+    const Kinematics kinematics(machine);
+    return kinematics.axes_at(kinematics.motors_at(counts));
+}
+
 /// Frames from rest can fail only if an axis reaches its start velocity within a few ticks. Such a machine is planned
 /// by frames, so that a program that cannot run is not reported as correct.
 bool may_get_stuck(const MachineConfig& machine) {
@@ -93,16 +101,16 @@ std::expected<PlannedTotals, PlanError> totals_of(const MachineConfig& machine,
 }  // namespace
 
 std::vector<double> parked_mm(const MachineConfig& machine) {
+    const AxisCounts counts = parked_counts(machine);
     std::vector<double> places;
-    for (const AxisConfig& axis : machine.axes) {
-        places.push_back(to_mm(axis, static_cast<double>(to_steps(axis, axis.homing.park_mm))));
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        places.push_back(to_mm(machine.axes[i], static_cast<double>(counts[i])));
     }
     return places;
 }
 
 AxisCounts start_counts(const MachineConfig& machine, const ProgramHead& program) {
-    AxisCounts counts;
-    for (const AxisConfig& axis : machine.axes) { (void)counts.push_back(to_steps(axis, axis.homing.park_mm)); }
+    AxisCounts counts = parked_counts(machine);
     for (std::size_t i = 0; i < program.axes.size(); ++i) {
         const auto place = std::ranges::find(machine.axes, program.axes[i], &AxisConfig::name) - machine.axes.begin();
         const auto axis = static_cast<std::size_t>(place);

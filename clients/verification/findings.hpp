@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -44,8 +45,9 @@ struct Findings {
     std::vector<std::string> unknown;       // results that are unknown, since the log lacks data; the first kUnknown
     std::uint64_t more_unknown = 0;         // beyond these
     std::vector<std::string> notes;
-    bool lacks_messages = false;  // between others
-    bool lacks_steps = false;     // steps of runs on record, or of runs that the plan demands, are not in the log
+    std::map<std::string, std::string> labels;  // of motors, by name
+    bool lacks_messages = false;                // between others
+    bool lacks_steps = false;  // steps of runs on record, or of runs that the plan demands, are not in the log
     analysis::RecordEnd end;
 
     static constexpr std::size_t kUnknown = 100;
@@ -55,6 +57,11 @@ struct Findings {
     Verdict verdict() const {
         if (difference) { return Verdict::NotExact; }
         return unknown.empty() && end.missing.empty() ? Verdict::Exact : Verdict::Unknown;
+    }
+    /// "axis X", or "motor Y2" once the machine is known.
+    std::string label_of(const std::string& motor) const {
+        const auto known = labels.find(motor);
+        return known != labels.end() ? known->second : "axis " + motor;
     }
     /// Nothing more is compared after the first difference or an unreadable document.
     bool going() const { return !difference && !unreadable; }

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/faults.hpp"
-#include "core/kinematics/motors.hpp"
+#include "core/kinematics/kinematics.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/record/reading/log_step.hpp"
 
@@ -155,14 +155,14 @@ void LogCheck::check_place(const axis_position_t& message, const Machine& of) {
     const double steps = message.position_mm * motor_steps_per_mm(*of.config, *motor);
     const auto counted = static_cast<double>(message.position_steps);
     if (std::abs(steps - counted) <= kRounding_steps + std::abs(counted) * 1e-9) { return; }
-    findings_.differ(
-        {.text = fmt::format("axis {}: its position at tick {} is recorded as {} steps and as {} mm, which "
-                             "are {} steps",
-                             message.axis, message.tick, message.position_steps, message.position_mm, steps),
-         .axis = message.axis,
-         .tick_expected = {},
-         .tick_seen = Tick{message.tick},
-         .commanded = {}});
+    findings_.differ({.text = fmt::format("{}: its position at tick {} is recorded as {} steps and as {} mm, which "
+                                          "are {} steps",
+                                          findings_.label_of(message.axis), message.tick, message.position_steps,
+                                          message.position_mm, steps),
+                      .axis = message.axis,
+                      .tick_expected = {},
+                      .tick_seen = Tick{message.tick},
+                      .commanded = {}});
 }
 
 void LogCheck::on_job(const analysis::RecordedJob& message, analysis::LogPlace place) {
@@ -173,7 +173,7 @@ void LogCheck::on_job(const analysis::RecordedJob& message, analysis::LogPlace p
     if (!Overrides::allows(message.feed_percent) || !Overrides::allows(message.rapid_percent)) {
         return on_damage(place, "a job with overrides that are out of range");
     }
-    if (Machine* of = machine(message.machine, place); of != nullptr) { of->set_config(message.config); }
+    if (Machine* of = machine(message.machine, place); of != nullptr) { of->set_config(message.config, findings_); }
     take_record(message, RecordKind::Job, place);
 }
 
@@ -182,11 +182,15 @@ void LogCheck::on_damage(analysis::LogPlace place, std::string what) {
     findings_.notes.push_back(fmt::format("damaged at byte {}: {}", place.offset, what));
 }
 
-void LogCheck::Machine::set_config(const std::string& text) {
+void LogCheck::Machine::set_config(const std::string& text, Findings& findings) {
     if (config || text.empty()) { return; }
-    if (auto parsed = parse_machine(text)) { config = std::move(*parsed); }
-    for (auto& [name, axis] : axes) {
-        if (config) { axis->check.set_machine(*config); }
+    auto parsed = parse_machine(text);
+    if (!parsed) { return; }
+    config = std::move(*parsed);
+    for (auto& [name, axis] : axes) { axis->check.set_machine(*config); }
+    const Kinematics kinematics(*config);
+    for (std::size_t m = 0; m < kinematics.motors().size(); ++m) {
+        findings.labels[kinematics.motors()[m].name] = kinematics.label(m);
     }
 }
 
@@ -207,7 +211,9 @@ void LogCheck::Machine::check_axes(Findings& findings) const {
                          .commanded = {}});
     }
     for (const std::string& name : names) {
-        if (!axes.contains(name)) { findings.add_missing("axis " + name + ": no message of it is in the log"); }
+        if (!axes.contains(name)) {
+            findings.add_missing(findings.label_of(name) + ": no message of it is in the log");
+        }
     }
 }
 

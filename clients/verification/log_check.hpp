@@ -78,7 +78,7 @@ private:
         void note_motion(Axis& axis);
         bool are_at_rest() const;
         void finish(const std::string& name, const analysis::RecordEnd& end, bool is_damaged);
-        void set_config(const std::string& text);
+        void set_config(const std::string& text, Findings& findings);
         void check_axes(Findings& findings) const;
         JobCheck jobs;
         JobStream records;

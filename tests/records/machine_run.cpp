@@ -1,9 +1,11 @@
 #include "tests/records/machine_run.hpp"
 
 #include <algorithm>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
+#include "core/kinematics/kinematics.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/documents/program_file.hpp"
 
@@ -42,6 +44,30 @@ MachineConfig small_mill() {
 }
 
 MachineConfig small_plotter() { return machine_of(axis_text("X", 80, 200) + axis_text("Y", 80, 200)); }
+
+MachineConfig small_core_xy() {
+    MachineConfig machine = small_mill();
+    for (AxisConfig& axis : std::span(machine.axes).first(2)) {
+        axis.homing.in_place = true;
+        axis.plant.start_position_mm = axis.homing.park_mm;
+        axis.motors = {{.name = axis.name, .steps_per_mm = axis.steps_per_mm}};
+    }
+    machine.kinematics.core_xy = CoreXy{"X", "Y"};
+    return read_again(machine);
+}
+
+MachineConfig small_gantry() {
+    MachineConfig machine = small_plotter();
+    AxisConfig& bridge = machine.axes[0];
+    bridge.max_skew_mm = 2;
+    bridge.homing.park_mm = 0;
+    bridge.motors = {{.name = "X", .steps_per_mm = 80},
+                     {.name = "X2", .steps_per_mm = 80, .switch_offset_mm = 0.25, .plant = bridge.plant}};
+    bridge.motors[1].plant->start_position_mm += 0.3;
+    return read_again(machine);
+}
+
+MachineConfig read_again(const MachineConfig& machine) { return parse_machine(machine_text(machine)).value(); }
 
 MachineConfig slow_axis_machine() {
     return parse_machine(
@@ -142,10 +168,12 @@ void MachineRun::home(AxisSet axes) {
 }
 
 std::vector<double> MachineRun::here_mm() const {
+    MotorCounts motors;
+    for (const auto& motor : vm_.axis_states()) { motors.steps.append(motor->position.count()); }
+    const AxisCounts axes = Kinematics(vm_.machine()).axes_at(motors);
     std::vector<double> here;
-    for (std::size_t i = 0; i < vm_.machine().axes.size(); ++i) {
-        const auto count = static_cast<double>(vm_.axis_states()[i]->position.count());
-        here.push_back(to_mm(vm_.machine().axes[i], count));
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        here.push_back(to_mm(vm_.machine().axes[i], static_cast<double>(axes[i])));
     }
     return here;
 }

@@ -9,6 +9,7 @@
 
 #include "clients/session/move_program.hpp"
 #include "clients/simulation/machine_recorder.hpp"
+#include "core/kinematics/motors.hpp"
 #include "core/machine.hpp"
 #include "core/program.hpp"
 #include "services/virtual/virtual_machine.hpp"
@@ -22,8 +23,15 @@ MachineConfig example_machine(const std::string& name);
 MachineConfig small_mill();
 /// Axes X and Y of small_mill().
 MachineConfig small_plotter();
+/// The same axes, moved by two belts: motors X and Y turn by their sum and their difference. It homes in place. Z is
+/// moved by a motor of its own.
+MachineConfig small_core_xy();
+/// Motors X and X2 move axis X of small_plotter() together.
+MachineConfig small_gantry();
 /// One axis of 1000 steps/mm that a clock of 10 kHz drives.
 MachineConfig slow_axis_machine();
+/// The machine as its file gives it, with the steps of axes that follow from those of their motors.
+MachineConfig read_again(const MachineConfig& machine);
 VirtualOptions options_of(const MachineConfig& machine);
 /// Two boards whose clocks differ from the coordinator's.
 VirtualOptions own_clocks(MachineConfig machine);
@@ -34,7 +42,7 @@ public:
     explicit MachineRun(const VirtualOptions& options);
 
     VirtualMachine& vm() { return vm_; }
-    std::size_t coordinator() const { return vm_.machine().axes.size(); }
+    std::size_t coordinator() const { return motor_count(vm_.machine()); }
 
     void home();
     /// Homes these axes only.

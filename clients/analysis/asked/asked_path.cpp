@@ -6,12 +6,11 @@
 #include <variant>
 
 #include "clients/planning/plan_summary.hpp"
-#include "core/kinematics/kinematics.hpp"
 
 namespace lockstep::analysis {
 namespace {
 
-/// Finds by bisection when an axis is `steps` from the beginning of a stroke.
+/// Finds by bisection when a motor is `steps` from the beginning of a stroke.
 Ticks when(const AxisMotion& motion, const PlannedStroke& stroke, double steps) {
     const int direction = stroke.to > stroke.from ? 1 : -1;
     Ticks low = stroke.begin;
@@ -27,7 +26,7 @@ Ticks when(const AxisMotion& motion, const PlannedStroke& stroke, double steps) 
     return low;
 }
 
-/// The time from an axis's first step of a move to its last. A step occurs halfway between two positions: the first
+/// The time from a motor's first step of a move to its last. A step occurs halfway between two positions: the first
 /// half a step after the beginning, the last half a step before the end.
 Ticks stepping_time(const AxisMotion& motion, const PlannedStroke& first, const PlannedStroke& last) {
     return when(motion, last, static_cast<double>(std::abs(last.to - last.from)) - 0.5) - when(motion, first, 0.5);
@@ -37,17 +36,12 @@ Ticks stepping_time(const AxisMotion& motion, const PlannedStroke& first, const 
 
 std::expected<AskedPath, std::string> AskedPath::of(const MachineConfig& machine, const ProgramHead& head,
                                                     const std::shared_ptr<const ProgramBlocks>& blocks) {
-    if (!Kinematics(machine).is_direct()) {
-        return std::unexpected(
-            "several motors move one of its axes, and the steps of such moves are not assigned yet: verify "
-            "compares them with the plan");
-    }
     AskedPath asked;
-    asked.strokes_.resize(machine.axes.size());
-    for (const AxisConfig& axis : machine.axes) { asked.mm_per_step_.push_back(1 / axis.steps_per_mm); }
     const AxisCounts start = start_counts(machine, head);
+    asked.places_ = AxisPlaces(machine);
+    asked.starts_ = asked.places_.kinematics()->motors_at(start);
+    asked.strokes_.resize(asked.motors());
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        asked.starts_.push_back(start[i]);
         asked.rest_mm_.push_back(to_mm(machine.axes[i], static_cast<double>(start[i])));
     }
     for (const std::string& name : head.axes) {
@@ -69,17 +63,19 @@ void AskedPath::add_first(const LegPlan& leg) {
     const auto number = static_cast<std::uint32_t>(lines_.size());
     lines_.push_back(move.line.value_or(0));
     numbers_.push_back(move.block);
-    steps_.resize(steps_.size() + axes());
+    steps_.resize(steps_.size() + motors());
     std::vector<std::optional<StrokeEnds>> ends = note_strokes(leg, number);
     std::size_t lead = 0;
-    for (std::size_t axis = 1; axis < axes(); ++axis) {
-        if (steps(number, axis) > steps(number, lead)) { lead = axis; }
+    for (std::size_t motor = 1; motor < motors(); ++motor) {
+        if (steps(number, motor) > steps(number, lead)) { lead = motor; }
     }
     leads_.push_back(static_cast<std::uint8_t>(lead));
     const Block* block = blocks_->block(move.block);
     const auto* its = block != nullptr ? std::get_if<ProgramMove>(&block->action) : nullptr;
     const bool is_whole_leg = leg.moves.size() == 1 && move.begin == Ticks{};
-    is_exact_.push_back(its == nullptr || (!its->arc && (its->mode == PathMode::ExactStop || is_whole_leg)));
+    const bool reverses = std::ranges::any_of(ends, [](const auto& of) { return of && of->first != of->last; });
+    const bool is_line = its != nullptr && !its->arc && !reverses;
+    is_exact_.push_back(its == nullptr || (is_line && (its->mode == PathMode::ExactStop || is_whole_leg)));
     if (its != nullptr && its->mode == PathMode::Blend) { tolerance_mm_ = std::max(tolerance_mm_, its->tolerance_mm); }
     if (details_.size() >= kDetailed) { return; }
     AskedMove details{.length_mm = move.length_mm, .planned = leg.end(0) - move.begin, .stepping = {}};
@@ -87,22 +83,22 @@ void AskedPath::add_first(const LegPlan& leg) {
     details_.push_back(details);
 }
 
-/// Returns the first and the last stroke of each axis that makes steps.
+/// Returns the first and the last stroke of each motor that makes steps.
 std::vector<std::optional<AskedPath::StrokeEnds>> AskedPath::note_strokes(const LegPlan& leg, std::uint32_t number) {
-    std::vector<std::optional<StrokeEnds>> ends(axes());
-    for (std::size_t axis = 0; axis < axes(); ++axis) {
-        each_stroke(leg.axes[axis], leg.moves[0].begin, leg.end(0), [&](const PlannedStroke& stroke) {
-            strokes_[axis].push_back({stroke.from, stroke.to, number});
-            steps_[number * axes() + axis] += std::abs(stroke.to - stroke.from);
-            ends[axis] = {ends[axis] ? ends[axis]->first : stroke, stroke};
+    std::vector<std::optional<StrokeEnds>> ends(motors());
+    for (std::size_t motor = 0; motor < motors(); ++motor) {
+        each_stroke(leg.axes[motor], leg.moves[0].begin, leg.end(0), [&](const PlannedStroke& stroke) {
+            strokes_[motor].push_back({stroke.from, stroke.to, number});
+            steps_[number * motors() + motor] += std::abs(stroke.to - stroke.from);
+            ends[motor] = {ends[motor] ? ends[motor]->first : stroke, stroke};
         });
     }
     return ends;
 }
 
-std::int64_t AskedPath::slack(std::size_t move, std::size_t axis) const {
+std::int64_t AskedPath::slack(std::size_t move, std::size_t motor) const {
     if (is_exact_[move]) { return 0; }
-    const auto& strokes = strokes_[axis];
+    const auto& strokes = strokes_[motor];
     const auto of_move = std::ranges::equal_range(strokes, static_cast<std::uint32_t>(move), {}, &Stroke::move);
     return 2 * std::max<std::int64_t>(1, std::ssize(of_move));
 }

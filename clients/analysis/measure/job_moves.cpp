@@ -30,23 +30,23 @@ std::size_t steps_in_move(const MoveCursor& cursor, const EquallyLate& late) {
 
 bool MoveLog::is_whole() const {
     return std::ranges::all_of(
-        axes, [](const AxisMove& axis) { return std::abs(axis.made_steps - axis.asked_steps) <= axis.slack_steps; });
+        motors, [](const MotorMove& of) { return std::abs(of.made_steps - of.asked_steps) <= of.slack_steps; });
 }
 
-bool MoveCursor::find_next(const AskedPath& asked, std::size_t axis, std::int64_t count, int direction,
+bool MoveCursor::find_next(const AskedPath& asked, std::size_t motor, std::int64_t count, int direction,
                            std::int64_t most_beyond) {
-    const std::size_t end = std::min(asked.strokes_of(axis).size(), next_ + kReach);
+    const std::size_t end = std::min(asked.strokes_of(motor).size(), next_ + kReach);
     const std::size_t near = std::min(end, next_ + kNear);
-    if (find_among(asked, axis, next_, near, count, direction)) { return true; }
+    if (find_among(asked, motor, next_, near, count, direction)) { return true; }
     const bool goes_on = stroke_.direction() == direction && stroke_.to != stroke_.from;
     const std::int64_t beyond = (count - stroke_.to) * direction;
     if (goes_on && beyond >= 0 && beyond < most_beyond) { return true; }
-    return find_among(asked, axis, near, end, count, direction);
+    return find_among(asked, motor, near, end, count, direction);
 }
 
-bool MoveCursor::find_among(const AskedPath& asked, std::size_t axis, std::size_t first, std::size_t end,
+bool MoveCursor::find_among(const AskedPath& asked, std::size_t motor, std::size_t first, std::size_t end,
                             std::int64_t count, int direction) {
-    const auto& strokes = asked.strokes_of(axis);
+    const auto& strokes = asked.strokes_of(motor);
     for (std::size_t i = first; i < end; ++i) {
         if (!strokes[i].has(count, direction)) { continue; }
         next_ = i;
@@ -59,19 +59,19 @@ bool MoveCursor::find_among(const AskedPath& asked, std::size_t axis, std::size_
 JobMoves::JobMoves(AskedPath asked, bool on_a_line)
     : asked_(std::move(asked)),
       on_a_line_(on_a_line),
-      made_cursor_(asked_.axes()),
-      late_cursor_(asked_.axes()),
+      made_cursor_(asked_.motors()),
+      late_cursor_(asked_.motors()),
       made_(asked_.size()),
-      made_steps_(asked_.size() * asked_.axes()) {
+      made_steps_(asked_.size() * asked_.motors()) {
     if (asked_.size() == 0) { return; }
     while (asked_.details(details_.size()) != nullptr) { details_.emplace_back(); }
-    peaks_.resize(details_.size() * asked_.axes());
-    for (std::size_t axis = 0; axis < asked_.axes(); ++axis) {
-        counts_.push_back(asked_.start(axis));
-        at_mm_.push_back(static_cast<double>(counts_.back()) * asked_.mm_per_step(axis));
-        near_mm2_ += asked_.mm_per_step(axis) * asked_.mm_per_step(axis);
-    }
-    places_.mm.resize(asked_.axes());
+    peaks_.resize(details_.size() * asked_.motors());
+    counts_.assign(asked_.starts().steps.begin(), asked_.starts().steps.end());
+    axes_ = asked_.places();
+    at_mm_.resize(axes_.axes());
+    axes_.set(counts_, at_mm_);
+    for (std::size_t i = 0; i < axes_.axes(); ++i) { near_mm2_ += std::pow(axes_.kinematics()->step_mm(i), 2); }
+    places_.mm.resize(axes_.axes());
     begin(0);
 }
 
@@ -82,7 +82,7 @@ void JobMoves::begin(std::size_t move) {
     bound_.forget();
 }
 
-/// The square of the distance from the axes' place to the curve. Near the joint of two moves, one axis may be in a
+/// The square of the distance from the axes' place to the curve. Near the joint of two moves, one motor may be in a
 /// later move than the others: then the nearest of the last curves counts.
 double JobMoves::square_of_distance_mm2() {
     constexpr std::size_t kBack = 8;
@@ -94,18 +94,18 @@ double JobMoves::square_of_distance_mm2() {
     return least;
 }
 
-void JobMoves::take(std::size_t axis, const MeasuredStep& step) {
+void JobMoves::take(std::size_t motor, const MeasuredStep& step) {
     if (asked_.size() == 0) { return; }
-    MoveCursor& cursor = made_cursor_[axis];
+    MoveCursor& cursor = made_cursor_[motor];
     const std::size_t move_before = cursor.move();
-    const auto beyond = [&] { return slack(cursor.move(), axis); };
-    if (cursor.find(asked_, axis, step.count - step.direction, step.direction, beyond)) {
-        take_in(cursor.move(), axis, {step.tick, step.tick, 1, step.rates});
+    const auto beyond = [&] { return slack(cursor.move(), motor); };
+    if (cursor.find(asked_, motor, step.count - step.direction, step.direction, beyond)) {
+        take_in(cursor.move(), motor, {step.tick, step.tick, 1, step.rates});
     } else {
         ++unasked_steps_;
     }
-    const bool is_next = std::exchange(counts_[axis], step.count) == step.count - step.direction;
-    at_mm_[axis] = static_cast<double>(step.count) * asked_.mm_per_step(axis);
+    const bool is_next = std::exchange(counts_[motor], step.count) == step.count - step.direction;
+    axes_.go_to(motor, step.count, at_mm_);
     if (!on_a_line_) { return; }
     Made& made = made_[current_];
     if (!is_next) {
@@ -119,25 +119,25 @@ void JobMoves::take(std::size_t axis, const MeasuredStep& step) {
     measure_places(made.largest_square_mm2);
 }
 
-void JobMoves::take(MergedSteps& steps, AxesOfLanes axis_of_lane, Tick until) {
+void JobMoves::take(MergedSteps& steps, MotorsOfLanes motor_of_lane, Tick until) {
     while (!steps.before(until).empty()) {
-        take_in_strokes(steps, axis_of_lane, end_of_strokes(steps, axis_of_lane, until));
+        take_in_strokes(steps, motor_of_lane, end_of_strokes(steps, motor_of_lane, until));
         if (steps.before(until).empty()) { return; }
         const std::size_t lane = steps.lane();
         const MeasuredStep step = steps.pop();
-        if (axis_of_lane[lane]) { take(*axis_of_lane[lane], step); }
+        if (motor_of_lane[lane]) { take(*motor_of_lane[lane], step); }
     }
 }
 
-/// The tick before which all steps continue the axes' strokes, in moves that have begun.
-Tick JobMoves::end_of_strokes(const MergedSteps& steps, AxesOfLanes axis_of_lane, Tick until) const {
+/// The tick before which all steps continue the motors' strokes, in moves that have begun.
+Tick JobMoves::end_of_strokes(const MergedSteps& steps, MotorsOfLanes motor_of_lane, Tick until) const {
     if (asked_.size() == 0 || steps.tick() < newest_) { return steps.tick(); }
     for (std::size_t i = 0; i < steps.lanes().size(); ++i) {
         const MergedSteps::Lane& lane = steps.lanes()[i];
         if (lane.steps.empty() || lane.steps.front().tick >= until) { continue; }
-        if (!axis_of_lane[i]) { return steps.tick(); }
-        const MoveCursor& cursor = made_cursor_[*axis_of_lane[i]];
-        const bool goes_on = lane.is_one_way && lane.count == counts_[*axis_of_lane[i]] && cursor.move() <= current_ &&
+        if (!motor_of_lane[i]) { return steps.tick(); }
+        const MoveCursor& cursor = made_cursor_[*motor_of_lane[i]];
+        const bool goes_on = lane.is_one_way && lane.count == counts_[*motor_of_lane[i]] && cursor.move() <= current_ &&
                              cursor.is_in_stroke(lane.count, lane.steps.front().direction);
         const auto most = goes_on ? static_cast<std::size_t>(cursor.steps_from(lane.count)) : 0;
         if (most < lane.steps.size()) { until = std::min(until, lane.steps[most].tick); }
@@ -145,23 +145,23 @@ Tick JobMoves::end_of_strokes(const MergedSteps& steps, AxesOfLanes axis_of_lane
     return until;
 }
 
-/// Takes the steps before a tick until which all axes continue their strokes.
-void JobMoves::take_in_strokes(MergedSteps& steps, AxesOfLanes axis_of_lane, Tick until) {
+/// Takes the steps before a tick until which all motors continue their strokes.
+void JobMoves::take_in_strokes(MergedSteps& steps, MotorsOfLanes motor_of_lane, Tick until) {
     const auto merged = steps.before(until);
     if (merged.empty()) { return; }
     for (std::size_t i = 0; i < steps.lanes().size(); ++i) {
         const MergedSteps::Lane& lane = steps.lanes()[i];
         const std::size_t count = lane.before(until);
         if (count == 0) { continue; }
-        const std::size_t axis = *axis_of_lane[i];
-        const std::size_t move = made_cursor_[axis].move();
+        const std::size_t motor = *motor_of_lane[i];
+        const std::size_t move = made_cursor_[motor].move();
         StepsOfMove of{lane.steps[0].tick, lane.steps[count - 1].tick, static_cast<std::int64_t>(count), {}};
         if (move < details_.size()) { of.peak = peak_of({lane.rates, count}); }
-        take_in(move, axis, of);
-        if (!on_a_line_) { counts_[axis] += of.steps * lane.steps[0].direction; }
+        take_in(move, motor, of);
+        if (!on_a_line_) { counts_[motor] += of.steps * lane.steps[0].direction; }
     }
     if (on_a_line_) {
-        measure_distances(merged, axis_of_lane);
+        measure_distances(merged, motor_of_lane);
         newest_ = made_[current_].newest = steps.tick_of(merged.back());
     }
     steps.pass_before(until);
@@ -190,14 +190,14 @@ StepRates JobMoves::peak_of(std::span<const StepRates> rates) {
 }
 
 /// Measures the distances at steps that all are in moves that have begun.
-void JobMoves::measure_distances(std::span<const MergedStep> steps, AxesOfLanes axis_of_lane) {
+void JobMoves::measure_distances(std::span<const MergedStep> steps, MotorsOfLanes motor_of_lane) {
     float& largest = made_[current_].largest_square_mm2;
     while (!steps.empty()) {
         places_.size = std::min(steps.size(), Places::kMost);
         for (std::size_t i = 0; i < places_.size; ++i) {
-            const std::size_t axis = *axis_of_lane[steps[i].lane()];
-            counts_[axis] += steps[i].direction();
-            at_mm_[axis] = static_cast<double>(counts_[axis]) * asked_.mm_per_step(axis);
+            const std::size_t motor = *motor_of_lane[steps[i].lane()];
+            counts_[motor] += steps[i].direction();
+            axes_.go_to(motor, counts_[motor], at_mm_);
             note_place(i);
         }
         measure_places(largest);
@@ -220,24 +220,24 @@ void JobMoves::measure_places(float& largest) {
     places_.get(places_.size - 1, at_mm_);
 }
 
-/// Called if later steps of other axes were compared with an outdated position of this axis.
+/// Called if later steps of other motors were compared with an outdated position of this motor.
 void JobMoves::forget_distances(std::size_t from_move) {
     for (std::size_t move = from_move; move <= current_; ++move) { made_[move].is_distance_known = false; }
 }
 
-std::size_t JobMoves::first_move_that_lacks(std::size_t axis) const {
+std::size_t JobMoves::first_move_that_lacks(std::size_t motor) const {
     std::size_t move = 0;
     const auto has_all = [&] {
-        return made_steps_[move * asked_.axes() + axis] + slack(move, axis) >= asked_.steps(move, axis);
+        return made_steps_[move * asked_.motors() + motor] + slack(move, motor) >= asked_.steps(move, motor);
     };
     while (move < asked_.size() && has_all()) { ++move; }
     return move;
 }
 
-bool JobMoves::lacks_steps_of(std::size_t axis) const { return first_move_that_lacks(axis) < asked_.size(); }
+bool JobMoves::lacks_steps_of(std::size_t motor) const { return first_move_that_lacks(motor) < asked_.size(); }
 
-void JobMoves::know_until(std::size_t axis, Tick until) {
-    for (std::size_t move = first_move_that_lacks(axis); move < asked_.size(); ++move) {
+void JobMoves::know_until(std::size_t motor, Tick until) {
+    for (std::size_t move = first_move_that_lacks(motor); move < asked_.size(); ++move) {
         if (made_[move].newest > until) { made_[move].is_distance_known = false; }
     }
 }
@@ -246,11 +246,11 @@ std::int64_t JobMoves::moves_without_distance() const {
     return std::ranges::count(made_, false, &Made::is_distance_known);
 }
 
-void JobMoves::take_in(std::size_t move, std::size_t axis, const StepsOfMove& steps) {
+void JobMoves::take_in(std::size_t move, std::size_t motor, const StepsOfMove& steps) {
     if (move > current_) { begin(move); }
-    const std::size_t place = move * asked_.axes() + axis;
+    const std::size_t place = move * asked_.motors() + motor;
     made_steps_[place] += steps.steps;
-    const bool is_lead = axis == asked_.lead(move);
+    const bool is_lead = motor == asked_.lead(move);
     if (is_lead && made_[move].first == kNever) { made_[move].first = steps.first; }
     if (move >= details_.size()) { return; }
     StepRates& peak = peaks_[place];
@@ -265,12 +265,12 @@ void JobMoves::Details::add(const EquallyLate& steps) {
     late.add(steps.late, std::ssize(steps.steps));
 }
 
-void JobMoves::take(std::size_t axis, EquallyLate late) {
+void JobMoves::take(std::size_t motor, EquallyLate late) {
     if (asked_.size() == 0) { return; }
-    MoveCursor& cursor = late_cursor_[axis];
-    const auto beyond = [&] { return slack(cursor.move(), axis); };
+    MoveCursor& cursor = late_cursor_[motor];
+    const auto beyond = [&] { return slack(cursor.move(), motor); };
     while (true) {
-        const bool is_found = cursor.find(asked_, axis, late.before, late.steps.front().direction, beyond);
+        const bool is_found = cursor.find(asked_, motor, late.before, late.steps.front().direction, beyond);
         const std::size_t count = is_found ? steps_in_move(cursor, late) : 1;
         if (is_found) {
             late_.add(late.late, static_cast<std::int64_t>(count));
@@ -296,10 +296,10 @@ MoveLog JobMoves::move(std::size_t number) const {
     if (is_made && on_a_line_ && made.is_distance_known) {
         log.largest_distance_mm = std::sqrt(static_cast<double>(made.largest_square_mm2));
     }
-    for (std::size_t axis = 0; axis < asked_.axes(); ++axis) {
-        log.axes.push_back({.asked_steps = asked_.steps(number, axis),
-                            .made_steps = made_steps_[number * asked_.axes() + axis],
-                            .slack_steps = slack(number, axis)});
+    for (std::size_t motor = 0; motor < asked_.motors(); ++motor) {
+        log.motors.push_back({.asked_steps = asked_.steps(number, motor),
+                              .made_steps = made_steps_[number * asked_.motors() + motor],
+                              .slack_steps = slack(number, motor)});
     }
     if (number < details_.size()) { add_details(number, log); }
     return log;
@@ -316,9 +316,9 @@ void JobMoves::add_details(std::size_t number, MoveLog& log) const {
         log.first = made_[number].first;
         log.made = made.last - *log.first + asked.planned - asked.stepping;
     }
-    for (std::size_t axis = 0; axis < asked_.axes(); ++axis) {
-        log.axes[axis].peak_steps_per_tick = peaks_[number * asked_.axes() + axis].steps_per_tick;
-        log.axes[axis].peak_steps_per_tick2 = peaks_[number * asked_.axes() + axis].steps_per_tick2;
+    for (std::size_t motor = 0; motor < asked_.motors(); ++motor) {
+        log.motors[motor].peak_steps_per_tick = peaks_[number * asked_.motors() + motor].steps_per_tick;
+        log.motors[motor].peak_steps_per_tick2 = peaks_[number * asked_.motors() + motor].steps_per_tick2;
     }
 }
 

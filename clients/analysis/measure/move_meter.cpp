@@ -4,33 +4,42 @@
 #include <limits>
 #include <utility>
 
+#include "core/kinematics/motors.hpp"
+
 namespace lockstep::analysis {
 
-std::optional<std::size_t> MoveMeter::Job::axis(const std::string& name) const {
-    const auto found = std::ranges::find(axes, name);
-    if (found == axes.end() || moves.asked().axes() == 0) { return std::nullopt; }
-    return static_cast<std::size_t>(found - axes.begin());
+std::optional<std::size_t> MoveMeter::Job::motor(const std::string& name) const {
+    const auto found = std::ranges::find(measured.motors, name);
+    if (found == measured.motors.end()) { return std::nullopt; }
+    return static_cast<std::size_t>(found - measured.motors.begin());
 }
 
-void MoveMeter::name_lane(std::size_t lane, const std::string& axis) {
+void MoveMeter::name_lane(std::size_t lane, const std::string& motor) {
     if (lanes_.size() <= lane) {
         lanes_.resize(lane + 1);
         in_plane_.resize(lane + 1);
     }
-    lanes_[lane] = axis;
-    if (axis == "X") { in_plane_[lane] = 0; }
-    if (axis == "Y") { in_plane_[lane] = 1; }
+    lanes_[lane] = motor;
+    if (motor == "X") { in_plane_[lane] = 0; }
+    if (motor == "Y") { in_plane_[lane] = 1; }
     for (Job& job : jobs_) {
-        job.axis_of_lane.resize(lanes_.size());
-        job.axis_of_lane[lane] = job.axis(axis);
+        job.motor_of_lane.resize(lanes_.size());
+        job.motor_of_lane[lane] = job.motor(motor);
     }
 }
 
-void MoveMeter::begin(std::size_t number, Tick from, const MachineConfig& machine, JobMoves moves) {
+void MoveMeter::begin(std::size_t number, Tick from, const MachineConfig& machine, JobMoves moves, bool is_homing) {
     if (jobs_.size() == kJobsOpen) { end_first(); }
     begin_turn({from, number});
-    Job job{.number = number, .axes = machine.axis_names(), .moves = std::move(moves), .axis_of_lane = {}};
-    for (const std::string& lane : lanes_) { job.axis_of_lane.push_back(job.axis(lane)); }
+    auto plane = mapped_plane(machine, moves);
+    const Kinematics kinematics(machine);
+    MotorSkewMeter skew(kinematics, is_homing, moves.asked().starts().steps);
+    Job job{.number = number,
+            .measured = {motor_names(machine), std::move(moves), std::move(skew)},
+            .motor_of_lane = {},
+            .is_direct = kinematics.is_direct(),
+            .plane = std::move(plane)};
+    for (const std::string& lane : lanes_) { job.motor_of_lane.push_back(job.motor(lane)); }
     jobs_.push_back(std::move(job));
 }
 
@@ -59,7 +68,7 @@ MoveMeter::Job* MoveMeter::job_at(Tick tick) {
 
 void MoveMeter::plan_again(std::size_t number) {
     for (Job& job : jobs_) {
-        if (job.number == number) { job.moves.plan_again(); }
+        if (job.number == number) { job.measured.moves.plan_again(); }
     }
 }
 
@@ -77,7 +86,8 @@ void MoveMeter::take(MergedSteps steps) {
         const Tick until = end_of_turn(steps.tick());
         if (keeps_plane_) { trace(job, steps, until); }
         if (job != nullptr) {
-            job->moves.take(steps, job->axis_of_lane, until);
+            job->measured.skew.take(steps, job->motor_of_lane, until);
+            job->measured.moves.take(steps, job->motor_of_lane, until);
         } else {
             steps_of_no_job_ += std::ssize(steps.before(until));
             steps.pass_before(until);
@@ -85,10 +95,16 @@ void MoveMeter::take(MergedSteps steps) {
     }
 }
 
-void MoveMeter::trace(const Job* job, const MergedSteps& steps, Tick until) {
-    const bool of_a_job = job != nullptr && job->moves.is_on_a_line();
+void MoveMeter::trace(Job* job, const MergedSteps& steps, Tick until) {
+    const bool of_a_job = job != nullptr && job->measured.moves.is_on_a_line();
     if (of_a_job && !std::exchange(plane_is_of_jobs_, true)) { plane_ = {}; }
     if (of_a_job != plane_is_of_jobs_) { return; }
+    if (job == nullptr || job->is_direct) { return trace_lanes(steps, until); }
+    if (job->plane) { trace_by_map(*job, steps, until); }
+}
+
+/// Of a machine whose motors X and Y are its axes.
+void MoveMeter::trace_lanes(const MergedSteps& steps, Tick until) {
     const auto merged = steps.before(until);
     if (joins_plane(steps)) { return plane_.steps(merged, in_plane_); }
     std::vector<std::int64_t> counts;
@@ -100,6 +116,40 @@ void MoveMeter::trace(const Job* job, const MergedSteps& steps, Tick until) {
     }
 }
 
+/// Of a machine whose motors are not its axes. Before a motor's first step in the job, it is where the program begins.
+void MoveMeter::trace_by_map(Job& job, const MergedSteps& steps, Tick until) {
+    auto& [kinematics, x, y, counts] = *job.plane;
+    for (std::size_t i = 0; i < steps.lanes().size(); ++i) {
+        const MergedSteps::Lane& lane = steps.lanes()[i];
+        if (job.motor_of_lane[i] && !lane.steps.empty()) { counts[*job.motor_of_lane[i]] = lane.count; }
+    }
+    if (counts != traced_counts_) { plane_.part(); }
+    std::vector<Position> at;
+    for (const std::int64_t count : counts) { at.push_back(Position::steps(count)); }
+    for (const MergedStep& step : steps.before(until)) {
+        const auto& motor = job.motor_of_lane[step.lane()];
+        if (!motor) { continue; }
+        at[*motor] = Position::steps(counts[*motor] += step.direction());
+        plane_.go_to({kinematics->axis_steps(x, at), kinematics->axis_steps(y, at)});
+    }
+    traced_counts_ = counts;
+}
+
+/// nullopt also if the job has no program, or the machine lacks an axis of the plane.
+std::optional<MoveMeter::MappedPlane> MoveMeter::mapped_plane(const MachineConfig& machine, const JobMoves& moves) {
+    const auto place = [&](const char* name) {
+        const auto found = std::ranges::find(machine.axes, name, &AxisConfig::name);
+        return static_cast<std::size_t>(found - machine.axes.begin());
+    };
+    const MappedPlane plane{.kinematics = moves.asked().places().kinematics(),
+                            .x = place("X"),
+                            .y = place("Y"),
+                            .counts = {moves.asked().starts().steps.begin(), moves.asked().starts().steps.end()}};
+    const bool has_axes = std::max(plane.x, plane.y) < machine.axes.size();
+    if (!moves.is_on_a_line() || plane.kinematics->is_direct() || !has_axes) { return std::nullopt; }
+    return plane;
+}
+
 /// Whether the plane's axes are where these steps begin.
 bool MoveMeter::joins_plane(const MergedSteps& steps) const {
     for (std::size_t i = 0; i < lanes_.size(); ++i) {
@@ -109,14 +159,14 @@ bool MoveMeter::joins_plane(const MergedSteps& steps) const {
     return true;
 }
 
-void MoveMeter::on_late(const std::string& axis, EquallyLate late) {
+void MoveMeter::on_late(const std::string& motor, EquallyLate late) {
     while (true) {
         const std::size_t all = late.steps.size();
         Job* job = job_at(late.commanded(0));
         std::size_t count = job_at(late.commanded(all - 1)) == job ? all : 1;
         while (count < all && job_at(late.commanded(count)) == job) { ++count; }
-        const auto number = job != nullptr ? job->axis(axis) : std::nullopt;
-        if (number) { job->moves.take(*number, late.first(count)); }
+        const auto number = job != nullptr ? job->motor(motor) : std::nullopt;
+        if (number) { job->measured.moves.take(*number, late.first(count)); }
         if (count == all) { return; }
         late = late.behind(count);
     }
@@ -124,7 +174,7 @@ void MoveMeter::on_late(const std::string& axis, EquallyLate late) {
 
 void MoveMeter::end_first() {
     Job& job = jobs_.front();
-    on_job_(job.number, job.axes, job.moves);
+    on_job_(job.number, job.measured);
     jobs_.erase(jobs_.begin());
 }
 

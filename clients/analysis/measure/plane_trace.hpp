@@ -33,6 +33,8 @@ public:
     /// The same as step() for steps of all lanes, at least one, where is_at() is true before each axis's first step.
     /// `axis_of_lane`: of the plane; nullopt for other lanes.
     void steps(std::span<const MergedStep> steps, std::span<const std::optional<std::size_t>> axis_of_lane);
+    /// The axes are here, in steps, on their way from the previous place.
+    void go_to(drawing::Point at) { put(at); }
     /// Begins a new way, because the following steps do not join the previous ones.
     void part();
 

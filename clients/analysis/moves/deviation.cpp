@@ -36,22 +36,28 @@ std::string_view name_of(MotionUnit unit) {
     return kNames[static_cast<std::size_t>(unit)];
 }
 
-MotionUnit motion_unit(const MachineConfig& machine, const MoveLog& move) {
+MotionUnit motion_unit(const MachineConfig& machine, const Kinematics& kinematics, const MoveLog& move) {
+    AxisSet moved = 0;
+    for (std::size_t m = 0; m < std::min(move.motors.size(), kinematics.motors().size()); ++m) {
+        const bool takes_part = move.motors[m].asked_steps != 0 || move.motors[m].made_steps != 0;
+        if (takes_part) { moved |= kinematics.axes_of_motor(m); }
+    }
     MovingParts parts;
-    for (std::size_t i = 0; i < std::min(move.axes.size(), machine.axes.size()); ++i) {
-        const bool takes_part = move.axes[i].asked_steps != 0 || move.axes[i].made_steps != 0;
-        if (takes_part) { parts.add(machine.axes[i].name); }
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        if (has_axis(moved, i)) { parts.add(machine.axes[i].name); }
     }
     return parts.unit();
 }
 
-Deviations deviations(const MachineConfig& machine, std::span<const MoveLog> moves, std::int64_t move_count,
-                      std::optional<double> largest) {
+Deviations deviations(const MachineConfig& machine, const Kinematics& kinematics, std::span<const MoveLog> moves,
+                      std::int64_t move_count, std::optional<double> largest) {
     if (!largest) { return {}; }
     if (std::ssize(moves) < move_count) { return {{motion_unit(machine), *largest}}; }
     Deviations found;
     for (const MoveLog& move : moves) {
-        if (move.largest_distance_mm) { add(found, {{motion_unit(machine, move), *move.largest_distance_mm}}); }
+        if (move.largest_distance_mm) {
+            add(found, {{motion_unit(machine, kinematics, move), *move.largest_distance_mm}});
+        }
     }
     return found;
 }

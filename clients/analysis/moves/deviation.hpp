@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "clients/analysis/measure/job_moves.hpp"
+#include "core/kinematics/kinematics.hpp"
 #include "core/machine.hpp"
 
 namespace lockstep::analysis {
@@ -21,9 +22,8 @@ enum class MotionUnit : std::uint8_t { Mm, Deg, MmAndDeg };
 /// "mm", "deg", "mm and deg"
 std::string_view name_of(MotionUnit unit);
 
-/// The unit of the axes with steps in the move, commanded or made. Mm without any. The axes of the move are in the
-/// machine's order.
-MotionUnit motion_unit(const MachineConfig& machine, const MoveLog& move);
+/// The unit of the axes that the motors move which have steps in the move, commanded or made. Mm without any.
+MotionUnit motion_unit(const MachineConfig& machine, const Kinematics& kinematics, const MoveLog& move);
 
 struct Deviation {
     MotionUnit unit = MotionUnit::Mm;
@@ -37,8 +37,8 @@ using Deviations = std::vector<Deviation>;
 ///
 /// `moves`: the kept ones of `move_count`; `largest`: of all. If not all are kept, the units of the others are not
 /// known: then the result is `largest`, in a unit that is true for all axes of the machine.
-Deviations deviations(const MachineConfig& machine, std::span<const MoveLog> moves, std::int64_t move_count,
-                      std::optional<double> largest);
+Deviations deviations(const MachineConfig& machine, const Kinematics& kinematics, std::span<const MoveLog> moves,
+                      std::int64_t move_count, std::optional<double> largest);
 
 /// Keeps the larger one for each unit.
 void add(Deviations& all, const Deviations& more);

@@ -106,7 +106,7 @@ void JobCheck::place_waiting() {
 }
 
 void JobCheck::ask_epoch(const AxisRun& of, const std::string& why) {
-    const std::string text = fmt::format("axis {}, epoch {}: {}", of.axis, of.run.epoch, why);
+    const std::string text = fmt::format("{}, epoch {}: {}", findings_.label_of(of.axis), of.run.epoch, why);
     questions_.ask_epoch({text, of.axis, {}, of.run.start, commanded(of.run, of.run.start)});
 }
 

@@ -204,16 +204,16 @@ void JobProgress::take(const AxisRun& of) {
     const auto& [name, run, is_behind_gap] = of;
     const std::size_t axis = index_of(job_->replay->machine(), name);
     if (axis == motor_count(job_->replay->machine())) {
-        return differ("axis " + name + " ran a frame of a machine that has no such axis", name, &run);
+        return differ(findings_.label_of(name) + " ran a frame of a machine that has no such axis", name, &run);
     }
     if (is_behind_gap && !epoch_->follows(axis, run)) {
-        findings_.add_missing(
-            fmt::format("axis {}: runs before {} of epoch {} are not in the log", name, name_of(run), run.epoch));
+        findings_.add_missing(fmt::format("{}: runs before {} of epoch {} are not in the log", findings_.label_of(name),
+                                          name_of(run), run.epoch));
     }
     const auto found = epoch_->compare(axis, run, is_behind_gap);
     if (!found) { return void(++findings_.runs); }
     if (job_->replay->program()->failure()) { return differ("", name, &run); }
-    questions_.ask_plan({"axis " + name + ": " + name_of(run) + found->text, name, found->tick_expected,
+    questions_.ask_plan({findings_.label_of(name) + ": " + name_of(run) + found->text, name, found->tick_expected,
                          found->tick_seen, commanded(run, found->tick_expected.value_or(run.start))},
                         run);
     job_->is_lost = true;
@@ -239,13 +239,13 @@ bool JobProgress::suspect(const Shortfall& shortfall) {
     if (shortfall.kind != Shortfall::Kind::Silent) { return false; }
     const FrameNumber most = epoch_->ran();
     if (!epoch_->assume_complete(shortfall.axis)) { return false; }
-    questions_.ask_silence(
-        axis, epoch_->epoch(),
-        {.text = fmt::format("axis {} {}, though {} went on to frame {}", axis, shortfall.text, job_->label, most),
-         .axis = axis,
-         .tick_expected = {},
-         .tick_seen = {},
-         .commanded = job_->label});
+    questions_.ask_silence(axis, epoch_->epoch(),
+                           {.text = fmt::format("{} {}, though {} went on to frame {}", findings_.label_of(axis),
+                                                shortfall.text, job_->label, most),
+                            .axis = axis,
+                            .tick_expected = {},
+                            .tick_seen = {},
+                            .commanded = job_->label});
     return true;
 }
 
@@ -262,7 +262,7 @@ void JobProgress::check_epoch(bool lacks_events) {
 
 void JobProgress::break_off(const Shortfall& shortfall) {
     job_->broken_axis = motor_name(job_->replay->machine(), shortfall.axis);
-    job_->broken = "axis " + job_->broken_axis + " " + shortfall.text;
+    job_->broken = findings_.label_of(job_->broken_axis) + " " + shortfall.text;
 }
 
 // ---- The end of the log ------------------------------------------------------------------------------------------

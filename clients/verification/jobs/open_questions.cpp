@@ -45,9 +45,9 @@ void OpenQuestions::take(const std::string& axis, const Run& run, bool is_behind
     Silence& silence = found.mapped();
     if (!is_behind_gap && is_silent_in(axis, run.epoch)) {
         return findings_.add_unknown(
-            fmt::format("axis {}: its runs from {} of epoch {} on come too late in this log to be compared with their "
+            fmt::format("{}: its runs from {} of epoch {} on come too late in this log to be compared with their "
                         "plan; lockstep log merge sorts them",
-                        axis, name_of(run), run.epoch));
+                        findings_.label_of(axis), name_of(run), run.epoch));
     }
     const bool is_known = !is_behind_gap && silence.incarnation == run.incarnation;
     is_known ? findings_.differ(std::move(silence.difference)) : findings_.add_missing(silence.difference.text);

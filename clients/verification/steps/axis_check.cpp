@@ -44,11 +44,7 @@ bool goes_on(const Run& before, const Run& run) {
 }  // namespace
 
 AxisCheck::AxisCheck(std::string name, Findings& findings, Commanded commanded, Planned planned)
-    : name_(std::move(name)),
-      findings_(findings),
-      commanded_(std::move(commanded)),
-      planned_(std::move(planned)),
-      positions_(name_) {}
+    : name_(std::move(name)), findings_(findings), commanded_(std::move(commanded)), planned_(std::move(planned)) {}
 
 void AxisCheck::set_machine(const MachineConfig& machine) {
     clocks_.set_machine(machine);
@@ -67,13 +63,13 @@ void AxisCheck::runs_missing(std::int64_t from, std::int64_t end) {
     if (!findings_.going()) { return; }
     const std::string which =
         end - from == 1 ? fmt::format("run {} is", from) : fmt::format("runs {} to {} are", from, end - 1);
-    findings_.add_missing(fmt::format("axis {}: the record of {} not in the log, after {}", name_, which,
+    findings_.add_missing(fmt::format("{}: the record of {} not in the log, after {}", label(), which,
                                       at_tick(last_tick_, "its beginning")));
     runs_are_missing_ = true;
 }
 
 void AxisCheck::runs_contradict(const Run& other) {
-    differ(fmt::format("axis {}: run {} is in the log twice, with different content", name_, other.sequence), {},
+    differ(fmt::format("{}: run {} is in the log twice, with different content", label(), other.sequence), {},
            other.start);
 }
 
@@ -87,13 +83,13 @@ void AxisCheck::on_batch(const analysis::StepBatch& batch) {
     if (runs_from_) { before_log_steps_ += waiting_.drop_before(runs_from_->first, runs_from_->second); }
     settle(false);
     if (waiting_.size() <= kMaxWaiting) { return; }
-    findings_.add_unknown(fmt::format("axis {}: no run is recorded for {}", name_, waiting_text()));
+    findings_.add_unknown(fmt::format("{}: no run is recorded for {}", label(), waiting_text()));
     runs_gap_ = {waiting_.front().incarnation, kBeginning, kNever};
     drop_steps_of_missing_runs();
 }
 
 void AxisCheck::on_contradiction(const analysis::Contradiction& what) {
-    differ("axis " + name_ + ": " + sentence(what), {}, what.first);
+    differ(label() + ": " + sentence(what), {}, what.first);
 }
 
 void AxisCheck::on_break(const analysis::Break& what) {
@@ -102,7 +98,7 @@ void AxisCheck::on_break(const analysis::Break& what) {
     positions_.skip();
     if (is_first && (marked_.empty() || what.missing_batches <= marked_.begin()->second)) { return; }  // begins later
     settle(false);
-    findings_.add_missing(fmt::format("axis {}: {} with at least {} missing between {} and {}", name_,
+    findings_.add_missing(fmt::format("{}: {} with at least {} missing between {} and {}", label(),
                                       plural(what.missing_batches, "message"),
                                       plural(std::abs(what.position_change), "step"),
                                       at_tick(what.from, "the log's beginning"), at_tick(what.to, "the log's end")));
@@ -170,20 +166,20 @@ bool AxisCheck::begin_next_run() {
     const bool jumps = follows && last_run_->device_stop() != run.device_start();
     if (jumps && std::exchange(device_lost_, false)) {
         findings_.notes.push_back(
-            fmt::format("axis {}: its device was lost after {}; from {} on another device counts, from {}", name_,
+            fmt::format("{}: its device was lost after {}; from {} on another device counts, from {}", label(),
                         name_of(*last_run_), name_of(run), run.device_start()));
     } else if (jumps) {
-        differ(fmt::format("axis {}: {} starts at count {} of the device, but the run before it ended at {}", name_,
+        differ(fmt::format("{}: {} starts at count {} of the device, but the run before it ended at {}", label(),
                            name_of(run), run.device_start(), last_run_->device_stop()),
                {}, run.start);
     } else if (!run.cut && run.to().count() != run.stop_count) {
-        differ(fmt::format("axis {}: {} is recorded to end at {}, but its pieces end at {}", name_, name_of(run),
+        differ(fmt::format("{}: {} is recorded to end at {}, but its pieces end at {}", label(), name_of(run),
                            run.stop_count, run.to().count()),
                {}, run.start);
     } else if (run.epoch == 0 && run.frame <= 1 && !run.tail && !starts_from_rest(run)) {
-        differ(fmt::format("axis {}: {} does not start from rest on a whole step", name_, name_of(run)), {}, run.start);
+        differ(fmt::format("{}: {} does not start from rest on a whole step", label(), name_of(run)), {}, run.start);
     } else if (run.epoch == 0 && (run.frame > 1 || run.tail) && follows && !goes_on(*last_run_, run)) {
-        differ(fmt::format("axis {}: {} does not continue the frame before it", name_, name_of(run)), {}, run.start);
+        differ(fmt::format("{}: {} does not continue the frame before it", label(), name_of(run)), {}, run.start);
     }
     if (findings_.going() && follower_ != nullptr) { follower_->on_run(run); }
     return findings_.going();
@@ -237,7 +233,7 @@ void AxisCheck::note_equal(std::size_t steps) {
 std::size_t AxisCheck::in_time(const SeenBatch& batch, std::span<const StepEdge> steps) {
     const Run& run = maker_->run();
     if (run.epoch == 0) { return steps.size(); }
-    note_wrong(clocks_.take_in_frame(name_, run, batch.clock_error()), steps.empty() ? run.start : steps.front().tick);
+    note_wrong(clocks_.take_in_frame(run, batch.clock_error()), steps.empty() ? run.start : steps.front().tick);
     findings_.clock_error = std::max(findings_.clock_error, batch.clock_error() + run.clock_error);
     if (batch.shares_time() && run.shares_time()) { return steps.size(); }
     const Ticks most = allowed(batch.clock_error(), run.clock_error);
@@ -305,13 +301,13 @@ void AxisCheck::drop_steps_of_missing_runs() {
 void AxisCheck::note_gaps() {
     if (gap_steps_ == 0 && gap_run_steps_ == 0) { return; }
     findings_.add_unknown(
-        fmt::format("axis {}: {} of its runs are not in the log, and {} in the log are of runs that "
+        fmt::format("{}: {} of its runs are not in the log, and {} in the log are of runs that "
                     "are not; all others are compared",
-                    name_, plural(gap_steps_, "step"), plural(gap_run_steps_, "step")));
+                    label(), plural(gap_steps_, "step"), plural(gap_run_steps_, "step")));
 }
 
 void AxisCheck::note_wrong(const std::optional<std::string>& why, std::optional<Tick> seen) {
-    if (why && findings_.going()) { differ(*why, {}, seen); }
+    if (why && findings_.going()) { differ(label() + ": " + *why, {}, seen); }
 }
 
 std::string AxisCheck::waiting_text() const {
@@ -351,7 +347,7 @@ void AxisCheck::leave_run() {
     unrecorded_ += steps;
     if (unrecorded_ > StepBatcher::kMaxSteps) { return differ_unrecorded(unrecorded_); }
     const std::string text =
-        fmt::format("axis {}: {} after {} are not in the log, because its process ended; with {} it came to {}", name_,
+        fmt::format("{}: {} after {} are not in the log, because its process ended; with {} it came to {}", label(),
                     plural(steps, "step"), at_tick(last_tick_, "the log's beginning"), name_of(maker_->run()),
                     maker_->run().stop_count);
     findings_.lacks_steps = findings_.lacks_steps || steps > 0;
@@ -370,7 +366,7 @@ void AxisCheck::leave_steps() {
 
 void AxisCheck::check_left(const std::vector<SeenStep>& left) {
     const std::string what =
-        fmt::format("axis {}: {} from tick {} on belong to no run in the log, because its process ended; ", name_,
+        fmt::format("{}: {} from tick {} on belong to no run in the log, because its process ended; ", label(),
                     plural(static_cast<std::int64_t>(left.size()), "step"), left.front().edge.tick.value);
     const std::vector<Course> courses = planned_(left.front().machine);
     if (courses.empty()) { return findings_.add_unknown(what + "there is no plan to compare them with"); }
@@ -402,8 +398,8 @@ void AxisCheck::differ_from_plan(const std::string& what, const SeenStep& seen, 
 }
 
 void AxisCheck::differ_unrecorded(std::int64_t steps) {
-    differ(fmt::format("axis {}: {} after {} are not in the log; its process cannot have held so many when it ended",
-                       name_, plural(steps, "step"), at_tick(last_tick_, "the log's beginning")),
+    differ(fmt::format("{}: {} after {} are not in the log; its process cannot have held so many when it ended",
+                       label(), plural(steps, "step"), at_tick(last_tick_, "the log's beginning")),
            last_tick_, {});
 }
 
@@ -425,9 +421,9 @@ void AxisCheck::finish(const HasEnded& has_ended, LogEdges edges) {
     if (!edges.ends_early && !edges.lacks_steps) { note_wrong(positions_.finish(), last_tick_); }
     if (findings_.going()) { note_gaps(); }
     if (findings_.going() && before_log_steps_ > 0) {
-        findings_.notes.push_back(fmt::format(
-            "axis {}: {} before tick {} belong to runs that ended before the log began, and are not compared", name_,
-            plural(before_log_steps_, "step"), runs_from_->second.value));
+        findings_.notes.push_back(
+            fmt::format("{}: {} before tick {} belong to runs that ended before the log began, and are not compared",
+                        label(), plural(before_log_steps_, "step"), runs_from_->second.value));
     }
     if (findings_.going() && follower_ != nullptr) { follower_->on_end(); }
 }
@@ -443,24 +439,23 @@ void AxisCheck::end_of_log(LogEdges edges) {
     const std::string compared =
         fmt::format("{} up to {} compared", plural(steps_, "step"), at_tick(last_tick_, "there"));
     if (maker_ && (edges.ends_early || edges.lacks_steps)) {
-        findings_.add_unknown(fmt::format("axis {}: the log ends before the last steps of {}; {}", name_,
-                                          name_of(maker_->run()), compared));
+        findings_.add_unknown(
+            fmt::format("{}: the log ends before the last steps of {}; {}", label(), name_of(maker_->run()), compared));
         while (maker_->next() != nullptr && !is_cut_here(nullptr)) { pass_step(false); }
         end_run();
     } else if (edges.begins_late && !last_run_ && !waiting_.empty()) {
-        findings_.add_unknown(
-            fmt::format("axis {}: no run of it is in the log, which begins later; {} cannot be compared", name_,
-                        plural(static_cast<std::int64_t>(waiting_.size()), "step")));
+        findings_.add_unknown(fmt::format("{}: no run of it is in the log, which begins later; {} cannot be compared",
+                                          label(), plural(static_cast<std::int64_t>(waiting_.size()), "step")));
     } else if (!waiting_.empty() && (edges.ends_early || edges.lacks_runs)) {
-        findings_.add_unknown(fmt::format("axis {}: the log ends before the record of the run that {} belong to; {}",
-                                          name_, waiting_text(), compared));
+        findings_.add_unknown(fmt::format("{}: the log ends before the record of the run that {} belong to; {}",
+                                          label(), waiting_text(), compared));
     } else if (maker_) {
         const Tick expected = maker_->next()->tick;
-        differ(fmt::format("axis {}: the log has no more steps, although {} makes one at tick {}; {}", name_,
+        differ(fmt::format("{}: the log has no more steps, although {} makes one at tick {}; {}", label(),
                            name_of(maker_->run()), expected.value, compared),
                expected, {});
     } else if (!waiting_.empty()) {
-        differ(fmt::format("axis {}: {} belong to no run in the log; {}", name_, waiting_text(), compared), {},
+        differ(fmt::format("{}: {} belong to no run in the log; {}", label(), waiting_text(), compared), {},
                waiting_.front().edge.tick);
     }
 }
@@ -472,6 +467,6 @@ void AxisCheck::differ(std::string text, std::optional<Tick> expected, std::opti
     findings_.differ(std::move(found));
 }
 
-std::string AxisCheck::step_name() const { return fmt::format("axis {}: step {}", name_, steps_ + 1); }
+std::string AxisCheck::step_name() const { return fmt::format("{}: step {}", label(), steps_ + 1); }
 
 }  // namespace lockstep::verification

@@ -125,6 +125,7 @@ private:
     std::string step_name() const;
     std::string waiting_text() const;
     void note_wrong(const std::optional<std::string>& why, std::optional<Tick> seen);
+    std::string label() const { return findings_.label_of(name_); }
 
     std::string name_;
     Findings& findings_;

@@ -22,10 +22,10 @@ public:
     std::optional<std::string> take(const std::string& axis, const analysis::Run& run) const;
 
     /// Of the steps of a frame.
-    std::optional<std::string> take_in_frame(const std::string& axis, const analysis::Run& run, Ticks error) const;
+    std::optional<std::string> take_in_frame(const analysis::Run& run, Ticks error) const;
 
 private:
-    bool shares_clock(const std::string& axis) const;
+    bool shares_clock(const std::string& name) const;
     /// Twice the limit: the bound may grow while a frame that was armed in time is run.
     Ticks most() const { return machine_->clock_error_limit() * 2; }
 

@@ -79,9 +79,9 @@ std::optional<std::string> PositionCheck::compare(const SeenPosition& position, 
     return text(position, allowed);
 }
 
-std::string PositionCheck::text(const SeenPosition& position, const Range& allowed) const {
-    return fmt::format("axis {}: its position at tick {} is recorded as {}, but by its steps it is between {} and {}",
-                       axis_, position.tick.value, position.steps, allowed.low, allowed.high);
+std::string PositionCheck::text(const SeenPosition& position, const Range& allowed) {
+    return fmt::format("its position at tick {} is recorded as {}, but by its steps it is between {} and {}",
+                       position.tick.value, position.steps, allowed.low, allowed.high);
 }
 
 std::optional<std::string> PositionCheck::finish() {

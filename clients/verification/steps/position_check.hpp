@@ -27,8 +27,6 @@ public:
     /// The maximum number of positions that wait for the steps around them; more are not compared.
     static constexpr std::size_t kMaxWaiting = 4096;
 
-    explicit PositionCheck(std::string axis) : axis_(std::move(axis)) {}
-
     void take(const SeenPosition& position);
     /// Steps in order. Returns why a position that waited is wrong; nullopt if all are right. `slot`: how far apart a
     /// position and its time may be.
@@ -68,9 +66,8 @@ private:
     void wait(const SeenPosition& position);
     void pass_before(Tick tick);
     std::optional<std::string> compare(const SeenPosition& position, Ticks reach) const;
-    std::string text(const SeenPosition& position, const Range& allowed) const;
+    static std::string text(const SeenPosition& position, const Range& allowed);
 
-    std::string axis_;
     std::deque<SeenPosition> waiting_;  // by time
     std::optional<Tick> compared_;      // the time of the newest one compared
     std::deque<Recent> recent_;

@@ -61,6 +61,26 @@ Record parts() {
     return run.finish();
 }
 
+const std::string kLinesAndArc = "G21 G90 F2400\nG1 X30 Y8\nX32 Y20\nG0 X20 Y20\nG2 X32 Y20 I6 J0\nG1 X5 Y5\n";
+
+Record belts() {
+    MachineRun run(small_core_xy());
+    run.home();
+    run.run(kLinesAndArc);
+    run.move_own("G0 Z9\n");
+    run.wait_ms(300);
+    return run.finish();
+}
+
+Record gantry() {
+    MachineRun run(small_gantry());
+    run.home();
+    run.run(kLinesAndArc);
+    run.move_own("G0 Y14\n");
+    run.wait_ms(300);
+    return run.finish();
+}
+
 }  // namespace
 
 const std::vector<Base>& bases() {
@@ -70,6 +90,8 @@ const std::vector<Base>& bases() {
         {"arcs", arcs, {.shared_clock = true, .whole_program = true}},
         {"own_clocks", clocks, {.clocks = true, .whole_program = true, .all_motions = true}},
         {"sent_in_parts", parts, {.parts = true, .shared_clock = true}},
+        {"core_xy", belts, {.shared_clock = true, .whole_program = true}},
+        {"gantry", gantry, {.shared_clock = true, .whole_program = true}},
     };
     return all;
 }

@@ -83,7 +83,12 @@ void add_configurations(std::vector<Alteration>& all) {
         all.push_back({"machine_" + std::move(name), [=](Record& r) { return change_config(r, change); }, expected});
     };
     with(
-        "of_other_steps_per_mm", [](MachineConfig& machine) { machine.axes[0].steps_per_mm = 100; }, kProgramOtherPlan);
+        "of_other_steps_per_mm",
+        [](MachineConfig& machine) {
+            machine.axes[0].steps_per_mm = 100;
+            for (MotorBlock& motor : machine.axes[0].motors) { motor.steps_per_mm = 100; }
+        },
+        kProgramOtherPlan);
     with(
         "of_other_acceleration", [](MachineConfig& machine) { machine.axes[0].max_accel_mm_s2 = 700; },
         kProgramOtherPlan);
@@ -93,6 +98,7 @@ void add_configurations(std::vector<Alteration>& all) {
          [](MachineConfig& machine) {
              machine.axes.push_back(machine.axes.front());
              machine.axes.back().name = "W";
+             for (MotorBlock& motor : machine.axes.back().motors) { motor.name.front() = 'W'; }
          },
          {kSaysUnknown | kSaysBad | kSaysRefused, kSaysUnknown | kSaysBad, kSaysGood | kSaysUnknown, kReplayedAlike});
 }

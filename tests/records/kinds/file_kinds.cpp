@@ -10,8 +10,8 @@
 namespace lockstep::records {
 namespace {
 
-Record recorded_file(const std::string& name) {
-    const MachineConfig machine = example_machine("three-axis");
+Record recorded_file(const std::string& name, const std::string& machine_name) {
+    const MachineConfig machine = example_machine(machine_name);
     const auto file = read_program_file("deploy/examples/" + name + ".gcode", machine, parked_mm(machine));
     if (!file) { throw std::runtime_error(name + " is refused"); }
     MemorySink sink;
@@ -25,7 +25,11 @@ Record recorded_file(const std::string& name) {
 std::vector<RecordKind> file_kinds() {
     std::vector<RecordKind> kinds;
     for (const std::string name : {"contour", "drilling", "plate", "pocket"}) {
-        kinds.push_back({"example_" + name, [name] { return recorded_file(name); }});
+        kinds.push_back({"example_" + name, [name] { return recorded_file(name, "three-axis"); }});
+    }
+    for (const std::string name : {"contour", "plate"}) {
+        kinds.push_back({"example_" + name + "_on_the_gantry", [name] { return recorded_file(name, "gantry"); }});
+        kinds.push_back({"example_" + name + "_on_two_belts", [name] { return recorded_file(name, "core-xy"); }});
     }
     return kinds;
 }

@@ -37,6 +37,28 @@ VirtualOptions lai_planner() {
     return options_of(machine);
 }
 
+Record by_motors(const MachineConfig& machine, const std::string& gcode, bool is_held = false) {
+    MachineRun run(machine);
+    run.home();
+    run.begin(gcode);
+    if (is_held) {
+        run.wait_ms(600);
+        run.hold();
+        run.resume();
+    }
+    run.to_rest();
+    run.wait_ms(200);
+    return run.finish();
+}
+
+/// A mirrored motor with a gear, and guides that are not square.
+MachineConfig geared() {
+    MachineConfig machine = small_core_xy();
+    machine.kinematics = {.matrix = {{.motor = "Y", .of = {{.axis = "Y", .factor = -1.25}}}},
+                          .skews = {{.x = "X", .y = "Y", .mm_per_m = 4}}};
+    return read_again(machine);
+}
+
 VirtualOptions rotary() {
     MachineConfig machine = small_plotter();
     machine.axes[1].name = "A";
@@ -81,6 +103,21 @@ std::vector<RecordKind> machine_kinds() {
              run.run("G0 X20 A30\nG1 X30 A90 F3000\nA10\nX5\n");
              return run.finish();
          }},
+        {"core_xy", [] { return by_motors(small_core_xy(), kTour); }},
+        {"core_xy_with_arcs", [] { return by_motors(small_core_xy(), kArc); }},
+        {"core_xy_and_a_hold", [] { return by_motors(small_core_xy(), kArc, true); }},
+        {"core_xy_with_own_clocks",
+         [] {
+             MachineRun run(own_clocks(small_core_xy()));
+             run.home();
+             run.run(kArc);
+             run.wait_ms(200);
+             return run.finish();
+         }},
+        {"gantry", [] { return by_motors(small_gantry(), kTour); }},
+        {"gantry_with_arcs", [] { return by_motors(small_gantry(), kArc); }},
+        {"gantry_and_a_hold", [] { return by_motors(small_gantry(), kTour, true); }},
+        {"geared_and_skewed_motors", [] { return by_motors(geared(), kArc); }},
         {"six_axes", six_axes},
         {"program_sent_in_parts", sent_in_parts},
     };

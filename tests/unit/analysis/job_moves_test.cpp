@@ -51,7 +51,7 @@ TEST_F(LateSteps, LeaveOnlyTheDistancesOfTheMovesMeanwhileUnknown) {
     EXPECT_FALSE(job.move(1).largest_distance_mm);
     EXPECT_LT(job.move(2).largest_distance_mm.value(), 0.01);
     EXPECT_EQ(job.moves_without_distance(), 2);
-    EXPECT_EQ(job.move(0).axes.at(1).made_steps, 100);
+    EXPECT_EQ(job.move(0).motors.at(1).made_steps, 100);
 }
 
 }  // namespace

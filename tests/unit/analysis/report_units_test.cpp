@@ -19,23 +19,23 @@ using testing::IsEmpty;
 /// A machine with a slide X and a rotary axis A.
 MachineConfig slide_and_table() {
     MachineConfig machine;
-    for (const char* name : {"X", "A"}) { machine.axes.push_back({.name = name}); }
+    for (const char* name : {"X", "A"}) { machine.axes.push_back({.name = name, .steps_per_mm = 100}); }
     return machine;
 }
 
 MoveLog move(std::int64_t x_steps, std::int64_t a_steps, double deviation) {
     MoveLog made{.length_mm = 1, .largest_distance_mm = deviation};
-    made.axes = {{x_steps, x_steps}, {a_steps, a_steps}};
+    made.motors = {{x_steps, x_steps}, {a_steps, a_steps}};
     return made;
 }
 
 TEST(ReportUnits, DeviationOfRotaryAxesIsInDegreesAndOfBothKindsInBoth) {
     const std::vector<MoveLog> moves{move(5, 0, 0.01), move(0, 5, 0.02), move(5, 0, 0.005), move(5, 5, 0.03)};
     const MachineConfig machine = slide_and_table();
-    EXPECT_EQ(name_of(motion_unit(machine, moves[0])), "mm");
-    EXPECT_EQ(name_of(motion_unit(machine, moves[1])), "deg");
-    EXPECT_EQ(name_of(motion_unit(machine, moves[3])), "mm and deg");
-    Deviations found = deviations(machine, moves, 4, 0.03);
+    EXPECT_EQ(name_of(motion_unit(machine, Kinematics(machine), moves[0])), "mm");
+    EXPECT_EQ(name_of(motion_unit(machine, Kinematics(machine), moves[1])), "deg");
+    EXPECT_EQ(name_of(motion_unit(machine, Kinematics(machine), moves[3])), "mm and deg");
+    Deviations found = deviations(machine, Kinematics(machine), moves, 4, 0.03);
     EXPECT_EQ(to_text(found), "0.0100 mm, 0.0200 deg, 0.0300 mm and 0.0300 deg");
     add(found, {{MotionUnit::Deg, 0.04}, {MotionUnit::Mm, 0.001}});
     EXPECT_EQ(to_text(found), "0.0100 mm, 0.0400 deg, 0.0300 mm and 0.0300 deg");
@@ -44,10 +44,10 @@ TEST(ReportUnits, DeviationOfRotaryAxesIsInDegreesAndOfBothKindsInBoth) {
 TEST(ReportUnits, DeviationOfMovesThatAreNotKeptIsInAUnitTrueForAllAxes) {
     const std::vector<MoveLog> moves{move(5, 0, 0.01)};
     MachineConfig machine = slide_and_table();
-    EXPECT_EQ(to_text(deviations(machine, moves, 2, 0.05)), "0.0500 mm and 0.0500 deg");
+    EXPECT_EQ(to_text(deviations(machine, Kinematics(machine), moves, 2, 0.05)), "0.0500 mm and 0.0500 deg");
     machine.axes.pop_back();
-    EXPECT_EQ(to_text(deviations(machine, moves, 2, 0.05)), "0.0500 mm");
-    EXPECT_THAT(deviations(machine, moves, 2, std::nullopt), IsEmpty());
+    EXPECT_EQ(to_text(deviations(machine, Kinematics(machine), moves, 2, 0.05)), "0.0500 mm");
+    EXPECT_THAT(deviations(machine, Kinematics(machine), moves, 2, std::nullopt), IsEmpty());
 }
 
 struct ReportOfLog : testing::Test {

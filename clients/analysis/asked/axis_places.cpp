@@ -1,0 +1,28 @@
+#include "clients/analysis/asked/axis_places.hpp"
+
+namespace lockstep::analysis {
+
+AxisPlaces::AxisPlaces(const MachineConfig& machine)
+    : kinematics_(std::make_shared<const Kinematics>(machine)), is_direct_(kinematics_->is_direct()) {
+    for (const AxisConfig& axis : machine.axes) { mm_per_step_.push_back(1 / axis.steps_per_mm); }
+    motors_.resize(kinematics_->motors().size());
+    for (std::size_t motor = 0; motor < motors_.size(); ++motor) {
+        const AxisSet moved = kinematics_->axes_of_motor(motor);
+        moved_.emplace_back();
+        for (std::size_t axis = 0; axis < axes(); ++axis) {
+            if (has_axis(moved, axis)) { moved_.back().push_back(axis); }
+        }
+    }
+}
+
+void AxisPlaces::set(std::span<const std::int64_t> counts, std::span<double> at_mm) {
+    for (std::size_t motor = 0; motor < motors_.size(); ++motor) { motors_[motor] = Position::steps(counts[motor]); }
+    for (std::size_t axis = 0; axis < axes(); ++axis) { place(axis, at_mm); }
+}
+
+void AxisPlaces::go_by_map(std::size_t motor, std::int64_t count, std::span<double> at_mm) {
+    motors_[motor] = Position::steps(count);
+    for (const std::size_t axis : moved_[motor]) { place(axis, at_mm); }
+}
+
+}  // namespace lockstep::analysis

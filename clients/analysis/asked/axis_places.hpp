@@ -1,0 +1,46 @@
+// Where the axes are, by the counts of the motors.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/kinematics/kinematics.hpp"
+#include "core/machine.hpp"
+
+namespace lockstep::analysis {
+
+class AxisPlaces {
+public:
+    AxisPlaces() = default;
+    explicit AxisPlaces(const MachineConfig& machine);
+
+    std::size_t axes() const { return mm_per_step_.size(); }
+    const std::shared_ptr<const Kinematics>& kinematics() const { return kinematics_; }
+    /// The motors are here; `at_mm`: one number for each axis, in mm or degrees.
+    void set(std::span<const std::int64_t> counts, std::span<double> at_mm);
+    /// A motor has moved to `count`. Changes the places of the axes that it moves.
+    void go_to(std::size_t motor, std::int64_t count, std::span<double> at_mm) {
+        if (is_direct_) {
+            at_mm[motor] = static_cast<double>(count) * mm_per_step_[motor];
+        } else {
+            go_by_map(motor, count, at_mm);
+        }
+    }
+
+private:
+    void go_by_map(std::size_t motor, std::int64_t count, std::span<double> at_mm);
+    void place(std::size_t axis, std::span<double> at_mm) const {
+        at_mm[axis] = kinematics_->axis_steps(axis, motors_) * mm_per_step_[axis];
+    }
+
+    std::shared_ptr<const Kinematics> kinematics_;
+    bool is_direct_ = true;
+    std::vector<double> mm_per_step_;              // of each axis
+    std::vector<Position> motors_;                 // unless it is direct
+    std::vector<std::vector<std::size_t>> moved_;  // the axes that each motor moves
+};
+
+}  // namespace lockstep::analysis
