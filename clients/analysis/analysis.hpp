@@ -101,7 +101,7 @@ struct Analysis {
     std::vector<PairSkew> step_skew;                         // between motors that ran frames together
     std::optional<double> largest_distance_mm;               // of any step from the commanded line, all axes together
     std::vector<std::vector<drawing::Point>> asked_ways_mm;  // X-Y, of each program that differs from the previous one
-    std::vector<std::vector<drawing::Point>> stepped_ways;   // X-Y, steps of the axes
+    std::vector<std::vector<drawing::Point>> stepped_ways;   // X-Y, steps as in MoveMeter::plane
 
     std::int64_t tick_ns() const { return config ? config->tick_ns : MachineConfig{}.tick_ns; }
     /// Each axis is moved by a motor of its own, as far as is known: then a motor is called an axis.

@@ -12,11 +12,12 @@ namespace {
 
 constexpr double kChord_mm = 0.01;  // maximum distance of a drawn chord from its arc
 
-/// The steps per mm of this axis; nullopt if it has made no steps.
+/// The steps per mm of this axis in stepped_ways; nullopt if it has made no steps.
 std::optional<double> scale_of(const Analysis& analysis, const std::string& name) {
     if (!analysis.has_motors_as_axes()) {
         const AxisConfig* axis = analysis.axis_config(name);
-        return axis != nullptr && analysis.first_tick() ? std::optional(axis->steps_per_mm) : std::nullopt;
+        if (axis == nullptr || !analysis.first_tick()) { return std::nullopt; }
+        return 1 / analysis.kinematics->step_mm(static_cast<std::size_t>(axis - analysis.config->axes.data()));
     }
     for (const auto& log : analysis.axes) {
         if (log->name() == name && log->statistics().first()) { return analysis.steps_per_mm(*log); }

@@ -94,7 +94,8 @@ double JobMoves::square_of_distance_mm2() {
     return least;
 }
 
-void JobMoves::take(std::size_t motor, const MeasuredStep& step) {
+/// `ends_tick`: no other motor makes a step in this tick.
+void JobMoves::take(std::size_t motor, const MeasuredStep& step, bool ends_tick) {
     if (asked_.size() == 0) { return; }
     MoveCursor& cursor = made_cursor_[motor];
     const std::size_t move_before = cursor.move();
@@ -114,6 +115,7 @@ void JobMoves::take(std::size_t motor, const MeasuredStep& step) {
     }
     if (step.tick < newest_) { return forget_distances(std::min(cursor.move(), current_)); }
     newest_ = made.newest = step.tick;
+    if (!ends_tick && !axes_.is_direct()) { return; }
     note_place(0);
     places_.size = 1;
     measure_places(made.largest_square_mm2);
@@ -125,7 +127,8 @@ void JobMoves::take(MergedSteps& steps, MotorsOfLanes motor_of_lane, Tick until)
         if (steps.before(until).empty()) { return; }
         const std::size_t lane = steps.lane();
         const MeasuredStep step = steps.pop();
-        if (motor_of_lane[lane]) { take(*motor_of_lane[lane], step); }
+        const bool ends_tick = steps.empty() || steps.tick() != step.tick;
+        if (motor_of_lane[lane]) { take(*motor_of_lane[lane], step, ends_tick); }
     }
 }
 
@@ -193,16 +196,24 @@ StepRates JobMoves::peak_of(std::span<const StepRates> rates) {
 void JobMoves::measure_distances(std::span<const MergedStep> steps, MotorsOfLanes motor_of_lane) {
     float& largest = made_[current_].largest_square_mm2;
     while (!steps.empty()) {
-        places_.size = std::min(steps.size(), Places::kMost);
-        for (std::size_t i = 0; i < places_.size; ++i) {
-            const std::size_t motor = *motor_of_lane[steps[i].lane()];
-            counts_[motor] += steps[i].direction();
-            axes_.go_to(motor, counts_[motor], at_mm_);
-            note_place(i);
-        }
+        steps = steps.subspan(note_places(steps, motor_of_lane));
         measure_places(largest);
-        steps = steps.subspan(places_.size);
     }
+}
+
+/// Notes the places after the next steps. Returns the number of these steps.
+std::size_t JobMoves::note_places(std::span<const MergedStep> steps, MotorsOfLanes motor_of_lane) {
+    std::size_t taken = 0;
+    for (places_.size = 0; places_.size < Places::kMost && taken < steps.size(); ++taken) {
+        const MergedStep& step = steps[taken];
+        const std::size_t motor = *motor_of_lane[step.lane()];
+        counts_[motor] += step.direction();
+        axes_.go_to(motor, counts_[motor], at_mm_);
+        note_place(places_.size);
+        const bool ends_tick = taken + 1 == steps.size() || steps[taken + 1].tick() != step.tick();
+        places_.size += ends_tick || axes_.is_direct() ? 1 : 0;
+    }
+    return taken;
 }
 
 void JobMoves::note_place(std::size_t number) {

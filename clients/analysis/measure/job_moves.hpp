@@ -36,8 +36,8 @@ struct MoveLog {
     /// Total duration: from the lead motor's first step to its last, plus the planned times before and after. nullopt
     /// without steps.
     std::optional<Ticks> made;
-    /// Of any step from the commanded line. nullopt if motors moved on their own, or if steps are missing or came too
-    /// late in the log.
+    /// Of the place after any step from the commanded line; of machines whose motors are not their axes, after all
+    /// steps of a tick. nullopt if motors moved on their own, or if steps are missing or came too late in the log.
     std::optional<double> largest_distance_mm;
     std::optional<Tick> first;      // step of the motor with the most steps
     TickHistogram late;             // of its steps, against the commanded ticks
@@ -82,7 +82,7 @@ public:
     const AskedPath& asked() const { return asked_; }
     bool is_on_a_line() const { return on_a_line_ && asked_.size() > 0; }
     /// Call in the order of time. A step that comes late makes the distances since its move unknown.
-    void take(std::size_t motor, const MeasuredStep& step);
+    void take(std::size_t motor, const MeasuredStep& step) { take(motor, step, true); }
     /// nullopt for a motor that the job does not have.
     using MotorsOfLanes = std::span<const std::optional<std::size_t>>;
     /// Takes and passes the steps before `until`.
@@ -133,7 +133,9 @@ private:
     static StepRates peak_of(std::span<const StepRates> rates);
     Tick end_of_strokes(const MergedSteps& steps, MotorsOfLanes motor_of_lane, Tick until) const;
     void take_in_strokes(MergedSteps& steps, MotorsOfLanes motor_of_lane, Tick until);
+    void take(std::size_t motor, const MeasuredStep& step, bool ends_tick);
     void measure_distances(std::span<const MergedStep> steps, MotorsOfLanes motor_of_lane);
+    std::size_t note_places(std::span<const MergedStep> steps, MotorsOfLanes motor_of_lane);
     void note_place(std::size_t number);
     void measure_places(float& largest);
     void begin(std::size_t move);

@@ -118,7 +118,7 @@ void MoveMeter::trace_lanes(const MergedSteps& steps, Tick until) {
 
 /// Of a machine whose motors are not its axes. Before a motor's first step in the job, it is where the program begins.
 void MoveMeter::trace_by_map(Job& job, const MergedSteps& steps, Tick until) {
-    auto& [kinematics, x, y, counts] = *job.plane;
+    auto& [kinematics, x, y, x_scale, y_scale, counts] = *job.plane;
     for (std::size_t i = 0; i < steps.lanes().size(); ++i) {
         const MergedSteps::Lane& lane = steps.lanes()[i];
         if (job.motor_of_lane[i] && !lane.steps.empty()) { counts[*job.motor_of_lane[i]] = lane.count; }
@@ -126,11 +126,12 @@ void MoveMeter::trace_by_map(Job& job, const MergedSteps& steps, Tick until) {
     if (counts != traced_counts_) { plane_.part(); }
     std::vector<Position> at;
     for (const std::int64_t count : counts) { at.push_back(Position::steps(count)); }
-    for (const MergedStep& step : steps.before(until)) {
-        const auto& motor = job.motor_of_lane[step.lane()];
-        if (!motor) { continue; }
-        at[*motor] = Position::steps(counts[*motor] += step.direction());
-        plane_.go_to({kinematics->axis_steps(x, at), kinematics->axis_steps(y, at)});
+    const auto merged = steps.before(until);
+    for (std::size_t i = 0; i < merged.size(); ++i) {
+        const auto& motor = job.motor_of_lane[merged[i].lane()];
+        if (motor) { at[*motor] = Position::steps(counts[*motor] += merged[i].direction()); }
+        if (i + 1 < merged.size() && merged[i + 1].tick() == merged[i].tick()) { continue; }
+        plane_.go_to({kinematics->axis_steps(x, at) * x_scale, kinematics->axis_steps(y, at) * y_scale});
     }
     traced_counts_ = counts;
 }
@@ -141,12 +142,16 @@ std::optional<MoveMeter::MappedPlane> MoveMeter::mapped_plane(const MachineConfi
         const auto found = std::ranges::find(machine.axes, name, &AxisConfig::name);
         return static_cast<std::size_t>(found - machine.axes.begin());
     };
-    const MappedPlane plane{.kinematics = moves.asked().places().kinematics(),
-                            .x = place("X"),
-                            .y = place("Y"),
-                            .counts = {moves.asked().starts().steps.begin(), moves.asked().starts().steps.end()}};
+    MappedPlane plane{.kinematics = moves.asked().places().kinematics(), .x = place("X"), .y = place("Y")};
     const bool has_axes = std::max(plane.x, plane.y) < machine.axes.size();
     if (!moves.is_on_a_line() || plane.kinematics->is_direct() || !has_axes) { return std::nullopt; }
+    const auto scale = [&](std::size_t axis) {
+        return 1 / (machine.axes[axis].steps_per_mm * plane.kinematics->step_mm(axis));
+    };
+    plane.x_scale = scale(plane.x);
+    plane.y_scale = scale(plane.y);
+    const auto& starts = moves.asked().starts().steps;
+    plane.counts.assign(starts.begin(), starts.end());
     return plane;
 }
 

@@ -44,8 +44,8 @@ public:
     void plan_again(std::size_t number);
     /// Takes the next steps of all axes, in the order of their ticks.
     void take(MergedSteps steps);
-    /// The path of axes X and Y, in steps of the axes. It contains the jobs in which axes move together, or all steps
-    /// if there is no such job.
+    /// The path of axes X and Y, in steps. If the motors are not the axes, a step is Kinematics::step_mm. It contains
+    /// the jobs in which axes move together, or all steps if there is no such job.
     const PlaneTrace& plane() const { return plane_; }
     void on_late(const std::string& motor, EquallyLate late);
     /// Steps made before the first job began.
@@ -59,6 +59,8 @@ private:
         std::shared_ptr<const Kinematics> kinematics;
         std::size_t x = 0;
         std::size_t y = 0;
+        double x_scale = 1;  // steps as in plane(), for each of the axis
+        double y_scale = 1;
         std::vector<std::int64_t> counts;  // of the motors, after the traced steps
     };
     struct Job {

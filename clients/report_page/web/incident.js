@@ -117,7 +117,7 @@ function lanesChart() {
   host.before(make("p", {}, zoom(aroundIt()), zoom(whole), routine));
 }
 
-const axisOf = (process) => process.replace(/^axis[ -]/, "");
+const axisOf = (process) => process.replace(/^(axis|motor)[ -]/, "");
 // The states that a process noted, ten times a second.
 const statesOf = (process) => report.events.filter((event) => event.process === process && event.position_mm !== undefined);
 const kinds = { speed: "velocity_mm_s", position: "position_mm" };
@@ -134,7 +134,7 @@ function pointsUntil(points, end) {
 // A row of the log, by the time of the page. The log's curves end at its last step: noted states continue them. After
 // the end of its process an axis's motion is not known.
 function rowOfLog(row) {
-  const process = report.processes.find((each) => axisOf(each.name) === row.name);
+  const process = report.processes.find((each) => axisOf(each.name) === axisOf(row.name));
   const end = process?.ended ? process.last_s : Infinity;
   const points = pointsUntil(row.x.map((x, i) => [x + log.offset_s, row.y[i]]), end);
   const last = points.at(-1)?.[0] ?? -Infinity;
@@ -143,7 +143,7 @@ function rowOfLog(row) {
   const missing = gaps.filter((span) => !isOpen(span));
   const from = Math.min(end, ...gaps.filter(isOpen).map((span) => span[0]));
   if (process?.ended) {
-    missing.push([from, report.processes.find((each) => axisOf(each.name).startsWith(`${row.name},`))?.first_s ?? whole[1]]);
+    missing.push([from, report.processes.find((each) => axisOf(each.name).startsWith(`${axisOf(row.name)},`))?.first_s ?? whole[1]]);
   } else if (from < Infinity) {
     missing.push([from, whole[1]]);
   } else {

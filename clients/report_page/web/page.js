@@ -5,6 +5,12 @@ const report = JSON.parse(document.getElementById("report").textContent);
 const charts = JSON.parse(document.getElementById("charts").textContent);
 const main = document.getElementById("main");
 
+// A machine whose motors are not its axes: what makes steps is then called a motor.
+const hasMotors = report.axes.some((axis) => axis.axis !== undefined);
+const part = hasMotors ? "motor" : "axis";
+const parts = hasMotors ? "motors" : "axes";
+const unitOfPart = (name) => report.axes.find((axis) => axis.name === name)?.unit || unitOf(name);
+
 function section(title, ...content) {
   const part = make("section", {}, make("h2", {}, title), ...content);
   main.append(part);
@@ -25,7 +31,7 @@ const thousandths = (value, unit) => {
 const shownDeviations = (value, job) => job.deviations.map((each) => thousandths(each.largest, each.unit)).join("\n") || "–";
 const peakAxis = (key, move) => move.axes.reduce((top, axis) => ((axis[key] ?? 0) > (top?.[key] ?? 0) ? axis : top), undefined);
 const peak = (key) => (move) => peakAxis(key, move)?.[key];
-const shownPeak = (digits, key, per) => fixedIn(digits, (move) => unitOf(peakAxis(key, move).name) + per);
+const shownPeak = (digits, key, per) => fixedIn(digits, (move) => unitOfPart(peakAxis(key, move).name) + per);
 const sum = (key) => (move) => move.axes.reduce((all, axis) => all + Number(axis[key]), 0);
 const shownLine = (line, row) => line || (row.kind === "own-move" ? "own move" : "–");
 // Undefined if no step was compared.
@@ -84,7 +90,7 @@ function moves() {
   const columns = [
     { head: "job", of: (move) => move.job },
     { head: "line", of: (move) => move.line, show: shownLine },
-    { head: "axes", of: (move) => (move.dwell ? "dwell" : move.axes.map((axis) => axis.name).join(" ") || "–"), text: true },
+    { head: parts, of: (move) => (move.dwell ? "dwell" : move.axes.map((axis) => axis.name).join(" ") || "–"), text: true },
     { head: "length", of: (move) => move.length_mm, show: shownLength },
     ...stepColumns(sum("asked_steps"), sum("made_steps"), (move) => move.grade),
     { head: "planned,\u00a0s", of: (move) => move.planned_s, show: fixed(4) },
@@ -98,7 +104,7 @@ function moves() {
     { head: "step skew, \u00b5s", of: (move) => (Number(move.step_time_error.steps) ? move.skew_max_us : undefined), show: fixed(1) },
   ];
   const listed = report.jobs.reduce((sumOf, job) => sumOf + Number(job.move_count), 0);
-  const notes = ["Peaks are those of the fastest axis, computed from its steps."];
+  const notes = [`Peaks are those of the fastest ${part}, computed from its steps.`];
   if (all.some((move) => move.unit === "mm and deg")) {
     notes.push("If axes slide and rotate in one move, its length and deviation are the root of the sum of the squares in mm and degrees; the deviation limits each of them.");
   }
@@ -113,21 +119,55 @@ function moves() {
     table(columns, all, { first: 25, onRow }));
 }
 
+const motionColumns = (unit) => [
+  { head: "from", of: (row) => row.position_start_mm, show: fixedIn(3, unit) },
+  { head: "to", of: (row) => row.position_end_mm, show: fixedIn(3, unit) },
+  { head: "peak speed", of: (row) => row.peak_velocity_mm_s, show: fixedIn(2, (row) => `${unit(row)}/s`) },
+  { head: "peak acceleration", of: (row) => row.peak_acceleration_mm_s2, show: fixedIn(0, (row) => `${unit(row)}/s\u00b2`) },
+];
+
+function axisMotion() {
+  if (report.axis_motion.length === 0) { return; }
+  const unit = (axis) => axis.unit;
+  section("Axes", make("p", { className: "soft" }, "By the frames that all motors ran."), table([
+    { head: "axis", of: (axis) => axis.name, text: true },
+    ...motionColumns(unit),
+    { head: "limit of speed", of: (axis) => axis.max_velocity_mm_s, show: fixedIn(2, (axis) => `${unit(axis)}/s`) },
+    { head: "limit of acceleration", of: (axis) => axis.max_acceleration_mm_s2, show: fixedIn(0, (axis) => `${unit(axis)}/s\u00b2`) },
+  ], report.axis_motion));
+}
+
+function motorSkew() {
+  if (report.motor_skew.length === 0) { return; }
+  const most = (skew) => Math.max(skew.in_homing_mm ?? 0, skew.in_motion_mm ?? 0, skew.at_rest_mm ?? 0);
+  const grade = (skew) => (most(skew) > (skew.max_skew_mm ?? Infinity) ? "bad" : "");
+  const motorsOf = (skew) => report.axes.filter((motor) => motor.axis === skew.axis).map((motor) => motor.name).join(", ");
+  const shown = fixedIn(4, (skew) => skew.unit);
+  section("Motors of one axis", make("p", { className: "soft" }, "How far they were apart at most."), table([
+    { head: "axis", of: (skew) => skew.axis, text: true },
+    { head: "motors", of: motorsOf, text: true },
+    { head: "in homing", of: (skew) => skew.in_homing_mm, show: shown, grade },
+    { head: "in motion", of: (skew) => skew.in_motion_mm, show: shown },
+    { head: "at rest", of: (skew) => skew.at_rest_mm, show: shown },
+    { head: "max_skew_mm", of: (skew) => skew.max_skew_mm, show: shown },
+  ], report.motor_skew));
+}
+
 function axes() {
   const columns = [
-    { head: "axis", of: (axis) => axis.name, text: true },
+    { head: part, of: (axis) => axis.name, text: true },
+    ...(hasMotors ? [{ head: "of axis", of: (axis) => axis.axis ?? "–", text: true }] : []),
     { head: "steps", of: (axis) => Number(axis.steps), show: count },
-    { head: "from", of: (axis) => axis.position_start_mm, show: fixedIn(3, (axis) => unitOf(axis.name)) },
-    { head: "to", of: (axis) => axis.position_end_mm, show: fixedIn(3, (axis) => unitOf(axis.name)) },
-    { head: "peak speed", of: (axis) => axis.peak_velocity_mm_s, show: fixedIn(2, (axis) => unitOf(axis.name) + "/s") },
-    { head: "peak acceleration", of: (axis) => axis.peak_acceleration_mm_s2, show: fixedIn(0, (axis) => unitOf(axis.name) + "/s\u00b2") },
+    ...motionColumns((axis) => unitOfPart(axis.name)),
     { head: "steps missing in the log", of: (axis) => Number(axis.missing_steps), show: count, grade: (axis) => (Number(axis.missing_steps) ? "unknown" : "") },
     ...timeErrorColumns,
   ];
-  section("Axes", table(columns, report.axes));
+  section(hasMotors ? "Motors" : "Axes", table(columns, report.axes));
+  axisMotion();
+  motorSkew();
   if (report.step_skew_between_axes.length === 0) { return; }
-  section("Step skew between axes", table([
-    { head: "axes", of: (skew) => `${skew.first} – ${skew.second}`, text: true },
+  section(`Step skew between ${parts}`, table([
+    { head: parts, of: (skew) => `${skew.first} – ${skew.second}`, text: true },
     { head: "steps", of: (skew) => Number(skew.steps), show: count },
     ...["p50", "p99", "max"].map((key) => ({ head: key, group: "skew, \u00b5s", of: (skew) => skew[`${key}_us`], show: fixed(1) })),
   ], report.step_skew_between_axes));
@@ -135,14 +175,14 @@ function axes() {
 
 function events() {
   if (report.events.length === 0) { return; }
-  const place = (event) => event.positions.map((at) => `${at.name}\u00a0${at.position_mm === undefined ? at.position_steps : `${at.position_mm.toFixed(3)}\u00a0${unitOf(at.name)}`}`).join("  ");
+  const place = (event) => event.positions.map((at) => `${at.name}\u00a0${at.position_mm === undefined ? at.position_steps : `${at.position_mm.toFixed(3)}\u00a0${unitOfPart(at.name)}`}`).join("  ");
   section("Faults, stops and interruptions", table([
     { head: "at, s", of: (event) => event.at_s, show: fixed(3) },
-    { head: "axis", of: (event) => event.axis ?? "all", text: true },
+    { head: part, of: (event) => event.axis ?? "all", text: true },
     { head: "what", of: (event) => event.what, text: true, long: true },
     { head: "job", of: (event) => event.job ?? "–" },
     { head: "line", of: (event) => event.line || "–" },
-    { head: "axes were at", of: place, text: true, long: true },
+    { head: `${parts} were at`, of: place, text: true, long: true },
     { head: "remedy", of: (event) => event.remedy ?? "", text: true, long: true },
   ], report.events, { first: 50, onRow: (event) => showTime(event.at_s - 1, event.at_s + 1) }));
 }
@@ -167,7 +207,7 @@ function record() {
   const gaps = report.axes.flatMap((axis) => axis.gaps.map((gap) => ({ ...gap, axis: axis.name })));
   if (gaps.length > 0) {
     section("Gaps in the record", table([
-      { head: "axis", of: (gap) => gap.axis, text: true },
+      { head: part, of: (gap) => gap.axis, text: true },
       { head: "after tick", of: (gap) => Number(gap.after_tick), show: count },
       { head: "before tick", of: (gap) => Number(gap.before_tick), show: count },
       { head: "steps missing", of: (gap) => Number(gap.missing_steps), show: count },
