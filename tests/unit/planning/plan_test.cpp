@@ -28,6 +28,18 @@ TEST(Plan, ALineOfItsLengthInItsTime) {
     EXPECT_NEAR(plan->axes[1].peak_velocity_mm_s, 40, 0.1);
 }
 
+/// A homed motor rests on the whole step that is nearest to its park, and the axes are where the motors place them.
+TEST(Plan, BeginsWhereTheMotorsRestAfterHoming) {
+    MachineConfig machine = example("core-xy");
+    machine.kinematics = {.matrix = {{.motor = "B", .of = {{.axis = "Y", .factor = -1.25}}}},
+                          .skews = {{.x = "X", .y = "Y", .mm_per_m = 4}}};
+    for (AxisConfig& axis : machine.axes) { axis.homing.park_mm = 5; }
+    machine = parse_machine(machine_text(machine)).value();
+    const std::vector<double> parked = parked_mm(machine);
+    EXPECT_NEAR(parked[0], (402 - 0.004 * 400) / 80, 1.0 / 1280) << "belt A rests on step 402, the nearest to 5.02 mm";
+    EXPECT_DOUBLE_EQ(parked[1], 5);
+}
+
 TEST(Plan, WithinTheLimitsOfEachAxisAndAsFarAsItGoes) {
     const MachineConfig machine = example("three-axis");
     const auto program = load_gcode_file("deploy/examples/plate.gcode", machine, parked_mm(machine));
