@@ -18,10 +18,10 @@
 
 #include "clients/analysis/axis_log.hpp"
 #include "clients/analysis/event_log.hpp"
-#include "clients/analysis/measure/axis_meter.hpp"
 #include "clients/analysis/measure/job_moves.hpp"
-#include "clients/analysis/measure/motor_skew.hpp"
 #include "clients/analysis/measure/skew.hpp"
+#include "clients/analysis/motors/axis_meter.hpp"
+#include "clients/analysis/motors/motor_skew.hpp"
 #include "clients/drawing/svg.hpp"
 #include "clients/verification/findings.hpp"
 #include "core/kinematics/kinematics.hpp"

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "clients/analysis/analysis.hpp"
-#include "clients/analysis/measure/axis_meter.hpp"
-#include "clients/analysis/measure/move_meter.hpp"
 #include "clients/analysis/measure/sorted_log.hpp"
 #include "clients/analysis/measure/step_merge.hpp"
+#include "clients/analysis/motors/axis_meter.hpp"
+#include "clients/analysis/moves/move_meter.hpp"
 #include "clients/analysis/sorter.hpp"
 #include "services/record/reading/program_events.hpp"
 

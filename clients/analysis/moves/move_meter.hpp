@@ -12,8 +12,8 @@
 #include "clients/analysis/measure/job_moves.hpp"
 #include "clients/analysis/measure/lateness.hpp"
 #include "clients/analysis/measure/merged_steps.hpp"
-#include "clients/analysis/measure/motor_skew.hpp"
 #include "clients/analysis/measure/plane_trace.hpp"
+#include "clients/analysis/motors/motor_skew.hpp"
 #include "core/machine.hpp"
 
 namespace lockstep::analysis {

@@ -1,4 +1,4 @@
-#include "clients/analysis/measure/motor_skew.hpp"
+#include "clients/analysis/motors/motor_skew.hpp"
 
 #include <algorithm>
 #include <cmath>

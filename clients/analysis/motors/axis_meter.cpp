@@ -1,4 +1,4 @@
-#include "clients/analysis/measure/axis_meter.hpp"
+#include "clients/analysis/motors/axis_meter.hpp"
 
 #include <algorithm>
 #include <cmath>

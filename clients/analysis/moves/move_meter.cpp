@@ -1,4 +1,4 @@
-#include "clients/analysis/measure/move_meter.hpp"
+#include "clients/analysis/moves/move_meter.hpp"
 
 #include <algorithm>
 #include <limits>
