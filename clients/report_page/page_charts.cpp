@@ -1,31 +1,37 @@
 #include "clients/report_page/page_charts.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 #include "clients/analysis/curves.hpp"
 #include "clients/analysis/plane_path.hpp"
+#include "clients/report_page/chart_number.hpp"
 
 namespace lockstep::analysis {
 namespace {
 
 using nlohmann::json;
 
-/// With nine digits, as many as a chart can show.
-json number(double value) {
-    if (!std::isfinite(value)) { return nullptr; }
-    return std::strtod(fmt::format("{:.9g}", value).c_str(), nullptr);
+/// A list of numbers as JSON, as the page has a million of them. A number that is not finite is null.
+std::string numbers(const std::vector<double>& values) {
+    std::string list = "[";
+    for (const double value : values) {
+        std::isfinite(value) ? append_number(list, value) : void(list += "null");
+        list += ',';
+    }
+    if (list.back() == ',') { list.pop_back(); }
+    return list += ']';
 }
 
-json numbers(const std::vector<double>& values) {
-    json list = json::array();
-    for (const double value : values) { list.push_back(number(value)); }
-    return list;
-}
+std::string text(std::string_view of) { return json(of).dump(); }
+
+/// "[a,b]"
+std::string joined(const std::vector<std::string>& parts) { return fmt::format("[{}]", fmt::join(parts, ",")); }
 
 struct Kind {
     std::string_view name;  // of the button
@@ -42,36 +48,34 @@ std::vector<Kind> kinds(const Analysis& analysis) {
             {"slack", "slack: how long before its start the latest frame came", "", slack_curves(analysis)}};
 }
 
-json row_of(const Kind& kind, const drawing::AxisCurve& curve, std::size_t colour) {
-    json missing = json::array();
+std::string row_of(const Kind& kind, const drawing::AxisCurve& curve, std::size_t colour) {
+    std::vector<std::string> missing;
     for (const drawing::Span& span : curve.missing) { missing.push_back(numbers({span.from, span.to})); }
-    return {{"kind", kind.name},
-            {"name", curve.axis},
-            {"what", kind.what},
-            {"unit", curve.unit + std::string(kind.per)},
-            {"colour", colour},
-            {"limits", numbers(curve.limit ? std::vector<double>{-*curve.limit, *curve.limit} : std::vector<double>{})},
-            {"missing", missing},
-            {"x", numbers(curve.time_s)},
-            {"y", numbers(curve.value)}};
+    const auto limits = curve.limit ? std::vector<double>{-*curve.limit, *curve.limit} : std::vector<double>{};
+    return fmt::format(
+        R"({{"kind":{},"name":{},"what":{},"unit":{},"colour":{},"limits":{},"missing":{},"x":{},"y":{}}})",
+        text(kind.name), text(curve.axis), text(kind.what), text(curve.unit + std::string(kind.per)), colour,
+        numbers(limits), joined(missing), numbers(curve.time_s), numbers(curve.value));
 }
 
-json rows(const Analysis& analysis) {
-    json list = json::array();
+std::string rows(const Analysis& analysis) {
+    std::vector<std::string> list;
     for (const Kind& kind : kinds(analysis)) {
         for (std::size_t i = 0; i < kind.curves.size(); ++i) {
             if (!kind.curves[i].time_s.empty()) { list.push_back(row_of(kind, kind.curves[i], i)); }
         }
     }
-    return list;
+    return joined(list);
 }
 
-json way(const drawing::PlanePath& path) { return {{"x", numbers(path.x)}, {"y", numbers(path.y)}}; }
+std::string way(const drawing::PlanePath& path) {
+    return fmt::format(R"({{"x":{},"y":{}}})", numbers(path.x), numbers(path.y));
+}
 
-json path(const Analysis& analysis) {
+std::string path(const Analysis& analysis) {
     const auto paths = paths_in_plane(analysis);
-    if (!paths || paths->stepped.x.empty()) { return nullptr; }
-    return {{"asked", way(paths->asked)}, {"stepped", way(paths->stepped)}};
+    if (!paths || paths->stepped.x.empty()) { return "null"; }
+    return fmt::format(R"({{"asked":{},"stepped":{}}})", way(paths->asked), way(paths->stepped));
 }
 
 /// "0", "1", "2 - 3", ... in microseconds.
@@ -99,11 +103,8 @@ json step_times(const Analysis& analysis) {
 
 std::string page_charts(const Analysis& analysis) {
     const double lasts = analysis.first_tick() ? analysis.seconds(*analysis.last_tick() - *analysis.first_tick()) : 0;
-    const json charts{{"whole", numbers({0, lasts})},
-                      {"rows", rows(analysis)},
-                      {"path", path(analysis)},
-                      {"step_times", step_times(analysis)}};
-    return charts.dump();
+    return fmt::format(R"({{"whole":{},"rows":{},"path":{},"step_times":{}}})", numbers({0, lasts}), rows(analysis),
+                       path(analysis), step_times(analysis).dump());
 }
 
 }  // namespace lockstep::analysis

@@ -20,6 +20,7 @@ public:
     std::size_t axes() const { return mm_per_step_.size(); }
     /// Each axis is moved by a motor of its own.
     bool is_direct() const { return is_direct_; }
+    double mm_per_step(std::size_t axis) const { return mm_per_step_[axis]; }
     const std::shared_ptr<const Kinematics>& kinematics() const { return kinematics_; }
     /// The motors are here; `at_mm`: one number for each axis, in mm or degrees.
     void set(std::span<const std::int64_t> counts, std::span<double> at_mm);

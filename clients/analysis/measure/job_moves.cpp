@@ -203,6 +203,10 @@ void JobMoves::measure_distances(std::span<const MergedStep> steps, MotorsOfLane
 
 /// Notes the places after the next steps. Returns the number of these steps.
 std::size_t JobMoves::note_places(std::span<const MergedStep> steps, MotorsOfLanes motor_of_lane) {
+    if (steps.size() >= Places::kMost && axes_.is_direct()) {
+        note_block(steps.first<Places::kMost>(), motor_of_lane);
+        return Places::kMost;
+    }
     std::size_t taken = 0;
     for (places_.size = 0; places_.size < Places::kMost && taken < steps.size(); ++taken) {
         const MergedStep& step = steps[taken];
@@ -214,6 +218,39 @@ std::size_t JobMoves::note_places(std::span<const MergedStep> steps, MotorsOfLan
         places_.size += ends_tick || axes_.is_direct() ? 1 : 0;
     }
     return taken;
+}
+
+/// The same for a whole block, if the motors are the axes: a motor's count after each step is the sum of its changes.
+LOCKSTEP_VECTOR_CLONES
+void JobMoves::note_block(std::span<const MergedStep, Places::kMost> steps, MotorsOfLanes motor_of_lane) {
+    std::array<std::int32_t, Places::kMost> kinds;
+    for (std::size_t i = 0; i < steps.size(); ++i) { kinds[i] = static_cast<std::int32_t>(steps[i].kind()); }
+    IntLanes kind;
+    load(kind, kinds.data());
+    for (std::size_t i = 0; i < places_.mm.size(); ++i) {
+        if (std::ranges::find(motor_of_lane, std::optional(i)) == motor_of_lane.end()) {
+            places_.mm[i].fill(at_mm_[i]);
+        }
+    }
+    for (std::size_t lane = 0; lane < motor_of_lane.size(); ++lane) {
+        if (!motor_of_lane[lane]) { continue; }
+        const std::size_t motor = *motor_of_lane[lane];
+        const auto forward = static_cast<std::int32_t>(2 * lane);
+        IntLanes sums = (kind == forward + 1) - (kind == forward);
+        sum_up(sums);
+        std::array<std::int32_t, Places::kMost> changes;
+        store(sums, changes.data());
+        const auto before = static_cast<double>(counts_[motor]);
+        const double mm_per_step = axes_.mm_per_step(motor);
+        for (std::size_t half = 0; half < Places::kMost; half += Places::kMost / 2) {
+            HalfIntLanes change;
+            load(change, changes.data() + half);
+            const DoubleLanes count = before + __builtin_convertvector(change, DoubleLanes);
+            store(count * mm_per_step, places_.mm[motor].data() + half);
+        }
+        counts_[motor] += changes.back();
+    }
+    places_.size = Places::kMost;
 }
 
 void JobMoves::note_place(std::size_t number) {

@@ -136,6 +136,7 @@ private:
     void take(std::size_t motor, const MeasuredStep& step, bool ends_tick);
     void measure_distances(std::span<const MergedStep> steps, MotorsOfLanes motor_of_lane);
     std::size_t note_places(std::span<const MergedStep> steps, MotorsOfLanes motor_of_lane);
+    void note_block(std::span<const MergedStep, Places::kMost> steps, MotorsOfLanes motor_of_lane);
     void note_place(std::size_t number);
     void measure_places(float& largest);
     void begin(std::size_t move);

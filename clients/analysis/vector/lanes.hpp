@@ -38,6 +38,15 @@ template <typename Lanes, typename Number>
     to = __builtin_shufflevector(first, second, 0, 8, 1, 9, 2, 10, 3, 11, 4, 12, 5, 13, 6, 14, 7, 15);
 }
 
+/// Replaces each number by the sum of the numbers up to it.
+[[gnu::always_inline]] inline void sum_up(IntLanes& sums) {
+    const IntLanes none{};
+    sums += __builtin_shufflevector(sums, none, 16, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14);
+    sums += __builtin_shufflevector(sums, none, 16, 16, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13);
+    sums += __builtin_shufflevector(sums, none, 16, 16, 16, 16, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11);
+    sums += __builtin_shufflevector(sums, none, 16, 16, 16, 16, 16, 16, 16, 16, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+
 /// Whether all results of a comparison are true.
 template <typename Lanes>
 [[gnu::always_inline]] inline bool all_true(const Lanes& results) {

@@ -1,0 +1,11 @@
+// Writes the numbers of charts fast.
+#pragma once
+
+#include <string>
+
+namespace lockstep::analysis {
+
+/// Appends a finite number with nine significant digits, as many as a chart can show, and no trailing zeros.
+void append_number(std::string& text, double value);
+
+}  // namespace lockstep::analysis
