@@ -88,7 +88,8 @@ CommandResult check_jog(const MachineActivity& activity, const LoopView& loop) {
     return may_join ? check_present(loop) : check_ready(activity, loop);
 }
 
-/// The job goes on only from where it paused, because its next move begins there.
+/// The job goes on only from where it paused, because its next move begins there. Motors rest on whole steps of their
+/// own, so their places are compared.
 CommandResult check_place(const AxisCounts& place, const LoopView& loop) {
     if (loop.kinematics.motors_at(place) == loop.axes.counts()) { return {}; }
     const Program way = return_way(loop.machine, loop.counts(), place);

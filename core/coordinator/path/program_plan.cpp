@@ -44,12 +44,8 @@ Ticks ticks_of(const Dwell& dwell, double tick_s) {
 }
 
 ProgramPlanner::ProgramPlanner(const MachineConfig& machine)
-    : machine_(machine), limits_(axis_frame_limits_of(machine)) {
-    const Kinematics kinematics(machine);
-    for (const AxisConfig& axis : machine.axes) {
-        steps_per_mm_.push_back(axis.steps_per_mm);
-        rest_steps_.push_back(kinematics.rest_steps(rest_steps_.size()));
-    }
+    : machine_(machine), kinematics_(machine), limits_(axis_frame_limits_of(machine)) {
+    for (const AxisConfig& axis : machine.axes) { steps_per_mm_.push_back(axis.steps_per_mm); }
 }
 
 std::expected<std::vector<std::size_t>, PlanError> ProgramPlanner::axes_of(
@@ -76,17 +72,15 @@ std::expected<AxisCounts, PlanError> ProgramPlanner::target(const ProgramMove& m
         const double mm = move.target_mm[i];
         if (!(std::abs(mm * axis.steps_per_mm) < kMaxSteps)) { return std::unexpected(too_far(axis, mm, line)); }
         const std::int64_t steps = to_steps(axis, mm);
-        to[axes[i]] = steps;
-        if (steps < limits_[axes[i]].min_steps || steps > limits_[axes[i]].max_steps) {
-            return std::unexpected(outside_travel(axis, mm, line));
-        }
+        to[axes[i]] = std::clamp(steps, limits_[axes[i]].min_steps, limits_[axes[i]].max_steps);
+        if (!is_within_travel(axes[i], steps)) { return std::unexpected(outside_travel(axis, mm, line)); }
     }
     return to;
 }
 
-bool ProgramPlanner::is_within_travel(std::size_t axis, double mm) const {
-    const std::int64_t steps = to_steps(machine_.axes[axis], mm);
-    return steps >= limits_[axis].min_steps && steps <= limits_[axis].max_steps;
+bool ProgramPlanner::is_within_travel(std::size_t axis, std::int64_t steps) const {
+    const std::int64_t rounding = kinematics_.rest_steps(axis);
+    return steps >= limits_[axis].min_steps - rounding && steps <= limits_[axis].max_steps + rounding;
 }
 
 std::expected<void, PlanError> ProgramPlanner::check_arc(const ProgramMove& move, const std::vector<std::size_t>& axes,
@@ -103,7 +97,7 @@ std::expected<void, PlanError> ProgramPlanner::check_arc(const ProgramMove& move
     for (const std::size_t i : {move.arc->first, move.arc->second}) {
         const auto [least, greatest] = arc.extent(i);
         for (const double mm : {least, greatest}) {
-            if (is_within_travel(axes[i], mm)) { continue; }
+            if (is_within_travel(axes[i], to_steps(machine_.axes[axes[i]], mm))) { continue; }
             return std::unexpected(outside_travel(machine_.axes[axes[i]], mm, line));
         }
     }
@@ -121,15 +115,18 @@ std::expected<void, PlanError> ProgramPlanner::check_start(const ProgramHead& pr
     for (std::size_t i = 0; i < start.size(); ++i) {
         const AxisConfig& axis = machine_.axes[i];
         const std::string unit = " " + std::string(unit_of(axis.name));
-        const bool is_within =
-            start[i] >= limits_[i].min_steps - rest_steps_[i] && start[i] <= limits_[i].max_steps + rest_steps_[i];
-        if (is_within) { continue; }
+        if (is_within_travel(i, start[i])) { continue; }
         return std::unexpected(PlanError{FaultCode::OutsideTravel, std::nullopt,
                                          "axis " + axis.name + " is at " +
                                              number(to_mm(axis, static_cast<double>(start[i]))) + unit +
                                              ", which is outside its travel, " + number(axis.position_min_mm) + " to " +
                                              number(axis.position_max_mm) + unit + "; home the axis"});
     }
+    AxisCounts named = start;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        named[axes[i]] = to_steps(machine_.axes[axes[i]], program.start_mm[i]);
+    }
+    if (kinematics_.motors_at(named) == kinematics_.motors_at(start)) { return {}; }
     for (std::size_t i = 0; i < axes.size(); ++i) {
         const AxisConfig& axis = machine_.axes[axes[i]];
         const std::string unit = " " + std::string(unit_of(axis.name));

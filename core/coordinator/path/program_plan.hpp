@@ -10,6 +10,7 @@
 
 #include "core/coordinator/path/frame_source.hpp"
 #include "core/faults.hpp"
+#include "core/kinematics/kinematics.hpp"
 #include "core/machine.hpp"
 #include "core/motion/moves.hpp"
 #include "core/program_blocks.hpp"
@@ -78,7 +79,8 @@ public:
     /// The same for a program with these `axes` (axes_of).
     std::expected<void, PlanError> check_start(const ProgramHead& program, std::span<const std::size_t> axes,
                                                const AxisCounts& start) const;
-    /// The end of a move. Error: it is outside the travel, or too far to count.
+    /// The end of a move. If it is outside the travel only because motors rest on whole steps, it is the end of the
+    /// travel. Error: it is outside the travel, or too far to count.
     std::expected<AxisCounts, PlanError> target(const ProgramMove& move, std::span<const std::size_t> axes,
                                                 const AxisCounts& from, std::optional<std::int32_t> line) const;
     /// Error: the arc has no radius, does not close, leaves the travel, or is for LAI, which has no arcs.
@@ -99,14 +101,14 @@ public:
                                                               AxisCounts& at) const;
 
 private:
-    bool is_within_travel(std::size_t axis, double mm) const;
+    bool is_within_travel(std::size_t axis, std::int64_t steps) const;
     void note_arc(const ProgramMove& arc, const std::vector<std::size_t>& axes, PathMove& move) const;
     PathMove path_move(const ProgramMove& linear, const AxisCounts& from, const AxisCounts& to) const;
 
     MachineConfig machine_;
-    std::vector<AxisLimits> limits_;
+    Kinematics kinematics_;
+    std::vector<AxisLimits> limits_;  // of the axes; their travel
     std::vector<double> steps_per_mm_;
-    std::vector<std::int64_t> rest_steps_;  // how far beyond its travel an axis may rest
 };
 
 }  // namespace lockstep
