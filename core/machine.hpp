@@ -104,10 +104,29 @@ struct Skew {
     bool operator==(const Skew&) const = default;
 };
 
+/// A tower of a delta, and the motor of its carriage.
+struct DeltaTower {
+    std::string motor;
+    double x_mm = 0;  // where the joint of the rod goes up and down, less the joint's offset from the tool
+    double y_mm = 0;
+    double rod_mm = 0;
+    bool operator==(const DeltaTower&) const = default;
+};
+
+/// Three carriages on towers carry the tool by rods.
+struct DeltaConfig {
+    std::string x;  // the axes
+    std::string y;
+    std::string z;
+    std::vector<DeltaTower> towers;  // three
+    bool operator==(const DeltaConfig&) const = default;
+};
+
 /// Which motors move an axis, where that is not one motor of its own.
 struct KinematicsConfig {
     std::optional<CoreXy> core_xy;
     std::vector<MotorRow> matrix;
+    std::optional<DeltaConfig> delta;
     std::vector<Skew> skews;
     bool operator==(const KinematicsConfig&) const = default;
 };

@@ -53,11 +53,14 @@ std::optional<AxisState> axis_state_of(std::size_t axis, const Kinematics& kinem
 }
 
 double axis_speed_of(std::size_t axis, const Kinematics& kinematics, std::span<const AxisState* const> motors) {
-    double speed = 0;
+    std::vector<Position> places(motors.size());
+    std::vector<double> speeds(motors.size());
     for (std::size_t m = 0; m < motors.size(); ++m) {
-        if (motors[m] != nullptr) { speed += kinematics.axis_share(axis, m) * motors[m]->velocity.steps_per_tick(); }
+        if (motors[m] == nullptr) { continue; }
+        places[m] = motors[m]->position;
+        speeds[m] = motors[m]->velocity.steps_per_tick();
     }
-    return speed;
+    return kinematics.axis_speed(axis, places, speeds);
 }
 
 }  // namespace lockstep

@@ -1,21 +1,32 @@
 #include "core/kinematics/kinematics.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lockstep {
+namespace {
+
+constexpr double kMostSteps = 0x1p52;  // without a place of the tool, motors may place an axis anywhere
+
+/// How far an axis moves at most if each motor moves by one step, in steps, with these shares of the motors.
+double steps_of(const LinearMap& axes, std::size_t axis) {
+    double steps = 0;
+    for (const double share : axes.row(axis)) { steps += std::abs(share); }
+    return steps;
+}
+
+}  // namespace
 
 Kinematics::Kinematics(const MachineConfig& machine)
     : motors_(lockstep::motors_of(machine)),
       axis_names_(machine.axis_names()),
       map_(step_map_of(machine)),
-      inverse_(map_.inverse().value_or(LinearMap(map_.axes(), map_.motors()))),
+      inverse_(map_.motors_by_joints().inverse().value_or(LinearMap(map_.axes(), map_.motors()))),
       is_direct_(map_.is_identity()) {
     for (std::size_t i = 0; i < map_.axes(); ++i) {
         own_motors_.push_back(find_own_motor(i));
         axis_steps_per_mm_.push_back(machine.axes[i].steps_per_mm);
-        double steps = 0;
-        for (std::size_t m = 0; m < motors_.size(); ++m) { steps += std::abs(inverse_.factor(i, m)); }
-        steps_mm_.push_back(steps / machine.axes[i].steps_per_mm);
+        steps_mm_.push_back(step_mm_of(i, machine));
     }
 }
 
@@ -30,8 +41,9 @@ AxisCounts Kinematics::axes_at(const MotorCounts& motors) const {
     if (is_direct_) { return motors.steps; }
     AxisCounts axes;
     for (std::size_t i = 0; i < inverse_.motors(); ++i) {
-        const double nearest = inverse_.place(i, motors.steps);
-        axes.append(moves_alone(i) ? place_of_all(i, nearest, motors) : std::llround(nearest));
+        const double steps = map_.axis_by_joints(i, [&](std::size_t j) { return inverse_.place(j, motors.steps); });
+        const std::int64_t nearest = std::llround(std::clamp(steps, -kMostSteps, kMostSteps));
+        axes.append(moves_alone(i) ? place_of_all(i, nearest, motors) : nearest);
     }
     return axes;
 }
@@ -39,22 +51,21 @@ AxisCounts Kinematics::axes_at(const MotorCounts& motors) const {
 /// Its motors follow no other axis.
 bool Kinematics::moves_alone(std::size_t axis) const {
     for (std::size_t m = 0; m < motors_.size(); ++m) {
-        if (map_.factor(m, axis) != 0 && map_.only_axis_of(m) != axis) { return false; }
+        if (map_.shares().factor(m, axis) != 0 && map_.shares().only_axis_of(m) != axis) { return false; }
     }
     return true;
 }
 
 /// Motors with different steps rest at different places of their axis. Looks around the mean for one that rounds to
 /// all of them.
-std::int64_t Kinematics::place_of_all(std::size_t axis, double nearest, const MotorCounts& motors) const {
+std::int64_t Kinematics::place_of_all(std::size_t axis, std::int64_t mean, const MotorCounts& motors) const {
     const auto is_of_all = [&](std::int64_t place) {
         for (std::size_t m = 0; m < motors_.size(); ++m) {
-            const double share = map_.factor(m, axis);
+            const double share = map_.shares().factor(m, axis);
             if (share != 0 && std::llround(share * static_cast<double>(place)) != motors[m]) { return false; }
         }
         return true;
     };
-    const std::int64_t mean = std::llround(nearest);
     for (std::int64_t off = 0; off <= rest_steps(axis); ++off) {
         for (const std::int64_t place : {mean + off, mean - off}) {
             if (is_of_all(place)) { return place; }
@@ -70,9 +81,43 @@ std::int64_t Kinematics::rest_steps(std::size_t axis) const {
 
 double Kinematics::axis_steps(std::size_t axis, std::span<const Position> motors) const {
     if (is_direct_) { return motors[axis].as_steps(); }
-    double sum = 0;
-    for (std::size_t m = 0; m < motors_.size(); ++m) { sum += inverse_.factor(axis, m) * motors[m].as_steps(); }
-    return sum;
+    return map_.axis_by_joints(axis, [&](std::size_t joint) {
+        double sum = 0;
+        for (std::size_t m = 0; m < motors_.size(); ++m) { sum += inverse_.factor(joint, m) * motors[m].as_steps(); }
+        return sum;
+    });
+}
+
+double Kinematics::axis_speed(std::size_t axis, std::span<const Position> motors,
+                              std::span<const double> speeds) const {
+    const auto speed = [&](const LinearMap& axes) {
+        double sum = 0;
+        for (std::size_t m = 0; m < motors_.size(); ++m) { sum += axes.factor(axis, m) * speeds[m]; }
+        return sum;
+    };
+    if (map_.is_linear()) { return speed(inverse_); }
+    std::vector<double> at;
+    for (std::size_t i = 0; i < axes(); ++i) { at.push_back(axis_steps(i, motors)); }
+    const auto axes = map_.slopes_at(at).inverse();
+    return axes ? speed(*axes) : 0;
+}
+
+/// For a delta the most at a corner of the travel.
+double Kinematics::step_mm_of(std::size_t axis, const MachineConfig& machine) const {
+    const double steps_per_mm = machine.axes[axis].steps_per_mm;
+    if (map_.is_linear()) { return steps_of(inverse_, axis) / steps_per_mm; }
+    double most = 0;
+    constexpr std::size_t kCorners = 4;
+    const std::array<std::size_t, 3>& delta = map_.delta()->axes;
+    for (std::size_t corner = 0; corner < kCorners; ++corner) {
+        std::vector<double> at(axes());
+        for (std::size_t k = 0; k < 2; ++k) {
+            const AxisConfig& side = machine.axes[delta[k]];
+            at[delta[k]] = ((corner >> k & 1) != 0 ? side.position_max_mm : side.position_min_mm) * side.steps_per_mm;
+        }
+        if (const auto axes = map_.slopes_at(at).inverse()) { most = std::max(most, steps_of(*axes, axis)); }
+    }
+    return most / steps_per_mm;
 }
 
 std::optional<MotorAstray> Kinematics::astray(const MotorCounts& motors) const {
@@ -89,7 +134,7 @@ AxisSet Kinematics::motors_of_axes(AxisSet axes) const {
     AxisSet motors = 0;
     for (std::size_t m = 0; m < motors_.size(); ++m) {
         for (std::size_t i = 0; i < map_.axes(); ++i) {
-            if (has_axis(axes, i) && map_.factor(m, i) != 0) { motors |= axis_bit(m); }
+            if (has_axis(axes, i) && map_.shares().factor(m, i) != 0) { motors |= axis_bit(m); }
         }
     }
     return motors;
@@ -97,15 +142,15 @@ AxisSet Kinematics::motors_of_axes(AxisSet axes) const {
 
 AxisSet Kinematics::axes_of_motor(std::size_t motor) const {
     AxisSet axes = 0;
-    for (std::size_t i = 0; i < map_.axes(); ++i) { axes |= map_.factor(motor, i) != 0 ? axis_bit(i) : 0; }
+    for (std::size_t i = 0; i < map_.axes(); ++i) { axes |= map_.shares().factor(motor, i) != 0 ? axis_bit(i) : 0; }
     return axes;
 }
 
 std::optional<std::size_t> Kinematics::find_own_motor(std::size_t axis) const {
     std::optional<std::size_t> own;
     for (std::size_t m = 0; m < motors_.size(); ++m) {
-        if (map_.factor(m, axis) == 0) { continue; }
-        if (own || map_.factor(m, axis) != 1 || map_.only_axis_of(m) != axis) { return std::nullopt; }
+        if (map_.shares().factor(m, axis) == 0) { continue; }
+        if (own || map_.shares().factor(m, axis) != 1 || map_.shares().only_axis_of(m) != axis) { return std::nullopt; }
         own = m;
     }
     return own;

@@ -41,10 +41,10 @@ public:
     double axis_steps(std::size_t axis, std::span<const Position> motors) const;
     /// mm of an axis that a motor moves alone, for each step of the motor.
     double axis_mm(std::size_t axis, std::size_t motor) const {
-        return 1 / (map_.factor(motor, axis) * axis_steps_per_mm_[axis]);
+        return 1 / (map_.shares().factor(motor, axis) * axis_steps_per_mm_[axis]);
     }
-    /// Steps of an axis for each step of a motor, if the others stand still.
-    double axis_share(std::size_t axis, std::size_t motor) const { return inverse_.factor(axis, motor); }
+    /// The speed of an axis, in its steps, where the motors are; `speeds` of the motors are in steps of the same time.
+    double axis_speed(std::size_t axis, std::span<const Position> motors, std::span<const double> speeds) const;
     /// How far an axis is moved at most if each motor moves by one step, in mm.
     double step_mm(std::size_t axis) const { return steps_mm_[axis]; }
     /// A motor that is not where the axes' place puts it; nullopt if there is none. Motors of one axis differ after an
@@ -64,15 +64,16 @@ public:
 private:
     std::optional<std::size_t> find_own_motor(std::size_t axis) const;
     bool moves_alone(std::size_t axis) const;
-    std::int64_t place_of_all(std::size_t axis, double nearest, const MotorCounts& motors) const;
+    std::int64_t place_of_all(std::size_t axis, std::int64_t mean, const MotorCounts& motors) const;
+    double step_mm_of(std::size_t axis, const MachineConfig& machine) const;
 
     std::vector<MotorConfig> motors_;
     std::vector<std::string> axis_names_;
     std::vector<std::optional<std::size_t>> own_motors_;  // of each axis
     std::vector<double> steps_mm_;                        // of each axis
     std::vector<double> axis_steps_per_mm_;
-    LinearMap map_;      // steps by steps
-    LinearMap inverse_;  // steps by steps
+    MotorMap map_;       // steps by steps
+    LinearMap inverse_;  // the joints by the motors, in steps
     bool is_direct_ = false;
 };
 

@@ -136,6 +136,42 @@ void scale(MotorConfig& motor, bool has_own_plant, const MachineConfig& machine,
     }
 }
 
+/// A place of the tool that each of the delta's axes has in its configuration.
+template <typename Coordinate>
+DeltaMap::Point tool_at(const MachineConfig& machine, const MachineDelta& delta, Coordinate coordinate) {
+    const auto of = [&](std::size_t k) { return coordinate(machine.axes[delta.axes[k]]); };
+    return {of(0), of(1), of(2)};
+}
+
+/// The carriage of a tower homes as Z does. With all carriages at their switches the tool is at Z's switch, and over
+/// the place where X and Y park. While the tool goes straight ahead at full speed, the carriage accelerates.
+void set_carriage(MotorConfig& motor, const MotorBlock* block, const MachineConfig& machine, const MachineDelta& delta,
+                  std::size_t tower) {
+    const AxisConfig& z = machine.axes[delta.axes[2]];
+    const DeltaMap::Reach reach = reach_of(machine, delta, tower);
+    const double step_mm = 1 / motor.steps_per_mm;
+    motor.position_min_mm = reach.lowest_mm - step_mm;  // a path may leave its line by less than a step
+    motor.position_max_mm = reach.highest_mm + step_mm;
+    const DeltaMap::Point speed = tool_at(machine, delta, [](const AxisConfig& a) { return a.max_velocity_mm_s; });
+    const double across = reach.steepest.x * speed.x + reach.steepest.y * speed.y;
+    const double bend_mm_s2 = (speed.x * speed.x + speed.y * speed.y + across * across) / reach.least_root_mm;
+    if (block == nullptr || !block->max_accel_mm_s2) { motor.max_accel_mm_s2 += bend_mm_s2; }
+    if (block == nullptr || !block->max_decel_mm_s2) { motor.max_decel_mm_s2 += bend_mm_s2; }
+
+    DeltaMap::Point park = tool_at(machine, delta, [](const AxisConfig& a) { return a.homing.park_mm; });
+    motor.homing = z.homing;
+    motor.homing.park_mm = delta.map.height_mm(tower, park);
+    park.z = z.homing.switch_position_mm;
+    motor.homing.switch_position_mm =
+        delta.map.height_mm(tower, park) + (block == nullptr ? 0 : block->switch_offset_mm);
+    if (block != nullptr && block->plant) { return; }
+    const DeltaMap::Point start =
+        tool_at(machine, delta, [](const AxisConfig& a) { return a.plant.start_position_mm; });
+    motor.plant.start_position_mm = delta.map.height_mm(tower, start);
+    motor.plant.travel_margin_mm = z.plant.travel_margin_mm;
+    motor.plant.max_torque_accel_mm_s2 += bend_mm_s2;
+}
+
 void set_share(LinearMap& map, std::size_t motor, const MachineConfig& machine, const std::string& axis, double share) {
     const std::size_t place = axis_named(machine, axis);
     if (place < machine.axes.size()) { map.factor(motor, place) = share; }
@@ -211,11 +247,46 @@ LinearMap motor_map_of(const MachineConfig& machine) {
         if (x < machine.axes.size()) { set_share(shear, x, machine, skew.y, skew.mm_per_m / kMetre_mm); }
         map = map.after(shear);
     }
+    if (const auto delta = delta_of(machine)) {
+        for (std::size_t k = 0; k < DeltaMap::kTowers; ++k) {
+            const DeltaMap::Point steepest = reach_of(machine, *delta, k).steepest;
+            map.factor(delta->motors[k], delta->axes[0]) = steepest.x;
+            map.factor(delta->motors[k], delta->axes[1]) = steepest.y;
+            map.factor(delta->motors[k], delta->axes[2]) = steepest.z;
+        }
+    }
     return map;
+}
+
+std::optional<MachineDelta> delta_of(const MachineConfig& machine) {
+    const std::optional<DeltaConfig>& config = machine.kinematics.delta;
+    if (!config || config->towers.size() != DeltaMap::kTowers) { return std::nullopt; }
+    std::array<DeltaMap::Tower, DeltaMap::kTowers> towers;
+    for (std::size_t k = 0; k < towers.size(); ++k) {
+        const DeltaTower& tower = config->towers[k];
+        towers[k] = {tower.x_mm, tower.y_mm, tower.rod_mm};
+    }
+    MachineDelta delta{
+        .map = DeltaMap(towers),
+        .axes = {axis_named(machine, config->x), axis_named(machine, config->y), axis_named(machine, config->z)}};
+    for (std::size_t k = 0; k < towers.size(); ++k) {
+        const auto motor = motor_named(machine, config->towers[k].motor);
+        if (!motor || delta.axes[k] >= machine.axes.size() || !(towers[k].rod_mm > 0)) { return std::nullopt; }
+        delta.motors[k] = *motor;
+        delta.motor_steps_per_mm[k] = motor_steps_per_mm(machine, *motor);
+        delta.axis_steps_per_mm[k] = machine.axes[delta.axes[k]].steps_per_mm;
+    }
+    return delta;
+}
+
+DeltaMap::Reach reach_of(const MachineConfig& machine, const MachineDelta& delta, std::size_t tower) {
+    return delta.map.reach(tower, tool_at(machine, delta, [](const AxisConfig& a) { return a.position_min_mm; }),
+                           tool_at(machine, delta, [](const AxisConfig& a) { return a.position_max_mm; }));
 }
 
 std::vector<MotorConfig> motors_of(const MachineConfig& machine) {
     const LinearMap map = motor_map_of(machine);
+    const auto delta = delta_of(machine);
     std::vector<MotorConfig> motors;
     each_motor(machine, [&](std::size_t a, const AxisConfig& axis, const MotorBlock* block) {
         MotorConfig motor = block == nullptr ? motor_of_axis(axis, a) : motor_of_block(axis, a, *block);
@@ -223,19 +294,21 @@ std::vector<MotorConfig> motors_of(const MachineConfig& machine) {
         set_limits(motor, machine, block, shares);
         motor.moves_one_axis = map.only_axis_of(motors.size()) == a;
         scale(motor, block != nullptr && block->plant.has_value(), machine, shares);
+        const auto tower = delta ? delta->tower_of(motors.size()) : std::nullopt;
+        if (tower) { set_carriage(motor, block, machine, *delta, *tower); }
         motors.push_back(std::move(motor));
     });
     return motors;
 }
 
-LinearMap step_map_of(const MachineConfig& machine) {
+MotorMap step_map_of(const MachineConfig& machine) {
     LinearMap map = motor_map_of(machine);
     for (std::size_t m = 0; m < map.motors(); ++m) {
         for (std::size_t i = 0; i < map.axes(); ++i) {
             map.factor(m, i) *= motor_steps_per_mm(machine, m) / machine.axes[i].steps_per_mm;
         }
     }
-    return map;
+    return {std::move(map), delta_of(machine)};
 }
 
 }  // namespace lockstep

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/kinematics/linear_map.hpp"
+#include "core/kinematics/motor_map.hpp"
 #include "core/machine.hpp"
 
 namespace lockstep {
@@ -46,9 +46,14 @@ double motor_steps_per_mm(const MachineConfig& machine, std::size_t motor);
 /// The number of the motor with this name; nullopt if there is none.
 std::optional<std::size_t> motor_named(const MachineConfig& machine, std::string_view name);
 
-/// The places of the motors in mm by those of the axes in mm (or degrees).
+/// The places of the motors in mm by those of the axes in mm (or degrees). For the carriages of a delta the greatest
+/// slopes within the travel.
 LinearMap motor_map_of(const MachineConfig& machine);
-/// The same in steps of the motors by steps of the axes.
-LinearMap step_map_of(const MachineConfig& machine);
+/// The places of the motors in steps by those of the axes in steps.
+MotorMap step_map_of(const MachineConfig& machine);
+/// The machine's delta. nullopt if it has none, or if its axes, towers or motors are not three each.
+std::optional<MachineDelta> delta_of(const MachineConfig& machine);
+/// The travel demands this of the carriage of a tower.
+DeltaMap::Reach reach_of(const MachineConfig& machine, const MachineDelta& delta, std::size_t tower);
 
 }  // namespace lockstep

@@ -100,7 +100,8 @@ void FramePlanner::note_begins(Ticks ticks) {
         const double from = std::max(phase.begin, 0.0);
         const double to = std::min(phase.end(), as_double(ticks));
         if (to < from) { continue; }
-        trail_.each_begin(phase.piece, [&](double u, std::uint32_t block) {
+        trail_.each_begin(phase.origin.piece, [&](double on_geometry, std::uint32_t block) {
+            const double u = on_geometry - phase.origin.u;
             const bool is_in = u >= phase.along(from) - kHair_mm && u <= phase.along(to) + kHair_mm;
             if (is_in) { begins_.push_back({block, std::clamp(phase.time_at(u), from, to)}); }
         });
@@ -208,7 +209,7 @@ FramePlanner::Cursor FramePlanner::cursor_at(const TimedPath& path, Ticks t, boo
     cursor.w0 = speed * speed;
     cursor.w1.reset();
     cursor.u = phases[k].along(at);
-    if (is_braking) { cursor.interval = window_.interval_at({phases[k].piece, cursor.u}); }
+    if (is_braking) { cursor.interval = window_.interval_at(phases[k].piece, cursor.u); }
     return cursor;
 }
 
@@ -251,7 +252,7 @@ bool FramePlanner::fit_tail(PathFrame& frame, const Cursor& from) {
 PathPlace FramePlanner::place_of_rest(const PathFrame& frame, const Cursor& behind) const {
     if (frame.last) { return trail_.place_of(path_.end_spot()); }
     if (!tail_.passages().empty()) { return trail_.place_of(tail_.end_spot()); }
-    return trail_.place_of({window_.interval(behind.interval).piece, 0});
+    return trail_.place_of({window_.shape_of(window_.interval(behind.interval)).piece, 0});
 }
 
 /// Lowers the speeds at the nodes before a place, but not below those of the hardest braking from the frame's begin. A

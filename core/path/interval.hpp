@@ -33,7 +33,7 @@ enum class IntervalKind : std::uint8_t { Straight, Curved, Rest };
 
 struct Interval {
     IntervalKind kind = IntervalKind::Curved;
-    std::size_t piece = 0;  // number since the beginning of the stream
+    std::size_t piece = 0;  // the number of its piece in the window
     double from = 0;        // u, mm
     double to = 0;
     double cap = 0;           // greatest w at its beginning by limits and joint, mm^2 per tick^2

@@ -20,7 +20,7 @@ struct PathSetup {
     std::vector<double> steps_per_mm;          // of the axes, or per degree
     Ticks frame_ticks;                         // a frame's length: pieces end at the edges of frames
     std::size_t body_pieces = kMaxBodyPieces;  // for which a frame has room, for each motor
-    LinearMap motor_map;                       // steps of the motors by those of the axes; empty: each axis is a motor
+    MotorMap motor_map;                        // steps of the motors by those of the axes; empty: each axis is a motor
     /// Steps of each axis: if all axes deviate by so much, no motor deviates by more than a step. Empty: 1.
     std::vector<double> motor_step;
 
@@ -32,7 +32,7 @@ struct PathSetup {
     const AxisLimits& limits_of_axis(std::size_t axis) const { return limits[first_axis_row() + axis]; }
     double step_of_motors(std::size_t axis) const { return has_map() ? motor_step[axis] : 1; }
     /// The motors are moved by `map`. `limits` are those of the motors so far; `axes` are appended.
-    void use_map(const LinearMap& map, std::span<const AxisLimits> axes);
+    void use_map(const MotorMap& map, std::span<const AxisLimits> axes);
     AxisVector to_steps(std::span<const double> mm) const {
         AxisVector steps;
         for (std::size_t i = 0; i < axes(); ++i) { steps.append(mm[i] * steps_per_mm[i]); }
@@ -48,15 +48,15 @@ struct PathSetup {
     }
 };
 
-inline void PathSetup::use_map(const LinearMap& map, std::span<const AxisLimits> axes) {
+inline void PathSetup::use_map(const MotorMap& map, std::span<const AxisLimits> axes) {
     motor_map = map;
     limits.insert(limits.end(), axes.begin(), axes.end());
     motor_step.assign(map.axes(), std::numeric_limits<double>::infinity());
     for (std::size_t m = 0; m < map.motors(); ++m) {
         double sum = 0;
-        for (const double share : map.row(m)) { sum += std::abs(share); }
+        for (const double share : map.shares().row(m)) { sum += std::abs(share); }
         for (std::size_t i = 0; i < map.axes(); ++i) {
-            if (map.factor(m, i) != 0) { motor_step[i] = std::min(motor_step[i], 1 / sum); }
+            if (map.shares().factor(m, i) != 0) { motor_step[i] = std::min(motor_step[i], 1 / sum); }
         }
     }
 }
@@ -80,17 +80,20 @@ inline PathSetup path_setup_of(const MachineConfig& machine) {
                     .steps_per_mm = {},
                     .frame_ticks = machine.frame_ticks(),
                     .body_pieces = static_cast<std::size_t>(body_pieces(machine.timing))};
-    if (LinearMap map = step_map_of(machine); !map.is_identity()) { setup.use_map(map, axis_frame_limits_of(machine)); }
+    if (const MotorMap map = step_map_of(machine); !map.is_identity()) {
+        setup.use_map(map, axis_frame_limits_of(machine));
+    }
     for (AxisLimits& row : setup.limits) { row = planned_limits(row); }
     for (const AxisConfig& axis : machine.axes) { setup.steps_per_mm.push_back(axis.steps_per_mm); }
     return setup;
 }
 
-/// The shares of one step of deviation. Whole pulses take kPulseShare, pieces of constant acceleration kFitShare, and
-/// rounding kRoundingShare. The rest is for joining moves.
+/// The shares of one step of deviation. Whole pulses take kPulseShare, pieces of constant acceleration kFitShare,
+/// rounding kRoundingShare, and the pieces of a map that is not linear kMapShare. The rest is for joining moves.
 inline constexpr double kPulseShare = 0.5;      // steps
 inline constexpr double kFitShare = 0.03;       // steps
 inline constexpr double kRoundingShare = 0.01;  // steps
+inline constexpr double kMapShare = 0.02;       // steps
 
 inline constexpr double kNothing = 1e-12;  // steps per mm: a row with less does not move
 

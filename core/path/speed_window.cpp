@@ -42,7 +42,10 @@ void SpeedWindow::restart(const Overrides& overrides, const PathSpot& begin) {
     is_finished_ = false;
 }
 
-void SpeedWindow::add(const Quadratic& piece) { setup_.has_map() ? add_rows(rows_of(setup_, piece)) : add_rows(piece); }
+void SpeedWindow::add(const Quadratic& piece) {
+    if (!setup_.has_map()) { return add_rows(piece); }
+    for (RowPieces rows(setup_, piece); !rows.is_done();) { add_rows(rows.next()); }
+}
 
 void SpeedWindow::add_rows(const Quadratic& piece) {
     if (pending_) { close_pending(&piece); }
@@ -73,7 +76,7 @@ SpeedWindow::Joint SpeedWindow::joint(const Quadratic* before, const Quadratic* 
     for (std::size_t i = 0; i < setup_.rows(); ++i) {
         const double t0 = before == nullptr || before->length == 0 ? 0 : before->slope_at(i, before->length);
         const double t1 =
-            after == nullptr || after->length == 0 ? 0 : after->slope_at(i, before == nullptr ? begin_u_ : 0);
+            after == nullptr || after->length == 0 ? 0 : after->slope_at(i, before == nullptr ? begin_of(*after) : 0);
         const double jump = std::abs(t1 - t0);
         if (jump < kNothing) { continue; }
         const double start = setup_.limits[i].start_velocity;
@@ -120,7 +123,7 @@ struct SpeedWindow::FastPassage {
 
 SpeedWindow::FastPassage SpeedWindow::fast_passage(const JoinedPiece& piece, const Neighbours& beside) const {
     const Quadratic& shape = piece.shape;
-    const double from = beside.before == nullptr ? begin_u_ : 0;
+    const double from = beside.before == nullptr ? begin_of(piece.shape) : 0;
     const IntervalKind kind = shape.is_straight ? IntervalKind::Straight : IntervalKind::Curved;
     const Interval whole{.kind = kind, .from = from, .to = shape.length};
     const double top = IntervalBounds(setup_, piece, whole).cap(overrides_);
@@ -142,7 +145,7 @@ void SpeedWindow::charge(JoinedPiece& piece, const Neighbours& beside) const {
     const Quadratic* const next = beside.next;
     const Quadratic& shape = piece.shape;
     const FastPassage fast = fast_passage(piece, beside);
-    const double length = shape.length - (before == nullptr ? begin_u_ : 0);
+    const double length = shape.length - (before == nullptr ? begin_of(shape) : 0);
     const bool follows = beside.follows();
     const bool goes_on = beside.goes_on();
     piece.is_charged = false;
@@ -162,7 +165,7 @@ void SpeedWindow::charge(JoinedPiece& piece, const Neighbours& beside) const {
 /// Slows the joints in place of the charge, if that takes less time. This is so for a long piece with a joint from
 /// which one axis recovers slowly: the charge would slow the whole piece.
 void SpeedWindow::slow_joints(JoinedPiece& piece, const Neighbours& beside) const {
-    const double from = beside.before == nullptr ? begin_u_ : 0;
+    const double from = beside.before == nullptr ? begin_of(piece.shape) : 0;
     const Interval whole{.kind = IntervalKind::Curved, .from = from, .to = piece.shape.length};
     const double charged_ticks = whole.length() / std::sqrt(IntervalBounds(setup_, piece, whole).cap(overrides_));
     const FastPassage fast = fast_passage(piece, beside);
@@ -182,7 +185,7 @@ void SpeedWindow::slow_joints(JoinedPiece& piece, const Neighbours& beside) cons
 
 void SpeedWindow::close_pending(const Quadratic* next) {
     if (is_passed(*pending_, next)) {
-        begin_u_ = 0;
+        if (next == nullptr || next->piece != pending_->piece) { begin_u_ = 0; }
         ++first_piece_;
         return;
     }
@@ -202,19 +205,19 @@ void SpeedWindow::close_pending(const Quadratic* next) {
 bool SpeedWindow::is_passed(const Quadratic& piece, const Quadratic* next) const {
     if (before_ || piece.length == 0) { return false; }
     const bool goes_on = next != nullptr && next->length > 0;
-    return piece.length - begin_u_ <= (goes_on ? kLeastBegin_mm : 0);
+    return piece.length - begin_of(piece) <= (goes_on ? kLeastBegin_mm : 0);
 }
 
 /// Whether the piece may be faster than both of its ends.
 bool SpeedWindow::is_slow_at_ends(const JoinedPiece& piece, const Joint& begin, const Joint& end) const {
-    const Interval whole{.from = before_ ? 0 : begin_u_, .to = piece.shape.length};
+    const Interval whole{.from = before_ ? 0 : begin_of(piece.shape), .to = piece.shape.length};
     const double top = IntervalBounds(setup_, piece, whole).cap(overrides_);
     return begin.cap < top && std::min(end.cap, piece.end_cap) < top;
 }
 
 void SpeedWindow::cut_piece(const JoinedPiece& piece, const Joint& begin, const Joint& end) {
     const Quadratic& shape = piece.shape;
-    const double from = before_ ? 0 : begin_u_;
+    const double from = before_ ? 0 : begin_of(shape);
     const double length = shape.length - from;
     pieces_.push_back(piece);
     Interval part{.piece = first_piece_ + pieces_.size() - 1, .jump = begin.jump, .joint = begin.cap};
@@ -251,13 +254,13 @@ void SpeedWindow::cut_piece(const JoinedPiece& piece, const Joint& begin, const 
     }
 }
 
-std::size_t SpeedWindow::interval_at(const PathSpot& spot) const {
+std::size_t SpeedWindow::interval_at(std::size_t piece, double u) const {
     std::size_t low = first_;
     std::size_t high = end();
     while (high - low > 1) {
         const std::size_t middle = (low + high) / 2;
         const Interval& part = interval(middle);
-        const bool is_behind = part.piece > spot.piece || (part.piece == spot.piece && part.from > spot.u);
+        const bool is_behind = part.piece > piece || (part.piece == piece && part.from > u);
         (is_behind ? high : low) = middle;
     }
     return low;

@@ -12,6 +12,7 @@
 // joints are slowed instead.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "core/path/geometry/path_trail.hpp"
@@ -47,8 +48,8 @@ public:
     std::size_t end() const { return first_ + intervals_.size(); }
     std::size_t known() const;
     const Interval& interval(std::size_t number) const { return intervals_[number - first_]; }
-    /// The interval that contains a spot.
-    std::size_t interval_at(const PathSpot& spot) const;
+    /// The interval that contains the place u of a piece.
+    std::size_t interval_at(std::size_t piece, double u) const;
     const JoinedPiece& piece_of(const Interval& part) const { return pieces_[part.piece - first_piece_]; }
     const Quadratic& shape_of(const Interval& part) const { return piece_of(part).shape; }
     IntervalBounds bounds(const Interval& part) const { return {setup_, piece_of(part), part}; }
@@ -92,6 +93,8 @@ private:
     };
     struct FastPassage;
 
+    /// Where the path begins on the first piece of the window.
+    double begin_of(const Quadratic& piece) const { return std::max(begin_u_ - piece.begin, 0.0); }
     const Quadratic* before() const { return before_ ? &*before_ : nullptr; }
     void add_rows(const Quadratic& piece);
     void close_pending(const Quadratic* next);
@@ -112,7 +115,7 @@ private:
 
     PathSetup setup_;
     Overrides overrides_;
-    double begin_u_ = 0;               // where the path begins on the first piece
+    double begin_u_ = 0;               // where the path begins on the first piece of geometry
     ReusedQueue<JoinedPiece> pieces_;  // phases refer to them
     SlidingVector<Interval> intervals_;
     std::size_t first_ = 0;

@@ -8,6 +8,10 @@ namespace {
 
 constexpr double kShortest_ticks = 1e-9;
 
+PathPhase phase_on(const Quadratic& shape, const Interval& part, std::size_t number) {
+    return {.shape = &shape, .interval = number, .piece = part.piece, .origin = {shape.piece, shape.begin}};
+}
+
 }  // namespace
 
 StraightPassage::StraightPassage(const Interval& part, double w0, double w1) {
@@ -65,7 +69,7 @@ void TimedPath::add(PathPhase phase, double mm, double u, double w0, double w1) 
 /// has room for few.
 void TimedPath::pass(const Quadratic& shape, const Interval& part, std::size_t number, double w0, double w1) {
     passages_.push_back({number, end_, w0, w1, phases_.size()});
-    const PathPhase here{.shape = &shape, .interval = number, .piece = part.piece};
+    const PathPhase here = phase_on(shape, part, number);
     const bool is_rest = part.kind == IntervalKind::Rest;
     const bool has_rested = stop_.shape != nullptr && stop_.shape->length == 0;
     stop_ = here;
@@ -91,7 +95,7 @@ void TimedPath::brake(const Quadratic& shape, const Interval& part, std::size_t 
     passages_.push_back({number, end_, w0, 0, phases_.size()});
     breaks_ = part.jump * std::sqrt(w0) > kBreak;
     const double mm = w0 > 0 ? part.length() * w0 / (w0 - w1) : 0;
-    const PathPhase here{.shape = &shape, .interval = number, .piece = part.piece};
+    const PathPhase here = phase_on(shape, part, number);
     stop_ = here;
     stop_.ticks = 0x1p40;
     stop_.u = part.from + mm;
@@ -101,7 +105,7 @@ void TimedPath::brake(const Quadratic& shape, const Interval& part, std::size_t 
 PathSpot TimedPath::spot_at(double t) const {
     std::size_t k = 0;
     while (k + 1 < phases_.size() && phases_[k].end() <= t) { ++k; }
-    return {phases_[k].piece, phases_[k].along(t)};
+    return phases_[k].spot(phases_[k].along(t));
 }
 
 void TimedPath::shift(Ticks ticks) {

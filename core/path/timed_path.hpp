@@ -24,7 +24,8 @@ inline double ticks_over(double mm, double v0, double v1) { return mm > 0 ? 2 * 
 struct PathPhase {
     const Quadratic* shape = nullptr;
     std::size_t interval = 0;  // the number of the interval
-    std::size_t piece = 0;     // the number of the interval's piece
+    std::size_t piece = 0;     // the number of the interval's piece in the window
+    PathSpot origin;           // of this piece on the geometry
     double begin = 0;          // ticks
     double ticks = 0;
     double u = 0;         // mm, at its beginning
@@ -38,6 +39,8 @@ struct PathPhase {
     double speed(double t) const;
     /// The time at a place along the piece; in a rest, its begin.
     double time_at(double along) const;
+    /// The spot on the geometry.
+    PathSpot spot(double along_mm) const { return {origin.piece, origin.u + along_mm}; }
     /// Place (steps) and velocity (steps per tick) of an axis.
     double place(std::size_t i, double t) const { return shape->place(i, along(t)); }
     double velocity(std::size_t i, double t) const { return shape->slope_at(i, along(t)) * speed(t); }
@@ -68,7 +71,7 @@ public:
     /// The time at the end of the last interval, or at which the path came to rest.
     double end() const { return end_; }
     /// The spot of this end on the geometry.
-    PathSpot end_spot() const { return {stop_.piece, stop_.u}; }
+    PathSpot end_spot() const { return stop_.spot(stop_.u); }
     /// The spot at a time within the phases.
     PathSpot spot_at(double t) const;
     const std::vector<PathPhase>& phases() const { return phases_; }

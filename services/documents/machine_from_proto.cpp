@@ -262,6 +262,23 @@ void read_motors(const proto::Axis& message, AxisConfig& axis, Reader& reader) {
     if (needs_skew) { reader.require(message.has_max_skew_mm(), message.max_skew_mm(), skew, "max_skew_mm"); }
 }
 
+DeltaConfig read_delta(const proto::Delta& message, Reader& reader) {
+    DeltaConfig delta;
+    reader.require(message.has_x(), message.x(), delta.x, "kinematics.delta.x");
+    reader.require(message.has_y(), message.y(), delta.y, "kinematics.delta.y");
+    reader.require(message.has_z(), message.z(), delta.z, "kinematics.delta.z");
+    for (int k = 0; k < message.tower_size(); ++k) {
+        const proto::Tower& from = message.tower(k);
+        const std::string place = fmt::format("kinematics.delta.tower[{}]", k);
+        DeltaTower& tower = delta.towers.emplace_back();
+        reader.require(from.has_motor(), from.motor(), tower.motor, place + ".motor");
+        reader.require(from.has_x_mm(), from.x_mm(), tower.x_mm, place + ".x_mm");
+        reader.require(from.has_y_mm(), from.y_mm(), tower.y_mm, place + ".y_mm");
+        reader.require(from.has_rod_mm(), from.rod_mm(), tower.rod_mm, place + ".rod_mm");
+    }
+    return delta;
+}
+
 KinematicsConfig read_kinematics(const proto::Machine& message, Reader reader) {
     KinematicsConfig kinematics;
     if (message.kinematics().has_core_xy()) {
@@ -282,6 +299,7 @@ KinematicsConfig read_kinematics(const proto::Machine& message, Reader reader) {
             reader.require(row.of(k).has_factor(), row.of(k).factor(), share.factor, of + ".factor");
         }
     }
+    if (message.kinematics().has_delta()) { kinematics.delta = read_delta(message.kinematics().delta(), reader); }
     for (int k = 0; k < message.skew_size(); ++k) {
         const std::string place = fmt::format("skew[{}]", k);
         Skew& skew = kinematics.skews.emplace_back();

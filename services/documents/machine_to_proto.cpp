@@ -104,6 +104,19 @@ void write_motor(const MotorBlock& motor, proto::Motor& message) {
     if (motor.plant) { write_plant(*motor.plant, *message.mutable_plant()); }
 }
 
+void write_delta(const DeltaConfig& delta, proto::Delta& message) {
+    message.set_x(delta.x);
+    message.set_y(delta.y);
+    message.set_z(delta.z);
+    for (const DeltaTower& tower : delta.towers) {
+        proto::Tower& out = *message.add_tower();
+        out.set_motor(tower.motor);
+        out.set_x_mm(tower.x_mm);
+        out.set_y_mm(tower.y_mm);
+        out.set_rod_mm(tower.rod_mm);
+    }
+}
+
 void write_kinematics(const KinematicsConfig& kinematics, proto::Machine& message) {
     if (kinematics.core_xy) {
         proto::CoreXy& core = *message.mutable_kinematics()->mutable_core_xy();
@@ -119,6 +132,7 @@ void write_kinematics(const KinematicsConfig& kinematics, proto::Machine& messag
             of.set_factor(share.factor);
         }
     }
+    if (kinematics.delta) { write_delta(*kinematics.delta, *message.mutable_kinematics()->mutable_delta()); }
     for (const Skew& skew : kinematics.skews) {
         proto::Skew& out = *message.add_skew();
         out.set_x(skew.x);

@@ -62,6 +62,7 @@ CommandResult check_ready(const MachineActivity& activity, const LoopView& loop)
 }
 
 /// A motor that moves several axes must home with all of them, because their places are known together or not at all.
+/// Only the carriage of a delta has a switch.
 CommandResult check_homes_alone(AxisSet axes, const LoopView& loop) {
     for (std::size_t m = 0; m < loop.kinematics.motors().size(); ++m) {
         const AxisSet moved = loop.kinematics.axes_of_motor(m);
@@ -70,6 +71,7 @@ CommandResult check_homes_alone(AxisSet axes, const LoopView& loop) {
             return refuse(FaultCode::BadProgram,
                           loop.label_of(m) + " moves several axes, which can only be homed together: name all of them");
         }
+        if (!loop.kinematics.motors()[m].homing.in_place) { continue; }
         for (std::size_t i = 0; i < loop.machine.axes.size(); ++i) {
             const AxisConfig& axis = loop.machine.axes[i];
             if (!has_axis(moved, i) || axis.homing.in_place) { continue; }

@@ -216,7 +216,9 @@ void ChordJoiner::set_tolerance(const MoveSettings& settings) {
     for (std::size_t i = 0; i < setup_.axes(); ++i) {
         const double step = setup_.step_of_motors(i);
         const double whole = std::max(step, settings.tolerance_mm * setup_.steps_per_mm[i]);
-        tolerance_steps_.push_back(whole - kPulseShare * step - kFitShare * step - kRoundingShare * step);
+        const double map_share = setup_.motor_map.is_linear() ? 0 : kMapShare;
+        tolerance_steps_.push_back(whole - kPulseShare * step - kFitShare * step - kRoundingShare * step -
+                                   map_share * step);
     }
 }
 

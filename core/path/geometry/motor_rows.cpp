@@ -5,34 +5,166 @@
 namespace lockstep {
 namespace {
 
+constexpr std::size_t kMostParts = 1024;
+constexpr double kMeasuredShare = 0.75;  // of kMapShare: between the places that are compared the distance is greater
+
 /// The rows of the axes are behind the motors'.
 void append_axes(AxisVector& rows, const AxisVector& axes) {
     for (const double value : axes) { rows.append(value); }
 }
 
-}  // namespace
+/// A motor over a piece: its places at both ends, its slope and its bend as in Quadratic.
+struct MotorWay {
+    double from = 0;
+    double to = 0;
+    double slope = 0;
+    double bend = 0;
+};
 
-Quadratic rows_of(const PathSetup& setup, const Quadratic& axes) {
+/// Adds a motor to a piece of rows that has all but its motors and axes.
+void append_motor(Quadratic& rows, const MotorWay& way) {
+    const bool is_rest = rows.length == 0;
+    const bool begins = rows.begins_at_rest || is_rest;
+    const double from = begins ? std::round(way.from) : way.from;
+    const double to = rows.ends_at_rest ? std::round(way.to) : way.to;
+    const bool is_exact = is_rest || !(begins || rows.ends_at_rest);
+    rows.from.append(from);
+    rows.slope.append(is_exact ? way.slope : (to - from) / rows.length);
+    rows.bend.append(way.bend);
+}
+
+/// The rows of a piece of the axes; `way_of(m)` is a motor's way over it.
+template <typename WayOf>
+Quadratic rows_of(const Quadratic& axes, std::size_t motors, WayOf way_of) {
     Quadratic rows = axes;
     rows.from.clear();
     rows.slope.clear();
     rows.bend.clear();
-    AxisVector end;
-    for (std::size_t i = 0; i < setup.axes(); ++i) { end.append(axes.place(i, axes.length)); }
-    const bool is_rest = axes.length == 0;
-    const LinearMap& map = setup.motor_map;
-    for (std::size_t m = 0; m < setup.motors(); ++m) {
-        rows.from.append(map.place(m, axes.from));
-        rows.slope.append(map.place(m, axes.slope));
-        rows.bend.append(map.place(m, axes.bend));
-        if (axes.begins_at_rest || is_rest) { rows.from[m] = std::round(rows.from[m]); }
-        if (is_rest || !(axes.begins_at_rest || axes.ends_at_rest)) { continue; }
-        const double to = map.place(m, end);
-        rows.slope[m] = ((axes.ends_at_rest ? std::round(to) : to) - rows.from[m]) / axes.length;
-    }
+    for (std::size_t m = 0; m < motors; ++m) { append_motor(rows, way_of(m)); }
     append_axes(rows.from, axes.from);
     append_axes(rows.slope, axes.slope);
     append_axes(rows.bend, axes.bend);
+    return rows;
+}
+
+/// The place of the axes, on whole steps if the machine rests there.
+AxisVector place_at(const Quadratic& axes, double u) {
+    AxisVector place;
+    const bool is_rest = axes.ends_at_rest && u == axes.length;
+    for (std::size_t i = 0; i < axes.from.size(); ++i) {
+        const double steps = axes.place(i, u);
+        place.append(is_rest ? std::round(steps) : steps);
+    }
+    return place;
+}
+
+AxisVector slope_at(const Quadratic& axes, double u) {
+    AxisVector slope;
+    for (std::size_t i = 0; i < axes.slope.size(); ++i) { slope.append(axes.slope_at(i, u)); }
+    return slope;
+}
+
+/// A part of a piece of the axes.
+Quadratic part_of(const Quadratic& axes, double from, double to) {
+    Quadratic part = axes;
+    part.from = place_at(axes, from);
+    part.slope = slope_at(axes, (from + to) / 2);
+    part.length = to - from;
+    part.begin = axes.begin + from;
+    part.begins_at_rest = axes.begins_at_rest && from == 0;
+    part.ends_at_rest = axes.ends_at_rest && to == axes.length;
+    return part;
+}
+
+/// The way of a motor whose slopes do not change over the piece.
+MotorWay straight_way(const MotorMap& map, std::size_t m, const Quadratic& axes) {
+    return {.from = map.place(m, axes.from),
+            .to = map.place(m, place_at(axes, axes.length)),
+            .slope = map.slope(m, axes.from, axes.slope),
+            .bend = map.slope(m, axes.from, axes.bend)};
+}
+
+/// Two quadratics with the places and the slopes of a motor's curve at both ends of a part.
+struct MotorCurve {
+    MotorCurve(const MotorMap& map, std::size_t motor, const Quadratic& axes, double a, double b)
+        : half((b - a) / 2), from(map.place(motor, place_at(axes, a))), to(map.place(motor, place_at(axes, b))) {
+        begin_slope = map.slope(motor, place_at(axes, a), slope_at(axes, a));
+        end_slope = map.slope(motor, place_at(axes, b), slope_at(axes, b));
+        middle_slope = (to - from) / half - (begin_slope + end_slope) / 2;
+        middle = from + (begin_slope + middle_slope) / 2 * half;
+    }
+    MotorWay first() const {
+        return {from, middle, (begin_slope + middle_slope) / 2, (middle_slope - begin_slope) / half};
+    }
+    MotorWay second() const { return {middle, to, (middle_slope + end_slope) / 2, (end_slope - middle_slope) / half}; }
+    /// In the middle of a half.
+    double quarter(const MotorWay& way) const { return way.from + (way.slope - way.bend * half / 4) * half / 2; }
+
+    double half = 0;  // mm
+    double from = 0;  // steps
+    double middle = 0;
+    double to = 0;
+    double begin_slope = 0;  // steps per mm
+    double middle_slope = 0;
+    double end_slope = 0;
+};
+
+}  // namespace
+
+RowPieces::RowPieces(const PathSetup& setup, const Quadratic& axes) : setup_(setup), axes_(axes) {
+    const bool is_curve = axes.length > 0 && (setup.motor_map.bends(axes.slope) || setup.motor_map.bends(axes.bend));
+    if (!is_curve) { return; }
+    parts_ = 1;
+    while (parts_ < kMostParts && !is_close()) { parts_ *= 2; }
+    end_ = 2 * parts_;
+}
+
+double RowPieces::cut_at(std::size_t part) const {
+    return part == parts_ ? axes_.length : axes_.length * static_cast<double>(part) / static_cast<double>(parts_);
+}
+
+/// Compares the quadratics with the curve in their middles and where they meet.
+bool RowPieces::is_close() const {
+    const MotorMap& map = setup_.motor_map;
+    const auto is_near = [&](std::size_t m, double u, double steps) {
+        return std::abs(map.place(m, place_at(axes_, u)) - steps) <= kMeasuredShare * kMapShare;
+    };
+    for (std::size_t k = 0; k < parts_; ++k) {
+        const double a = cut_at(k);
+        const double b = cut_at(k + 1);
+        for (std::size_t m = 0; m < map.motors(); ++m) {
+            if (!map.is_curved(m)) { continue; }
+            const MotorCurve curve(map, m, axes_, a, b);
+            const double quarter = (b - a) / 4;
+            const bool is_close = is_near(m, a + 2 * quarter, curve.middle) &&
+                                  is_near(m, a + quarter, curve.quarter(curve.first())) &&
+                                  is_near(m, b - quarter, curve.quarter(curve.second()));
+            if (!is_close) { return false; }
+        }
+    }
+    return true;
+}
+
+Quadratic RowPieces::next() {
+    const std::size_t number = next_++;
+    if (parts_ > 0) { return half(number); }
+    const MotorMap& map = setup_.motor_map;
+    return rows_of(axes_, map.motors(), [&](std::size_t m) { return straight_way(map, m, axes_); });
+}
+
+Quadratic RowPieces::half(std::size_t number) const {
+    const MotorMap& map = setup_.motor_map;
+    const double a = cut_at(number / 2);
+    const double b = cut_at(number / 2 + 1);
+    const bool is_first = number % 2 == 0;
+    const double middle = (a + b) / 2;
+    const Quadratic axes = is_first ? part_of(axes_, a, middle) : part_of(axes_, middle, b);
+    Quadratic rows = rows_of(axes, map.motors(), [&](std::size_t m) {
+        if (!map.is_curved(m)) { return straight_way(map, m, axes); }
+        const MotorCurve curve(map, m, axes_, a, b);
+        return is_first ? curve.first() : curve.second();
+    });
+    rows.is_straight = false;
     return rows;
 }
 

@@ -32,6 +32,7 @@ public:
     void add(const Quadratic& piece) {
         pieces_.push_back(piece);
         pieces_.back().begins_at_rest = is_at_rest_;
+        pieces_.back().piece = end() - 1;
         is_at_rest_ = false;
     }
     /// Adds a rest, as a separate move or at the end of the last move.

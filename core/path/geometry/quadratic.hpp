@@ -23,7 +23,9 @@ struct Quadratic {
     bool is_straight = true;                 // bend is 0
     bool begins_at_rest = false;             // the machine rests at its begin, and there at whole steps
     bool ends_at_rest = false;
-    Ticks rest;  // duration if length is 0
+    Ticks rest;             // duration if length is 0
+    std::size_t piece = 0;  // the number of the piece of geometry in its stream
+    double begin = 0;       // mm: rows may have several pieces for one piece of geometry, and this is where one begins
 
     double place(std::size_t i, double u) const {
         return from.begin()[i] + (slope.begin()[i] + bend.begin()[i] * (u - length) / 2) * u;

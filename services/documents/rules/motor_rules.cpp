@@ -12,6 +12,7 @@
 #include "services/documents/names.hpp"
 #include "services/documents/problem_list.hpp"
 #include "services/documents/rules/axis_ranges.hpp"
+#include "services/documents/rules/delta_rules.hpp"
 
 namespace lockstep {
 namespace {
@@ -64,10 +65,12 @@ private:
         speed(at + "max_velocity_mm_s", motor.max_velocity_mm_s);
         accel(at + "max_accel_mm_s2", motor.max_accel_mm_s2);
         accel(at + "max_decel_mm_s2", motor.max_decel_mm_s2);
-        const double most = axis_.max_skew_mm.value_or(0);
-        problems_.require(std::abs(motor.switch_offset_mm) <= most, at + "switch_offset_mm",
-                          fmt::format("switch_offset_mm is {}; it must be from {} to {}, the axis's max_skew_mm",
-                                      number_text(motor.switch_offset_mm), number_text(-most), number_text(most)));
+        const bool is_carriage = is_on_tower(machine_, motor.name);
+        const double most = is_carriage ? kMaxSwitchOffset_mm : axis_.max_skew_mm.value_or(0);
+        problems_.require(
+            std::abs(motor.switch_offset_mm) <= most, at + "switch_offset_mm",
+            fmt::format("switch_offset_mm is {}; it must be from {} to {}{}", number_text(motor.switch_offset_mm),
+                        number_text(-most), number_text(most), is_carriage ? "" : ", the axis's max_skew_mm"));
     }
     void speed(const std::string& key, std::optional<double> value) {
         if (value) { problems_.require_range(key, *value, kMinSpeed_mm_s, kMaxSpeed_mm_s); }
@@ -169,6 +172,7 @@ std::vector<Problem> kinematics_problems(const MachineConfig& machine) {
                    {kinematics.core_xy->first, kinematics.core_xy->second}, problems);
     }
     check_matrix(machine, problems);
+    check_delta(machine, problems);
     for (std::size_t k = 0; k < kinematics.skews.size(); ++k) {
         const Skew& skew = kinematics.skews[k];
         const std::string at = fmt::format("skew[{}]", k);
@@ -176,8 +180,8 @@ std::vector<Problem> kinematics_problems(const MachineConfig& machine) {
         problems.require_range(at + ".mm_per_m", skew.mm_per_m, -kMaxSkew_mm_per_m, kMaxSkew_mm_per_m);
     }
     const std::size_t rows = motor_count(machine) + machine.axes.size();
-    const LinearMap map = motor_map_of(machine);
-    const bool is_direct = map.is_identity() && step_map_of(machine).is_identity();
+    const MotorMap map = step_map_of(machine);
+    const bool is_direct = motor_map_of(machine).is_identity() && map.is_identity();
     problems.require(is_direct || rows <= kMaxAxes, "",
                      fmt::format("the machine has {} axes and motors together; with motor blocks or kinematics there "
                                  "may be {} at most",
@@ -185,7 +189,7 @@ std::vector<Problem> kinematics_problems(const MachineConfig& machine) {
     problems.require(is_direct || machine.coordination != StepMethod::Lai, "coordination",
                      "coordination is LAI, which moves one motor for each axis; set RANADE");
     if (!problems.empty()) { return problems.take(); }
-    problems.require(map.inverse().has_value(), "kinematics",
+    problems.require(map.motors_by_joints().inverse().has_value(), "kinematics",
                      "different places of the axes give the same places of the motors; each axis needs a motor that "
                      "the others do not move alike");
     if (!is_direct) {

@@ -75,7 +75,7 @@ MotorCase motor_case(std::uint64_t seed) {
     return {{std::move(setup), std::move(program)}, map.inverse().value()};
 }
 
-Place motors_of_place(const LinearMap& map, const Place& axes) {
+Place motors_of_place(const MotorMap& map, const Place& axes) {
     Place motors;
     for (std::size_t m = 0; m < map.motors(); ++m) { motors.push_back(map.place(m, axes)); }
     return motors;

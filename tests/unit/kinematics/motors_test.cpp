@@ -62,7 +62,7 @@ TEST(Motors, OfAGantryHaveTheAxissLimitsOrTheirOwn) {
     EXPECT_EQ(motors[1].homing.switch_position_mm, -1);
     EXPECT_EQ(motors[2].homing.switch_position_mm, -0.6);
     EXPECT_EQ(motors[2].axis, 1U);
-    const LinearMap map = step_map_of(machine);
+    const LinearMap map = step_map_of(machine).shares();
     EXPECT_EQ(map.factor(1, 1), 1);
     EXPECT_EQ(map.factor(2, 1), 1.25);
 }

@@ -1,0 +1,96 @@
+// The places of the motors by those of the axes, in steps. Most motors follow sums of shares of the axes; the carriages
+// of a delta follow three axes by roots (core/kinematics/delta_map.hpp).
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include "core/kinematics/delta_map.hpp"
+#include "core/kinematics/linear_map.hpp"
+
+namespace lockstep {
+
+/// A delta of a machine.
+struct MachineDelta {
+    DeltaMap map;
+    std::array<std::size_t, 3> axes{};  // X, Y, Z
+    std::array<std::size_t, DeltaMap::kTowers> motors{};
+    std::array<double, 3> axis_steps_per_mm{};
+    std::array<double, DeltaMap::kTowers> motor_steps_per_mm{};
+
+    /// The tower of a motor.
+    std::optional<std::size_t> tower_of(std::size_t motor) const;
+    std::optional<std::size_t> coordinate_of(std::size_t axis) const;
+    template <typename Places>
+    DeltaMap::Point point(const Places& axis_steps) const {
+        const auto mm = [&](std::size_t k) { return static_cast<double>(axis_steps[axes[k]]) / axis_steps_per_mm[k]; };
+        return {mm(0), mm(1), mm(2)};
+    }
+};
+
+class MotorMap {
+public:
+    MotorMap() = default;
+    /// `shares`: for the motors of a delta the greatest slopes within the travel.
+    MotorMap(LinearMap shares, std::optional<MachineDelta> delta = std::nullopt)  // NOLINT(google-explicit-constructor)
+        : shares_(std::move(shares)), delta_(std::move(delta)) {}
+
+    std::size_t motors() const { return shares_.motors(); }
+    std::size_t axes() const { return shares_.axes(); }
+    bool is_linear() const { return !delta_; }
+    const std::optional<MachineDelta>& delta() const { return delta_; }
+    bool is_identity() const { return is_linear() && shares_.is_identity(); }
+    /// By how much each motor moves at most if an axis moves by a step, with a sign if it is the same everywhere.
+    const LinearMap& shares() const { return shares_; }
+
+    /// The place of a motor.
+    template <typename Places>
+    double place(std::size_t motor, const Places& axes) const {
+        const auto tower = tower_of(motor);
+        if (!tower) { return shares_.place(motor, axes); }
+        return delta_->map.height_mm(*tower, delta_->point(axes)) * delta_->motor_steps_per_mm[*tower];
+    }
+    /// By how much a motor moves while the axes move a little from `at`, for a change of the axes.
+    template <typename Places>
+    double slope(std::size_t motor, const Places& at, const Places& change) const {
+        const auto tower = tower_of(motor);
+        if (!tower) { return shares_.place(motor, change); }
+        return delta_->map.rise_mm(*tower, delta_->point(at), delta_->point(change)) *
+               delta_->motor_steps_per_mm[*tower];
+    }
+    /// Whether a motor follows a curve while the axes move in a line.
+    bool is_curved(std::size_t motor) const { return tower_of(motor).has_value(); }
+    /// Whether some motor's slope changes while the axes move in this direction.
+    template <typename Places>
+    bool bends(const Places& direction) const {
+        return delta_ && (direction[delta_->axes[0]] != 0 || direction[delta_->axes[1]] != 0);
+    }
+    /// The slopes at a place of the axes.
+    LinearMap slopes_at(const std::vector<double>& axes) const;
+
+    /// Joints: the motors' places without what is not linear, one for each axis, so that a linear map leads from them
+    /// to the motors. Those of a delta are its carriages, in steps of their motors.
+    LinearMap motors_by_joints() const;
+    /// The place of an axis; `joint(i)` is the place of a joint.
+    template <typename Joint>
+    double axis_by_joints(std::size_t axis, Joint joint) const {
+        const auto coordinate = delta_ ? delta_->coordinate_of(axis) : std::nullopt;
+        if (!coordinate) { return joint(axis); }
+        std::array<double, DeltaMap::kTowers> heights{};
+        for (std::size_t k = 0; k < heights.size(); ++k) {
+            heights[k] = joint(delta_->axes[k]) / delta_->motor_steps_per_mm[k];
+        }
+        const DeltaMap::Point at = delta_->map.place(heights);
+        return std::array{at.x, at.y, at.z}[*coordinate] * delta_->axis_steps_per_mm[*coordinate];
+    }
+
+private:
+    std::optional<std::size_t> tower_of(std::size_t motor) const {
+        return delta_ ? delta_->tower_of(motor) : std::nullopt;
+    }
+
+    LinearMap shares_;
+    std::optional<MachineDelta> delta_;
+};
+
+}  // namespace lockstep
