@@ -76,6 +76,23 @@ TEST_F(Delta, HomesEachCarriageByItsOwnSwitchAndParksTheTool) {
     }
 }
 
+/// The carriages may be faster than Z, but the tool hangs on all three.
+TEST_F(Delta, HomesNoFasterThanItsSearchVelocity) {
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
+    StepLog log;
+    vm.observe(log);
+    home();
+    const MotorConfig carriage = motors_of(vm.machine())[0];
+    EXPECT_GT(carriage.max_velocity_mm_s, 2 * vm.machine().axes[2].max_velocity_mm_s);
+    std::array<std::int64_t, 3> last{};
+    const double least = 1e6 / (vm.machine().axes[2].homing.search_velocity_mm_s * 50) * 0.99;
+    for (const StepLog::Step& step : log.steps) {
+        if (last[step.axis] > 0) { ASSERT_GT(static_cast<double>(step.tick - last[step.axis]), least); }
+        last[step.axis] = step.tick;
+    }
+    EXPECT_GT(log.steps.size(), 1000U);
+}
+
 TEST_F(Delta, HomesItsAxesTogetherOnly) {
     ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
     const Reply reply = ask(CommandKind::Home, axis_bit(2));
