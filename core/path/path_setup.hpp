@@ -16,7 +16,7 @@ namespace lockstep {
 /// Geometry is in steps of the axes; speeds are limited and pieces fitted in rows. If each axis is moved by a motor of
 /// its own, with the axis's steps, the rows are the axes. Otherwise they are the motors, and behind them the axes.
 struct PathSetup {
-    std::vector<AxisLimits> limits;            // of the rows in frames: frame_limits_of, as planned_limits
+    std::vector<AxisLimits> limits;            // of the rows in frames: frame_limits_of, with reserves for planning
     std::vector<double> steps_per_mm;          // of the axes, or per degree
     Ticks frame_ticks;                         // a frame's length: pieces end at the edges of frames
     std::size_t body_pieces = kMaxBodyPieces;  // for which a frame has room, for each motor
@@ -61,18 +61,25 @@ inline void PathSetup::use_map(const MotorMap& map, std::span<const AxisLimits> 
     }
 }
 
-/// An axis that would reach its start velocity within a few ticks accelerates less. Otherwise a rounding to whole ticks
-/// could change its speed by more than the start velocity, and no motion from rest would keep the limits. Its speed
-/// leaves room for rounding below the greatest speed that a device can execute, and two ticks of acceleration fit into
-/// this room.
-inline AxisLimits planned_limits(AxisLimits axis) {
+/// A row that would reach its start velocity within a few ticks accelerates less. Otherwise a rounding to whole ticks
+/// could change its speed by more than the start velocity, and no motion from rest would keep the limits.
+inline AxisLimits planned_limits(AxisLimits row) {
     constexpr double kTicks = 8;
-    axis.max_velocity = std::min(axis.max_velocity, kMaxPlannedStepsPerTick);
-    axis.start_velocity = std::min(axis.start_velocity, kMaxPlannedStepsPerTick);
-    const double most = std::min(axis.start_velocity / kTicks, (kMaxStepsPerTick - axis.max_velocity) / 2);
-    axis.max_acceleration = std::min(axis.max_acceleration, most);
-    axis.max_deceleration = std::min(axis.max_deceleration, most);
-    return axis;
+    row.max_acceleration = std::min(row.max_acceleration, row.start_velocity / kTicks);
+    row.max_deceleration = std::min(row.max_deceleration, row.start_velocity / kTicks);
+    return row;
+}
+
+/// The speed of a motor also leaves room for rounding below the greatest speed that a device can execute, and two ticks
+/// of acceleration fit into this room. No device makes the steps of an axis that has motors with other ones.
+inline AxisLimits planned_motor_limits(AxisLimits motor) {
+    motor.max_velocity = std::min(motor.max_velocity, kMaxPlannedStepsPerTick);
+    motor.start_velocity = std::min(motor.start_velocity, kMaxPlannedStepsPerTick);
+    motor = planned_limits(motor);
+    const double most = (kMaxStepsPerTick - motor.max_velocity) / 2;
+    motor.max_acceleration = std::min(motor.max_acceleration, most);
+    motor.max_deceleration = std::min(motor.max_deceleration, most);
+    return motor;
 }
 
 inline PathSetup path_setup_of(const MachineConfig& machine) {
@@ -83,7 +90,10 @@ inline PathSetup path_setup_of(const MachineConfig& machine) {
     if (const MotorMap map = step_map_of(machine); !map.is_identity()) {
         setup.use_map(map, axis_frame_limits_of(machine));
     }
-    for (AxisLimits& row : setup.limits) { row = planned_limits(row); }
+    for (std::size_t i = 0; i < setup.rows(); ++i) {
+        AxisLimits& row = setup.limits[i];
+        row = i < setup.motors() ? planned_motor_limits(row) : planned_limits(row);
+    }
     for (const AxisConfig& axis : machine.axes) { setup.steps_per_mm.push_back(axis.steps_per_mm); }
     return setup;
 }
