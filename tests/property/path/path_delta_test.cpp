@@ -203,8 +203,8 @@ TEST_P(RandomDelta, ResumesWhereAFramesTailEnds) {
     PathRun rest;
     for (std::size_t frames = 0; frames < 1 + GetParam() % 5 && !planner.is_done(); ++frames) {
         const auto frame = planner.next();
-        ASSERT_TRUE(frame && *frame);
-        if ((*frame)->last) { break; }
+        ASSERT_TRUE(frame) << "stuck in block " << frame.error().at.block;
+        if (!*frame || (*frame)->last) { break; }
         rest.from.clear();
         for (const AxisTrack& track : (*frame)->axes) {
             Position at = track.from;
