@@ -4,7 +4,7 @@
 #include "tests/simulation/simtest/check/checks.hpp"
 #include "tests/simulation/simtest/record/explain.hpp"
 #include "tests/simulation/simtest/record/follow.hpp"
-#include "tests/simulation/simtest/record/motor_map.hpp"
+#include "tests/simulation/simtest/record/motor_shares.hpp"
 
 namespace lockstep::simtest {
 namespace {
@@ -38,7 +38,7 @@ struct Limits {
     double decel = 0;
 };
 
-Limits in_ticks(const MotorMap& map, std::int64_t tick_ns, std::size_t motor) {
+Limits in_ticks(const MotorShares& map, std::int64_t tick_ns, std::size_t motor) {
     const MotorLimits& limits = map.limits(motor);
     const double tick = static_cast<double>(tick_ns) * 1e-9;
     const double scale = map.steps_per_mm(motor) * tick * kRounding;
@@ -266,7 +266,7 @@ private:
 
 Violations check_limits(const Recording& recording, const Followings& followings) {
     Violations violations;
-    const MotorMap map(recording.machine);
+    const MotorShares map(recording.machine);
     for (std::size_t k = 0; k < recording.jobs.size(); ++k) {
         const Following* following = followings[k] ? &*followings[k] : nullptr;
         for (std::size_t i = 0; i < recording.motors.size(); ++i) {

@@ -9,6 +9,7 @@
 #include "tests/simulation/simtest/draw/draw_stream.hpp"
 #include "tests/simulation/simtest/draw/draw_takeover.hpp"
 #include "tests/simulation/simtest/draw/scenario.hpp"
+#include "tests/simulation/simtest/record/motor_shares.hpp"
 
 namespace lockstep::simtest {
 namespace {
@@ -35,9 +36,11 @@ NetworkBehaviour draw_network(Draw& draw, const FaultKinds& faults, Ticks slot) 
 
 /// A program that starts where no axis can be.
 Program elsewhere(Program program, const MachineConfig& machine) {
+    const MotorShares motors(machine);
     for (const std::string& name : program.axes) {
         const auto axis = std::ranges::find(machine.axes, name, &AxisConfig::name);
-        program.start_mm.push_back(axis->position_max_mm + 10 / axis->steps_per_mm);
+        const double step_of_motor = motors.step_of(static_cast<std::size_t>(axis - machine.axes.begin()));
+        program.start_mm.push_back(axis->position_max_mm + 10 * step_of_motor / axis->steps_per_mm);
     }
     return program;
 }
@@ -46,7 +49,7 @@ WrongCommand wrong_when_idle(Draw& draw, const MachineConfig& machine) {
     const std::size_t i = draw.index(machine.axes.size());
     const AxisConfig& axis = machine.axes[i];
     Program program{.name = "wrong", .axes = {axis.name}, .start_mm = {}, .blocks = {}};
-    const double step = 1 / axis.steps_per_mm;
+    const double step = MotorShares(machine).step_of(i) / axis.steps_per_mm;  // of a motor
     switch (draw.index(8)) {
         case 0: return {CommandKind::Hold, {}, FaultCode::NothingToDo};
         case 1: return {CommandKind::Resume, {}, FaultCode::NothingToDo};

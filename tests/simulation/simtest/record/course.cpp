@@ -238,7 +238,7 @@ private:
 
     const Program& program_;
     const MachineConfig& machine_;
-    MotorMap motors_;
+    MotorShares motors_;
     double most_feed_;
     Places at_;
     std::vector<double> programmed_mm_;  // the end of the last move, for the program's axes

@@ -7,7 +7,7 @@
 
 #include "core/machine.hpp"
 #include "core/program.hpp"
-#include "tests/simulation/simtest/record/motor_map.hpp"
+#include "tests/simulation/simtest/record/motor_shares.hpp"
 
 namespace lockstep::simtest {
 

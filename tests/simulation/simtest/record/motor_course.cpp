@@ -9,7 +9,7 @@ namespace {
 
 class CourseMap {
 public:
-    CourseMap(const MotorMap& map, const MachineConfig& machine) : map_(map), machine_(machine) {}
+    CourseMap(const MotorShares& map, const MachineConfig& machine) : map_(map), machine_(machine) {}
 
     Course of(Course axes, const Counts& from) const {
         Course course{.from = from, .pauses = axes.pauses, .seconds = axes.seconds * map_.slower()};
@@ -79,13 +79,13 @@ private:
         return std::min(own, is_line ? std::abs(way) * most_parts : together);
     }
 
-    const MotorMap& map_;
+    const MotorShares& map_;
     const MachineConfig& machine_;
 };
 
 }  // namespace
 
-Course course_of_motors(Course axes, const MotorMap& map, const MachineConfig& machine, const Counts& from) {
+Course course_of_motors(Course axes, const MotorShares& map, const MachineConfig& machine, const Counts& from) {
     if (map.is_direct()) { return axes; }
     return CourseMap(map, machine).of(std::move(axes), from);
 }

@@ -6,6 +6,6 @@
 namespace lockstep::simtest {
 
 /// `from`: where the motors are.
-Course course_of_motors(Course axes, const MotorMap& map, const MachineConfig& machine, const Counts& from);
+Course course_of_motors(Course axes, const MotorShares& map, const MachineConfig& machine, const Counts& from);
 
 }  // namespace lockstep::simtest

@@ -6,7 +6,7 @@
 
 #include "core/kinematics/kinematics.hpp"
 #include "tests/simulation/simtest/record/claims.hpp"
-#include "tests/simulation/simtest/record/motor_map.hpp"
+#include "tests/simulation/simtest/record/motor_shares.hpp"
 #include "tests/simulation/simtest/run/fault_placer.hpp"
 #include "tests/simulation/simtest/run/play.hpp"
 #include "tests/simulation/simtest/run/stream_sender.hpp"
@@ -61,7 +61,7 @@ public:
     const Watch& watch() const { return watch_; }
     const MachineConfig& machine() const { return scenario_.machine; }
     const Kinematics& kinematics() const { return kinematics_; }
-    const MotorMap& map() const { return map_; }
+    const MotorShares& map() const { return map_; }
     /// The highest feed override of any job; overrides persist.
     double most_feed() const;
     Recording& recording() { return played_.recording; }
@@ -87,7 +87,7 @@ private:
 
     const Scenario& scenario_;
     Kinematics kinematics_;
-    MotorMap map_;
+    MotorShares map_;
     Played& played_;
     VirtualMachine vm_;
     Recorder recorder_;

@@ -17,9 +17,9 @@ struct MotorLimits {
     double decel = 0;
 };
 
-class MotorMap {
+class MotorShares {
 public:
-    explicit MotorMap(const MachineConfig& machine);
+    explicit MotorShares(const MachineConfig& machine);
 
     std::size_t motors() const { return shares_.size(); }
     /// Each axis is a motor.

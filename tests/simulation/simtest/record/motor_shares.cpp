@@ -1,4 +1,4 @@
-#include "tests/simulation/simtest/record/motor_map.hpp"
+#include "tests/simulation/simtest/record/motor_shares.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +43,7 @@ void add_skew(const MachineConfig& machine, std::vector<double>& shares) {
 
 }  // namespace
 
-MotorMap::MotorMap(const MachineConfig& machine)
+MotorShares::MotorShares(const MachineConfig& machine)
     : is_direct_(machine.kinematics == KinematicsConfig{} &&
                  std::ranges::all_of(machine.axes, [](const AxisConfig& axis) { return axis.motors.empty(); })) {
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
@@ -52,7 +52,7 @@ MotorMap::MotorMap(const MachineConfig& machine)
     }
 }
 
-void MotorMap::add(const MachineConfig& machine, std::size_t axis, const MotorBlock* block) {
+void MotorShares::add(const MachineConfig& machine, std::size_t axis, const MotorBlock* block) {
     std::vector<double> shares = shares_of(machine, axis, block == nullptr ? machine.axes[axis].name : block->name);
     add_skew(machine, shares);
     const auto demand = [&](double AxisConfig::*value) {
@@ -78,7 +78,7 @@ void MotorMap::add(const MachineConfig& machine, std::size_t axis, const MotorBl
     shares_.push_back(std::move(shares));
 }
 
-double MotorMap::step_of(std::size_t axis) const {
+double MotorShares::step_of(std::size_t axis) const {
     double most = 0;
     for (const std::vector<double>& shares : shares_) {
         if (shares[axis] != 0) { most = std::max(most, 1 / std::abs(shares[axis])); }
@@ -86,7 +86,7 @@ double MotorMap::step_of(std::size_t axis) const {
     return most;
 }
 
-double MotorMap::place(std::size_t motor, const Places& axes) const {
+double MotorShares::place(std::size_t motor, const Places& axes) const {
     double place = 0;
     for (std::size_t i = 0; i < axes.size(); ++i) { place += shares_[motor][i] * axes[i]; }
     return place;
