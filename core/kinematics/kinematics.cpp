@@ -74,8 +74,17 @@ std::int64_t Kinematics::place_of_all(std::size_t axis, std::int64_t mean, const
     return mean;
 }
 
+/// The steps of its motors are its own.
+bool Kinematics::rests_on_its_steps(std::size_t axis) const {
+    for (std::size_t m = 0; m < motors_.size(); ++m) {
+        const double share = std::abs(map_.shares().factor(m, axis));
+        if (share != 0 && share != 1) { return false; }
+    }
+    return moves_alone(axis);
+}
+
 std::int64_t Kinematics::rest_steps(std::size_t axis) const {
-    if (own_motors_[axis]) { return 0; }
+    if (rests_on_its_steps(axis)) { return 0; }
     return static_cast<std::int64_t>(std::ceil(steps_mm_[axis] * axis_steps_per_mm_[axis] / 2 + 0.5));
 }
 

@@ -64,6 +64,7 @@ public:
 private:
     std::optional<std::size_t> find_own_motor(std::size_t axis) const;
     bool moves_alone(std::size_t axis) const;
+    bool rests_on_its_steps(std::size_t axis) const;
     std::int64_t place_of_all(std::size_t axis, std::int64_t mean, const MotorCounts& motors) const;
     double step_mm_of(std::size_t axis, const MachineConfig& machine) const;
 

@@ -20,7 +20,9 @@ struct PhaseOf {
     MachinePhase operator()(const activity::Homing& homing) const { return of_motion(homing, MachinePhase::Homing); }
     MachinePhase operator()(const activity::OwnMoves& moves) const { return of_motion(moves, MachinePhase::Running); }
     MachinePhase operator()(const activity::Jogging& jog) const { return of_motion(jog, MachinePhase::Jogging); }
-    MachinePhase operator()(const activity::OnPath& path) const { return of_motion(path, MachinePhase::Running); }
+    MachinePhase operator()(const activity::OnPath& path) const {
+        return of_motion(path, path.jog ? MachinePhase::Jogging : MachinePhase::Running);
+    }
     MachinePhase operator()(const activity::Paused&) const { return MachinePhase::Paused; }
     MachinePhase operator()(const activity::Holding&) const { return MachinePhase::Holding; }
     MachinePhase operator()(const activity::InFault&) const { return MachinePhase::Fault; }

@@ -7,6 +7,7 @@
 #include "core/coordinator/jobs/homing_sequence.hpp"
 #include "core/coordinator/jobs/jogs.hpp"
 #include "core/coordinator/jobs/own_targets.hpp"
+#include "core/coordinator/jobs/path_jog.hpp"
 #include "core/coordinator/jobs/path_task.hpp"
 #include "core/coordinator/jobs/skew_watch.hpp"
 #include "core/coordinator/state/machine_phases.hpp"
@@ -77,7 +78,8 @@ struct Jogging : Motion {
 /// Axes move together, in an epoch of frames.
 struct OnPath : Motion {
     PathTask task;
-    std::optional<Paused> pause;  // the job to whose place the axes return
+    std::optional<Paused> pause;  // the job to whose place the axes return, or in whose pause they are jogged
+    std::optional<PathJog> jog;   // the task is a jog
 };
 
 }  // namespace activity

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "core/coordinator/jobs/job_commands.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -17,6 +19,7 @@ void settle_interrupted(activity::OnPath& path, const EpochEnd& end, JobLifecycl
     loop.notice({lacks_blocks ? CoordinatorNotice::Kind::ProgramLate : CoordinatorNotice::Kind::Interrupted,
                  lacks_blocks ? FaultCode::None : FaultCode::FrameLate, end.ran});
     if (jobs.path().is_stuck()) { return jobs.fail_at_rest({FaultCode::FrameBeyondLimits}, loop); }
+    if (path.jog) { return jobs.end(JobOutcome::Stopped, loop); }  // it begins again while its key is held
     if (!lacks_blocks && !task.may_try_again(end)) { return jobs.fail_at_rest({FaultCode::FrameLate}, loop); }
     jobs.path().begin_epoch(task, end.place, end.positions, loop);
     jobs.follow(std::move(task), EpochBegun{}, std::move(path.pause), loop);
@@ -51,7 +54,18 @@ void settle(activity::OnPath& path, const EpochEnd& end, JobLifecycle& jobs, Coo
 }
 
 void advance_path(activity::OnPath& path, JobLifecycle& jobs, CoordinatorLoop& loop) {
-    if (const auto end = jobs.path().advance(path.task, loop, loop.out)) { return settle(path, *end, jobs, loop); }
+    if (path.jog && path.intent == Intent::GoOn && path.jog->is_released(loop.now)) {
+        jobs.path().stop(loop.next_state);
+        jobs.activity().bring_to_rest(Intent::Stop, loop.out);
+    }
+    if (const auto end = jobs.path().advance(path.task, loop, loop.out)) {
+        const auto next = path.jog ? path.jog->next(loop.now) : std::nullopt;
+        settle(path, *end, jobs, loop);
+        const MachineActivity& activity = jobs.activity();
+        const bool is_free = activity.is<activity::Idle>() || activity.is<activity::Paused>();
+        if (next && is_free) { (void)commands::begin_path_jog(*next, jobs, loop); }
+        return;
+    }
     if (!jobs.path().is_overdue()) { return; }
     // The fault names an axis that does not come to rest.
     jobs.fail({FaultCode::NotAtRest, loop.axes.moving(loop.slot).value_or(0)}, loop);
@@ -105,7 +119,7 @@ void report_on_path(const activity::OnPath& moving, const PathRunner& path, Mach
     if (moving.pause) {
         state.remaining_s += path.seconds_after_pause(moving.pause->task);
         state.progress = moving.pause->task.progress.share();
-    } else if (moving.intent == Intent::GoOn) {  // no other coordinator continues a return
+    } else if (moving.intent == Intent::GoOn && !moving.jog) {  // no other coordinator continues a return or a jog
         path.report_rests(moving.task, state, loop.axes);
     }
 }

@@ -101,23 +101,50 @@ CommandResult check_place(const AxisCounts& place, const LoopView& loop) {
             text_of_way(way) + ". To let the machine return on this way and continue: lockstep resume --yes");
 }
 
+/// A program of the coordinator itself.
+std::expected<std::shared_ptr<const KnownProgram>, Refusal> known_program(const Program& own,
+                                                                          const MachineConfig& machine) {
+    auto program =
+        KnownProgram::begin(machine, own.head(), std::make_unique<MemoryRows>(KnownProgram::row_width(own.head())));
+    check(program.has_value(), "a program of the coordinator names axes of the machine");
+    if (const auto taken = program->append(own.blocks); !taken) {
+        return refuse(taken.error().why, taken.error().text);
+    }
+    program->end();
+    return std::make_shared<const KnownProgram>(*std::move(program));
+}
+
 CommandResult begin_return(const activity::Paused& pause, JobLifecycle& jobs, CoordinatorLoop& loop) {
     const AxisCounts here = loop.counts();
     const Program way = return_way(loop.machine, here, pause.task.from);
     if (auto fits = jobs.path().planner().check_start(way.head(), here); !fits) {
         return refuse(fits.error().fault, fits.error().text);
     }
-    auto program = KnownProgram::begin(loop.machine, way.head(),
-                                       std::make_unique<MemoryRows>(KnownProgram::row_width(way.head())));
-    check(program.has_value(), "the way back names axes of the machine");
-    if (const auto taken = program->append(way.blocks); !taken) {
-        return refuse(taken.error().why, taken.error().text);
-    }
-    program->end();
-    const auto known = std::make_shared<KnownProgram>(*std::move(program));
-    PathTask task{.job = jobs.begin_in_pause(JobKind::Return, known, here, loop), .from = here};
+    const auto known = known_program(way, loop.machine);
+    if (!known) { return std::unexpected(known.error()); }
+    PathTask task{.job = jobs.begin_in_pause(JobKind::Return, *known, here, loop), .from = here};
     const PathNext next = jobs.path().begin_leg(task, loop, loop.out.events);
     jobs.follow(std::move(task), next, pause, loop);
+    return {};
+}
+
+/// New keys of a client whose jog is under way.
+CommandResult press_on_path(const Command& command, activity::OnPath& path, JobLifecycle& jobs, CoordinatorLoop& loop) {
+    PathJog& jog = *path.jog;
+    if (!jog.is_of(command.client)) {
+        return command.jogs.empty() ? CommandResult{} : refuse(FaultCode::Busy, "another client jogs axes");
+    }
+    if (path.intent == Intent::GoOn && jog.asks_the_same(command)) {
+        jog.continue_by(command, loop);
+        return {};
+    }
+    if (!command.jogs.empty()) {
+        if (const auto possible = jog_program(command, loop); !possible) { return std::unexpected(possible.error()); }
+    }
+    jog.replace(command, loop);
+    if (path.intent != Intent::GoOn) { return {}; }
+    jobs.path().stop(loop.next_state);
+    jobs.activity().bring_to_rest(Intent::Stop, loop.out);
     return {};
 }
 
@@ -181,12 +208,40 @@ CommandResult move_own(const Command& command, BeginSteps begin_steps, JobLifecy
     return {};
 }
 
+CommandResult begin_path_jog(const Command& command, JobLifecycle& jobs, CoordinatorLoop& loop) {
+    if (auto homed = check_homed(loop); !homed) { return homed; }
+    if (auto square = check_square(loop); !square) { return square; }
+    if (auto clocks = check_clocks(loop); !clocks) { return clocks; }
+    const auto program = jog_program(command, loop);
+    if (!program) { return std::unexpected(program.error()); }
+    const AxisCounts here = loop.counts();
+    if (auto fits = jobs.path().planner().check_start(program->head(), here); !fits) {
+        return refuse(fits.error().fault, fits.error().text);
+    }
+    const auto known = known_program(*program, loop.machine);
+    if (!known) { return std::unexpected(known.error()); }
+    const auto* const paused = jobs.activity().as<activity::Paused>();
+    std::optional<activity::Paused> pause = paused != nullptr ? std::optional(*paused) : std::nullopt;
+    PathTask task{.job = pause ? jobs.begin_in_pause(JobKind::Jog, *known, here, loop)
+                               : jobs.begin(JobKind::Jog, command, *known, here, loop),
+                  .from = here};
+    const PathNext next = jobs.path().begin_leg(task, loop, loop.out.events);
+    check(std::holds_alternative<EpochBegun>(next), "a jog moves an axis");
+    activity::OnPath moving{{}, std::move(task), std::move(pause), PathJog(command, loop)};
+    jobs.activity().become(MachineEvent::JogBegins, std::move(moving), loop.out);
+    return {};
+}
+
 CommandResult jog(const Command& command, JobLifecycle& jobs, CoordinatorLoop& loop) {
     MachineActivity& activity = jobs.activity();
+    if (auto* const path = activity.as<activity::OnPath>(); path != nullptr && path->jog) {
+        return press_on_path(command, *path, jobs, loop);
+    }
     if (!activity.is_jogging() && command.jogs.empty()) { return {}; }
     const CommandResult ready = check_jog(activity, loop);
     if (!ready && !command.jogs.empty()) { return ready; }
     if (activity.is_jogging()) { return activity.as<activity::Jogging>()->jogs.press(command, loop); }
+    if (needs_path(command, loop.kinematics)) { return begin_path_jog(command, jobs, loop); }
     Jogs jogs(loop.machine);
     if (auto pressed = jogs.press(command, loop); !pressed) { return pressed; }
     const auto* const paused = activity.as<activity::Paused>();
@@ -201,6 +256,8 @@ CommandResult jog(const Command& command, JobLifecycle& jobs, CoordinatorLoop& l
 }
 
 bool renew_jog(const Command& command, JobLifecycle& jobs, const LoopView& loop) {
+    auto* const path = jobs.activity().as<activity::OnPath>();
+    if (path != nullptr && path->jog) { return path->jog->renew(command, loop); }
     auto* const jogging = jobs.activity().as<activity::Jogging>();
     return jogging != nullptr && jogging->jogs.renew(command, loop);
 }
@@ -217,7 +274,12 @@ CommandResult interrupt(Intent intent, JobLifecycle& jobs, CoordinatorLoop& loop
         return {};
     }
     if (!activity.in_motion()) { return refuse(FaultCode::NothingToDo, "no motion is in progress"); }
-    if (!activity.is<activity::OnPath>()) { return interrupt_alone(intent, jobs, loop); }
+    auto* const path = activity.as<activity::OnPath>();
+    if (path == nullptr) { return interrupt_alone(intent, jobs, loop); }
+    if (path->jog) {
+        path->jog->finish();
+        intent = Intent::Stop;
+    }
     if (intent == Intent::Hold && activity.intent() > Intent::Hold) {
         return refuse(FaultCode::Busy, "the machine is already stopping, and the job ends with the stop");
     }

@@ -11,6 +11,8 @@ CommandResult run(const Command& command, JobLifecycle& jobs, CoordinatorLoop& l
 CommandResult move_own(const Command& command, BeginSteps begin_steps, JobLifecycle& jobs, CoordinatorLoop& loop);
 /// Several clients may jog different axes in one job. A release is accepted in any state of the machine.
 CommandResult jog(const Command& command, JobLifecycle& jobs, CoordinatorLoop& loop);
+/// Begins a jog of axes whose motors must move together, where the machine rests.
+CommandResult begin_path_jog(const Command& command, JobLifecycle& jobs, CoordinatorLoop& loop);
 /// Takes a repeated command. Returns false if its jog is over.
 bool renew_jog(const Command& command, JobLifecycle& jobs, const LoopView& loop);
 /// `intent`: Hold or Stop.

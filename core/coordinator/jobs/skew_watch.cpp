@@ -16,20 +16,25 @@ SkewWatch::SkewWatch(const MachineConfig& machine, const Kinematics& kinematics)
         if (motors_.empty()) { motors_.resize(motors.size()); }
         motors_[m] = {.axis = motor.axis,
                       .axis_mm_per_step = kinematics.axis_mm(motor.axis, m),
+                      .steps_per_slot = motor.max_velocity_mm_s * motor.steps_per_mm *
+                                        static_cast<double>(machine.timing.slot_us) * 1e-6,
                       .most_mm = axis.max_skew_mm,
+                      .travel_mm = axis.position_max_mm - axis.position_min_mm,
                       .switch_at = to_steps(motor, motor.homing.switch_position_mm)};
     }
 }
 
 void SkewWatch::begin(const AxisRoster& motors) {
     for (std::size_t m = 0; m < motors_.size(); ++m) {
+        Motor& motor = motors_[m];
         const auto& state = motors.state(m);
-        motors_[m].was_homed = state && state->homed;
-        motors_[m].count = state ? state->position.count() : 0;
-        motors_[m].is_known = motors_[m].was_homed;
-        motors_[m].begin_mm = static_cast<double>(motors_[m].count) * motors_[m].axis_mm_per_step;
-        motors_[m].stamp = state ? state->stamp : 0;
-        motors_[m].way_mm = motors_[m].before_mm = 0;
+        motor.begin_mm.reset();
+        if (state && state->homed) {
+            motor.begin_mm = static_cast<double>(state->position.count()) * motor.axis_mm_per_step;
+        }
+        motor.newest.reset();
+        motor.last.reset();
+        motor.way_mm = 0;
     }
 }
 
@@ -37,15 +42,10 @@ std::optional<std::size_t> SkewWatch::look(const AxisRoster& motors) {
     for (std::size_t m = 0; m < motors_.size(); ++m) {
         Motor& motor = motors_[m];
         const auto& state = motors.state(m);
-        if (!motor.most_mm || !state || state->stamp == motor.stamp) { continue; }
-        motor.stamp = state->stamp;
-        motor.before_mm = motor.way_mm;
-        const std::int64_t count = state->position.count();
-        const bool sets_zero = state->homed && !motor.was_homed;
-        const std::int64_t from = sets_zero ? motor.switch_at : motor.count;
-        motor.way_mm += static_cast<double>(count - from) * motor.axis_mm_per_step;
-        motor.was_homed = state->homed;
-        motor.count = count;
+        if (!motor.most_mm || !state || (motor.newest && state->stamp == motor.newest->slot)) { continue; }
+        const Reading reading{state->homed, state->position.count(), state->stamp};
+        if (motor.newest && agrees(*motor.newest, reading, motor)) { take(*motor.newest, motor); }
+        motor.newest = reading;
     }
     for (std::size_t m = 1; m < motors_.size(); ++m) {
         for (std::size_t other = 0; other < m; ++other) {
@@ -55,13 +55,29 @@ std::optional<std::size_t> SkewWatch::look(const AxisRoster& motors) {
     return std::nullopt;
 }
 
+void SkewWatch::take(const Reading& reading, Motor& motor) {
+    if (motor.last) {
+        const bool sets_zero = reading.is_homed && !motor.last->is_homed;
+        const std::int64_t from = sets_zero ? motor.switch_at : motor.last->count;
+        motor.way_mm += static_cast<double>(reading.count - from) * motor.axis_mm_per_step;
+    }
+    motor.last = reading;
+}
+
+bool SkewWatch::agrees(const Reading& one, const Reading& next, const Motor& motor) {
+    constexpr double kBetweenSteps = 2;
+    const auto slots = static_cast<double>(std::abs(next.slot - one.slot));
+    const auto steps = static_cast<double>(std::abs(next.count - one.count));
+    return next.is_homed == one.is_homed && steps <= motor.steps_per_slot * slots + kBetweenSteps;
+}
+
 bool SkewWatch::are_apart(const Motor& one, const Motor& other) {
     if (!one.most_mm || !other.most_mm || one.axis != other.axis) { return false; }
-    const double begin = one.is_known && other.is_known ? one.begin_mm - other.begin_mm : 0;
+    double begin = one.begin_mm && other.begin_mm ? *one.begin_mm - *other.begin_mm : 0;
+    if (std::abs(begin) > one.travel_mm) { begin = 0; }                                      // a damaged state
     const double steps = std::abs(one.axis_mm_per_step) + std::abs(other.axis_mm_per_step);  // they do not move at once
     const double most = std::max(*one.most_mm, std::abs(begin) + steps);
-    return std::abs(begin + one.way_mm - other.way_mm) > most &&
-           std::abs(begin + one.before_mm - other.before_mm) > most;
+    return std::abs(begin + one.way_mm - other.way_mm) > most;
 }
 
 }  // namespace lockstep

@@ -1,10 +1,10 @@
 // Watches the motors of each axis while they home, each to its own switch: they must stay together within max_skew_mm.
 //
 // A motor's place is not known before it has found its switch, so ways since the begin are compared. When a motor sets
-// its zero its count jumps: it stood at its switch then, and its way goes on from there. A single state may have been
-// damaged on the way to the coordinator, so motors are apart only if the states before say so, too. Motors that were
-// homed already may stand further apart than max_skew_mm, after a fault; then homing brings them together, and they may
-// not come further apart.
+// its zero its count jumps: it stood at its switch then, and its way goes on from there. A state may have been damaged
+// on its way to the coordinator, so it counts only if the next one agrees with it. Motors that were homed already may
+// stand further apart than max_skew_mm, after a fault; then homing brings them together, and they may not come further
+// apart.
 #pragma once
 
 #include <optional>
@@ -29,20 +29,26 @@ public:
     std::optional<std::size_t> look(const AxisRoster& motors);
 
 private:
+    struct Reading {
+        bool is_homed = false;
+        std::int64_t count = 0;
+        Slot slot = 0;
+    };
     struct Motor {
         std::size_t axis = 0;
         double axis_mm_per_step = 0;
-        std::optional<double> most_mm;  // the axis's max_skew_mm
-        bool was_homed = false;
-        std::int64_t count = 0;      // at the last look
-        Slot stamp = 0;              // of the last state
-        std::int64_t switch_at = 0;  // its count at its switch, after it has set its zero
-        bool is_known = false;       // homed at the begin
-        double begin_mm = 0;         // of the axis, if known
-        double way_mm = 0;           // of the axis, since the begin
-        double before_mm = 0;        // the same by the state before
+        double steps_per_slot = 0;            // at most
+        std::optional<double> most_mm;        // the axis's max_skew_mm
+        double travel_mm = 0;                 // of the axis
+        std::int64_t switch_at = 0;           // its count at its switch, after it has set its zero
+        std::optional<double> begin_mm = {};  // of the axis, if it was homed at the begin
+        std::optional<Reading> newest = {};   // no other one agrees with it yet
+        std::optional<Reading> last = {};     // that counts
+        double way_mm = 0;                    // of the axis, since the begin
     };
 
+    static void take(const Reading& reading, Motor& motor);
+    static bool agrees(const Reading& one, const Reading& next, const Motor& motor);
     static bool are_apart(const Motor& one, const Motor& other);
 
     std::vector<Motor> motors_;  // empty if no axis has several

@@ -79,6 +79,7 @@ inline constexpr std::array kMachineTransitions{
     MachineTransition{MachinePhase::Jogging, MachineEvent::Pauses, MachinePhase::Paused},
     MachineTransition{MachinePhase::Jogging, MachineEvent::JobEnds, MachinePhase::Idle},
     MachineTransition{MachinePhase::Jogging, MachineEvent::FailsInMotion, MachinePhase::Stopping},
+    MachineTransition{MachinePhase::Jogging, MachineEvent::Fails, MachinePhase::Fault},
     MachineTransition{MachinePhase::Jogging, MachineEvent::StoodDown, MachinePhase::Standby},
     MachineTransition{MachinePhase::Stopping, MachineEvent::StopAsked, MachinePhase::Stopping},
     MachineTransition{MachinePhase::Stopping, MachineEvent::RestsOnPath, MachinePhase::Holding},

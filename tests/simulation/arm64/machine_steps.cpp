@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "tests/simulation/simtest/run/play.hpp"
-#include "tests/unit/virtual/delta_machine.hpp"
+#include "tests/unit/virtual/motors/delta_machine.hpp"
 
 namespace lockstep::simtest {
 namespace {

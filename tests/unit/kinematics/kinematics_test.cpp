@@ -72,10 +72,13 @@ TEST(Motors, AreAstrayByASingleStep) {
     EXPECT_TRUE(kinematics.astray(counts_of({400, 401})));
 }
 
-TEST(PlaceOfTheAxes, IsThatOfTheMotorIfTheAxisHasItsOwn) {
+TEST(PlaceOfTheAxes, IsExactIfItsMotorsHaveItsSteps) {
     MachineConfig machine;
-    machine.axes = {axis("X", 80)};
-    EXPECT_EQ(Kinematics(machine).rest_steps(0), 0);
+    machine.axes = {axis("X", 80), axis("Y", 80), axis("Z", 80)};
+    machine.axes[1].motors = {{.name = "Y1", .steps_per_mm = 80}, {.name = "Y2", .steps_per_mm = 80}};
+    machine.kinematics.matrix = {{.motor = "Z", .of = {{"Z", -1}}}};
+    const Kinematics kinematics(machine);
+    for (std::size_t i = 0; i < 3; ++i) { EXPECT_EQ(kinematics.rest_steps(i), 0); }
 }
 
 }  // namespace

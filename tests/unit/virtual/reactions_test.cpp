@@ -109,5 +109,33 @@ TEST(Reactions, AJogWhoseAxisStallsBrakesWithinThirtyMilliseconds) {
     }
 }
 
+/// Both motors of X must move together, so its jogs are motions on a path.
+MachineConfig gantry_by_default() {
+    MachineConfig machine = machine_by_default();
+    AxisConfig& x = machine.axes[0];
+    x.max_skew_mm = 20;
+    x.motors = {{.name = "X1", .host = "", .steps_per_mm = x.steps_per_mm, .plant = {}},
+                {.name = "X2", .host = "", .steps_per_mm = x.steps_per_mm, .plant = {}}};
+    return machine;
+}
+
+TEST(Reactions, AJogOfSeveralMotorsBeginsWithinASendAheadAndBrakesAsAHold) {
+    const ProtocolTiming t;
+    EXPECT_EQ(t.send_ahead_slots, 31);
+    for (int i = 0; i < 10; ++i) {
+        MovingMachine moving(gantry_by_default());
+        moving.wait(Ticks{500'000 + i * 5'700});
+        const Tick pressed = moving.vm().now();
+        moving.jog();
+        moving.wait(Ticks{600'000});
+        const auto first = moving.first_pulse_after(pressed);
+        ASSERT_TRUE(first) << i;
+        EXPECT_LE((*first - pressed).value, 340'000) << i;
+        const double brakes_ms = moving.after([&] { moving.client().release(); }).brakes_ms;
+        EXPECT_GE(brakes_ms, 180) << i;
+        EXPECT_LE(brakes_ms, 230 + kLoops_ms) << i;
+    }
+}
+
 }  // namespace
 }  // namespace lockstep

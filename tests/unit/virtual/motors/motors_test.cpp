@@ -2,26 +2,13 @@
 #include <cmath>
 
 #include "core/kinematics/kinematics.hpp"
-#include "tests/unit/virtual/rig.hpp"
+#include "tests/unit/virtual/motors/motor_machines.hpp"
 
 namespace lockstep {
 namespace {
 
 constexpr std::size_t kY1 = 1;
 constexpr std::size_t kY2 = 2;
-
-/// Y has two motors. The slide of the second stands `racked_mm` ahead, and its switch closes a quarter of a mm later.
-MachineConfig gantry(double racked_mm) {
-    MachineConfig machine = small_machine();
-    AxisConfig& y = machine.axes[1];
-    y.max_skew_mm = 1.5;
-    y.homing.pulloff_mm = 1;
-    y.homing.park_mm = 0;
-    y.motors = {{.name = "Y1", .host = "", .steps_per_mm = y.steps_per_mm, .plant = {}},
-                {.name = "Y2", .host = "", .steps_per_mm = y.steps_per_mm, .switch_offset_mm = 0.25, .plant = y.plant}};
-    y.motors[1].plant->start_position_mm += racked_mm;
-    return machine;
-}
 
 class Gantry : public Rig {
 protected:
@@ -82,9 +69,6 @@ TEST_F(Gantry, RefusesWhatWouldMoveOneMotorAlone) {
     const Reply own = ask(CommandKind::MoveOwn, 0, 7);
     EXPECT_EQ(own.status, ReplyStatus::Refused);
     EXPECT_NE(own.text.find("its motors must move together: Y1, Y2"), std::string::npos) << own.text;
-    Command jog{.client = 5, .sequence = 1, .kind = CommandKind::Jog, .jogs = {{.axis = 1, .speed_mm_s = 5}}};
-    vm.send(jog);
-    wait(0.5);
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{500, 0, 0}));
 }
 
@@ -104,20 +88,6 @@ TEST_F(Gantry, IsStoppedWhileHomingWhereItsMotorsComeApart) {
     const double apart = std::abs(static_cast<double>(slide(kY1) - slide(kY2))) / steps_per_mm;
     constexpr double kBraking_mm = 0.5;
     EXPECT_LE(apart, *vm.machine().axes[1].max_skew_mm + kBraking_mm);
-}
-
-/// Two belts at 45 degrees: A turns by X + Y, B by X - Y.
-MachineConfig two_belts() {
-    MachineConfig machine = small_machine();
-    for (std::size_t i = 0; i < 2; ++i) {
-        AxisConfig& axis = machine.axes[i];
-        axis.motors = {{.name = i == 0 ? "A" : "B", .host = "", .steps_per_mm = axis.steps_per_mm, .plant = {}}};
-        axis.steps_per_mm *= 16;
-        axis.homing.in_place = true;
-        axis.homing.park_mm = axis.plant.start_position_mm = 5;
-    }
-    machine.kinematics.core_xy = {.first = "X", .second = "Y"};
-    return machine;
 }
 
 class TwoBelts : public Rig {

@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "core/kinematics/kinematics.hpp"
-#include "tests/unit/virtual/delta_machine.hpp"
+#include "tests/unit/virtual/motors/delta_machine.hpp"
 #include "tests/unit/virtual/rig.hpp"
 
 namespace lockstep {

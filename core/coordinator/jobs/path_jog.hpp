@@ -1,0 +1,49 @@
+// A jog of axes that do not move by themselves, because their motors must move together: a move on a path that lasts
+// while its client renews its command. Like any path it begins some slots after the command, and a release brings it
+// to rest by a veto.
+#pragma once
+
+#include <expected>
+#include <optional>
+
+#include "core/coordinator/state/refusal.hpp"
+#include "core/program.hpp"
+
+namespace lockstep {
+
+/// Whether one of the jogged axes has no motor of its own.
+bool needs_path(const Command& jog, const Kinematics& kinematics);
+
+/// The line on which the axes move at their speeds until the first of them is at its end: after its distance, or at the
+/// end of its travel. Axes that are there already are left out.
+std::expected<Program, Refusal> jog_program(const Command& jog, const LoopView& loop);
+
+class PathJog {
+public:
+    PathJog(Command asked, const LoopView& loop)
+        : asked_(std::move(asked)), hold_(loop.machine.jog_hold_ticks()), renewed_(loop.now) {}
+
+    /// Takes a repeated command. Returns false if it is not this jog, or the one that follows.
+    bool renew(const Command& command, const LoopView& loop);
+    bool is_of(Identity client) const { return asked_.client == client; }
+    bool is_released(Tick now) const { return now > renewed_ + hold_; }
+    /// The client's new command asks for the same motion.
+    bool asks_the_same(const Command& next) const { return !replacement_ && next.jogs == asked_.jogs; }
+    void continue_by(Command next, const LoopView& loop);
+    /// The client jogs other axes, or at other speeds, as soon as the machine has come to rest; or none.
+    void replace(Command next, const LoopView& loop);
+    /// Somebody stopped the machine, so a key that is still held moves it no more.
+    void finish() { is_over_ = true; }
+    /// The jog that follows when the machine rests: the replacement, or this one again if its renewals were late or if
+    /// it reached the end of one of several axes. nullopt: none.
+    std::optional<Command> next(Tick now) const;
+
+private:
+    Command asked_;
+    Ticks hold_;
+    Tick renewed_;
+    std::optional<Command> replacement_;
+    bool is_over_ = false;
+};
+
+}  // namespace lockstep
