@@ -81,18 +81,37 @@ void SkewMeter::take_first_frame() {
 
 SkewMeter::AxisSteps SkewMeter::steps_of(const Steps::value_type& axis) {
     const auto& groups = axis.second->groups;
-    AxisSteps all{.axis = axis.first, .late = axis.second, .commanded = {}};
+    AxisSteps all{.axis = axis.first,
+                  .late = axis.second,
+                  .first = groups.front().commanded(0),
+                  .last = groups.back().commanded(groups.back().steps.size() - 1)};
     for (const EquallyLate& group : groups) {
         const bool is_alike = group.late == groups.front().late && group.error == groups.front().error;
         all.are_equally_late = all.are_equally_late && is_alike;
-        const std::size_t before = all.commanded.size();
-        all.commanded.resize(before + group.steps.size());
-        for (std::size_t i = 0; i < group.steps.size(); ++i) { all.commanded[before + i] = group.commanded(i); }
+        all.size += group.steps.size();
     }
     return all;
 }
 
-void SkewMeter::take_pair(const AxisSteps& a, const AxisSteps& b) {
+std::int64_t SkewMeter::AxisSteps::from(Tick tick) const {
+    std::int64_t steps = 0;
+    for (const EquallyLate& group : late->groups) {
+        if (group.commanded(group.steps.size() - 1) < tick) { continue; }
+        steps += group.steps.end() - std::ranges::lower_bound(group.steps, tick + group.late, {}, &StepEdge::tick);
+    }
+    return steps;
+}
+
+const std::vector<Tick>& SkewMeter::AxisSteps::ticks() {
+    if (!commanded.empty()) { return commanded; }
+    commanded.reserve(size);
+    for (const EquallyLate& group : late->groups) {
+        for (const StepEdge& step : group.steps) { commanded.push_back(step.tick - group.late); }
+    }
+    return commanded;
+}
+
+void SkewMeter::take_pair(AxisSteps& a, AxisSteps& b) {
     Amounts& amounts = skews_[{a.axis, b.axis}];
     if (!a.are_equally_late || !b.are_equally_late) { return take_steps(a, b, amounts); }
     const EquallyLate& of_a = a.late->groups.front();
@@ -102,46 +121,49 @@ void SkewMeter::take_pair(const AxisSteps& a, const AxisSteps& b) {
 }
 
 /// The number of different commanded ticks of two axes, from the instant on at which both have a step.
-std::int64_t SkewMeter::ticks_of_both(const AxisSteps& a, const AxisSteps& b) {
-    const Tick from = std::max(a.commanded.front(), b.commanded.front());
-    const auto steps_from = [&](const std::vector<Tick>& steps) {
-        return steps.end() - std::ranges::lower_bound(steps, from);
-    };
-    return steps_from(a.commanded) + steps_from(b.commanded) - common_ticks(a, b);
+std::int64_t SkewMeter::ticks_of_both(AxisSteps& a, AxisSteps& b) {
+    const Tick from = std::max(a.first, b.first);
+    const bool have_bits = !a.bits.empty() && !b.bits.empty();
+    return a.from(from) + b.from(from) - (have_bits ? common_bits(a, b) : common_ticks(a, b));
 }
 
 /// Notes the steps of a frame as bits, unless most of the bits would be 0.
 void SkewMeter::note_bits(std::vector<AxisSteps>& axes) {
     constexpr std::int64_t kTicksPerStep = 64;
-    Tick first = axes.front().commanded.front();
-    Tick last = first;
+    Tick first = axes.front().first;
+    Tick last = axes.front().last;
     std::int64_t steps = 0;
     for (const AxisSteps& axis : axes) {
-        first = std::min(first, axis.commanded.front());
-        last = std::max(last, axis.commanded.back());
-        steps += axis.are_equally_late ? std::ssize(axis.commanded) : 0;
+        first = std::min(first, axis.first);
+        last = std::max(last, axis.last);
+        steps += axis.are_equally_late ? static_cast<std::int64_t>(axis.size) : 0;
     }
     const std::int64_t ticks = (last - first).value + 1;
     if (ticks > steps * kTicksPerStep) { return; }
     for (AxisSteps& axis : axes) {
         if (!axis.are_equally_late) { continue; }
         axis.bits.resize(static_cast<std::size_t>(ticks + 63) / 64);
-        for (const Tick tick : axis.commanded) {
-            const auto bit = static_cast<std::uint64_t>((tick - first).value);
-            axis.bits[bit / 64] |= std::uint64_t{1} << bit % 64;
+        for (const EquallyLate& group : axis.late->groups) {
+            const std::int64_t origin = (first + group.late).value;
+            for (const StepEdge& step : group.steps) {
+                const auto bit = static_cast<std::uint64_t>(step.tick.value - origin);
+                axis.bits[bit / 64] |= std::uint64_t{1} << bit % 64;
+            }
         }
     }
 }
 
 LOCKSTEP_VECTOR_CLONES
-std::int64_t SkewMeter::common_ticks(const AxisSteps& a, const AxisSteps& b) {
+std::int64_t SkewMeter::common_bits(const AxisSteps& a, const AxisSteps& b) {
     std::int64_t ticks = 0;
-    if (!a.bits.empty() && !b.bits.empty()) {
-        for (std::size_t i = 0; i < a.bits.size(); ++i) { ticks += std::popcount(a.bits[i] & b.bits[i]); }
-        return ticks;
-    }
-    auto at_a = a.commanded.begin();
-    auto at_b = b.commanded.begin();
+    for (std::size_t i = 0; i < a.bits.size(); ++i) { ticks += std::popcount(a.bits[i] & b.bits[i]); }
+    return ticks;
+}
+
+std::int64_t SkewMeter::common_ticks(AxisSteps& a, AxisSteps& b) {
+    std::int64_t ticks = 0;
+    auto at_a = a.ticks().begin();
+    auto at_b = b.ticks().begin();
     while (at_a != a.commanded.end() && at_b != b.commanded.end()) {
         const Tick of_a = *at_a;
         const Tick of_b = *at_b;
@@ -153,13 +175,15 @@ std::int64_t SkewMeter::common_ticks(const AxisSteps& a, const AxisSteps& b) {
 }
 
 /// Goes through both axes' steps in the order of the commanded ticks.
-void SkewMeter::take_steps(const AxisSteps& a, const AxisSteps& b, Amounts& amounts) {
+void SkewMeter::take_steps(AxisSteps& a, AxisSteps& b, Amounts& amounts) {
+    const std::vector<Tick>& of_a = a.ticks();
+    const std::vector<Tick>& of_b = b.ticks();
     auto same = amounts.times.end();  // the amount found last, since most are the same
     GroupCursor at_a(a.late->groups);
     GroupCursor at_b(b.late->groups);
-    for (std::size_t i = 0, j = 0; i < a.commanded.size() || j < b.commanded.size();) {
-        const bool is_a = j == b.commanded.size() || (i < a.commanded.size() && a.commanded[i] <= b.commanded[j]);
-        const bool is_b = i == a.commanded.size() || (j < b.commanded.size() && b.commanded[j] <= a.commanded[i]);
+    for (std::size_t i = 0, j = 0; i < of_a.size() || j < of_b.size();) {
+        const bool is_a = j == of_b.size() || (i < of_a.size() && of_a[i] <= of_b[j]);
+        const bool is_b = i == of_a.size() || (j < of_b.size() && of_b[j] <= of_a[i]);
         if (is_a) { at_a.go_to(i++); }
         if (is_b) { at_b.go_to(j++); }
         if (i == 0 || j == 0) { continue; }

@@ -68,17 +68,24 @@ private:
     struct AxisSteps {
         std::string axis;
         SharedLate late;
-        std::vector<Tick> commanded;      // in order
-        std::vector<std::uint64_t> bits;  // the same as a bit for each tick of the frame; empty if it has few steps
+        std::size_t size = 0;
+        Tick first;  // of the commanded ticks
+        Tick last;
         bool are_equally_late = true;
+        std::vector<std::uint64_t> bits;  // the commanded ticks, as a bit for each tick of the frame; empty: few steps
+        std::vector<Tick> commanded;      // in order; empty until they are needed
+        /// The number of steps that are commanded for this tick or later.
+        std::int64_t from(Tick tick) const;
+        const std::vector<Tick>& ticks();
     };
     static AxisSteps steps_of(const Steps::value_type& axis);
     static void note_bits(std::vector<AxisSteps>& axes);
-    static std::int64_t common_ticks(const AxisSteps& a, const AxisSteps& b);
-    static std::int64_t ticks_of_both(const AxisSteps& a, const AxisSteps& b);
-    static void take_steps(const AxisSteps& a, const AxisSteps& b, Amounts& amounts);
+    static std::int64_t common_ticks(AxisSteps& a, AxisSteps& b);
+    static std::int64_t common_bits(const AxisSteps& a, const AxisSteps& b);
+    static std::int64_t ticks_of_both(AxisSteps& a, AxisSteps& b);
+    static void take_steps(AxisSteps& a, AxisSteps& b, Amounts& amounts);
     static PairSkew summary_of(const std::pair<std::string, std::string>& axes, const Amounts& amounts);
-    void take_pair(const AxisSteps& a, const AxisSteps& b);
+    void take_pair(AxisSteps& a, AxisSteps& b);
 
     OnLate on_late_;
     std::map<std::string, std::unique_ptr<Lateness>> axes_;

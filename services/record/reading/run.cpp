@@ -94,6 +94,7 @@ void StepMaker::begin_piece() {
 
 void StepMaker::make_more() {
     made_.clear();
+    made_.reserve(kMadeAtOnce);
     passed_ = 0;
     while (made_.empty()) {
         if (engine_.idle()) {
