@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstddef>
+#include <cstring>
 
 #include "services/record/reading/content_memory.hpp"
 
@@ -36,19 +39,32 @@ std::int64_t change_of(std::span<const StepEdge> steps, bool is_one_way) {
     return change;
 }
 
-/// Compares many steps without a branch for each.
+/// Compares many steps without a branch for each, a step in one vector: its tick, and a word of which the lowest byte
+/// is its direction.
 std::size_t equal_steps(std::span<const StepEdge> a, std::span<const StepEdge> b, Ticks later) {
     constexpr std::size_t kTogether = 16;
+    using Words [[gnu::vector_size(sizeof(StepEdge))]] = std::int64_t;
+    static_assert(sizeof(StepEdge) == 2 * sizeof(std::int64_t) &&
+                  offsetof(StepEdge, direction) == sizeof(std::int64_t));
+    static_assert(std::endian::native == std::endian::little);
+    const Words expected{later.value, 0};
+    const Words compared{-1, 0xff};
     const std::size_t most = std::min(a.size(), b.size());
+    std::size_t equal = 0;
+    for (; equal + kTogether <= most; equal += kTogether) {
+        Words differences{};
+        for (std::size_t i = equal; i < equal + kTogether; ++i) {
+            Words of_a;
+            Words of_b;
+            std::memcpy(&of_a, &a[i], sizeof of_a);
+            std::memcpy(&of_b, &b[i], sizeof of_b);
+            differences |= ((of_a - of_b) ^ expected) & compared;
+        }
+        if ((differences[0] | differences[1]) != 0) { break; }
+    }
     const auto difference = [&](std::size_t i) {
         return ((a[i].tick - b[i].tick).value ^ later.value) | (a[i].direction ^ b[i].direction);
     };
-    std::size_t equal = 0;
-    for (; equal + kTogether <= most; equal += kTogether) {
-        std::int64_t differences = 0;
-        for (std::size_t i = 0; i < kTogether; ++i) { differences |= difference(equal + i); }
-        if (differences != 0) { break; }
-    }
     while (equal < most && difference(equal) == 0) { ++equal; }
     return equal;
 }
