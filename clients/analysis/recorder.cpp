@@ -271,6 +271,7 @@ Analysis Recorder::finish(Sorter& sorter) {
     if (axes_) { analysis_.axis_figures = axes_->finish(); }
     std::ranges::sort(analysis_.damages, {}, &Damage::first_byte);
     sorter.give(analysis_);
+    if (analysis_.kinematics != nullptr) { analysis_.end.labels.add(*analysis_.kinematics); }
     for (auto& axis : analysis_.axes) {
         axis->take(std::move(std::ranges::find(lanes_, axis->name(), &Lane::axis)->late));
     }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -45,9 +44,9 @@ struct Findings {
     std::vector<std::string> unknown;       // results that are unknown, since the log lacks data; the first kUnknown
     std::uint64_t more_unknown = 0;         // beyond these
     std::vector<std::string> notes;
-    std::map<std::string, std::string> labels;  // of motors, by name
-    bool lacks_messages = false;                // between others
-    bool lacks_steps = false;  // steps of runs on record, or of runs that the plan demands, are not in the log
+    analysis::MotorLabels labels;
+    bool lacks_messages = false;  // between others
+    bool lacks_steps = false;     // steps of runs on record, or of runs that the plan demands, are not in the log
     analysis::RecordEnd end;
 
     static constexpr std::size_t kUnknown = 100;
@@ -59,10 +58,7 @@ struct Findings {
         return unknown.empty() && end.missing.empty() ? Verdict::Exact : Verdict::Unknown;
     }
     /// "axis X", or "motor Y2" once the machine is known.
-    std::string label_of(const std::string& motor) const {
-        const auto known = labels.find(motor);
-        return known != labels.end() ? known->second : "axis " + motor;
-    }
+    std::string label_of(const std::string& motor) const { return labels.of(motor); }
     /// Nothing more is compared after the first difference or an unreadable document.
     bool going() const { return !difference && !unreadable; }
     void add_unknown(std::string what) {

@@ -188,10 +188,7 @@ void LogCheck::Machine::set_config(const std::string& text, Findings& findings) 
     if (!parsed) { return; }
     config = std::move(*parsed);
     for (auto& [name, axis] : axes) { axis->check.set_machine(*config); }
-    const Kinematics kinematics(*config);
-    for (std::size_t m = 0; m < kinematics.motors().size(); ++m) {
-        findings.labels[kinematics.motors()[m].name] = kinematics.label(m);
-    }
+    findings.labels.add(Kinematics(*config));
 }
 
 /// The log must have messages of each axis of the machine's file, and of no other.
@@ -304,7 +301,8 @@ void LogCheck::Machine::finish(const std::string& name, const analysis::RecordEn
 }
 
 Findings LogCheck::finish() {
-    const analysis::RecordEnd end = end_.finish();
+    analysis::RecordEnd end = end_.finish();
+    end.labels = findings_.labels;
     for (auto& [name, machine] : machines_) {
         machine.finish(name, end, damages_ > 0);
         machine.check_axes(findings_);

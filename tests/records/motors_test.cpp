@@ -106,6 +106,16 @@ TEST(MotorsOfARecord, ThatMissAStepAreBadByName) {
     EXPECT_THAT(analyzed.text(), Not(HasSubstr("axis X2")));
 }
 
+/// A record that ends in motion: its last messages of steps are missing, which the marks count.
+TEST(MotorsOfARecord, WithoutTheirLastMessagesAreNamed) {
+    Record record = gantry_record();
+    const auto steps = places_of<step_batch_t>(record, [](const step_batch_t& of) { return of.axis == "X2"; });
+    ASSERT_TRUE(erase_at(record, steps.back()));
+    const auto report = Analyzed(record).report();
+    ASSERT_EQ(report.missing_at_end_size(), 1);
+    EXPECT_THAT(report.missing_at_end(0), testing::StartsWith("motor X2: 1 message of steps missing at the end"));
+}
+
 /// The limits that the configuration on record gives the axis are halved: its motors may still turn as fast.
 TEST(AxesOfARecord, AboveTheirLimitsAreBadByName) {
     MachineRun run(small_core_xy());

@@ -20,24 +20,24 @@ std::size_t index_of(RecordKind kind) {
     return static_cast<std::size_t>(std::ranges::find(kNumbered, numbered_with(kind)) - kNumbered.begin());
 }
 
-std::string name_of(const RecordingProcess& process) {
-    return process.axis.empty() ? "coordinator" : "axis " + process.axis;
+std::string name_of(const RecordingProcess& process, const MotorLabels& labels) {
+    return process.axis.empty() ? "coordinator" : labels.of(process.axis);
 }
 
 std::string time_text(std::int64_t us) { return fmt::format("machine time {:.3f} s", static_cast<double>(us) * 1e-6); }
 
-std::string sentence(const MissingEnd& missing) {
+std::string sentence(const MissingEnd& missing, const MotorLabels& labels) {
     const auto& [from, end] = missing.numbers;
-    return fmt::format("{}: {} of {} missing at the end (numbers {} to {}), published by {}", name_of(missing.process),
-                       plural(end - from, "message"), kNames.at(index_of(missing.kind)), from, end - 1,
-                       time_text(missing.published_us));
+    return fmt::format("{}: {} of {} missing at the end (numbers {} to {}), published by {}",
+                       name_of(missing.process, labels), plural(end - from, "message"),
+                       kNames.at(index_of(missing.kind)), from, end - 1, time_text(missing.published_us));
 }
 
-std::string names_of(const std::vector<OpenEnd>& ends) {
+std::string names_of(const std::vector<OpenEnd>& ends, const MotorLabels& labels) {
     constexpr std::size_t kMost = 8;
     std::string text;
     for (std::size_t i = 0; i < std::min(ends.size(), kMost); ++i) {
-        text += (i == 0 ? "" : ", ") + name_of(ends[i].process);
+        text += (i == 0 ? "" : ", ") + name_of(ends[i].process, labels);
     }
     return text + (ends.size() > kMost ? fmt::format(" and {} more", ends.size() - kMost) : "");
 }
@@ -142,7 +142,7 @@ RecordEnd RecordEndCheck::finish() {
 
 std::vector<std::string> missing_sentences(const RecordEnd& end) {
     std::vector<std::string> lines;
-    for (const MissingEnd& missing : end.missing) { lines.push_back(sentence(missing)); }
+    for (const MissingEnd& missing : end.missing) { lines.push_back(sentence(missing, end.labels)); }
     return lines;
 }
 
@@ -156,13 +156,13 @@ std::vector<std::string> open_sentences(const RecordEnd& end) {
         lines.push_back(
             fmt::format("the record is known to be complete up to {}; the end of {} is not recorded: messages "
                         "published after that may be missing",
-                        time_text(*first->known_us), names_of(marked)));
+                        time_text(*first->known_us), names_of(marked, end.labels)));
     }
     if (!unmarked.empty()) {
         lines.push_back(
             fmt::format("for {} it is not known whether the end is missing: no mark states how much was "
                         "published (an earlier version recorded the log, or the log was cut short)",
-                        names_of(unmarked)));
+                        names_of(unmarked, end.labels)));
     }
     return lines;
 }

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "services/record/reading/motor_labels.hpp"
 #include "services/record/reading/number_set.hpp"
 #include "services/wire/lcm/lcm_channels.hpp"
 
@@ -47,6 +48,7 @@ struct OpenEnd {
 struct RecordEnd {
     std::vector<MissingEnd> missing;
     std::vector<OpenEnd> open;
+    MotorLabels labels;  // for the sentences
 
     std::int64_t missing_messages() const;
     bool lacks_steps() const;

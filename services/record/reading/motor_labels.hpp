@@ -1,0 +1,29 @@
+// How messages to people name the processes of a record, which serve motors.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "core/kinematics/kinematics.hpp"
+
+namespace lockstep::analysis {
+
+class MotorLabels {
+public:
+    /// The machine of the record is known.
+    void add(const Kinematics& kinematics) {
+        for (std::size_t m = 0; m < kinematics.motors().size(); ++m) {
+            labels_[kinematics.motors()[m].name] = kinematics.label(m);
+        }
+    }
+    /// "axis X", or "motor Y2" if the motor is known not to be its axis.
+    std::string of(const std::string& motor) const {
+        const auto known = labels_.find(motor);
+        return known != labels_.end() ? known->second : "axis " + motor;
+    }
+
+private:
+    std::map<std::string, std::string> labels_;  // by the names of motors
+};
+
+}  // namespace lockstep::analysis
