@@ -10,7 +10,7 @@
 
 #include "clients/analysis/curves.hpp"
 #include "clients/analysis/plane_path.hpp"
-#include "clients/report_page/chart_number.hpp"
+#include "clients/drawing/chart_number.hpp"
 
 namespace lockstep::analysis {
 namespace {
@@ -21,7 +21,7 @@ using nlohmann::json;
 std::string numbers(const std::vector<double>& values) {
     std::string list = "[";
     for (const double value : values) {
-        std::isfinite(value) ? append_number(list, value) : void(list += "null");
+        std::isfinite(value) ? drawing::append_chart_number(list, value) : void(list += "null");
         list += ',';
     }
     if (list.back() == ',') { list.pop_back(); }

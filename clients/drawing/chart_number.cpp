@@ -1,15 +1,12 @@
-#include "clients/report_page/chart_number.hpp"
-
-#include <fmt/format.h>
+#include "clients/drawing/chart_number.hpp"
 
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
 #include <string_view>
 
-namespace lockstep::analysis {
+namespace lockstep::drawing {
 namespace {
 
 constexpr std::array kPowers{1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13};
@@ -26,14 +23,16 @@ std::size_t decimals_of(double magnitude) {
 }  // namespace
 
 /// As a whole number of its last digit, which costs a fraction of a conversion that reads back the same.
-void append_number(std::string& text, double value) {
+void append_chart_number(std::string& text, double value) {
     const double magnitude = std::abs(value);
+    std::array<char, 24> buffer;
     if (magnitude < 1e-4 || magnitude >= 1e9) {
-        value == 0 ? void(text += '0') : void(fmt::format_to(std::back_inserter(text), "{:.9g}", value));
+        if (value == 0) { return void(text += '0'); }
+        char* const begin = buffer.data();
+        text.append(begin, std::to_chars(begin, begin + buffer.size(), value, std::chars_format::general, kDigits).ptr);
         return;
     }
     const std::size_t decimals = decimals_of(magnitude);
-    std::array<char, 24> buffer;
     const auto number = static_cast<std::int64_t>(std::llround(magnitude * kPowers[decimals]));
     const char* const end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number).ptr;
     std::string_view digits(buffer.data(), static_cast<std::size_t>(end - buffer.data()));
@@ -48,4 +47,4 @@ void append_number(std::string& text, double value) {
     text.append(zeros, '0') += behind;
 }
 
-}  // namespace lockstep::analysis
+}  // namespace lockstep::drawing

@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace lockstep::analysis {
+namespace lockstep::drawing {
 
 /// Appends a finite number with nine significant digits, as many as a chart can show, and no trailing zeros.
-void append_number(std::string& text, double value);
+void append_chart_number(std::string& text, double value);
 
-}  // namespace lockstep::analysis
+}  // namespace lockstep::drawing
