@@ -134,45 +134,53 @@ private:
         const HomingConfig& z = axis_named(machine_, delta_.z)->homing;
         for (const std::string& name : {delta_.x, delta_.y}) {
             const AxisConfig& axis = *axis_named(machine_, name);
-            const auto number = static_cast<std::size_t>(&axis - machine_.axes.data());
-            problems_.require(axis.homing.sequence == z.sequence, fmt::format("axis[{}].homing.sequence", number),
+            problems_.require(axis.homing.sequence == z.sequence, key_of(axis) + "homing.sequence",
                               fmt::format("homing.sequence of axis {} is {}, and that of {} is {}; the axes of a delta "
                                           "home together: give them the same number",
                                           name, axis.homing.sequence, delta_.z, z.sequence));
             problems_.require(
-                axis.homing.in_place == z.in_place, fmt::format("axis[{}].homing.in_place", number),
+                axis.homing.in_place == z.in_place, key_of(axis) + "homing.in_place",
                 fmt::format("homing.in_place differs between the axes {} and {}; the axes of a delta home "
                             "together: set it for all of them, or for none",
                             name, delta_.z));
         }
     }
 
-    /// Each carriage must reach all places of the travel without its switch.
+    /// Each carriage must reach all places of the travel before its switch, and its switch before its limit switch.
     void check_switches() {
         const auto delta = delta_of(machine_);
         const std::vector<MotorConfig> motors = motors_of(machine_);
-        double lacking = 0;
-        std::string name;
         for (std::size_t k = 0; k < DeltaMap::kTowers; ++k) {
             const MotorConfig& motor = motors[delta->motors[k]];
             if (motor.homing.in_place) { continue; }
             const DeltaMap::Reach reach = reach_of(machine_, *delta, k);
             const double at = motor.homing.switch_position_mm;
-            const double lacks = motor.homing.toward_min ? at - reach.lowest_mm : reach.highest_mm - at;
-            if (lacks > lacking) {
-                lacking = lacks;
-                name = motor.name;
+            const double margin = motor.plant.travel_margin_mm;
+            if (motor.homing.toward_min) {
+                check_switch(motor, at - reach.lowest_mm, motor.position_min_mm - margin - at);
+            } else {
+                check_switch(motor, reach.highest_mm - at, at - motor.position_max_mm - margin);
             }
         }
+    }
+
+    /// How far the carriage goes beyond its switch, and how far this is behind the limit switch.
+    void check_switch(const MotorConfig& motor, double beyond_mm, double behind_limit_mm) {
         const AxisConfig& z = *axis_named(machine_, delta_.z);
-        const auto number = static_cast<std::size_t>(&z - machine_.axes.data());
         problems_.require(
-            lacking <= 0, fmt::format("axis[{}].homing.switch_position_mm", number),
+            beyond_mm <= 0, key_of(z) + "homing.switch_position_mm",
             fmt::format("homing.switch_position_mm of {} is {}: at the edge of the travel the carriage of "
                         "{} would be {} mm beyond its switch; shorten the travel of {} by that, or put "
                         "the switches further out",
-                        delta_.z, number_text(z.homing.switch_position_mm), name, micrometres(lacking), delta_.z));
+                        z.name, number_text(z.homing.switch_position_mm), motor.name, micrometres(beyond_mm), z.name));
+        problems_.require(
+            behind_limit_mm < 0, key_of(z) + "plant.travel_margin_mm",
+            fmt::format("the carriage of {} would be at its limit switch {} mm before its home switch; "
+                        "increase plant.travel_margin_mm, which is {}, by more than that",
+                        motor.name, micrometres(behind_limit_mm), number_text(motor.plant.travel_margin_mm)));
     }
+
+    std::string key_of(const AxisConfig& axis) const { return fmt::format("axis[{}].", &axis - machine_.axes.data()); }
 
     std::string motor_of(const std::string& axis_name) const {
         const AxisConfig& axis = *axis_named(machine_, axis_name);

@@ -83,7 +83,9 @@ INSTANTIATE_TEST_SUITE_P(
                       .c = R"(motor: "C" x_mm: 0 y_mm: 0 rod_mm: 320)"},
                      "stand nearly in a line"},
         DeltaMistake{{.homing = "switch_position_mm: 220 park_mm: 180"},
-                     "homing.switch_position_mm of Z is 220: at the edge of the travel the carriage of"}));
+                     "homing.switch_position_mm of Z is 220: at the edge of the travel the carriage of"},
+        DeltaMistake{{.z = R"(motor { name: "C" switch_offset_mm: 49 })"},
+                     "the carriage of C would be at its limit switch"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Others, DeltaRefused,
