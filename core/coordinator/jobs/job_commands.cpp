@@ -186,7 +186,7 @@ CommandResult run(const Command& command, JobLifecycle& jobs, CoordinatorLoop& l
     PathRunner& path = jobs.path();
     if (auto fits = check_program(**program, path.planner(), loop); !fits) { return fits; }
     if (auto slow = check_lai_moves(**program, path.planner(), loop); !slow) { return slow; }
-    const AxisCounts start = loop.counts();
+    const AxisCounts start = path.planner().start_of((*program)->head(), (*program)->places(), loop.counts());
     const JobKind kind = command.kind == CommandKind::Move ? JobKind::Move : JobKind::Run;
     PathTask task{.job = jobs.begin(kind, command, *program, start, loop), .from = start};
     path.events().begin();

@@ -104,6 +104,15 @@ std::expected<void, PlanError> ProgramPlanner::check_arc(const ProgramMove& move
     return {};
 }
 
+AxisCounts ProgramPlanner::start_of(const ProgramHead& program, std::span<const std::size_t> axes,
+                                    const AxisCounts& at) const {
+    AxisCounts start = at;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        start[axes[i]] = to_steps(machine_.axes[axes[i]], program.start_mm[i]);
+    }
+    return start;
+}
+
 std::expected<void, PlanError> ProgramPlanner::check_start(const ProgramHead& program, const AxisCounts& start) const {
     const auto axes = axes_of(program.axes);
     return axes ? check_start(program, *axes, start) : std::unexpected(axes.error());
@@ -122,15 +131,12 @@ std::expected<void, PlanError> ProgramPlanner::check_start(const ProgramHead& pr
                                              ", which is outside its travel, " + number(axis.position_min_mm) + " to " +
                                              number(axis.position_max_mm) + unit + "; home the axis"});
     }
-    AxisCounts named = start;
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-        named[axes[i]] = to_steps(machine_.axes[axes[i]], program.start_mm[i]);
-    }
+    const AxisCounts named = start_of(program, axes, start);
     if (kinematics_.motors_at(named) == kinematics_.motors_at(start)) { return {}; }
     for (std::size_t i = 0; i < axes.size(); ++i) {
         const AxisConfig& axis = machine_.axes[axes[i]];
         const std::string unit = " " + std::string(unit_of(axis.name));
-        if (to_steps(axis, program.start_mm[i]) == start[axes[i]]) { continue; }
+        if (named[axes[i]] == start[axes[i]]) { continue; }
         return std::unexpected(PlanError{FaultCode::StartMismatch, std::nullopt,
                                          "the program starts at " + axis.name + " " + number(program.start_mm[i]) +
                                              unit + ", but the axis is at " +

@@ -79,6 +79,9 @@ public:
     /// The same for a program with these `axes` (axes_of).
     std::expected<void, PlanError> check_start(const ProgramHead& program, std::span<const std::size_t> axes,
                                                const AxisCounts& start) const;
+    /// The start of a program with these `axes` (axes_of), if the axes stand `at` a place that check_start() accepts.
+    /// The two can differ where motors rest on whole steps of their own.
+    AxisCounts start_of(const ProgramHead& program, std::span<const std::size_t> axes, const AxisCounts& at) const;
     /// The end of a move. If it is outside the travel only because motors rest on whole steps, it is the end of the
     /// travel. Error: it is outside the travel, or too far to count.
     std::expected<AxisCounts, PlanError> target(const ProgramMove& move, std::span<const std::size_t> axes,

@@ -13,7 +13,7 @@ using Tool = std::array<double, 3>;  // mm
 
 class Delta : public Rig {
 protected:
-    Delta() : Rig({.machine = delta_machine()}) {}
+    explicit Delta(const VirtualOptions& options = {.machine = delta_machine()}) : Rig(options) {}
 
     /// The carriages at a place of the tool in steps, by the theorem of Pythagoras.
     std::array<long double, 3> carriages(const Tool& at) const {
@@ -212,6 +212,49 @@ TEST_F(Delta, RefusesWhatWouldMoveOneCarriageAlone) {
     EXPECT_EQ(own.status, ReplyStatus::Refused);
     EXPECT_NE(own.text.find("its motors must move together: A, B, C"), std::string::npos) << own.text;
     EXPECT_EQ(counts(), parked);
+}
+
+/// Two coordinators; processes 3 and 4.
+class DeltaWithStandby : public Delta {
+protected:
+    DeltaWithStandby() : Delta({.machine = delta_machine(), .on_takeover = OnTakeover::Continue, .coordinators = 2}) {}
+};
+
+TEST_F(DeltaWithStandby, FinishesItsCircleAfterATakeover) {
+    home();
+    ASSERT_EQ(finishes(program({to({45, 0, 40})}, {0, 0, 80})).status, ReplyStatus::Accepted);
+    const std::vector<std::int64_t> begin = counts();
+    ASSERT_EQ(run(program({circle(45)}, {45, 0, 40})).status, ReplyStatus::Accepted);
+    wait(1.5);
+    const std::size_t owner = vm.owner().value();
+    vm.schedule(
+        {.kind = VirtualFault::Kind::Crash, .process = owner, .at = vm.now(), .lasts = Ticks{100'000'000}, .peer = {}});
+    const auto is_done = [&] {
+        return vm.owner() && *vm.owner() != owner && vm.state()->phase == MachinePhase::Idle &&
+               vm.state()->outcome == JobOutcome::Done;
+    };
+    ASSERT_TRUE(vm.advance_until(is_done, Ticks{30'000'000})) << describe();
+    EXPECT_EQ(counts(), begin);
+}
+
+MachineConfig delta_without_switches() {
+    MachineConfig machine = delta_machine();
+    for (AxisConfig& axis : machine.axes) { axis.homing.in_place = true; }
+    return machine;
+}
+
+class DeltaInPlace : public Delta {
+protected:
+    DeltaInPlace() : Delta({.machine = delta_without_switches()}) {}
+};
+
+TEST_F(DeltaInPlace, TakesThePlaceWhereItStandsForItsPark) {
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
+    StepLog log;
+    vm.observe(log);
+    home();
+    EXPECT_TRUE(log.steps.empty());
+    expect_at({0, 0, 80});
 }
 
 }  // namespace
