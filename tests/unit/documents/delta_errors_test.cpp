@@ -157,7 +157,7 @@ TEST(Delta, PlacesTheToolByItsCarriages) {
         EXPECT_EQ(kinematics.motors_at(back), motors);
         EXPECT_EQ(kinematics.astray(motors), std::nullopt);
         for (std::size_t i = 0; i < 3; ++i) {
-            EXPECT_LE(std::abs(back[i] - at[i]), kinematics.rounding_steps(i) + 1) << "axis " << i;
+            EXPECT_LE(std::abs(back[i] - at[i]), kinematics.rest_steps(i) + 1) << "axis " << i;
         }
     }
     EXPECT_FALSE(kinematics.own_motor(0));

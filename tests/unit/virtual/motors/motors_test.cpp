@@ -72,6 +72,39 @@ TEST_F(Gantry, RefusesWhatWouldMoveOneMotorAlone) {
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{500, 0, 0}));
 }
 
+/// The encoder of each side is compared with its count, so the sides cannot come apart unnoticed.
+TEST_F(Gantry, StopsBothSidesWhenOneHasLostSteps) {
+    home();
+    ASSERT_EQ(run(program_of({{20, 25}}, 0, {5, 0})).status, ReplyStatus::Accepted);
+    wait(0.4);
+    vm.device(kY2).plant().push(-5);
+    ASSERT_TRUE(reaches(MachinePhase::Fault, 5)) << describe();
+    EXPECT_EQ(fault(), FaultCode::FollowingError);
+    wait(0.5);
+    EXPECT_EQ(counts()[kY1], counts()[kY2]);
+    EXPECT_EQ(slide(kY1) - slide(kY2), 80 + 5) << "the rack at power-up, and the lost steps";
+    ASSERT_EQ(ask(CommandKind::Reset).status, ReplyStatus::Accepted);
+    home();
+    EXPECT_EQ(slide(kY1) - slide(kY2), 80) << "homing has squared it again";
+}
+
+/// A board ends while the sides square themselves: the other side waits, and the next homing squares them.
+TEST_F(Gantry, IsSquaredAfterABoardEndedInTheMiddleOfIt) {
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
+    ASSERT_EQ(ask(CommandKind::Home).status, ReplyStatus::Accepted);
+    ASSERT_TRUE(reaches(MachinePhase::Homing, 2));
+    wait(0.5);
+    vm.schedule({.kind = VirtualFault::Kind::Crash, .process = kY1, .at = vm.now(), .lasts = Ticks{500'000}});
+    ASSERT_TRUE(reaches(MachinePhase::Fault, 5)) << describe();
+    wait(3);
+    const double apart =
+        std::abs(static_cast<double>(slide(kY1) - slide(kY2)) + 80) / vm.machine().axes[1].steps_per_mm;
+    EXPECT_LE(apart, *vm.machine().axes[1].max_skew_mm + 0.5);
+    ASSERT_EQ(ask(CommandKind::Reset).status, ReplyStatus::Accepted);
+    home();
+    EXPECT_EQ(slide(kY1) - slide(kY2), 80);
+}
+
 /// The switch of one side never closes: its motor would go on while the other one stands.
 TEST_F(Gantry, IsStoppedWhileHomingWhereItsMotorsComeApart) {
     vm.schedule({.kind = VirtualFault::Kind::Stick,
