@@ -38,7 +38,8 @@ constexpr std::string_view name_of(CommandKind kind) {
 }
 
 constexpr std::string_view name_of(AxisCommandKind kind) {
-    return detail::pick_name(std::array<std::string_view, 6>{"home", "reset", "stop now", "move", "halt", "jog"}, kind);
+    return detail::pick_name(
+        std::array<std::string_view, 7>{"home", "reset", "stop now", "move", "halt", "jog", "approach"}, kind);
 }
 
 /// As records and reports name them.

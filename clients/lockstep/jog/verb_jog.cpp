@@ -53,7 +53,9 @@ public:
     bool is_complete(const Session& session) const {
         for (std::size_t i = 0; i < jogs_.size(); ++i) {
             const auto& received = session.axis(jogs_[i].axis);
-            if (!received || received->state.position.count() != targets_[i]) { return false; }
+            // Where the jog began and ends, motors rest on whole steps of their own.
+            const std::int64_t rests = 2 * session.kinematics().rest_steps(jogs_[i].axis);
+            if (!received || std::abs(received->state.position.count() - targets_[i]) > rests) { return false; }
         }
         return true;
     }
@@ -75,7 +77,8 @@ std::expected<bool, Failure> hold(Session& session, JogLink& link) {
     link.release();
     for (const nanoseconds end = session.running_time() + kBrakePatience; session.running_time() < end;) {
         link.pass(monotonic_now() + 20ms);
-        if (session.state()->state.phase != MachinePhase::Jogging) { break; }
+        const MachinePhase phase = session.state()->state.phase;
+        if (phase != MachinePhase::Jogging && phase != MachinePhase::Stopping) { break; }
     }
     return is_released;
 }
@@ -146,7 +149,8 @@ void add_jog(Verb command) {
                          "move axes while this command runs\n"
                          "Without axes, the keys of the terminal move them. Named axes move until the end of "
                          "--distance or of their travel, or until Ctrl-C. Each axis moves independently of the "
-                         "others, not on a straight line. When the command ends for any reason, the axes brake.");
+                         "others, not on a straight line, unless their motors must move together. When the command "
+                         "ends for any reason, the axes brake.");
     const auto options = std::make_shared<JogVerbOptions>();
     verb.add_option("axes", options->jog.words, "an axis and a direction: X+ Y-; default: the keys of the terminal");
     verb.add_option("--speed", options->jog.speed_mm_s,
