@@ -91,9 +91,11 @@ void PathJog::replace(Command next, const LoopView& loop) {
 std::optional<Command> PathJog::next(Tick now) const {
     if (is_over_ || is_released(now)) { return std::nullopt; }
     if (replacement_) { return replacement_->jogs.empty() ? std::nullopt : replacement_; }
-    const bool has_distance =
-        std::ranges::any_of(asked_.jogs, [](const JogAxis& a) { return a.distance_mm.has_value(); });
-    return has_distance ? std::nullopt : std::optional(asked_);
+    return has_distance() ? std::nullopt : std::optional(asked_);
+}
+
+bool PathJog::has_distance() const {
+    return std::ranges::any_of(asked_.jogs, [](const JogAxis& axis) { return axis.distance_mm.has_value(); });
 }
 
 }  // namespace lockstep

@@ -27,8 +27,10 @@ public:
     bool renew(const Command& command, const LoopView& loop);
     bool is_of(Identity client) const { return asked_.client == client; }
     bool is_released(Tick now) const { return now > renewed_ + hold_; }
-    /// The client's new command asks for the same motion.
-    bool asks_the_same(const Command& next) const { return !replacement_ && next.jogs == asked_.jogs; }
+    /// The client's new command asks for the same motion. A distance that is asked for again is another one.
+    bool asks_the_same(const Command& next) const {
+        return !replacement_ && !has_distance() && next.jogs == asked_.jogs;
+    }
     void continue_by(Command next, const LoopView& loop);
     /// The client jogs other axes, or at other speeds, as soon as the machine has come to rest; or none.
     void replace(Command next, const LoopView& loop);
@@ -39,6 +41,8 @@ public:
     std::optional<Command> next(Tick now) const;
 
 private:
+    bool has_distance() const;
+
     Command asked_;
     Ticks hold_;
     Tick renewed_;

@@ -35,6 +35,7 @@ void SkewWatch::begin(const AxisRoster& motors) {
         motor.newest.reset();
         motor.last.reset();
         motor.way_mm = 0;
+        motor.passed = {};
     }
 }
 
@@ -62,6 +63,7 @@ void SkewWatch::take(const Reading& reading, Motor& motor) {
         motor.way_mm += static_cast<double>(reading.count - from) * motor.axis_mm_per_step;
     }
     motor.last = reading;
+    motor.passed[static_cast<std::size_t>(reading.slot) % motor.passed.size()] = {reading.slot, motor.way_mm};
 }
 
 bool SkewWatch::agrees(const Reading& one, const Reading& next, const Motor& motor) {
@@ -77,7 +79,12 @@ bool SkewWatch::are_apart(const Motor& one, const Motor& other) {
     if (std::abs(begin) > one.travel_mm) { begin = 0; }                                      // a damaged state
     const double steps = std::abs(one.axis_mm_per_step) + std::abs(other.axis_mm_per_step);  // they do not move at once
     const double most = std::max(*one.most_mm, std::abs(begin) + steps);
-    return std::abs(begin + one.way_mm - other.way_mm) > most;
+    for (std::size_t k = 0; k < one.passed.size(); ++k) {
+        const Passed& a = one.passed[k];
+        const Passed& b = other.passed[k];
+        if (a.slot && a.slot == b.slot && std::abs(begin + a.way_mm - b.way_mm) > most) { return true; }
+    }
+    return false;
 }
 
 }  // namespace lockstep

@@ -2,11 +2,12 @@
 //
 // A motor's place is not known before it has found its switch, so ways since the begin are compared. When a motor sets
 // its zero its count jumps: it stood at its switch then, and its way goes on from there. A state may have been damaged
-// on its way to the coordinator, so it counts only if the next one agrees with it. Motors that were homed already may
-// stand further apart than max_skew_mm, after a fault; then homing brings them together, and they may not come further
-// apart.
+// on its way to the coordinator, so it counts only if the next one agrees with it. States may be lost, so ways are
+// compared at a slot of which both motors have one. Motors that were homed already may stand further apart than
+// max_skew_mm, after a fault; then homing brings them together, and they may not come further apart.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -34,6 +35,10 @@ private:
         std::int64_t count = 0;
         Slot slot = 0;
     };
+    struct Passed {
+        std::optional<Slot> slot;
+        double way_mm = 0;
+    };
     struct Motor {
         std::size_t axis = 0;
         double axis_mm_per_step = 0;
@@ -45,6 +50,7 @@ private:
         std::optional<Reading> newest = {};   // no other one agrees with it yet
         std::optional<Reading> last = {};     // that counts
         double way_mm = 0;                    // of the axis, since the begin
+        std::array<Passed, 16> passed = {};   // the newest ways, by the slot's remainder
     };
 
     static void take(const Reading& reading, Motor& motor);

@@ -16,11 +16,21 @@ Counts axes_at(const Bench& bench, const Counts& motors) {
     return {axes.begin(), axes.end()};
 }
 
-/// Motors of one axis are at different places, so that its homing must come before any program.
-bool is_astray(const Bench& bench, const Counts& motors) {
+/// Homing must come before any program: motors of one axis are at different places, or motors that share axes did not
+/// come to rest together, so that an axis is outside its travel.
+bool must_home(const Bench& bench, const Counts& motors) {
+    if (bench.map().is_direct()) { return false; }
     MotorCounts counts;
     for (const std::int64_t count : motors) { counts.steps.append(count); }
-    return bench.kinematics().astray(counts).has_value();
+    if (bench.kinematics().astray(counts)) { return true; }
+    const Counts axes = axes_at(bench, motors);
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        const AxisConfig& axis = bench.machine().axes[i];
+        const std::int64_t rests = bench.kinematics().rest_steps(i);
+        if (axes[i] < nearest_step(axis, axis.position_min_mm) - rests) { return true; }
+        if (axes[i] > nearest_step(axis, axis.position_max_mm) + rests) { return true; }
+    }
+    return false;
 }
 
 /// The program with the current positions of the axes as its start.
@@ -189,7 +199,7 @@ void make_ready(Bench& bench, Counts& at) {
     const auto in = [&](MachinePhase phase) { return bench.watch().phase() == phase; };
     const auto homed = [&] { return std::ranges::all_of(bench.watch().motors(), &AxisState::homed); };
     for (int tries = 0; tries < most_tries && !bench.over(); ++tries) {
-        if (in(MachinePhase::Idle) && homed() && !is_astray(bench, at)) { return; }
+        if (in(MachinePhase::Idle) && homed() && !must_home(bench, at)) { return; }
         if (in(MachinePhase::Idle)) {
             play_homing(bench, at);
         } else if (bench.faulted()) {

@@ -109,6 +109,17 @@ TEST_F(GantryJog, GoesExactlyTheDistanceAskedFor) {
     EXPECT_NEAR(axis_mm(kY), 12.34, 1e-9);
 }
 
+TEST_F(GantryJog, GoesADistanceAgainThatIsAskedForAgain) {
+    home();
+    ASSERT_TRUE(is_accepted(client, {{.axis = kY, .speed_mm_s = 30, .distance_mm = 10}}));
+    jog(0.2);
+    const double at = axis_mm(kY);
+    ASSERT_TRUE(is_accepted(client, {{.axis = kY, .speed_mm_s = 30, .distance_mm = 10}}));
+    jog(2);
+    EXPECT_EQ(phase(), MachinePhase::Idle);
+    EXPECT_GT(axis_mm(kY), at + 10);
+}
+
 TEST_F(GantryJog, TurnsRoundFromRest) {
     home();
     ASSERT_TRUE(is_accepted(client, {{.axis = kY, .speed_mm_s = 30}}));
