@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/kinematics/axis_steps.hpp"
 #include "core/kinematics/motors.hpp"
 #include "services/documents/machine_proto.hpp"
 #include "services/documents/rules/axis_ranges.hpp"
@@ -308,34 +309,6 @@ KinematicsConfig read_kinematics(const proto::Machine& message, Reader reader) {
         reader.require(message.skew(k).has_mm_per_m(), message.skew(k).mm_per_m(), skew.mm_per_m, place + ".mm_per_m");
     }
     return kinematics;
-}
-
-/// An axis that is not simply moved by a motor with its steps gets a motor block, and steps of its own: those of its
-/// motors if they follow it one to one, otherwise so fine ones that rounding to them does not matter.
-void set_steps_of_axes(MachineConfig& machine) {
-    constexpr double kFiner = 16;
-    const LinearMap map = motor_map_of(machine);
-    std::vector<double> finest(machine.axes.size(), 0.0);
-    std::vector<bool> is_simple(machine.axes.size(), true);
-    const std::vector<MotorConfig> motors = motors_of(machine);
-    for (std::size_t m = 0; m < motors.size(); ++m) {
-        for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-            const double share = map.factor(m, i);
-            if (share == 0) { continue; }
-            const double steps = std::abs(share) * motors[m].steps_per_mm;
-            const bool follows = std::abs(share) == 1 && map.only_axis_of(m) == i;
-            is_simple[i] = is_simple[i] && follows && (finest[i] == 0 || finest[i] == steps);
-            finest[i] = std::max(finest[i], steps);
-        }
-    }
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        AxisConfig& axis = machine.axes[i];
-        const double before = axis.steps_per_mm;
-        if (finest[i] > 0) { axis.steps_per_mm = is_simple[i] ? finest[i] : kFiner * finest[i]; }
-        if (is_simple[i] || !axis.motors.empty()) { continue; }
-        axis.motors.push_back(
-            {.name = axis.name, .host = axis.host, .device = axis.device, .steps_per_mm = before, .plant = {}});
-    }
 }
 
 AxisConfig read_axis(const proto::Axis& message, Reader reader) {

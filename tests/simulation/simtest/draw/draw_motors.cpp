@@ -4,8 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "core/check.hpp"
-#include "services/documents/machine_file.hpp"
+#include "core/kinematics/axis_steps.hpp"
 #include "tests/simulation/simtest/draw/draw.hpp"
 
 namespace lockstep::simtest {
@@ -116,10 +115,8 @@ MachineConfig with_motors(std::uint64_t seed, MachineConfig machine) {
     for (std::size_t i = machine.kinematics.matrix.empty() && machine.kinematics.skews.empty() ? 0 : 2; i < last; ++i) {
         if (draw.chance(0.2)) { give_gear(draw, machine, machine.axes[i]); }
     }
-    // The steps of the axes follow from those of the motors, as for a machine's file.
-    auto read = parse_machine(machine_text(machine));
-    check(read.has_value(), read ? "" : "a drawn machine keeps the rules: " + read.error().front().message);
-    return std::move(*read);
+    set_steps_of_axes(machine);
+    return machine;
 }
 
 }  // namespace lockstep::simtest

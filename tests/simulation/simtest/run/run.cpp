@@ -15,7 +15,9 @@ Violations check_configuration(const MachineConfig& machine) {
     std::vector<Problem> problems = machine_problems(machine);
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         for (Problem& problem : axis_problems(machine, i)) { problems.push_back(std::move(problem)); }
+        for (Problem& problem : motor_problems(machine, i)) { problems.push_back(std::move(problem)); }
     }
+    for (Problem& problem : kinematics_problems(machine)) { problems.push_back(std::move(problem)); }
     Violations violations;
     for (const Problem& problem : problems) { violations.push_back({"configuration", {}, {}, {}, problem.message}); }
     return violations;
