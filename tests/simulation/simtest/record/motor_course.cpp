@@ -26,7 +26,9 @@ private:
         stretch.fastest.clear();
         stretch.moved.clear();
         stretch.tolerance = tolerance(axes.stretches[k].tolerance_mm);
-        stretch.within = within(stretch);
+        // A joined move that begins or ends at a rest leads to the motor's whole step there, over its whole length.
+        constexpr double kRest = 0.5;
+        stretch.within = within(stretch) + (stretch.is_joined && !stretch.is_arc ? kRest : 0);
         for (std::size_t m = 0; m < map_.motors(); ++m) {
             const double to = map_.place(m, axes.stretches[k].to);
             stretch.to.push_back(stretch.ends_at_rest ? std::round(to) : to);
