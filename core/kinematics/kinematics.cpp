@@ -27,6 +27,7 @@ Kinematics::Kinematics(const MachineConfig& machine)
         own_motors_.push_back(find_own_motor(i));
         axis_steps_per_mm_.push_back(machine.axes[i].steps_per_mm);
         steps_mm_.push_back(step_mm_of(i, machine));
+        rest_steps_.push_back(find_rest_steps(i));
     }
 }
 
@@ -83,7 +84,7 @@ bool Kinematics::rests_on_its_steps(std::size_t axis) const {
     return moves_alone(axis);
 }
 
-std::int64_t Kinematics::rest_steps(std::size_t axis) const {
+std::int64_t Kinematics::find_rest_steps(std::size_t axis) const {
     if (rests_on_its_steps(axis)) { return 0; }
     return static_cast<std::int64_t>(std::ceil(steps_mm_[axis] * axis_steps_per_mm_[axis] / 2 + 0.5));
 }

@@ -36,7 +36,7 @@ public:
     AxisCounts axes_at(const MotorCounts& motors) const;
     /// How far axes_at() may be from the place at which the machine came to rest, because the motors rest on whole
     /// steps, in steps of the axis.
-    std::int64_t rest_steps(std::size_t axis) const;
+    std::int64_t rest_steps(std::size_t axis) const { return rest_steps_[axis]; }
     /// The place of an axis in steps, exactly where the motors are.
     double axis_steps(std::size_t axis, std::span<const Position> motors) const;
     /// mm of an axis that a motor moves alone, for each step of the motor.
@@ -65,6 +65,7 @@ private:
     std::optional<std::size_t> find_own_motor(std::size_t axis) const;
     bool moves_alone(std::size_t axis) const;
     bool rests_on_its_steps(std::size_t axis) const;
+    std::int64_t find_rest_steps(std::size_t axis) const;
     std::int64_t place_of_all(std::size_t axis, std::int64_t mean, const MotorCounts& motors) const;
     double step_mm_of(std::size_t axis, const MachineConfig& machine) const;
 
@@ -73,8 +74,9 @@ private:
     std::vector<std::optional<std::size_t>> own_motors_;  // of each axis
     std::vector<double> steps_mm_;                        // of each axis
     std::vector<double> axis_steps_per_mm_;
-    MotorMap map_;       // steps by steps
-    LinearMap inverse_;  // the joints by the motors, in steps
+    std::vector<std::int64_t> rest_steps_;  // of each axis
+    MotorMap map_;                          // steps by steps
+    LinearMap inverse_;                     // the joints by the motors, in steps
     bool is_direct_ = false;
 };
 

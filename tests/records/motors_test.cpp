@@ -1,4 +1,4 @@
-// What is said about one motor names the motor, and what is said about an axis names the axis.
+// Messages about a motor name the motor, and messages about an axis name the axis.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -47,7 +47,8 @@ class Arrival {
 public:
     Arrival(const Session& session, const std::vector<JogAxis>& jogs) : jogs_(jogs) {
         for (const JogAxis& jog : jogs) {
-            targets_.push_back(jog_target(jog, session.config().axes[jog.axis], session.axis(jog.axis)->state));
+            const AxisState& state = session.axis(jog.axis)->state;
+            targets_.push_back(jog_target(jog, session.config().axes[jog.axis], state.position.count(), state.homed));
         }
     }
     bool is_complete(const Session& session) const {

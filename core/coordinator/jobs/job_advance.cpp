@@ -55,8 +55,7 @@ void settle(activity::OnPath& path, const EpochEnd& end, JobLifecycle& jobs, Coo
 
 void advance_path(activity::OnPath& path, JobLifecycle& jobs, CoordinatorLoop& loop) {
     if (path.jog && path.intent == Intent::GoOn && path.jog->is_released(loop.now)) {
-        jobs.path().stop(loop.next_state);
-        jobs.activity().bring_to_rest(Intent::Stop, loop.out);
+        jobs.brake_on_path(Intent::Stop, loop);
     }
     if (const auto end = jobs.path().advance(path.task, loop, loop.out)) {
         const auto next = path.jog ? path.jog->next(loop.now) : std::nullopt;

@@ -142,9 +142,7 @@ CommandResult press_on_path(const Command& command, activity::OnPath& path, JobL
         if (const auto possible = jog_program(command, loop); !possible) { return std::unexpected(possible.error()); }
     }
     jog.replace(command, loop);
-    if (path.intent != Intent::GoOn) { return {}; }
-    jobs.path().stop(loop.next_state);
-    jobs.activity().bring_to_rest(Intent::Stop, loop.out);
+    if (path.intent == Intent::GoOn) { jobs.brake_on_path(Intent::Stop, loop); }
     return {};
 }
 
@@ -286,8 +284,7 @@ CommandResult interrupt(Intent intent, JobLifecycle& jobs, CoordinatorLoop& loop
     if (intent == Intent::Hold && activity.intent() > Intent::Hold) {
         return refuse(FaultCode::Busy, "the machine is already stopping, and the job ends with the stop");
     }
-    jobs.path().stop(loop.next_state);
-    activity.bring_to_rest(intent, loop.out);
+    jobs.brake_on_path(intent, loop);
     return {};
 }
 

@@ -126,6 +126,11 @@ void JobLifecycle::fail_at_rest(const MachineFault& fault, CoordinatorLoop& loop
     activity_.become(MachineEvent::Fails, activity::InFault{first}, loop.out);
 }
 
+void JobLifecycle::brake_on_path(Intent intent, CoordinatorLoop& loop) {
+    path_.stop(loop.next_state);
+    activity_.bring_to_rest(intent, loop.out);
+}
+
 /// An axis that was ordered an emergency stop before keeps this order as its newest one.
 void JobLifecycle::halt_axes(CoordinatorLoop& loop) {
     if (auto* const jogging = activity_.as<activity::Jogging>()) { jogging->jogs.release_all(); }

@@ -41,6 +41,8 @@ public:
     void fail(const MachineFault& fault, CoordinatorLoop& loop);
     /// A fault that was found when the machine had come to rest.
     void fail_at_rest(const MachineFault& fault, CoordinatorLoop& loop);
+    /// Axes that move together come to rest on the path.
+    void brake_on_path(Intent intent, CoordinatorLoop& loop);
     /// Axes that move by themselves come to rest.
     void halt_axes(CoordinatorLoop& loop);
 

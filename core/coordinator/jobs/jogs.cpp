@@ -37,14 +37,13 @@ std::string jog_speed_text(const AxisConfig& axis, double speed_mm_s) {
            short_number(speed_mm_s) + " mm/s";
 }
 
-std::int64_t jog_target(const JogAxis& asked, const AxisConfig& axis, const AxisState& state) {
-    const std::int64_t here = state.position.count();
+std::int64_t jog_target(const JogAxis& asked, const AxisConfig& axis, std::int64_t here, bool is_homed) {
     const double travel_mm = axis.position_max_mm - axis.position_min_mm;
     const double longest_mm = std::min(2 * travel_mm, std::abs(asked.speed_mm_s) * kLongestMotion_s);
     const double far_mm = std::min(asked.distance_mm.value_or(longest_mm), longest_mm);
     const std::int64_t steps = std::max<std::int64_t>(1, to_steps(axis, far_mm));
     const std::int64_t target = asked.speed_mm_s < 0 ? here - steps : here + steps;
-    if (!state.homed) { return target; }
+    if (!is_homed) { return target; }
     return std::clamp(target, to_steps(axis, axis.position_min_mm), to_steps(axis, axis.position_max_mm));
 }
 
@@ -79,7 +78,8 @@ std::expected<Jogs::Jog, Refusal> Jogs::jog_of(const JogAxis& asked, const Comma
     const AxisState& state = *loop.axes.state(*motor);
     if (auto homed = check_homed(axis, state); !homed) { return std::unexpected(homed.error()); }
     if (auto speed = check_speed(axis, asked.speed_mm_s); !speed) { return std::unexpected(speed.error()); }
-    if (const std::int64_t target = jog_target(asked, axis, state); state.at_rest && target == state.position.count()) {
+    const std::int64_t here = state.position.count();
+    if (const std::int64_t target = jog_target(asked, axis, here, state.homed); state.at_rest && target == here) {
         return refuse(FaultCode::OutsideTravel, "axis " + axis.name + " is at the end of its travel, " +
                                                     short_number(to_mm(axis, static_cast<double>(target))) + " mm");
     }
@@ -142,7 +142,10 @@ Jogs::Next Jogs::next_at_rest(const Jog& jog, const LoopView& loop) {
 
 const AxisCommand& Jogs::order(std::size_t axis, const LoopView& loop, AxisOrders& orders) {
     Jog& jog = *jogs_[axis];
-    if (!jog.target) { jog.target = jog_target(jog.asked, loop.machine.axes[axis], *loop.axes.state(jog.motor)); }
+    if (!jog.target) {
+        const AxisState& state = *loop.axes.state(jog.motor);
+        jog.target = jog_target(jog.asked, loop.machine.axes[axis], state.position.count(), state.homed);
+    }
     AxisCommand& order = orders.give(jog.motor, AxisCommandKind::Jog, loop.term);
     order.target_steps = *jog.target;
     order.speed_mm_s = std::abs(jog.asked.speed_mm_s);

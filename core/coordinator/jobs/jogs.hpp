@@ -20,7 +20,7 @@ std::string jog_speed_text(const AxisConfig& axis, double speed_mm_s);
 
 /// The position, in steps, where a jog ends by itself: after its distance, at most at the end of the travel. An unhomed
 /// axis does not know the ends of its travel.
-std::int64_t jog_target(const JogAxis& asked, const AxisConfig& axis, const AxisState& state);
+std::int64_t jog_target(const JogAxis& asked, const AxisConfig& axis, std::int64_t here, bool is_homed);
 
 class Jogs {
 public:

@@ -21,10 +21,7 @@ std::expected<Way, Refusal> way_of(const JogAxis& asked, const AxisCounts& here,
     if (!is_jog_speed(axis, std::abs(asked.speed_mm_s))) {
         return refuse(FaultCode::BadProgram, jog_speed_text(axis, std::abs(asked.speed_mm_s)));
     }
-    AxisState state;
-    state.position = Position::steps(here[asked.axis]);
-    state.homed = true;
-    const std::int64_t way = jog_target(asked, axis, state) - here[asked.axis];
+    const std::int64_t way = jog_target(asked, axis, here[asked.axis], true) - here[asked.axis];
     const bool is_backward = asked.speed_mm_s < 0;
     const double mm = is_backward == (way < 0) ? std::abs(to_mm(axis, static_cast<double>(way))) : 0;
     return Way{asked.axis, asked.speed_mm_s, mm / std::abs(asked.speed_mm_s)};

@@ -21,9 +21,9 @@ inline std::unexpected<Refusal> refuse(FaultCode why, std::string text) {
 
 CommandResult check_present(const LoopView& loop);
 CommandResult check_homed(const LoopView& loop);
-/// Checks that the axes agree on the time well enough for coordinated moves.
-/// The motors of each axis agree where it is.
+/// Checks that the motors of each axis agree where it is.
 CommandResult check_square(const LoopView& loop);
+/// Checks that the axes agree on the time well enough for coordinated moves.
 CommandResult check_clocks(const LoopView& loop);
 std::unexpected<Refusal> refuse_in_fault(FaultCode fault);
 std::unexpected<Refusal> refuse_without_device(std::size_t axis, const LoopView& loop);

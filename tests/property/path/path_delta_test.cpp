@@ -1,5 +1,5 @@
-// Paths of deltas: the carriages follow the tool within a step, keep their own limits, and leave the axes theirs. The
-// places of the carriages are computed here anew, in long double.
+// Paths of deltas: the carriages follow the tool within a step, and motors and axes keep their own limits. The test
+// computes the places of the carriages itself, in long double.
 #include "core/path/geometry/motor_rows.hpp"
 #include "tests/property/path/random_path.hpp"
 

@@ -8,8 +8,7 @@ namespace {
 const std::string kTour = "G21 G90 F3000\nG1 X40 Y8\nX42 Y40\nG0 X10 Y40\nX5 Y5\n";
 const std::string kArc = "G21 G90\nG0 X20 Y20\nG2 X40 Y20 I10 J0 F2400\nG1 X5 Y5\n";
 
-Record recorded(const VirtualOptions& options, const std::string& gcode, bool is_held = false) {
-    MachineRun run(options);
+void run_job(MachineRun& run, const std::string& gcode, bool is_held) {
     run.home();
     run.begin(gcode);
     if (is_held) {
@@ -18,6 +17,11 @@ Record recorded(const VirtualOptions& options, const std::string& gcode, bool is
         run.resume();
     }
     run.to_rest();
+}
+
+Record recorded(const VirtualOptions& options, const std::string& gcode, bool is_held = false) {
+    MachineRun run(options);
+    run_job(run, gcode, is_held);
     run.move_own("G0 X12 Y9\n");
     run.wait_ms(200);
     return run.finish();
@@ -39,14 +43,7 @@ VirtualOptions lai_planner() {
 
 Record by_motors(const MachineConfig& machine, const std::string& gcode, bool is_held = false) {
     MachineRun run(machine);
-    run.home();
-    run.begin(gcode);
-    if (is_held) {
-        run.wait_ms(600);
-        run.hold();
-        run.resume();
-    }
-    run.to_rest();
+    run_job(run, gcode, is_held);
     run.wait_ms(200);
     return run.finish();
 }

@@ -36,7 +36,7 @@ TEST(JogTarget, IsTheDistanceOrTheEndOfTheTravel) {
     const AxisConfig axis{.name = "X", .steps_per_mm = 100, .position_min_mm = 0, .position_max_mm = 100};
     const auto target = [&](double speed_mm_s, std::optional<double> distance_mm, std::int64_t here,
                             bool homed = true) {
-        return jog_target({0, speed_mm_s, distance_mm}, axis, {.homed = homed, .position = Position::steps(here)});
+        return jog_target({0, speed_mm_s, distance_mm}, axis, here, homed);
     };
     EXPECT_EQ(target(10, 2.5, 700), 950);
     EXPECT_EQ(target(-10, 2.5, 100), 0);

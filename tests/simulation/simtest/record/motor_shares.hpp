@@ -1,4 +1,4 @@
-// Which motors move which axes, read anew from the words of the machine's file: not the map of core/kinematics.
+// Which motors move which axes, by the machine's configuration. It shares no code with core/kinematics.
 #pragma once
 
 #include <vector>

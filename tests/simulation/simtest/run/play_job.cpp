@@ -8,11 +8,15 @@
 namespace lockstep::simtest {
 namespace {
 
-/// Where the axes are, in steps of the axes.
-Counts axes_at(const Bench& bench, const Counts& motors) {
+MotorCounts counts_of(const Counts& motors) {
     MotorCounts counts;
     for (const std::int64_t count : motors) { counts.steps.append(count); }
-    const AxisCounts axes = bench.kinematics().axes_at(counts);
+    return counts;
+}
+
+/// Where the axes are, in steps of the axes.
+Counts axes_at(const Bench& bench, const Counts& motors) {
+    const AxisCounts axes = bench.kinematics().axes_at(counts_of(motors));
     return {axes.begin(), axes.end()};
 }
 
@@ -20,9 +24,7 @@ Counts axes_at(const Bench& bench, const Counts& motors) {
 /// come to rest together, so that an axis is outside its travel.
 bool must_home(const Bench& bench, const Counts& motors) {
     if (bench.map().is_direct()) { return false; }
-    MotorCounts counts;
-    for (const std::int64_t count : motors) { counts.steps.append(count); }
-    if (bench.kinematics().astray(counts)) { return true; }
+    if (bench.kinematics().astray(counts_of(motors))) { return true; }
     const Counts axes = axes_at(bench, motors);
     for (std::size_t i = 0; i < axes.size(); ++i) {
         const AxisConfig& axis = bench.machine().axes[i];

@@ -28,16 +28,15 @@ protected:
         const Reply* reply = press(jogger, std::move(jogs));
         return reply != nullptr && reply->status == ReplyStatus::Accepted;
     }
+    MotorCounts motors() const {
+        MotorCounts motors;
+        for (const std::int64_t count : counts()) { motors.steps.append(count); }
+        return motors;
+    }
     double axis_mm(std::size_t axis) const {
-        MotorCounts motors;
-        for (const std::int64_t count : counts()) { motors.steps.append(count); }
-        return to_mm(vm.machine().axes[axis], static_cast<double>(kinematics.axes_at(motors)[axis]));
+        return to_mm(vm.machine().axes[axis], static_cast<double>(kinematics.axes_at(motors())[axis]));
     }
-    void expect_square() const {
-        MotorCounts motors;
-        for (const std::int64_t count : counts()) { motors.steps.append(count); }
-        EXPECT_FALSE(kinematics.astray(motors));
-    }
+    void expect_square() const { EXPECT_FALSE(kinematics.astray(motors())); }
 
     Kinematics kinematics;
     Jogger client{vm};
