@@ -5,13 +5,16 @@
 #include <utility>
 
 #include "core/step/segment.hpp"
+#include "sim_fpga/register_ring.hpp"
 #include "sim_fpga/register_window.hpp"
 
 namespace lockstep {
 
 class CaptureRing {
 public:
-    explicit CaptureRing(RegisterWindow window) : window_(std::move(window)) {}
+    /// entries: a power of two, at most registers::kCaptureRingMostEntries.
+    CaptureRing(RegisterWindow window, std::size_t entries)
+        : window_(std::move(window)), ring_(registers::kCaptureRing, entries, registers::kCaptureRingEntryBytes) {}
 
     /// Entries added, and steps that did not fit, since power-up.
     std::uint64_t head() const { return head_; }
@@ -19,20 +22,20 @@ public:
 
     /// Stores a step. Returns false if there is no room. The host sees the step after head() is published.
     bool keep(StepEdge step) {
-        if (head_ - tail_ >= registers::kCaptureRingEntries) { tail_ = window_.load(registers::kCaptureTail); }
-        if (head_ - tail_ >= registers::kCaptureRingEntries) {
+        if (head_ - tail_ >= ring_.entries()) { tail_ = window_.load(registers::kCaptureTail); }
+        if (head_ - tail_ >= ring_.entries()) {
             ++lost_;
             return false;
         }
-        const std::size_t slot = head_++ % registers::kCaptureRingEntries;
         const auto tick = static_cast<std::uint64_t>(step.tick.value);
-        window_.store(registers::kCaptureRing + slot * registers::kCaptureRingEntryBytes,
-                      (tick << 1) | static_cast<std::uint64_t>(step.direction > 0));
+        window_.store(ring_.entry(head_++), registers::kCaptureRingStepTick.word(tick) |
+                                                (step.direction > 0 ? registers::kCaptureRingStepForward : 0));
         return true;
     }
 
 private:
     RegisterWindow window_;
+    RegisterRing ring_;
     std::uint64_t head_ = 0;
     std::uint64_t tail_ = 0;  // the host's, as last read
     std::uint64_t lost_ = 0;

@@ -8,10 +8,11 @@ namespace lockstep {
 using namespace registers;
 
 SimulatedDevice::SimulatedDevice(RegisterWindow window, Plant plant, std::int64_t tick_ns, Tick now,
-                                 std::uint64_t power_up)
+                                 std::uint64_t power_up, const DeviceAbilities& abilities)
     : window_(window),
-      segments_(window),
-      capture_(window),
+      abilities_(abilities),
+      segments_(window, abilities.segment_entries),
+      capture_(window, abilities.capture_entries),
       plant_(std::move(plant)),
       tick_ns_(static_cast<std::uint64_t>(tick_ns)),
       power_up_(power_up),
@@ -29,6 +30,9 @@ void SimulatedDevice::reset() {
     window_.store(kMapChecksum, kMapChecksumValue);
     window_.store(kTickNs, tick_ns_);
     window_.store(kPowerUp, power_up_);
+    window_.store(kSegmentEntries, abilities_.segment_entries);
+    window_.store(kCaptureEntries, abilities_.capture_entries);
+    window_.store(kLeastStepTicks, static_cast<std::uint64_t>(abilities_.least_step.value));
     publish();
     window_.store(kMagic, kMagicValue);
 }
@@ -39,7 +43,7 @@ bool SimulatedDevice::is_intact() const {
                         window_.load(kPowerUp) == power_up_;
     const std::uint64_t loaded = window_.load(kSegmentHead) - segments_.taken();
     const std::uint64_t captured = capture_.head() - window_.load(kCaptureTail);
-    return is_own && loaded <= kSegmentRingEntries && captured <= kCaptureRingEntries;
+    return is_own && loaded <= abilities_.segment_entries && captured <= abilities_.capture_entries;
 }
 
 void SimulatedDevice::advance(Tick until) {
@@ -87,10 +91,11 @@ Tick SimulatedDevice::decide_first_frame(Tick until) {
         finish(0);
         return until;
     }
-    if (first->segment.start > engine_.now()) { return std::min(until, first->segment.start); }
+    if (first->start > engine_.now()) { return std::min(until, first->start); }
     if (may_run(1)) {
-        const bool joins = first->frame == 1 && first->segment.start == engine_.now() && rebase_to(first->segment.from);
-        if (!joins || !segments_.take_frame(next_)) {
+        const bool joins =
+            first->is_frame(1) && first->start == engine_.now() && rebase_to(first->from(engine_.position().count()));
+        if (!joins || !segments_.take_frame(1, next_)) {
             finish(kStatusBadSegment);
         } else if (triggered()) {
             trigger_count_ = count_;
@@ -119,9 +124,9 @@ void SimulatedDevice::end_body() {
         return;
     }
     const auto next = segments_.front();
-    if (next && next->run == run_ && next->frame == frame_.number + 1 && may_run(next->frame)) {
-        const bool joins = next->segment.start == engine_.now() && next->segment.from == engine_.position();
-        if (joins && segments_.take_frame(next_)) {
+    const FrameNumber number = frame_.number + 1;
+    if (next && next->is_of_run(run_) && next->is_frame(number) && may_run(number)) {
+        if (joins(*next) && segments_.take_frame(number, next_)) {
             begin_frame();
             return;
         }
@@ -164,6 +169,10 @@ bool SimulatedDevice::vetoed(FrameNumber frame) const { return window_.load(kVet
 bool SimulatedDevice::stop_asked() const {
     const std::uint64_t stop = window_.load(kStop);
     return stop != 0 && stop == window_.load(kRunRequest);
+}
+
+bool SimulatedDevice::joins(const FrameHeader& frame) const {
+    return frame.start == engine_.now() && frame.from(engine_.position().count()) == engine_.position();
 }
 
 /// A run may begin at the axis's position, with the phase that a stop left, or with the phase at rest.

@@ -14,6 +14,7 @@
 
 #include <cstdint>
 
+#include "core/hardware/device_abilities.hpp"
 #include "core/step/engine.hpp"
 #include "core/step/segment.hpp"
 #include "sim_fpga/capture_ring.hpp"
@@ -28,7 +29,8 @@ public:
     /// Powers up at rest after tick `now`, and resets all registers. The window belongs to this device from then on; a
     /// driver attaches to a copy. tick_ns: the value of TICK_NS. power_up: the value of POWER_UP; different each time,
     /// if a host depends on it.
-    SimulatedDevice(RegisterWindow window, Plant plant, std::int64_t tick_ns, Tick now, std::uint64_t power_up = 0);
+    SimulatedDevice(RegisterWindow window, Plant plant, std::int64_t tick_ns, Tick now, std::uint64_t power_up = 0,
+                    const DeviceAbilities& abilities = {});
 
     /// Executes all ticks up to and including `until`, then publishes its state. At or before now(), it only reads the
     /// host's registers and acts on them.
@@ -61,6 +63,7 @@ private:
     bool may_run(FrameNumber frame) const;
     bool vetoed(FrameNumber frame) const;
     bool stop_asked() const;
+    bool joins(const FrameHeader& frame) const;
     bool rebase_to(Position from);
     bool runs_into_limit(int direction) const;
     bool triggered() const;
@@ -73,6 +76,7 @@ private:
     void publish();
 
     RegisterWindow window_;
+    DeviceAbilities abilities_;
     SegmentRing segments_;
     CaptureRing capture_;
     Plant plant_;

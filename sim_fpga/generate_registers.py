@@ -34,21 +34,47 @@ def extents(source):
         yield register["name"], number(register["offset"]), number(register["offset"]) + 8
     for ring in source["rings"]:
         start = number(ring["offset"])
-        yield ring["name"], start, start + ring["entries"] * ring["entry_bytes"]
-        assert ring["entries"] & (ring["entries"] - 1) == 0, f"{ring['name']}: entries must be a power of two"
+        yield ring["name"], start, start + ring["most_entries"] * ring["entry_bytes"]
+        most = ring["most_entries"]
+        assert most & (most - 1) == 0, f"{ring['name']}: entries must be a power of two"
 
 
 def verify(source):
-    """Checks that words are aligned and inside the window, and that no two share a byte."""
+    """Checks that words are aligned and inside the window, and that no two share a byte, nor two fields a bit."""
     end = 0
     for name, start, stop in sorted(extents(source), key=lambda extent: extent[1]):
         assert start % 8 == 0 and start >= end, f"{name}: not aligned, or it overlaps what is before it"
         end = stop
     assert end <= number(source["window_bytes"]), "the window is too small"
+    for name, word in all_words(source):
+        used = [(bit["bit"], 1) for bit in word.get("bits", [])]
+        used += [(field["low"], field["bits"]) for field in word.get("fields", [])]
+        end = 0
+        for low, bits in sorted(used):
+            assert low >= end and low + bits <= 64, f"{name}: bit {low} is used twice, or beyond the word"
+            end = low + bits
+
+
+def entry_words(ring):
+    """(PREFIX_NAME, word) of all words of all kinds of entries of a ring."""
+    for entry in ring["entries"]:
+        prefix = "_".join(part for part in (ring["name"], entry.get("name")) if part)
+        for word in entry["words"]:
+            yield f"{prefix}_{word['name']}", word
+
+
+def all_words(source):
+    for register in source["registers"]:
+        yield register["name"], register
+    for ring in source["rings"]:
+        yield from entry_words(ring)
 
 
 def constants(source):
-    """(NAME, value, meaning, kind) of everything, in the map's order. Kinds: wide (64 bits), address, count, bit."""
+    """(NAME, value, meaning, kind) of everything, in the map's order.
+
+    Kinds: wide (64 bits), address, count, bit, field (its value is (low, bits)).
+    """
     yield "WINDOW_BYTES", number(source["window_bytes"]), "", "count"
     magic = next(register for register in source["registers"] if register["name"] == "MAGIC")
     yield "MAGIC_VALUE", number(magic["reset"]), "", "wide"
@@ -59,17 +85,18 @@ def constants(source):
         yield from choices(register)
     for ring in source["rings"]:
         yield ring["name"], number(ring["offset"]), ring["meaning"], "address"
-        yield f"{ring['name']}_ENTRIES", ring["entries"], "", "count"
+        yield f"{ring['name']}_MOST_ENTRIES", ring["most_entries"], "", "count"
         yield f"{ring['name']}_ENTRY_BYTES", ring["entry_bytes"], "", "count"
-        for word in ring["words"]:
-            word = {**word, "name": f"{ring['name']}_{word['name']}"}
-            yield word["name"], number(word["offset"]), word["meaning"], "address"
-            yield from choices(word)
+        for name, word in entry_words(ring):
+            yield name, number(word["offset"]), word["meaning"], "address"
+            yield from choices({**word, "name": name})
 
 
 def choices(word):
     for bit in word.get("bits", []):
         yield f"{word['name']}_{bit['name']}", bit["bit"], bit["meaning"], "bit"
+    for field in word.get("fields", []):
+        yield f"{word['name']}_{field['name']}", (field["low"], field["bits"]), field["meaning"], "field"
     for value in word.get("values", []):
         yield f"{word['name']}_{value['name']}", value["value"], value["meaning"], "wide"
 
@@ -80,9 +107,10 @@ def camel(name):
 
 def hpp(source):
     forms = {"wide": ("std::uint64_t", "0x{:X}"), "address": ("std::size_t", "0x{:X}"), "count": ("std::size_t", "{}"),
-             "bit": ("std::uint64_t", "std::uint64_t{{1}} << {}")}
+             "bit": ("std::uint64_t", "std::uint64_t{{1}} << {}"), "field": ("RegisterField", "{{{0[0]}, {0[1]}}}")}
     lines = [f"// The register map: byte offsets into the window, bits and values. {NOTE}", "#pragma once", "",
-             "#include <cstddef>", "#include <cstdint>", "", "namespace lockstep::registers {", ""]
+             "#include <cstddef>", "#include <cstdint>", "", '#include "sim_fpga/register_field.hpp"', "",
+             "namespace lockstep::registers {", ""]
     for name, value, meaning, kind in constants(source):
         lines += [f"/// {meaning}"] if meaning else []
         lines.append(f"inline constexpr {forms[kind][0]} {camel(name)} = {forms[kind][1].format(value)};")
@@ -91,7 +119,8 @@ def hpp(source):
 
 def vh(source):
     forms = {"wide": "[63:0] LOCKSTEP_{} = 64'h{:X}", "address": "[19:0] LOCKSTEP_{} = 20'h{:05X}",
-             "count": "LOCKSTEP_{} = {}", "bit": "LOCKSTEP_{}_BIT = {}"}
+             "count": "LOCKSTEP_{} = {}", "bit": "LOCKSTEP_{}_BIT = {}",
+             "field": "LOCKSTEP_{0}_LOW = {1[0]}, LOCKSTEP_{0}_BITS = {1[1]}"}
     lines = [f"// The register map: byte offsets, bit numbers and values. {NOTE}"]
     lines += [f"localparam {forms[kind].format(name, value)};" for name, value, _, kind in constants(source)]
     return "\n".join(lines + [""])
@@ -100,6 +129,9 @@ def vh(source):
 def choice_rows(word):
     for bit in word.get("bits", []):
         yield f"| | bit {bit['bit']} | | | `{bit['name']}`: {bit['meaning']} |"
+    for field in word.get("fields", []):
+        bits = f"{field['low']} to {field['low'] + field['bits'] - 1}"
+        yield f"| | bits {bits} | | | `{field['name']}`: {field['meaning']} |"
     for value in word.get("values", []):
         yield f"| | {value['value']} | | | `{value['name']}`: {value['meaning']} |"
 
@@ -117,12 +149,15 @@ def md(source):
         lines.append(f"| {r['offset']} | `{r['name']}` | {r['writer']}, {r['access']} | {r['reset']} | {r['meaning']} |")
         lines += choice_rows(r)
     for ring in source["rings"]:
-        lines += ["", f"## {ring['name']}", "", f"At {ring['offset']}: {ring['entries']} entries of "
-                  f"{ring['entry_bytes']} bytes, written by the {ring['writer']}. {ring['meaning']}", "",
-                  "| offset in entry | name | | | meaning |", "|---|---|---|---|---|"]
-        for word in ring["words"]:
-            lines.append(f"| {word['offset']} | `{word['name']}` | | | {word['meaning']} |")
-            lines += choice_rows(word)
+        lines += ["", f"## {ring['name']}", "", f"From {ring['offset']}: entries of {ring['entry_bytes']} bytes, "
+                  f"written by the {ring['writer']}. Entry n is at {ring['offset']} + (n mod {ring['entries_in']}) x "
+                  f"{ring['entry_bytes']}. {ring['meaning']}"]
+        for entry in ring["entries"]:
+            lines += ["", f"### {entry['name']}", "", entry["meaning"]] if "name" in entry else []
+            lines += ["", "| offset in entry | name | | | meaning |", "|---|---|---|---|---|"]
+            for word in entry["words"]:
+                lines.append(f"| {word['offset']} | `{word['name']}` | | | {word['meaning']} |")
+                lines += choice_rows(word)
     return "\n".join(lines + [""])
 
 

@@ -1,58 +1,66 @@
 #include "sim_fpga/segment_ring.hpp"
 
+#include <algorithm>
+
 #include "core/step/executable.hpp"
 
 namespace lockstep {
 
 using namespace registers;
 
-std::optional<SegmentEntry> SegmentRing::front() const {
-    const std::uint64_t loaded = window_.load(kSegmentHead) - tail_;
-    if (loaded == 0 || loaded > kSegmentRingEntries) { return std::nullopt; }
-    return entry(tail_);
+Position FrameHeader::from(std::int64_t near_count) const {
+    const auto low = [](std::uint64_t count) { return static_cast<std::uint32_t>(count); };
+    const std::uint32_t ahead =
+        low(kSegmentRingHeaderCountsCount.of(counts)) - low(static_cast<std::uint64_t>(near_count));
+    return Position::from_count(near_count + static_cast<std::int32_t>(ahead), phase);
+}
+
+std::optional<FrameHeader> SegmentRing::front() const {
+    if (loaded() == 0 || loaded() > ring_.entries()) { return std::nullopt; }
+    const std::size_t at = ring_.entry(tail_);
+    return FrameHeader{.tag = window_.load(at + kSegmentRingHeaderTag),
+                       .start = {static_cast<std::int64_t>(window_.load(at + kSegmentRingHeaderStart))},
+                       .counts = window_.load(at + kSegmentRingHeaderCounts),
+                       .phase = window_.load(at + kSegmentRingHeaderPhase)};
 }
 
 void SegmentRing::drop_run(std::uint64_t run) {
-    for (auto oldest = front(); oldest && oldest->run == run; oldest = front()) { ++tail_; }
+    for (auto oldest = front(); oldest && oldest->is_of_run(run); oldest = front()) { drop(*oldest); }
 }
 
 void SegmentRing::drop_other_runs(std::uint64_t run) {
-    for (auto oldest = front(); oldest && oldest->run != run; oldest = front()) { ++tail_; }
+    for (auto oldest = front(); oldest && !oldest->is_of_run(run); oldest = front()) { drop(*oldest); }
 }
 
-bool SegmentRing::take_frame(LoadedFrame& frame) {
-    const auto first = front();
-    if (!first || !first->first() || first->tail()) { return false; }
-    frame = {.number = first->frame, .last = first->last_frame()};
-    Segment expected = first->segment;
-    for (auto next = first; next && next->run == first->run && next->frame == first->frame; next = front()) {
-        const Piece& piece = next->segment.piece;
-        const bool joins = next->segment.start == expected.start && next->segment.from == expected.from;
-        const bool in_order = next->tail() || frame.body_pieces == frame.pieces.size();
-        if (!joins || !in_order || piece.ticks < Ticks{1} || !executable(piece) || !frame.pieces.push_back(piece)) {
-            return false;
-        }
-        frame.body_pieces += next->tail() ? 0 : 1;
-        expected = {.start = next->segment.end(), .from = next->segment.to(), .piece = {}};
-        ++tail_;
+void SegmentRing::drop(const FrameHeader& header) {
+    tail_ += header.is_header() ? std::min(1 + header.pieces(), loaded()) : 1;
+}
+
+bool SegmentRing::take_frame(FrameNumber number, LoadedFrame& frame) {
+    const auto header = front();
+    if (!header || header->body_pieces() == 0 || header->pieces() > frame.pieces.capacity() ||
+        header->pieces() >= loaded()) {
+        return false;
     }
+    frame = {.number = number, .last = header->is_last_frame(), .body_pieces = header->body_pieces(), .pieces = {}};
+    for (std::uint64_t k = 1; k <= header->pieces(); ++k) {
+        Piece piece;
+        if (!read_piece(tail_ + k, piece)) { return false; }
+        frame.pieces.append(piece);
+    }
+    tail_ += 1 + header->pieces();
     return true;
 }
 
-SegmentEntry SegmentRing::entry(std::uint64_t index) const {
-    const std::size_t at = kSegmentRing + (index % kSegmentRingEntries) * kSegmentRingEntryBytes;
-    const auto word = [&](std::size_t offset) { return window_.load(at + offset); };
-    const auto number = [&](std::size_t offset) { return static_cast<std::int64_t>(word(offset)); };
-    return {
-        .run = word(kSegmentRingRun),
-        .frame = word(kSegmentRingFrame),
-        .flags = word(kSegmentRingFlags),
-        .segment = {.start = {number(kSegmentRingStart)},
-                    .from = Position::from_count(number(kSegmentRingCount), word(kSegmentRingPhase)),
-                    .piece = {.ticks = {number(kSegmentRingTicks)},
-                              .velocity = {number(kSegmentRingVelocity)},
-                              .acceleration = {number(kSegmentRingAcceleration)}}},
-    };
+/// Returns false if the entry is none that can be executed.
+bool SegmentRing::read_piece(std::uint64_t index, Piece& piece) const {
+    const std::size_t at = ring_.entry(index);
+    const auto number = [&](std::size_t word) { return static_cast<std::int64_t>(window_.load(at + word)); };
+    const std::uint64_t tag = window_.load(at + kSegmentRingPieceTag);
+    piece = {.ticks = {static_cast<std::int64_t>(kSegmentRingPieceTagTicks.of(tag))},
+             .velocity = {number(kSegmentRingPieceVelocity)},
+             .acceleration = {number(kSegmentRingPieceAcceleration)}};
+    return (tag & kSegmentRingHeaderTagIsHeader) == 0 && piece.ticks >= Ticks{1} && executable(piece);
 }
 
 }  // namespace lockstep

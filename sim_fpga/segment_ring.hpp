@@ -8,23 +8,32 @@
 #include "core/protocol/messages.hpp"
 #include "core/static_vector.hpp"
 #include "core/step/segment.hpp"
+#include "sim_fpga/register_ring.hpp"
 #include "sim_fpga/register_window.hpp"
 
 namespace lockstep {
 
-/// One entry as the host wrote it, unchecked.
-struct SegmentEntry {
-    std::uint64_t run = 0;
-    FrameNumber frame = 0;
-    std::uint64_t flags = 0;
-    Segment segment;
+/// What the host wrote at the beginning of a frame, unchecked.
+struct FrameHeader {
+    std::uint64_t tag = 0;
+    Tick start;
+    std::uint64_t counts = 0;
+    std::uint64_t phase = 0;
 
-    bool first() const { return (flags & registers::kSegmentRingFlagsFirst) != 0; }
-    bool tail() const { return (flags & registers::kSegmentRingFlagsTail) != 0; }
-    bool last_frame() const { return (flags & registers::kSegmentRingFlagsLastFrame) != 0; }
+    /// Otherwise the entry is a piece, so the ring's order is lost.
+    bool is_header() const { return (tag & registers::kSegmentRingHeaderTagIsHeader) != 0; }
+    bool is_last_frame() const { return (tag & registers::kSegmentRingHeaderTagLastFrame) != 0; }
+    bool is_of_run(std::uint64_t run) const {
+        return is_header() && registers::kSegmentRingHeaderTagRun.shows(tag, run);
+    }
+    bool is_frame(FrameNumber number) const { return registers::kSegmentRingHeaderTagFrame.shows(tag, number); }
+    std::uint64_t body_pieces() const { return registers::kSegmentRingHeaderCountsBody.of(counts); }
+    std::uint64_t pieces() const { return body_pieces() + registers::kSegmentRingHeaderCountsTail.of(counts); }
+    /// The position with its low bits at which the frame starts, of all such positions the nearest to `near_count`.
+    Position from(std::int64_t near_count) const;
 };
 
-/// A frame with pieces that join each other and can be executed: the body's pieces, then the tail's.
+/// A frame with pieces that can be executed: the body's pieces, then the tail's.
 struct LoadedFrame {
     FrameNumber number = 0;
     bool last = false;
@@ -34,23 +43,28 @@ struct LoadedFrame {
 
 class SegmentRing {
 public:
-    explicit SegmentRing(RegisterWindow window) : window_(std::move(window)) {}
+    /// entries: a power of two, at most registers::kSegmentRingMostEntries.
+    SegmentRing(RegisterWindow window, std::size_t entries)
+        : window_(std::move(window)), ring_(registers::kSegmentRing, entries, registers::kSegmentRingEntryBytes) {}
 
     /// Entries taken since power-up.
     std::uint64_t taken() const { return tail_; }
     /// The oldest entry. Returns nullopt if the ring is empty, or the host's head is impossible.
-    std::optional<SegmentEntry> front() const;
-    /// Takes entries off the ring while the oldest is of `run`, or while it is of any other run.
+    std::optional<FrameHeader> front() const;
+    /// Takes frames off the ring while the oldest is of `run`, or while it is of any other run.
     void drop_run(std::uint64_t run);
     void drop_other_runs(std::uint64_t run);
-    /// Takes the oldest entry's frame. Returns false if it does not begin with its first piece, a piece does not start
-    /// where and when the one before ends or cannot be executed, or it is too long. `frame` must not be used then.
-    [[nodiscard]] bool take_frame(LoadedFrame& frame);
+    /// Takes the oldest frame, which has this number, into `frame`. Returns false and takes nothing if it is not whole
+    /// or too long, or if a piece cannot be executed. `frame` must not be used then.
+    [[nodiscard]] bool take_frame(FrameNumber number, LoadedFrame& frame);
 
 private:
-    SegmentEntry entry(std::uint64_t index) const;
+    std::uint64_t loaded() const { return window_.load(registers::kSegmentHead) - tail_; }
+    void drop(const FrameHeader& header);
+    bool read_piece(std::uint64_t index, Piece& piece) const;
 
     RegisterWindow window_;
+    RegisterRing ring_;
     std::uint64_t tail_ = 0;
 };
 

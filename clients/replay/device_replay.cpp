@@ -13,7 +13,7 @@ namespace lockstep::replay {
 namespace {
 
 constexpr std::int64_t kTick_ns = 1000;  // any value, the same for device and driver: all times are in ticks
-constexpr std::size_t kStepsAtOnce = registers::kCaptureRingEntries / 2;
+constexpr std::size_t kStepsAtOnce = registers::kCaptureRingMostEntries / 2;
 
 /// An axis without a switch within reach.
 MotorConfig endless_axis() {

@@ -9,14 +9,20 @@
 
 namespace lockstep {
 
-/// Entries of a device's segment ring (sim_fpga/registers.json).
+/// Entries that a device's segment ring must have (sim_fpga/registers.json).
 inline constexpr int kDeviceRingEntries = 1024;
-/// Entries of a device's capture ring: steps whose times it keeps until the axis's process reads them.
+/// Entries that a device's capture ring must have: steps whose times it keeps until the axis's process reads them.
 inline constexpr int kDeviceCaptureEntries = 65'536;
 /// The greatest number of frames that an axis keeps.
 inline constexpr std::size_t kMaxFramesKept = 16;
 /// A frame is fitted to its device's clock. This can add one piece to its body and one to its tail.
 inline constexpr std::size_t kDevicePieces = 2;
+/// The entry of the segment ring with which a frame begins.
+inline constexpr std::size_t kFrameHeaders = 1;
+/// Entries of the segment ring that a frame takes.
+inline std::size_t ring_entries(const AxisTrack& track) {
+    return kFrameHeaders + track.body.size() + track.tail.size();
+}
 /// A timing that leaves a frame fewer pieces is not useful.
 inline constexpr int kLeastBodyPieces = 32;
 
@@ -26,9 +32,11 @@ constexpr int frames_ahead(const ProtocolTiming& t) {
 }
 
 /// How many pieces the body of a frame may have for each axis. The device's ring then has room for all frames ahead,
-/// with their tails and kDevicePieces. If the result is below kLeastBodyPieces, too many frames are ahead.
+/// with their headers, their tails and kDevicePieces. If the result is below kLeastBodyPieces, too many frames are
+/// ahead.
 constexpr int body_pieces(const ProtocolTiming& t) {
-    const int room = kDeviceRingEntries / frames_ahead(t) - static_cast<int>(kMaxTailPieces + kDevicePieces);
+    constexpr std::size_t kOthers = kFrameHeaders + kMaxTailPieces + kDevicePieces;
+    const int room = kDeviceRingEntries / frames_ahead(t) - static_cast<int>(kOthers);
     return std::min(room, static_cast<int>(kMaxBodyPieces));
 }
 

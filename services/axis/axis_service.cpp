@@ -41,16 +41,16 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-OpenDevice opener_of(const DeviceName& device, const MotorConfig& axis, const MachineClock& clock,
-                     std::int64_t tick_ns) {
+OpenDevice opener_of(const DeviceName& device, const MotorConfig& motor, const MachineClock& clock,
+                     const MachineConfig& machine) {
     if (device.kind == DeviceName::Kind::Simulated) {
-        return [axis, tick_ns](Tick now) { return simulated_port(axis, tick_ns, now); };
+        return [machine, motor](Tick now) { return simulated_port(machine, motor, now); };
     }
-    return [device, clock, tick_ns](Tick) -> std::expected<std::unique_ptr<DevicePort>, std::string> {
+    return [device, clock, machine, motor](Tick) -> std::expected<std::unique_ptr<DevicePort>, std::string> {
         auto window = open_window(device);
         if (!window) { return std::unexpected(window.error()); }
         const bool has_own_clock = window->is_hardware();
-        auto driver = DeviceDriver::attach(std::move(*window), tick_ns);
+        auto driver = attach_driver(std::move(*window), machine, motor);
         if (!driver) { return std::unexpected(driver.error()); }
         if (!has_own_clock) { return std::make_unique<WindowPort>(std::move(*driver)); }
         return std::make_unique<WindowPort>(std::move(*driver), [clock] { return clock.now(); });
@@ -76,7 +76,7 @@ public:
         : setup_(setup),
           device_(device.text()),
           clock_(clock),
-          node_(setup, opener_of(device, motors_of(setup.machine)[setup.axis], clock, setup.machine.tick_ns)),
+          node_(setup, opener_of(device, motors_of(setup.machine)[setup.axis], clock, setup.machine)),
           network_(std::move(network)),
           sink_(std::move(sink)),
           flight_log_(open_flight(setup.machine, motor_name(setup.machine, setup.axis), setup.identity)),
@@ -86,7 +86,7 @@ public:
           meter_(setup.axis, setup.identity, setup.machine.tick_ns) {
         node_.measure(meter_);
         node_.note_in(flight_);
-        recorder_.reserve(registers::kCaptureRingEntries);
+        recorder_.reserve(registers::kCaptureRingMostEntries);
     }
 
     AxisService(const AxisService&) = delete;  // the node points to members of this object

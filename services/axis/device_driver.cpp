@@ -1,9 +1,12 @@
 #include "services/axis/device_driver.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cinttypes>
 #include <cstdio>
 #include <limits>
+
+#include "core/protocol/frame_room.hpp"
 
 namespace lockstep {
 namespace {
@@ -42,51 +45,64 @@ std::expected<std::uint64_t, std::string> entries_in(const char* ring, std::uint
                            " entries; restart the device");
 }
 
-std::expected<std::uint64_t, std::string> segments_in(const RegisterWindow& window) {
-    return entries_in("segment ring", window.load(kSegmentHead), window.load(kSegmentTail), kSegmentRingEntries);
-}
+std::uint64_t raw(std::int64_t value) { return static_cast<std::uint64_t>(value); }
 
-std::expected<std::uint64_t, std::string> captures_in(const RegisterWindow& window) {
-    return entries_in("capture ring", window.load(kCaptureHead), window.load(kCaptureTail), kCaptureRingEntries);
-}
-
-/// Writes the segments of one frame into the ring in order, and publishes them together.
+/// Writes a frame into the segment ring in order, and publishes it whole.
 class FrameWriter {
 public:
-    FrameWriter(RegisterWindow window, const device::LoadFrame& frame)
-        : window_(std::move(window)),
-          run_(window_.load(kRunRequest)),
-          frame_(frame),
-          head_(window_.load(kSegmentHead)),
-          tick_(frame.start),
-          position_(frame.track.from) {}
+    FrameWriter(RegisterWindow window, const RegisterRing& ring)
+        : window_(std::move(window)), ring_(ring), head_(window_.load(kSegmentHead)) {}
 
-    void write(const Piece& piece, std::uint64_t flags) {
-        const std::size_t at = kSegmentRing + (head_++ % kSegmentRingEntries) * kSegmentRingEntryBytes;
-        window_.store(at + kSegmentRingRun, run_);
-        window_.store(at + kSegmentRingFrame, frame_.number);
-        window_.store(at + kSegmentRingFlags, flags | (frame_.last ? kSegmentRingFlagsLastFrame : 0));
-        store(at + kSegmentRingStart, tick_.value);
-        store(at + kSegmentRingTicks, piece.ticks.value);
-        store(at + kSegmentRingCount, position_.count());
-        window_.store(at + kSegmentRingPhase, position_.phase());
-        store(at + kSegmentRingVelocity, piece.velocity.raw);
-        store(at + kSegmentRingAcceleration, piece.acceleration.raw);
-        tick_ += piece.ticks;
-        position_ = position_ + piece.covered();
+    void begin(const device::LoadFrame& frame) {
+        const AxisTrack& track = frame.track;
+        const std::size_t at = ring_.entry(head_++);
+        window_.store(at + kSegmentRingHeaderTag, kSegmentRingHeaderTagIsHeader |
+                                                      (frame.last ? kSegmentRingHeaderTagLastFrame : 0) |
+                                                      kSegmentRingHeaderTagRun.word(window_.load(kRunRequest)) |
+                                                      kSegmentRingHeaderTagFrame.word(frame.number));
+        window_.store(at + kSegmentRingHeaderStart, raw(frame.start.value));
+        window_.store(at + kSegmentRingHeaderCounts, kSegmentRingHeaderCountsCount.word(raw(track.from.count())) |
+                                                         kSegmentRingHeaderCountsBody.word(track.body.size()) |
+                                                         kSegmentRingHeaderCountsTail.word(track.tail.size()));
+        window_.store(at + kSegmentRingHeaderPhase, track.from.phase());
+    }
+    void write(const Piece& piece) {
+        const std::size_t at = ring_.entry(head_++);
+        window_.store(at + kSegmentRingPieceTag, kSegmentRingPieceTagTicks.word(raw(piece.ticks.value)));
+        window_.store(at + kSegmentRingPieceVelocity, raw(piece.velocity.raw));
+        window_.store(at + kSegmentRingPieceAcceleration, raw(piece.acceleration.raw));
     }
     void publish() { window_.store(kSegmentHead, head_); }
 
 private:
-    void store(std::size_t offset, std::int64_t value) { window_.store(offset, static_cast<std::uint64_t>(value)); }
-
     RegisterWindow window_;
-    std::uint64_t run_;
-    const device::LoadFrame& frame_;
+    RegisterRing ring_;
     std::uint64_t head_;
-    Tick tick_;
-    Position position_;
 };
+
+/// Error: the word is not a number of entries that the map allows.
+std::expected<std::uint64_t, std::string> ring_size(const RegisterWindow& window, const char* name, std::size_t word,
+                                                    std::uint64_t least, std::uint64_t most) {
+    const std::uint64_t entries = window.load(word);
+    if (std::has_single_bit(entries) && least <= entries && entries <= most) { return entries; }
+    return std::unexpected(std::string("device: ") + name + " reads " + hex(entries) +
+                           ", expected a power of two from " + std::to_string(least) + " to " + std::to_string(most) +
+                           "; restart the device");
+}
+
+std::expected<DeviceAbilities, std::string> read_abilities(const RegisterWindow& window) {
+    constexpr std::uint64_t kLeastSegments = 16;
+    constexpr std::uint64_t kLeastCaptures = 256;
+    const auto segments =
+        ring_size(window, "SEGMENT_ENTRIES", kSegmentEntries, kLeastSegments, kSegmentRingMostEntries);
+    if (!segments) { return std::unexpected(segments.error()); }
+    const auto captures =
+        ring_size(window, "CAPTURE_ENTRIES", kCaptureEntries, kLeastCaptures, kCaptureRingMostEntries);
+    if (!captures) { return std::unexpected(captures.error()); }
+    return DeviceAbilities{.segment_entries = *segments,
+                           .capture_entries = *captures,
+                           .least_step = {static_cast<std::int64_t>(window.load(kLeastStepTicks))}};
+}
 
 /// Called at every read, because memory that was removed or overwritten no longer shows these values.
 std::expected<void, std::string> identify(const RegisterWindow& window, std::int64_t tick_ns) {
@@ -109,20 +125,38 @@ std::expected<void, std::string> identify(const RegisterWindow& window, std::int
 
 std::expected<DeviceDriver, std::string> DeviceDriver::attach(RegisterWindow window, std::int64_t tick_ns) {
     if (const auto known = identify(window, tick_ns); !known) { return std::unexpected(known.error()); }
-    if (const auto segments = segments_in(window); !segments) { return std::unexpected(segments.error()); }
-    if (const auto captures = captures_in(window); !captures) { return std::unexpected(captures.error()); }
-    return DeviceDriver(std::move(window), tick_ns);
+    const auto abilities = read_abilities(window);
+    if (!abilities) { return std::unexpected(abilities.error()); }
+    DeviceDriver driver(std::move(window), tick_ns, *abilities);
+    if (const auto segments = driver.segments(); !segments) { return std::unexpected(segments.error()); }
+    if (const auto captures = driver.captures(); !captures) { return std::unexpected(captures.error()); }
+    return driver;
+}
+
+DeviceDriver::DeviceDriver(RegisterWindow window, std::int64_t tick_ns, const DeviceAbilities& abilities)
+    : window_(std::move(window)),
+      tick_ns_(tick_ns),
+      abilities_(abilities),
+      segment_ring_(kSegmentRing, abilities.segment_entries, kSegmentRingEntryBytes),
+      capture_ring_(kCaptureRing, abilities.capture_entries, kCaptureRingEntryBytes) {}
+
+std::expected<std::uint64_t, std::string> DeviceDriver::segments() const {
+    return entries_in("segment ring", window_.load(kSegmentHead), window_.load(kSegmentTail), segment_ring_.entries());
+}
+
+std::expected<std::uint64_t, std::string> DeviceDriver::captures() const {
+    return entries_in("capture ring", window_.load(kCaptureHead), window_.load(kCaptureTail), capture_ring_.entries());
 }
 
 std::expected<DeviceStatus, std::string> DeviceDriver::read() {
     for (int look = 0; look < kMaxLooks; ++look) {
         const std::uint64_t before = window_.load(kSequence);
         DeviceStatus status = read_words();
-        const auto loaded = segments_in(window_);
+        const auto loaded = segments();
         if (const auto known = identify(window_, tick_ns_); !known) { return std::unexpected(known.error()); }
         if (before % 2 != 0 || window_.load(kSequence) != before) { continue; }
         if (!loaded) { return std::unexpected(loaded.error()); }
-        status.free_segments = static_cast<std::uint32_t>(kSegmentRingEntries - *loaded);
+        status.free_segments = static_cast<std::uint32_t>(segment_ring_.entries() - *loaded);
         stale_reads_ = 0;
         last_look_ = status;
         return status;
@@ -188,21 +222,20 @@ DeviceDriver::Result DeviceDriver::apply_one(const device::LoadFrame& order) {
     const auto refuse = [&order](const std::string& why) {
         return std::unexpected("device: frame " + std::to_string(order.number) + " is not loaded: " + why);
     };
-    const auto loaded = segments_in(window_);
+    const auto loaded = segments();
     if (!loaded) { return std::unexpected(loaded.error()); }
-    const std::size_t needed = order.track.body.size() + order.track.tail.size();
-    const std::size_t room = kSegmentRingEntries - *loaded;
+    const std::size_t needed = ring_entries(order.track);
+    const std::size_t room = segment_ring_.entries() - *loaded;
     if (needed > room) {
-        return refuse("the frame has " + std::to_string(needed) + " segments, but the ring has room for " +
+        return refuse("the frame has " + std::to_string(needed) + " entries, but the ring has room for " +
                       std::to_string(room));
     }
     if (order.track.body.empty()) { return refuse("the frame has no body"); }
     if (window_.load(kRunRequest) == 0) { return refuse("no run has been begun"); }
-    FrameWriter writer(window_, order);
-    for (const Piece& piece : order.track.body) {
-        writer.write(piece, &piece == order.track.body.begin() ? kSegmentRingFlagsFirst : 0);
-    }
-    for (const Piece& piece : order.track.tail) { writer.write(piece, kSegmentRingFlagsTail); }
+    FrameWriter writer(window_, segment_ring_);
+    writer.begin(order);
+    for (const Piece& piece : order.track.body) { writer.write(piece); }
+    for (const Piece& piece : order.track.tail) { writer.write(piece); }
     writer.publish();
     return {};
 }
@@ -223,15 +256,14 @@ DeviceDriver::Result DeviceDriver::apply_one(const device::StopNow&) {
 }
 
 std::expected<std::uint64_t, std::string> DeviceDriver::drain_capture(const std::function<void(StepEdge)>& on_step) {
-    const auto captured = captures_in(window_);
+    const auto captured = captures();
     if (!captured) { return captured; }
     const std::uint64_t tail = window_.load(kCaptureTail);
     const Tick now{signed_word(kTick)};  // read after the head, so no step in the ring is later than this tick
     for (std::uint64_t index = tail; index != tail + *captured; ++index) {
-        const std::size_t slot = index % kCaptureRingEntries;
-        const std::uint64_t word = window_.load(kCaptureRing + slot * kCaptureRingEntryBytes);
-        const StepEdge step{.tick = {static_cast<std::int64_t>(word) >> 1},
-                            .direction = static_cast<std::int8_t>(word & 1 ? 1 : -1)};
+        const std::uint64_t word = window_.load(capture_ring_.entry(index) + kCaptureRingStep);
+        const StepEdge step{.tick = {static_cast<std::int64_t>(kCaptureRingStepTick.of(word))},
+                            .direction = static_cast<std::int8_t>(word & kCaptureRingStepForward ? 1 : -1)};
         if (step.tick > now || (last_step_ && step.tick <= *last_step_)) {
             return std::unexpected("device: capture ring entry " + std::to_string(index) + " reads tick " +
                                    std::to_string(step.tick.value) + ", which is impossible at tick " +

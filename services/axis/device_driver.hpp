@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "core/axis/device/device.hpp"
+#include "core/hardware/device_abilities.hpp"
+#include "sim_fpga/register_ring.hpp"
 #include "sim_fpga/register_window.hpp"
 
 namespace lockstep {
@@ -17,8 +19,8 @@ namespace lockstep {
 /// Only one driver may use a device at a time. It continues where its predecessor left the rings.
 class DeviceDriver {
 public:
-    /// `tick_ns` is the configured tick. Errors: no device, another map version, another tick, or a ring with
-    /// contradictory head and tail.
+    /// `tick_ns` is the configured tick. Errors: no device, another map version, another tick, impossible abilities, or
+    /// a ring with contradictory head and tail.
     static std::expected<DeviceDriver, std::string> attach(RegisterWindow window, std::int64_t tick_ns);
 
     /// Returns one consistent reading without waiting. While the device is in the middle of an update, it returns the
@@ -37,12 +39,14 @@ public:
     /// Passes every step made since the last call to on_step, in order, and returns their number. Error: a
     /// contradictory head and tail, or ticks that do not rise.
     std::expected<std::uint64_t, std::string> drain_capture(const std::function<void(StepEdge)>& on_step);
+    /// What the device is built for.
+    const DeviceAbilities& abilities() const { return abilities_; }
     /// Number of steps since the device's power-up that were made while the capture ring was full.
     std::uint64_t lost_captures() const { return window_.load(registers::kCaptureLost); }
 
 private:
     using Result = std::expected<void, std::string>;
-    DeviceDriver(RegisterWindow window, std::int64_t tick_ns) : window_(std::move(window)), tick_ns_(tick_ns) {}
+    DeviceDriver(RegisterWindow window, std::int64_t tick_ns, const DeviceAbilities& abilities);
 
     Result apply_one(const device::BeginRun& order);
     Result apply_one(const device::LoadFrame& order);
@@ -50,11 +54,16 @@ private:
     Result apply_one(const device::Veto& order);
     Result apply_one(const device::StopNow& order);
     std::expected<DeviceStatus, std::string> stale_look();
+    std::expected<std::uint64_t, std::string> segments() const;
+    std::expected<std::uint64_t, std::string> captures() const;
     DeviceStatus read_words() const;
     std::int64_t signed_word(std::size_t offset) const { return static_cast<std::int64_t>(window_.load(offset)); }
 
     RegisterWindow window_;
     std::int64_t tick_ns_;
+    DeviceAbilities abilities_;
+    RegisterRing segment_ring_;
+    RegisterRing capture_ring_;
     std::optional<DeviceStatus> last_look_;
     std::optional<Tick> last_step_;
     int stale_reads_ = 0;

@@ -1,5 +1,6 @@
 #include "services/axis/window_port.hpp"
 
+#include "core/hardware/device_abilities.hpp"
 #include "core/kinematics/motors.hpp"
 
 namespace lockstep {
@@ -21,15 +22,25 @@ std::expected<std::optional<DeviceReading>, std::string> WindowPort::read(Tick o
 std::expected<std::uint32_t, std::string> WindowPort::drain(const OnStep& on_step) {
     const auto captured = driver_.drain_capture(on_step);
     if (!captured) { return std::unexpected(captured.error()); }
-    return static_cast<std::uint32_t>(registers::kCaptureRingEntries - *captured);
+    return static_cast<std::uint32_t>(driver_.abilities().capture_entries - *captured);
 }
 
-std::unique_ptr<DevicePort> simulated_port(const MotorConfig& motor, std::int64_t tick_ns, Tick now) {
+std::expected<DeviceDriver, std::string> attach_driver(RegisterWindow window, const MachineConfig& machine,
+                                                       const MotorConfig& motor) {
+    auto driver = DeviceDriver::attach(std::move(window), machine.tick_ns);
+    if (!driver) { return driver; }
+    if (auto lack = lack_of(driver->abilities(), machine, motor)) { return std::unexpected(std::move(*lack)); }
+    return driver;
+}
+
+std::expected<std::unique_ptr<DevicePort>, std::string> simulated_port(const MachineConfig& machine,
+                                                                       const MotorConfig& motor, Tick now) {
     const RegisterWindow window = RegisterWindow::in_process();
-    auto device = std::make_unique<SimulatedDevice>(window, Plant(motor, tick_ns), tick_ns, now,
+    auto device = std::make_unique<SimulatedDevice>(window, Plant(motor, machine.tick_ns), machine.tick_ns, now,
                                                     static_cast<std::uint64_t>(now.value));
-    DeviceDriver driver = DeviceDriver::attach(window, tick_ns).value();
-    return std::make_unique<WindowPort>(std::move(driver), std::move(device));
+    auto driver = attach_driver(window, machine, motor);
+    if (!driver) { return std::unexpected(driver.error()); }
+    return std::make_unique<WindowPort>(std::move(*driver), std::move(device));
 }
 
 }  // namespace lockstep

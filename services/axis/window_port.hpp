@@ -2,9 +2,11 @@
 // process.
 #pragma once
 
+#include <expected>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "core/kinematics/motors.hpp"
@@ -43,7 +45,13 @@ private:
     std::optional<DeviceReading> newest_;
 };
 
-/// The port to a device that is simulated in this process, powered up at `now`.
-std::unique_ptr<DevicePort> simulated_port(const MotorConfig& motor, std::int64_t tick_ns, Tick now);
+/// A driver to the device behind these registers. Errors: those of DeviceDriver::attach; a device that cannot do what
+/// this motor of the machine needs.
+std::expected<DeviceDriver, std::string> attach_driver(RegisterWindow window, const MachineConfig& machine,
+                                                       const MotorConfig& motor);
+
+/// The port to a device that is simulated in this process, powered up at `now`. Error: as attach_driver.
+std::expected<std::unique_ptr<DevicePort>, std::string> simulated_port(const MachineConfig& machine,
+                                                                       const MotorConfig& motor, Tick now);
 
 }  // namespace lockstep

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/protocol/frame_room.hpp"
+
 namespace lockstep {
 namespace {
 
-std::uint64_t segments_of(const DeviceOrder& order) {
+std::uint64_t entries_of(const DeviceOrder& order) {
     const auto* frame = std::get_if<device::LoadFrame>(&order);
-    return frame == nullptr ? 0 : frame->track.body.size() + frame->track.tail.size();
+    return frame == nullptr ? 0 : ring_entries(frame->track);
 }
 
 }  // namespace
@@ -40,7 +42,7 @@ void LateLink::ask(Tick now, Tick own) {
 }
 
 void LateLink::give(Tick now, const DeviceOrder& order) {
-    segments_ += segments_of(order);
+    segments_ += entries_of(order);
     send(now + draw().there, order);
 }
 
@@ -53,7 +55,7 @@ void LateLink::arrive() {
     sent_.pop_front();
     if (const auto* question = std::get_if<Question>(&message.content)) { return answer(*question, message.arrives); }
     const auto& order = std::get<DeviceOrder>(message.content);
-    arrived_segments_ += segments_of(order);
+    arrived_segments_ += entries_of(order);
     const auto given = driver_->apply(order);
     if (!given) { refusal_ = given.error(); }
 }
@@ -70,7 +72,7 @@ void LateLink::answer(const Question& question, Tick now) {
     if (refusal_) { answer.status = std::unexpected(*refusal_); }
     captured_ += captured.value_or(0);
     answer.captured = captured_;
-    answer.free_captures = static_cast<std::uint32_t>(registers::kCaptureRingEntries - captured.value_or(0));
+    answer.free_captures = static_cast<std::uint32_t>(driver_->abilities().capture_entries - captured.value_or(0));
     if (question.number == questions_) { answer_ = std::move(answer); }
 }
 
@@ -111,7 +113,7 @@ std::expected<void, std::string> LatePort::apply(const DeviceOrder& order) {
 }
 
 std::expected<std::uint32_t, std::string> LatePort::drain(const OnStep& on_step) {
-    if (!newest_) { return static_cast<std::uint32_t>(registers::kCaptureRingEntries); }
+    if (!newest_) { return static_cast<std::uint32_t>(registers::kCaptureRingMostEntries); }
     link_.pass_steps(newest_->captured, on_step);
     return newest_->free_captures;
 }

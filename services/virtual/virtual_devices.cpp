@@ -8,47 +8,47 @@
 namespace lockstep {
 namespace {
 
-/// Starts the frame's first piece a tick late, so the frame does not join the one before.
+RegisterRing segment_ring(const RegisterWindow& window) {
+    return {registers::kSegmentRing, window.load(registers::kSegmentEntries), registers::kSegmentRingEntryBytes};
+}
+
+/// Starts the frame a quarter of a step further, so it does not join what is before it.
 void damage_newest_frame(RegisterWindow& window) {
     using namespace registers;
-    const std::uint64_t head = window.load(kSegmentHead);
-    const auto place = [](std::uint64_t n) {
-        return kSegmentRing + (n % kSegmentRingEntries) * kSegmentRingEntryBytes;
-    };
-    for (std::uint64_t n = head; n != window.load(kSegmentTail); --n) {
-        const std::size_t entry = place(n - 1);
-        if ((window.load(entry + kSegmentRingFlags) & kSegmentRingFlagsFirst) == 0) { continue; }
-        return window.store(entry + kSegmentRingStart, window.load(entry + kSegmentRingStart) + 1);
+    const RegisterRing ring = segment_ring(window);
+    for (std::uint64_t n = window.load(kSegmentHead); n != window.load(kSegmentTail); --n) {
+        const std::size_t entry = ring.entry(n - 1);
+        if ((window.load(entry + kSegmentRingHeaderTag) & kSegmentRingHeaderTagIsHeader) == 0) { continue; }
+        const std::size_t phase = entry + kSegmentRingHeaderPhase;
+        return window.store(phase, window.load(phase) + (std::uint64_t{1} << 62));
     }
 }
 
 /// Makes the frame's last piece two steps longer, so the frame joins the one before but ends elsewhere.
 void mislead_newest_frame(RegisterWindow& window) {
     using namespace registers;
-    const std::uint64_t newest = window.load(kSegmentHead) - 1;
-    const std::size_t entry = kSegmentRing + (newest % kSegmentRingEntries) * kSegmentRingEntryBytes;
-    const auto ticks = static_cast<double>(window.load(entry + kSegmentRingTicks));
+    const std::size_t entry = segment_ring(window).entry(window.load(kSegmentHead) - 1);
+    const auto ticks = static_cast<double>(kSegmentRingPieceTagTicks.of(window.load(entry + kSegmentRingPieceTag)));
     const auto more = static_cast<std::uint64_t>(2 / ticks * 0x1p64);
-    window.store(entry + kSegmentRingVelocity, window.load(entry + kSegmentRingVelocity) + more);
+    window.store(entry + kSegmentRingPieceVelocity, window.load(entry + kSegmentRingPieceVelocity) + more);
 }
 
 }  // namespace
 
 VirtualDevices::VirtualDevices(const MachineConfig& machine, const MachineClocks& clocks,
                                const std::vector<LinkDelay>& links, std::uint64_t seed, Tick now)
-    : clocks_(clocks), machine_(machine), seed_(seed) {
-    const std::vector<MotorConfig> motors = motors_of(machine);
-    for (std::size_t i = 0; i < motors.size(); ++i) {
+    : clocks_(clocks), machine_(machine), motors_(motors_of(machine)), seed_(seed) {
+    for (std::size_t i = 0; i < motors_.size(); ++i) {
         devices_.push_back({.window = RegisterWindow::in_process(), .simulated = nullptr, .link = {}});
         const bool has_link = i < links.size() && links[i].most > Ticks{};
         if (has_link) { devices_[i].link.emplace(links[i], seed + i); }
-        power_up(i, devices_[i].window, Plant(motors[i], machine.tick_ns), now);
+        power_up(i, devices_[i].window, Plant(motors_[i], machine.tick_ns), now);
     }
 }
 
 std::expected<std::unique_ptr<DevicePort>, std::string> VirtualDevices::open(std::size_t axis) {
     if (devices_[axis].is_gone) { return std::unexpected("no process holds its registers"); }
-    auto driver = DeviceDriver::attach(devices_[axis].window, machine_.tick_ns);
+    auto driver = attach_driver(devices_[axis].window, machine_, motors_[axis]);
     if (!driver) { return std::unexpected(driver.error()); }
     if (!estimates_clock(machine_, axis)) { return std::make_unique<WindowPort>(std::move(*driver)); }
     const auto now = [this, axis] { return devices_[axis].now; };

@@ -53,6 +53,7 @@ private:
 
     const MachineClocks& clocks_;
     MachineConfig machine_;
+    std::vector<MotorConfig> motors_;
     std::uint64_t seed_;
     std::vector<Device> devices_;
 };

@@ -8,7 +8,8 @@
 namespace lockstep {
 namespace {
 
-std::size_t segments_of(const AxisTrack& track) { return track.body.size() + track.tail.size() + kDevicePieces; }
+/// With room for the pieces that fitting it to the device's clock adds.
+std::size_t room_for(const AxisTrack& track) { return ring_entries(track) + kDevicePieces; }
 
 }  // namespace
 
@@ -30,12 +31,12 @@ void EpochFollowing::take(const Frame& frame, std::optional<Position> rest, Axis
     if (!is_open() || follower_.held() == held) { return; }
     last_refusal_ = FaultCode::None;
     if (held == 0) { loop.begin_run(Trigger::None, false); }
-    lockstep::check(loop.device.reserve(segments_of(frame.axes[axis_])), "there is room for the frame");
+    lockstep::check(loop.device.reserve(room_for(frame.axes[axis_])), "there is room for the frame");
     loop.load(check_found(follower_.find(follower_.held()), "the follower keeps the newest frame it holds"));
 }
 
 bool EpochFollowing::has_room(const Frame& frame, const DeviceView& device) const {
-    return axis_ >= frame.axes.size() || segments_of(frame.axes[axis_]) <= device.free_segments();
+    return axis_ >= frame.axes.size() || room_for(frame.axes[axis_]) <= device.free_segments();
 }
 
 void EpochFollowing::begin(Epoch epoch, AxisLoop& loop) {

@@ -2,8 +2,9 @@
 
 #include <utility>
 
-namespace lockstep {
+#include "core/protocol/frame_room.hpp"
 
+namespace lockstep {
 /// Loads the first frame at once, even if it starts late, because without a frame the device cannot begin or end its
 /// run.
 void OwnRun::feed(AxisLoop& loop) {
@@ -12,7 +13,7 @@ void OwnRun::feed(AxisLoop& loop) {
     while (!is_halted_ && (waiting_ || wants_more())) {
         if (!waiting_) { waiting_ = frames_.next(); }
         if (!may_load(*waiting_)) { return; }
-        if (!loop.device.reserve(waiting_->track.body.size() + waiting_->track.tail.size())) { return; }
+        if (!loop.device.reserve(ring_entries(waiting_->track))) { return; }
         held_.push_back(*std::exchange(waiting_, std::nullopt));
         loop.load(held_.back());
         loop.out.orders.emplace_back(device::Arm{held_.back().number});

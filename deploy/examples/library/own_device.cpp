@@ -12,6 +12,7 @@
 #include <random>
 
 #include "core/step/tick_engine.hpp"
+#include "sim_fpga/register_ring.hpp"
 #include "sim_fpga/register_window.hpp"
 
 namespace {
@@ -22,10 +23,8 @@ using namespace lockstep::registers;
 constexpr std::int64_t kTick_ns = 1000;
 constexpr std::int64_t kHomeCloses = -700;  // the home switch is closed up to this count; the device starts at 0
 
-/// Returns one word of the segment ring's entry `index`.
-std::uint64_t entry_word(const RegisterWindow& window, std::uint64_t index, std::size_t word) {
-    return window.load(kSegmentRing + index % kSegmentRingEntries * kSegmentRingEntryBytes + word);
-}
+constexpr RegisterRing kSegments(kSegmentRing, 1024, kSegmentRingEntryBytes);
+constexpr RegisterRing kCaptures(kCaptureRing, kCaptureRingMostEntries, kCaptureRingEntryBytes);
 
 class OwnDevice {
 public:
@@ -34,6 +33,9 @@ public:
         window_.store(kMapChecksum, kMapChecksumValue);
         window_.store(kTickNs, kTick_ns);
         window_.store(kPowerUp, power_up);
+        window_.store(kSegmentEntries, kSegments.entries());
+        window_.store(kCaptureEntries, kCaptures.entries());
+        window_.store(kLeastStepTicks, 2);
         publish();
         window_.store(kMagic, kMagicValue);  // the other words are valid from now on
     }
@@ -50,20 +52,30 @@ public:
 private:
     enum class State { Rests, Waits, InBody, InTail };
 
-    std::uint64_t word(std::size_t at) const { return entry_word(window_, taken_, at); }
+    /// A word of the oldest entry that was not taken yet.
+    std::uint64_t word(std::size_t at) const { return window_.load(kSegments.entry(taken_) + at); }
+    std::int64_t number(std::size_t at) const { return static_cast<std::int64_t>(word(at)); }
     bool is_loaded() const { return taken_ != window_.load(kSegmentHead); }
+    /// The oldest entry begins a frame of this run.
+    bool is_of_run(std::uint64_t run) const {
+        const std::uint64_t tag = word(kSegmentRingHeaderTag);
+        return (tag & kSegmentRingHeaderTagIsHeader) != 0 && kSegmentRingHeaderTagRun.shows(tag, run);
+    }
+    std::uint64_t body() const { return kSegmentRingHeaderCountsBody.of(word(kSegmentRingHeaderCounts)); }
+    std::uint64_t tail() const { return kSegmentRingHeaderCountsTail.of(word(kSegmentRingHeaderCounts)); }
+    void skip_frame() { taken_ += 1 + body() + tail(); }
     bool is_vetoed(std::uint64_t frame) const { return window_.load(kVeto) <= frame; }
     bool may_run(std::uint64_t frame) const {
         return !is_vetoed(frame) && window_.load(kArmed) >= frame && window_.load(kRunRequest) == run_;
     }
     bool starts_here() const {
-        const auto start = static_cast<std::int64_t>(word(kSegmentRingStart));
-        const Position from =
-            Position::from_count(static_cast<std::int64_t>(word(kSegmentRingCount)), word(kSegmentRingPhase));
+        const auto ahead =
+            static_cast<std::int32_t>(word(kSegmentRingHeaderCounts) - static_cast<std::uint64_t>(count_));
+        const Position from = Position::from_count(count_ + ahead, word(kSegmentRingHeaderPhase));
         const bool same =
             from == position() ||
             (state_ == State::Waits && (from == rest_position(count_, false) || from == rest_position(count_, true)));
-        return start == now_.value && same;
+        return number(kSegmentRingHeaderStart) == now_.value && same;
     }
     Position position() const { return Position::from_count(count_, phase_); }
 
@@ -71,13 +83,13 @@ private:
     void decide() {
         if (state_ == State::Rests) { take_run(); }
         if (state_ == State::Waits) { begin_first_frame(); }
-        if (state_ == State::InBody && left_ == Ticks{}) { end_piece_of_body(); }
-        if (state_ == State::InTail && left_ == Ticks{}) { end_piece_of_tail(); }
+        if (state_ == State::InBody && left_ == Ticks{}) { body_left_ > 0 ? begin_piece() : end_body(); }
+        if (state_ == State::InTail && left_ == Ticks{}) { tail_left_ > 0 ? begin_piece() : finish(0); }
     }
 
     void take_run() {
         const std::uint64_t asked = window_.load(kRunRequest);
-        while (is_loaded() && word(kSegmentRingRun) == run_) { ++taken_; }
+        while (is_loaded() && is_of_run(run_)) { skip_frame(); }
         if (asked == run_) { return; }
         run_ = asked;
         frame_ = 0;
@@ -87,48 +99,47 @@ private:
     }
 
     void begin_first_frame() {
-        while (is_loaded() && word(kSegmentRingRun) != run_) { ++taken_; }
-        if (!is_loaded() || static_cast<std::int64_t>(word(kSegmentRingStart)) > now_.value) { return; }
+        while (is_loaded() && !is_of_run(run_)) { skip_frame(); }
+        if (!is_loaded() || number(kSegmentRingHeaderStart) > now_.value) { return; }
         if (is_vetoed(1)) { return finish(0); }
         if (!may_run(1)) { return; }
         if (!starts_here()) { return finish(kStatusBadSegment); }
-        begin_piece(State::InBody);
+        begin_frame();
         if (is_triggered()) { finish_by_trigger(); }
     }
 
-    /// Continues the frame, begins the next frame, or begins this frame's tail.
-    void end_piece_of_body() {
-        if (is_loaded() && word(kSegmentRingFrame) == frame_ && !(word(kSegmentRingFlags) & kSegmentRingFlagsTail)) {
-            return begin_piece(State::InBody);
-        }
+    void begin_frame() {
+        ++frame_;
+        body_left_ = body();
+        tail_left_ = tail();
+        is_last_ = (word(kSegmentRingHeaderTag) & kSegmentRingHeaderTagLastFrame) != 0;
+        phase_ = word(kSegmentRingHeaderPhase);
+        ++taken_;
+        state_ = State::InBody;
+        begin_piece();
+    }
+
+    /// Begins the next frame, or this frame's tail.
+    void end_body() {
         if (is_last_) { return finish(0); }
         const std::uint64_t tail = taken_;
-        while (is_loaded() && word(kSegmentRingFrame) == frame_ && word(kSegmentRingRun) == run_) { ++taken_; }
-        const bool is_next = is_loaded() && word(kSegmentRingRun) == run_ && word(kSegmentRingFrame) == frame_ + 1;
+        taken_ += tail_left_;
+        const bool is_next =
+            is_loaded() && is_of_run(run_) && kSegmentRingHeaderTagFrame.shows(word(kSegmentRingHeaderTag), frame_ + 1);
         if (is_next && may_run(frame_ + 1)) {
-            if (starts_here()) { return begin_piece(State::InBody); }
+            if (starts_here()) { return begin_frame(); }
             ended_ |= kStatusBadSegment;
         }
         taken_ = tail;
-        end_piece_of_tail();
+        state_ = State::InTail;
     }
 
-    void end_piece_of_tail() {
-        const bool goes_on = is_loaded() && word(kSegmentRingRun) == run_ && word(kSegmentRingFrame) == frame_;
-        goes_on ? begin_piece(State::InTail) : finish(0);
-    }
-
-    void begin_piece(State state) {
-        state_ = state;
-        frame_ = word(kSegmentRingFrame);
-        is_last_ = (word(kSegmentRingFlags) & kSegmentRingFlagsLastFrame) != 0;
-        phase_ = word(kSegmentRingPhase);
-        left_ = Ticks{static_cast<std::int64_t>(word(kSegmentRingTicks))};
+    void begin_piece() {
+        left_ = Ticks{static_cast<std::int64_t>(kSegmentRingPieceTagTicks.of(word(kSegmentRingPieceTag)))};
         engine_.emplace(Position::from_count(count_, phase_),
-                        Piece{left_,
-                              {static_cast<std::int64_t>(word(kSegmentRingVelocity))},
-                              {static_cast<std::int64_t>(word(kSegmentRingAcceleration))}});
+                        Piece{left_, {number(kSegmentRingPieceVelocity)}, {number(kSegmentRingPieceAcceleration)}});
         ++taken_;
+        --(state_ == State::InBody ? body_left_ : tail_left_);
     }
 
     /// Runs one tick of the add-only engine.
@@ -142,9 +153,9 @@ private:
     void pulse(int direction) {
         count_ += direction;
         const std::uint64_t kept = captured_ - window_.load(kCaptureTail);
-        if (kept < kCaptureRingEntries) {
-            const auto step = static_cast<std::uint64_t>(now_.value) * 2 + (direction > 0 ? 1 : 0);
-            window_.store(kCaptureRing + captured_++ % kCaptureRingEntries * kCaptureRingEntryBytes, step);
+        if (kept < kCaptures.entries()) {
+            const std::uint64_t tick = kCaptureRingStepTick.word(static_cast<std::uint64_t>(now_.value));
+            window_.store(kCaptures.entry(captured_++), tick | (direction > 0 ? kCaptureRingStepForward : 0));
         } else {
             ++lost_;
             ended_ |= kStatusCaptureOverflow;
@@ -166,6 +177,9 @@ private:
         state_ = State::Rests;
         engine_.reset();
         left_ = Ticks{};
+        taken_ += body_left_ + tail_left_;  // of a frame that was cut
+        body_left_ = 0;
+        tail_left_ = 0;
     }
 
     void publish() {
@@ -194,8 +208,10 @@ private:
     std::uint64_t frame_ = 0;
     bool is_last_ = false;
     std::uint64_t trigger_ = kTriggerNone;
-    std::uint64_t ended_ = 0;  // bits of STATUS that say how the run ended
-    std::uint64_t taken_ = 0;  // entries taken from the segment ring
+    std::uint64_t ended_ = 0;      // bits of STATUS that say how the run ended
+    std::uint64_t taken_ = 0;      // entries taken from the segment ring
+    std::uint64_t body_left_ = 0;  // pieces of the frame that were not taken yet
+    std::uint64_t tail_left_ = 0;
     std::optional<Accumulator> engine_;
     Ticks left_;  // ticks left in the piece
     std::int64_t count_ = 0;

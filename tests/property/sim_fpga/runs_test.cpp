@@ -111,7 +111,7 @@ RC_GTEST_PROP(Runs, AnyValuesInTheWindowAreTolerated, ()) {
         const std::size_t entry =
             registers::kSegmentRing + *rc::gen::inRange<std::size_t>(0, 40) * registers::kSegmentRingEntryBytes;
         const std::size_t words[] = {registers::kRunRequest + *rc::gen::inRange<std::size_t>(0, 7) * 8,
-                                     entry + *rc::gen::inRange<std::size_t>(0, 9) * 8};
+                                     entry + *rc::gen::inRange<std::size_t>(0, 4) * 8};
         bench.window.store(words[*rc::gen::inRange(0, 2)], *rc::gen::arbitrary<std::uint64_t>());
         const std::int64_t before = bench.device.plant().encoder();
         bench.device.advance(Tick{k * 100});

@@ -52,7 +52,7 @@ protected:
     Tick now_{1'000'000};
     Coordinator coordinator_{machine_, 1, 1, methods::begin_steps};
     AxisNode node_{{0, machine_, 7, 1},
-                   [this](Tick now) { return simulated_port(motors_of(machine_)[0], machine_.tick_ns, now); }};
+                   [this](Tick now) { return simulated_port(machine_, motors_of(machine_)[0], now); }};
     HealthMeter meter_{0, 7, machine_.tick_ns};
     std::vector<StepEdge> steps_;
     AxisNode::OnStep on_step_ = [this](StepEdge step) { steps_.push_back(step); };

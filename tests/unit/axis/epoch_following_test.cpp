@@ -49,7 +49,7 @@ TEST_F(Following, BeginsARunWithTheFirstFrameAndLoadsEachFrameOnce) {
 }
 
 TEST_F(Following, LeavesAFrameAloneUntilTheDeviceHasRoom) {
-    const std::uint32_t needed = 1 + kDevicePieces;
+    const std::uint32_t needed = kFrameHeaders + 1 + kDevicePieces;
     DeviceStatus status = at_rest();
     status.free_segments = 2 * needed - 1;
     show(status, true);

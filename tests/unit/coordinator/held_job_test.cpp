@@ -21,7 +21,7 @@ protected:
     HeldJob() {
         for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
             nodes_.push_back(std::make_unique<AxisNode>(AxisNode::Setup{i, machine_, 7 + i, 1}, [this, i](Tick now) {
-                return simulated_port(motors_of(machine_)[i], machine_.tick_ns, now);
+                return simulated_port(machine_, motors_of(machine_)[i], now);
             }));
         }
     }

@@ -25,7 +25,7 @@ TEST(FrameRoom, OfTheLeastFrameIsEnoughForWhatIsSentAheadAndNoShorterOneIs) {
     for (int stall = 1; stall <= 200; ++stall) {
         ProtocolTiming t = with_least_times({.stall_slots = stall, .late_check_slots = std::min(stall, 2)});
         t.frame_slots = least_frame_slots(t);
-        const auto all = frames_ahead(t) * (body_pieces(t) + static_cast<int>(kMaxTailPieces) + 2);
+        const auto all = frames_ahead(t) * (1 + body_pieces(t) + static_cast<int>(kMaxTailPieces) + 2);
         EXPECT_LE(all, kDeviceRingEntries) << stall;
         EXPECT_GE(body_pieces(t), kLeastBodyPieces) << stall;
         if (t.frame_slots == 1) { continue; }

@@ -55,10 +55,10 @@ inline device::LoadFrame last_frame(FrameNumber number) {
 }
 
 struct DeviceBench {
-    explicit DeviceBench(const MotorConfig& axis = bench_axis(),
+    explicit DeviceBench(const MotorConfig& axis = bench_axis(), const DeviceAbilities& abilities = {},
                          RegisterWindow registers = RegisterWindow::in_process())
         : window(std::move(registers)),
-          device(window, Plant(axis, kTick_ns), kTick_ns, Tick{0}),
+          device(window, Plant(axis, kTick_ns), kTick_ns, Tick{0}, 0, abilities),
           driver(DeviceDriver::attach(window, kTick_ns).value()) {}
 
     void order(const DeviceOrder& order) {

@@ -24,6 +24,24 @@ TEST(Driver, RefusesAnotherVersionAndAnotherMap) {
     EXPECT_NE(attach_error(bench.window).find("VERSION reads 0x0000000000000063"), std::string::npos);
 }
 
+TEST(Driver, RefusesImpossibleAbilities) {
+    for (const std::uint64_t entries : {0, 8, 1000, 8192}) {
+        DeviceBench bench;
+        bench.window.store(registers::kSegmentEntries, entries);
+        EXPECT_NE(attach_error(bench.window).find("SEGMENT_ENTRIES reads"), std::string::npos) << entries;
+    }
+    for (const std::uint64_t entries : {0, 128, 65'535, 131'072}) {
+        DeviceBench bench;
+        bench.window.store(registers::kCaptureEntries, entries);
+        EXPECT_NE(attach_error(bench.window).find("CAPTURE_ENTRIES reads"), std::string::npos) << entries;
+    }
+}
+
+TEST(Driver, ReadsWhatTheDeviceIsBuiltFor) {
+    const DeviceAbilities small{.segment_entries = 16, .capture_entries = 256, .least_step = Ticks{5}};
+    EXPECT_EQ(DeviceBench(bench_axis(), small).driver.abilities(), small);
+}
+
 TEST(Driver, RefusesAnotherTick) {
     DeviceBench bench;
     EXPECT_NE(attach_error(bench.window, 500).find("the same tick_ns"), std::string::npos);

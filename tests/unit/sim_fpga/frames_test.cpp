@@ -148,7 +148,7 @@ TEST(Frames, OnceInTheTailNothingMoreOfTheRunIsRun) {
     const DeviceStatus after = bench.at(kMuchLater);
     EXPECT_EQ(after.frame, 1u);
     EXPECT_EQ(after.position.count(), 11);
-    EXPECT_EQ(after.free_segments, registers::kSegmentRingEntries);
+    EXPECT_EQ(after.free_segments, DeviceAbilities{}.segment_entries);
 }
 
 /// Frame 1, then one that does not join it.
@@ -233,7 +233,7 @@ TEST(Frames, ANewRunDropsLoadedArmedAndVetoedFrames) {
     bench.order(device::BeginRun{2});
     const DeviceStatus taken = bench.at(Tick{10});
     EXPECT_EQ(taken.run, 2u);
-    EXPECT_EQ(taken.free_segments, registers::kSegmentRingEntries);
+    EXPECT_EQ(taken.free_segments, DeviceAbilities{}.segment_entries);
     bench.order(frame(1));
     bench.order(device::Arm{1});
     EXPECT_EQ(bench.at(kMuchLater).position.count(), 11);

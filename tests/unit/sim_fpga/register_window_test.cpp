@@ -32,7 +32,7 @@ TEST(RegisterWindow, TwoWindowsOnOneNameSeeTheSameWords) {
 }
 
 TEST(RegisterWindow, ADeviceIsDrivenThroughAnotherWindowOnItsName) {
-    DeviceBench bench(bench_axis(), RegisterWindow::create_shared(own_name("drive")).value());
+    DeviceBench bench(bench_axis(), {}, RegisterWindow::create_shared(own_name("drive")).value());
     auto host = DeviceDriver::attach(RegisterWindow::open_shared(own_name("drive")).value(), kTick_ns).value();
     ASSERT_TRUE(host.apply(device::BeginRun{1}));
     ASSERT_TRUE(host.apply(last_frame(1)));
@@ -79,14 +79,14 @@ TEST(RegisterWindow, AMappedFileWorksToo) {
     auto window = RegisterWindow::open_file(path);
     ::unlink(path.c_str());
     ASSERT_TRUE(window) << window.error();
-    DeviceBench bench(bench_axis(), *window);
+    DeviceBench bench(bench_axis(), {}, *window);
     EXPECT_EQ(bench.at(Tick{5}).now, Tick{5});
 }
 
 /// Both sides access missing memory. Neither crashes, and both see that this is not a device.
 TEST(RegisterWindow, AFileThatIsCutShortWhileItIsMappedReadsZeros) {
     for (const off_t left : {off_t{0}, off_t{4096}}) {  // with and without the page of the device's words
-        DeviceBench bench(endless_axis(), RegisterWindow::create_shared(own_name("cut")).value());
+        DeviceBench bench(endless_axis(), {}, RegisterWindow::create_shared(own_name("cut")).value());
         auto host = DeviceDriver::attach(RegisterWindow::open_shared(own_name("cut")).value(), kTick_ns).value();
         ASSERT_TRUE(host.apply(device::BeginRun{1}));
         ASSERT_TRUE(host.apply(frame(1)));
@@ -103,8 +103,8 @@ TEST(RegisterWindow, AFileThatIsCutShortWhileItIsMappedReadsZeros) {
 }
 
 TEST(RegisterWindow, OnlyTheWindowThatIsCutShortIsLost) {
-    DeviceBench cut(bench_axis(), RegisterWindow::create_shared(own_name("one")).value());
-    DeviceBench whole(bench_axis(), RegisterWindow::create_shared(own_name("other")).value());
+    DeviceBench cut(bench_axis(), {}, RegisterWindow::create_shared(own_name("one")).value());
+    DeviceBench whole(bench_axis(), {}, RegisterWindow::create_shared(own_name("other")).value());
     ASSERT_EQ(::truncate(("/dev/shm/" + own_name("one")).c_str(), 0), 0);
     cut.device.advance(Tick{5});
     EXPECT_FALSE(cut.device.is_intact());

@@ -34,7 +34,7 @@ TEST(WindowPort, AReadingOfADeviceThatIsHeldUpKeepsItsAge) {
 }
 
 TEST(WindowPort, ASimulatedDeviceRunsUpToThePresentWhenItIsRead) {
-    const auto port = simulated_port(bench_axis(), kTick_ns, kStart);
+    const auto port = simulated_port({}, bench_axis(), kStart).value();
     EXPECT_EQ(port->clock(), DeviceClock::Host);
     EXPECT_EQ(port->read(kStart).value()->status.now, kStart);
     EXPECT_EQ(port->read(kStart + Ticks{500}).value()->status.now, kStart + Ticks{500});
@@ -49,8 +49,8 @@ TEST(WindowPort, SaysHowMuchRoomTheDeviceHadForSteps) {
     (void)bench.at(kMuchLater);
     int steps = 0;
     const auto count = [&](StepEdge) { ++steps; };
-    EXPECT_EQ(port.drain(count).value(), registers::kCaptureRingEntries - 10);
-    EXPECT_EQ(port.drain(count).value(), registers::kCaptureRingEntries);
+    EXPECT_EQ(port.drain(count).value(), DeviceAbilities{}.capture_entries - 10);
+    EXPECT_EQ(port.drain(count).value(), DeviceAbilities{}.capture_entries);
     EXPECT_EQ(steps, 10);
 }
 
