@@ -31,6 +31,18 @@ struct HomingConfig {
     double park_mm = 0;                // where the axis waits after homing
 };
 
+/// What a motor needs of the pins of its device.
+struct PinsConfig {
+    double step_width_us = 0;  // and least time to the next pulse; 0: as the device makes it by itself
+    double direction_setup_us = 0;
+    double direction_hold_us = 0;
+    double enable_wait_ms = 0;
+    bool step_inverted = false;
+    bool direction_inverted = false;
+    bool enable_inverted = false;
+    bool operator==(const PinsConfig&) const = default;
+};
+
 /// Properties of the simulated hardware behind an axis.
 struct PlantConfig {
     double start_position_mm = 0;       // where the slide stands at power-up, in machine coordinates
@@ -51,6 +63,7 @@ struct MotorBlock {
     std::optional<double> max_decel_mm_s2;
     double switch_offset_mm = 0;  // its switch closes so far behind the axis's switch_position_mm
     std::optional<PlantConfig> plant;
+    std::optional<PinsConfig> pins;
 };
 
 /// A coordinate that programs name. Without `motors` it has one motor, with its name, whose properties stand here.
@@ -70,6 +83,7 @@ struct AxisConfig {
     std::optional<double> safe_height_mm;    // where it is clear of the work; none: not known
     HomingConfig homing;
     PlantConfig plant;
+    PinsConfig pins;
     std::vector<MotorBlock> motors;
     std::optional<double> max_skew_mm;  // by how much its motors may differ while they square; several motors only
 };

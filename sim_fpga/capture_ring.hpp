@@ -19,17 +19,22 @@ public:
     /// Entries added, and steps that did not fit, since power-up.
     std::uint64_t head() const { return head_; }
     std::uint64_t lost() const { return lost_; }
+    /// The sum of the words of all steps, and the sum of its values after each step.
+    std::uint64_t sum() const { return sum_; }
+    std::uint64_t sums() const { return sums_; }
 
     /// Stores a step. Returns false if there is no room. The host sees the step after head() is published.
     bool keep(StepEdge step) {
+        const std::uint64_t word = registers::kCaptureRingStepTick.word(static_cast<std::uint64_t>(step.tick.value)) |
+                                   (step.direction > 0 ? registers::kCaptureRingStepForward : 0);
+        sum_ += word;
+        sums_ += sum_;
         if (head_ - tail_ >= ring_.entries()) { tail_ = window_.load(registers::kCaptureTail); }
         if (head_ - tail_ >= ring_.entries()) {
             ++lost_;
             return false;
         }
-        const auto tick = static_cast<std::uint64_t>(step.tick.value);
-        window_.store(ring_.entry(head_++), registers::kCaptureRingStepTick.word(tick) |
-                                                (step.direction > 0 ? registers::kCaptureRingStepForward : 0));
+        window_.store(ring_.entry(head_++), word);
         return true;
     }
 
@@ -39,6 +44,8 @@ private:
     std::uint64_t head_ = 0;
     std::uint64_t tail_ = 0;  // the host's, as last read
     std::uint64_t lost_ = 0;
+    std::uint64_t sum_ = 0;
+    std::uint64_t sums_ = 0;
 };
 
 }  // namespace lockstep

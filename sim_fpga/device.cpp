@@ -13,17 +13,18 @@ SimulatedDevice::SimulatedDevice(RegisterWindow window, Plant plant, std::int64_
       abilities_(abilities),
       segments_(window, abilities.segment_entries),
       capture_(window, abilities.capture_entries),
+      channels_(window, abilities),
       plant_(std::move(plant)),
       tick_ns_(static_cast<std::uint64_t>(tick_ns)),
       power_up_(power_up),
-      engine_(now, rest_position(0, false)),
-      inputs_(plant_.inputs()) {
+      engine_(now, rest_position(0, false)) {
     reset();
 }
 
 void SimulatedDevice::reset() {
     for (const std::size_t word :
-         {kMagic, kSequence, kRunRequest, kTrigger, kArmed, kVeto, kStop, kSegmentHead, kCaptureTail}) {
+         {kMagic, kSequence, kRunRequest, kTrigger, kArmed, kVeto, kStop, kSegmentHead, kCaptureTail, kOutputHead,
+          kEventTail, kBeat, kEnable, kDirectRequest, kSetupRequest}) {
         window_.store(word, 0);
     }
     window_.store(kVersion, kVersionValue);
@@ -33,6 +34,17 @@ void SimulatedDevice::reset() {
     window_.store(kSegmentEntries, abilities_.segment_entries);
     window_.store(kCaptureEntries, abilities_.capture_entries);
     window_.store(kLeastStepTicks, static_cast<std::uint64_t>(abilities_.least_step.value));
+    window_.store(kTimeUnitPs, abilities_.time_unit_ps);
+    window_.store(kLongestTime, abilities_.longest_time);
+    window_.store(kInputChannels, abilities_.inputs);
+    window_.store(kDigitalChannels, abilities_.digital_outputs);
+    window_.store(kAnalogChannels, abilities_.analog_outputs);
+    window_.store(kOutputEntries, abilities_.output_entries);
+    window_.store(kEventEntries, abilities_.event_entries);
+    window_.store(kFeatures, (abilities_.has_encoder ? kFeaturesEncoder : 0) |
+                                 (abilities_.can_enable ? kFeaturesEnable : 0) |
+                                 (abilities_.can_compare ? kFeaturesCompare : 0));
+    tend();
     publish();
     window_.store(kMagic, kMagicValue);
 }
@@ -43,21 +55,51 @@ bool SimulatedDevice::is_intact() const {
                         window_.load(kPowerUp) == power_up_;
     const std::uint64_t loaded = window_.load(kSegmentHead) - segments_.taken();
     const std::uint64_t captured = capture_.head() - window_.load(kCaptureTail);
-    return is_own && loaded <= abilities_.segment_entries && captured <= abilities_.capture_entries;
+    return is_own && loaded <= abilities_.segment_entries && captured <= abilities_.capture_entries &&
+           channels_.is_intact();
 }
 
 void SimulatedDevice::advance(Tick until) {
-    inputs_ = plant_.inputs();
+    take_setup();
+    take_enable();
+    channels_.take_orders(place());
     take_run();
     if (phase_ != Phase::AtRest && stop_asked()) { finish(kStatusStoppedByHost); }
+    tend();
     for (Tick next = decide(until); engine_.now() < until; next = decide(until)) {
+        const Tick due = next_due(next);
         if (engine_.idle()) {
-            engine_.wait(next);
+            engine_.wait(due);
         } else {
-            run(next);
+            engine_.run(due, [this](StepEdge step) { return on_step(step); });
         }
+        tend();
     }
     publish();
+}
+
+/// A setup changes what inputs and pulses mean, so it is taken at rest only.
+void SimulatedDevice::take_setup() {
+    const std::uint64_t asked = window_.load(kSetupRequest);
+    if (in_motion() || asked == setup_taken_ || asked == setup_refused_) { return; }
+    const DeviceSetup setup = load_setup(window_, abilities_.time_unit_ps);
+    if (lack_of(abilities_, setup)) {
+        setup_refused_ = asked;
+        return;
+    }
+    setup_ = setup;
+    setup_taken_ = asked;
+    channels_.set(setup_, place());
+}
+
+void SimulatedDevice::take_enable() {
+    const bool falls_off = channels_.is_host_silent() && setup_.disable_at_silence;
+    if (window_.load(kEnable) == 0 || falls_off) {
+        if (enabled_.has_value() && in_motion()) { finish(kStatusStoppedByHost); }
+        enabled_.reset();
+    } else if (!enabled_) {
+        enabled_ = engine_.now();
+    }
 }
 
 void SimulatedDevice::take_run() {
@@ -76,6 +118,7 @@ Tick SimulatedDevice::decide(Tick until) {
     if (phase_ == Phase::AtRest) { take_run(); }
     if (phase_ == Phase::AtRest) {
         segments_.drop_run(run_);
+        channels_.drop_run(run_);
         return until;
     }
     if (phase_ == Phase::Waiting) { return decide_first_frame(until); }
@@ -97,6 +140,8 @@ Tick SimulatedDevice::decide_first_frame(Tick until) {
             first->is_frame(1) && first->start == engine_.now() && rebase_to(first->from(engine_.position().count()));
         if (!joins || !segments_.take_frame(1, next_)) {
             finish(kStatusBadSegment);
+        } else if (is_closed(setup_.stop)) {
+            finish(kStatusStoppedByInput);
         } else if (triggered()) {
             trigger_count_ = count_;
             finish(kStatusStoppedByTrigger);
@@ -139,6 +184,7 @@ void SimulatedDevice::begin_frame() {
     frame_ = next_;
     phase_ = Phase::Body;
     piece_ = 0;
+    if (!channels_.begin_frame(run_, frame_.number, place())) { run_bits_ |= kStatusBadOutput; }
     engine_.begin(frame_.pieces[0]);
 }
 
@@ -149,19 +195,23 @@ void SimulatedDevice::begin_tail() {
     }
     phase_ = Phase::Tail;
     piece_ = frame_.body_pieces;
+    channels_.begin_tail(place());
     engine_.begin(frame_.pieces[piece_]);
 }
 
 void SimulatedDevice::finish(std::uint64_t reason) {
+    const bool is_cut = reason != 0 || phase_ != Phase::Body || !frame_.last;
     engine_.halt();
+    if (engine_.position().count() != count_) { engine_.rebase(rest_position(count_, false)); }  // at a limit switch
     run_bits_ |= kStatusFinished | reason | (phase_ == Phase::Tail ? kStatusInTail : 0);
     phase_ = Phase::AtRest;
+    channels_.end_run(is_cut, place());
 }
 
 /// The host withdraws ARMED before it lifts VETO for another run, and requests that run last. The registers are read in
 /// reverse order, so no mixture of the values of two runs lets a frame through.
 bool SimulatedDevice::may_run(FrameNumber frame) const {
-    return !vetoed(frame) && window_.load(kArmed) >= frame && window_.load(kRunRequest) == run_;
+    return !vetoed(frame) && window_.load(kArmed) >= frame && window_.load(kRunRequest) == run_ && may_move();
 }
 
 bool SimulatedDevice::vetoed(FrameNumber frame) const { return window_.load(kVeto) <= frame; }
@@ -182,46 +232,71 @@ bool SimulatedDevice::rebase_to(Position from) {
     return same_place;
 }
 
+bool SimulatedDevice::may_move() const {
+    return setup_taken_ != 0 && enabled_ && engine_.now() - *enabled_ >= setup_.enable_wait;
+}
+
 bool SimulatedDevice::runs_into_limit(int direction) const {
-    return direction < 0 ? inputs_.limit_min : inputs_.limit_max;
+    return is_closed(direction < 0 ? setup_.limit_min : setup_.limit_max);
 }
 
 bool SimulatedDevice::triggered() const {
-    return (trigger_ == kTriggerHomeCloses && inputs_.home) || (trigger_ == kTriggerHomeOpens && !inputs_.home);
+    const auto inputs = static_cast<std::uint32_t>(kTriggerInputs.of(trigger_));
+    const bool opens = (trigger_ & kTriggerOpens) != 0;
+    return inputs != 0 && is_closed(inputs) != opens;
 }
 
-void SimulatedDevice::run(Tick until) {
-    engine_.run(until, [this](StepEdge step) { return on_step(step); });
-    if (cease_ != 0) {
-        finish(std::exchange(cease_, 0));
-        if (engine_.position().count() != count_) {  // a pulse was suppressed at a limit switch
-            engine_.rebase(rest_position(count_, false));
-        }
-    }
+Tick SimulatedDevice::next_due(Tick until) const {
+    const auto due = channels_.next();
+    return due ? std::min(until, *due) : until;
 }
 
+/// Returns false to pause after this tick: for a limit switch, or to look at the inputs.
 bool SimulatedDevice::on_step(StepEdge step) {
     if (runs_into_limit(step.direction)) {
-        cease_ = kStatusStoppedByLimit;
+        into_limit_ = true;
         return false;
     }
     count_ += step.direction;
     plant_.step(step);
-    inputs_ = plant_.inputs();
     if (!capture_.keep(step)) { run_bits_ |= kStatusCaptureOverflow; }
-    if (triggered()) {
-        trigger_count_ = count_;
-        cease_ = kStatusStoppedByTrigger;
+    channels_.arrive(step.tick, count_);
+    stepped_ = step.direction;
+    return plant_.pins() == pins_;
+}
+
+/// Looks at the inputs and does what is due after this tick.
+void SimulatedDevice::tend() {
+    pins_ = plant_.pins();
+    channels_.tend(pins_, place());
+    if (const std::uint64_t reason = reason_to_cease(); reason != 0) {
+        if ((reason & kStatusStoppedByTrigger) != 0) { trigger_count_ = count_; }
+        finish(reason);
     }
-    if (runs_into_limit(step.direction)) { cease_ |= kStatusStoppedByLimit; }
-    return cease_ == 0;
+    into_limit_ = false;
+    stepped_ = 0;
+    if (channels_.is_host_silent()) { take_enable(); }
+}
+
+/// Why pulses cease after this tick. 0: they do not.
+std::uint64_t SimulatedDevice::reason_to_cease() const {
+    if (!in_motion()) { return 0; }
+    const bool at_limit = into_limit_ || (stepped_ != 0 && runs_into_limit(stepped_));
+    return (at_limit ? kStatusStoppedByLimit : 0) | (triggered() ? kStatusStoppedByTrigger : 0) |
+           (is_closed(setup_.stop) ? kStatusStoppedByInput : 0);
+}
+
+DevicePlace SimulatedDevice::place() const {
+    return {.now = engine_.now(), .count = count_, .phase = engine_.position().phase()};
 }
 
 std::uint64_t SimulatedDevice::status_word() const {
     const auto bit = [](bool set, std::uint64_t mask) { return set ? mask : 0; };
     return run_bits_ | bit(phase_ == Phase::Body || phase_ == Phase::Tail, kStatusMoving) |
-           bit(phase_ == Phase::Tail, kStatusInTail) | bit(inputs_.limit_min, kStatusLimitMin) |
-           bit(inputs_.limit_max, kStatusLimitMax) | bit(inputs_.home, kStatusHome);
+           bit(phase_ == Phase::Tail, kStatusInTail) | bit(is_closed(setup_.limit_min), kStatusLimitMin) |
+           bit(is_closed(setup_.limit_max), kStatusLimitMax) | bit(is_closed(setup_.home), kStatusHome) |
+           bit(enabled_.has_value(), kStatusEnabled) | bit(channels_.is_host_silent(), kStatusHostSilent) |
+           bit(setup_refused_ != 0 && window_.load(kSetupRequest) == setup_refused_, kStatusBadSetup);
 }
 
 void SimulatedDevice::publish() {
@@ -241,6 +316,10 @@ void SimulatedDevice::publish() {
     window_.store(kSegmentTail, segments_.taken());
     window_.store(kCaptureHead, capture_.head());
     window_.store(kCaptureLost, capture_.lost());
+    window_.store(kCaptureSum, capture_.sum());
+    window_.store(kCaptureSums, capture_.sums());
+    window_.store(kSetup, setup_taken_);
+    channels_.publish();
     window_.store(kSequence, ++sequence_);
 }
 

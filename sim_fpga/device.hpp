@@ -8,16 +8,20 @@
 //   runs and the run is finished; a frame k+1 that was armed but does not join, or is malformed, sets BAD_SEGMENT.
 // - The first frame starts at the axis's position, or at rest_position(count): the same place, with its phase at rest.
 // - Pulses cease at once, and the run is finished, at a closed limit switch (in its direction), at the requested home
-//   level, and on STOP.
+//   level, while an input of STOP_INPUTS is closed, and on STOP.
+// - No run begins before a setup was taken and the motor is enabled.
 // The host's registers take effect at calls of advance: in real time, once in each round of the loop.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/hardware/device_abilities.hpp"
+#include "core/hardware/device_setup.hpp"
 #include "core/step/engine.hpp"
 #include "core/step/segment.hpp"
 #include "sim_fpga/capture_ring.hpp"
+#include "sim_fpga/channels.hpp"
 #include "sim_fpga/plant.hpp"
 #include "sim_fpga/register_window.hpp"
 #include "sim_fpga/segment_ring.hpp"
@@ -41,6 +45,7 @@ public:
     bool is_intact() const;
 
     Tick now() const { return engine_.now(); }
+    const OutputUnit& outputs() const { return channels_.outputs(); }
     /// A frame or a tail is in progress.
     bool in_motion() const { return phase_ == Phase::Body || phase_ == Phase::Tail; }
     const Plant& plant() const { return plant_; }
@@ -51,6 +56,8 @@ private:
     enum class Phase : std::uint8_t { AtRest, Waiting, Body, Tail };
 
     void reset();
+    void take_setup();
+    void take_enable();
     void take_run();
     Tick decide(Tick until);
     Tick decide_first_frame(Tick until);
@@ -68,9 +75,14 @@ private:
     bool runs_into_limit(int direction) const;
     bool triggered() const;
 
-    void run(Tick until);
+    bool is_closed(std::uint32_t inputs) const { return (channels_.closed() & inputs) != 0; }
+    bool may_move() const;
+
+    Tick next_due(Tick until) const;
     bool on_step(StepEdge step);
-    void cease(std::uint64_t reason);
+    void tend();
+    std::uint64_t reason_to_cease() const;
+    DevicePlace place() const;
 
     std::uint64_t status_word() const;
     void publish();
@@ -79,6 +91,7 @@ private:
     DeviceAbilities abilities_;
     SegmentRing segments_;
     CaptureRing capture_;
+    Channels channels_;
     Plant plant_;
     std::uint64_t tick_ns_;
     std::uint64_t power_up_;
@@ -90,12 +103,18 @@ private:
     std::size_t piece_ = 0;  // of frame_, the one in progress
 
     std::uint64_t run_ = 0;
-    std::uint64_t trigger_ = registers::kTriggerNone;
+    std::uint64_t trigger_ = 0;
     std::uint64_t run_bits_ = 0;  // the bits of STATUS that a new run clears
-    std::uint64_t cease_ = 0;     // why pulses cease; 0: they do not
     std::int64_t count_ = 0;
     std::int64_t trigger_count_ = 0;
-    PlantInputs inputs_;
+    std::uint32_t pins_ = 0;   // as the channels saw them last
+    int stepped_ = 0;          // the direction of a step after which pulses paused; 0: none
+    bool into_limit_ = false;  // a pulse was suppressed at a limit switch
+
+    DeviceSetup setup_;
+    std::uint64_t setup_taken_ = 0;    // its number
+    std::uint64_t setup_refused_ = 0;  // the number of one that is beyond the abilities
+    std::optional<Tick> enabled_;      // since when
     std::uint64_t sequence_ = 0;
 };
 

@@ -149,8 +149,9 @@ def md(source):
         lines.append(f"| {r['offset']} | `{r['name']}` | {r['writer']}, {r['access']} | {r['reset']} | {r['meaning']} |")
         lines += choice_rows(r)
     for ring in source["rings"]:
+        place = f"(n mod {ring['entries_in']})" if "entries_in" in ring else "n"  # a ring, or a table
         lines += ["", f"## {ring['name']}", "", f"From {ring['offset']}: entries of {ring['entry_bytes']} bytes, "
-                  f"written by the {ring['writer']}. Entry n is at {ring['offset']} + (n mod {ring['entries_in']}) x "
+                  f"written by the {ring['writer']}. Entry n is at {ring['offset']} + {place} x "
                   f"{ring['entry_bytes']}. {ring['meaning']}"]
         for entry in ring["entries"]:
             lines += ["", f"### {entry['name']}", "", entry["meaning"]] if "name" in entry else []

@@ -45,6 +45,15 @@ public:
     }
     /// Moves the slide without pulses, as if by hand.
     void push(std::int64_t steps) { slide_ += steps; }
+    /// Puts a probe at a place, in steps since power-up: input `input` is closed at and beyond it.
+    void put_probe(unsigned input, std::int64_t at, bool toward_min) {
+        probe_ = {.bit = std::uint32_t{1} << input, .at = at, .toward_min = toward_min};
+    }
+    /// Sets the pin of an input that no switch uses, as a device beside the axis does.
+    void set_pin(unsigned input, bool high) {
+        const std::uint32_t bit = std::uint32_t{1} << input;
+        others_ = high ? others_ | bit : others_ & ~bit;
+    }
     /// Makes a switch stick: it has this reading for any position. With nullopt it works again.
     void stick(PlantContact contact, std::optional<bool> reads) {
         stuck_closed_.*contact = reads == true;
@@ -60,6 +69,13 @@ public:
                                  .home = home_toward_min_ ? slide_ <= home_at_ : slide_ >= home_at_};
         const auto read = [&](PlantContact one) { return (closed.*one || stuck_closed_.*one) && !(stuck_open_.*one); };
         return {read(&PlantInputs::limit_min), read(&PlantInputs::limit_max), read(&PlantInputs::home)};
+    }
+    /// The levels of the device's input pins; pin n is bit n. The switches are at 0, 1 and 2, and high when closed.
+    std::uint32_t pins() const {
+        const PlantInputs switches = inputs();
+        const bool touches = probe_.toward_min ? slide_ <= probe_.at : slide_ >= probe_.at;
+        return (switches.limit_min ? 1U : 0U) | (switches.limit_max ? 2U : 0U) | (switches.home ? 4U : 0U) |
+               (touches ? probe_.bit : 0U) | others_;
     }
 
 private:
@@ -78,6 +94,13 @@ private:
     bool home_toward_min_;
     PlantInputs stuck_closed_;
     PlantInputs stuck_open_;
+    struct Probe {
+        std::uint32_t bit = 0;  // of its pin; 0: there is none
+        std::int64_t at = 0;
+        bool toward_min = false;
+    };
+    Probe probe_;
+    std::uint32_t others_ = 0;
 
     double max_acceleration_;  // A, steps per tick^2
     double max_gap_;           // max_jump + sqrt(2 A), steps per tick

@@ -36,7 +36,9 @@ void copy_pieces(const Run& run, auto& pieces) {
 struct DeviceReplay::Hardware {
     explicit Hardware(Tick now)
         : device(window, Plant(endless_axis(), kTick_ns), kTick_ns, now),
-          driver(DeviceDriver::attach(window, kTick_ns).value()) {}
+          driver(DeviceDriver::attach(window, kTick_ns).value()) {
+        driver.set_up({}).value();
+    }
 
     RegisterWindow window = RegisterWindow::in_process();
     SimulatedDevice device;

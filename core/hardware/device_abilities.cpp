@@ -1,6 +1,7 @@
 #include "core/hardware/device_abilities.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/number_text.hpp"
@@ -24,6 +25,33 @@ double longest_gap_ticks(const MachineConfig& machine) {
 }
 
 std::string text_of(std::uint64_t number) { return std::to_string(number); }
+
+/// Names the lowest channel of `used` that the device does not have; nullopt if it has all of them.
+std::optional<std::string> missing_channel(const char* kind, std::uint64_t used, std::uint64_t channels) {
+    const auto beyond = used >> channels << channels;
+    if (beyond == 0) { return std::nullopt; }
+    return std::string("device: there is no ") + kind + " " + std::to_string(std::countr_zero(beyond)) + "; it has " +
+           text_of(channels) + ", numbered from 0";
+}
+
+/// The longest of the setup's pulse times and PWM periods.
+std::int64_t longest_ns(const DeviceSetup& setup) {
+    return std::max({setup.step_width_ns, setup.direction_setup_ns, setup.direction_hold_ns,
+                     *std::ranges::max_element(setup.pwm_period_ns)});
+}
+
+/// The inputs that have a debounce.
+std::uint64_t debounced(const DeviceSetup& setup) {
+    std::uint64_t inputs = 0;
+    for (std::size_t n = 0; n < kMostInputs; ++n) { inputs |= std::uint64_t{setup.debounce[n] > Ticks{}} << n; }
+    return inputs;
+}
+
+std::uint64_t modulated(const DeviceSetup& setup) {
+    std::uint64_t outputs = 0;
+    for (std::size_t n = 0; n < kMostAnalogOutputs; ++n) { outputs |= std::uint64_t{setup.pwm_period_ns[n] > 0} << n; }
+    return outputs;
+}
 
 }  // namespace
 
@@ -58,6 +86,39 @@ std::optional<std::string> lack_of(const DeviceAbilities& device, const MachineC
                number_text(most_mm_s) + ", or decrease its steps_per_mm";
     }
     return std::nullopt;
+}
+
+std::optional<std::string> lack_of(const DeviceAbilities& device, const DeviceSetup& setup) {
+    const std::uint64_t inputs = setup.inputs_inverted | setup.limit_min | setup.limit_max | setup.home | setup.stop;
+    if (auto lack = missing_channel("input", inputs | debounced(setup), device.inputs)) { return lack; }
+    const std::uint64_t digital = setup.outputs_inverted | setup.at_cut.digital.mask | setup.at_silence.digital.mask;
+    if (auto lack = missing_channel("digital output", digital | setup.compare_outputs, device.digital_outputs)) {
+        return lack;
+    }
+    const std::uint64_t analog = setup.at_cut.analog_off | setup.at_silence.analog_off | modulated(setup);
+    if (auto lack = missing_channel("analog output", analog, device.analog_outputs)) { return lack; }
+    if (setup.compare_outputs != 0 && !device.can_compare) {
+        return "device: its steps cannot make pulses at places; use a device that can";
+    }
+    const double most_ns = static_cast<double>(device.longest_time) * static_cast<double>(device.time_unit_ps) * 1e-3;
+    if (static_cast<double>(longest_ns(setup)) > most_ns) {
+        return "device: pulse times and PWM periods can be up to " + number_text(most_ns) + " ns, and one is " +
+               std::to_string(longest_ns(setup)) + " ns; make it shorter";
+    }
+    return std::nullopt;
+}
+
+DeviceSetup setup_of(const MachineConfig& machine, const MotorConfig& motor) {
+    const PinsConfig& pins = motor.pins;
+    const auto ns = [](double us) { return static_cast<std::int64_t>(std::llround(us * 1e3)); };
+    return {
+        .step_width_ns = ns(pins.step_width_us),
+        .direction_setup_ns = ns(pins.direction_setup_us),
+        .direction_hold_ns = ns(pins.direction_hold_us),
+        .enable_wait = {static_cast<std::int64_t>(std::ceil(pins.enable_wait_ms * 1e-3 * machine.ticks_per_second()))},
+        .step_inverted = pins.step_inverted,
+        .direction_inverted = pins.direction_inverted,
+        .enable_inverted = pins.enable_inverted};
 }
 
 }  // namespace lockstep

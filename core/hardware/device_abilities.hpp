@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "core/hardware/device_setup.hpp"
 #include "core/kinematics/motors.hpp"
 #include "core/machine.hpp"
 #include "core/units.hpp"
@@ -15,7 +16,17 @@ namespace lockstep {
 struct DeviceAbilities {
     std::uint64_t segment_entries = 2048;
     std::uint64_t capture_entries = 65'536;
-    Ticks least_step{2};  // from one step to the next
+    Ticks least_step{2};                // from one step to the next
+    std::uint64_t time_unit_ps = 1000;  // of pulse times and PWM periods
+    std::uint64_t longest_time = 1'000'000'000;
+    std::uint64_t inputs = 8;
+    std::uint64_t digital_outputs = 8;
+    std::uint64_t analog_outputs = 2;
+    std::uint64_t output_entries = 1024;
+    std::uint64_t event_entries = 1024;
+    bool has_encoder = true;
+    bool can_enable = true;
+    bool can_compare = true;
     bool operator==(const DeviceAbilities&) const = default;
 };
 
@@ -25,5 +36,10 @@ DeviceAbilities needs_of(const MachineConfig& machine, const MotorConfig& motor)
 /// What the device cannot do that the motor needs, with the values and the remedy; nullopt if it can do everything.
 std::optional<std::string> lack_of(const DeviceAbilities& device, const MachineConfig& machine,
                                    const MotorConfig& motor);
+/// The same for a setup.
+std::optional<std::string> lack_of(const DeviceAbilities& device, const DeviceSetup& setup);
+
+/// How a device is set up for this motor of the machine.
+DeviceSetup setup_of(const MachineConfig& machine, const MotorConfig& motor);
 
 }  // namespace lockstep

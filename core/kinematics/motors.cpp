@@ -52,7 +52,8 @@ MotorConfig motor_of_axis(const AxisConfig& axis, std::size_t place) {
             .method = axis.method,
             .unhomed_jog_mm_s = axis.unhomed_jog_mm_s,
             .homing = axis.homing,
-            .plant = axis.plant};
+            .plant = axis.plant,
+            .pins = axis.pins};
 }
 
 MotorConfig motor_of_block(const AxisConfig& axis, std::size_t place, const MotorBlock& block) {
@@ -63,6 +64,7 @@ MotorConfig motor_of_block(const AxisConfig& axis, std::size_t place, const Moto
     motor.steps_per_mm = block.steps_per_mm.value_or(axis.steps_per_mm);
     motor.homing.switch_position_mm += block.switch_offset_mm;
     motor.plant = block.plant.value_or(axis.plant);
+    motor.pins = block.pins.value_or(axis.pins);
     return motor;
 }
 

@@ -31,6 +31,7 @@ struct MotorConfig {
     std::optional<double> unhomed_jog_mm_s;  // greatest speed of a jog while unhomed; none: no such jog
     HomingConfig homing;
     PlantConfig plant;
+    PinsConfig pins;
 };
 
 /// The motors in the order of the axes in whose configuration they stand. A limit that a motor has not of its own is

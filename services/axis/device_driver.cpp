@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/protocol/frame_room.hpp"
+#include "sim_fpga/channel_words.hpp"
 
 namespace lockstep {
 namespace {
@@ -17,10 +18,6 @@ constexpr std::uint64_t kNoVeto = std::numeric_limits<std::uint64_t>::max();
 /// An update takes well under a microsecond and a read about ten nanoseconds. If the device is still in an update after
 /// this many reads, its process has stalled.
 constexpr int kMaxLooks = 1000;
-
-static_assert(static_cast<std::uint64_t>(Trigger::None) == kTriggerNone &&
-              static_cast<std::uint64_t>(Trigger::HomeCloses) == kTriggerHomeCloses &&
-              static_cast<std::uint64_t>(Trigger::HomeOpens) == kTriggerHomeOpens);
 
 std::string hex(std::uint64_t value) {
     char text[19];
@@ -90,6 +87,43 @@ std::expected<std::uint64_t, std::string> ring_size(const RegisterWindow& window
                            "; restart the device");
 }
 
+/// Error: the word is greater than the map allows.
+std::expected<std::uint64_t, std::string> channels(const RegisterWindow& window, const char* name, std::size_t word,
+                                                   std::uint64_t most) {
+    const std::uint64_t count = window.load(word);
+    if (count <= most) { return count; }
+    return std::unexpected(std::string("device: ") + name + " reads " + hex(count) + ", expected at most " +
+                           std::to_string(most) + "; restart the device");
+}
+
+/// Reads what the inputs and outputs can do into `abilities`. Error: it is impossible.
+std::expected<void, std::string> read_channels(const RegisterWindow& window, DeviceAbilities& abilities) {
+    constexpr std::uint64_t kLeast = 16;
+    struct Word {
+        const char* name;
+        std::size_t word;
+        std::uint64_t most;
+        std::uint64_t& to;
+    };
+    for (const auto& [name, word, most, to] :
+         {Word{"INPUT_CHANNELS", kInputChannels, kMostInputs, abilities.inputs},
+          {"DIGITAL_CHANNELS", kDigitalChannels, kMostDigitalOutputs, abilities.digital_outputs},
+          {"ANALOG_CHANNELS", kAnalogChannels, kMostAnalogOutputs, abilities.analog_outputs}}) {
+        const auto count = channels(window, name, word, most);
+        if (!count) { return std::unexpected(count.error()); }
+        to = *count;
+    }
+    for (const auto& [name, word, most, to] :
+         {Word{"OUTPUT_ENTRIES", kOutputEntries, kOutputRingMostEntries, abilities.output_entries},
+          {"EVENT_ENTRIES", kEventEntries, kEventRingMostEntries, abilities.event_entries}}) {
+        to = window.load(word);
+        if (to == 0) { continue; }
+        const auto entries = ring_size(window, name, word, kLeast, most);
+        if (!entries) { return std::unexpected(entries.error()); }
+    }
+    return {};
+}
+
 std::expected<DeviceAbilities, std::string> read_abilities(const RegisterWindow& window) {
     constexpr std::uint64_t kLeastSegments = 16;
     constexpr std::uint64_t kLeastCaptures = 256;
@@ -99,9 +133,17 @@ std::expected<DeviceAbilities, std::string> read_abilities(const RegisterWindow&
     const auto captures =
         ring_size(window, "CAPTURE_ENTRIES", kCaptureEntries, kLeastCaptures, kCaptureRingMostEntries);
     if (!captures) { return std::unexpected(captures.error()); }
-    return DeviceAbilities{.segment_entries = *segments,
-                           .capture_entries = *captures,
-                           .least_step = {static_cast<std::int64_t>(window.load(kLeastStepTicks))}};
+    const std::uint64_t features = window.load(kFeatures);
+    DeviceAbilities abilities{.segment_entries = *segments,
+                              .capture_entries = *captures,
+                              .least_step = {static_cast<std::int64_t>(window.load(kLeastStepTicks))},
+                              .time_unit_ps = std::max(window.load(kTimeUnitPs), std::uint64_t{1}),
+                              .longest_time = window.load(kLongestTime),
+                              .has_encoder = (features & kFeaturesEncoder) != 0,
+                              .can_enable = (features & kFeaturesEnable) != 0,
+                              .can_compare = (features & kFeaturesCompare) != 0};
+    if (const auto read = read_channels(window, abilities); !read) { return std::unexpected(read.error()); }
+    return abilities;
 }
 
 /// Called at every read, because memory that was removed or overwritten no longer shows these values.
@@ -130,6 +172,8 @@ std::expected<DeviceDriver, std::string> DeviceDriver::attach(RegisterWindow win
     DeviceDriver driver(std::move(window), tick_ns, *abilities);
     if (const auto segments = driver.segments(); !segments) { return std::unexpected(segments.error()); }
     if (const auto captures = driver.captures(); !captures) { return std::unexpected(captures.error()); }
+    if (const auto changes = driver.changes(); !changes) { return std::unexpected(changes.error()); }
+    if (const auto events = driver.events(); !events) { return std::unexpected(events.error()); }
     return driver;
 }
 
@@ -138,7 +182,27 @@ DeviceDriver::DeviceDriver(RegisterWindow window, std::int64_t tick_ns, const De
       tick_ns_(tick_ns),
       abilities_(abilities),
       segment_ring_(kSegmentRing, abilities.segment_entries, kSegmentRingEntryBytes),
-      capture_ring_(kCaptureRing, abilities.capture_entries, kCaptureRingEntryBytes) {}
+      capture_ring_(kCaptureRing, abilities.capture_entries, kCaptureRingEntryBytes),
+      output_ring_(kOutputRing, abilities.output_entries, kOutputRingEntryBytes),
+      event_ring_(kEventRing, abilities.event_entries, kEventRingEntryBytes),
+      beat_(window_.load(kBeat)) {}
+
+DeviceDriver::Result DeviceDriver::set_up(const DeviceSetup& setup) {
+    if (auto lack = lack_of(abilities_, setup)) { return std::unexpected(std::move(*lack)); }
+    store_setup(window_, setup, abilities_.time_unit_ps);
+    window_.store(kBeat, ++beat_);
+    window_.store(kSetupRequest, std::max(window_.load(kSetupRequest) + 1, std::uint64_t{1}));
+    window_.store(kEnable, 1);
+    return {};
+}
+
+std::expected<std::uint64_t, std::string> DeviceDriver::changes() const {
+    return entries_in("output ring", window_.load(kOutputHead), window_.load(kOutputTail), output_ring_.entries());
+}
+
+std::expected<std::uint64_t, std::string> DeviceDriver::events() const {
+    return entries_in("event ring", window_.load(kEventHead), window_.load(kEventTail), event_ring_.entries());
+}
 
 std::expected<std::uint64_t, std::string> DeviceDriver::segments() const {
     return entries_in("segment ring", window_.load(kSegmentHead), window_.load(kSegmentTail), segment_ring_.entries());
@@ -149,6 +213,7 @@ std::expected<std::uint64_t, std::string> DeviceDriver::captures() const {
 }
 
 std::expected<DeviceStatus, std::string> DeviceDriver::read() {
+    window_.store(kBeat, ++beat_);
     for (int look = 0; look < kMaxLooks; ++look) {
         const std::uint64_t before = window_.load(kSequence);
         DeviceStatus status = read_words();
@@ -156,6 +221,9 @@ std::expected<DeviceStatus, std::string> DeviceDriver::read() {
         if (const auto known = identify(window_, tick_ns_); !known) { return std::unexpected(known.error()); }
         if (before % 2 != 0 || window_.load(kSequence) != before) { continue; }
         if (!loaded) { return std::unexpected(loaded.error()); }
+        if ((window_.load(kStatus) & kStatusBadSetup) != 0) {
+            return std::unexpected("device: it refuses its setup, which its own abilities allow; restart the device");
+        }
         status.free_segments = static_cast<std::uint32_t>(segment_ring_.entries() - *loaded);
         stale_reads_ = 0;
         last_look_ = status;
@@ -197,6 +265,12 @@ DeviceStatus DeviceDriver::read_words() const {
         .bad_segment = has(kStatusBadSegment),
         .capture_overflow = has(kStatusCaptureOverflow),
         .encoder_count = signed_word(kEncoder),
+        .inputs = static_cast<std::uint32_t>(window_.load(kInputs)),
+        .outputs = static_cast<std::uint16_t>(window_.load(kOutputs)),
+        .enabled = has(kStatusEnabled),
+        .host_silent = has(kStatusHostSilent),
+        .stopped_by_input = has(kStatusStoppedByInput),
+        .bad_output = has(kStatusBadOutput),
     };
 }
 
@@ -213,9 +287,14 @@ DeviceDriver::Result DeviceDriver::apply_one(const device::BeginRun& order) {
     }
     window_.store(kArmed, 0);
     window_.store(kVeto, kNoVeto);
-    window_.store(kTrigger, static_cast<std::uint64_t>(order.trigger));
+    window_.store(kTrigger, trigger_word(order.trigger));
     window_.store(kRunRequest, order.run);
     return {};
+}
+
+std::uint64_t DeviceDriver::trigger_word(Trigger trigger) const {
+    if (trigger == Trigger::None) { return 0; }
+    return kTriggerInputs.word(window_.load(kHomeInputs)) | (trigger == Trigger::HomeOpens ? kTriggerOpens : 0);
 }
 
 DeviceDriver::Result DeviceDriver::apply_one(const device::LoadFrame& order) {
@@ -237,6 +316,42 @@ DeviceDriver::Result DeviceDriver::apply_one(const device::LoadFrame& order) {
     for (const Piece& piece : order.track.body) { writer.write(piece); }
     for (const Piece& piece : order.track.tail) { writer.write(piece); }
     writer.publish();
+    return {};
+}
+
+DeviceDriver::Result DeviceDriver::apply_one(const device::LoadOutputs& order) {
+    const auto loaded = changes();
+    if (!loaded) { return std::unexpected(loaded.error()); }
+    const std::size_t needed = order.track.body.size() + order.track.tail.size();
+    const std::size_t room = output_ring_.entries() - *loaded;
+    if (needed > room) {
+        return std::unexpected("device: the outputs of frame " + std::to_string(order.number) +
+                               " are not loaded: they change " + std::to_string(needed) +
+                               " times, but the ring has room for " + std::to_string(room));
+    }
+    std::uint64_t head = window_.load(kOutputHead);
+    OutputPlace place{.run = window_.load(kRunRequest), .frame = order.number, .is_tail = false};
+    const auto write = [&](const OutputChange& change) {
+        store_change(window_, output_ring_.entry(head++), place, change);
+    };
+    std::ranges::for_each(order.track.body, write);
+    place.is_tail = true;
+    std::ranges::for_each(order.track.tail, write);
+    window_.store(kOutputHead, head);
+    return {};
+}
+
+DeviceDriver::Result DeviceDriver::apply_one(const device::ChangeOutputs& order) {
+    std::uint64_t channels = 0;
+    for (const RampAnalog& analog : order.analog) {
+        const std::size_t entry = kAnalogTable + analog.channel * kAnalogTableEntryBytes;
+        window_.store(entry + kAnalogTableDirectValue, raw(analog.value));
+        channels |= std::uint64_t{1} << analog.channel;
+    }
+    window_.store(kDirectOutputs, kDirectOutputsLevels.word(order.digital.levels) |
+                                      kDirectOutputsMask.word(order.digital.mask) |
+                                      kDirectOutputsAnalogMask.word(channels));
+    window_.store(kDirectRequest, window_.load(kDirectRequest) + 1);
     return {};
 }
 
@@ -274,6 +389,25 @@ std::expected<std::uint64_t, std::string> DeviceDriver::drain_capture(const std:
     }
     window_.store(kCaptureTail, tail + *captured);
     return captured;
+}
+
+std::expected<std::uint64_t, std::string> DeviceDriver::drain_events(
+    const std::function<void(const ChannelEvent&)>& on_event) {
+    const auto waiting = events();
+    if (!waiting) { return waiting; }
+    const std::uint64_t tail = window_.load(kEventTail);
+    const Tick now{signed_word(kTick)};  // read after the head, so no event in the ring is later than this tick
+    for (std::uint64_t index = tail; index != tail + *waiting; ++index) {
+        const auto event = load_event(window_, event_ring_.entry(index));
+        if (!event || event->tick > now || (last_event_ && event->tick < *last_event_)) {
+            return std::unexpected("device: event ring entry " + std::to_string(index) + " is impossible at tick " +
+                                   std::to_string(now.value) + "; restart the device");
+        }
+        last_event_ = event->tick;
+        on_event(*event);
+    }
+    window_.store(kEventTail, tail + *waiting);
+    return waiting;
 }
 
 }  // namespace lockstep

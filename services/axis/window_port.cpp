@@ -30,7 +30,8 @@ std::expected<DeviceDriver, std::string> attach_driver(RegisterWindow window, co
     auto driver = DeviceDriver::attach(std::move(window), machine.tick_ns);
     if (!driver) { return driver; }
     if (auto lack = lack_of(driver->abilities(), machine, motor)) { return std::unexpected(std::move(*lack)); }
-    return driver;
+    const auto set = driver->set_up(setup_of(machine, motor));
+    return set ? std::move(driver) : std::unexpected(set.error());
 }
 
 std::expected<std::unique_ptr<DevicePort>, std::string> simulated_port(const MachineConfig& machine,

@@ -45,8 +45,8 @@ private:
     std::optional<DeviceReading> newest_;
 };
 
-/// A driver to the device behind these registers. Errors: those of DeviceDriver::attach; a device that cannot do what
-/// this motor of the machine needs.
+/// A driver to the device behind these registers, which it sets up. Errors: those of DeviceDriver::attach; a device
+/// that cannot do what this motor of the machine needs.
 std::expected<DeviceDriver, std::string> attach_driver(RegisterWindow window, const MachineConfig& machine,
                                                        const MotorConfig& motor);
 

@@ -13,6 +13,7 @@
 #include "services/documents/names.hpp"
 #include "services/documents/problem_list.hpp"
 #include "services/documents/rules/axis_ranges.hpp"
+#include "services/documents/rules/pin_rules.hpp"
 
 namespace lockstep {
 namespace {
@@ -40,6 +41,7 @@ public:
         check_unhomed_jog();
         check_homing_places();
         check_plant();
+        check_pin_ranges(axis_.pins, "pins.", problems_);
         if (has_own_motor()) { check_method(); }
         check_place();
         check_motors();

@@ -210,6 +210,16 @@ PlantConfig read_plant(const proto::Plant& message, const AxisConfig& axis) {
     };
 }
 
+PinsConfig read_pins(const proto::Pins& message) {
+    return {.step_width_us = message.step_width_us(),
+            .direction_setup_us = message.direction_setup_us(),
+            .direction_hold_us = message.direction_hold_us(),
+            .enable_wait_ms = message.enable_wait_ms(),
+            .step_inverted = message.step_inverted(),
+            .direction_inverted = message.direction_inverted(),
+            .enable_inverted = message.enable_inverted()};
+}
+
 StepMethod read_method(proto::Method method) {
     switch (method) {
         case proto::SPIELAUER: return StepMethod::Spielauer;
@@ -245,6 +255,7 @@ MotorBlock read_motor(const proto::Motor& message, const AxisConfig& axis, const
     motor.max_decel_mm_s2 = message.has_max_decel_mm_s2() ? message.max_decel_mm_s2() : motor.max_accel_mm_s2;
     motor.switch_offset_mm = message.switch_offset_mm();
     if (message.has_plant()) { motor.plant = read_plant(message.plant(), axis); }
+    if (message.has_pins()) { motor.pins = read_pins(message.pins()); }
     return motor;
 }
 
@@ -333,6 +344,7 @@ AxisConfig read_axis(const proto::Axis& message, Reader reader) {
     axis.device = read_device(message.device(), "device", reader);
     axis.homing = read_homing(message.homing(), axis, message.motor_size() > 1);
     axis.plant = read_plant(message.plant(), axis);
+    axis.pins = read_pins(message.pins());
     read_motors(message, axis, reader);
     return axis;
 }

@@ -35,4 +35,7 @@ std::vector<Problem> motor_problems(const MachineConfig& machine, std::size_t ax
 /// Checks which motors move which axes, after all axes and motors were found sound.
 std::vector<Problem> kinematics_problems(const MachineConfig& machine);
 
+/// Checks the pulses of motors against their speeds, after all that was found sound.
+std::vector<Problem> pin_problems(const MachineConfig& machine);
+
 }  // namespace lockstep

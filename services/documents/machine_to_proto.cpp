@@ -86,6 +86,16 @@ void write_plant(const PlantConfig& plant, proto::Plant& message) {
     message.set_max_jump_mm_s(plant.max_jump_mm_s);
 }
 
+void write_pins(const PinsConfig& pins, proto::Pins& message) {
+    message.set_step_width_us(pins.step_width_us);
+    message.set_direction_setup_us(pins.direction_setup_us);
+    message.set_direction_hold_us(pins.direction_hold_us);
+    message.set_enable_wait_ms(pins.enable_wait_ms);
+    message.set_step_inverted(pins.step_inverted);
+    message.set_direction_inverted(pins.direction_inverted);
+    message.set_enable_inverted(pins.enable_inverted);
+}
+
 proto::Method method_to_proto(StepMethod method) {
     constexpr std::array kMethods{proto::RANADE, proto::SPIELAUER, proto::LAI, proto::LAM, proto::CARRICA};
     return kMethods[static_cast<std::size_t>(method)];
@@ -102,6 +112,7 @@ void write_motor(const MotorBlock& motor, proto::Motor& message) {
     message.set_device(motor.device.text());
     message.set_switch_offset_mm(motor.switch_offset_mm);
     if (motor.plant) { write_plant(*motor.plant, *message.mutable_plant()); }
+    if (motor.pins) { write_pins(*motor.pins, *message.mutable_pins()); }
 }
 
 void write_delta(const DeltaConfig& delta, proto::Delta& message) {
@@ -157,6 +168,7 @@ void write_axis(const AxisConfig& axis, proto::Axis& message) {
     if (axis.device != AxisConfig{}.device) { message.set_device(axis.device.text()); }
     write_homing(axis.homing, *message.mutable_homing());
     write_plant(axis.plant, *message.mutable_plant());
+    if (axis.pins != PinsConfig{}) { write_pins(axis.pins, *message.mutable_pins()); }
     for (const MotorBlock& motor : axis.motors) { write_motor(motor, *message.add_motor()); }
     if (axis.max_skew_mm) { message.set_max_skew_mm(*axis.max_skew_mm); }
 }

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <expected>
 #include <iostream>
-#include <optional>
+#include <memory>
 #include <random>
 #include <utility>
 
@@ -46,7 +46,7 @@ public:
         auto window = options_.file.empty() ? RegisterWindow::create_shared(options_.name)
                                             : RegisterWindow::create_file(options_.file);
         if (!window) { return std::unexpected(window.error()); }
-        device_.emplace(std::move(*window), plant_, tick_ns_, clock_.now(), drawn_number());
+        device_ = std::make_unique<SimulatedDevice>(std::move(*window), plant_, tick_ns_, clock_.now(), drawn_number());
         log_info(fmt::format("device \"{}{}\" is powered up", options_.name, options_.file));
         return {};
     }
@@ -66,7 +66,7 @@ private:
     std::int64_t tick_ns_;
     MachineClock clock_;
     Plant plant_;
-    std::optional<SimulatedDevice> device_;
+    std::unique_ptr<SimulatedDevice> device_;
 };
 
 std::expected<Board, std::string> set_up(const FpgaOptions& options) {

@@ -49,16 +49,28 @@ private:
         require(status || !status.error().empty(), "a refusal has a text");
         const auto drained = driver->drain_capture([](StepEdge) {});
         require(drained || !drained.error().empty(), "a refusal has a text");
+        const auto events = driver->drain_events([](const ChannelEvent&) {});
+        require(events || !events.error().empty(), "a refusal has a text");
     }
     void order(const Turn& turn) {
         auto driver = DeviceDriver::attach(window_, 1000);
         if (!driver) { return; }
-        switch (turn.small % 4) {
+        (void)driver->set_up({});
+        switch (turn.small % 5) {
             case 0: (void)driver->apply(device::BeginRun{++run_, static_cast<Trigger>(turn.small / 4 % 3)}); break;
             case 1: (void)driver->apply(device::Arm{turn.offset}); break;
             case 2: (void)driver->apply(device::Veto{turn.offset}); break;
+            case 3: (void)driver->apply(outputs(turn)); break;
             default: (void)driver->apply(load(turn)); break;
         }
+    }
+    static device::LoadOutputs outputs(const Turn& turn) {
+        device::LoadOutputs order{.number = turn.offset % 8U, .track = {}};
+        for (int i = 0; i <= turn.small / 64; ++i) {
+            order.track.body.append({{turn.small + i}, RampAnalog{turn.kind, turn.value, turn.value / 1000}});
+            order.track.tail.append({{turn.small + i}, SetDigital{turn.kind, turn.small}});
+        }
+        return order;
     }
     device::LoadFrame load(const Turn& turn) {
         device::LoadFrame frame{

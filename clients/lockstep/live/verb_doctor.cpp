@@ -10,6 +10,7 @@
 #include "clients/session/session.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/output.hpp"
+#include "core/hardware/device_abilities.hpp"
 #include "core/kinematics/motors.hpp"
 #include "idl/proto/report.pb.h"
 #include "services/axis/device_driver.hpp"
@@ -69,11 +70,16 @@ void examine_host(const MachineConfig& machine, double seconds, Output& output, 
     findings.push_back(doctor::rate_stalls(machine.timing, watch_for_stalls(machine.timing.slot_us, seconds, output)));
 }
 
-std::expected<void, std::string> try_device(const MotorConfig& axis, std::int64_t tick_ns) {
-    const auto window = open_window(axis.device);
+std::expected<void, std::string> try_device(const MachineConfig& machine, const MotorConfig& motor) {
+    const auto window = open_window(motor.device);
     if (!window) { return std::unexpected(window.error()); }
-    const auto driver = DeviceDriver::attach(*window, tick_ns);
-    return driver ? std::expected<void, std::string>{} : std::unexpected(driver.error());
+    const auto driver = DeviceDriver::attach(*window, machine.tick_ns);
+    if (!driver) { return std::unexpected(driver.error()); }
+    if (auto lack = lack_of(driver->abilities(), machine, motor)) { return std::unexpected(std::move(*lack)); }
+    if (auto lack = lack_of(driver->abilities(), setup_of(machine, motor))) {
+        return std::unexpected(std::move(*lack));
+    }
+    return {};
 }
 
 void examine_parts_here(const MachineConfig& machine, Findings& findings) {
@@ -81,7 +87,7 @@ void examine_parts_here(const MachineConfig& machine, Findings& findings) {
     for (const std::size_t i : here.axes) {
         const MotorConfig axis = motors_of(machine)[i];
         if (axis.device.kind != DeviceName::Kind::Simulated) {
-            findings.push_back(doctor::rate_device(axis, try_device(axis, machine.tick_ns)));
+            findings.push_back(doctor::rate_device(axis, try_device(machine, axis)));
         }
     }
     if (here.empty() || !machine.record.own_logs) { return; }

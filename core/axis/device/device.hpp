@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <variant>
 
+#include "core/hardware/output_change.hpp"
 #include "core/protocol/messages.hpp"
 #include "core/step/segment.hpp"
 
@@ -33,6 +34,12 @@ struct DeviceStatus {
     bool capture_overflow = false;    // steps were made, but their times could not be kept
     std::int64_t encoder_count = 0;
     std::uint32_t free_segments = 0;  // room in the segment ring
+    std::uint32_t inputs = 0;         // the inputs that are closed; input n is bit n
+    std::uint16_t outputs = 0;        // the digital outputs that are on
+    bool enabled = false;             // the motor is enabled
+    bool host_silent = false;         // the device heard no beat for the time of its setup
+    bool stopped_by_input = false;    // this run ended, or did not begin, because a stop input is closed
+    bool bad_output = false;  // changes of outputs in this run were malformed, and none of their frame's was made
 };
 
 enum class Trigger : std::uint8_t { None, HomeCloses, HomeOpens };
@@ -53,6 +60,16 @@ struct LoadFrame {
     bool last = false;
     AxisTrack track;
 };
+/// Loads the changes of outputs of a frame, before the frame itself.
+struct LoadOutputs {
+    FrameNumber number = 0;
+    OutputTrack track;
+};
+/// Changes outputs at once.
+struct ChangeOutputs {
+    SetDigital digital;
+    StaticVector<RampAnalog, kMostAnalogOutputs> analog;  // without slope
+};
 /// Frames up to this one may be run.
 struct Arm {
     FrameNumber number = 0;
@@ -66,6 +83,7 @@ struct StopNow {};
 
 }  // namespace device
 
-using DeviceOrder = std::variant<device::BeginRun, device::LoadFrame, device::Arm, device::Veto, device::StopNow>;
+using DeviceOrder = std::variant<device::BeginRun, device::LoadFrame, device::Arm, device::Veto, device::StopNow,
+                                 device::LoadOutputs, device::ChangeOutputs>;
 
 }  // namespace lockstep

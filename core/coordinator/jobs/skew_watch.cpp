@@ -79,12 +79,23 @@ bool SkewWatch::are_apart(const Motor& one, const Motor& other) {
     if (std::abs(begin) > one.travel_mm) { begin = 0; }                                      // a damaged state
     const double steps = std::abs(one.axis_mm_per_step) + std::abs(other.axis_mm_per_step);  // they do not move at once
     const double most = std::max(*one.most_mm, std::abs(begin) + steps);
+    struct Compared {
+        Slot slot = 0;
+        bool is_apart = false;
+    };
+    std::array<Compared, 2> newest{};  // the newest slot of which both have a way, and the one before it
     for (std::size_t k = 0; k < one.passed.size(); ++k) {
         const Passed& a = one.passed[k];
         const Passed& b = other.passed[k];
-        if (a.slot && a.slot == b.slot && std::abs(begin + a.way_mm - b.way_mm) > most) { return true; }
+        if (!a.slot || a.slot != b.slot) { continue; }
+        const Compared at{*a.slot, std::abs(begin + a.way_mm - b.way_mm) > most};
+        if (at.slot > newest[0].slot) {
+            newest = {at, newest[0]};
+        } else if (at.slot > newest[1].slot) {
+            newest[1] = at;
+        }
     }
-    return false;
+    return newest[0].is_apart && newest[1].is_apart;
 }
 
 }  // namespace lockstep

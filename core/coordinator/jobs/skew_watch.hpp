@@ -2,9 +2,10 @@
 //
 // A motor's place is not known before it has found its switch, so ways since the begin are compared. When a motor sets
 // its zero its count jumps: it stood at its switch then, and its way goes on from there. A state may have been damaged
-// on its way to the coordinator, so it counts only if the next one agrees with it. States may be lost, so ways are
-// compared at a slot of which both motors have one. Motors that were homed already may stand further apart than
-// max_skew_mm, after a fault; then homing brings them together, and they may not come further apart.
+// on its way to the coordinator, so it counts only if the next one agrees with it, and motors are apart only if they
+// are so in two slots in a row. States may be lost, so ways are compared at slots of which both motors have one. Motors
+// that were homed already may stand further apart than max_skew_mm, after a fault; then homing brings them together,
+// and they may not come further apart.
 #pragma once
 
 #include <array>

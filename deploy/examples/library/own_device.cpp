@@ -3,7 +3,8 @@
 //
 //     own_device PATH        # until SIGTERM or SIGINT
 //
-// It has a home switch and no limit switches. Hardware would set its output pin in pulse().
+// It has a home switch, no limit switches and no outputs. Its pulses are as long as it makes them. Hardware would set
+// its pins in pulse().
 #include <signal.h>
 #include <time.h>
 
@@ -21,6 +22,7 @@ using namespace lockstep;
 using namespace lockstep::registers;
 
 constexpr std::int64_t kTick_ns = 1000;
+constexpr std::uint64_t kHomeInput = 4;     // input 2 is the home switch
 constexpr std::int64_t kHomeCloses = -700;  // the home switch is closed up to this count; the device starts at 0
 
 constexpr RegisterRing kSegments(kSegmentRing, 1024, kSegmentRingEntryBytes);
@@ -36,12 +38,16 @@ public:
         window_.store(kSegmentEntries, kSegments.entries());
         window_.store(kCaptureEntries, kCaptures.entries());
         window_.store(kLeastStepTicks, 2);
+        window_.store(kTimeUnitPs, kTick_ns * 1000);
+        window_.store(kInputChannels, 3);
         publish();
         window_.store(kMagic, kMagicValue);  // the other words are valid from now on
     }
 
     void advance(Tick until) {
-        if (state_ != State::Rests && window_.load(kStop) == run_) { finish(kStatusStoppedByHost); }
+        if (state_ != State::Rests && (window_.load(kStop) == run_ || window_.load(kEnable) == 0)) {
+            finish(kStatusStoppedByHost);
+        }
         for (decide(); now_ < until; decide()) {
             now_ += Ticks{1};
             if (state_ == State::InBody || state_ == State::InTail) { move(); }
@@ -66,7 +72,8 @@ private:
     void skip_frame() { taken_ += 1 + body() + tail(); }
     bool is_vetoed(std::uint64_t frame) const { return window_.load(kVeto) <= frame; }
     bool may_run(std::uint64_t frame) const {
-        return !is_vetoed(frame) && window_.load(kArmed) >= frame && window_.load(kRunRequest) == run_;
+        const bool is_ready = window_.load(kSetupRequest) != 0 && window_.load(kEnable) != 0;
+        return is_ready && !is_vetoed(frame) && window_.load(kArmed) >= frame && window_.load(kRunRequest) == run_;
     }
     bool starts_here() const {
         const auto ahead =
@@ -165,7 +172,8 @@ private:
 
     bool is_home() const { return count_ <= kHomeCloses; }
     bool is_triggered() const {
-        return (trigger_ == kTriggerHomeCloses && is_home()) || (trigger_ == kTriggerHomeOpens && !is_home());
+        const bool opens = (trigger_ & kTriggerOpens) != 0;
+        return kTriggerInputs.of(trigger_) == kHomeInput && is_home() != opens;
     }
     void finish_by_trigger() {
         trigger_count_ = count_;
@@ -198,6 +206,7 @@ private:
         window_.store(kSegmentTail, taken_);
         window_.store(kCaptureHead, captured_);
         window_.store(kCaptureLost, lost_);
+        window_.store(kSetup, window_.load(kSetupRequest));
         window_.store(kSequence, ++sequence_);
     }
 
@@ -207,7 +216,7 @@ private:
     std::uint64_t run_ = 0;
     std::uint64_t frame_ = 0;
     bool is_last_ = false;
-    std::uint64_t trigger_ = kTriggerNone;
+    std::uint64_t trigger_ = 0;
     std::uint64_t ended_ = 0;      // bits of STATUS that say how the run ended
     std::uint64_t taken_ = 0;      // entries taken from the segment ring
     std::uint64_t body_left_ = 0;  // pieces of the frame that were not taken yet

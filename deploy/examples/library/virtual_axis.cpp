@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "core/axis/axis_controller.hpp"
+#include "core/hardware/device_abilities.hpp"
 #include "core/kinematics/motors.hpp"
 #include "core/methods/paper_steps.hpp"
 #include "services/axis/device_driver.hpp"
@@ -38,7 +39,9 @@ public:
         : device_(window_, Plant(motors_of(machine_)[0], machine_.tick_ns), machine_.tick_ns, Tick{}),
           driver_(DeviceDriver::attach(window_, machine_.tick_ns).value()),
           axis_(0, machine_, kIdentity, kConfigHash, methods::begin_steps,
-                std::unexpected(FaultCode::PositionNotKept)) {}
+                std::unexpected(FaultCode::PositionNotKept)) {
+        driver_.set_up(setup_of(machine_, motors_of(machine_)[0])).value();
+    }
 
     /// Runs loops, one in each slot, until the order is done.
     const AxisState& carry_out(AxisCommandKind kind, std::int64_t target_steps = 0) {

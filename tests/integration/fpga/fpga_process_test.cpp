@@ -80,6 +80,7 @@ TEST_F(FpgaProcess, MakesEveryStepOfAFrameOnItsTickAndRemovesItsName) {
     Process fpga(command());
     ASSERT_TRUE(eventually([&] { return attach().has_value(); })) << attach().error();
     DeviceDriver driver = attach().value();
+    ASSERT_TRUE(driver.set_up({}));
 
     constexpr Velocity kSpeed{std::int64_t{1} << 57};  // a step in 128 ticks, the first after 64
     const Tick start = driver.read()->now + Ticks{2'000'000};

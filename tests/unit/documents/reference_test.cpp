@@ -55,11 +55,12 @@ std::optional<std::string> machine_with_key(const Key& key, const std::string& v
         {"Web", {"web { ", " }"}},
         {"Homing", {"homing { ", " }"}},
         {"Plant", {"plant { ", " }"}},
+        {"Pins", {"pins { ", " }"}},
         {"Axis", {"", ""}}};
     const auto around = kAround.find(key.block);
     if (around == kAround.end()) { return std::nullopt; }
     const std::string line = around->second.first + key.name + ": " + value + around->second.second;
-    const bool in_axis = key.block == "Axis" || key.block == "Homing" || key.block == "Plant";
+    const bool in_axis = key.block == "Axis" || key.block == "Homing" || key.block == "Plant" || key.block == "Pins";
     const std::string given = std::regex_replace(std::string(kShortest), std::regex("  " + key.name + ": .*"), "");
     return in_axis ? with("\n}", "\n  " + line + "\n}", given) : given + line + "\n";
 }
@@ -92,7 +93,7 @@ TEST(MachineReference, EveryRangeStatedIsTheOneChecked) {
         const double most = std::stod(range[2]);
         EXPECT_FALSE(is_refused(key, number(key, least))) << key.name << " at its least, " << range[0];
         EXPECT_FALSE(is_refused(key, number(key, most))) << key.name << " at its most, " << range[0];
-        EXPECT_TRUE(is_refused(key, number(key, is_whole(key) ? least - 1 : least * 0.99)))
+        EXPECT_TRUE(is_refused(key, number(key, is_whole(key) || least == 0 ? least - 1 : least * 0.99)))
             << key.name << " below " << range[0];
         EXPECT_TRUE(is_refused(key, number(key, is_whole(key) ? most + 1 : most * 1.01)))
             << key.name << " above " << range[0];

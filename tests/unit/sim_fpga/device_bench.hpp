@@ -56,10 +56,12 @@ inline device::LoadFrame last_frame(FrameNumber number) {
 
 struct DeviceBench {
     explicit DeviceBench(const MotorConfig& axis = bench_axis(), const DeviceAbilities& abilities = {},
-                         RegisterWindow registers = RegisterWindow::in_process())
+                         RegisterWindow registers = RegisterWindow::in_process(), const DeviceSetup& setup = {})
         : window(std::move(registers)),
           device(window, Plant(axis, kTick_ns), kTick_ns, Tick{0}, 0, abilities),
-          driver(DeviceDriver::attach(window, kTick_ns).value()) {}
+          driver(DeviceDriver::attach(window, kTick_ns).value()) {
+        EXPECT_TRUE(driver.set_up(setup));
+    }
 
     void order(const DeviceOrder& order) {
         const auto result = driver.apply(order);

@@ -40,6 +40,28 @@ TEST(WindowPort, ASimulatedDeviceRunsUpToThePresentWhenItIsRead) {
     EXPECT_EQ(port->read(kStart + Ticks{500}).value()->status.now, kStart + Ticks{500});
 }
 
+TEST(WindowPort, ADeviceThatCannotDoWhatTheMotorNeedsIsRefusedAndNotEnabled) {
+    const RegisterWindow window = RegisterWindow::in_process();
+    SimulatedDevice device(window, Plant(bench_axis(), kTick_ns), kTick_ns, Tick{}, 0, {.segment_entries = 256});
+    const auto driver = attach_driver(window, {}, bench_axis());
+    ASSERT_FALSE(driver);
+    EXPECT_NE(driver.error().find("its segment ring has 256 entries"), std::string::npos) << driver.error();
+    EXPECT_EQ(window.load(registers::kEnable), 0u);
+    EXPECT_EQ(window.load(registers::kSetupRequest), 0u);
+}
+
+TEST(WindowPort, SetsTheDeviceUpForTheMotor) {
+    const RegisterWindow window = RegisterWindow::in_process();
+    SimulatedDevice device(window, Plant(bench_axis(), kTick_ns), kTick_ns, Tick{});
+    MotorConfig motor = bench_axis();
+    motor.pins = {.step_width_us = 2.5, .enable_inverted = true};
+    ASSERT_TRUE(attach_driver(window, {}, motor));
+    device.advance(Tick{10});
+    EXPECT_EQ(load_setup(window, DeviceAbilities{}.time_unit_ps),
+              (DeviceSetup{.step_width_ns = 2500, .enable_inverted = true}));
+    EXPECT_EQ(window.load(registers::kSetup), window.load(registers::kSetupRequest));
+}
+
 TEST(WindowPort, SaysHowMuchRoomTheDeviceHadForSteps) {
     DeviceBench bench;
     WindowPort port(DeviceDriver::attach(bench.window, kTick_ns).value());

@@ -93,6 +93,15 @@ struct Hash {
     void add_order(const device::Arm& arm) { add(arm.number); }
     void add_order(const device::Veto& veto) { add(veto.number); }
     void add_order(const device::StopNow&) {}
+    void add_order(const device::LoadOutputs& load) { of(load.number, load.track.body, load.track.tail); }
+    void add_order(const device::ChangeOutputs& change) { of(change.digital, change.analog); }
+    void add(const OutputChange& change) {
+        of(change.at, change.what.index());
+        std::visit([this](const auto& one) { add(one); }, change.what);
+    }
+    void add(const SetDigital& digital) { of(digital.levels, digital.mask); }
+    void add(const RampAnalog& analog) { of(analog.channel, analog.value, analog.slope); }
+    void add(const ComparePosition& compare) { of(compare.next, compare.every, compare.pulses); }
 };
 
 }  // namespace
