@@ -47,14 +47,18 @@ Quadratic rows_of(const Quadratic& axes, std::size_t motors, WayOf way_of) {
     return rows;
 }
 
-/// The place of the axes, on whole steps if the machine rests there.
-AxisVector place_at(const Quadratic& axes, double u) {
+/// The place of the axes.
+AxisVector way_at(const Quadratic& axes, double u) {
     AxisVector place;
+    for (std::size_t i = 0; i < axes.from.size(); ++i) { place.append(axes.place(i, u)); }
+    return place;
+}
+
+/// The same, on whole steps if the machine rests there.
+AxisVector place_at(const Quadratic& axes, double u) {
+    AxisVector place = way_at(axes, u);
     const bool is_rest = axes.ends_at_rest && u == axes.length;
-    for (std::size_t i = 0; i < axes.from.size(); ++i) {
-        const double steps = axes.place(i, u);
-        place.append(is_rest ? std::round(steps) : steps);
-    }
+    for (double& steps : place) { steps = is_rest ? std::round(steps) : steps; }
     return place;
 }
 
@@ -84,12 +88,34 @@ MotorWay straight_way(const MotorMap& map, std::size_t m, const Quadratic& axes)
             .bend = map.slope(m, axes.from, axes.bend)};
 }
 
-/// Two quadratics with the places and the slopes of a motor's curve at both ends of a part.
+/// How far a motor is beside its place along a piece, in steps: where the machine rests, as far as its whole step is.
+/// Between the ends it changes evenly, so that it bends no part of the piece.
+class RestOffset {
+public:
+    RestOffset(const MotorMap& map, std::size_t motor, const Quadratic& axes) {
+        const auto to_whole = [&](double u) {
+            return std::round(map.place(motor, place_at(axes, u))) - map.place(motor, way_at(axes, u));
+        };
+        begin_ = axes.begins_at_rest ? to_whole(0) : 0;
+        slope_ = ((axes.ends_at_rest ? to_whole(axes.length) : 0) - begin_) / axes.length;
+    }
+    double at(double u) const { return begin_ + slope_ * u; }
+    /// Steps per mm.
+    double slope() const { return slope_; }
+
+private:
+    double begin_ = 0;
+    double slope_ = 0;
+};
+
+/// Two quadratics with the places and the slopes of a motor's way at both ends of a part.
 struct MotorCurve {
     MotorCurve(const MotorMap& map, std::size_t motor, const Quadratic& axes, double a, double b)
-        : half((b - a) / 2), from(map.place(motor, place_at(axes, a))), to(map.place(motor, place_at(axes, b))) {
-        begin_slope = map.slope(motor, place_at(axes, a), slope_at(axes, a));
-        end_slope = map.slope(motor, place_at(axes, b), slope_at(axes, b));
+        : half((b - a) / 2), offset(map, motor, axes) {
+        from = map.place(motor, way_at(axes, a)) + offset.at(a);
+        to = map.place(motor, way_at(axes, b)) + offset.at(b);
+        begin_slope = map.slope(motor, way_at(axes, a), slope_at(axes, a)) + offset.slope();
+        end_slope = map.slope(motor, way_at(axes, b), slope_at(axes, b)) + offset.slope();
         middle_slope = (to - from) / half - (begin_slope + end_slope) / 2;
         middle = from + (begin_slope + middle_slope) / 2 * half;
     }
@@ -101,6 +127,7 @@ struct MotorCurve {
     double quarter(const MotorWay& way) const { return way.from + (way.slope - way.bend * half / 4) * half / 2; }
 
     double half = 0;  // mm
+    RestOffset offset;
     double from = 0;  // steps
     double middle = 0;
     double to = 0;
@@ -126,8 +153,9 @@ double RowPieces::cut_at(std::size_t part) const {
 /// Compares the quadratics with the curve in their middles and where they meet.
 bool RowPieces::is_close() const {
     const MotorMap& map = setup_.motor_map;
-    const auto is_near = [&](std::size_t m, double u, double steps) {
-        return std::abs(map.place(m, place_at(axes_, u)) - steps) <= kMeasuredShare * kMapShare;
+    const auto is_near = [&](std::size_t m, const MotorCurve& curve, double u, double steps) {
+        const double place = map.place(m, way_at(axes_, u)) + curve.offset.at(u);
+        return std::abs(place - steps) <= kMeasuredShare * kMapShare;
     };
     for (std::size_t k = 0; k < parts_; ++k) {
         const double a = cut_at(k);
@@ -136,9 +164,9 @@ bool RowPieces::is_close() const {
             if (!map.is_curved(m)) { continue; }
             const MotorCurve curve(map, m, axes_, a, b);
             const double quarter = (b - a) / 4;
-            const bool is_close = is_near(m, a + 2 * quarter, curve.middle) &&
-                                  is_near(m, a + quarter, curve.quarter(curve.first())) &&
-                                  is_near(m, b - quarter, curve.quarter(curve.second()));
+            const bool is_close = is_near(m, curve, a + 2 * quarter, curve.middle) &&
+                                  is_near(m, curve, a + quarter, curve.quarter(curve.first())) &&
+                                  is_near(m, curve, b - quarter, curve.quarter(curve.second()));
             if (!is_close) { return false; }
         }
     }
@@ -160,7 +188,6 @@ Quadratic RowPieces::half(std::size_t number) const {
     const double middle = (a + b) / 2;
     const Quadratic axes = is_first ? part_of(axes_, a, middle) : part_of(axes_, middle, b);
     Quadratic rows = rows_of(axes, map.motors(), [&](std::size_t m) {
-        if (!map.is_curved(m)) { return straight_way(map, m, axes); }
         const MotorCurve curve(map, m, axes_, a, b);
         return is_first ? curve.first() : curve.second();
     });

@@ -122,6 +122,34 @@ TEST(RowPieces, FollowTheCarriagesWithinTheirShareOfAStep) {
     }
 }
 
+/// Carriages rest on whole steps, half a step at most beside the curve of their line. The whole move leads from there
+/// and to there: no part of it is bent more than the others.
+TEST(RowPieces, LeadToWholeStepsOverTheWholeMove) {
+    constexpr double kHair_mm = 1e-4;
+    for (Quadratic axes : examples()) {
+        axes.begins_at_rest = axes.ends_at_rest = true;
+        for (std::size_t i = 0; i < 4; ++i) { axes.from[i] = std::round(axes.from[i]); }
+        const std::vector<Quadratic> rows = rows_along(delta_setup(), axes);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double begin = rows.front().from[k] - static_cast<double>(carriage(k, axes, 0));
+            const Quadratic& last = rows.back();
+            const double end = last.place(k, last.length) - static_cast<double>(carriage(k, axes, axes.length));
+            EXPECT_EQ(rows.front().from[k], std::round(rows.front().from[k]));
+            EXPECT_NEAR(last.place(k, last.length), std::round(last.place(k, last.length)), 1e-7);
+            for (const Quadratic& part : rows) {
+                const double middle = part.begin + part.length / 2;
+                const double slope =
+                    static_cast<double>(carriage(k, axes, middle + kHair_mm) - carriage(k, axes, middle - kHair_mm)) /
+                    (2 * kHair_mm);
+                const double bends = 4 * kMapShare / part.length;  // a quadratic within kMapShare of the curve
+                EXPECT_NEAR(part.slope[k] - slope, (end - begin) / axes.length, bends) << "at " << part.begin << " mm";
+                EXPECT_NEAR(part.from[k] - static_cast<double>(carriage(k, axes, part.begin)),
+                            begin + (end - begin) * part.begin / axes.length, kMapShare);
+            }
+        }
+    }
+}
+
 /// A part of a line is some mm long; the number of parts grows with the cube root of the steps.
 TEST(RowPieces, AreFew) {
     EXPECT_LE(rows_along(delta_setup(), examples()[0]).size(), 64U);
