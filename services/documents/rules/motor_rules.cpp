@@ -125,6 +125,29 @@ void check_matrix(const MachineConfig& machine, ProblemList& problems) {
     }
 }
 
+/// A motor may have lower limits of its own than its axis. If the axis breaks the same rule, its message is enough.
+void check_speeds(const AxisConfig& axis, const MotorConfig& motor, ProblemList& problems) {
+    problems.require(
+        axis.max_velocity_mm_s < axis.start_velocity_mm_s ||
+            is_at_least(motor.max_velocity_mm_s, motor.start_velocity_mm_s),
+        "kinematics",
+        fmt::format("motor {}: max_velocity_mm_s is {}, below start_velocity_mm_s {}; give the motor other "
+                    "limits of its own, or lower those of the axes that it moves",
+                    motor.name, number_text(motor.max_velocity_mm_s), number_text(motor.start_velocity_mm_s)));
+    const auto may_stop = [&](std::string_view key, double of_axis, double mm_s) {
+        problems.require(
+            of_axis > axis.start_velocity_mm_s || is_at_most(mm_s, motor.start_velocity_mm_s), "kinematics",
+            fmt::format(
+                "motor {} goes at {} mm/s by {}, above its start_velocity_mm_s {}: a switch stops the pulses at "
+                "once; decrease {}, or give the motor another start_velocity_mm_s",
+                motor.name, number_text(mm_s), key, number_text(motor.start_velocity_mm_s), key));
+    };
+    if (!motor.homing.in_place) {
+        may_stop("homing.search_velocity_mm_s", axis.homing.search_velocity_mm_s, motor.homing.search_velocity_mm_s);
+    }
+    if (motor.unhomed_jog_mm_s) { may_stop("unhomed_jog_mm_s", *axis.unhomed_jog_mm_s, *motor.unhomed_jog_mm_s); }
+}
+
 /// A motor's limits and travel by what its axes demand.
 void check_demand(const MachineConfig& machine, const MotorConfig& motor, ProblemList& problems) {
     const std::string remedy = "; give the motor limits of its own, or lower those of the axes that it moves";
@@ -137,9 +160,6 @@ void check_demand(const MachineConfig& machine, const MotorConfig& motor, Proble
     const double accel = std::max(motor.max_accel_mm_s2, motor.max_decel_mm_s2) * motor.steps_per_mm * tick_s * tick_s;
     problems.require(is_at_most(accel, kMaxStepsPerTick), "kinematics",
                      fmt::format("motor {} would reach full speed within a tick{}", motor.name, remedy));
-    problems.require(motor.max_velocity_mm_s >= motor.start_velocity_mm_s, "kinematics",
-                     fmt::format("motor {}: max_velocity_mm_s is {}, below start_velocity_mm_s {}{}", motor.name,
-                                 number_text(motor.max_velocity_mm_s), number_text(motor.start_velocity_mm_s), remedy));
     const ProtocolTiming& t = machine.timing;
     const double longest_s = 1e-6 * static_cast<double>(t.slot_us) * (t.stall_slots + 1);
     problems.require(is_at_most(motor.max_velocity_mm_s * motor.steps_per_mm * longest_s, kDeviceCaptureEntries),
@@ -194,8 +214,9 @@ std::vector<Problem> kinematics_problems(const MachineConfig& machine) {
     problems.require(map.motors_by_joints().inverse().has_value(), "kinematics",
                      "different places of the axes give the same places of the motors; each axis needs a motor that "
                      "the others do not move alike");
-    if (!is_direct) {
-        for (const MotorConfig& motor : motors_of(machine)) { check_demand(machine, motor, problems); }
+    for (const MotorConfig& motor : motors_of(machine)) {
+        check_speeds(machine.axes[motor.axis], motor, problems);
+        if (!is_direct) { check_demand(machine, motor, problems); }
     }
     return problems.take();
 }

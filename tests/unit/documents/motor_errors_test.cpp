@@ -84,6 +84,20 @@ INSTANTIATE_TEST_SUITE_P(
                      "it must be from -100 to 100"},
         MotorMistake{machine(kSteps, kSteps, "coordination: LAI kinematics { core_xy { first: \"X\" second: \"Y\" } }"),
                      "set RANADE"},
+        MotorMistake{machine(kSteps,
+                             "steps_per_mm: 80 max_skew_mm: 3 motor { name: \"Y1\" } motor { name: \"Y2\" "
+                             "start_velocity_mm_s: 4 } homing { search_velocity_mm_s: 5 }"),
+                     "motor Y2 goes at 5 mm/s by homing.search_velocity_mm_s, above its start_velocity_mm_s 4"},
+        MotorMistake{machine(kSteps,
+                             "motor { name: \"B\" steps_per_mm: 80 start_velocity_mm_s: 4 } "
+                             "homing { search_velocity_mm_s: 5 latch_velocity_mm_s: 1 }"),
+                     "decrease homing.search_velocity_mm_s, or give the motor another start_velocity_mm_s"},
+        MotorMistake{machine(kSteps,
+                             "unhomed_jog_mm_s: 6 motor { name: \"B\" steps_per_mm: 80 start_velocity_mm_s: 4 } "
+                             "homing { search_velocity_mm_s: 3 latch_velocity_mm_s: 1 }"),
+                     "motor B goes at 6 mm/s by unhomed_jog_mm_s"},
+        MotorMistake{machine(kSteps, "motor { name: \"B\" steps_per_mm: 80 max_velocity_mm_s: 6 }"),
+                     "motor B: max_velocity_mm_s is 6, below start_velocity_mm_s 10"},
         MotorMistake{machine("steps_per_mm: 4000", "steps_per_mm: 4000",
                              "kinematics { core_xy { first: \"X\" second: \"Y\" } }"),
                      "give the motor limits of its own"}));
