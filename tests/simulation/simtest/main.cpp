@@ -86,6 +86,7 @@ int main(int argc, char** argv) {
         "of 2 ms or more");
     parser.add_flag("--motors", options.machine.motors,
                     "machines with several motors on an axis, belts that move two axes, gears or skewed guides");
+    parser.add_flag("--deltas", options.machine.deltas, "machines whose first three axes are those of a delta");
     parser
         .add_option("--faults", options.faults,
                     "none, all (half of the kinds in each run), or a list of the kinds below")

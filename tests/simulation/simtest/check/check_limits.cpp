@@ -144,10 +144,14 @@ private:
     /// wide tolerance an axis can be faster than in both: a parabola within the tolerance of a corner is steeper at its
     /// ends than the lines there.
     Asked asked_of(std::size_t from, std::size_t to) const {
+        const std::size_t end = course_.stretches.size();
         const auto first = static_cast<std::size_t>((*at_)[from].first);
         const auto last = static_cast<std::size_t>((*at_)[to].last);
+        const std::size_t begin = first < end ? course_.first_part(first) : end;
+        const std::size_t behind = last < end ? course_.last_part(last) + 1 : end;
         Asked most;
-        for (std::size_t k = first > 0 ? first - 1 : 0; k < course_.stretches.size() && k <= last + 1; ++k) {
+        for (std::size_t k = begin > 0 ? course_.first_part(begin - 1) : 0; k < end; ++k) {
+            if (k > behind && k > course_.last_part(behind)) { break; }
             const Stretch& stretch = course_.stretches[k];
             const bool is_beside = k < first || k > last;
             if (is_beside && !stretch.is_joined) { continue; }
@@ -164,8 +168,12 @@ private:
         if (!it.is_joined || it.tolerance <= 1) { return 0; }
         double ticks = 0;
         for (std::size_t axis = 0; axis < it.to.size(); ++axis) {
-            const double way = std::abs(it.to[axis] - course_.at(stretch, axis));
-            if (way > 0) { ticks = std::max(ticks, way / it.fastest[axis]); }
+            double of_axis = 0;
+            for (std::size_t k = course_.first_part(stretch); k <= course_.last_part(stretch); ++k) {
+                const double way = std::abs(course_.stretches[k].to[axis] - course_.at(k, axis));
+                of_axis += way > 0 ? way / course_.stretches[k].fastest[axis] : 0;
+            }
+            ticks = std::max(ticks, of_axis);
         }
         return ticks > 0 ? kSlopePerTolerance * it.tolerance / ticks : 0;
     }

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "tests/simulation/simtest/draw/draw_delta.hpp"
 #include "tests/simulation/simtest/draw/draw_fault.hpp"
 #include "tests/simulation/simtest/draw/draw_late_devices.hpp"
 #include "tests/simulation/simtest/draw/draw_machine.hpp"
@@ -255,7 +256,11 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     if (faults.clock) { faults.corrupt = false; }  // no clock bound holds with falsified replies
     const std::size_t drawn = 1 + draw.index(6);
     scenario.machine = draw_machine(draw, kind.axes.value_or(drawn), kind.long_searches);
-    if (kind.motors) { scenario.machine = with_motors(seed, std::move(scenario.machine)); }
+    if (kind.deltas) {
+        scenario.machine = with_delta(seed, std::move(scenario.machine));
+    } else if (kind.motors) {
+        scenario.machine = with_motors(seed, std::move(scenario.machine));
+    }
     scenario.network = draw_network(draw, faults, scenario.machine.slot_ticks());
     if (faults.clock) {
         give_clocks(draw, scenario);

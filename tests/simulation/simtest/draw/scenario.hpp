@@ -72,6 +72,7 @@ struct MachineKind {
     bool long_searches = false;       // draw_machine.hpp
     bool late_devices = false;        // some devices answer late and have their own clocks
     bool motors = false;              // axes have several motors, or share them (draw_motors.hpp)
+    bool deltas = false;              // draw_delta.hpp
 };
 
 /// A command that the machine must refuse, and the reason. The machine must continue as if it had not been given.

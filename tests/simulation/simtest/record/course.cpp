@@ -97,10 +97,10 @@ private:
         if (move.mode == PathMode::ExactStop) { add(Dwell{}); }
     }
 
-    /// Steps of its coarsest motor, per mm.
+    /// Steps of its finest motor, per mm.
     double scale_of(std::size_t axis) const {
         const auto found = std::ranges::find(machine_.axes, program_.axes[axis], &AxisConfig::name);
-        return found->steps_per_mm / motors_.step_of(static_cast<std::size_t>(found - machine_.axes.begin()));
+        return found->steps_per_mm * motors_.finest(static_cast<std::size_t>(found - machine_.axes.begin()));
     }
     /// How far the program's axes are from the programmed place: less than a step, because they rest on whole steps.
     std::vector<double> off_mm() const {
@@ -256,6 +256,16 @@ double within(const Stretch& stretch) {
     return stretch.is_arc ? kArc : stretch.is_joined ? stretch.tolerance : kExactly;
 }
 
+std::size_t Course::first_part(std::size_t stretch) const {
+    while (stretches[stretch].continues) { --stretch; }
+    return stretch;
+}
+
+std::size_t Course::last_part(std::size_t stretch) const {
+    while (stretch + 1 < stretches.size() && stretches[stretch + 1].continues) { ++stretch; }
+    return stretch;
+}
+
 Joints::Joints(const Course& course, std::size_t axis) : before_{0, 0} {
     for (std::size_t k = 1; k < course.stretches.size(); ++k) {
         const Stretch& before = course.stretches[k - 1];
@@ -263,8 +273,8 @@ Joints::Joints(const Course& course, std::size_t axis) : before_{0, 0} {
         const bool moved = course.at(k, axis) != course.at(k - 1, axis);
         const bool moves = course.at(k + 1, axis) != course.at(k, axis);
         const bool is_moved = moved || moves || before.is_joined || behind.is_joined;
-        const bool at_pause = before.pauses || behind.pauses;
-        before_.push_back(before_.back() + (is_moved && !at_pause ? 1 : 0));
+        const bool is_none = before.pauses || behind.pauses || behind.continues;
+        before_.push_back(before_.back() + (is_moved && !is_none ? 1 : 0));
     }
 }
 

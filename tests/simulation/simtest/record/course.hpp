@@ -25,6 +25,7 @@ struct Stretch {
     bool is_joined = false;  // with the move before or after it
     bool is_exact = false;   // corners are kept
     bool is_arc = false;     // a chord of an arc
+    bool continues = false;  // a further part of the same line: no joint is before it
     double tolerance = 1;    // steps, if it is joined
     double tolerance_mm = 0;
     double within = 0;   // steps: how far an axis may be from it, with the rounding to pulses
@@ -46,6 +47,9 @@ struct Course {
     std::size_t pauses = 0;
     double seconds = 0;  // an upper bound of its duration, without the rests of the protocol
 
+    /// The first and the last part of the line to which a stretch belongs.
+    std::size_t first_part(std::size_t stretch) const;
+    std::size_t last_part(std::size_t stretch) const;
     double end() const { return static_cast<double>(stretches.size()); }
     /// Where an axis is at the begin of a stretch.
     double at(std::size_t stretch, std::size_t axis) const {

@@ -248,10 +248,13 @@ bool leads_to_rest(const Recording& recording, JobRecord& job) {
         return std::ranges::equal(stretch.to, rest,
                                   [](double place, double at) { return std::abs(place - at) <= 0.57; });
     };
-    const auto last = std::ranges::find_if(job.course.stretches, is_its_end);
-    if (last == job.course.stretches.end()) { return false; }
-    last->to = rest;
-    return true;
+    std::vector<Stretch>& stretches = job.course.stretches;
+    for (std::size_t k = 0; k < stretches.size(); ++k) {
+        if (job.course.last_part(k) != k || !is_its_end(stretches[k])) { continue; }
+        stretches[k].to = rest;
+        return true;
+    }
+    return false;
 }
 
 Following follow(const Recording& recording, const JobRecord& job, const std::map<Epoch, EpochRuns>& epochs) {

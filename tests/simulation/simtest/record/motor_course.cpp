@@ -13,14 +13,51 @@ public:
 
     Course of(Course axes, const Counts& from) const {
         Course course{.from = from, .pauses = axes.pauses, .seconds = axes.seconds * map_.slower()};
-        for (std::size_t k = 0; k < axes.stretches.size(); ++k) { course.stretches.push_back(mapped(axes, k)); }
+        for (std::size_t k = 0; k < axes.stretches.size(); ++k) { add_parts(axes, k, course.stretches); }
         const Places last(axes.to.begin(), axes.to.end());
         for (std::size_t m = 0; m < map_.motors(); ++m) { course.to.push_back(std::llround(map_.place(m, last))); }
         return course;
     }
 
 private:
-    Stretch mapped(const Course& axes, std::size_t k) const {
+    /// A stretch of the axes from one place to another, or a part of it.
+    struct Part {
+        Places begin;
+        Places end;
+        double from = 0;  // of the stretch
+        double to = 1;
+    };
+
+    static Places start_of(const Course& axes, std::size_t k) {
+        return k == 0 ? Places(axes.from.begin(), axes.from.end()) : axes.stretches[k - 1].to;
+    }
+    static Places between(const Places& a, const Places& b, double share) {
+        Places place = a;
+        for (std::size_t i = 0; i < a.size(); ++i) { place[i] += share * (b[i] - a[i]); }
+        return share == 1 ? b : place;
+    }
+
+    /// One part, or so many that the way of each motor is nearly a line in each of them.
+    void add_parts(const Course& axes, std::size_t k, std::vector<Stretch>& parts) const {
+        constexpr double kNearly_steps = 0.01;
+        const Places from = start_of(axes, k);
+        const Places& to = axes.stretches[k].to;
+        double bulge = 0;
+        for (std::size_t m = 0; m < map_.motors(); ++m) { bulge = std::max(bulge, map_.bulge(m, from, to)); }
+        const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(std::sqrt(bulge / kNearly_steps))));
+        const auto all = static_cast<double>(count);
+        for (std::size_t n = 0; n < count; ++n) {
+            Part part{.begin = {}, .end = {}, .from = static_cast<double>(n) / all};
+            part.to = static_cast<double>(n + 1) / all;
+            part.begin = between(from, to, part.from);
+            part.end = between(from, to, part.to);
+            parts.push_back(mapped(axes, k, part));
+            parts.back().continues = n > 0;
+            parts.back().ends_at_rest = axes.stretches[k].ends_at_rest && n + 1 == count;
+        }
+    }
+
+    Stretch mapped(const Course& axes, std::size_t k, const Part& part) const {
         Stretch stretch = axes.stretches[k];
         stretch.to.clear();
         stretch.fastest.clear();
@@ -28,14 +65,29 @@ private:
         stretch.tolerance = tolerance(axes.stretches[k].tolerance_mm);
         // A joined move that begins or ends at a rest leads to the motor's whole step there, over its whole length.
         constexpr double kRest = 0.5;
+        constexpr double kCurve = 0.04;  // what the pieces of a curve deviate, here and in a path
         stretch.within = within(stretch) + (stretch.is_joined && !stretch.is_arc ? kRest : 0);
+        if (map_.any_is_curved()) { stretch.within += kCurve; }
         for (std::size_t m = 0; m < map_.motors(); ++m) {
-            const double to = map_.place(m, axes.stretches[k].to);
-            stretch.to.push_back(stretch.ends_at_rest ? std::round(to) : to);
-            stretch.fastest.push_back(fastest(axes, k, m));
+            const double to = map_.place(m, part.end) + rest_offset(axes, k, m, part.to);
+            stretch.to.push_back(stretch.ends_at_rest && part.to == 1 ? std::round(to) : to);
+            stretch.fastest.push_back(fastest(axes, k, m, part));
             stretch.moved.push_back(moved(axes, k, m));
         }
         return stretch;
+    }
+
+    /// A line of a motor that is curved leads from its whole step at a rest to the one at the next, over its whole
+    /// length. The line of another motor is one stretch from end to end.
+    double rest_offset(const Course& axes, std::size_t k, std::size_t m, double share) const {
+        if (!map_.is_curved(m)) { return 0; }
+        const auto to_whole = [&](const Places& place) {
+            return std::round(map_.place(m, place)) - map_.place(m, place);
+        };
+        const bool begins_at_rest = k == 0 || axes.stretches[k - 1].ends_at_rest;
+        const double begin = begins_at_rest ? to_whole(start_of(axes, k)) : 0;
+        const double end = axes.stretches[k].ends_at_rest ? to_whole(axes.stretches[k].to) : 0;
+        return begin + (end - begin) * share;
     }
 
     /// In steps of the motor for which it is greatest; at least 1.
@@ -63,22 +115,28 @@ private:
         return steps;
     }
 
-    /// Steps per tick: what the speeds of the axes demand, at most the motor's own limit. On a line all axes have their
-    /// parts of the way at the same time.
-    double fastest(const Course& axes, std::size_t k, std::size_t m) const {
-        const Stretch& stretch = axes.stretches[k];
+    /// Steps per tick: what the speeds of the axes demand, at most the motor's own limit. A motor that is curved is
+    /// fastest at one of the ends.
+    double fastest(const Course& axes, std::size_t k, std::size_t m, const Part& part) const {
         const double own = map_.limits(m).top * map_.steps_per_mm(m) * static_cast<double>(machine_.tick_ns) * 1e-9;
+        return std::min(own, std::max(demanded(axes, k, m, part.begin), demanded(axes, k, m, part.end)));
+    }
+
+    /// On a line all axes have their parts of the way at the same time.
+    double demanded(const Course& axes, std::size_t k, std::size_t m, const Places& at) const {
+        const Stretch& stretch = axes.stretches[k];
         double together = 0;
-        double way = 0;
+        double way = rest_offset(axes, k, m, 1) - rest_offset(axes, k, m, 0);
         double most_parts = std::numeric_limits<double>::infinity();  // of the stretch, per tick
         for (std::size_t i = 0; i < stretch.to.size(); ++i) {
-            together += std::abs(map_.share(m, i)) * stretch.fastest[i];
+            const double share = map_.share_at(m, i, at);
+            together += std::abs(share) * stretch.fastest[i];
             const double steps = stretch.to[i] - axes.at(k, i);
-            way += map_.share(m, i) * steps;
+            way += share * steps;
             if (steps != 0) { most_parts = std::min(most_parts, stretch.fastest[i] / std::abs(steps)); }
         }
         const bool is_line = !stretch.is_joined && !stretch.is_arc;
-        return std::min(own, is_line ? std::abs(way) * most_parts : together);
+        return is_line ? std::abs(way) * most_parts : together;
     }
 
     const MotorShares& map_;

@@ -41,35 +41,68 @@ void add_skew(const MachineConfig& machine, std::vector<double>& shares) {
     }
 }
 
+/// What a travel demands of a carriage at most: at the corner that is furthest from its tower.
+std::vector<double> steepest(const Carriages& carriages, std::size_t tower, std::size_t axes) {
+    std::vector<double> shares(axes, 0.0);
+    for (std::size_t i = 0; i < axes; ++i) {
+        Carriages::Tool by{};
+        const auto coordinate = carriages.coordinate_of(i);
+        if (!coordinate) { continue; }
+        by[*coordinate] = 1;
+        shares[i] = static_cast<double>(std::abs(carriages.change(tower, carriages.furthest_corner(tower), by)));
+    }
+    return shares;
+}
+
+/// The acceleration of a carriage while the tool goes straight ahead at full speed, in the worst direction.
+double bend_of(const MachineConfig& machine, const Carriages& carriages, std::size_t tower) {
+    const Carriages::Tool at = carriages.furthest_corner(tower);
+    Carriages::Tool speed{};
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        const auto coordinate = carriages.coordinate_of(i);
+        if (coordinate) { speed[*coordinate] = machine.axes[i].max_velocity_mm_s; }
+    }
+    const Carriages::Tool opposite{speed[0], -speed[1], 0};
+    return static_cast<double>(
+        std::max(std::abs(carriages.bend(tower, at, speed)), std::abs(carriages.bend(tower, at, opposite))));
+}
+
 }  // namespace
 
 MotorShares::MotorShares(const MachineConfig& machine)
-    : is_direct_(machine.kinematics == KinematicsConfig{} &&
+    : carriages_(machine),
+      is_direct_(machine.kinematics == KinematicsConfig{} &&
                  std::ranges::all_of(machine.axes, [](const AxisConfig& axis) { return axis.motors.empty(); })) {
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        axis_steps_per_mm_.push_back(machine.axes[i].steps_per_mm);
         if (machine.axes[i].motors.empty()) { add(machine, i, nullptr); }
         for (const MotorBlock& block : machine.axes[i].motors) { add(machine, i, &block); }
     }
 }
 
 void MotorShares::add(const MachineConfig& machine, std::size_t axis, const MotorBlock* block) {
-    std::vector<double> shares = shares_of(machine, axis, block == nullptr ? machine.axes[axis].name : block->name);
+    const std::string& name = block == nullptr ? machine.axes[axis].name : block->name;
+    const auto tower = carriages_.tower_of(name);
+    std::vector<double> shares =
+        tower ? steepest(carriages_, *tower, machine.axes.size()) : shares_of(machine, axis, name);
     add_skew(machine, shares);
+    towers_.push_back(tower);
     const auto demand = [&](double AxisConfig::*value) {
         double sum = 0;
         for (std::size_t i = 0; i < shares.size(); ++i) { sum += std::abs(shares[i]) * machine.axes[i].*value; }
         return sum;
     };
-    const auto limit = [&](double AxisConfig::*of_axis, std::optional<double> MotorBlock::*own) {
-        const double most = demand(of_axis);
+    const double bend = tower ? bend_of(machine, carriages_, *tower) : 0;
+    const auto limit = [&](double AxisConfig::*of_axis, std::optional<double> MotorBlock::*own, double more = 0) {
+        const double most = demand(of_axis) + more;
         const double its = block == nullptr ? most : (block->*own).value_or(most);
         slower_ = std::max(slower_, most / its);
         return its;
     };
     limits_.push_back({limit(&AxisConfig::start_velocity_mm_s, &MotorBlock::start_velocity_mm_s),
                        limit(&AxisConfig::max_velocity_mm_s, &MotorBlock::max_velocity_mm_s),
-                       limit(&AxisConfig::max_accel_mm_s2, &MotorBlock::max_accel_mm_s2),
-                       limit(&AxisConfig::max_decel_mm_s2, &MotorBlock::max_decel_mm_s2)});
+                       limit(&AxisConfig::max_accel_mm_s2, &MotorBlock::max_accel_mm_s2, bend),
+                       limit(&AxisConfig::max_decel_mm_s2, &MotorBlock::max_decel_mm_s2, bend)});
     const double of_axis = machine.axes[axis].steps_per_mm;
     steps_per_mm_.push_back(block == nullptr ? of_axis : block->steps_per_mm.value_or(of_axis));
     for (std::size_t i = 0; i < shares.size(); ++i) {
@@ -78,15 +111,84 @@ void MotorShares::add(const MachineConfig& machine, std::size_t axis, const Moto
     shares_.push_back(std::move(shares));
 }
 
+/// By Cramer's rule: the rise of each carriage by each coordinate, solved for the coordinate.
+double MotorShares::steps_of_carriages(std::size_t coordinate, const Carriages::Tool& at) const {
+    constexpr std::size_t kTowers = 3;
+    std::array<std::array<long double, 3>, kTowers> rises{};
+    std::array<long double, kTowers> step_mm{};
+    for (std::size_t m = 0; m < motors(); ++m) {
+        if (!towers_[m]) { continue; }
+        step_mm[*towers_[m]] = 1 / static_cast<long double>(steps_per_mm_[m]);
+        for (std::size_t c = 0; c < 3; ++c) {
+            Carriages::Tool by{};
+            by[c] = 1;
+            rises[*towers_[m]][c] = carriages_.change(*towers_[m], at, by);
+        }
+    }
+    const std::size_t c1 = (coordinate + 1) % 3;
+    const std::size_t c2 = (coordinate + 2) % 3;
+    long double determinant = 0;
+    long double most = 0;
+    for (std::size_t k = 0; k < kTowers; ++k) {
+        const auto& a = rises[(k + 1) % kTowers];
+        const auto& b = rises[(k + 2) % kTowers];
+        const long double minor = a[c1] * b[c2] - a[c2] * b[c1];
+        determinant += rises[k][coordinate] * minor;
+        most += std::abs(minor) * step_mm[k];
+    }
+    return static_cast<double>(most / std::abs(determinant));
+}
+
 double MotorShares::step_of(std::size_t axis) const {
     double most = 0;
+    if (const auto coordinate = carriages_.coordinate_of(axis)) {
+        for (const Carriages::Tool& at : carriages_.samples()) {
+            most = std::max(most, steps_of_carriages(*coordinate, at) * axis_steps_per_mm_[axis]);
+        }
+        return most;
+    }
     for (const std::vector<double>& shares : shares_) {
         if (shares[axis] != 0) { most = std::max(most, 1 / std::abs(shares[axis])); }
     }
     return most;
 }
 
+double MotorShares::finest(std::size_t axis) const {
+    double most = 0;
+    for (const std::vector<double>& shares : shares_) { most = std::max(most, std::abs(shares[axis])); }
+    return most;
+}
+
+Carriages::Tool MotorShares::tool(const Places& axes) const {
+    Places mm = axes;
+    for (std::size_t i = 0; i < mm.size(); ++i) { mm[i] /= axis_steps_per_mm_[i]; }
+    return carriages_.tool(mm);
+}
+
+double MotorShares::share_at(std::size_t motor, std::size_t axis, const Places& axes) const {
+    const auto coordinate = carriages_.coordinate_of(axis);
+    if (!towers_[motor] || !coordinate) { return shares_[motor][axis]; }
+    Carriages::Tool by{};
+    by[*coordinate] = 1 / static_cast<long double>(axis_steps_per_mm_[axis]);
+    return static_cast<double>(carriages_.change(*towers_[motor], tool(axes), by) * steps_per_mm_[motor]);
+}
+
+/// The curve of a carriage is bent most at one of its ends, where its rod lies flatter. A parabola of this bend is an
+/// eighth of it above its chord.
+double MotorShares::bulge(std::size_t motor, const Places& from, const Places& to) const {
+    if (!towers_[motor]) { return 0; }
+    const Carriages::Tool begin = tool(from);
+    const Carriages::Tool end = tool(to);
+    const Carriages::Tool by{end[0] - begin[0], end[1] - begin[1], end[2] - begin[2]};
+    const long double bend = std::max(std::abs(carriages_.bend(*towers_[motor], begin, by)),
+                                      std::abs(carriages_.bend(*towers_[motor], end, by)));
+    return static_cast<double>(bend / 8 * steps_per_mm_[motor]);
+}
+
 double MotorShares::place(std::size_t motor, const Places& axes) const {
+    if (const auto tower = towers_[motor]) {
+        return static_cast<double>(carriages_.height(*tower, tool(axes)) * steps_per_mm_[motor]);
+    }
     double place = 0;
     for (std::size_t i = 0; i < axes.size(); ++i) { place += shares_[motor][i] * axes[i]; }
     return place;

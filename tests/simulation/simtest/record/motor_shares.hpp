@@ -1,9 +1,11 @@
 // Which motors move which axes, by the machine's configuration. It shares no code with core/kinematics.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/machine.hpp"
+#include "tests/simulation/simtest/record/carriages.hpp"
 
 namespace lockstep::simtest {
 
@@ -24,12 +26,22 @@ public:
     std::size_t motors() const { return shares_.size(); }
     /// Each axis is a motor.
     bool is_direct() const { return is_direct_; }
-    /// Steps of a motor for each step of an axis.
+    /// A motor follows curves while the axes move in lines.
+    bool is_curved(std::size_t motor) const { return towers_[motor].has_value(); }
+    bool any_is_curved() const { return !carriages_.none(); }
+    /// Steps of a motor for each step of an axis; of a motor that is curved, the most within the travel.
     double share(std::size_t motor, std::size_t axis) const { return shares_[motor][axis]; }
+    /// The same at a place of the axes, in steps.
+    double share_at(std::size_t motor, std::size_t axis, const Places& axes) const;
     /// The place of a motor in steps.
     double place(std::size_t motor, const Places& axes) const;
-    /// Steps of an axis that are a step of its coarsest motor.
+    /// Steps of an axis that are a step of its coarsest motor; of a delta, that are a step of all carriages at most.
     double step_of(std::size_t axis) const;
+    /// Steps of the finest motor for each step of an axis.
+    double finest(std::size_t axis) const;
+    /// For a motor that is curved, by how many steps its way differs from a line at most, while the axes move in one
+    /// between these places.
+    double bulge(std::size_t motor, const Places& from, const Places& to) const;
     double steps_per_mm(std::size_t motor) const { return steps_per_mm_[motor]; }
     const MotorLimits& limits(std::size_t motor) const { return limits_[motor]; }
     /// How much longer a motion may last than the axes' limits need, because motors have lower ones.
@@ -37,7 +49,12 @@ public:
 
 private:
     void add(const MachineConfig& machine, std::size_t axis, const MotorBlock* block);
+    Carriages::Tool tool(const Places& axes) const;
+    double steps_of_carriages(std::size_t coordinate, const Carriages::Tool& at) const;
 
+    Carriages carriages_;
+    std::vector<double> axis_steps_per_mm_;
+    std::vector<std::optional<std::size_t>> towers_;  // of each motor
     std::vector<std::vector<double>> shares_;
     std::vector<double> steps_per_mm_;
     std::vector<MotorLimits> limits_;

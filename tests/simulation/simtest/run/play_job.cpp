@@ -1,6 +1,7 @@
 #include "tests/simulation/simtest/run/play_job.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/axis/device/position_claim.hpp"
 #include "tests/simulation/simtest/record/motor_course.hpp"
@@ -66,7 +67,8 @@ double homing_seconds(const Bench& bench) {
         const double travel = motor.position_max_mm - motor.position_min_mm + 2 * motor.plant.travel_margin_mm;
         const double search = travel / h.search_velocity_mm_s + 20 * h.pulloff_mm / h.search_velocity_mm_s +
                               2 * h.pulloff_mm / h.latch_velocity_mm_s;
-        seconds += kSearches * search + 2 * travel / motor.start_velocity_mm_s;
+        const double to_park_mm_s = bench.map().any_is_curved() ? h.search_velocity_mm_s : motor.start_velocity_mm_s;
+        seconds += kSearches * search + 2 * travel / to_park_mm_s;
     }
     return seconds;
 }
@@ -101,7 +103,10 @@ std::int64_t place_after_homing(const Bench& bench, std::size_t motor, JobOutcom
     const AxisState& state = bench.watch().motors()[motor];
     if (outcome != JobOutcome::Done && state.homed && state.at_rest) { return state.position.count(); }
     const MotorConfig& config = bench.kinematics().motors()[motor];
-    return nearest_step(config, config.homing.park_mm);
+    if (!bench.map().is_curved(motor)) { return nearest_step(config, config.homing.park_mm); }
+    Places park;
+    for (const AxisConfig& axis : bench.machine().axes) { park.push_back(axis.homing.park_mm * axis.steps_per_mm); }
+    return std::llround(bench.map().place(motor, park));
 }
 
 /// Axes that are homed in place are first put to their park by hand. A motor that is still homed objects with a Fault.
@@ -239,8 +244,20 @@ void JobPlayer::play() {
     record();
 }
 
+/// The place of the axes is one from which the motors rest where they are.
+bool JobPlayer::is_at(const Counts& axes) const {
+    constexpr double kHalf_steps = 0.5 + 1e-6;
+    const Places places(axes.begin(), axes.end());
+    for (std::size_t m = 0; m < at_.size(); ++m) {
+        if (std::abs(bench_.map().place(m, places) - static_cast<double>(at_[m])) > kHalf_steps) { return false; }
+    }
+    return true;
+}
+
 bool JobPlayer::start() {
-    Course of_axes = course_of(task_.program, bench_.machine(), axes_at(bench_, at_), bench_.most_feed());
+    const Counts axes = axes_at(bench_, at_);
+    if (!is_at(axes)) { bench_.object("place", "no place of the axes belongs to those of the motors"); }
+    Course of_axes = course_of(task_.program, bench_.machine(), axes, bench_.most_feed());
     job_.course = course_of_motors(std::move(of_axes), bench_.map(), bench_.machine(), at_);
     job_.first_step = bench_.steps_made();
     Program whole = starting_at(bench_, at_, task_.program);

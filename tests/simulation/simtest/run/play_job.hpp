@@ -15,6 +15,7 @@ public:
 
 private:
     bool start();
+    bool is_at(const Counts& axes) const;
     double ample_seconds() const;
     void go_on();
     void interrupt(const Interrupt& interrupt);
