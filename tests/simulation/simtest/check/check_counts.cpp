@@ -62,6 +62,7 @@ Violations check_all(const Recording& recording) {
     if (violations.empty()) { append(violations, check_together(recording, followings)); }
     append(violations, check_frames(recording));
     append(violations, check_stops(recording));
+    append(violations, check_jogs(recording));
     append(violations, check_owners(recording));
     return violations;
 }

@@ -65,6 +65,7 @@ public:
           hurry_(own_clock(recording.machine).hurry),
           ceases_(job.emergency.has_value() || may_be_stopped(recording, axis, job.began, job.ended)),
           violations_(violations) {
+        lines_ = lines();
         const Joints joints(job.course, axis);
         for (std::size_t n = 0; at_ != nullptr && n < steps_.size(); ++n) {
             joints_before_.push_back(joints.before((*at_)[n].first));
@@ -147,29 +148,46 @@ private:
         const std::size_t end = course_.stretches.size();
         const auto first = static_cast<std::size_t>((*at_)[from].first);
         const auto last = static_cast<std::size_t>((*at_)[to].last);
-        const std::size_t begin = first < end ? course_.first_part(first) : end;
-        const std::size_t behind = last < end ? course_.last_part(last) + 1 : end;
+        const std::size_t begin = first < end ? lines_[first].first : end;
+        const std::size_t behind = last < end ? lines_[last].last + 1 : end;
+        const std::size_t stop = behind < end ? lines_[behind].last + 1 : end;
         Asked most;
-        for (std::size_t k = begin > 0 ? course_.first_part(begin - 1) : 0; k < end; ++k) {
-            if (k > behind && k > course_.last_part(behind)) { break; }
+        for (std::size_t k = begin > 0 ? lines_[begin - 1].first : 0; k < stop; ++k) {
             const Stretch& stretch = course_.stretches[k];
             const bool is_beside = k < first || k > last;
             if (is_beside && !stretch.is_joined) { continue; }
-            most.feed = std::max(most.feed, stretch.fastest[axis_] + steeper(k));
+            most.feed = std::max(most.feed, stretch.fastest[axis_] + lines_[k].steeper);
             if (!stretch.moved.empty()) { most.moved = std::max(most.moved, stretch.moved[axis_]); }
         }
         return most;
     }
 
-    /// How much faster. |x| from -1 to 1 is within 1/8 of x^2 + 1/8, which has twice its slope at the ends.
-    double steeper(std::size_t stretch) const {
+    /// The line of a stretch: its first and last part, and how much faster than in it an axis can be.
+    struct Line {
+        std::size_t first = 0;
+        std::size_t last = 0;
+        double steeper = 0;
+    };
+
+    std::vector<Line> lines() const {
+        std::vector<Line> all;
+        for (std::size_t first = 0; first < course_.stretches.size();) {
+            const std::size_t last = course_.last_part(first);
+            all.resize(last + 1, Line{first, last, steeper(first, last)});
+            first = last + 1;
+        }
+        return all;
+    }
+
+    /// |x| from -1 to 1 is within 1/8 of x^2 + 1/8, which has twice its slope at the ends.
+    double steeper(std::size_t first, std::size_t last) const {
         constexpr double kSlopePerTolerance = 8;
-        const Stretch& it = course_.stretches[stretch];
+        const Stretch& it = course_.stretches[first];
         if (!it.is_joined || it.tolerance <= 1) { return 0; }
         double ticks = 0;
         for (std::size_t axis = 0; axis < it.to.size(); ++axis) {
             double of_axis = 0;
-            for (std::size_t k = course_.first_part(stretch); k <= course_.last_part(stretch); ++k) {
+            for (std::size_t k = first; k <= last; ++k) {
                 const double way = std::abs(course_.stretches[k].to[axis] - course_.at(k, axis));
                 of_axis += way > 0 ? way / course_.stretches[k].fastest[axis] : 0;
             }
@@ -264,6 +282,7 @@ private:
     double rounding_;                         // ticks, in the time between two steps
     double hurry_;                            // factor of a feed, because of the device's own clock
     bool ceases_;                             // the steps may end at any speed
+    std::vector<Line> lines_;                 // of each stretch
     std::vector<std::int64_t> counts_{0};     // after each number of steps
     std::vector<std::size_t> joints_before_;  // the earliest place of each step
     std::vector<std::size_t> joints_up_to_;   // the latest place of each step, and the end

@@ -44,6 +44,9 @@ inline constexpr int kCeaseSlots = 6;                 // two messages with a loo
 inline constexpr int kHaltSlots = 2;                  // one message, with a loop at both ends
 inline constexpr std::int64_t kHalt_ns = 10'000'000;  // the frame in progress, and the time between two readings
 
+/// Jogs: pulses cease in time after the release of the keys, or after the last renewal.
+Violations check_jogs(const Recording& recording);
+
 /// Owners: one owner at a time moves the axes. An axis moves only for the owner that it follows. An owner begins only
 /// after all axes follow it. A previous owner never returns, and terms never decrease. No frame runs
 /// twice or with other content than sent. No coordinator takes over from a healthy owner.

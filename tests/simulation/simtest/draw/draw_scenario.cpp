@@ -2,6 +2,7 @@
 
 #include "tests/simulation/simtest/draw/draw_delta.hpp"
 #include "tests/simulation/simtest/draw/draw_fault.hpp"
+#include "tests/simulation/simtest/draw/draw_jogs.hpp"
 #include "tests/simulation/simtest/draw/draw_late_devices.hpp"
 #include "tests/simulation/simtest/draw/draw_machine.hpp"
 #include "tests/simulation/simtest/draw/draw_motors.hpp"
@@ -247,6 +248,13 @@ void give_clocks(Draw& draw, Scenario& scenario) {
     }
 }
 
+/// The kinds of this run, and those that are not drawn for each run.
+FaultKinds with_plant(FaultKinds faults, const FaultKinds& asked) {
+    faults.limit = asked.limit;
+    faults.device = asked.device;
+    return faults;
+}
+
 }  // namespace
 
 Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const MachineKind& kind) {
@@ -291,6 +299,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     if (asked.curve) { give_curves(seed, asked.mixed, scenario); }
     if (asked.stream) { give_streams(seed, asked.mixed, scenario); }
     if (kind.late_devices) { give_late_devices(seed, scenario); }
+    if (kind.jogs) { give_jogs(seed, with_plant(faults, asked), scenario); }
     return scenario;
 }
 

@@ -73,6 +73,7 @@ struct MachineKind {
     bool late_devices = false;        // some devices answer late and have their own clocks
     bool motors = false;              // axes have several motors, or share them (draw_motors.hpp)
     bool deltas = false;              // draw_delta.hpp
+    bool jogs = false;                // axes are jogged between programs (draw_jogs.hpp)
 };
 
 /// A command that the machine must refuse, and the reason. The machine must continue as if it had not been given.
@@ -109,6 +110,7 @@ struct PlannedFault {
     Edge edge = Edge::Start;
     double slots = 0;  // after the edge
     Victim victim = Victim::Process;
+    bool at_jog = false;  // an edge of a frame: but placed after the begin of a jog, which may have no frames
 
     bool is_of_frame() const { return static_cast<std::size_t>(edge) < kFrameEdges; }
 };
@@ -129,13 +131,32 @@ struct SentPart {
     double after_s = 0;
 };
 
+/// The keys that a client holds, and how it ends.
+struct JogPress {
+    enum class End : std::uint8_t {
+        Release,
+        Silence,  // the client ends: its renewals cease
+        Next      // it presses the next keys while the axes move
+    };
+    std::vector<JogAxis> axes;
+    double held_s = 0;
+    End end = End::Release;
+};
+
+/// Keys that a client presses one after the other, on a machine at rest. The last press ends with Release or Silence.
+struct JogSession {
+    std::vector<JogPress> presses;
+    std::vector<PlannedFault> faults;
+};
+
 /// A program that starts at the machine's current position, and the events during the job.
 struct Task {
     Program program;  // start_mm is set when the program is sent
     std::vector<WrongCommand> before;
     std::vector<Interrupt> interrupts;
-    std::vector<PlannedFault> faults;  // in the order in which they are placed
-    std::vector<SentPart> parts = {};  // empty: the program is sent whole, before it runs
+    std::vector<PlannedFault> faults;   // in the order in which they are placed
+    std::vector<SentPart> parts = {};   // empty: the program is sent whole, before it runs
+    std::vector<JogSession> jogs = {};  // before the program
 };
 
 /// Stop or EmergencyStop, `after_s` after the homing began.

@@ -256,11 +256,6 @@ double within(const Stretch& stretch) {
     return stretch.is_arc ? kArc : stretch.is_joined ? stretch.tolerance : kExactly;
 }
 
-std::size_t Course::first_part(std::size_t stretch) const {
-    while (stretches[stretch].continues) { --stretch; }
-    return stretch;
-}
-
 std::size_t Course::last_part(std::size_t stretch) const {
     while (stretch + 1 < stretches.size() && stretches[stretch + 1].continues) { ++stretch; }
     return stretch;

@@ -47,8 +47,7 @@ struct Course {
     std::size_t pauses = 0;
     double seconds = 0;  // an upper bound of its duration, without the rests of the protocol
 
-    /// The first and the last part of the line to which a stretch belongs.
-    std::size_t first_part(std::size_t stretch) const;
+    /// The last part of the line to which a stretch belongs.
     std::size_t last_part(std::size_t stretch) const;
     double end() const { return static_cast<double>(stretches.size()); }
     /// Where an axis is at the begin of a stretch.

@@ -153,6 +153,17 @@ double MotorShares::step_of(std::size_t axis) const {
     return most;
 }
 
+bool MotorShares::is_own(std::size_t axis) const {
+    std::size_t movers = 0;
+    for (const std::vector<double>& shares : shares_) {
+        if (shares[axis] == 0) { continue; }
+        const auto others = std::ranges::count_if(shares, [](double share) { return share != 0; });
+        if (others > 1 || shares[axis] != 1) { return false; }
+        ++movers;
+    }
+    return movers == 1;
+}
+
 double MotorShares::finest(std::size_t axis) const {
     double most = 0;
     for (const std::vector<double>& shares : shares_) { most = std::max(most, std::abs(shares[axis])); }

@@ -28,6 +28,8 @@ public:
     bool is_direct() const { return is_direct_; }
     /// A motor follows curves while the axes move in lines.
     bool is_curved(std::size_t motor) const { return towers_[motor].has_value(); }
+    /// An axis is moved by one motor, which moves no other axis and has the axis's steps.
+    bool is_own(std::size_t axis) const;
     bool any_is_curved() const { return !carriages_.none(); }
     /// Steps of a motor for each step of an axis; of a motor that is curved, the most within the travel.
     double share(std::size_t motor, std::size_t axis) const { return shares_[motor][axis]; }

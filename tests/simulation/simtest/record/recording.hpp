@@ -112,7 +112,7 @@ struct Claim {
 
 /// A job from its first frame to its end, and which steps of the axes belong to it.
 struct JobRecord {
-    bool homing = false;
+    bool homing = false;  // no program: a homing, or jogs without a common path
     JobOutcome outcome = JobOutcome::Done;
     Course course;  // of a program
     std::vector<std::size_t> first_step;
@@ -128,11 +128,20 @@ struct Emergency {
     Tick rests;
 };
 
+/// Keys of a jog that a client released, or whose renewals ceased.
+struct JogRecord {
+    Tick released;
+    Tick ends;  // the axes rest by then
+    bool by_silence = false;
+    std::size_t job = 0;  // in Recording::jobs
+};
+
 struct Recording {
     MachineConfig machine;
     NetworkBehaviour network;
     std::vector<MotorRecord> motors;
     std::vector<JobRecord> jobs;
+    std::vector<JogRecord> jogs;
     std::map<Epoch, SentEpoch> epochs;
     std::vector<VirtualFault> faults;  // as they began
     std::vector<Emergency> emergencies;

@@ -67,6 +67,19 @@ Bench::Bench(const Scenario& scenario, Played& played)
     for (VirtualObserver* observer : all) { vm_.observe(*observer); }
 }
 
+Counts Bench::axes_at(const Counts& motors) const {
+    MotorCounts counts;
+    for (const std::int64_t count : motors) { counts.steps.append(count); }
+    const AxisCounts axes = kinematics_.axes_at(counts);
+    return {axes.begin(), axes.end()};
+}
+
+double Bench::protocol_seconds() const {
+    const ProtocolTiming& t = machine().timing;
+    const double rests = lossy() ? 60 : 6;
+    return rests * slot_s() * (2 * t.send_ahead_slots + 3 * t.frame_slots + 20);
+}
+
 void Bench::object(const std::string& rule, const std::string& text) {
     played_.violations.push_back({rule, {}, vm_.now().value, {}, text});
     over_ = true;

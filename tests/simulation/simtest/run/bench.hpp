@@ -62,6 +62,10 @@ public:
     const MachineConfig& machine() const { return scenario_.machine; }
     const Kinematics& kinematics() const { return kinematics_; }
     const MotorShares& map() const { return map_; }
+    /// Where the axes are, in steps of the axes.
+    Counts axes_at(const Counts& motors) const;
+    /// An upper bound of the time in which the protocol comes to rest and starts again, as often as it may have to.
+    double protocol_seconds() const;
     /// The highest feed override of any job; overrides persist.
     double most_feed() const;
     Recording& recording() { return played_.recording; }

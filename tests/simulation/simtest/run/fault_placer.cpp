@@ -28,7 +28,9 @@ void FaultPlacer::on_coordinator(std::size_t /*process*/, Tick now, const Coordi
 
 void FaultPlacer::take_job_event(const JobEvent& job, Tick now) {
     if (planned_.empty() || !planned_.front().is_of_frame()) { return; }
-    if (job.kind == JobEvent::Kind::Begun && job.job_kind == JobKind::Home) { return place(now); }
+    const bool at_begin = job.job_kind == JobKind::Home || planned_.front().at_jog;
+    if (job.kind == JobEvent::Kind::Begun && at_begin) { return place(now); }
+    if (planned_.front().at_jog) { return; }
     if (job.kind == JobEvent::Kind::EpochBegun && epochs_++ == planned_.front().epoch) {
         place(job.start + slots(frame_slots(planned_.front())));
     }

@@ -5,6 +5,7 @@
 #include "core/axis/device/position_claim.hpp"
 #include "tests/simulation/simtest/record/explain.hpp"
 #include "tests/simulation/simtest/run/play_job.hpp"
+#include "tests/simulation/simtest/run/play_jogs.hpp"
 
 namespace lockstep::simtest {
 namespace {
@@ -57,6 +58,12 @@ void play_all(const Scenario& scenario, Bench& bench) {
     check_slides(bench, at);
     for (const Task& task : scenario.tasks) {
         for (const WrongCommand& wrong : task.before) { play_refusal(bench, wrong, at); }
+        for (const JogSession& jogs : task.jogs) {
+            bench.plan(jogs.faults);
+            if (!bench.over()) { JogPlayer(bench, jogs, at).play(); }
+            bench.plan({});
+            make_ready(bench, at);
+        }
         bench.plan(task.faults);
         if (!bench.over()) { JobPlayer(bench, task, at).play(); }
         bench.plan({});

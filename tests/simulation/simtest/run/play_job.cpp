@@ -15,18 +15,12 @@ MotorCounts counts_of(const Counts& motors) {
     return counts;
 }
 
-/// Where the axes are, in steps of the axes.
-Counts axes_at(const Bench& bench, const Counts& motors) {
-    const AxisCounts axes = bench.kinematics().axes_at(counts_of(motors));
-    return {axes.begin(), axes.end()};
-}
-
 /// Homing must come before any program: motors of one axis are at different places, or motors that share axes did not
 /// come to rest together, so that an axis is outside its travel.
 bool must_home(const Bench& bench, const Counts& motors) {
     if (bench.map().is_direct()) { return false; }
     if (bench.kinematics().astray(counts_of(motors))) { return true; }
-    const Counts axes = axes_at(bench, motors);
+    const Counts axes = bench.axes_at(motors);
     for (std::size_t i = 0; i < axes.size(); ++i) {
         const AxisConfig& axis = bench.machine().axes[i];
         const std::int64_t rests = bench.kinematics().rest_steps(i);
@@ -40,7 +34,7 @@ bool must_home(const Bench& bench, const Counts& motors) {
 Program starting_at(const Bench& bench, const Counts& motors, Program program) {
     if (!program.start_mm.empty()) { return program; }
     const MachineConfig& machine = bench.machine();
-    const Counts at = axes_at(bench, motors);
+    const Counts at = bench.axes_at(motors);
     for (const std::string& name : program.axes) {
         const auto axis = std::ranges::find(machine.axes, name, &AxisConfig::name);
         const bool known = axis != machine.axes.end();
@@ -50,17 +44,10 @@ Program starting_at(const Bench& bench, const Counts& motors, Program program) {
     return program;
 }
 
-/// An upper bound of the time in which the protocol comes to rest and starts again, as often as it may have to.
-double protocol_seconds(const Bench& bench) {
-    const ProtocolTiming& t = bench.machine().timing;
-    const double rests = bench.lossy() ? 60 : 6;
-    return rests * bench.slot_s() * (2 * t.send_ahead_slots + 3 * t.frame_slots + 20);
-}
-
-/// The same for a homing that has to repeat the search for a switch.
+/// An upper bound of the time of a homing that has to repeat the search for a switch.
 double homing_seconds(const Bench& bench) {
     constexpr int kSearches = 4;
-    double seconds = protocol_seconds(bench);
+    double seconds = bench.protocol_seconds();
     for (const MotorConfig& motor : bench.kinematics().motors()) {
         const HomingConfig& h = motor.homing;
         if (h.in_place) { continue; }
@@ -165,7 +152,7 @@ Tick play_emergency(Bench& bench) {
     if (reply != nullptr && reply->status != ReplyStatus::Accepted) { bench.object("emergency", answer_text(*reply)); }
     // A coordinator that ended in the meantime does not know of the command.
     const auto lost = [&] { return bench.disturbed_since(asked); };
-    (void)bench.await(lost, protocol_seconds(bench), "an emergency stop");
+    (void)bench.await(lost, bench.protocol_seconds(), "an emergency stop");
     return asked;
 }
 
@@ -216,7 +203,7 @@ void make_ready(Bench& bench, Counts& at) {
                 bench.object("reset", answer_text(*reply));
             }
         }
-        (void)bench.await([&] { return in(MachinePhase::Idle); }, protocol_seconds(bench), "becoming ready");
+        (void)bench.await([&] { return in(MachinePhase::Idle); }, bench.protocol_seconds(), "becoming ready");
     }
     if (!bench.over()) { bench.object("liveness", "the machine cannot be made ready again"); }
 }
@@ -225,7 +212,7 @@ void JobPlayer::play() {
     job_.began = bench_.vm().now();
     if (!start()) { return; }
     const double seconds =
-        ample_seconds() + protocol_seconds(bench_) * static_cast<double>(task_.interrupts.size() + job_.course.pauses);
+        ample_seconds() + bench_.protocol_seconds() * static_cast<double>(task_.interrupts.size() + job_.course.pauses);
     const Tick deadline =
         bench_.vm().now() + Ticks{static_cast<std::int64_t>(seconds * bench_.machine().ticks_per_second())};
     do {
@@ -238,7 +225,7 @@ void JobPlayer::play() {
         if (bench_.faulted() || disturbed() || bench_.vm().faults_pending()) {
             bench_.settle(ample_seconds());
         } else {
-            (void)bench_.await([this] { return in(MachinePhase::Idle); }, protocol_seconds(bench_), "becoming idle");
+            (void)bench_.await([this] { return in(MachinePhase::Idle); }, bench_.protocol_seconds(), "becoming idle");
         }
     } while (goes_on());  // a new owner continues the job after the fault
     record();
@@ -255,7 +242,7 @@ bool JobPlayer::is_at(const Counts& axes) const {
 }
 
 bool JobPlayer::start() {
-    const Counts axes = axes_at(bench_, at_);
+    const Counts axes = bench_.axes_at(at_);
     if (!is_at(axes)) { bench_.object("place", "no place of the axes belongs to those of the motors"); }
     Course of_axes = course_of(task_.program, bench_.machine(), axes, bench_.most_feed());
     job_.course = course_of_motors(std::move(of_axes), bench_.map(), bench_.machine(), at_);
@@ -273,7 +260,7 @@ bool JobPlayer::start() {
 
 /// An upper bound of the job's duration without interrupts. Each part may find the machine at rest.
 double JobPlayer::ample_seconds() const {
-    double seconds = 2 * job_.course.seconds + protocol_seconds(bench_) * static_cast<double>(1 + task_.parts.size());
+    double seconds = 2 * job_.course.seconds + bench_.protocol_seconds() * static_cast<double>(1 + task_.parts.size());
     for (const SentPart& part : task_.parts) { seconds += part.after_s; }
     return seconds;
 }
@@ -317,7 +304,7 @@ void JobPlayer::hold(const Interrupt& interrupt) {
         return;
     }
     const auto rests = [this] { return in(MachinePhase::Holding) || in(MachinePhase::Paused) || ended(); };
-    if (!bench_.await(rests, 2 * protocol_seconds(bench_) + job_.course.seconds, "coming to rest") || ended()) {
+    if (!bench_.await(rests, 2 * bench_.protocol_seconds() + job_.course.seconds, "coming to rest") || ended()) {
         return;
     }
     const auto before = bench_.steps_made();
@@ -333,7 +320,7 @@ void JobPlayer::stop() {
         if (bench_.watch().was_moving_at(reply->sequence)) { refused("stop", *reply); }
         return;
     }
-    (void)bench_.await([this] { return ended(); }, 2 * protocol_seconds(bench_) + job_.course.seconds, "a stop");
+    (void)bench_.await([this] { return ended(); }, 2 * bench_.protocol_seconds() + job_.course.seconds, "a stop");
 }
 
 void JobPlayer::set_overrides(const Overrides& overrides) {

@@ -1,0 +1,45 @@
+#include "tests/simulation/simtest/run/jog_course.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lockstep::simtest {
+
+Program program_of_jog(const JogPress& press, const MachineConfig& machine, const Counts& from) {
+    struct Way {
+        std::size_t place = 0;  // in the program
+        double mm_s = 0;
+        double seconds = 0;  // left
+    };
+    Program program{.name = "jog", .axes = {}, .start_mm = {}, .blocks = {}};
+    std::vector<Way> ways;
+    for (const JogAxis& jog : press.axes) {
+        const AxisConfig& axis = machine.axes[jog.axis];
+        const double at = static_cast<double>(from[jog.axis]) / axis.steps_per_mm;
+        const double to_end = jog.speed_mm_s > 0 ? axis.position_max_mm - at : at - axis.position_min_mm;
+        const double mm = std::min(to_end, jog.distance_mm.value_or(to_end));
+        if (mm > 0) { ways.push_back({program.axes.size(), jog.speed_mm_s, mm / std::abs(jog.speed_mm_s)}); }
+        program.axes.push_back(axis.name);
+        program.start_mm.push_back(at);
+    }
+    const bool ends_with_first =
+        std::ranges::any_of(press.axes, [](const JogAxis& jog) { return jog.distance_mm.has_value(); });
+    std::vector<double> at = program.start_mm;
+    while (!ways.empty()) {
+        const double seconds = std::ranges::min_element(ways, {}, &Way::seconds)->seconds;
+        double square = 0;
+        for (Way& way : ways) {
+            at[way.place] += way.mm_s * seconds;
+            way.seconds -= seconds;
+            square += way.mm_s * way.mm_s;
+        }
+        ProgramMove move{.target_mm = at, .feed_mm_s = std::sqrt(square), .is_feed_fixed = true};
+        move.mode = PathMode::ExactStop;
+        program.blocks.push_back({{}, std::move(move)});
+        std::erase_if(ways, [](const Way& way) { return way.seconds <= 0; });
+        if (ends_with_first) { break; }
+    }
+    return program;
+}
+
+}  // namespace lockstep::simtest
