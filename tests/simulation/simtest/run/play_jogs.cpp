@@ -137,6 +137,7 @@ void JogPlayer::release(const JogPress& press) {
             bench_.wait(bench_.slot_s());
         }
     }
+    if (&press != &session_.presses.back()) { return; }  // the next keys may move the axes on
     const Ticks within = bench_.machine().jog_hold_ticks() +
                          Ticks{std::llround(reaction_seconds() * bench_.machine().ticks_per_second())};
     bench_.recording().jogs.push_back({released, released + within, by_silence, bench_.recording().jobs.size()});
