@@ -16,8 +16,13 @@ Program program_of_jog(const JogPress& press, const MachineConfig& machine, cons
     for (const JogAxis& jog : press.axes) {
         const AxisConfig& axis = machine.axes[jog.axis];
         const double at = static_cast<double>(from[jog.axis]) / axis.steps_per_mm;
-        const double to_end = jog.speed_mm_s > 0 ? axis.position_max_mm - at : at - axis.position_min_mm;
-        const double mm = std::min(to_end, jog.distance_mm.value_or(to_end));
+        const bool is_forward = jog.speed_mm_s > 0;
+        const std::int64_t end = nearest_step(axis, is_forward ? axis.position_max_mm : axis.position_min_mm);
+        const std::int64_t to_end = is_forward ? end - from[jog.axis] : from[jog.axis] - end;
+        // A distance is one of whole steps, of one at least.
+        const std::int64_t asked =
+            jog.distance_mm ? std::max<std::int64_t>(1, nearest_step(axis, *jog.distance_mm)) : to_end;
+        const double mm = static_cast<double>(std::min(to_end, asked)) / axis.steps_per_mm;
         if (mm > 0) { ways.push_back({program.axes.size(), jog.speed_mm_s, mm / std::abs(jog.speed_mm_s)}); }
         program.axes.push_back(axis.name);
         program.start_mm.push_back(at);

@@ -122,7 +122,9 @@ double JogPlayer::reaction_seconds() const {
             seconds = std::max(seconds, kOwn_s + 2 / steps_per_s);
         }
     }
-    return slots * bench_.slot_s() + seconds + 1.5 * stop_seconds();
+    // A carriage that its curve accelerates has less left to brake with.
+    const double brakes = bench_.map().any_is_curved() ? 4 : 1.5;
+    return slots * bench_.slot_s() + seconds + brakes * stop_seconds();
 }
 
 /// A release is repeated like any command.
@@ -145,7 +147,8 @@ void JogPlayer::release(const JogPress& press) {
 
 void JogPlayer::come_to_rest() {
     constexpr double kQuietSlots = 4;
-    const double seconds = bench_.protocol_seconds() + 2 * reaction_seconds();
+    constexpr double kForgotten_s = 0.6;  // a client that is silent counts as gone after half a second
+    const double seconds = bench_.protocol_seconds() + 2 * reaction_seconds() + kForgotten_s;
     const Ticks quiet{std::llround(kQuietSlots * static_cast<double>(bench_.machine().slot_ticks().value))};
     const auto rests = [&] {
         return bench_.watch().phase() == MachinePhase::Idle && bench_.vm().now() - bench_.watch().moved() > quiet;
