@@ -59,10 +59,11 @@ void advance_path(activity::OnPath& path, JobLifecycle& jobs, CoordinatorLoop& l
     }
     if (const auto end = jobs.path().advance(path.task, loop, loop.out)) {
         const auto next = path.jog ? path.jog->next(loop.now) : std::nullopt;
+        const Tick renewed = path.jog ? path.jog->renewed() : Tick{};
         settle(path, *end, jobs, loop);
         const MachineActivity& activity = jobs.activity();
         const bool is_free = activity.is<activity::Idle>() || activity.is<activity::Paused>();
-        if (next && is_free) { (void)commands::begin_path_jog(*next, jobs, loop); }
+        if (next && is_free) { (void)commands::begin_path_jog(*next, renewed, jobs, loop); }
         return;
     }
     if (!jobs.path().is_overdue()) { return; }

@@ -206,7 +206,7 @@ CommandResult move_own(const Command& command, BeginSteps begin_steps, JobLifecy
     return {};
 }
 
-CommandResult begin_path_jog(const Command& command, JobLifecycle& jobs, CoordinatorLoop& loop) {
+CommandResult begin_path_jog(const Command& command, Tick renewed, JobLifecycle& jobs, CoordinatorLoop& loop) {
     if (auto homed = check_homed(loop); !homed) { return homed; }
     if (auto square = check_square(loop); !square) { return square; }
     if (auto clocks = check_clocks(loop); !clocks) { return clocks; }
@@ -228,7 +228,8 @@ CommandResult begin_path_jog(const Command& command, JobLifecycle& jobs, Coordin
         jobs.follow(std::move(task), next, std::move(pause), loop);
         return {};
     }
-    activity::OnPath moving{{}, std::move(task), std::move(pause), PathJog(command, loop)};
+    PathJog path_jog(command, renewed, loop.machine.jog_hold_ticks());
+    activity::OnPath moving{{}, std::move(task), std::move(pause), std::move(path_jog)};
     jobs.activity().become(MachineEvent::JogBegins, std::move(moving), loop.out);
     return {};
 }
@@ -242,7 +243,7 @@ CommandResult jog(const Command& command, JobLifecycle& jobs, CoordinatorLoop& l
     const CommandResult ready = check_jog(activity, loop);
     if (!ready && !command.jogs.empty()) { return ready; }
     if (activity.is_jogging()) { return activity.as<activity::Jogging>()->jogs.press(command, loop); }
-    if (needs_path(command, loop.kinematics)) { return begin_path_jog(command, jobs, loop); }
+    if (needs_path(command, loop.kinematics)) { return begin_path_jog(command, loop.now, jobs, loop); }
     Jogs jogs(loop.machine);
     if (auto pressed = jogs.press(command, loop); !pressed) { return pressed; }
     const auto* const paused = activity.as<activity::Paused>();

@@ -12,7 +12,7 @@ CommandResult move_own(const Command& command, BeginSteps begin_steps, JobLifecy
 /// Several clients may jog different axes in one job. A release is accepted in any state of the machine.
 CommandResult jog(const Command& command, JobLifecycle& jobs, CoordinatorLoop& loop);
 /// Begins a jog of axes whose motors must move together, where the machine rests.
-CommandResult begin_path_jog(const Command& command, JobLifecycle& jobs, CoordinatorLoop& loop);
+CommandResult begin_path_jog(const Command& command, Tick renewed, JobLifecycle& jobs, CoordinatorLoop& loop);
 /// Takes a repeated command. Returns false if its jog is over.
 bool renew_jog(const Command& command, JobLifecycle& jobs, const LoopView& loop);
 /// `intent`: Hold or Stop.

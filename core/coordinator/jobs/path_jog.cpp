@@ -23,7 +23,10 @@ std::expected<Way, Refusal> way_of(const JogAxis& asked, const AxisCounts& here,
     }
     const std::int64_t way = jog_target(asked, axis, here[asked.axis], true) - here[asked.axis];
     const bool is_backward = asked.speed_mm_s < 0;
-    const double mm = is_backward == (way < 0) ? std::abs(to_mm(axis, static_cast<double>(way))) : 0;
+    // Its motors may rest beside the end of the travel, and a shorter way may move none of them.
+    const std::int64_t least = asked.distance_mm ? 1 : loop.kinematics.rest_steps(asked.axis) + 1;
+    const bool has_way = is_backward == (way < 0) && std::abs(way) >= least;
+    const double mm = has_way ? std::abs(to_mm(axis, static_cast<double>(way))) : 0;
     return Way{asked.axis, asked.speed_mm_s, mm / std::abs(asked.speed_mm_s)};
 }
 

@@ -15,17 +15,18 @@ namespace lockstep {
 bool needs_path(const Command& jog, const Kinematics& kinematics);
 
 /// The line on which the axes move at their speeds until the first of them is at its end: after its distance, or at the
-/// end of its travel. Axes that are there already are left out.
+/// end of its travel. Axes that are there already, as nearly as their motors allow, are left out.
 std::expected<Program, Refusal> jog_program(const Command& jog, const LoopView& loop);
 
 class PathJog {
 public:
-    PathJog(Command asked, const LoopView& loop)
-        : asked_(std::move(asked)), hold_(loop.machine.jog_hold_ticks()), renewed_(loop.now) {}
+    /// `renewed`: when its command came, or was last renewed; a line that follows another one is no renewal.
+    PathJog(Command asked, Tick renewed, Ticks hold) : asked_(std::move(asked)), hold_(hold), renewed_(renewed) {}
 
     /// Takes a repeated command. Returns false if it is not this jog, or the one that follows.
     bool renew(const Command& command, const LoopView& loop);
     bool is_of(Identity client) const { return asked_.client == client; }
+    Tick renewed() const { return renewed_; }
     bool is_released(Tick now) const { return now > renewed_ + hold_; }
     /// The client's new command asks for the same motion. A distance that is asked for again is another one.
     bool asks_the_same(const Command& next) const {

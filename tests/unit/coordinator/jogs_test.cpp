@@ -2,6 +2,7 @@
 #include "core/coordinator/jobs/jogs.hpp"
 
 #include "coordinator_parts.hpp"
+#include "core/coordinator/jobs/path_jog.hpp"
 
 namespace lockstep {
 namespace {
@@ -112,6 +113,17 @@ TEST_F(Jogged, NothingIsHeldWhenAllIsReleased) {
     jogs.release_all();
     EXPECT_TRUE(jogs.none());
     EXPECT_FALSE(renew(pressed(1)));
+}
+
+/// A jog of several axes goes on with a further line when one of them is at its end. That is no renewal.
+TEST(PathJog, IsNotRenewedByAFurtherLine) {
+    const Command held{.client = 1, .kind = CommandKind::Jog, .jogs = {{.axis = 0, .speed_mm_s = 5}}};
+    const PathJog first(held, Tick{1'000}, Ticks{20});
+    ASSERT_TRUE(first.next(Tick{1'015}));
+    const PathJog second(*first.next(Tick{1'015}), first.renewed(), Ticks{20});
+    EXPECT_FALSE(second.is_released(Tick{1'020}));
+    EXPECT_TRUE(second.is_released(Tick{1'021}));
+    EXPECT_FALSE(second.next(Tick{1'021}));
 }
 
 }  // namespace

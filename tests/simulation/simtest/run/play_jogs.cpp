@@ -123,7 +123,7 @@ double JogPlayer::reaction_seconds() const {
         }
     }
     // A carriage that its curve accelerates has less left to brake with.
-    const double brakes = bench_.map().any_is_curved() ? 4 : 1.5;
+    const double brakes = bench_.map().any_is_curved() ? 8 : 1.5;
     return slots * bench_.slot_s() + seconds + brakes * stop_seconds();
 }
 

@@ -12,6 +12,15 @@ namespace {
 constexpr std::uint32_t kX = 0;
 constexpr std::uint32_t kY = 1;
 
+struct EpochLog : VirtualObserver {
+    void on_coordinator(std::size_t /*process*/, Tick /*now*/, const CoordinatorOutputs& out) override {
+        for (const CoordinatorNotice& notice : out.notices) {
+            begun += notice.kind == CoordinatorNotice::Kind::EpochBegun ? 1 : 0;
+        }
+    }
+    int begun = 0;
+};
+
 class PathJogs : public Rig {
 protected:
     explicit PathJogs(MachineConfig machine) : Rig({.machine = std::move(machine)}), kinematics(vm.machine()) {}
@@ -214,6 +223,27 @@ TEST_F(DeltaJog, MovesTheToolInALine) {
     EXPECT_EQ(phase(), MachinePhase::Idle) << describe();
     EXPECT_NEAR(axis_mm(0), x + 10, 0.02);
     EXPECT_NEAR(axis_mm(2), z, 0.02);
+}
+
+/// Where the carriages rest, the tool may be a part of a step before the end of its travel.
+TEST_F(DeltaJog, EndsAtTheEndOfTheTravelAlthoughItsKeyIsHeld) {
+    home();
+    StepLog log;
+    EpochLog epochs;
+    vm.observe(log);
+    vm.observe(epochs);
+    for (const double speed : {30.0, -30.0, 7.3, -11.9}) {
+        ASSERT_TRUE(is_accepted(client, {{.axis = 0, .speed_mm_s = speed}, {.axis = 1, .speed_mm_s = speed / 3}}));
+        jog(60 / std::abs(speed) * 8);
+        const std::size_t steps = log.steps.size();
+        const int begun = epochs.begun;
+        jog(0.5);
+        EXPECT_EQ(phase(), MachinePhase::Idle) << describe();
+        EXPECT_EQ(epochs.begun, begun) << "no further line to the same place, at " << speed << " mm/s";
+        EXPECT_EQ(log.steps.size(), steps);
+        client.release();
+        jog(0.1);
+    }
 }
 
 /// A process stalls, ends or is cut off while a gantry is jogged: its motors stay together.
