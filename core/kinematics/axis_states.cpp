@@ -7,6 +7,31 @@
 #include "core/kinematics/kinematics.hpp"
 
 namespace lockstep {
+namespace {
+
+constexpr Slot kMostSlotsApart = 2;  // a state that is older shows where the motor was
+
+/// The newest of the motors' states.
+const AxisState* newest_of(AxisSet needed, std::span<const AxisState* const> motors) {
+    const AxisState* newest = nullptr;
+    for (std::size_t m = 0; m < motors.size(); ++m) {
+        if (!has_axis(needed, m) || motors[m] == nullptr) { continue; }
+        if (newest == nullptr || newest->tick < motors[m]->tick) { newest = motors[m]; }
+    }
+    return newest;
+}
+
+/// Where the motor is at the time of the newest state. Processes read their devices at different times of a slot.
+Position place_at(const AxisState& newest, const AxisState& motor) {
+    if (newest.stamp - motor.stamp > kMostSlotsApart) { return motor.position; }
+    return motor.position + Displacement{Int128{motor.velocity.raw} * (newest.tick - motor.tick).value};
+}
+
+Switches any_of(const Switches& a, const Switches& b) {
+    return {a.limit_min || b.limit_min, a.limit_max || b.limit_max, a.home || b.home};
+}
+
+}  // namespace
 
 AxisSet motors_needed_for(std::size_t axis, const Kinematics& kinematics) {
     AxisSet axes = axis_bit(axis);
@@ -26,18 +51,23 @@ std::optional<AxisState> axis_state_of(std::size_t axis, const Kinematics& kinem
         return motors[*own] == nullptr ? std::nullopt : std::optional(*motors[*own]);
     }
     const AxisSet needed = motors_needed_for(axis, kinematics);
+    const AxisSet own = kinematics.motors_of_axes(axis_bit(axis));
+    const AxisState* const newest = newest_of(needed, motors);
     std::vector<Position> places(motors.size());
     std::optional<AxisState> state;
     for (std::size_t m = 0; m < motors.size(); ++m) {
         if (!has_axis(needed, m)) { continue; }
         if (motors[m] == nullptr) { return std::nullopt; }
         const AxisState& motor = *motors[m];
-        places[m] = motor.position;
-        if (!state) { state = motor; }
+        places[m] = place_at(*newest, motor);
+        if (!state) {
+            state = motor;
+            state->switches = {};
+        }
+        if (has_axis(own, m)) { state->switches = any_of(state->switches, motor.switches); }
         if (state->fault == FaultCode::None && motor.fault != FaultCode::None) {
             state->fault = motor.fault;
             state->phase = motor.phase;
-            state->switches = motor.switches;
         }
         if (state->unproved == FaultCode::None) { state->unproved = motor.unproved; }
         state->homed = state->homed && motor.homed;
@@ -47,6 +77,7 @@ std::optional<AxisState> axis_state_of(std::size_t axis, const Kinematics& kinem
         state->stamp = std::min(state->stamp, motor.stamp);
     }
     state->axis = static_cast<std::uint32_t>(axis);
+    state->tick = newest->tick;
     state->position = Position::steps(std::llround(kinematics.axis_steps(axis, places)));
     state->velocity = {};
     return state;

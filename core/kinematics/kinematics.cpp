@@ -156,6 +156,14 @@ AxisSet Kinematics::axes_of_motor(std::size_t motor) const {
     return axes;
 }
 
+std::vector<std::string> Kinematics::names_of_axes(AxisSet axes) const {
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < axis_names_.size(); ++i) {
+        if (has_axis(axes, i)) { names.push_back(axis_names_[i]); }
+    }
+    return names;
+}
+
 std::optional<std::size_t> Kinematics::find_own_motor(std::size_t axis) const {
     std::optional<std::size_t> own;
     for (std::size_t m = 0; m < motors_.size(); ++m) {
@@ -175,10 +183,13 @@ std::string Kinematics::needs_frames(std::size_t axis) const {
     return "axis " + axis_names_[axis] + " moves only on a path, because its motors must move together: " + names;
 }
 
-std::string Kinematics::label(std::size_t motor) const {
+bool Kinematics::is_named_as_axis(std::size_t motor) const {
     const MotorConfig& config = motors_[motor];
-    const bool is_own = own_motor(config.axis) == motor && config.name == axis_names_[config.axis];
-    return (is_own ? "axis " : "motor ") + config.name;
+    return own_motor(config.axis) == motor && config.name == axis_names_[config.axis];
+}
+
+std::string Kinematics::label(std::size_t motor) const {
+    return (is_named_as_axis(motor) ? "axis " : "motor ") + motors_[motor].name;
 }
 
 }  // namespace lockstep

@@ -54,11 +54,15 @@ public:
     /// The motors that move when one of these axes moves.
     AxisSet motors_of_axes(AxisSet axes) const;
     AxisSet axes_of_motor(std::size_t motor) const;
+    /// Their names.
+    std::vector<std::string> names_of_axes(AxisSet axes) const;
     /// The only motor of an axis, if it moves no other axis and has the axis's steps; otherwise nullopt.
     const std::optional<std::size_t>& own_motor(std::size_t axis) const { return own_motors_[axis]; }
     /// Says why an axis without a motor of its own does not move by itself.
     std::string needs_frames(std::size_t axis) const;
-    /// How messages to people name a motor: `axis Y` if it is the axis's own, otherwise `motor Y2`.
+    /// Whether messages to people name a motor as an axis: it is the axis's own and has its name.
+    bool is_named_as_axis(std::size_t motor) const;
+    /// How messages to people name a motor: `axis Y`, otherwise `motor Y2`.
     std::string label(std::size_t motor) const;
 
 private:
