@@ -2,6 +2,7 @@
 
 #include "clients/session/remedy_words.hpp"
 #include "core/axis_unit.hpp"
+#include "core/kinematics/axis_states.hpp"
 #include "core/kinematics/kinematics.hpp"
 
 #include <fmt/format.h>
@@ -64,10 +65,18 @@ proto::FaultReport fault_report(FaultCode fault, const std::string& axis) {
     return report;
 }
 
+proto::FaultReport motor_fault(FaultCode fault, const Kinematics& kinematics, std::size_t motor) {
+    const std::string& name = kinematics.motors()[motor].name;
+    if (kinematics.is_named_as_axis(motor)) { return fault_report(fault, name); }
+    proto::FaultReport report = fault_report(fault, "");
+    report.set_motor(name);
+    return report;
+}
+
 std::optional<proto::FaultReport> fault_of(const MachineState& state, const MachineConfig& machine) {
     if (state.fault == FaultCode::None) { return std::nullopt; }
     const bool has_axis = state.fault_axis && *state.fault_axis < motor_count(machine);
-    return fault_report(state.fault, has_axis ? motor_name(machine, *state.fault_axis) : "");
+    return has_axis ? motor_fault(state.fault, Kinematics(machine), *state.fault_axis) : fault_report(state.fault, "");
 }
 
 std::optional<proto::DevicesReport> devices_report(const ProgramDevices& devices) {
@@ -85,9 +94,14 @@ std::optional<proto::DevicesReport> devices_report(const ProgramDevices& devices
     return report;
 }
 
+std::string fault_place(const proto::FaultReport& fault) {
+    if (fault.has_motor()) { return "motor " + fault.motor() + ": "; }
+    return fault.has_axis() ? "axis " + fault.axis() + ": " : "";
+}
+
 std::string fault_text(const proto::FaultReport& fault) {
-    const std::string axis = fault.has_axis() ? "axis " + fault.axis() + ": " : "";
-    const std::string what = fmt::format("{}{} ({}): {}", axis, fault.name(), fault.number(), fault.cause());
+    const std::string what =
+        fmt::format("{}{} ({}): {}", fault_place(fault), fault.name(), fault.number(), fault.cause());
     return wrapped("fault: " + what, 80, "       ") + "\n" + wrapped("to do: " + fault.remedy(), 80, "       ");
 }
 
@@ -148,6 +162,20 @@ void add_health(const Session& session, std::size_t motor, proto::AxisStatus& ro
     if (health) { *row.mutable_health() = health_report(*health, session.config()); }
 }
 
+/// `motors`: those that the axis's row is about. Names the first of them that has the row's fault.
+void name_faults(const Session& session, AxisSet motors, proto::AxisStatus& row) {
+    const auto named = [&](const proto::FaultReport& fault, FaultCode AxisState::*of) {
+        for (std::size_t m = 0; m < session.kinematics().motors().size(); ++m) {
+            const auto code = static_cast<FaultCode>(fault.number());
+            const bool has_it = has_axis(motors, m) && session.motor(m) && session.motor(m)->state.*of == code;
+            if (has_it) { return motor_fault(code, session.kinematics(), m); }
+        }
+        return fault;
+    };
+    if (row.has_fault()) { *row.mutable_fault() = named(row.fault(), &AxisState::fault); }
+    if (row.has_unproved()) { *row.mutable_unproved() = named(row.unproved(), &AxisState::unproved); }
+}
+
 void add_axes(const Session& session, proto::StatusReport& report) {
     const MachineConfig& machine = session.config();
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
@@ -157,6 +185,7 @@ void add_axes(const Session& session, proto::StatusReport& report) {
         row = axis_status({config.name, config.steps_per_mm, machine.ticks_per_second()}, axis ? &axis->state : nullptr,
                           session.axis_speed(i));
         row.set_present(session.axis_present(i));
+        name_faults(session, motors_needed_for(i, session.kinematics()), row);
         if (const auto own = session.kinematics().own_motor(i)) { add_health(session, *own, row); }
     }
 }
@@ -173,6 +202,7 @@ void add_motors(const Session& session, proto::StatusReport& report) {
                           motor ? &motor->state : nullptr, motor ? motor->state.velocity.steps_per_tick() : 0);
         row.set_axis(session.config().axes[config.axis].name);
         row.set_present(session.motor_present(m));
+        name_faults(session, axis_bit(m), row);
         add_health(session, m, row);
     }
 }
@@ -217,6 +247,18 @@ std::vector<const proto::AxisStatus*> rows_of(const proto::StatusReport& status)
     for (const proto::AxisStatus& motor : status.motors()) { rows.push_back(&motor); }
     return rows;
 }
+
+std::vector<const proto::AxisStatus*> process_rows(const proto::StatusReport& status) {
+    std::vector<const proto::AxisStatus*> rows = rows_of(status);
+    std::erase_if(rows, [&](const proto::AxisStatus* row) {
+        return !row->has_axis() && std::ranges::any_of(status.motors(), [&](const proto::AxisStatus& motor) {
+            return motor.axis() == row->name();
+        });
+    });
+    return rows;
+}
+
+std::string process_label(const proto::AxisStatus& row) { return (row.has_axis() ? "motor " : "axis ") + row.name(); }
 
 void add_incidents(const MachineConfig& machine, proto::StatusReport& report) {
     const auto files = incident_files(incident_directory(machine));

@@ -14,10 +14,14 @@ namespace lockstep {
 
 /// `axis`: name of the axis if the fault belongs to one axis, otherwise empty.
 proto::FaultReport fault_report(FaultCode fault, const std::string& axis);
+/// Of a motor of the machine.
+proto::FaultReport motor_fault(FaultCode fault, const Kinematics& kinematics, std::size_t motor);
 
 /// The machine's fault; nullopt if there is none.
 std::optional<proto::FaultReport> fault_of(const MachineState& state, const MachineConfig& machine);
 
+/// "axis X: ", "motor Y2: ", or empty if the fault belongs to no motor.
+std::string fault_place(const proto::FaultReport& fault);
 /// "axis X: limit-hit (103): a limit switch closed", then the remedy on its own line; within 80 columns.
 std::string fault_text(const proto::FaultReport& fault);
 
@@ -51,5 +55,9 @@ proto::FinalPosition place_of(const AxisConfig& axis, std::int64_t count);
 std::string label_of(const proto::AxisStatus& row);
 /// The rows of the axes, then those of the motors that are not an axis's own.
 std::vector<const proto::AxisStatus*> rows_of(const proto::StatusReport& status);
+/// The rows of what processes serve: the axes with a motor of their own, then the motors.
+std::vector<const proto::AxisStatus*> process_rows(const proto::StatusReport& status);
+/// "axis X", "motor Y2"
+std::string process_label(const proto::AxisStatus& row);
 
 }  // namespace lockstep

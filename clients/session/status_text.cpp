@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "clients/session/record_loss.hpp"
 #include "clients/session/reports.hpp"
@@ -135,14 +136,16 @@ std::string status_text(const proto::StatusReport& status) {
     }
     text += writer_line(status);
     text += clock_line(status) + unproved_lines(status);
-    if (status.has_fault()) { text += fault_text(status.fault()) + "\n"; }
+    std::set<std::string> printed;
+    const auto add_fault = [&](const proto::FaultReport& fault) {
+        if (const std::string one = fault_text(fault) + "\n"; printed.insert(one).second) { text += one; }
+    };
+    if (status.has_fault()) { add_fault(status.fault()); }
     if (status.has_ended_early()) {
         text += fmt::format("the last job ended near line {}\n{}\n", status.line(), fault_text(status.ended_early()));
     }
     for (const proto::AxisStatus* const axis : rows_of(status)) {
-        const bool is_printed = status.has_fault() && status.fault().number() == axis->fault().number() &&
-                                status.fault().axis() == axis->name();
-        if (axis->has_fault() && !is_printed) { text += fault_text(axis->fault()) + "\n"; }
+        if (axis->has_fault()) { add_fault(axis->fault()); }
     }
     if (const std::string lost = record_loss_text(status); !lost.empty()) { text += wrapped(lost, 80, "  ") + "\n"; }
     if (status.unsaved_values()) {

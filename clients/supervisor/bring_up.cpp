@@ -138,14 +138,15 @@ Failure missing(const Session& session, const OwnParts& parts, const StateDirect
     for (std::size_t i = 0; i < session.kinematics().motors().size(); ++i) {
         const std::string& name = motor_name(session.config(), i);
         if (!has_axis(session.state()->state.axes_present, i)) {
-            return failed(with_log("no messages are received from axis " + name, "axis-" + name, state));
+            return failed(
+                with_log("no messages are received from " + session.kinematics().label(i), "axis-" + name, state));
         }
     }
     for (std::size_t i = 0; i < session.kinematics().motors().size(); ++i) {
         const std::string& name = motor_name(session.config(), i);
         const auto& axis = session.motor(i);
         if (axis && axis->state.unproved == FaultCode::DeviceMissing) {
-            return failed(with_log("axis " + name + " waits for its device", "axis-" + name, state));
+            return failed(with_log(session.kinematics().label(i) + " waits for its device", "axis-" + name, state));
         }
     }
     return failed(with_log("the machine does not become Idle", "coordinator", state));

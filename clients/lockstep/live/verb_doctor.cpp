@@ -135,7 +135,7 @@ void examine_processes(const ChosenMachine& machine, Findings& findings) {
     add_process("coordinator", std::nullopt, owner.has_value(), owner ? owner->state.config_hash : 0);
     for (std::size_t i = 0; i < motor_count(machine.config); ++i) {
         const auto& axis = session->motor(i);
-        add_process("axis " + motor_name(machine.config, i), i, axis.has_value(), axis ? axis->state.config_hash : 0);
+        add_process(session->kinematics().label(i), i, axis.has_value(), axis ? axis->state.config_hash : 0);
     }
 }
 

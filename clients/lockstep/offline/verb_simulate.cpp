@@ -47,8 +47,9 @@ proto::RunReport run_report(const PlannedFile& input, const SimulationResult& re
     report.set_planned_s(input.plan.duration_s);
     report.set_real_s(static_cast<double>(result.motion.value) / input.machine.ticks_per_second());
     if (result.fault != FaultCode::None) {
-        const std::string axis = result.fault_axis ? motor_name(input.machine, *result.fault_axis) : "";
-        *report.mutable_fault() = fault_report(result.fault, axis);
+        *report.mutable_fault() = result.fault_axis
+                                      ? motor_fault(result.fault, Kinematics(input.machine), *result.fault_axis)
+                                      : fault_report(result.fault, "");
     }
     for (std::size_t i = 0; i < result.final_counts.size(); ++i) {
         proto::FinalPosition& place = *report.add_final_positions();

@@ -16,8 +16,8 @@ namespace {
 constexpr double kStepSlack_us = 2;  // the remaining error when a frame is mapped to another clock
 
 std::string sentence(const proto::FaultReport& fault) {
-    const std::string axis = fault.has_axis() ? "axis " + fault.axis() + ": " : "";
-    return fmt::format("{}{} ({}): {}; {}", axis, fault.name(), fault.number(), fault.cause(), fault.remedy());
+    return fmt::format("{}{} ({}): {}; {}", fault_place(fault), fault.name(), fault.number(), fault.cause(),
+                       fault.remedy());
 }
 
 std::string refusals(const proto::HealthReport& health) {
@@ -35,7 +35,7 @@ std::string refusals(const proto::HealthReport& health) {
 
 void add_health_alarms(const proto::AxisStatus& axis, const SlackScale& scale, std::vector<std::string>& alarms) {
     const proto::HealthReport& health = axis.health();
-    const std::string who = "axis " + axis.name() + ": ";
+    const std::string who = process_label(axis) + ": ";
     const double slack_ms = health.setpoint_slack_ms().min();
     if (health.has_setpoint_slack_ms() && slack_ms < scale.deadline_ms) {
         alarms.push_back(
@@ -64,8 +64,10 @@ std::vector<std::string> alarms_of(const proto::StatusReport& status, const Slac
     if (status.has_fault()) { add(sentence(status.fault())); }
     for (const proto::AxisStatus* const axis : rows_of(status)) {
         if (axis->has_fault()) { add(sentence(axis->fault())); }
-        if (!axis->present()) {
-            add("no messages are received from axis " + axis->name() +
+    }
+    for (const proto::AxisStatus* const row : process_rows(status)) {
+        if (!row->present()) {
+            add("no messages are received from " + process_label(*row) +
                 "; check that its process runs: lockstep status");
         }
     }

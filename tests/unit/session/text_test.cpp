@@ -6,6 +6,7 @@
 #include "clients/session/reports.hpp"
 #include "clients/session/status_text.hpp"
 #include "clients/text/format.hpp"
+#include "core/kinematics/kinematics.hpp"
 #include "tests/unit/session/two_axes.hpp"
 
 namespace lockstep {
@@ -102,6 +103,36 @@ TEST(StatusText, ShowsAFaultWithItsCauseAndRemedyOnce) {
     EXPECT_EQ(text.find("limit-hit"), text.rfind("limit-hit"));
 }
 
+MachineConfig gantry() {
+    MachineConfig machine = two_axes();
+    machine.axes[1].motors = {{.name = "Y1", .steps_per_mm = 80}, {.name = "Y2", .steps_per_mm = 80}};
+    return machine;
+}
+
+TEST(StatusText, NamesTheMotorOfAFaultOnce) {
+    proto::StatusReport status = running();
+    const Kinematics kinematics(gantry());
+    proto::AxisStatus& motor = *status.add_motors();
+    motor.set_name("Y2");
+    motor.set_axis("Y");
+    for (proto::FaultReport* fault :
+         {status.mutable_fault(), status.mutable_axes(1)->mutable_fault(), motor.mutable_fault()}) {
+        *fault = motor_fault(FaultCode::LimitHit, kinematics, 2);
+    }
+    const std::string text = status_text(status);
+    EXPECT_THAT(text, HasSubstr("fault: motor Y2: limit-hit (103): a limit switch closed\n"));
+    EXPECT_EQ(text.find("limit-hit"), text.rfind("limit-hit"));
+}
+
+TEST(StatusRows, OfProcessesAreThoseOfMotorsAndOfAxesWithAMotorOfTheirOwn) {
+    proto::StatusReport status = running();
+    status.add_motors()->set_name("Y1");
+    status.mutable_motors(0)->set_axis("Y");
+    std::vector<std::string> labels;
+    for (const proto::AxisStatus* row : process_rows(status)) { labels.push_back(process_label(*row)); }
+    EXPECT_THAT(labels, testing::ElementsAre("axis X", "motor Y1"));
+}
+
 TEST(StatusText, FitsInEightyColumnsWithAnyFault) {
     std::vector<FaultCode> codes;
 #define X(name, number, text, cause, by_hand, remedies) codes.push_back(FaultCode::name);
@@ -141,6 +172,14 @@ TEST(MachineFault, NamesAnAxisOnlyIfItIsOneAxiss) {
     const auto estop = fault_of({.fault = FaultCode::EmergencyStopped}, two_axes());
     EXPECT_FALSE(estop->has_axis());
     EXPECT_FALSE(fault_of({}, two_axes()));
+}
+
+TEST(MachineFault, NamesTheMotorIfItIsNotTheOnlyOneOfAnAxis) {
+    const auto limit = fault_of({.fault = FaultCode::LimitHit, .fault_axis = 2}, gantry());
+    EXPECT_EQ(limit->motor(), "Y2");
+    EXPECT_FALSE(limit->has_axis());
+    EXPECT_EQ(fault_text(*limit).substr(0, 17), "fault: motor Y2: ");
+    EXPECT_EQ(fault_of({.fault = FaultCode::LimitHit, .fault_axis = 0}, gantry())->axis(), "X");
 }
 
 TEST(ProgressText, ShowsPercentLineAndRemainingTime) {
