@@ -120,7 +120,7 @@ Cause own_fault(const Incident& incident, const Entry& symptom) {
     const FaultText* text = find_fault(event.fault);
     return {CauseKind::Fault,
             who,
-            fmt::format("{}: {}; {}", peer_name(incident.machine, who), lockstep::name_of(event.fault),
+            fmt::format("{}: {}; {}", peer_name(incident, who), lockstep::name_of(event.fault),
                         text == nullptr ? "" : text->cause),
             symptom.tick,
             {}};
@@ -130,7 +130,7 @@ std::string who_left_nothing(const Incident& incident, const std::vector<FlightP
     std::string text;
     for (const FlightPeer who : suspects) {
         const bool has_file = std::ranges::count(incident.processes, who, &Process::who) > 0;
-        if (!has_file) { text += (text.empty() ? "" : " and ") + peer_name(incident.machine, who); }
+        if (!has_file) { text += (text.empty() ? "" : " and ") + peer_name(incident, who); }
     }
     return text;
 }
@@ -175,7 +175,7 @@ std::string noticed_text(const Incident& incident, const Entry& symptom, const C
 
 std::string end_of_motion(const Incident& incident, const Rest& rest, Tick noticed) {
     if (rest.without_rest != 0) {
-        return "the notes do not show when " + axes_named(incident.machine, rest.without_rest) + " came to rest";
+        return "the notes do not show when " + axes_named(incident, rest.without_rest) + " came to rest";
     }
     const Ticks after = *rest.at - noticed;
     if (after < Ticks{}) { return "all axes had come to rest " + duration(-incident.seconds(after)) + " before that"; }
@@ -187,7 +187,7 @@ std::string rest_text(const Incident& incident, const Rest& rest, Tick noticed) 
     const std::string end = end_of_motion(incident, rest, noticed);
     if (rest.moving == 0) { return end; }
     const bool is_one = std::popcount(rest.moving) == 1;
-    return axes_named(incident.machine, rest.moving) + (is_one ? " was moving; " : " were moving; ") + end;
+    return axes_named(incident, rest.moving) + (is_one ? " was moving; " : " were moving; ") + end;
 }
 
 }  // namespace

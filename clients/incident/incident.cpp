@@ -11,7 +11,7 @@
 
 #include "clients/incident/file_groups.hpp"
 #include "clients/incident/separation.hpp"
-#include "core/kinematics/motors.hpp"
+#include "core/kinematics/kinematics.hpp"
 
 namespace lockstep::incident {
 namespace {
@@ -26,8 +26,8 @@ FlightPeer who_is(const MachineConfig& machine, const std::string& process) {
 
 int order_of(FlightPeer who) { return who.kind == FlightPeer::Kind::Coordinator ? -1 : who.axis; }
 
-std::string name_of(const MachineConfig& machine, FlightPeer who) {
-    return who.kind == FlightPeer::Kind::Coordinator ? "coordinator" : "axis " + motor_name(machine, who.axis);
+std::string name_of(const Incident& incident, FlightPeer who) {
+    return who.kind == FlightPeer::Kind::Coordinator ? "coordinator" : incident.motors[who.axis];
 }
 
 /// A stretch of machine time: from `from`, before `to`.
@@ -111,7 +111,7 @@ void add_end(Tick last, Incident& incident) {
 /// A process that ended before the window is part of the incident, because nothing shows that it is back.
 void add(const Life& life, const Window& window, Incident& incident) {
     const bool has_end = life.last < window.to;
-    Process process{.name = name_of(incident.machine, life.who),
+    Process process{.name = name_of(incident, life.who),
                     .who = life.who,
                     .ended = life.ended && has_end,
                     .note = has_end ? life.note : "",
@@ -138,8 +138,8 @@ void name_the_absent(Incident& incident) {
         return std::ranges::find(incident.processes, who, &Process::who) == incident.processes.end();
     };
     if (lacks(kFlightCoordinator)) { incident.absent.push_back("coordinator"); }
-    for (std::size_t i = 0; i < motor_count(incident.machine); ++i) {
-        if (lacks(flight_axis(i))) { incident.absent.push_back(name_of(incident.machine, flight_axis(i))); }
+    for (std::size_t i = 0; i < incident.motors.size(); ++i) {
+        if (lacks(flight_axis(i))) { incident.absent.push_back(name_of(incident, flight_axis(i))); }
     }
 }
 
@@ -180,6 +180,8 @@ std::int64_t wall_us_of(const FileGroup& group, const Window& window, Tick at) {
 
 Incident incident_in(const Window& window, const FileGroup& group, const std::vector<Life>& lives) {
     Incident incident{.machine = group.front()->machine};
+    const Kinematics kinematics(incident.machine);
+    for (std::size_t m = 0; m < kinematics.motors().size(); ++m) { incident.motors.push_back(kinematics.label(m)); }
     for (const Life& life : lives) {
         if (belongs_to(life, window, lives)) { add(life, window, incident); }
     }

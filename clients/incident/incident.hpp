@@ -11,7 +11,7 @@ namespace lockstep::incident {
 
 /// One life (incarnation) of a process with notes.
 struct Process {
-    std::string name;  // "axis X", "coordinator"; "axis X, restarted"
+    std::string name;  // "axis X", "motor Y2", "coordinator"; "axis X, restarted"
     FlightPeer who;
     Identity incarnation = 0;
     Tick first;              // time of its first note
@@ -31,6 +31,7 @@ struct Entry {
 
 struct Incident {
     MachineConfig machine;
+    std::vector<std::string> motors;  // of the machine: "axis X", "motor Y2"
     std::int64_t wall_us = 0;  // when its first file was written; without a file of its own, about when it happened
     std::vector<Process> processes;   // the coordinators, then the axes as configured; each with its lives in order
     std::vector<Entry> timeline;      // in the order of time

@@ -30,7 +30,7 @@ void add(const Incident& incident, const Entry& entry, Tick zero, proto::Inciden
     out.set_what(std::string(lockstep::name_of(event.kind)));
     out.set_text(sentence(incident, entry));
     out.set_weight(name_of_weight(weight_of(incident, entry)));
-    if (event.about != FlightPeer{}) { out.set_about(peer_name(incident.machine, event.about)); }
+    if (event.about != FlightPeer{}) { out.set_about(peer_name(incident, event.about)); }
     if (event.fault != FaultCode::None) { out.set_fault(std::string(lockstep::name_of(event.fault))); }
     if (event.frame != 0) { out.set_frame(event.frame); }
     if (event.lasts != Ticks{}) { out.set_lasts_s(incident.seconds(event.lasts)); }
@@ -49,7 +49,7 @@ proto::IncidentReport to_report(const Incident& incident, const Evaluation& eval
     report.set_machine(incident.machine.name);
     report.set_written(wall_time(incident.wall_us));
     report.set_cause(std::string(name_of(evaluation.cause.kind)));
-    if (evaluation.cause.who) { report.set_culprit(peer_name(incident.machine, *evaluation.cause.who)); }
+    if (evaluation.cause.who) { report.set_culprit(peer_name(incident, *evaluation.cause.who)); }
     if (evaluation.cause.at) { report.set_cause_at_s(incident.seconds(*evaluation.cause.at - evaluation.noticed)); }
     if (evaluation.cause.lasts > Ticks{}) { report.set_cause_lasts_s(incident.seconds(evaluation.cause.lasts)); }
     if (evaluation.rest) { report.set_rest_s(incident.seconds(*evaluation.rest - evaluation.noticed)); }

@@ -42,7 +42,7 @@ std::string veto_text(const Incident& incident, const FlightEvent& event) {
         case VetoReason::Own: return "it is in Fault or stopped";
         case VetoReason::NoCoordinator: return "it has received no recent state of the coordinator";
         case VetoReason::NoEvidence:
-            return "no recent state of " + axes_named(incident.machine, static_cast<AxisSet>(event.count)) +
+            return "no recent state of " + axes_named(incident, static_cast<AxisSet>(event.count)) +
                    " reports that the frame is held";
     }
     return "the reason has " + numbered(event.detail);
@@ -68,7 +68,7 @@ std::string phase_text(const Incident& incident, const Entry& entry) {
 
 /// The text of a received message.
 std::string reception_text(const Incident& incident, const FlightEvent& event) {
-    const std::string who = peer_name(incident.machine, event.about);
+    const std::string who = peer_name(incident, event.about);
     const double lasts = incident.seconds(event.lasts);
     switch (event.kind) {
         case Kind::PeerSilent: return fmt::format("has received nothing from {} for {}", who, duration(lasts));
@@ -90,7 +90,7 @@ bool is_end(const FlightEvent& event) {
 
 std::string incident_text(const Incident& incident, const FlightEvent& event) {
     if (is_end(event)) { return "has no more notes, because its process ended"; }
-    const std::string who = event.about == FlightPeer{} ? "" : ", " + peer_name(incident.machine, event.about);
+    const std::string who = event.about == FlightPeer{} ? "" : ", " + peer_name(incident, event.about);
     return fmt::format("saves its earlier notes ({}{})", named<IncidentReason>(event.detail), who);
 }
 
@@ -111,7 +111,7 @@ std::string frame_text(const Incident& incident, const FlightEvent& event) {
 }
 
 std::string coordinator_text(const Incident& incident, const FlightEvent& event) {
-    const std::string who = peer_name(incident.machine, event.about);
+    const std::string who = peer_name(incident, event.about);
     switch (event.kind) {
         case Kind::AxisSeen: return who + " is present";
         case Kind::AxisGone: return who + " is absent";
@@ -129,8 +129,7 @@ std::string coordinator_text(const Incident& incident, const FlightEvent& event)
 
 std::string fault_sentence(const Incident& incident, const FlightEvent& event) {
     const bool has_axis = event.about.kind == FlightPeer::Kind::Axis && is_of_an_axis(event.fault);
-    return "fault" + (has_axis ? " of " + peer_name(incident.machine, event.about) : "") + ": " +
-           fault_text_of(event.fault);
+    return "fault" + (has_axis ? " of " + peer_name(incident, event.about) : "") + ": " + fault_text_of(event.fault);
 }
 
 }  // namespace
@@ -206,16 +205,16 @@ std::string sentence(const Incident& incident, const Entry& entry) {
     }
 }
 
-std::string peer_name(const MachineConfig& machine, FlightPeer peer) {
+std::string peer_name(const Incident& incident, FlightPeer peer) {
     if (peer.kind == FlightPeer::Kind::Coordinator) { return "the coordinator"; }
     if (peer.kind == FlightPeer::Kind::None) { return "no process"; }
-    return "axis " + (peer.axis < motor_count(machine) ? motor_name(machine, peer.axis) : std::to_string(peer.axis));
+    return peer.axis < incident.motors.size() ? incident.motors[peer.axis] : fmt::format("axis {}", peer.axis);
 }
 
-std::string axes_named(const MachineConfig& machine, AxisSet axes) {
+std::string axes_named(const Incident& incident, AxisSet axes) {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < kMaxAxes; ++i) {
-        if (has_axis(axes, i)) { names.push_back(peer_name(machine, flight_axis(i))); }
+        if (has_axis(axes, i)) { names.push_back(peer_name(incident, flight_axis(i))); }
     }
     if (names.size() < 2) { return names.empty() ? "no axis" : names.front(); }
     const std::string last = names.back();
@@ -230,7 +229,7 @@ std::string duration(double seconds) {
 }
 
 std::string end_text(const Incident& incident, const Process& process) {
-    const std::string name = peer_name(incident.machine, process.who);
+    const std::string name = peer_name(incident, process.who);
     if (process.note.empty()) {
         return fmt::format("the process of {} ended without a note: killed, or crashed", name);
     }

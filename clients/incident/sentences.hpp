@@ -15,10 +15,10 @@ Weight weight_of(const Incident& incident, const Entry& entry);
 /// "vetoes frame 17: no recent state of axis Y reports that it is held". The sentence does not name the note's process.
 std::string sentence(const Incident& incident, const Entry& entry);
 
-/// "axis X", "the coordinator"
-std::string peer_name(const MachineConfig& machine, FlightPeer peer);
+/// "axis X", "motor Y2", "the coordinator"
+std::string peer_name(const Incident& incident, FlightPeer peer);
 /// "axis X and axis Y"
-std::string axes_named(const MachineConfig& machine, AxisSet axes);
+std::string axes_named(const Incident& incident, AxisSet axes);
 /// The end of a process without a request: "the process of axis X ended itself: failed check: ..."
 std::string end_text(const Incident& incident, const Process& process);
 /// "143 ms", "2.31 s", "0.4 ms"

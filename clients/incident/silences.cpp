@@ -26,7 +26,7 @@ std::vector<FlightPeer> common(const std::vector<Silence>& silences) {
 std::string cut_text(const Incident& incident, FlightPeer who, const std::vector<Silence>& silences) {
     const auto receives_none = std::ranges::count(silences, who, &Silence::observer);
     const auto unreceived = std::ranges::count(silences, who, &Silence::about);
-    const std::string name = peer_name(incident.machine, who);
+    const std::string name = peer_name(incident, who);
     if (receives_none == 0) { return name + " was cut off: no process received its messages, although it ran"; }
     if (unreceived == 0) { return name + " was cut off: it received no messages, although all processes ran"; }
     return name + " was cut off: it received no messages and no process received its messages, although all ran";
@@ -36,8 +36,8 @@ std::string link_text(const Incident& incident, const std::vector<Silence>& sile
     const Silence& first = silences.front();
     const bool both_ways = silences.size() > 1;
     return fmt::format("the link {}{}{}{} carried no messages, although both ran", both_ways ? "between " : "from ",
-                       peer_name(incident.machine, first.about), (both_ways ? " and " : " to "),
-                       peer_name(incident.machine, first.observer));
+                       peer_name(incident, first.about), (both_ways ? " and " : " to "),
+                       peer_name(incident, first.observer));
 }
 
 }  // namespace

@@ -49,12 +49,12 @@ std::optional<Cause> explain_by_end(const Incident& incident, FlightPeer suspect
     for (const Entry& entry : incident.timeline) {
         const bool is_then = entry.tick >= at - reach(incident);
         if (!is_then || entry.event.kind != FlightKind::PeerRestarted || entry.event.about != suspect) { continue; }
-        return Cause{CauseKind::Ended,
-                     suspect,
-                     fmt::format("the process of {} ended, and another process replaced it",
-                                 peer_name(incident.machine, suspect)),
-                     std::nullopt,
-                     {}};
+        return Cause{
+            CauseKind::Ended,
+            suspect,
+            fmt::format("the process of {} ended, and another process replaced it", peer_name(incident, suspect)),
+            std::nullopt,
+            {}};
     }
     return std::nullopt;
 }
@@ -79,12 +79,12 @@ std::optional<Cause> explain_by_standstill(const Incident& incident, FlightPeer 
         return Cause{CauseKind::HostStalled, std::nullopt,
                      fmt::format("{} processes stalled at the same time, for up to {}, including {}; check "
                                  "their host",
-                                 together, duration(incident.seconds(lasts)), axes_named(incident.machine, axes)),
+                                 together, duration(incident.seconds(lasts)), axes_named(incident, axes)),
                      from, lasts};
     }
     return Cause{CauseKind::Stalled, suspect,
                  fmt::format("{} stalled: its loop did not run for {}; the machine allows {}",
-                             peer_name(incident.machine, suspect), duration(incident.seconds(lasts)),
+                             peer_name(incident, suspect), duration(incident.seconds(lasts)),
                              duration(incident.seconds(incident.slots(incident.machine.timing.stall_slots)))),
                  from, lasts};
 }
@@ -97,7 +97,7 @@ std::optional<Cause> explain_by_hanging(const Incident& incident, FlightPeer sus
         return Cause{CauseKind::Hangs,
                      suspect,
                      fmt::format("{} stalled: its loop has not run since then; check whether its process is stopped",
-                                 peer_name(incident.machine, suspect)),
+                                 peer_name(incident, suspect)),
                      process.last,
                      {}};
     }
@@ -111,7 +111,7 @@ std::optional<Cause> explain_by_refusal(const Incident& incident, FlightPeer sus
         if (!is_its || !is_then || entry.event.kind != FlightKind::FrameRefused) { continue; }
         return Cause{CauseKind::Refused,
                      suspect,
-                     peer_name(incident.machine, suspect) + " " + sentence(incident, entry),
+                     peer_name(incident, suspect) + " " + sentence(incident, entry),
                      entry.tick,
                      {}};
     }

@@ -58,6 +58,7 @@ class Sentences : public testing::Test {
 protected:
     Sentences() {
         incident.machine = small_machine();
+        incident.motors = {"axis X", "axis Y"};
         incident.processes = {{.name = "coordinator", .who = kFlightCoordinator},
                               {.name = "axis X", .who = flight_axis(0)}};
     }
