@@ -27,7 +27,10 @@ public:
         take(RecordKind::Position, message);
     }
     void on_health(const axis_health_t& message, LogPlace /*place*/) override { take(RecordKind::Health, message); }
-    void on_job(const analysis::RecordedJob& message, LogPlace /*place*/) override { take(RecordKind::Job, message); }
+    void on_job(const analysis::RecordedJob& message, LogPlace /*place*/) override {
+        check_.take_machine(message.config);
+        take(RecordKind::Job, message);
+    }
     void on_event(const program_event_t& message, LogPlace /*place*/) override { take(RecordKind::Event, message); }
     void on_program_part(const program_part_t& message, LogPlace /*place*/) override {
         check_.saw(RecordKind::ProgramPart, message);

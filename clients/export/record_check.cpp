@@ -1,5 +1,7 @@
 #include "clients/export/record_check.hpp"
 
+#include "services/documents/machine_file.hpp"
+
 namespace lockstep::exporting {
 namespace {
 
@@ -21,12 +23,19 @@ void RecordCheck::saw(RecordKind kind, const analysis::RecordingProcess& process
     end_.saw(kind, process.machine, process.axis, process.incarnation, sequence);
 }
 
+void RecordCheck::take_machine(const std::string& config) {
+    if (config.empty() || config == config_) { return; }
+    config_ = config;
+    if (const auto machine = parse_machine(config)) { labels_.add(Kinematics(*machine)); }
+}
+
 analysis::RecordState RecordCheck::finish() {
-    const analysis::RecordEnd end = end_.finish();
+    analysis::RecordEnd end = end_.finish();
+    end.labels = labels_;
     analysis::RecordState state{.missing = missing_sentences(end), .not_known = open_sentences(end)};
     for (const auto& [whose, numbers] : seen_) {
         const auto& [process, kind] = whose;
-        const std::string name = process.axis.empty() ? "coordinator" : "axis " + process.axis;
+        const std::string name = process.axis.empty() ? "coordinator" : labels_.of(process.axis);
         if (const std::int64_t missing = numbers.missing_within(); missing > 0) {
             state.missing.push_back(analysis::missing_between(name, missing, name_of(kind)));
         }

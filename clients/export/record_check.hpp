@@ -23,6 +23,8 @@ public:
         }
     }
     void take(const record_mark_t& mark) { end_.take(mark); }
+    /// The text of the recorded machine's file, which names its motors; empty in most messages.
+    void take_machine(const std::string& config);
     /// Call once, at the end.
     analysis::RecordState finish();
 
@@ -31,6 +33,8 @@ private:
 
     std::map<std::pair<analysis::RecordingProcess, RecordKind>, analysis::NumberSet> seen_;
     analysis::RecordEndCheck end_;
+    analysis::MotorLabels labels_;
+    std::string config_;
 };
 
 }  // namespace lockstep::exporting

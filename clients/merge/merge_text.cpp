@@ -17,7 +17,7 @@ std::string place(const std::optional<std::int64_t>& step, const std::optional<T
 std::string line_of(const MissingSteps& missing) {
     return fmt::format("  {} missing: {}, from {} to {}\n", missing.axis,
                        plural(missing.messages, "message") + " of steps",
-                       place(missing.from_step, missing.from_tick, "the axis's first step"),
+                       place(missing.from_step, missing.from_tick, "its first step"),
                        place(missing.to_step, missing.to_tick, "the log's end"));
 }
 
@@ -66,7 +66,8 @@ std::string left_out_text(const ChosenLogs& chosen) {
 }
 
 std::string axes_table(const Merged& merged) {
-    std::string text = fmt::format("{:<16} {:>14} {:>10} {:>20}\n", "axis", "steps", "runs", "messages missing");
+    std::string text = fmt::format("{:<16} {:>14} {:>10} {:>20}\n", merged.end.labels.has_motors() ? "motor" : "axis",
+                                   "steps", "runs", "messages missing");
     for (const AxisRecord& axis : merged.axes) {
         text += fmt::format("{:<16} {:>14} {:>10} {:>20}\n", axis.axis, grouped(axis.steps), grouped(axis.runs),
                             grouped(axis.missing_messages()));

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/kinematics/motors.hpp"
+#include "core/kinematics/kinematics.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/record/reading/log_step.hpp"
 #include "services/wire/lcm/lcm_decode.hpp"
@@ -133,7 +133,9 @@ void MissingWatch::note_machine(const std::vector<std::uint8_t>& data) {
     if (!job || job->config.empty()) { return; }
     if (std::exchange(newest_config_[job->machine], job->config) == job->config) { return; }
     const auto machine = parse_machine(job->config);
-    if (machine) { axes_wanted_[job->machine] = motor_names(*machine); }
+    if (!machine) { return; }
+    axes_wanted_[job->machine] = motor_names(*machine);
+    labels_.add(Kinematics(*machine));
 }
 
 std::vector<std::string> MissingWatch::absent_axes() const {
@@ -197,7 +199,9 @@ analysis::RecordEnd MissingWatch::end() {
     for (const auto& [whose, process] : processes_) {
         marks_.saw(kind_of(whose.first), process.machine, process.axis, process.incarnation, seen_.at(whose).end() - 1);
     }
-    return marks_.finish();
+    analysis::RecordEnd end = marks_.finish();
+    end.labels = labels_;
+    return end;
 }
 
 }  // namespace lockstep::merge

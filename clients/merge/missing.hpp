@@ -98,6 +98,7 @@ private:
     std::map<std::string, std::vector<std::string>> axes_wanted_;                // by machine
     std::set<std::pair<std::string, std::string>> marked_;                       // machines and axes that marks name
     analysis::RecordEndCheck marks_;
+    analysis::MotorLabels labels_;
 };
 
 }  // namespace lockstep::merge

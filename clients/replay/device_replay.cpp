@@ -75,8 +75,8 @@ void DeviceReplay::on_run(const Run& run) {
 bool DeviceReplay::power_up(const Run& run) {
     if (hardware_ && incarnation_ == run.incarnation) { return true; }
     if (run.tail || !starts_from_rest(run)) {
-        findings_.notes.push_back(
-            fmt::format("axis {}: {} is skipped, because the log lacks the motion to its start", axis_, name_of(run)));
+        findings_.notes.push_back(fmt::format("{}: {} is skipped, because the log lacks the motion to its start",
+                                              findings_.label_of(axis_), name_of(run)));
         return false;
     }
     hardware_ = std::make_unique<Hardware>(run.start - Ticks{1});
@@ -203,7 +203,7 @@ void DeviceReplay::order(const DeviceOrder& order) {
 
 void DeviceReplay::differ(const std::string& text, std::optional<Tick> expected, std::optional<Tick> seen) {
     const std::string run = tail_ ? name_of(*tail_) : held_ ? name_of(*held_) : "";
-    findings_.differ({"axis " + axis_ + ": " + text, axis_, expected, seen, run});
+    findings_.differ({findings_.label_of(axis_) + ": " + text, axis_, expected, seen, run});
 }
 
 }  // namespace lockstep::replay

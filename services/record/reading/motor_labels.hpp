@@ -1,6 +1,7 @@
 // How messages to people name the processes of a record, which serve motors.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <string>
 
@@ -20,6 +21,10 @@ public:
     std::string of(const std::string& motor) const {
         const auto known = labels_.find(motor);
         return known != labels_.end() ? known->second : "axis " + motor;
+    }
+    /// Whether a motor is known not to be its axis.
+    bool has_motors() const {
+        return std::ranges::any_of(labels_, [](const auto& known) { return known.second.starts_with("motor "); });
     }
 
 private:

@@ -38,6 +38,9 @@ public:
 /// Axes X and Y: a message of ten steps every 10 ms, with a position between. Machine time is in us, and so are ticks.
 class Merge : public testing::Test {
 protected:
+    static constexpr const char* kGantry = R"(name: "mill" axis { name: "Y" steps_per_mm: 80 start_velocity_mm_s: 10
+        max_velocity_mm_s: 150 max_accel_mm_s2: 1500 position_min_mm: 0 position_max_mm: 100 max_skew_mm: 3
+        motor { name: "Y1" } motor { name: "Y2" } })";
     using Wanted = std::function<bool(std::int64_t sequence)>;
     static constexpr std::int64_t kMessages = 300;
 
@@ -124,6 +127,33 @@ TEST_F(Merge, CombinesLogsThatLackDifferentMessages) {
     std::uint64_t read = 0;
     for (const MergedInput& input : merged.inputs) { read += input.messages; }
     EXPECT_EQ(read, merged.messages + merged.duplicates);
+}
+
+TEST_F(Merge, NamesMotorsOnceTheMachineIsKnown) {
+    const auto text_with = [&](const std::string& config) {
+        auto writer = LogWriter::open(folder / "job.lcm").value();
+        job_t job{};
+        job.utime = 5'000;
+        job.machine = "mill";
+        job.event = "begun";
+        job.config = config;
+        writer.write_message(job_channel("mill"), job.utime, job);
+        record_mark_t mark{};
+        mark.machine = "mill";
+        mark.process = mark.witness = "Y2";
+        mark.utime = 4'000'000;
+        mark.incarnation = 7;
+        writer.write_message(mark_channel("mill", "Y2"), mark.utime, mark);
+        mark.steps = 3;
+        mark.utime = 5'000'000;
+        writer.write_message(mark_channel("mill", "Y2"), mark.utime, mark);
+        EXPECT_TRUE(writer.flush());
+        return to_text(merge({folder / "job.lcm"}), "out.lcm");
+    };
+    EXPECT_THAT(text_with(""), testing::HasSubstr("axis Y2: 3 messages of steps missing at the end"));
+    const std::string text = text_with(kGantry);
+    EXPECT_THAT(text, testing::HasSubstr("motor Y2: 3 messages of steps missing at the end"));
+    EXPECT_THAT(text, testing::HasSubstr("motor                     steps"));
 }
 
 TEST_F(Merge, ReportsTheRangeOfStepsInNoLog) {
