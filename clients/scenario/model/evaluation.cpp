@@ -7,6 +7,7 @@
 #include "clients/scenario/model/expectation_text.hpp"
 #include "clients/scenario/model/problems.hpp"
 #include "clients/scenario/model/scenario_text.hpp"
+#include "clients/session/reports.hpp"
 #include "clients/text/format.hpp"
 
 namespace lockstep::scenario {
@@ -121,9 +122,10 @@ private:
     }
 
     void check_axis(const Asked::AxisEnd& end) {
-        const auto& axes = observed_.status.axes();
-        const auto axis = std::ranges::find_if(axes, [&](const auto& one) { return one.name() == end.name(); });
-        const bool is_present = axis != axes.end() && axis->present();
+        const auto rows = rows_of(observed_.status);
+        const auto found = std::ranges::find_if(rows, [&](const auto* row) { return row->name() == end.name(); });
+        const proto::AxisStatus* const axis = found == rows.end() ? nullptr : *found;
+        const bool is_present = axis != nullptr && axis->present();
         const auto add_fact = [&](const std::string& asked, bool is_asked, bool is_found, const std::string& what) {
             add(asked, is_found ? what : "not " + what, "status at the end", is_asked == is_found);
         };

@@ -34,19 +34,20 @@ public:
         problems_.require(expect_.interruptions() >= 0, "expect.interruptions",
                           fmt::format("interruptions is {}; it must be at least 0", expect_.interruptions()));
         problems_.require(expect_.together_size() != 1, "expect.together[0]", "this compares axes; name at least two");
-        check_axes("expect.together", expect_.together());
-        check_axes("expect.vetoes.by", expect_.vetoes().by());
+        check_motors("expect.together", expect_.together());
+        check_motors("expect.vetoes.by", expect_.vetoes().by());
         if (expect_.has_cause()) { check_cause(expect_.cause()); }
         for (int i = 0; i < expect_.axis_size(); ++i) { check_axis(i, nth("expect.axis", i)); }
     }
 
 private:
-    /// Each name is an axis, and none is given twice.
-    void check_axes(const std::string& key, const auto& names) {
+    /// Each name is a motor, and none is given twice.
+    void check_motors(const std::string& key, const auto& names) {
         for (int i = 0; i < names.size(); ++i) {
-            require_axis(problems_, machine_, nth(key, i), names[i]);
+            require_motor(problems_, machine_, nth(key, i), names[i]);
             const bool is_first = std::find(names.begin(), names.begin() + i, names[i]) == names.begin() + i;
-            problems_.require(is_first, nth(key, i), "axis " + names[i] + " is already named; remove one of them");
+            problems_.require(is_first, nth(key, i),
+                              word_for_motors(machine_) + (" " + names[i]) + " is already named; remove one of them");
         }
     }
 
@@ -85,7 +86,7 @@ private:
 
     void check_axis(int index, const std::string& path) {
         const Asked::AxisEnd& end = expect_.axis(index);
-        require_axis(problems_, machine_, path + ".name", end.name());
+        require_axis_or_motor(problems_, machine_, path + ".name", end.name());
         problems_.require(end.has_heard() || end.has_homed() || end.has_fault(), path,
                           "this checks nothing; set heard, homed or fault");
         if (end.has_fault()) { require_fault(problems_, path + ".fault", end.fault(), true); }
@@ -97,7 +98,8 @@ private:
         const auto& all = expect_.axis();
         const auto is_same = [&](const Asked::AxisEnd& other) { return other.name() == end.name(); };
         problems_.require(std::find_if(all.begin(), all.begin() + index, is_same) == all.begin() + index, path,
-                          "axis " + end.name() + " already has such a block; combine both");
+                          (motor_named(machine_, end.name()) ? word_for_motors(machine_) : "axis") +
+                              (" " + end.name()) + " already has such a block; combine both");
     }
 
     const Asked::Expect& expect_;

@@ -1,11 +1,31 @@
 #include "clients/scenario/model/name_rules.hpp"
 
+#include <algorithm>
+
 #include "core/faults.hpp"
+#include "core/kinematics/motors.hpp"
 
 namespace lockstep::scenario {
 
 void require_axis(Problems& problems, const MachineConfig& machine, const std::string& path, const std::string& name) {
     problems.require_one_of(path, name, machine.axis_names(), "axis");
+}
+
+const char* word_for_motors(const MachineConfig& machine) {
+    return motor_names(machine) == machine.axis_names() ? "axis" : "motor";
+}
+
+void require_motor(Problems& problems, const MachineConfig& machine, const std::string& path, const std::string& name) {
+    problems.require_one_of(path, name, motor_names(machine), word_for_motors(machine));
+}
+
+void require_axis_or_motor(Problems& problems, const MachineConfig& machine, const std::string& path,
+                           const std::string& name) {
+    std::vector<std::string> names = machine.axis_names();
+    for (const std::string& motor : motor_names(machine)) {
+        if (std::ranges::find(names, motor) == names.end()) { names.push_back(motor); }
+    }
+    problems.require_one_of(path, name, names, names == machine.axis_names() ? "axis" : "axis or motor");
 }
 
 void require_place(Problems& problems, const MachineConfig& machine, const std::string& path,

@@ -139,6 +139,20 @@ TEST(ScenarioEvaluation, ComparesAxesAndMachineWithFinalStatus) {
     EXPECT_FALSE(holds("phase: FAULT", good()));
 }
 
+TEST(ScenarioEvaluation, ComparesAMotorWithItsOwnState) {
+    Observations observed = good_observations();
+    proto::AxisStatus& motor = *observed.status.add_motors();
+    motor.set_name("Y2");
+    motor.set_axis("Y");
+    motor.set_present(true);
+    motor.mutable_fault()->set_name("limit-hit");
+    const auto held = [&](const std::string& expect) {
+        return evaluate(parsed(of_gantry("expect { " + expect + " }")), observed, good()).front().held();
+    };
+    EXPECT_TRUE(held("axis { name: \"Y2\" heard: true fault: \"limit-hit\" }"));
+    EXPECT_FALSE(held("axis { name: \"Y1\" heard: true }"));
+}
+
 TEST(ScenarioEvaluation, RequiresExactAndCompleteRecordByDefault) {
     Evidence evidence = good();
     ASSERT_EQ(checks("", evidence).size(), 2);

@@ -201,6 +201,19 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"FewerThanNoInterruptions", whole("expect { interruptions: -1 }"), {"interruptions is -1", "at least 0"}}),
     [](const auto& bad) { return std::string(bad.param.name); });
 
+TEST(ScenarioReading, NamesMotorsWhereMotorsAreMeant) {
+    EXPECT_EQ(errors_of(of_gantry("expect { vetoes { by: \"Y1\" by: \"X\" } together: \"Y1\" together: \"Y2\"\n"
+                                  "axis { name: \"Y\" homed: true } axis { name: \"Y2\" homed: true } }")),
+              "");
+    EXPECT_THAT(errors_of(of_gantry("expect { vetoes { by: \"Y\" } }")),
+                HasSubstr("there is no motor 'Y'; there are: X, Y1, Y2"));
+    EXPECT_THAT(errors_of(of_gantry("expect { together: \"Y1\" together: \"Y1\" }")),
+                HasSubstr("motor Y1 is already named"));
+    EXPECT_THAT(errors_of(of_gantry("expect { axis { name: \"Q\" homed: true } }")),
+                HasSubstr("there is no axis or motor 'Q'"));
+    EXPECT_THAT(errors_of(of_gantry("expect { final { axis: \"Y1\" mm: 3 } }")), HasSubstr("there is no axis 'Y1'"));
+}
+
 TEST(ScenarioReading, ReportsAllErrorsInTheOrderOfTheText) {
     const std::string errors = errors_of(whole("step {}\nexpect { path_within_mm: -1 }\ncontinues: true"));
     EXPECT_THAT(errors, StartsWith("8:1: "));

@@ -24,6 +24,13 @@ inline std::string whole(const std::string& text) {
     return with_machine("shows: \"something\"\nstep { home {} }\n" + text);
 }
 
+/// The same of the example with two motors on Y.
+inline std::string of_gantry(const std::string& text) {
+    return "machine_file: \"" LOCKSTEP_SCENARIOS
+           "/../examples/gantry.textproto\"\nshows: \"something\"\nstep { home {} }\n" +
+           text;
+}
+
 /// All errors as "line:column: message", one per line. Empty if there are none.
 inline std::string errors_of(const std::string& text) {
     const auto scenario = parse_scenario(text, "/tmp/of-a-test.textproto");
