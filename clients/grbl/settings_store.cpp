@@ -34,10 +34,16 @@ std::expected<void, Refused> SettingsStore::write(const KeptSettings& settings) 
     if (!text) { return not_kept(to_text(source_.string(), text.error())); }
     const auto edited = with_settings(*text, settings);
     if (!edited) { return std::unexpected(Refused{Error::SettingOutOfRange, edited.error().front().message}); }
+    const auto next = parse_machine(*edited);
+    if (next) {
+        if (const std::string why = why_without_effect(*next, settings); !why.empty()) {
+            return std::unexpected(Refused{Error::SettingFixed, why});
+        }
+    }
     if (const auto written = write_settings(settings_file(source_), settings); !written) {
         return not_kept(written.error());
     }
-    if (const auto next = parse_machine(*edited)) { next_ = *next; }
+    if (next) { next_ = *next; }
     return {};
 }
 

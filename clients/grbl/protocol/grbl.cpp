@@ -70,7 +70,8 @@ void Grbl::see(const MachineView& view) {
         say(fmt::format("ALARM:{}", alarm_of(view.fault)));
         const FaultText* text = find_fault(view.fault);
         if (text != nullptr) {
-            say_message(fmt::format("{}: {}; {}", text->name, text->cause, remedy_text(*text, sender_words)));
+            const std::string place = view.fault_place.empty() ? "" : view.fault_place + ": ";
+            say_message(fmt::format("{}{}: {}; {}", place, text->name, text->cause, remedy_text(*text, sender_words)));
         }
         modes_.is_unlocked = false;
         lines_.reset();

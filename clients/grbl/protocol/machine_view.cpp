@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/kinematics/kinematics.hpp"
+
 namespace lockstep::grbl {
 
 MachineView view_of(const MachineConfig& machine, const MachineState& state, const std::vector<const AxisState*>& axes,
@@ -10,6 +12,9 @@ MachineView view_of(const MachineConfig& machine, const MachineState& state, con
     view.is_received = true;
     view.phase = state.phase;
     view.fault = state.fault;
+    if (state.fault != FaultCode::None && state.fault_axis && *state.fault_axis < motor_count(machine)) {
+        view.fault_place = Kinematics(machine).label(*state.fault_axis);
+    }
     view.line = state.line;
     view.overrides = state.overrides;
     view.devices = state.devices;

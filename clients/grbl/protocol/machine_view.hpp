@@ -27,9 +27,10 @@ struct MachineView {
     bool is_received = false;  // the coordinator and every axis are received; else the other fields are meaningless
     MachinePhase phase = MachinePhase::Waiting;
     FaultCode fault = FaultCode::None;
+    std::string fault_place;           // whose fault it is: "axis X", "motor Y2"; empty: no single motor's
     std::vector<AxisPlace> axes;       // in the configuration's order
     double feed_mm_min = 0;            // of all axes together, now
-    std::string closed_switches;       // the letters of the axes with a closed limit or home switch
+    std::string closed_switches;       // the letters of the axes with a limit or home switch closed at a motor
     std::optional<std::int32_t> line;  // of the program in motion, or the N word of the sender's line
     Overrides overrides;
     ProgramDevices devices;

@@ -15,7 +15,22 @@ namespace {
 constexpr std::size_t kMostAxes = 6;
 constexpr double kSame = 0.0005;  // tolerance of a value written with three digits
 constexpr int kHomingMask = 23;
+constexpr int kSteps = 100;
 constexpr int kTravel = 130;
+
+/// Why no single value is that of all motors of the axis; empty if one is.
+std::string why_steps_differ(const AxisConfig& axis) {
+    const auto has_same = [&](const MotorBlock& motor) {
+        return motor.steps_per_mm.value_or(axis.steps_per_mm) == steps_per_mm_of(axis);
+    };
+    if (std::ranges::all_of(axis.motors, has_same)) { return ""; }
+    std::string text = "the motors of axis " + axis.name + " have steps_per_mm of their own:";
+    for (const MotorBlock& motor : axis.motors) {
+        text += (&motor == &axis.motors.front() ? " " : ", ") + motor.name + " " +
+                number(motor.steps_per_mm.value_or(axis.steps_per_mm), 3);
+    }
+    return text + "; change the machine's file";
+}
 
 /// Settings with a number for each axis, from `first` on, or with one number for all axes.
 struct AxisKey {
@@ -31,7 +46,7 @@ constexpr std::array<AxisKey, 6> kAxisKeys{{
     {25, true, "homing.search_velocity_mm_s", 60,
      [](const AxisConfig& axis) { return axis.homing.search_velocity_mm_s; }},
     {27, true, "homing.pulloff_mm", 1, [](const AxisConfig& axis) { return axis.homing.pulloff_mm; }},
-    {100, false, "steps_per_mm", 1, [](const AxisConfig& axis) { return axis.steps_per_mm; }},
+    {kSteps, false, "steps_per_mm", 1, steps_per_mm_of},
     {110, false, "max_velocity_mm_s", 60, [](const AxisConfig& axis) { return axis.max_velocity_mm_s; }},
     {120, false, "max_accel_mm_s2", 1, [](const AxisConfig& axis) { return axis.max_accel_mm_s2; }},
 }};
@@ -117,8 +132,8 @@ std::vector<Setting> settings_of(const MachineConfig& machine, const ReportOptio
     };
     for (const AxisKey& key : kAxisKeys) {
         for (std::size_t i = 0; i < (key.is_of_all ? 1 : axes_of(machine)); ++i) {
-            settings.push_back(
-                {key.first + static_cast<int>(i), number(key.value(machine.axes[i]) * key.factor, 3), ""});
+            settings.push_back({key.first + static_cast<int>(i), number(key.value(machine.axes[i]) * key.factor, 3),
+                                key.first == kSteps ? why_steps_differ(machine.axes[i]) : ""});
         }
     }
     for (std::size_t i = 0; i < axes_of(machine); ++i) {

@@ -6,8 +6,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 
+#include "core/number_text.hpp"
 #include "core/parse_number.hpp"
 #include "services/documents/edit/key_edit.hpp"
 #include "services/documents/machine_file.hpp"
@@ -28,7 +30,7 @@ struct Key {
     double (*value)(const AxisConfig&);
 };
 constexpr std::array<Key, 9> kKeys{{
-    {"steps_per_mm", [](const AxisConfig& axis) { return axis.steps_per_mm; }},
+    {"steps_per_mm", steps_per_mm_of},
     {"max_velocity_mm_s", [](const AxisConfig& axis) { return axis.max_velocity_mm_s; }},
     {"max_accel_mm_s2", [](const AxisConfig& axis) { return axis.max_accel_mm_s2; }},
     {"position_min_mm", [](const AxisConfig& axis) { return axis.position_min_mm; }},
@@ -89,6 +91,10 @@ std::unexpected<Diagnostics> of_file(const fs::path& settings, const Diagnostics
 std::string value_text(double value) {
     std::array<char, 32> text{};
     return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+double steps_per_mm_of(const AxisConfig& axis) {
+    return axis.motors.empty() ? axis.steps_per_mm : axis.motors.front().steps_per_mm.value_or(axis.steps_per_mm);
 }
 
 std::string value_of(const AxisConfig& axis, std::string_view key) {
@@ -169,6 +175,20 @@ std::expected<std::string, Diagnostics> with_settings(std::string_view text, con
     const auto result = parse_machine(edited);
     if (!result) { return without_places(result.error()); }
     return edited;
+}
+
+std::string why_without_effect(const MachineConfig& machine, const KeptSettings& settings) {
+    for (const KeptSetting& setting : settings) {
+        const auto axis = std::ranges::find(machine.axes, setting.axis, &AxisConfig::name);
+        if (setting.key != "steps_per_mm" || axis == machine.axes.end()) { continue; }
+        const double written = std::strtod(setting.value.c_str(), nullptr);
+        for (const MotorBlock& motor : axis->motors) {
+            if (motor.steps_per_mm.value_or(written) == written) { continue; }
+            return fmt::format("motor {} has its own steps_per_mm, {}, in the machine's file: change it there",
+                               motor.name, number_text(*motor.steps_per_mm));
+        }
+    }
+    return "";
 }
 
 std::expected<LoadedMachine, Diagnostics> load_machine(const fs::path& file) {

@@ -25,8 +25,14 @@ using KeptSettings = std::vector<KeptSetting>;
 
 /// Returns the number as in a machine's file, without loss.
 std::string value_text(double value);
+/// steps_per_mm of the first motor of the axis. The axis itself may be counted in finer steps.
+double steps_per_mm_of(const AxisConfig& axis);
 /// Returns an axis's value of a key; empty if this key may not be kept.
 std::string value_of(const AxisConfig& axis, std::string_view key);
+
+/// Names a motor that has its own value of a key that is set for its axis; empty if there is none. `machine`: with the
+/// settings.
+std::string why_without_effect(const MachineConfig& machine, const KeptSettings& settings);
 
 /// Returns "mill.textproto.settings" beside "mill.textproto". If `machine_file` is a link, the name is that of the
 /// link's target.

@@ -60,6 +60,25 @@ TEST(KeptSettings, HaveTheValuesOfTheFileWithoutLoss) {
     EXPECT_EQ(value_of(machine->axes[0], "name"), "");
 }
 
+TEST(KeptSettings, OfAnAxisWithMotorsAreThoseOfItsMotors) {
+    const auto with_motors = [](const std::string& motors) {
+        std::string text = kMachine;
+        return text.replace(text.find("position_min_mm: 0 position_max_mm: 100"), 0, "max_skew_mm: 3 " + motors);
+    };
+    const KeptSettings settings{{"Y", "steps_per_mm", "160"}};
+    const auto same =
+        parse_machine(with_settings(with_motors("motor { name: \"Y1\" } motor { name: \"Y2\" } "), settings).value());
+    ASSERT_TRUE(same);
+    EXPECT_EQ(value_of(same->axes[1], "steps_per_mm"), "160");
+    EXPECT_EQ(why_without_effect(*same, settings), "");
+    const auto own = parse_machine(
+        with_settings(with_motors("motor { name: \"Y1\" } motor { name: \"Y2\" steps_per_mm: 100 } "), settings)
+            .value());
+    ASSERT_TRUE(own);
+    EXPECT_EQ(why_without_effect(*own, settings),
+              "motor Y2 has its own steps_per_mm, 100, in the machine's file: change it there");
+}
+
 TEST(KeptSettings, OfAnotherFormAreErrorsWithTheirLine) {
     for (const char* line : {"nonsense", "X.name: 3", "X.steps_per_mm: fast", "X.steps_per_mm: 80 81",
                              "X.homing.toward_min: 1", "X.max_velocity_mm_s: inf", ": X.", "X.steps_per_mm"}) {
