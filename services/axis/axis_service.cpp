@@ -6,7 +6,7 @@
 #include <atomic>
 #include <memory>
 
-#include "core/kinematics/motors.hpp"
+#include "core/kinematics/kinematics.hpp"
 #include "core/protocol/rival.hpp"
 #include "core/protocol/second_process.hpp"
 #include "services/axis/axis_network.hpp"
@@ -255,11 +255,11 @@ int run(const AxisServiceOptions& options, const MachineConfig& machine, std::si
     if (!network) { return end_with_failure(network.error()); }
     AxisService service(setup, device, clock, std::move(*network),
                         open_record(machine, motor_name(machine, axis), options.record));
-    log_info(
-        fmt::format("axis {} of machine {} is up, device {}", motor_name(machine, axis), machine.name, device.text()));
+    const std::string label = Kinematics(machine).label(axis);
+    log_info(fmt::format("{} of machine {} is up, device {}", label, machine.name, device.text()));
 
     ServiceManager manager;
-    manager.ready(fmt::format("axis {} of machine {}", motor_name(machine, axis), machine.name));
+    manager.ready(fmt::format("{} of machine {}", label, machine.name));
     PeriodicLoop periodic(loop_period(machine));
     std::optional<LoopWatchdog> watchdog([&] { service.end_as_stuck(); });
     periodic.run(stop, [&](nanoseconds begun) {

@@ -11,7 +11,7 @@
 #include "core/coordinator/coordinator.hpp"
 #include "core/coordinator/path/coordination.hpp"
 #include "core/flight/coordinator_flight.hpp"
-#include "core/kinematics/motors.hpp"
+#include "core/kinematics/kinematics.hpp"
 #include "core/methods/paper_steps.hpp"
 #include "core/protocol/names.hpp"
 #include "services/coordinator/coordinator_network.hpp"
@@ -54,6 +54,7 @@ public:
                        RevisedValues values, std::unique_ptr<RecordSink> sink, std::optional<OnTakeover> standby,
                        MakeRows make_rows)
         : machine_(machine),
+          kinematics_(machine),
           clock_(machine.tick_ns, machine.timing.time_source),
           coordinator_(machine, identity, config_hash(machine), methods::begin_steps, standby, std::move(make_rows)),
           network_(std::move(network)),
@@ -180,18 +181,18 @@ private:
         log_warning("opens its DDS participant again: " + std::string(text_of(*reason)));
     }
 
-    std::string axis_name(std::uint64_t axis) const {
-        return axis < motor_count(machine_) ? motor_name(machine_, axis) : std::to_string(axis);
+    /// "axis X", "motor Y2"
+    std::string label_of(std::uint64_t motor) const {
+        return motor < kinematics_.motors().size() ? kinematics_.label(motor) : fmt::format("axis {}", motor);
     }
 
     void log_notice(const CoordinatorNotice& notice) const {
         using Kind = CoordinatorNotice::Kind;
         switch (notice.kind) {
             case Kind::Phase: return log_info("machine is {}", name_of(static_cast<MachinePhase>(notice.number)));
-            case Kind::AxisSeen: return log_info("receives axis " + axis_name(notice.number));
+            case Kind::AxisSeen: return log_info("receives " + label_of(notice.number));
             case Kind::AxisGone:
-                return log_event(spdlog::level::warn, notice.fault,
-                                 "axis " + axis_name(notice.number) + " fell silent");
+                return log_event(spdlog::level::warn, notice.fault, label_of(notice.number) + " fell silent");
             case Kind::Claimed: return log_info("owns the machine, term {}", notice.number);
             case Kind::StoodDown:
                 return log_warning("gives up the machine: another coordinator owns it, term {}", notice.number);
@@ -232,7 +233,7 @@ private:
             case Kind::Fault: {
                 const FaultText* text = find_fault(notice.fault);
                 return log_event(spdlog::level::err, notice.fault,
-                                 "axis " + axis_name(notice.number) + ": " +
+                                 label_of(notice.number) + ": " +
                                      (text == nullptr ? "" : std::string(text->cause) + "; " + remedy_text(*text)));
             }
         }
@@ -253,16 +254,16 @@ private:
         reported_ = now;
         for (std::size_t i = 0; i < motor_count(machine_); ++i) {
             if (!has_axis(received_axes_, i)) {
-                log_info("waits for axis " + motor_name(machine_, i) + " " + network_.place_of_states());
+                log_info("waits for " + label_of(i) + " " + network_.place_of_states());
             }
         }
         for (std::size_t axis = 0; axis < motor_count(machine_); ++axis) {
             const std::uint64_t hash = config_hashes_[axis];
             if (!has_axis(received_axes_, axis) || hash == config_hash_) { continue; }
             log_warning(
-                "axis {} runs configuration {:x}, this coordinator {:x}: the machine does not move; give all hosts the "
+                "{} runs configuration {:x}, this coordinator {:x}: the machine does not move; give all hosts the "
                 "same machine file, then: lockstep down; lockstep up",
-                axis_name(axis), hash, config_hash_);
+                label_of(axis), hash, config_hash_);
         }
         received_axes_ = 0;
         if (const std::uint64_t lost = sink_->failures(); lost != lost_records_) {
@@ -280,6 +281,7 @@ private:
     static constexpr std::size_t kMostWaiting = 64;  // as many as the topic keeps
 
     MachineConfig machine_;
+    Kinematics kinematics_;
     MachineClock clock_;
     Coordinator coordinator_;
     CoordinatorNetwork network_;
