@@ -11,6 +11,7 @@
 #include <fstream>
 #include <limits>
 #include <lockstep/axis_position_t.hpp>
+#include <lockstep/job_t.hpp>
 #include <random>
 #include <sstream>
 
@@ -116,6 +117,26 @@ TEST_F(Export, NonNumbersLeaveTheirCellEmptyAndTextIsQuotedIfNeeded) {
     odd.state = "a,\"b\"";
     write({odd});
     EXPECT_EQ(table().at(1), "0,,0,0,0,0,0,\"a,\"\"b\"\"\",0,none");
+}
+
+TEST_F(Export, NamesAMotorOfMissingMessages) {
+    auto writer = LogWriter::open(log).value();
+    job_t job{};
+    job.machine = "mill";
+    job.event = "begun";
+    job.utime = 1'000'000;
+    job.config = R"(name: "mill" axis { name: "Y" steps_per_mm: 80 start_velocity_mm_s: 10 max_velocity_mm_s: 150
+        max_accel_mm_s2: 1500 position_min_mm: 0 position_max_mm: 100 max_skew_mm: 3
+        motor { name: "Y1" } motor { name: "Y2" } })";
+    writer.write_message("LOCKSTEP_MILL_JOB", job.utime, job);
+    for (const std::int64_t sequence : {0, 1, 4}) {
+        auto message = position("Y2", 1'000'000 + sequence, 1);
+        message.sequence = sequence;
+        writer.write_message("LOCKSTEP_MILL_Y2_POSITION", message.utime, message);
+    }
+    ASSERT_TRUE(writer.flush());
+    (void)table();
+    EXPECT_EQ(exported.record.missing, (std::vector<std::string>{"motor Y2: 2 messages of positions"}));
 }
 
 TEST_F(Export, ReportsMissingMessagesOfTheRecord) {

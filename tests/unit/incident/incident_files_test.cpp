@@ -26,12 +26,13 @@ protected:
     ~IncidentFiles() override { fs::remove_all(folder); }
 
     /// The notes of axis X: it vetoed frame 17 at `tick` since it had received nothing from Y.
-    fs::path write_veto(std::int64_t tick, std::int64_t wall_us = 1'000'000) const {
+    fs::path write_veto(std::int64_t tick, std::int64_t wall_us = 1'000'000,
+                        const MachineConfig& machine = small_machine()) const {
         const FlightSource source{.machine = "rig",
                                   .process = "axis-X",
                                   .incarnation = 7,
                                   .tick_ns = 1000,
-                                  .config = machine_text(small_machine()),
+                                  .config = machine_text(machine),
                                   .directory = folder,
                                   .files = 9};
         const std::vector<NumberedEvent> events{
@@ -129,6 +130,24 @@ TEST_F(IncidentFiles, FarApartAreDifferentIncidents) {
 TEST_F(IncidentFiles, TheSameTwiceCountsOnce) {
     const auto file = read_flight_file(write_veto(2'000'000)).value();
     EXPECT_EQ(incidents_of({file, file}).at(0).timeline.size(), 3U);
+}
+
+TEST_F(IncidentFiles, NameMotorsThatAreNotTheOnlyOnesOfTheirAxis) {
+    MachineConfig machine = small_machine();
+    for (const char* name : {"Y1", "Y2"}) {
+        machine.axes[1].motors.push_back({.name = name,
+                                          .device = machine.axes[1].device,
+                                          .steps_per_mm = machine.axes[1].steps_per_mm,
+                                          .plant = {}});
+    }
+    machine.axes[1].max_skew_mm = 10;
+    const auto file = read_flight_file(write_veto(2'000'000, 1'000'000, machine));
+    ASSERT_TRUE(file) << file.error();
+    const auto incident = incidents_of({*file}).at(0);
+    EXPECT_THAT(incident.absent, ElementsAre("coordinator", "motor Y1", "motor Y2"));
+    EXPECT_EQ(incident.processes.at(0).name, "axis X");
+    EXPECT_EQ(evaluate(incident).story[1],
+              "axis X vetoes frame 17: no recent state of motor Y1 reports that the frame is held");
 }
 
 TEST_F(IncidentFiles, NameAProcessWithoutFileAndTheRemedy) {
