@@ -26,6 +26,22 @@ Problem too_many() {
             .remedy = "wait for their answers"};
 }
 
+/// Nullopt unless all motors rest, and no homing brings them together.
+std::optional<MotorApart> motor_apart(const Session& session) {
+    const Kinematics& kinematics = session.kinematics();
+    if (kinematics.is_direct() || !session.state() || session.state()->state.phase == MachinePhase::Homing) {
+        return {};
+    }
+    MotorCounts counts;
+    for (std::size_t m = 0; m < kinematics.motors().size(); ++m) {
+        const auto& motor = session.motor(m);
+        if (!motor || !motor->state.at_rest) { return {}; }
+        counts.steps.append(motor->state.position.count());
+    }
+    const auto astray = kinematics.astray(counts);
+    return astray ? std::optional(MotorApart{kinematics.motors()[astray->motor].name, astray->off_mm}) : std::nullopt;
+}
+
 }  // namespace
 
 MachineLoop::MachineLoop(Session session, const std::string& writer, Publish publish)
@@ -174,21 +190,47 @@ void MachineLoop::note_healths() {
     }
 }
 
+AxisSnapshot MachineLoop::taken_axis(std::size_t i) const {
+    const auto own = session_.kinematics().own_motor(i);
+    AxisSnapshot axis{.is_present = session_.axis_present(i),
+                      .is_process = own.has_value(),
+                      .steps_per_tick = session_.axis_speed(i),
+                      .state = {},
+                      .health = {}};
+    if (own) { axis.health = healths_[*own]; }
+    if (const auto& state = session_.axis(i)) { axis.state = Seen<AxisState>{state->state, state->time}; }
+    return axis;
+}
+
+/// Those that are not the only motor of an axis.
+std::vector<MotorSnapshot> MachineLoop::taken_motors() const {
+    const Kinematics& kinematics = session_.kinematics();
+    std::vector<MotorSnapshot> motors;
+    for (std::size_t m = 0; m < kinematics.motors().size(); ++m) {
+        const MotorConfig& config = kinematics.motors()[m];
+        if (kinematics.own_motor(config.axis) == m) { continue; }
+        MotorSnapshot motor{.name = config.name,
+                            .axes = kinematics.names_of_axes(kinematics.axes_of_motor(m)),
+                            .steps_per_mm = config.steps_per_mm,
+                            .seen = {.is_present = session_.motor_present(m), .state = {}, .health = healths_[m]}};
+        if (const auto& state = session_.motor(m)) {
+            motor.seen.steps_per_tick = state->state.velocity.steps_per_tick();
+            motor.seen.state = Seen<AxisState>{state->state, state->time};
+        }
+        motors.push_back(std::move(motor));
+    }
+    return motors;
+}
+
 Snapshot MachineLoop::taken() const {
     Snapshot snapshot{.time = monotonic_now()};
     if (const auto& state = session_.state()) { snapshot.machine = Seen<MachineState>{state->state, state->time}; }
     snapshot.is_silent = session_.is_silent();
     snapshot.has_standby = session_.has_standby();
     snapshot.config_differs = session_.config_differs();
-    for (std::size_t i = 0; i < session_.config().axes.size(); ++i) {
-        AxisSnapshot axis{.is_present = session_.axis_present(i),
-                          .steps_per_tick = session_.axis_speed(i),
-                          .state = {},
-                          .health = {}};
-        if (const auto own = session_.kinematics().own_motor(i)) { axis.health = healths_[*own]; }
-        if (const auto& state = session_.axis(i)) { axis.state = Seen<AxisState>{state->state, state->time}; }
-        snapshot.axes.push_back(axis);
-    }
+    for (std::size_t i = 0; i < session_.config().axes.size(); ++i) { snapshot.axes.push_back(taken_axis(i)); }
+    snapshot.motors = taken_motors();
+    snapshot.apart = motor_apart(session_);
     snapshot.values = session_.newest_values();
     snapshot.values_unsaved_since = session_.values_unsaved_since();
     snapshot.job = job_;

@@ -54,6 +54,8 @@ private:
     /// there.
     Done shown(const Done& done);
     Snapshot taken() const;
+    AxisSnapshot taken_axis(std::size_t axis) const;
+    std::vector<MotorSnapshot> taken_motors() const;
 
     Session session_;
     SessionLease lease_;

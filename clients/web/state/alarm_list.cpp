@@ -21,14 +21,31 @@ json as_alarm(json fault, const char* severity) {
     return fault;
 }
 
-json own_alarm(const char* code, const std::string& axis, const std::string& cause, const char* remedy) {
-    return {{"number", 0},    {"code", code},     {"axis", axis.empty() ? json() : json(axis)},
-            {"cause", cause}, {"remedy", remedy}, {"severity", "warning"}};
+json name_or_null(const std::string& name) { return name.empty() ? json() : json(name); }
+
+json own_alarm(const char* code, const FaultPlace& place, const std::string& cause, const char* remedy) {
+    return {{"number", 0},
+            {"code", code},
+            {"axis", name_or_null(place.axis)},
+            {"motor", name_or_null(place.motor)},
+            {"cause", cause},
+            {"remedy", remedy},
+            {"severity", "warning"}};
+}
+
+/// `motor`: by its number in the machine.
+FaultPlace place_of(std::size_t motor, const Snapshot& snapshot, const MachineConfig& machine) {
+    const MotorConfig config = motors_of(machine)[motor];
+    if (std::ranges::find(snapshot.motors, config.name, &MotorSnapshot::name) != snapshot.motors.end()) {
+        return {.axis = {}, .motor = config.name};
+    }
+    return {.axis = machine.axes[config.axis].name, .motor = {}};
 }
 
 void add_once(json& alarms, json alarm) {
     const auto is_same = [&](const json& one) {
-        return one["number"] == alarm["number"] && one["code"] == alarm["code"] && one["axis"] == alarm["axis"];
+        return one["number"] == alarm["number"] && one["code"] == alarm["code"] && one["axis"] == alarm["axis"] &&
+               one["motor"] == alarm["motor"];
     };
     if (std::ranges::none_of(alarms, is_same)) { alarms.push_back(std::move(alarm)); }
 }
@@ -37,13 +54,13 @@ void add_faults(const Snapshot& snapshot, const MachineConfig& machine, json& al
     if (snapshot.machine && snapshot.machine->value.fault != FaultCode::None) {
         const MachineState& state = snapshot.machine->value;
         const bool has_axis = state.fault_axis && *state.fault_axis < motor_count(machine);
-        const std::string axis = has_axis ? motor_name(machine, *state.fault_axis) : "";
-        add_once(alarms, as_alarm(fault_json(state.fault, axis), "fault"));
+        const FaultPlace place = has_axis ? place_of(*state.fault_axis, snapshot, machine) : FaultPlace{};
+        add_once(alarms, as_alarm(fault_json(state.fault, place), "fault"));
     }
-    for (std::size_t i = 0; i < snapshot.axes.size(); ++i) {
-        const auto& axis = snapshot.axes[i].state;
-        if (!axis || axis->value.fault == FaultCode::None) { continue; }
-        add_once(alarms, as_alarm(fault_json(axis->value.fault, machine.axes[i].name), "fault"));
+    for (const Served& served : served_of(snapshot, machine)) {
+        const auto& state = served.seen.state;
+        if (!state || state->value.fault == FaultCode::None) { continue; }
+        add_once(alarms, as_alarm(fault_json(state->value.fault, served.place), "fault"));
     }
 }
 
@@ -60,12 +77,12 @@ std::string refusals(const RefusalCounts& counts) {
     return text;
 }
 
-void add_health(const AxisHealth& health, const std::string& axis, const MachineConfig& machine, json& alarms) {
+void add_health(const AxisHealth& health, const FaultPlace& place, const MachineConfig& machine, json& alarms) {
     const double slack_ms = machine.microseconds(health.setpoint_slack.least) * 1e-3;
     const double deadline_ms = slack_deadline_ms(machine.timing);
     if (health.setpoint_slack.count > 0 && slack_ms < deadline_ms) {
         alarms.push_back(
-            own_alarm("late-setpoints", axis,
+            own_alarm("late-setpoints", place,
                       fmt::format("a setpoint arrived {} ms before its start, but the deadline is {} ms before",
                                   short_number(std::round(slack_ms)), short_number(std::round(deadline_ms))),
                       "find out what stalls the coordinator"));
@@ -74,12 +91,12 @@ void add_health(const AxisHealth& health, const std::string& axis, const Machine
                                         std::abs(machine.microseconds(health.step_lateness.most)));
     if (furthest_us > machine.microseconds(health.clock_error) + kStepLateness_us) {
         alarms.push_back(
-            own_alarm("late-steps", axis,
+            own_alarm("late-steps", place,
                       "a step was " + short_number(std::round(furthest_us)) + " us before or after its commanded time",
                       "see the axis's log"));
     }
     if (const std::string text = refusals(health.refused); !text.empty()) {
-        alarms.push_back(own_alarm("refusals", axis, "since it started: " + text, "see the axis's log"));
+        alarms.push_back(own_alarm("refusals", place, "since it started: " + text, "see the axis's log"));
     }
 }
 
@@ -89,11 +106,24 @@ double slack_deadline_ms(const ProtocolTiming& timing) {
     return static_cast<double>(timing.check_slots()) * static_cast<double>(timing.slot_us) * 1e-3;
 }
 
-json fault_json(FaultCode fault, const std::string& axis) {
+std::vector<Served> served_of(const Snapshot& snapshot, const MachineConfig& machine) {
+    std::vector<Served> served;
+    for (std::size_t i = 0; i < snapshot.axes.size(); ++i) {
+        if (!snapshot.axes[i].is_process) { continue; }
+        served.push_back({{.axis = machine.axes[i].name, .motor = {}}, snapshot.axes[i]});
+    }
+    for (const MotorSnapshot& motor : snapshot.motors) {
+        served.push_back({{.axis = {}, .motor = motor.name}, motor.seen});
+    }
+    return served;
+}
+
+json fault_json(FaultCode fault, const FaultPlace& place) {
     const FaultText* text = find_fault(fault);
     return {{"number", static_cast<int>(fault)},
             {"code", name_of(fault)},
-            {"axis", axis.empty() ? json() : json(axis)},
+            {"axis", name_or_null(place.axis)},
+            {"motor", name_or_null(place.motor)},
             {"cause", text == nullptr ? "unknown" : text->cause},
             {"remedy", text == nullptr ? "see the logs" : remedy_text(*text, words_to_fill_in)}};
 }
@@ -101,25 +131,34 @@ json fault_json(FaultCode fault, const std::string& axis) {
 json alarm_list(const Snapshot& snapshot, const MachineConfig& machine) {
     json alarms = json::array();
     add_faults(snapshot, machine, alarms);
-    for (std::size_t i = 0; i < snapshot.axes.size() && !snapshot.is_silent; ++i) {
-        if (snapshot.axes[i].is_present) { continue; }
-        alarms.push_back(own_alarm("axis-not-received", machine.axes[i].name, "no messages are received from the axis",
+    const std::vector<Served> all = served_of(snapshot, machine);
+    for (const Served& served : all) {
+        if (snapshot.is_silent || served.seen.is_present) { continue; }
+        alarms.push_back(own_alarm("axis-not-received", served.place,
+                                   served.place.motor.empty() ? "no messages are received from the axis"
+                                                              : "no messages are received from the motor",
                                    "check that its process runs: lockstep status"));
     }
+    if (snapshot.apart) {
+        alarms.push_back(own_alarm("motors-apart", {.axis = {}, .motor = snapshot.apart->name},
+                                   "it is " + short_number(std::abs(snapshot.apart->off_mm)) +
+                                       " mm from where the other motors of its axes place it",
+                                   "{home}"));
+    }
     std::uint64_t lost = snapshot.machine ? snapshot.machine->value.lost_records : 0;
-    for (std::size_t i = 0; i < snapshot.axes.size(); ++i) {
-        const auto& health = snapshot.axes[i].health;
-        if (!health || !snapshot.axes[i].is_present) { continue; }
-        add_health(health->value, machine.axes[i].name, machine, alarms);
+    for (const auto& [place, seen] : all) {
+        const auto& health = seen.health;
+        if (!health || !seen.is_present) { continue; }
+        add_health(health->value, place, machine, alarms);
         lost += health->value.refused.records;
     }
     if (lost > 0) {
-        alarms.push_back(own_alarm("lost-records", "",
+        alarms.push_back(own_alarm("lost-records", {},
                                    fmt::format("{} messages of the record could not be written or sent", lost),
                                    "see the logs, and check whether a disk is full"));
     }
     if (snapshot.values_unsaved_since && snapshot.time - *snapshot.values_unsaved_since > kTimeToSave) {
-        alarms.push_back(own_alarm("unsaved-values", "", kUnsavedValues, kUnsavedValuesRemedy));
+        alarms.push_back(own_alarm("unsaved-values", {}, kUnsavedValues, kUnsavedValuesRemedy));
     }
     return alarms;
 }

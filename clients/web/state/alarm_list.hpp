@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -17,8 +18,22 @@ inline constexpr double kStepLateness_us = 2;
 /// How long before its start an axis must hold a setpoint; a later one is not run.
 double slack_deadline_ms(const ProtocolTiming& timing);
 
-/// The schema Fault. `axis`: the axis's name; empty if the fault is not of one axis.
-nlohmann::json fault_json(FaultCode fault, const std::string& axis);
+/// What a fault or an alarm is about: an axis, or a motor that is not the only one of an axis. Both are empty for the
+/// whole machine.
+struct FaultPlace {
+    std::string axis;
+    std::string motor;
+};
+
+/// What a process serves: an axis with a motor of its own, or a motor.
+struct Served {
+    FaultPlace place;
+    const AxisSnapshot& seen;
+};
+std::vector<Served> served_of(const Snapshot& snapshot, const MachineConfig& machine);
+
+/// The schema Fault.
+nlohmann::json fault_json(FaultCode fault, const FaultPlace& place);
 
 /// Returns each alarm as the schema Alarm: faults with cause and remedy, axes that are not received, setpoints after
 /// their deadline, steps beside their time, refusals and losses.

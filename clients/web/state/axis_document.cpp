@@ -14,8 +14,17 @@ using nlohmann::json;
 constexpr int kPlaceDigits = 4;  // a tenth of a micrometre
 constexpr int kTimeDigits = 1;
 
-json fault_or_null(FaultCode fault, const std::string& axis) {
-    return fault == FaultCode::None ? json() : fault_json(fault, axis);
+json fault_or_null(FaultCode fault, const FaultPlace& place) {
+    return fault == FaultCode::None ? json() : fault_json(fault, place);
+}
+
+/// The names of those that are closed.
+json switches_json(const Switches& switches) {
+    json closed = json::array();
+    if (switches.limit_min) { closed.push_back("limit_min"); }
+    if (switches.limit_max) { closed.push_back("limit_max"); }
+    if (switches.home) { closed.push_back("home"); }
+    return closed;
 }
 
 json spread(const Extremes& extremes, double least, double most) {
@@ -27,13 +36,13 @@ json spread_us(const Extremes& extremes, const MachineConfig& machine, double un
     return spread(extremes, machine.microseconds(extremes.least) * unit, machine.microseconds(extremes.most) * unit);
 }
 
-/// How far apart a step of this axis and one of another were at most, if they were commanded for the same time.
-std::optional<Ticks> widest_skew(const Snapshot& snapshot, std::size_t axis) {
-    const Extremes& own = snapshot.axes[axis].health->value.step_lateness;
+/// How far apart a step of this process and one of another were at most, if they were commanded for the same time.
+std::optional<Ticks> widest_skew(const std::vector<Served>& all, const AxisSnapshot& seen) {
+    const Extremes& own = seen.health->value.step_lateness;
     std::optional<Ticks> widest;
-    for (std::size_t i = 0; i < snapshot.axes.size(); ++i) {
-        const auto& health = snapshot.axes[i].health;
-        const bool counts = i != axis && health && snapshot.axes[i].is_present && own.count > 0;
+    for (const Served& served : all) {
+        const auto& health = served.seen.health;
+        const bool counts = &served.seen != &seen && health && served.seen.is_present && own.count > 0;
         if (!counts || health->value.step_lateness.count == 0) { continue; }
         const Extremes& other = health->value.step_lateness;
         const Ticks apart = std::max(own.most - other.least, other.most - own.least);
@@ -42,12 +51,12 @@ std::optional<Ticks> widest_skew(const Snapshot& snapshot, std::size_t axis) {
     return widest;
 }
 
-json health_json(const Snapshot& snapshot, std::size_t axis, const MachineConfig& machine) {
-    const auto& seen = snapshot.axes[axis].health;
+json health_json(const Snapshot& snapshot, const AxisSnapshot& axis, const MachineConfig& machine) {
+    const auto& seen = axis.health;
     if (!seen) { return {}; }
     const AxisHealth& health = seen->value;
     const auto us = [&](Ticks ticks) { return rounded(machine.microseconds(ticks), kTimeDigits); };
-    const auto skew = widest_skew(snapshot, axis);
+    const auto skew = widest_skew(served_of(snapshot, machine), axis);
     const RefusalCounts& refused = health.refused;
     return {
         {"age_ms", age_ms(seen->time, snapshot.time)},
@@ -67,18 +76,37 @@ json never_received() {
             {"position_steps", nullptr}, {"velocity", nullptr}, {"state", nullptr},
             {"homed", nullptr},          {"at_rest", nullptr},  {"following_error_steps", nullptr},
             {"clock_error_us", nullptr}, {"fault", nullptr},    {"unproved", nullptr},
-            {"health", nullptr}};
+            {"switches", nullptr},       {"health", nullptr}};
 }
 
-json axis_json(const Snapshot& snapshot, std::size_t i, const MachineConfig& machine) {
-    const AxisSnapshot& seen = snapshot.axes[i];
-    if (!seen.state) { return never_received(); }
-    const AxisConfig& axis = machine.axes[i];
+/// Whose fault it is: the axis's, or that of the first of its motors which has it.
+FaultPlace place_of_fault(const Snapshot& snapshot, std::size_t axis, const std::string& name,
+                          FaultCode AxisState::*fault) {
+    if (snapshot.axes[axis].is_process) { return {.axis = name, .motor = {}}; }
+    for (const MotorSnapshot& motor : snapshot.motors) {
+        const bool moves_it = std::ranges::find(motor.axes, name) != motor.axes.end();
+        const bool has_it =
+            motor.seen.state && motor.seen.state->value.*fault == snapshot.axes[axis].state->value.*fault;
+        if (moves_it && has_it) { return {.axis = {}, .motor = motor.name}; }
+    }
+    return {.axis = name, .motor = {}};
+}
+
+/// An axis or a motor whose state was received.
+struct Shown {
+    const AxisSnapshot& seen;
+    double steps_per_mm;
+    FaultPlace of_fault;
+    FaultPlace of_unproved;
+};
+
+json shown_json(const Snapshot& snapshot, const Shown& shown, const MachineConfig& machine) {
+    const AxisSnapshot& seen = shown.seen;
     const AxisState& state = seen.state->value;
-    const double velocity = seen.steps_per_tick * machine.ticks_per_second() / axis.steps_per_mm;
+    const double velocity = seen.steps_per_tick * machine.ticks_per_second() / shown.steps_per_mm;
     return {{"present", seen.is_present},
             {"age_ms", age_ms(seen.state->time, snapshot.time)},
-            {"position", rounded(to_mm(axis, state.position.as_steps()), kPlaceDigits)},
+            {"position", rounded(state.position.as_steps() / shown.steps_per_mm, kPlaceDigits)},
             {"position_steps", state.position.count()},
             {"velocity", rounded(velocity, kPlaceDigits)},
             {"state", name_of(state.phase)},
@@ -86,9 +114,19 @@ json axis_json(const Snapshot& snapshot, std::size_t i, const MachineConfig& mac
             {"at_rest", state.at_rest},
             {"following_error_steps", state.following_error_steps},
             {"clock_error_us", rounded(machine.microseconds(state.clock_error), kTimeDigits)},
-            {"fault", fault_or_null(state.fault, axis.name)},
-            {"unproved", fault_or_null(state.unproved, axis.name)},
-            {"health", health_json(snapshot, i, machine)}};
+            {"fault", fault_or_null(state.fault, shown.of_fault)},
+            {"unproved", fault_or_null(state.unproved, shown.of_unproved)},
+            {"switches", switches_json(state.switches)},
+            {"health", health_json(snapshot, seen, machine)}};
+}
+
+json axis_json(const Snapshot& snapshot, std::size_t i, const MachineConfig& machine) {
+    if (!snapshot.axes[i].state) { return never_received(); }
+    const AxisConfig& axis = machine.axes[i];
+    return shown_json(snapshot,
+                      {snapshot.axes[i], axis.steps_per_mm, place_of_fault(snapshot, i, axis.name, &AxisState::fault),
+                       place_of_fault(snapshot, i, axis.name, &AxisState::unproved)},
+                      machine);
 }
 
 }  // namespace
@@ -108,6 +146,17 @@ json axes_document(const Snapshot& snapshot, const MachineConfig& machine) {
         axes[machine.axes[i].name] = axis_json(snapshot, i, machine);
     }
     return axes;
+}
+
+json motors_document(const Snapshot& snapshot, const MachineConfig& machine) {
+    json motors = json::object();
+    for (const MotorSnapshot& motor : snapshot.motors) {
+        const FaultPlace place{.axis = {}, .motor = motor.name};
+        motors[motor.name] = motor.seen.state
+                                 ? shown_json(snapshot, {motor.seen, motor.steps_per_mm, place, place}, machine)
+                                 : never_received();
+    }
+    return motors;
 }
 
 }  // namespace lockstep::web

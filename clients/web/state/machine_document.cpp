@@ -5,6 +5,7 @@
 #include "core/axis_unit.hpp"
 #include "core/faults.hpp"
 #include "core/gcode/system_names.hpp"
+#include "core/kinematics/kinematics.hpp"
 #include "core/overrides.hpp"
 
 namespace lockstep::web {
@@ -26,6 +27,22 @@ json axis_json(const AxisConfig& axis) {
             {"homed_by", axis.homing.toward_min ? "min" : "max"},
             {"unhomed_jog_velocity", axis.unhomed_jog_mm_s ? json(*axis.unhomed_jog_mm_s) : json()},
             {"host", axis.host.empty() ? json() : json(axis.host)}};
+}
+
+/// Those that are not the only ones of an axis.
+json motors_json(const MachineConfig& machine) {
+    const Kinematics kinematics(machine);
+    json motors = json::array();
+    for (std::size_t m = 0; m < kinematics.motors().size(); ++m) {
+        const MotorConfig& motor = kinematics.motors()[m];
+        if (kinematics.own_motor(motor.axis) == m) { continue; }
+        motors.push_back({{"name", motor.name},
+                          {"axes", kinematics.names_of_axes(kinematics.axes_of_motor(m))},
+                          {"unit", unit_of(machine.axes[motor.axis].name)},
+                          {"steps_per_unit", motor.steps_per_mm},
+                          {"host", motor.host.empty() ? json() : json(motor.host)}});
+    }
+    return motors;
 }
 
 json faults_json() {
@@ -58,6 +75,7 @@ json machine_document(const MachineConfig& machine, const std::string& version) 
     return {{"name", machine.name},
             {"version", version},
             {"axes", axes},
+            {"motors", motors_json(machine)},
             {"features", json::array()},
             {"faults", faults_json()},
             {"coordinate_systems", systems},

@@ -22,11 +22,27 @@ struct Seen {
     nanoseconds time;  // CLOCK_MONOTONIC of this host
 };
 
+/// Of an axis, or of a motor.
 struct AxisSnapshot {
     bool is_present = false;
+    bool is_process = true;     // false: an axis without a motor of its own, whose motors are in Snapshot::motors
     double steps_per_tick = 0;  // its speed
     std::optional<Seen<AxisState>> state;
     std::optional<Seen<AxisHealth>> health;
+};
+
+/// A motor that is not the only one of an axis.
+struct MotorSnapshot {
+    std::string name;
+    std::vector<std::string> axes;  // that it moves
+    double steps_per_mm = 1;
+    AxisSnapshot seen;
+};
+
+/// A motor at rest that is not where the other motors of its axes place it.
+struct MotorApart {
+    std::string name;
+    double off_mm = 0;
 };
 
 /// The server's knowledge of a program that it loads.
@@ -71,6 +87,8 @@ struct Snapshot {
     bool has_standby = false;
     bool config_differs = false;
     std::vector<AxisSnapshot> axes;  // in the order of the configuration
+    std::vector<MotorSnapshot> motors;
+    std::optional<MotorApart> apart;
     std::optional<RevisedValues> values;
     std::optional<nanoseconds> values_unsaved_since;  // not on the coordinator's disk since then; none: they are
     std::optional<OwnJob> job;

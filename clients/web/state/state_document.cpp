@@ -71,7 +71,7 @@ json job_json(const Snapshot& snapshot) {
             {"time_left_s", measured ? json(rounded(state.remaining_s, 1)) : json()},
             {"waits_for_program", state.lacks_blocks},
             {"outcome", outcome_json(state.outcome)},
-            {"ended_by", state.job_fault != FaultCode::None ? fault_json(state.job_fault, "") : json()}};
+            {"ended_by", state.job_fault != FaultCode::None ? fault_json(state.job_fault, {}) : json()}};
 }
 
 json hold_json(const Snapshot& snapshot) {
@@ -149,6 +149,7 @@ json state_document(const Snapshot& snapshot, const MachineConfig& machine, cons
             {"override", {{"feed_percent", overrides.feed_percent}, {"rapid_percent", overrides.rapid_percent}}},
             {"alarms", alarm_list(snapshot, machine)},
             {"axes", axes_document(snapshot, machine)},
+            {"motors", motors_document(snapshot, machine)},
             {"offsets", offsets_json(snapshot, machine, modes)},
             {"tools", tools_json(snapshot, machine)},
             {"devices", snapshot.machine ? devices_document(snapshot.machine->value.devices) : json()},

@@ -287,6 +287,32 @@ describe("devices", () => {
   });
 });
 
+describe("motors", () => {
+  const motor = (page, name) => page.locator(`.motor[data-motor="${name}"]`);
+
+  test("are not shown where each axis has its own", async () => {
+    const page = await enter();
+    assert.equal(await page.locator(".motors:visible, .motor").count(), 0);
+  });
+
+  test("of an axis with two are shown with their places, switches and faults", async () => {
+    machine.haveTwoMotorsOnY();
+    const page = await enter();
+    await motor(page, "Y2").and(page.locator('[data-fresh="live"]')).waitFor();
+    assert.equal(await page.locator('.axis[data-axis="Y"] .figure:visible').count(), 1); // its age; the rest is of its motors
+    Object.assign(machine.state.motors.Y2, { position: 7.5, switches: ["limit_max"], following_error_steps: 3, state: "Fault" });
+    const fault = { number: 103, code: "limit-hit", axis: null, motor: "Y2", cause: "a limit switch closed", remedy: "then: {reset}, {home}" };
+    machine.state.motors.Y2.fault = fault;
+    machine.state.axes.Y.fault = fault;
+    machine.state.alarms = [{ ...fault, severity: "fault" }];
+    await motor(page, "Y2").locator(".chip", { hasText: "Closed: limit switch at the upper end" }).waitFor();
+    await page.locator(".alarm", { hasText: "Motor Y2: limit-hit (103)" }).waitFor();
+    await page.locator('.axis[data-axis="Y"] .trouble', { hasText: "Motor Y2: limit-hit" }).waitFor();
+    assert.match(await motor(page, "Y2").textContent(), /moves Y.*7\.500 mm.*Fault.*limit-hit: a limit switch closed · Following error: 3 steps/);
+    assert.equal(await motor(page, "Y1").locator(".trouble:visible").count(), 0);
+  });
+});
+
 describe("settings", () => {
   test("overrides, work offsets and tools go to the machine and come back", async () => {
     const page = await enter();

@@ -1,7 +1,7 @@
 // Follows commands like a machine behind lockstep-web, without a real one: for pictures, and for paths of any length.
 
 const FAULTS = {
-  emergency: { number: 118, code: "emergency-stopped", axis: null, cause: "an emergency stop was commanded", remedy: "make sure that the machine is safe; an axis that was stopped in motion must be homed again; then: {reset}, {home}" },
+  emergency: { number: 118, code: "emergency-stopped", axis: null, motor: null, cause: "an emergency stop was commanded", remedy: "make sure that the machine is safe; an axis that was stopped in motion must be homed again; then: {reset}, {home}" },
 };
 
 const axis = (name, max, max_velocity) => ({
@@ -10,7 +10,7 @@ const axis = (name, max, max_velocity) => ({
 });
 
 export const MACHINE = {
-  name: "mill", version: "1", axes: [axis("X", 200, 150), axis("Y", 200, 150), axis("Z", 60, 25)], features: [], faults: {},
+  name: "mill", version: "1", axes: [axis("X", 200, 150), axis("Y", 200, 150), axis("Z", 60, 25)], motors: [], features: [], faults: {},
   coordinate_systems: ["G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"], slack_deadline_ms: 8, step_lateness_limit_us: 20,
   limits: { program_bytes: 50_000_000, body_bytes: 65536, jog_renew_ms: 40, jog_life_ms: 120, override_min_percent: 10, override_max_percent: 200, path_points: 1_000_000 },
 };
@@ -47,23 +47,32 @@ export function encodePath(points) {
 
 const axisState = (position) => ({
   present: true, age_ms: 0, position, position_steps: Math.round(position * 80), velocity: 0, state: "Standby", homed: true, at_rest: true,
-  following_error_steps: 0, clock_error_us: 0, fault: null, unproved: null,
+  following_error_steps: 0, clock_error_us: 0, fault: null, unproved: null, switches: [],
   health: { age_ms: 0, slack_ms: null, lateness_us: null, skew_us: null, setpoint_age_ms: null, loop_p99_us: 120, loop_max_us: 300, least_free_segments: 900, refused: 0 },
 });
 
 export class StandInMachine {
+  description = MACHINE;
   commands = [];
   program = null;
   jogUntil = 0;
   endsJogs = false;
   state = {
     machine: "mill", mode: "Idle", link: { age_ms: 0, standby: false, config_differs: false }, job: null, program: null, hold: null,
-    override: { feed_percent: 100, rapid_percent: 100 }, alarms: [], axes: { X: axisState(5), Y: axisState(5), Z: axisState(58) },
+    override: { feed_percent: 100, rapid_percent: 100 }, alarms: [], axes: { X: axisState(5), Y: axisState(5), Z: axisState(58) }, motors: {},
     offsets: { revision: 1, active: "G54", systems: Object.fromEntries(MACHINE.coordinate_systems.map((s) => [s, { origin: {}, rotation_deg: 0 }])), g92: null },
     tools: { 1: { pocket: 1, offset: { Z: 42.5 }, diameter: 6 }, 2: { pocket: 2, offset: { Z: 38.1 }, diameter: 3 } }, 
     devices: { spindle: { direction: "stopped", rpm: 0 }, mist: false, flood: false, tool: null, outputs: [] }, writer: null,
     modes: ["G80", "G54", "G17", "G21", "G90", "G94", "M5", "M9", "T0", "F0", "S0"], viewers: 1,
   };
+
+  /** Y is moved by Y1 and Y2. Call it before the page is opened. */
+  haveTwoMotorsOnY() {
+    const motor = (name) => ({ name, axes: ["Y"], unit: "mm", steps_per_unit: 80, host: null });
+    this.description = { ...MACHINE, motors: [motor("Y1"), motor("Y2")] };
+    this.state.motors = { Y1: axisState(5), Y2: axisState(5) };
+    this.state.axes.Y.health = null;
+  }
 
   load(name, segments) {
     this.program = rose(segments);

@@ -2,7 +2,7 @@
 import { readFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { join } from "node:path";
-import { encodePath, MACHINE } from "./stand_in_machine.mjs";
+import { encodePath } from "./stand_in_machine.mjs";
 
 export const TOKENS = { operate: "operate-token", view: "view-token" };
 const TYPES = { html: "text/html; charset=utf-8", js: "text/javascript", css: "text/css", svg: "image/svg+xml" };
@@ -88,7 +88,7 @@ export class StandInServer {
     const { machine } = this;
     if (pathname === "/api/session" && request.method === "DELETE") return this.signOut(response);
     if (pathname === "/api/session") return this.json(response, { role });
-    if (pathname === "/api/machine") return this.json(response, MACHINE);
+    if (pathname === "/api/machine") return this.json(response, this.machine.description);
     if (pathname === "/api/state") return this.json(response, machine.state);
     if (pathname === "/api/events") return this.events(response);
     if (pathname === "/api/mdi") return this.json(response, { lines: [{ line: "G0 X5 Y5", accepted: true }, { line: "G1 X500 F600", accepted: false }], modes: this.machine.state.modes });

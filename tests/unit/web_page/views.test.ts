@@ -1,19 +1,22 @@
 import { describe, expect, test } from "vitest";
-import type { MachineAxis, Offsets, Pause } from "../../../clients/web/page/src/api/contract";
+import type { AxisState, MachineAxis, Offsets, Pause } from "../../../clients/web/page/src/api/contract";
 import { noAnswer, problemOf } from "../../../clients/web/page/src/api/result";
 import { Trace } from "../../../clients/web/page/src/chart/trace";
 import { History, MOST_LINES } from "../../../clients/web/page/src/mdi/history";
 import { fixed } from "../../../clients/web/page/src/format/numbers";
 import { timeOfDay } from "../../../clients/web/page/src/format/times";
 import { speedTexts, unitTexts } from "../../../clients/web/page/src/format/units";
+import { phaseLook, phaseText, troubleText } from "../../../clients/web/page/src/state/axis_texts";
 import { deviceTexts } from "../../../clients/web/page/src/state/device_texts";
 import { groupedAlarms } from "../../../clients/web/page/src/state/grouped_alarms";
 import { otherWriter } from "../../../clients/web/page/src/state/other_writer";
 import { pageRemedy } from "../../../clients/web/page/src/state/page_remedy";
 import { mayHandle, pauseText, wayTexts } from "../../../clients/web/page/src/state/pause_texts";
+import { placeText } from "../../../clients/web/page/src/state/place_text";
+import { switchesText } from "../../../clients/web/page/src/state/switches_text";
 import { shownMode } from "../../../clients/web/page/src/state/shown_mode";
 import { en } from "../../../clients/web/page/src/texts/en";
-import { workPlace } from "../../../clients/web/page/src/views/axis_places";
+import { workPlace } from "../../../clients/web/page/src/views/axes/axis_places";
 import { shortcutVerb } from "../../../clients/web/page/src/views/shortcuts";
 
 describe("work coordinates", () => {
@@ -159,6 +162,41 @@ describe("alarms", () => {
     const groups = groupedAlarms([{ ...silent, axis: "X" }, { ...silent, axis: "Z" }, { ...silent, axis: "Y", cause: "other" }]);
     expect(groups.map(({ axes }) => axes)).toEqual([["X", "Z"], ["Y"]]);
     expect(groupedAlarms([])).toEqual([]);
+  });
+});
+
+describe("what a fault is about", () => {
+  test("is one axis, several motors, or the machine", () => {
+    expect(placeText(["X"], [], en)).toBe("Axis X");
+    expect(placeText([], ["Y2"], en)).toBe("Motor Y2");
+    expect(placeText(["X", "Z"], ["Y1", "Y2"], en)).toBe("Axes X, Z, Motors Y1, Y2");
+    expect(placeText([], [], en)).toBe("");
+  });
+
+  test("is not the machine where a motor has it", () => {
+    const limit = { severity: "fault", number: 103, code: "limit-hit", cause: "c", remedy: "r" } as const;
+    expect(groupedAlarms([{ ...limit, motor: "Y2" }, { ...limit, axis: "X" }]).map(({ axes, motors }) => [axes, motors])).toEqual([[["X"], ["Y2"]]]);
+    expect(groupedAlarms([limit, { ...limit, motor: "Y2" }]).map(({ axes, motors }) => [axes, motors])).toEqual([[[], []]]);
+  });
+});
+
+describe("a motor", () => {
+  const rest: AxisState = { present: true, state: "Standby", homed: true, following_error_steps: 0, fault: null, unproved: null, switches: [] };
+  const fault = { number: 103, code: "limit-hit", motor: "Y2", cause: "a limit switch closed", remedy: "" };
+
+  test("has its closed switches in words", () => {
+    expect(switchesText([], en)).toBe("");
+    expect(switchesText(["limit_max", "home"], en)).toBe("Closed: limit switch at the upper end, home switch");
+  });
+
+  test("is named in the trouble of its axis", () => {
+    expect(troubleText({ ...rest, fault, following_error_steps: 3 }, en)).toBe("Motor Y2: limit-hit: a limit switch closed · Following error: 3 steps");
+    expect(troubleText(rest, en)).toBe("");
+  });
+
+  test("that is not received says so", () => {
+    expect([phaseText({ ...rest, present: false }, en), phaseLook({ ...rest, present: false })]).toEqual(["Not received", "bad"]);
+    expect([phaseText(rest, en), phaseLook(rest)]).toEqual(["Standby", "good"]);
   });
 });
 

@@ -42,6 +42,7 @@ export interface Fault {
   number: number;
   code: string;
   axis?: Maybe<string>;
+  motor?: Maybe<string>;
   cause: string;
   remedy: string;
 }
@@ -50,6 +51,7 @@ export interface Alarm {
   number: number;
   code: string;
   axis?: Maybe<string>;
+  motor?: Maybe<string>;
   cause: string;
   remedy: string;
   severity: "fault" | "warning";
@@ -71,6 +73,14 @@ export interface MachineAxis {
   host?: Maybe<string>;
 }
 
+export interface MachineMotor {
+  name: string;
+  axes: string[];
+  unit: "mm" | "deg";
+  steps_per_unit: number;
+  host?: Maybe<string>;
+}
+
 export interface Limits {
   program_bytes: number;
   body_bytes: number;
@@ -85,6 +95,7 @@ export interface Machine {
   name: string;
   version: string;
   axes: MachineAxis[];
+  motors: MachineMotor[];
   features: string[];
   faults: Record<string, { code: string; cause: string; remedy: string }>;
   coordinate_systems: string[];
@@ -135,6 +146,7 @@ export interface State {
   override: { feed_percent: number; rapid_percent: number };
   alarms: Alarm[];
   axes: Record<string, AxisState>;
+  motors: Record<string, AxisState>;
   offsets?: Maybe<Offsets>;
   tools?: Maybe<Record<string, Tool>>;
   devices?: Maybe<Devices>;
@@ -185,6 +197,7 @@ export interface AxisState {
   clock_error_us?: Maybe<number>;
   fault?: Maybe<Fault>;
   unproved?: Maybe<Fault>;
+  switches?: Maybe<("limit_min" | "limit_max" | "home")[]>;
   health?: Maybe<Health>;
 }
 

@@ -2,7 +2,7 @@
 import type { MachineAxis } from "../api/contract";
 import { fixed } from "./numbers";
 
-export function unitText(axis: MachineAxis): string {
+export function unitText(axis: Pick<MachineAxis, "unit">): string {
   return axis.unit === "deg" ? "°" : axis.unit;
 }
 

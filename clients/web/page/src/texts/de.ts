@@ -45,7 +45,7 @@ export const de: Texts = {
     "run-rest": "lockstep run FILE --from-line LINE",
   },
   alarms: {
-    title: "Meldungen", fault: "Fehler", warning: "Warnung", axis: "Achse {axis}", axes: "Achsen {axes}", ended: "Der letzte Auftrag endete vorzeitig",
+    title: "Meldungen", fault: "Fehler", warning: "Warnung", axis: "Achse {axis}", axes: "Achsen {axes}", motor: "Motor {motor}", motors: "Motoren {motors}", ended: "Der letzte Auftrag endete vorzeitig",
   },
   axes: {
     title: "Achsen", machine: "Maschine", work: "Werkstück {system}", coordinates: "Koordinaten", homed: "Referenziert",
@@ -56,6 +56,10 @@ export const de: Texts = {
       late: "Größte Abweichung eines Schritts von seiner befohlenen Zeit, µs", skew: "Größter Versatz zwischen Schritten zweier Achsen, µs",
       clock: "Größter möglicher Fehler der Maschinenzeit dieser Achse, µs",
     },
+  },
+  motors: {
+    title: "Motoren", moves: "bewegt {axes}", closed: "Geschlossen: {switches}",
+    switches: { limit_min: "Endschalter am unteren Ende", limit_max: "Endschalter am oberen Ende", home: "Referenzschalter" },
   },
   jog: {
     title: "Handfahrt", velocity: "Tempo", distance: "Strecke", continuous: "Dauernd", keys: "Pfeiltasten, Bild auf und Bild ab verfahren die Achsen, solange der Fokus hier ist",

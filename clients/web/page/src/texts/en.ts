@@ -44,7 +44,7 @@ export const en = {
     incident: "lockstep analyze --incident", "run-rest": "lockstep run FILE --from-line LINE",
   },
   alarms: {
-    title: "Alarms", fault: "Fault", warning: "Warning", axis: "Axis {axis}", axes: "Axes {axes}", ended: "The last job ended early",
+    title: "Alarms", fault: "Fault", warning: "Warning", axis: "Axis {axis}", axes: "Axes {axes}", motor: "Motor {motor}", motors: "Motors {motors}", ended: "The last job ended early",
   },
   axes: {
     title: "Axes", machine: "Machine", work: "Work {system}", coordinates: "Coordinates", homed: "Homed",
@@ -55,6 +55,10 @@ export const en = {
       late: "Largest deviation of a step from its commanded time, µs", skew: "Largest skew between steps of two axes, µs",
       clock: "Largest possible error of the axis's machine time, µs",
     },
+  },
+  motors: {
+    title: "Motors", moves: "moves {axes}", closed: "Closed: {switches}",
+    switches: { limit_min: "limit switch at the lower end", limit_max: "limit switch at the upper end", home: "home switch" },
   },
   jog: {
     title: "Jog", velocity: "Speed", distance: "Distance", continuous: "Continuous", keys: "Arrow keys, Page Up and Page Down jog while the focus is here",

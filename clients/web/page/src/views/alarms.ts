@@ -4,17 +4,14 @@ import { h, icon, show } from "../dom/element";
 import { ICONS } from "../dom/icons";
 import { groupedAlarms } from "../state/grouped_alarms";
 import { pageRemedy } from "../state/page_remedy";
-import { fill, t } from "../texts";
+import { placeText } from "../state/place_text";
+import { t } from "../texts";
 import type { Model, View } from "./view";
 
-function heading(fault: Fault, axes: readonly string[]): string {
-  const text = axes.length === 1 ? fill(t.alarms.axis, { axis: axes[0]! }) : fill(t.alarms.axes, { axes: axes.join(", ") });
-  return `${axes.length > 0 ? `${text}: ` : ""}${fault.code}${fault.number > 0 ? ` (${fault.number})` : ""}`;
-}
-
-function item(fault: Fault, axes: readonly string[], kind: string, className: string): HTMLElement {
+function item(fault: Fault, place: string, kind: string, className: string): HTMLElement {
+  const heading = `${place === "" ? "" : `${place}: `}${fault.code}${fault.number > 0 ? ` (${fault.number})` : ""}`;
   return h("li", { class: `alarm ${className}` }, icon(className === "fault" ? ICONS.emergency : ICONS.warning),
-    h("div", {}, h("strong", {}, `${kind} – ${heading(fault, axes)}`), h("p", {}, fault.cause),
+    h("div", {}, h("strong", {}, `${kind} – ${heading}`), h("p", {}, fault.cause),
       fault.remedy === "" ? undefined : h("p", { class: "remedy" }, pageRemedy(fault.remedy, t))));
 }
 
@@ -30,9 +27,9 @@ export class Alarms implements View {
     if (now === this.shown) return;
     this.shown = now;
     this.list.replaceChildren(
-      ...groupedAlarms(alarms).map(({ alarm, axes }) =>
-        item(alarm, axes, alarm.severity === "fault" ? t.alarms.fault : t.alarms.warning, alarm.severity)),
-      ...(ended ? [item(ended, ended.axis ? [ended.axis] : [], t.alarms.ended, "warning")] : []));
+      ...groupedAlarms(alarms).map(({ alarm, axes, motors }) =>
+        item(alarm, placeText(axes, motors, t), alarm.severity === "fault" ? t.alarms.fault : t.alarms.warning, alarm.severity)),
+      ...(ended ? [item(ended, placeText(ended.axis ? [ended.axis] : [], ended.motor ? [ended.motor] : [], t), t.alarms.ended, "warning")] : []));
     show(this.element, this.list.children.length > 0);
   }
 }

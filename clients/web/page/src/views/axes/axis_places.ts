@@ -1,5 +1,5 @@
 // The place of an axis in the active work coordinate system.
-import type { Offsets } from "../api/contract";
+import type { Offsets } from "../../api/contract";
 
 /**
  * Converts machine coordinates to work coordinates: subtracts origin and G92, and undoes the rotation about Z.

@@ -1,12 +1,17 @@
 // All axes, in machine or work coordinates.
-import type { Machine } from "../api/contract";
-import { h, icon, setAttribute, setText, show } from "../dom/element";
-import { ICONS } from "../dom/icons";
-import { fill, t } from "../texts";
+import type { Machine } from "../../api/contract";
+import { h, icon, setAttribute, setText, show } from "../../dom/element";
+import { ICONS } from "../../dom/icons";
+import { fill, t } from "../../texts";
 import { AxisCard } from "./axis_card";
 import { workPlace } from "./axis_places";
-import type { Give } from "./command_button";
-import type { Model, View } from "./view";
+import type { Give } from "../command_button";
+import type { Model, View } from "../view";
+
+/** Whether the axis has no motor of its own: its motors are shown apart. */
+function movesApart(axis: string, { motors }: Machine): boolean {
+  return motors.some(({ axes }) => axes.includes(axis));
+}
 
 export class Axes implements View {
   readonly element: HTMLElement;
@@ -17,7 +22,7 @@ export class Axes implements View {
   private isWork = false;
 
   constructor(machine: Machine, give: Give) {
-    this.cards = new Map(machine.axes.map((axis, i) => [axis.name, new AxisCard(axis, i, () => void give("home", { axes: [axis.name] }))]));
+    this.cards = new Map(machine.axes.map((axis, i) => [axis.name, new AxisCard(axis, i, !movesApart(axis.name, machine), () => void give("home", { axes: [axis.name] }))]));
     const choose = (isWork: boolean) => h("button", { type: "button", on: { click: () => void (this.isWork = isWork) } });
     this.machineButton = choose(false);
     this.workButton = choose(true);
