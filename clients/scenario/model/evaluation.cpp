@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "clients/scenario/model/expectation_text.hpp"
+#include "clients/scenario/model/final_place.hpp"
 #include "clients/scenario/model/problems.hpp"
 #include "clients/scenario/model/scenario_text.hpp"
 #include "clients/session/reports.hpp"
@@ -58,22 +59,17 @@ private:
 
     static std::string place_at(Tick tick) { return fmt::format("{}, tick {}", kWholeLog, tick.value); }
 
-    const proto::AxisAnalysis* analysis_of(const std::string& name) const {
-        if (!evidence_.analysis) { return nullptr; }
-        const auto& axes = evidence_.analysis->axes();
-        const auto found = std::ranges::find_if(axes, [&](const auto& axis) { return axis.name() == name; });
-        return found == axes.end() ? nullptr : &*found;
-    }
-
     void check_final(const Asked::Final& end) {
         const std::string asked = text_of(end);
-        const proto::AxisAnalysis* axis = analysis_of(end.axis());
-        if (axis == nullptr || !axis->has_position_end_mm()) { return add(asked, "not recorded", kWholeLog, false); }
-        const double found = axis->position_end_mm();
+        if (!evidence_.analysis) { return add(asked, evidence_.analysis.error(), kWholeLog, false); }
         const auto config = std::ranges::find(machine_.axes, end.axis(), &AxisConfig::name);
-        const bool held = end.has_within_mm() ? std::abs(found - end.mm()) <= end.within_mm()
-                                              : to_steps(*config, found) == to_steps(*config, end.mm());
-        add(asked, "at " + mm_text(found), place_at({axis->last_tick()}) + ", the last step of " + end.axis(), held);
+        const auto axis = static_cast<std::size_t>(config - machine_.axes.begin());
+        const auto found = final_place(*evidence_.analysis, machine_, axis);
+        if (!found) { return add(asked, found.error(), kWholeLog, false); }
+        const std::int64_t off = std::abs(to_steps(*config, found->mm) - to_steps(*config, end.mm()));
+        const bool held =
+            end.has_within_mm() ? std::abs(found->mm - end.mm()) <= end.within_mm() : off <= found->off_rest;
+        add(asked, "at " + mm_text(found->mm), place_at(found->last) + ", the last step of " + end.axis(), held);
     }
 
     void check_path() {

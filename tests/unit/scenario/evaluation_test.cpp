@@ -139,6 +139,33 @@ TEST(ScenarioEvaluation, ComparesAxesAndMachineWithFinalStatus) {
     EXPECT_FALSE(holds("phase: FAULT", good()));
 }
 
+/// The motors of the example gantry end at these places.
+Evidence ended_at(double x_mm, double y1_mm, double y2_mm) {
+    Evidence evidence = good();
+    evidence.analysis->clear_axes();
+    for (const auto& [name, mm] : {std::pair{"X", x_mm}, {"Y1", y1_mm}, {"Y2", y2_mm}, {"Z", 58.0}}) {
+        proto::AxisAnalysis& motor = *evidence.analysis->add_axes();
+        motor.set_name(name);
+        motor.set_position_end_mm(mm);
+    }
+    return evidence;
+}
+
+TEST(ScenarioEvaluation, ComputesTheFinalPositionOfAnAxisFromItsMotors) {
+    const auto final = [](double mm, const Evidence& evidence) {
+        const std::string expect = "expect { final { axis: \"Y\" mm: " + std::to_string(mm) + " } }";
+        return evaluate(parsed(of_gantry(expect)), good_observations(), evidence).front();
+    };
+    EXPECT_TRUE(final(40, ended_at(60, 40, 40)).held());
+    EXPECT_FALSE(final(40.0125, ended_at(60, 40, 40)).held()) << "a step away";
+    const Check apart = final(40, ended_at(60, 40, 40.025));
+    EXPECT_FALSE(apart.held());
+    EXPECT_THAT(apart.found(), HasSubstr("mm from where the other motors place it"));
+    Evidence lacks = ended_at(60, 40, 40);
+    lacks.analysis->mutable_axes(2)->clear_position_end_mm();
+    EXPECT_EQ(final(40, lacks).found(), "motor Y2 is not recorded");
+}
+
 TEST(ScenarioEvaluation, ComparesAMotorWithItsOwnState) {
     Observations observed = good_observations();
     proto::AxisStatus& motor = *observed.status.add_motors();
