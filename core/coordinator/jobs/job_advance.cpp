@@ -58,7 +58,7 @@ void advance_path(activity::OnPath& path, JobLifecycle& jobs, CoordinatorLoop& l
         jobs.brake_on_path(Intent::Stop, loop);
     }
     if (const auto end = jobs.path().advance(path.task, loop, loop.out)) {
-        const auto next = path.jog ? path.jog->next(loop.now) : std::nullopt;
+        const auto next = path.jog ? path.jog->next(loop) : std::nullopt;
         const Tick renewed = path.jog ? path.jog->renewed() : Tick{};
         settle(path, *end, jobs, loop);
         const MachineActivity& activity = jobs.activity();

@@ -228,7 +228,7 @@ CommandResult begin_path_jog(const Command& command, Tick renewed, JobLifecycle&
         jobs.follow(std::move(task), next, std::move(pause), loop);
         return {};
     }
-    PathJog path_jog(command, renewed, loop.machine.jog_hold_ticks());
+    PathJog path_jog(command, renewed, loop);
     activity::OnPath moving{{}, std::move(task), std::move(pause), std::move(path_jog)};
     jobs.activity().become(MachineEvent::JogBegins, std::move(moving), loop.out);
     return {};

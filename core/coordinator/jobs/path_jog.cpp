@@ -88,10 +88,26 @@ void PathJog::replace(Command next, const LoopView& loop) {
     renewed_ = loop.now;
 }
 
-std::optional<Command> PathJog::next(Tick now) const {
-    if (is_over_ || is_released(now)) { return std::nullopt; }
+std::optional<Command> PathJog::next(const LoopView& loop) const {
+    if (is_over_ || is_released(loop.now)) { return std::nullopt; }
     if (replacement_) { return replacement_->jogs.empty() ? std::nullopt : replacement_; }
-    return has_distance() ? std::nullopt : std::optional(asked_);
+    return has_distance() ? rest_of_distance(loop) : std::optional(asked_);
+}
+
+/// Without the axes that have gone their distances.
+std::optional<Command> PathJog::rest_of_distance(const LoopView& loop) const {
+    const AxisCounts here = loop.counts();
+    Command rest = asked_;
+    rest.jogs.clear();
+    for (JogAxis jog : asked_.jogs) {
+        const AxisConfig& axis = loop.machine.axes[jog.axis];
+        const std::int64_t left = jog_target(jog, axis, from_[jog.axis], true) - here[jog.axis];
+        const bool is_ahead = left != 0 && (left < 0) == (jog.speed_mm_s < 0);
+        if (jog.distance_mm && !is_ahead) { continue; }
+        if (jog.distance_mm) { jog.distance_mm = std::abs(to_mm(axis, static_cast<double>(left))); }
+        rest.jogs.push_back(jog);
+    }
+    return rest.jogs.empty() ? std::nullopt : std::optional(std::move(rest));
 }
 
 bool PathJog::has_distance() const {

@@ -21,7 +21,8 @@ std::expected<Program, Refusal> jog_program(const Command& jog, const LoopView& 
 class PathJog {
 public:
     /// `renewed`: when its command came, or was last renewed; a line that follows another one is no renewal.
-    PathJog(Command asked, Tick renewed, Ticks hold) : asked_(std::move(asked)), hold_(hold), renewed_(renewed) {}
+    PathJog(Command asked, Tick renewed, const LoopView& loop)
+        : asked_(std::move(asked)), from_(loop.counts()), hold_(loop.machine.jog_hold_ticks()), renewed_(renewed) {}
 
     /// Takes a repeated command. Returns false if it is not this jog, or the one that follows.
     bool renew(const Command& command, const LoopView& loop);
@@ -37,14 +38,16 @@ public:
     void replace(Command next, const LoopView& loop);
     /// Somebody stopped the machine, so a key that is still held moves it no more.
     void finish() { is_over_ = true; }
-    /// The jog that follows when the machine rests: the replacement, or this one again if its renewals were late or if
-    /// it reached the end of one of several axes. nullopt: none.
-    std::optional<Command> next(Tick now) const;
+    /// The jog that follows when the machine rests: the replacement, or the rest of this one if its renewals were late
+    /// or if it reached the end of one of several axes. nullopt: none.
+    std::optional<Command> next(const LoopView& loop) const;
 
 private:
     bool has_distance() const;
+    std::optional<Command> rest_of_distance(const LoopView& loop) const;
 
     Command asked_;
+    AxisCounts from_;  // where it began
     Ticks hold_;
     Tick renewed_;
     std::optional<Command> replacement_;

@@ -117,6 +117,34 @@ TEST_F(GantryJog, GoesExactlyTheDistanceAskedFor) {
     EXPECT_NEAR(axis_mm(kY), 12.34, 1e-9);
 }
 
+TEST_F(GantryJog, GoesTheRestOfItsDistanceWhenRenewalsComeAgain) {
+    for (const double begun : {0.05, 0.6}) {
+        home();
+        const double from = axis_mm(kY);
+        ASSERT_TRUE(is_accepted(client, {{.axis = kY, .speed_mm_s = 10, .distance_mm = 9}}));
+        jog(begun);
+        (void)vm.advance_until([] { return false; }, Ticks{24'000});
+        jog(0.006);
+        EXPECT_EQ(phase(), MachinePhase::Stopping) << begun;
+        jog(4);
+        EXPECT_EQ(phase(), MachinePhase::Idle) << begun;
+        EXPECT_NEAR(axis_mm(kY), from + 9, 1e-9) << begun;
+    }
+}
+
+/// On a line until the first of them is there.
+TEST_F(BeltJog, OfDifferentDistancesGoesOnWithTheLongerOne) {
+    home();
+    const double x = axis_mm(kX);
+    const double y = axis_mm(kY);
+    ASSERT_TRUE(is_accepted(
+        client, {{.axis = kX, .speed_mm_s = 20, .distance_mm = 2}, {.axis = kY, .speed_mm_s = 20, .distance_mm = 6}}));
+    jog(4);
+    EXPECT_EQ(phase(), MachinePhase::Idle);
+    EXPECT_NEAR(axis_mm(kX), x + 2, 0.01);
+    EXPECT_NEAR(axis_mm(kY), y + 6, 0.01);
+}
+
 TEST_F(GantryJog, GoesADistanceAgainThatIsAskedForAgain) {
     home();
     ASSERT_TRUE(is_accepted(client, {{.axis = kY, .speed_mm_s = 30, .distance_mm = 10}}));
