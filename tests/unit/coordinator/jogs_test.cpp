@@ -116,14 +116,18 @@ TEST_F(Jogged, NothingIsHeldWhenAllIsReleased) {
 }
 
 /// A jog of several axes goes on with a further line when one of them is at its end. That is no renewal.
-TEST(PathJog, IsNotRenewedByAFurtherLine) {
+TEST_F(Jogged, APathJogIsNotRenewedByAFurtherLine) {
     const Command held{.client = 1, .kind = CommandKind::Jog, .jogs = {{.axis = 0, .speed_mm_s = 5}}};
-    const PathJog first(held, Tick{1'000}, Ticks{20});
-    ASSERT_TRUE(first.next(Tick{1'015}));
-    const PathJog second(*first.next(Tick{1'015}), first.renewed(), Ticks{20});
-    EXPECT_FALSE(second.is_released(Tick{1'020}));
-    EXPECT_TRUE(second.is_released(Tick{1'021}));
-    EXPECT_FALSE(second.next(Tick{1'021}));
+    const Tick pressed_at{1'000'000};
+    CoordinatorLoop later = loop();
+    later.now = pressed_at + machine.jog_hold_ticks();
+    const PathJog first(held, pressed_at, later);
+    ASSERT_TRUE(first.next(later));
+    const PathJog second(*first.next(later), first.renewed(), later);
+    EXPECT_FALSE(second.is_released(later.now));
+    later.now += Ticks{1};
+    EXPECT_TRUE(second.is_released(later.now));
+    EXPECT_FALSE(second.next(later));
 }
 
 }  // namespace
