@@ -96,6 +96,18 @@ std::int64_t place_after_homing(const Bench& bench, std::size_t motor, JobOutcom
     return std::llround(bench.map().place(motor, park));
 }
 
+/// How often the machine is homed or reset until it must be ready. Motors of one axis that lost their places far apart
+/// come nearer by max_skew_mm with each homing, and each of these may need a reset.
+int most_tries(const Bench& bench) {
+    if (bench.map().is_direct()) { return 6; }
+    double homings = 100;
+    for (const AxisConfig& axis : bench.machine().axes) {
+        if (!axis.max_skew_mm) { continue; }
+        homings = std::max(homings, 2 * (axis.position_max_mm - axis.position_min_mm) / *axis.max_skew_mm);
+    }
+    return static_cast<int>(2 * std::ceil(homings));
+}
+
 /// Axes that are homed in place are first put to their park by hand. A motor that is still homed objects with a Fault.
 void put_to_park(Bench& bench) {
     bool moves = false;
@@ -188,11 +200,10 @@ void play_homing(Bench& bench, Counts& at, const std::optional<HomingStop>& stop
 }
 
 void make_ready(Bench& bench, Counts& at) {
-    // Motors of one axis that lost their places far apart come nearer by max_skew_mm with each homing.
-    const int most_tries = bench.map().is_direct() ? 6 : 200;
+    const int most = most_tries(bench);
     const auto in = [&](MachinePhase phase) { return bench.watch().phase() == phase; };
     const auto homed = [&] { return std::ranges::all_of(bench.watch().motors(), &AxisState::homed); };
-    for (int tries = 0; tries < most_tries && !bench.over(); ++tries) {
+    for (int tries = 0; tries < most && !bench.over(); ++tries) {
         if (in(MachinePhase::Idle) && homed() && !must_home(bench, at)) { return; }
         if (in(MachinePhase::Idle)) {
             play_homing(bench, at);
