@@ -377,7 +377,7 @@ std::expected<std::uint64_t, std::string> DeviceDriver::drain_capture(const std:
     const Tick now{signed_word(kTick)};  // read after the head, so no step in the ring is later than this tick
     for (std::uint64_t index = tail; index != tail + *captured; ++index) {
         const std::uint64_t word = window_.load(capture_ring_.entry(index) + kCaptureRingStep);
-        const StepEdge step{.tick = {static_cast<std::int64_t>(kCaptureRingStepTick.of(word))},
+        const StepEdge step{.tick = {static_cast<std::int64_t>(word) >> kCaptureRingStepTick.low},
                             .direction = static_cast<std::int8_t>(word & kCaptureRingStepForward ? 1 : -1)};
         if (step.tick > now || (last_step_ && step.tick <= *last_step_)) {
             return std::unexpected("device: capture ring entry " + std::to_string(index) + " reads tick " +

@@ -94,7 +94,7 @@ std::optional<Command> PathJog::next(const LoopView& loop) const {
     return has_distance() ? rest_of_distance(loop) : std::optional(asked_);
 }
 
-/// Without the axes that have gone their distances.
+/// Without the axes that have gone their distances, as nearly as their motors allow.
 std::optional<Command> PathJog::rest_of_distance(const LoopView& loop) const {
     const AxisCounts here = loop.counts();
     Command rest = asked_;
@@ -102,7 +102,8 @@ std::optional<Command> PathJog::rest_of_distance(const LoopView& loop) const {
     for (JogAxis jog : asked_.jogs) {
         const AxisConfig& axis = loop.machine.axes[jog.axis];
         const std::int64_t left = jog_target(jog, axis, from_[jog.axis], true) - here[jog.axis];
-        const bool is_ahead = left != 0 && (left < 0) == (jog.speed_mm_s < 0);
+        const bool is_ahead =
+            std::abs(left) > loop.kinematics.rest_steps(jog.axis) && (left < 0) == (jog.speed_mm_s < 0);
         if (jog.distance_mm && !is_ahead) { continue; }
         if (jog.distance_mm) { jog.distance_mm = std::abs(to_mm(axis, static_cast<double>(left))); }
         rest.jogs.push_back(jog);

@@ -25,12 +25,12 @@ TEST(Driver, RefusesAnotherVersionAndAnotherMap) {
 }
 
 TEST(Driver, RefusesImpossibleAbilities) {
-    for (const std::uint64_t entries : {0, 8, 1000, 8192}) {
+    for (const std::uint64_t entries : {0u, 8u, 1000u, 8192u}) {
         DeviceBench bench;
         bench.window.store(registers::kSegmentEntries, entries);
         EXPECT_NE(attach_error(bench.window).find("SEGMENT_ENTRIES reads"), std::string::npos) << entries;
     }
-    for (const std::uint64_t entries : {0, 128, 65'535, 131'072}) {
+    for (const std::uint64_t entries : {0u, 128u, 65'535u, 131'072u}) {
         DeviceBench bench;
         bench.window.store(registers::kCaptureEntries, entries);
         EXPECT_NE(attach_error(bench.window).find("CAPTURE_ENTRIES reads"), std::string::npos) << entries;

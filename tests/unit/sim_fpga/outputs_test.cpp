@@ -249,7 +249,7 @@ TEST(Compare, EachStepAtAPlaceMakesAPulseOnTheStepItself) {
     }
     const std::vector<StepEdge> steps = bench.steps();
     std::vector<std::int64_t> expected;
-    for (const std::size_t step : {2, 4, 6}) {
+    for (const std::size_t step : {2u, 4u, 6u}) {
         const std::int64_t tick = (steps[step].tick - kStart).value;
         expected.insert(expected.end(), {tick, tick + 10});
     }

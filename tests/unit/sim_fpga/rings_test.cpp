@@ -149,6 +149,26 @@ TEST(CaptureRing, HoldsEveryStepUntilFullThenReportsLossAndCountsOn) {
     EXPECT_EQ(bench.driver.lost_captures(), 100'000 - DeviceAbilities{}.capture_entries);
 }
 
+/// A clock that was set back may be below zero.
+TEST(CaptureRing, HoldsTicksBelowZero) {
+    const RegisterWindow window = RegisterWindow::in_process();
+    const Tick start{-100'000};
+    SimulatedDevice device(window, Plant(endless_axis(), kTick_ns), kTick_ns, start);
+    DeviceDriver driver = DeviceDriver::attach(window, kTick_ns).value();
+    ASSERT_TRUE(driver.set_up({}));
+    device::LoadFrame frame = last_frame(1);
+    frame.start = start + Ticks{10};
+    for (const DeviceOrder& order :
+         {DeviceOrder{device::BeginRun{1}}, DeviceOrder{frame}, DeviceOrder{device::Arm{1}}}) {
+        ASSERT_TRUE(driver.apply(order));
+    }
+    device.advance(start + Ticks{2000});
+    std::vector<StepEdge> steps;
+    ASSERT_TRUE(driver.drain_capture([&](StepEdge step) { steps.push_back(step); }));
+    ASSERT_EQ(steps.size(), 10u);
+    EXPECT_EQ(steps[0], (StepEdge{start + Ticks{10 + 64}, 1}));
+}
+
 TEST(CaptureRing, WrapsAroundWhileItIsDrained) {
     DeviceBench bench(endless_axis());
     const Ticks body{128 * 200'000};

@@ -27,8 +27,6 @@ Program program_of_jog(const JogPress& press, const MachineConfig& machine, cons
         program.axes.push_back(axis.name);
         program.start_mm.push_back(at);
     }
-    const bool ends_with_first =
-        std::ranges::any_of(press.axes, [](const JogAxis& jog) { return jog.distance_mm.has_value(); });
     std::vector<double> at = program.start_mm;
     while (!ways.empty()) {
         const double seconds = std::ranges::min_element(ways, {}, &Way::seconds)->seconds;
@@ -42,7 +40,6 @@ Program program_of_jog(const JogPress& press, const MachineConfig& machine, cons
         move.mode = PathMode::ExactStop;
         program.blocks.push_back({{}, std::move(move)});
         std::erase_if(ways, [](const Way& way) { return way.seconds <= 0; });
-        if (ends_with_first) { break; }
     }
     return program;
 }

@@ -135,14 +135,17 @@ TEST_F(GantryJog, GoesTheRestOfItsDistanceWhenRenewalsComeAgain) {
 /// On a line until the first of them is there.
 TEST_F(BeltJog, OfDifferentDistancesGoesOnWithTheLongerOne) {
     home();
+    EpochLog log;
+    vm.observe(log);
     const double x = axis_mm(kX);
     const double y = axis_mm(kY);
-    ASSERT_TRUE(is_accepted(
-        client, {{.axis = kX, .speed_mm_s = 20, .distance_mm = 2}, {.axis = kY, .speed_mm_s = 20, .distance_mm = 6}}));
+    ASSERT_TRUE(is_accepted(client, {{.axis = kX, .speed_mm_s = 20, .distance_mm = 2.003},
+                                     {.axis = kY, .speed_mm_s = 20, .distance_mm = 6.007}}));
     jog(4);
     EXPECT_EQ(phase(), MachinePhase::Idle);
-    EXPECT_NEAR(axis_mm(kX), x + 2, 0.01);
-    EXPECT_NEAR(axis_mm(kY), y + 6, 0.01);
+    EXPECT_EQ(log.begun, 2) << "what is left is less than the motors' steps";
+    EXPECT_NEAR(axis_mm(kX), x + 2.003, 0.01);
+    EXPECT_NEAR(axis_mm(kY), y + 6.007, 0.01);
 }
 
 TEST_F(GantryJog, GoesADistanceAgainThatIsAskedForAgain) {
