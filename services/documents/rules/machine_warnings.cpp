@@ -6,6 +6,7 @@
 
 #include "core/gcode/motion.hpp"
 #include "core/number_text.hpp"
+#include "core/protocol/rules.hpp"
 
 namespace lockstep {
 namespace {
@@ -44,6 +45,20 @@ private:
     std::vector<std::string>& warnings_;
 };
 
+/// Each motor's process begins to search when its order arrives, and it may stall before.
+void check_skew(const MachineConfig& machine, const AxisConfig& axis, std::vector<std::string>& warnings) {
+    if (axis.motors.size() < 2 || !axis.max_skew_mm || axis.homing.in_place) { return; }
+    const ProtocolTiming& t = machine.timing;
+    const double late_s = 1e-6 * static_cast<double>(t.slot_us) * (t.stall_slots + rules::kHopSlots);
+    const double behind_mm = late_s * axis.homing.search_velocity_mm_s;
+    if (*axis.max_skew_mm >= behind_mm) { return; }
+    warnings.push_back(fmt::format(
+        "axis {}: max_skew_mm is {}; a motor whose process stalls for timing.stall_slots as homing begins is {} mm "
+        "behind the others, and homing stops with motors-skewed; increase max_skew_mm, or decrease "
+        "homing.search_velocity_mm_s",
+        axis.name, number_text(*axis.max_skew_mm), number_text(behind_mm)));
+}
+
 }  // namespace
 
 std::vector<std::string> machine_warnings(const MachineConfig& machine) {
@@ -52,6 +67,7 @@ std::vector<std::string> machine_warnings(const MachineConfig& machine) {
     WeakMotors motors(warnings);
     for (const AxisConfig& axis : machine.axes) {
         motors.check(axis);
+        check_skew(machine, axis, warnings);
         if (gcode::axis_place(axis.name)) { continue; }
         warnings.push_back(fmt::format(
             "axis {}: no word of G-code names it, so no program moves it; only jogs and lockstep home and move do{}",

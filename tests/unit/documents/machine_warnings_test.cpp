@@ -52,5 +52,20 @@ TEST(MachineWarnings, NameSimulatedMotorsThatAreWeakerThanTheLimits) {
     EXPECT_THAT(warnings_of("device: \"shm:m-x\" plant { max_jump_mm_s: 9 }"), IsEmpty());
 }
 
+TEST(MachineWarnings, NameAnAxisWhoseMotorsAStallPartsFurtherThanTheyMayBe) {
+    const auto warnings_of = [](const std::string& skew) {
+        const auto machine = parse_machine(
+            "name: \"m\" axis { name: \"Y\" steps_per_mm: 80 start_velocity_mm_s: 20 max_velocity_mm_s: 100 "
+            "max_accel_mm_s2: 1000 position_min_mm: 0 position_max_mm: 100 homing { search_velocity_mm_s: 20 "
+            "pulloff_mm: 1 } motor { name: \"Y1\" } motor { name: \"Y2\" } max_skew_mm: " +
+            skew + " }");
+        return machine ? machine_warnings(*machine) : std::vector<std::string>{"refused"};
+    };
+    EXPECT_THAT(warnings_of("2.4"), IsEmpty());
+    EXPECT_THAT(warnings_of("2.3"),
+                ElementsAre(HasSubstr("axis Y: max_skew_mm is 2.3; a motor whose process stalls for "
+                                      "timing.stall_slots as homing begins is 2.4 mm behind the others")));
+}
+
 }  // namespace
 }  // namespace lockstep

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/kinematics/axis_steps.hpp"
+#include "core/protocol/rules.hpp"
 #include "tests/simulation/simtest/draw/draw.hpp"
 
 namespace lockstep::simtest {
@@ -13,14 +14,16 @@ namespace {
 double inwards(const AxisConfig& axis) { return axis.homing.toward_min ? 1 : -1; }
 
 /// The motors stand apart at power-up and their switches are not square, by less than the pull-off each. The first to
-/// find its switch pulls off while the others still search.
-void give_several_motors(Draw& draw, AxisConfig& axis) {
+/// find its switch pulls off while the others still search. A motor may begin a stall later than the others.
+void give_several_motors(Draw& draw, const ProtocolTiming& timing, AxisConfig& axis) {
     HomingConfig& homing = axis.homing;
     const double pulloff = homing.pulloff_mm;
     const double beside = homing.switch_position_mm + inwards(axis) * pulloff;
     const double park = beside + pulloff * (draw.chance(0.5) ? 0 : draw.real(-3, 3));
     homing.park_mm = std::clamp(park, axis.position_min_mm, axis.position_max_mm);
-    axis.max_skew_mm = std::abs(homing.park_mm - beside) + pulloff * draw.real(3.2, 6);
+    const double late_s = 1e-6 * static_cast<double>(timing.slot_us) * (timing.stall_slots + 2 * rules::kHopSlots);
+    axis.max_skew_mm =
+        std::abs(homing.park_mm - beside) + pulloff * draw.real(3.2, 6) + late_s * homing.search_velocity_mm_s;
     const std::int64_t motors = draw.chance(0.8) ? 2 : 3;
     for (std::int64_t k = 0; k < motors; ++k) {
         MotorBlock motor{.name = axis.name + "m" + std::to_string(k + 1), .plant = axis.plant};
@@ -107,7 +110,7 @@ MachineConfig with_motors(std::uint64_t seed, MachineConfig machine) {
     Draw draw(seed ^ 0x3070250000000000U);
     const std::size_t axes = machine.axes.size();
     std::size_t last = axes;  // axes from here on have several motors
-    if (axes < 2 || draw.chance(0.5)) { give_several_motors(draw, machine.axes[--last]); }
+    if (axes < 2 || draw.chance(0.5)) { give_several_motors(draw, machine.timing, machine.axes[--last]); }
     if (last >= 2 && draw.chance(0.6)) {
         draw.chance(0.8) ? give_belts(draw, machine) : give_skew(draw, machine);
         if (machine.kinematics.core_xy) { last = 0; }  // a matrix would be a second description
