@@ -22,8 +22,9 @@ void give_several_motors(Draw& draw, const ProtocolTiming& timing, AxisConfig& a
     const double park = beside + pulloff * (draw.chance(0.5) ? 0 : draw.real(-3, 3));
     homing.park_mm = std::clamp(park, axis.position_min_mm, axis.position_max_mm);
     const double late_s = 1e-6 * static_cast<double>(timing.slot_us) * (timing.stall_slots + 2 * rules::kHopSlots);
+    const double parked = std::abs(homing.park_mm - beside);
     axis.max_skew_mm =
-        std::abs(homing.park_mm - beside) + pulloff * draw.real(3.2, 6) + late_s * homing.search_velocity_mm_s;
+        std::max(parked + pulloff * draw.real(3.2, 6), parked + pulloff + late_s * homing.search_velocity_mm_s);
     const std::int64_t motors = draw.chance(0.8) ? 2 : 3;
     for (std::int64_t k = 0; k < motors; ++k) {
         MotorBlock motor{.name = axis.name + "m" + std::to_string(k + 1), .plant = axis.plant};
