@@ -7,8 +7,8 @@
 namespace lockstep {
 
 std::int64_t OutputUnit::Ramp::at(Tick now) const {
-    const auto ticks = static_cast<std::uint64_t>((now - since).value);
-    return static_cast<std::int64_t>(static_cast<std::uint64_t>(value) + ticks * static_cast<std::uint64_t>(slope));
+    const Int128 sum = Int128{value} + Int128{slope} * (now - since).value;
+    return static_cast<std::int64_t>(std::clamp<Int128>(sum, 0, kFullScale));
 }
 
 void OutputUnit::set(const DeviceSetup& setup) {
@@ -60,11 +60,12 @@ void OutputUnit::change(const SetDigital& digital, Tick now, std::int64_t count)
 }
 
 void OutputUnit::change(const RampAnalog& analog, Tick now, std::int64_t) {
-    ramps_[analog.channel] = {.value = analog.value, .slope = analog.slope, .since = now};
+    const std::int64_t value = std::clamp<std::int64_t>(analog.value, 0, kFullScale);
+    ramps_[analog.channel] = {.value = value, .slope = analog.slope, .since = now};
     events_.put({.tick = now,
                  .kind = ChannelEvent::Kind::Analog,
                  .channel = analog.channel,
-                 .value = analog.value,
+                 .value = value,
                  .detail = analog.slope});
 }
 
@@ -93,8 +94,6 @@ std::uint16_t OutputUnit::digital() const {
     return static_cast<std::uint16_t>((levels_ & ~compare_outputs_) | pulse);
 }
 
-std::int64_t OutputUnit::analog(std::size_t channel, Tick now) const {
-    return std::clamp<std::int64_t>(ramps_[channel].at(now), 0, kFullScale);
-}
+std::int64_t OutputUnit::analog(std::size_t channel, Tick now) const { return ramps_[channel].at(now); }
 
 }  // namespace lockstep

@@ -41,7 +41,7 @@ public:
     std::int64_t analog(std::size_t channel, Tick now) const;
 
 private:
-    /// A value that changes by its slope with each tick, without a bound. Its sum may wrap, as in hardware.
+    /// A value that changes by its slope with each tick, and stays at 0 or full scale when it gets there.
     struct Ramp {
         std::int64_t value = 0;
         std::int64_t slope = 0;

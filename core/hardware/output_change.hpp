@@ -25,8 +25,8 @@ struct SetDigital {
     bool operator==(const SetDigital&) const = default;
 };
 
-/// From this tick on the output has this value, plus `slope` for each tick after. The output shows 0 while the sum is
-/// below 0, and full scale while it is above.
+/// From this tick on the output has this value, plus `slope` for each tick after. It stays at 0 and at full scale when
+/// it gets there.
 struct RampAnalog {
     std::uint8_t channel = 0;
     std::int64_t value = 0;

@@ -111,6 +111,18 @@ TEST(Outputs, AnAnalogOutputShowsNothingBelowZeroOrAboveFullScale) {
     EXPECT_EQ(bench.device.outputs().analog(0, bench.device.now()), 0);
 }
 
+/// An accumulator without a bound would wrap to full scale after some hundred ticks.
+TEST(Outputs, AnAnalogValueStaysAtZeroHoweverLongItsSlopeGoesOn) {
+    OutputBench bench;
+    device::LoadFrame dwell{1, kStart, true, {Position::steps(0), {{Ticks{1'000'000'000}, {}, {}}}, {}}};
+    bench.load(dwell, {{ramp(1, kFullScale, -kFullScale / 300)}, {}});
+    bench.order(device::Arm{1});
+    for (const std::int64_t ticks : {400, 700, 1000, 1'000'000, 999'999'999}) {
+        (void)bench.at(kStart + Ticks{ticks});
+        EXPECT_EQ(bench.device.outputs().analog(0, bench.device.now()), 0) << ticks;
+    }
+}
+
 TEST(Outputs, MalformedChangesOfAFrameLeaveAllItsOutputsAlone) {
     const OutputTrack malformed[] = {{{at(1, kLaser, kLaser), at(0, 0, kLaser)}, {}},
                                      {{at(700, kLaser, kLaser), at(600, 0, kLaser)}, {}},
