@@ -45,7 +45,7 @@ TEST_F(GrblSender, StreamsLinesHoldsResumesAndResets) {
     EXPECT_EQ(status().phase(), "Holding");
     sender.send("~");
     EXPECT_TRUE(eventually([&] { return steps_of_x() == 119 * 80 && status().phase() == "Idle"; }));
-    ASSERT_TRUE(sender.answers("G0 X10", "ok"));
+    ASSERT_TRUE(sender.answers("G1 X10 F1200", "ok"));  // some seconds, so that the reset comes in time
     EXPECT_TRUE(eventually([&] { return status().phase() == "Running" && steps_of_x() < 119 * 80; }));
     sender.send("\x18");
     EXPECT_TRUE(sender.receives("Grbl 1.1h"));
