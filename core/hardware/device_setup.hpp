@@ -9,7 +9,7 @@
 
 namespace lockstep {
 
-/// What the outputs do when the device itself must bring them to a safe state.
+/// The levels to which the device itself brings outputs when they must be safe.
 struct SafeOutputs {
     SetDigital digital;
     std::uint8_t analog_off = 0;  // the analog outputs that fall to 0; output n is bit n

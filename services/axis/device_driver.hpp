@@ -48,7 +48,7 @@ public:
     std::expected<std::uint64_t, std::string> drain_events(const std::function<void(const ChannelEvent&)>& on_event);
     /// Number of events since the device's power-up that found the event ring full.
     std::uint64_t lost_events() const { return window_.load(registers::kEventLost); }
-    /// What the device is built for.
+    /// The device's abilities, as read when the driver attached.
     const DeviceAbilities& abilities() const { return abilities_; }
     /// Number of steps since the device's power-up that were made while the capture ring was full.
     std::uint64_t lost_captures() const { return window_.load(registers::kCaptureLost); }
