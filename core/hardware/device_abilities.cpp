@@ -13,8 +13,6 @@ namespace {
 /// The speed that plans reach at most, in parts of the fastest that a device can make.
 constexpr double kPlannedPart = kMaxPlannedStepsPerTick / kMaxStepsPerTick;
 
-constexpr double kPlanRounding = 1e-12;
-
 double fastest_steps_per_tick(const MachineConfig& machine, const MotorConfig& motor) {
     return motor.max_velocity_mm_s * motor.steps_per_mm / machine.ticks_per_second();
 }
@@ -55,14 +53,14 @@ std::uint64_t modulated(const DeviceSetup& setup) {
 
 }  // namespace
 
+/// Speeds are accepted with the rounding of their text, so the needs that follow from them leave it out.
 DeviceAbilities needs_of(const MachineConfig& machine, const MotorConfig& motor) {
-    const double speed = fastest_steps_per_tick(machine, motor);
+    const double speed = fastest_steps_per_tick(machine, motor) / (1 + kTextRounding);
     const std::size_t frame =
         kFrameHeaders + static_cast<std::size_t>(body_pieces(machine.timing)) + kMaxTailPieces + kDevicePieces;
     return {.segment_entries = static_cast<std::uint64_t>(frames_ahead(machine.timing)) * frame,
             .capture_entries = static_cast<std::uint64_t>(std::ceil(speed * longest_gap_ticks(machine))),
-            .least_step = {
-                static_cast<std::int64_t>(std::min(std::floor(kPlannedPart / speed * (1 + kPlanRounding)), 1e9))}};
+            .least_step = {static_cast<std::int64_t>(std::min(std::floor(kPlannedPart / speed), 1e9))}};
 }
 
 std::optional<std::string> lack_of(const DeviceAbilities& device, const MachineConfig& machine,
@@ -85,7 +83,7 @@ std::optional<std::string> lack_of(const DeviceAbilities& device, const MachineC
                " ticks from one step to the next; max_velocity_mm_s of motor " + motor.name + " must be at most " +
                number_text(most_mm_s) + ", or decrease its steps_per_mm";
     }
-    return std::nullopt;
+    return lack_of(device, setup_of(machine, motor));
 }
 
 std::optional<std::string> lack_of(const DeviceAbilities& device, const DeviceSetup& setup) {

@@ -33,7 +33,8 @@ struct DeviceAbilities {
 /// The least abilities with which a device can move this motor of the machine.
 DeviceAbilities needs_of(const MachineConfig& machine, const MotorConfig& motor);
 
-/// The first need of the motor that the device cannot meet, with the values and the remedy; nullopt if it meets all.
+/// The first need of the motor that the device cannot meet, its setup included, with the values and the remedy; nullopt
+/// if it meets all.
 std::optional<std::string> lack_of(const DeviceAbilities& device, const MachineConfig& machine,
                                    const MotorConfig& motor);
 /// The same for a setup.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/number_text.hpp"
 #include "core/protocol/frame_room.hpp"
 
 namespace lockstep {
@@ -23,6 +24,17 @@ TEST(DeviceAbilities, OfASimulatedDeviceSufficeForEveryTimingAndTheFastestMotor)
         fast.machine.timing = with_least_times({.stall_slots = stall, .late_check_slots = std::min(stall, 2)});
         EXPECT_LE(needs_of(fast.machine, fast.motor).segment_entries, 1024u) << stall;
     }
+}
+
+/// A speed is accepted if it exceeds its limit by the rounding of its text only.
+TEST(DeviceAbilities, OfASimulatedDeviceSufficeForASpeedThatIsRoundedUp) {
+    Case fast;
+    fast.machine.timing = {
+        .slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 5};
+    fast.motor.max_velocity_mm_s = kMaxPlannedStepsPerTick * 1e6 / 80 * (1 + kTextRounding / 2);
+    EXPECT_EQ(fast.lack({}), "");
+    fast.motor.max_velocity_mm_s = kMaxPlannedStepsPerTick * 1e6 / 80 * (1 + 2 * kTextRounding);
+    EXPECT_NE(fast.lack({}), "");
 }
 
 TEST(DeviceAbilities, JustEnoughIsEnoughAndOneLessIsNot) {
