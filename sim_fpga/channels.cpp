@@ -32,7 +32,8 @@ void Channels::set(const DeviceSetup& setup, const DevicePlace& at) {
 
 void Channels::take_orders(const DevicePlace& at) {
     host_.look(window_.load(kBeat), at.now);
-    if (std::exchange(request_, window_.load(kDirectRequest)) != window_.load(kDirectRequest)) { change_directly(at); }
+    const std::uint64_t asked = window_.load(kDirectRequest);
+    if (std::exchange(request_, asked) != asked) { change_directly(at); }
 }
 
 void Channels::change_directly(const DevicePlace& at) {

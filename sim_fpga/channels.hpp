@@ -50,6 +50,7 @@ public:
     /// A step that arrives at this count.
     void arrive(Tick tick, std::int64_t count) { outputs_.arrive(tick, count); }
 
+    const DeviceSetup& setup() const { return setup_; }
     /// The inputs that are closed; input n is bit n.
     std::uint32_t closed() const { return inputs_.closed(); }
     bool is_host_silent() const { return host_.is_silent(); }

@@ -87,13 +87,12 @@ void SimulatedDevice::take_setup() {
         setup_refused_ = asked;
         return;
     }
-    setup_ = setup;
     setup_taken_ = asked;
-    channels_.set(setup_, place());
+    channels_.set(setup, place());
 }
 
 void SimulatedDevice::take_enable() {
-    const bool falls_off = channels_.is_host_silent() && setup_.disable_at_silence;
+    const bool falls_off = channels_.is_host_silent() && setup().disable_at_silence;
     if (window_.load(kEnable) == 0 || falls_off) {
         if (enabled_.has_value() && in_motion()) { finish(kStatusStoppedByHost); }
         enabled_.reset();
@@ -140,7 +139,7 @@ Tick SimulatedDevice::decide_first_frame(Tick until) {
             first->is_frame(1) && first->start == engine_.now() && rebase_to(first->from(engine_.position().count()));
         if (!joins || !segments_.take_frame(1, next_)) {
             finish(kStatusBadSegment);
-        } else if (is_closed(setup_.stop)) {
+        } else if (is_closed(setup().stop)) {
             finish(kStatusStoppedByInput);
         } else if (triggered()) {
             trigger_count_ = count_;
@@ -233,11 +232,11 @@ bool SimulatedDevice::rebase_to(Position from) {
 }
 
 bool SimulatedDevice::may_move() const {
-    return setup_taken_ != 0 && enabled_ && engine_.now() - *enabled_ >= setup_.enable_wait;
+    return setup_taken_ != 0 && enabled_ && engine_.now() - *enabled_ >= setup().enable_wait;
 }
 
 bool SimulatedDevice::runs_into_limit(int direction) const {
-    return is_closed(direction < 0 ? setup_.limit_min : setup_.limit_max);
+    return is_closed(direction < 0 ? setup().limit_min : setup().limit_max);
 }
 
 bool SimulatedDevice::triggered() const {
@@ -283,7 +282,7 @@ std::uint64_t SimulatedDevice::reason_to_cease() const {
     if (!in_motion()) { return 0; }
     const bool at_limit = into_limit_ || (stepped_ != 0 && runs_into_limit(stepped_));
     return (at_limit ? kStatusStoppedByLimit : 0) | (triggered() ? kStatusStoppedByTrigger : 0) |
-           (is_closed(setup_.stop) ? kStatusStoppedByInput : 0);
+           (is_closed(setup().stop) ? kStatusStoppedByInput : 0);
 }
 
 DevicePlace SimulatedDevice::place() const {
@@ -292,10 +291,10 @@ DevicePlace SimulatedDevice::place() const {
 
 std::uint64_t SimulatedDevice::status_word() const {
     const auto bit = [](bool set, std::uint64_t mask) { return set ? mask : 0; };
-    return run_bits_ | bit(phase_ == Phase::Body || phase_ == Phase::Tail, kStatusMoving) |
-           bit(phase_ == Phase::Tail, kStatusInTail) | bit(is_closed(setup_.limit_min), kStatusLimitMin) |
-           bit(is_closed(setup_.limit_max), kStatusLimitMax) | bit(is_closed(setup_.home), kStatusHome) |
-           bit(enabled_.has_value(), kStatusEnabled) | bit(channels_.is_host_silent(), kStatusHostSilent) |
+    return run_bits_ | bit(in_motion(), kStatusMoving) | bit(phase_ == Phase::Tail, kStatusInTail) |
+           bit(is_closed(setup().limit_min), kStatusLimitMin) | bit(is_closed(setup().limit_max), kStatusLimitMax) |
+           bit(is_closed(setup().home), kStatusHome) | bit(enabled_.has_value(), kStatusEnabled) |
+           bit(channels_.is_host_silent(), kStatusHostSilent) |
            bit(setup_refused_ != 0 && window_.load(kSetupRequest) == setup_refused_, kStatusBadSetup);
 }
 

@@ -75,6 +75,7 @@ private:
     bool runs_into_limit(int direction) const;
     bool triggered() const;
 
+    const DeviceSetup& setup() const { return channels_.setup(); }
     bool is_closed(std::uint32_t inputs) const { return (channels_.closed() & inputs) != 0; }
     bool may_move() const;
 
@@ -111,7 +112,6 @@ private:
     int stepped_ = 0;          // the direction of a step after which pulses paused; 0: none
     bool into_limit_ = false;  // a pulse was suppressed at a limit switch
 
-    DeviceSetup setup_;
     std::uint64_t setup_taken_ = 0;    // its number
     std::uint64_t setup_refused_ = 0;  // the number of one that is beyond the abilities
     std::optional<Tick> enabled_;      // since when

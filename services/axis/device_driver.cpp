@@ -221,7 +221,7 @@ std::expected<DeviceStatus, std::string> DeviceDriver::read() {
         if (const auto known = identify(window_, tick_ns_); !known) { return std::unexpected(known.error()); }
         if (before % 2 != 0 || window_.load(kSequence) != before) { continue; }
         if (!loaded) { return std::unexpected(loaded.error()); }
-        if ((window_.load(kStatus) & kStatusBadSetup) != 0) {
+        if (status.bad_setup) {
             return std::unexpected("device: it refuses its setup, which its own abilities allow; restart the device");
         }
         status.free_segments = static_cast<std::uint32_t>(segment_ring_.entries() - *loaded);
@@ -268,6 +268,7 @@ DeviceStatus DeviceDriver::read_words() const {
         .inputs = static_cast<std::uint32_t>(window_.load(kInputs)),
         .outputs = static_cast<std::uint16_t>(window_.load(kOutputs)),
         .enabled = has(kStatusEnabled),
+        .bad_setup = has(kStatusBadSetup),
         .host_silent = has(kStatusHostSilent),
         .stopped_by_input = has(kStatusStoppedByInput),
         .bad_output = has(kStatusBadOutput),

@@ -25,11 +25,18 @@ std::expected<std::uint32_t, std::string> WindowPort::drain(const OnStep& on_ste
     return static_cast<std::uint32_t>(driver_.abilities().capture_entries - *captured);
 }
 
-std::expected<DeviceDriver, std::string> attach_driver(RegisterWindow window, const MachineConfig& machine,
-                                                       const MotorConfig& motor) {
+std::expected<DeviceDriver, std::string> find_device(RegisterWindow window, const MachineConfig& machine,
+                                                     const MotorConfig& motor) {
     auto driver = DeviceDriver::attach(std::move(window), machine.tick_ns);
     if (!driver) { return driver; }
     if (auto lack = lack_of(driver->abilities(), machine, motor)) { return std::unexpected(std::move(*lack)); }
+    return driver;
+}
+
+std::expected<DeviceDriver, std::string> attach_driver(RegisterWindow window, const MachineConfig& machine,
+                                                       const MotorConfig& motor) {
+    auto driver = find_device(std::move(window), machine, motor);
+    if (!driver) { return driver; }
     const auto set = driver->set_up(setup_of(machine, motor));
     return set ? std::move(driver) : std::unexpected(set.error());
 }

@@ -45,8 +45,11 @@ private:
     std::optional<DeviceReading> newest_;
 };
 
-/// A driver to the device behind these registers, which it sets up. Errors: those of DeviceDriver::attach; a device
+/// A driver to the device behind these registers. It changes nothing. Errors: those of DeviceDriver::attach; a device
 /// that cannot do what this motor of the machine needs.
+std::expected<DeviceDriver, std::string> find_device(RegisterWindow window, const MachineConfig& machine,
+                                                     const MotorConfig& motor);
+/// The same, and sets the device up for the motor.
 std::expected<DeviceDriver, std::string> attach_driver(RegisterWindow window, const MachineConfig& machine,
                                                        const MotorConfig& motor);
 

@@ -10,11 +10,10 @@
 #include "clients/session/session.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/output.hpp"
-#include "core/hardware/device_abilities.hpp"
 #include "core/kinematics/motors.hpp"
 #include "idl/proto/report.pb.h"
-#include "services/axis/device_driver.hpp"
 #include "services/axis/device_window.hpp"
+#include "services/axis/window_port.hpp"
 #include "services/documents/placement.hpp"
 #include "services/files/directories.hpp"
 #include "services/network/host_name.hpp"
@@ -73,13 +72,8 @@ void examine_host(const MachineConfig& machine, double seconds, Output& output, 
 std::expected<void, std::string> try_device(const MachineConfig& machine, const MotorConfig& motor) {
     const auto window = open_window(motor.device);
     if (!window) { return std::unexpected(window.error()); }
-    const auto driver = DeviceDriver::attach(*window, machine.tick_ns);
-    if (!driver) { return std::unexpected(driver.error()); }
-    if (auto lack = lack_of(driver->abilities(), machine, motor)) { return std::unexpected(std::move(*lack)); }
-    if (auto lack = lack_of(driver->abilities(), setup_of(machine, motor))) {
-        return std::unexpected(std::move(*lack));
-    }
-    return {};
+    const auto driver = find_device(*window, machine, motor);
+    return driver ? std::expected<void, std::string>{} : std::unexpected(driver.error());
 }
 
 void examine_parts_here(const MachineConfig& machine, Findings& findings) {

@@ -18,14 +18,14 @@ inline constexpr double kStepLateness_us = 2;
 /// How long before its start an axis must hold a setpoint; a later one is not run.
 double slack_deadline_ms(const ProtocolTiming& timing);
 
-/// What a fault or an alarm is about: an axis, or a motor that is not the only one of an axis. Both are empty for the
-/// whole machine.
+/// The part of the machine that has a fault or an alarm: an axis, or a motor that is not the only one of an axis. Both
+/// are empty for the whole machine.
 struct FaultPlace {
     std::string axis;
     std::string motor;
 };
 
-/// What a process serves: an axis with a motor of its own, or a motor.
+/// A process serves an axis with a motor of its own, or a motor.
 struct Served {
     FaultPlace place;
     const AxisSnapshot& seen;

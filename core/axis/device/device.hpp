@@ -37,6 +37,7 @@ struct DeviceStatus {
     std::uint32_t inputs = 0;         // the inputs that are closed; input n is bit n
     std::uint16_t outputs = 0;        // the digital outputs that are on
     bool enabled = false;             // the motor is enabled
+    bool bad_setup = false;           // the device does not take the setup that it was given
     bool host_silent = false;         // the device heard no beat for the time of its setup
     bool stopped_by_input = false;    // this run ended, or did not begin, because a stop input is closed
     bool bad_output = false;  // changes of outputs in this run were malformed, and none of their frame's was made

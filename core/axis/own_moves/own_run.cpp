@@ -5,6 +5,7 @@
 #include "core/protocol/frame_room.hpp"
 
 namespace lockstep {
+
 /// Loads the first frame at once, even if it starts late, because without a frame the device cannot begin or end its
 /// run.
 void OwnRun::feed(AxisLoop& loop) {

@@ -15,6 +15,11 @@ struct Way {
     double seconds = 0;     // until its end
 };
 
+/// Whether a way of so many steps is in the direction of the jog, and not shorter than `least`.
+bool leads_ahead(const JogAxis& jog, std::int64_t way, std::int64_t least) {
+    return std::abs(way) >= least && (way < 0) == (jog.speed_mm_s < 0);
+}
+
 std::expected<Way, Refusal> way_of(const JogAxis& asked, const AxisCounts& here, const LoopView& loop) {
     if (asked.axis >= here.size()) { return refuse(FaultCode::BadProgram, "the machine does not have this axis"); }
     const AxisConfig& axis = loop.machine.axes[asked.axis];
@@ -22,11 +27,9 @@ std::expected<Way, Refusal> way_of(const JogAxis& asked, const AxisCounts& here,
         return refuse(FaultCode::BadProgram, jog_speed_text(axis, std::abs(asked.speed_mm_s)));
     }
     const std::int64_t way = jog_target(asked, axis, here[asked.axis], true) - here[asked.axis];
-    const bool is_backward = asked.speed_mm_s < 0;
     // Its motors may rest beside the end of the travel, and a shorter way may move none of them.
     const std::int64_t least = asked.distance_mm ? 1 : loop.kinematics.rest_steps(asked.axis) + 1;
-    const bool has_way = is_backward == (way < 0) && std::abs(way) >= least;
-    const double mm = has_way ? std::abs(to_mm(axis, static_cast<double>(way))) : 0;
+    const double mm = leads_ahead(asked, way, least) ? std::abs(to_mm(axis, static_cast<double>(way))) : 0;
     return Way{asked.axis, asked.speed_mm_s, mm / std::abs(asked.speed_mm_s)};
 }
 
@@ -102,8 +105,7 @@ std::optional<Command> PathJog::rest_of_distance(const LoopView& loop) const {
     for (JogAxis jog : asked_.jogs) {
         const AxisConfig& axis = loop.machine.axes[jog.axis];
         const std::int64_t left = jog_target(jog, axis, from_[jog.axis], true) - here[jog.axis];
-        const bool is_ahead =
-            std::abs(left) > loop.kinematics.rest_steps(jog.axis) && (left < 0) == (jog.speed_mm_s < 0);
+        const bool is_ahead = leads_ahead(jog, left, loop.kinematics.rest_steps(jog.axis) + 1);
         if (jog.distance_mm && !is_ahead) { continue; }
         if (jog.distance_mm) { jog.distance_mm = std::abs(to_mm(axis, static_cast<double>(left))); }
         rest.jogs.push_back(jog);

@@ -1,4 +1,4 @@
-// What a sender sees of a machine whose axes are not moved by one motor each.
+// A sender sees axes, also of a machine on which an axis has several motors or a motor moves several axes.
 #include <gmock/gmock.h>
 
 #include "clients/grbl/protocol/machine_view.hpp"

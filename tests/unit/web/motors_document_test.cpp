@@ -1,4 +1,4 @@
-// What the page gets of a machine whose axes are not moved by one motor each.
+// The page gets the motors of a machine on which an axis has several motors or a motor moves several axes.
 #include <gtest/gtest.h>
 
 #include "clients/web/state/axis_document.hpp"

@@ -41,7 +41,8 @@ void add_skew(const MachineConfig& machine, std::vector<double>& shares) {
     }
 }
 
-/// What a travel demands of a carriage at most: at the corner that is furthest from its tower.
+/// The most that a carriage moves for 1 mm of each axis. It does so at the corner of the travel that is furthest from
+/// its tower.
 std::vector<double> steepest(const Carriages& carriages, std::size_t tower, std::size_t axes) {
     std::vector<double> shares(axes, 0.0);
     for (std::size_t i = 0; i < axes; ++i) {

@@ -1,4 +1,4 @@
-// What a fault is about: axes, motors, or the whole machine.
+// The parts of the machine that have a fault, in words: axes, motors, or the whole machine.
 import { fill } from "../texts/fill";
 import type { Texts } from "../texts/en";
 
