@@ -132,6 +132,8 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
       "a resume first shows the way back, then moves the axes there", either(Remedy::Resume, Remedy::Stop)) \
     X(MotorsSkewed, 147, "motors-skewed", "the motors of an axis are not at the same place of it, or came apart by more than max_skew_mm while they homed", \
       "find out what holds the slower side back; the machine may be racked", in_order(Remedy::Reset, Remedy::Home)) \
+    X(OutputsImpossible, 149, "outputs-impossible", "a frame changes outputs in a way that the axis's device cannot", \
+      "check that coordinator and axes are of the same version; please report it", in_order(Remedy::Reset, Remedy::Again)) \
     X(WriterHeld, 150, "writer-held", "another writer has the machine; other clients can only watch, hold and stop it", \
       "wait until the writer gives it back; or take it over: {take}", {})
 // clang-format on

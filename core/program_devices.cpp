@@ -4,6 +4,14 @@
 
 namespace lockstep {
 
+namespace {
+
+bool is_stored(std::int32_t analog_number) {
+    return analog_number >= 0 && static_cast<std::size_t>(analog_number) < ProgramDevices{}.analog.size();
+}
+
+}  // namespace
+
 void ProgramDevices::apply(const ProgramEvent& event) {
     using Kind = ProgramEvent::Kind;
     const std::uint64_t output = event.index >= 0 && event.index < 64 ? std::uint64_t{1} << event.index : 0;
@@ -23,9 +31,19 @@ void ProgramDevices::apply(const ProgramEvent& event) {
         case Kind::FloodOn: flood = true; return;
         case Kind::OutputOn: outputs |= output; return;
         case Kind::OutputOff: outputs &= ~output; return;
-        case Kind::AnalogOutput: return;
+        case Kind::AnalogOutput:
+            if (is_stored(event.index)) { analog[static_cast<std::size_t>(event.index)] = event.value; }
+            return;
         case Kind::Tool: tool = if_positive(event.index); return;
     }
+}
+
+bool ProgramDevices::output_is_on(std::int32_t number) const {
+    return number >= 0 && number < 64 && (outputs >> number & 1) != 0;
+}
+
+double ProgramDevices::analog_output(std::int32_t number) const {
+    return is_stored(number) ? analog[static_cast<std::size_t>(number)] : 0;
 }
 
 std::vector<std::uint32_t> ProgramDevices::outputs_on() const {

@@ -1,6 +1,7 @@
 // The state of spindle, coolant, tool and outputs, as set by the words of programs.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -18,11 +19,15 @@ struct ProgramDevices {
     bool flood = false;
     std::optional<std::int32_t> tool;  // in the spindle; nullopt: none, or not known
     std::uint64_t outputs = 0;         // bit n: output n is on; outputs above 63 are not stored
+    std::array<double, 16> analog{};   // of M67 and M68, by number; those above 15 are not stored
     bool operator==(const ProgramDevices&) const = default;
 
     void apply(const ProgramEvent& event);
     /// The numbers of the outputs that are on, in ascending order.
     std::vector<std::uint32_t> outputs_on() const;
+    /// Numbers that are not stored are off, and 0.
+    bool output_is_on(std::int32_t number) const;
+    double analog_output(std::int32_t number) const;
 };
 
 }  // namespace lockstep

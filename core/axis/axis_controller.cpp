@@ -14,7 +14,8 @@ AxisController::AxisController(std::size_t axis, const MachineConfig& machine, I
       condition_{.phases = {}, .position = {scale_of(machine, axis), std::move(kept)}, .orders = {}},
       owner_(machine.timing),
       following_(axis, machine),
-      own_(axis, machine, begin_steps) {}
+      own_(axis, machine, begin_steps),
+      outputs_(axis, machine) {}
 
 const AxisOutputs& AxisController::step(const AxisInputs& inputs) {
     out_.clear();
@@ -24,6 +25,7 @@ const AxisOutputs& AxisController::step(const AxisInputs& inputs) {
     look(inputs, loop);
     receive(inputs, loop);
     move_on(loop);
+    tend_outputs(loop);
     publish(inputs, loop);
     return out_;
 }
@@ -151,6 +153,7 @@ void AxisController::receive(const MachineState& state, AxisLoop& loop) {
         loop.notice({AxisNotice::Kind::OwnerAdopted, FaultCode::None, state.term.number});
     }
     following_.take(state, loop.slot);
+    outputs_.take(state);
 }
 
 void AxisController::carry_out(const AxisCommand& order, AxisLoop& loop) {
@@ -194,6 +197,16 @@ void AxisController::move_on(AxisLoop& loop) {
         loop.fail(FaultCode::CoordinatorSilent);
     }
     own_.feed(loop);
+}
+
+/// While the axis follows frames, these change its outputs.
+void AxisController::tend_outputs(AxisLoop& loop) {
+    if (outputs_.none()) { return; }
+    if (!device_.is_present() || following_.is_open()) { return outputs_.forget(); }
+    if (!loop.publishes()) { return; }
+    const bool is_safe = !condition_.phases.has_fault() && owner_.receives_owner(loop.slot);
+    const auto change = outputs_.change({following_.follower().epoch(), is_safe, device_.status()});
+    if (change) { loop.out.orders.emplace_back(*change); }
 }
 
 void AxisController::publish(const AxisInputs& inputs, AxisLoop& loop) {

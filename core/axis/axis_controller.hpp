@@ -10,6 +10,7 @@
 #include "core/axis/state/axis_io.hpp"
 #include "core/axis/state/axis_loop.hpp"
 #include "core/axis/state/client_stops.hpp"
+#include "core/axis/state/rest_outputs.hpp"
 #include "core/axis/state/speed_trend.hpp"
 #include "core/protocol/slot_gate.hpp"
 
@@ -51,6 +52,7 @@ private:
     void reset(const AxisCommand& order, AxisLoop& loop);
 
     void move_on(AxisLoop& loop);
+    void tend_outputs(AxisLoop& loop);
     void publish(const AxisInputs& inputs, AxisLoop& loop);
     AxisState state(const AxisLoop& loop, Ticks clock_error) const;
     /// The axis runs neither its own nor the owner's frames.
@@ -66,6 +68,7 @@ private:
     ClientStops stops_;
     EpochFollowing following_;
     OwnMoves own_;
+    RestOutputs outputs_;
     SpeedTrend trend_;
     SlotGate gate_;
     AxisOutputs out_;

@@ -105,6 +105,8 @@ DeviceOrder DeviceTime::in_device_time(DeviceOrder order) {
         loaded_.clear();
     } else if (auto* frame = std::get_if<device::LoadFrame>(&order)) {
         load(*frame);
+    } else if (auto* outputs = std::get_if<device::LoadOutputs>(&order)) {
+        load(*outputs);
     }
     return order;
 }
@@ -131,6 +133,13 @@ void DeviceTime::load(device::LoadFrame& frame) {
     loaded_.push_back(loaded);
 }
 
+/// Outputs change where the frame loaded before them was fitted to the device's clock.
+void DeviceTime::load(device::LoadOutputs& outputs) const {
+    const Loaded& frame = loaded_.back();
+    retime(outputs.track.body.begin(), outputs.track.body.size(), frame.body.machine, frame.body.when);
+    retime(outputs.track.tail.begin(), outputs.track.tail.size(), frame.tail.machine, frame.tail.when);
+}
+
 template <typename Pieces>
 FramePace::Part DeviceTime::part_of(const Pieces& pieces, Tick machine_end) const {
     return {total_ticks(pieces), pieces.size(), to_device(machine_end), clocks()};
@@ -140,6 +149,7 @@ FramePace::Part DeviceTime::part_of(const Pieces& pieces, Tick machine_end) cons
 void DeviceTime::pace(device::LoadFrame& frame, Tick machine_end, Loaded& loaded) {
     const FramePace::Part asked = part_of(frame.track.body, machine_end);
     const Retiming body = pace_.body(asked);
+    loaded.body = {asked.lasts, body};
     end_error_ += length_of(asked.asked_end - body.end);
     loaded.error = body.bow();
     loaded.end = body.end;
@@ -147,6 +157,7 @@ void DeviceTime::pace(device::LoadFrame& frame, Tick machine_end, Loaded& loaded
     if (frame.track.tail.empty()) { return; }
     const FramePace::Part rest = part_of(frame.track.tail, machine_end + total_ticks(frame.track.tail));
     const Retiming tail = pace_.tail(rest);
+    loaded.tail = {rest.lasts, tail};
     loaded.tail_error += length_of(rest.asked_end - tail.end) + tail.bow();
     loaded.end = tail.end;
     (void)retime(frame.track.tail, tail);

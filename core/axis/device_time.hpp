@@ -68,8 +68,14 @@ public:
     ExecutedTrack in_device_time(ExecutedTrack track);
 
 private:
+    struct Paced {
+        Ticks machine;
+        Retiming when;
+    };
     struct Loaded {
         device::LoadFrame frame;  // as the device was given it
+        Paced body;
+        Paced tail;
         Tick body_end;
         Tick end;
         Ticks error;  // the error of the frame's whole body
@@ -87,6 +93,7 @@ private:
     Tick to_machine(Tick device) const;
     Ticks error_at(Tick machine) const;
     void load(device::LoadFrame& frame);
+    void load(device::LoadOutputs& outputs) const;
     void pace(device::LoadFrame& frame, Tick machine_end, Loaded& loaded);
     template <typename Pieces>
     FramePace::Part part_of(const Pieces& pieces, Tick machine_end) const;

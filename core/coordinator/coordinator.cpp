@@ -273,6 +273,18 @@ void Coordinator::report(CoordinatorLoop& loop) const {
     });
     state.lease = lease_.held();
     report_job(jobs_, state, loop);
+    state.devices_after = devices_after();
+}
+
+/// While a path is run, or may be run by frames of another owner, frames switch the outputs.
+std::optional<Epoch> Coordinator::devices_after() const {
+    const MachineActivity& activity = jobs_.activity();
+    if (activity.is<activity::OnPath>() || activity.inherited() != nullptr || !ownership_.owns()) {
+        return std::nullopt;
+    }
+    Epoch newest = 0;
+    for (const AxisView& view : axes_.views()) { newest = std::max(newest, view.state ? view.state->epoch : 0); }
+    return newest;
 }
 
 }  // namespace lockstep

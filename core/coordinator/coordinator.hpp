@@ -68,6 +68,7 @@ private:
     void wait_for_axes(CoordinatorLoop& loop);
 
     void report(CoordinatorLoop& loop) const;
+    std::optional<Epoch> devices_after() const;
 
     MachineConfig machine_;
     Kinematics kinematics_;

@@ -78,16 +78,23 @@ void ProgramBuilder::end() {
 void ProgramBuilder::event(const Event& event) {
     const UnassignedWords& rules = setup_.unassigned;
     const double speed = interpreter_->state().modal.spindle_speed;
+    const AssignedWords& assigned = setup_.assigned;
     const auto spindle = [&](Kind kind) {
         spindle_turns_ = true;
+        if (assigned.spindle) { return append(ProgramEvent{.kind = kind, .value = speed}); }
         device_event(rules.spindle, "the spindle", "spindle", {.kind = kind, .value = speed});
     };
     const auto coolant = [&](Kind kind) {
         coolant_flows_ = true;
+        if (kind == Kind::MistOn ? assigned.mist : assigned.flood) { return append(ProgramEvent{.kind = kind}); }
         device_event(rules.coolant, "the coolant", "coolant", {.kind = kind});
     };
     const auto output = [&](Kind kind) {
-        device_event(rules.outputs, "an output", "outputs", {.kind = kind, .index = event.index, .value = event.value});
+        const ProgramEvent word{.kind = kind, .index = event.index, .value = event.value};
+        const bool is_analog = kind == Kind::AnalogOutput;
+        if (is_analog ? assigned.has_analog(event.index) : assigned.has_digital(event.index)) { return append(word); }
+        const std::string name = (is_analog ? "analog output " : "output ") + std::to_string(event.index);
+        device_event(rules.outputs, name.c_str(), "outputs", word);
     };
     switch (event.kind) {
         case EventKind::Stop: return pause(PauseReason::ProgramStop);

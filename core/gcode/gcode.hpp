@@ -21,6 +21,7 @@
 #include "core/gcode/setup.hpp"
 #include "core/gcode/text/error.hpp"
 #include "core/program.hpp"
+#include "core/outputs/assigned_words.hpp"
 #include "core/unassigned_words.hpp"
 
 namespace lockstep {
@@ -52,6 +53,7 @@ struct GcodeSetup {
     std::vector<GcodeAxis> axes;
     GcodeSwitches switches;
     UnassignedWords unassigned;
+    AssignedWords assigned;
     gcode::KeptValues values;
     double chord_tolerance_mm = 0.001;  // of chords of curves
     bool curves_as_chords = false;      // for a planner that takes straight moves only

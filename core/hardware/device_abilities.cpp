@@ -51,6 +51,38 @@ std::uint64_t modulated(const DeviceSetup& setup) {
     return outputs;
 }
 
+/// The outputs of a motor's device that the machine uses; output n is bit n.
+struct UsedOutputs {
+    std::uint64_t digital = 0;
+    std::uint64_t analog = 0;
+};
+
+UsedOutputs used_outputs(const MachineConfig& machine, const MotorConfig& motor) {
+    UsedOutputs used;
+    for (const OutputConfig& output : machine.outputs) {
+        if (output.motor != motor.name) { continue; }
+        (output.is_analog() ? used.analog : used.digital) |= std::uint64_t{1} << output.channel;
+    }
+    return used;
+}
+
+void turn_off(const OutputConfig& output, SafeOutputs& safe) {
+    if (output.is_analog()) {
+        safe.analog_off |= static_cast<std::uint8_t>(1U << output.channel);
+    } else {
+        safe.digital.mask |= static_cast<std::uint16_t>(1U << output.channel);
+    }
+}
+
+void add_output(const OutputConfig& output, DeviceSetup& setup) {
+    if (!output.stays_at_interruption) { turn_off(output, setup.at_cut); }
+    if (!output.stays_at_silence) { turn_off(output, setup.at_silence); }
+    if (output.inverted) { setup.outputs_inverted |= static_cast<std::uint16_t>(1U << output.channel); }
+    if (output.pwm) {
+        setup.pwm_period_ns[static_cast<std::size_t>(output.channel)] = std::llround(1e9 / output.pwm->hz);
+    }
+}
+
 }  // namespace
 
 /// Speeds are accepted with the rounding of their text, so the needs that follow from them leave it out.
@@ -83,6 +115,9 @@ std::optional<std::string> lack_of(const DeviceAbilities& device, const MachineC
                " ticks from one step to the next; max_velocity_mm_s of motor " + motor.name + " must be at most " +
                number_text(most_mm_s) + ", or decrease its steps_per_mm";
     }
+    const UsedOutputs used = used_outputs(machine, motor);
+    if (auto lack = missing_channel("digital output", used.digital, device.digital_outputs)) { return lack; }
+    if (auto lack = missing_channel("analog output", used.analog, device.analog_outputs)) { return lack; }
     return lack_of(device, setup_of(machine, motor));
 }
 
@@ -109,14 +144,22 @@ std::optional<std::string> lack_of(const DeviceAbilities& device, const DeviceSe
 DeviceSetup setup_of(const MachineConfig& machine, const MotorConfig& motor) {
     const PinsConfig& pins = motor.pins;
     const auto ns = [](double us) { return static_cast<std::int64_t>(std::llround(us * 1e3)); };
-    return {
-        .step_width_ns = ns(pins.step_width_us),
-        .direction_setup_ns = ns(pins.direction_setup_us),
-        .direction_hold_ns = ns(pins.direction_hold_us),
-        .enable_wait = {static_cast<std::int64_t>(std::ceil(pins.enable_wait_ms * 1e-3 * machine.ticks_per_second()))},
-        .step_inverted = pins.step_inverted,
-        .direction_inverted = pins.direction_inverted,
-        .enable_inverted = pins.enable_inverted};
+    const auto ticks = [&](double ms) {
+        return Ticks{static_cast<std::int64_t>(std::ceil(ms * 1e-3 * machine.ticks_per_second()))};
+    };
+    DeviceSetup setup{.step_width_ns = ns(pins.step_width_us),
+                      .direction_setup_ns = ns(pins.direction_setup_us),
+                      .direction_hold_ns = ns(pins.direction_hold_us),
+                      .enable_wait = ticks(pins.enable_wait_ms),
+                      .step_inverted = pins.step_inverted,
+                      .direction_inverted = pins.direction_inverted,
+                      .enable_inverted = pins.enable_inverted};
+    for (const OutputConfig& output : machine.outputs) {
+        if (output.motor == motor.name) { add_output(output, setup); }
+    }
+    const bool has_safe_outputs = setup.at_silence != SafeOutputs{};
+    if (has_safe_outputs) { setup.silence = ticks(machine.output_silence_ms); }
+    return setup;
 }
 
 }  // namespace lockstep

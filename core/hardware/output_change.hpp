@@ -51,10 +51,14 @@ struct OutputChange {
 
 /// The changes of a frame, each list by rising ticks. Those of the tail happen if the tail is run.
 struct OutputTrack {
-    static constexpr std::size_t kMostInBody = 128;
+    static constexpr std::size_t kMostInBody = 192;
     static constexpr std::size_t kMostInTail = 64;
     StaticVector<OutputChange, kMostInBody> body;
     StaticVector<OutputChange, kMostInTail> tail;
+
+    std::size_t size() const { return body.size() + tail.size(); }
+    bool empty() const { return size() == 0; }
+    bool operator==(const OutputTrack&) const = default;
 };
 
 /// Something that happened at an input or an output of a device, with the tick at which it happened.

@@ -29,6 +29,7 @@ FramePlanner::FramePlanner(const FramePlanner& other, const PathSetup& setup, Sp
       fit_(setup),
       last_(other.last_),
       begins_(other.begins_),
+      tail_begins_(other.tail_begins_),
       overridden_(setup),
       has_begun_(other.has_begun_),
       has_made_(other.has_made_),
@@ -92,23 +93,43 @@ void FramePlanner::note_places(PathFrame& frame, const TimedPath& path) const {
     frame.begin = frame.places[0];
 }
 
-/// Notes the moves that begin in a frame of `ticks`.
-void FramePlanner::note_begins(Ticks ticks) {
+/// Notes the moves that begin in the first `ticks` of the path.
+void FramePlanner::note_begins(const TimedPath& path, Ticks ticks, std::vector<MoveBegin>& begins) const {
     constexpr double kHair_mm = 1e-9;
-    begins_.clear();
-    for (const PathPhase& phase : path_.phases()) {
+    begins.clear();
+    for (const PathPhase& phase : path.phases()) {
         const double from = std::max(phase.begin, 0.0);
         const double to = std::min(phase.end(), as_double(ticks));
         if (to < from) { continue; }
         trail_.each_begin(phase.origin.piece, [&](double on_geometry, std::uint32_t block) {
             const double u = on_geometry - phase.origin.u;
             const bool is_in = u >= phase.along(from) - kHair_mm && u <= phase.along(to) + kHair_mm;
-            if (is_in) { begins_.push_back({block, std::clamp(phase.time_at(u), from, to)}); }
+            if (is_in) { begins.push_back({block, std::clamp(phase.time_at(u), from, to)}); }
         });
     }
 }
 
-std::expected<const PathFrame*, PathStuck> FramePlanner::next() {
+/// Notes what outputs need of the tail.
+void FramePlanner::note_tail(PathFrame& frame, const TimedPath& tail) {
+    tail_begins_.clear();
+    frame.tail_speeds.clear();
+    if (frame.last || !setup_.has_outputs) { return; }
+    Ticks length;
+    for (const AxisTrack& track : frame.axes) { length = std::max(length, total_ticks(track.tail)); }
+    note_begins(tail, length, tail_begins_);
+    if (setup_.tells_speeds) { list_speeds(tail, length, frame.tail_speeds); }
+}
+
+std::optional<FitFailure> FramePlanner::fit(PathFrame& frame, Cursor& behind, const FrameRoom* room) {
+    if (auto failure = fit_body(frame, behind)) { return failure; }
+    if (!frame.last && !fit_tail(frame, behind)) { return FitFailure{frame.ticks, false}; }
+    note_begins(path_, frame.ticks, begins_);
+    note_tail(frame, tail_);
+    const bool fits = room == nullptr || room->has_room(begins_, tail_begins_, frame.last);
+    return fits ? std::nullopt : std::optional(FitFailure{frame.ticks, true});
+}
+
+std::expected<const PathFrame*, PathStuck> FramePlanner::next(const FrameRoom* room) {
     if (!start()) { return nullptr; }
     PathFrame& frame = made_;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
@@ -117,11 +138,10 @@ std::expected<const PathFrame*, PathStuck> FramePlanner::next() {
         frame.last = window_.is_finished() && path_.passages().back().interval + 1 == window_.end() &&
                      rounded_up(path_.end()) <= frame.ticks;
         Cursor behind;
-        std::optional<FitFailure> failure = fit_body(frame, behind);
-        if (!failure && !frame.last && !fit_tail(frame, behind)) { failure = FitFailure{frame.ticks, false}; }
+        const std::optional<FitFailure> failure = fit(frame, behind, room);
         if (!failure) {
             note_places(frame, path_);
-            note_begins(frame.ticks);
+            if (setup_.tells_speeds) { list_speeds(path_, frame.ticks, frame.speeds); }
             frame.rest = place_of_rest(frame, behind);
             take(behind);
             is_done_ = frame.last;
@@ -143,7 +163,8 @@ void FramePlanner::brake() {
     frame.ticks = setup_.frame_ticks;
     frame.last = false;
     note_places(frame, held_tail_);
-    note_begins(frame.ticks);
+    note_begins(held_tail_, frame.ticks, begins_);
+    if (setup_.tells_speeds) { list_speeds(held_tail_, frame.ticks, frame.speeds); }
     Cursor behind = cursor_at(held_tail_, frame.ticks, true);
     for (std::size_t i = 0; i < setup_.motors(); ++i) {
         AxisTrack& track = frame.axes[i];
@@ -163,6 +184,7 @@ void FramePlanner::brake() {
               "a tail keeps the limits");
     }
     held_tail_.shift(frame.ticks);
+    note_tail(frame, held_tail_);
     ++braked_;
     take(behind);
 }

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/path/path_speed.hpp"
 #include "core/path/piece_fit.hpp"
 #include "core/protocol/messages.hpp"
 
@@ -24,12 +25,21 @@ struct PathFrame {
     PathPlace rest;                    // the place where the machine rests if it is the last one that is run
     std::array<PathPlace, 16> places;  // the place at the begin of each sixteenth of the frame
     std::vector<AxisTrack> axes;
+    std::vector<PathSpeed> speeds;       // in the body; both are empty unless PathSetup::tells_speeds
+    std::vector<PathSpeed> tail_speeds;  // in the tail
 };
 
-/// The time at which a move of the program begins, in ticks from the begin of a frame.
+/// The time at which a move of the program begins, in ticks from the begin of a frame or of its tail.
 struct MoveBegin {
     std::uint32_t block = 0;
     double at = 0;
+};
+
+/// Says whether a frame has room for everything that happens at the begins of its moves.
+class FrameRoom {
+public:
+    virtual ~FrameRoom() = default;
+    virtual bool has_room(std::span<const MoveBegin> body, std::span<const MoveBegin> tail, bool is_last) const = 0;
 };
 
 /// An error: even from rest no frame keeps the limits, because they contradict each other.
@@ -49,13 +59,15 @@ public:
     /// The axes rest at `at`, where the window's path begins.
     void begin(std::span<const Position> at);
     /// Returns the next frame, valid until the next call, or null while too little of the path is known. Must not be
-    /// called after the last frame.
-    std::expected<const PathFrame*, PathStuck> next();
+    /// called after the last frame. A frame without `room` is made again, slower.
+    std::expected<const PathFrame*, PathStuck> next(const FrameRoom* room = nullptr);
     /// Whether the path is known far enough for the next frame.
     bool is_ready();
     bool is_done() const { return is_done_; }
     /// The moves that begin in the frame that `next` returned last. A move at its end may be listed for two frames.
     const std::vector<MoveBegin>& begins() const { return begins_; }
+    /// Those that begin in its tail.
+    const std::vector<MoveBegin>& tail_begins() const { return tail_begins_; }
     /// Whether a frame has been made since begin().
     bool has_made() const { return has_made_; }
     /// Starts again after the window was refilled. Only before the first frame.
@@ -81,7 +93,9 @@ private:
     bool start();
     bool trace();
     void note_places(PathFrame& frame, const TimedPath& path) const;
-    void note_begins(Ticks ticks);
+    void note_begins(const TimedPath& path, Ticks ticks, std::vector<MoveBegin>& begins) const;
+    void note_tail(PathFrame& frame, const TimedPath& tail);
+    std::optional<FitFailure> fit(PathFrame& frame, Cursor& behind, const FrameRoom* room);
     Ticks end_of_frame() const;
     std::optional<FitFailure> fit_body(PathFrame& frame, Cursor& next);
     bool fit_tail(PathFrame& frame, const Cursor& from);
@@ -110,6 +124,7 @@ private:
     PathFrame made_;                 // the frame that is being made
     PathFrame last_;                 // the frame before it
     std::vector<MoveBegin> begins_;  // in the last frame
+    std::vector<MoveBegin> tail_begins_;
     SpeedWindow overridden_;         // set_overrides: the window with the new overrides
     bool is_traced_ = false;         // path_ begins at the cursor
     bool has_begun_ = false;

@@ -83,8 +83,8 @@ OverrideResult PathPlanner::set_overrides(const Overrides& overrides) {
     return OverrideResult::Taken;
 }
 
-std::expected<const PathFrame*, PathStuck> PathPlanner::next() {
-    const auto frame = frames_.next();
+std::expected<const PathFrame*, PathStuck> PathPlanner::next(const FrameRoom* room) {
+    const auto frame = frames_.next(room);
     if (frame && *frame) { remember(**frame); }
     return frame;
 }

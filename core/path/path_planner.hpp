@@ -49,12 +49,13 @@ public:
 
     /// Returns the next frame, valid until the next call, or null while too few moves are known. Must not be called
     /// after the last frame.
-    std::expected<const PathFrame*, PathStuck> next();
+    std::expected<const PathFrame*, PathStuck> next(const FrameRoom* room = nullptr);
     /// Whether the next frame can be made.
     bool is_ready() { return frames_.is_ready(); }
     bool is_done() const { return frames_.is_done(); }
     /// The moves that begin in the last frame; valid directly after next() only.
     const std::vector<MoveBegin>& begins() const { return frames_.begins(); }
+    const std::vector<MoveBegin>& tail_begins() const { return frames_.tail_begins(); }
     std::int64_t slowed() const { return frames_.slowed(); }
     std::int64_t braked() const { return frames_.braked(); }
     /// Intervals that wait for their frames. Memory depends on these and on kept().

@@ -20,6 +20,8 @@ struct PathSetup {
     std::vector<double> steps_per_mm;          // of the axes, or per degree
     Ticks frame_ticks;                         // a frame's length: pieces end at the edges of frames
     std::size_t body_pieces = kMaxBodyPieces;  // for which a frame has room, for each motor
+    bool has_outputs = false;                  // frames list the moves that begin in their tails
+    bool tells_speeds = false;                 // frames list the speeds along the path
     MotorMap motor_map;                        // steps of the motors by those of the axes; empty: each axis is a motor
     /// Steps of each axis: if all axes deviate by so much, no motor deviates by more than a step. Empty: 1.
     std::vector<double> motor_step;
@@ -95,6 +97,9 @@ inline PathSetup path_setup_of(const MachineConfig& machine) {
         row = i < setup.motors() ? planned_motor_limits(row) : planned_limits(row);
     }
     for (const AxisConfig& axis : machine.axes) { setup.steps_per_mm.push_back(axis.steps_per_mm); }
+    setup.has_outputs = !machine.outputs.empty();
+    setup.tells_speeds = std::ranges::any_of(
+        machine.outputs, [](const OutputConfig& output) { return output.pwm && output.pwm->follows_speed; });
     return setup;
 }
 

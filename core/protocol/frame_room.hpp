@@ -31,6 +31,19 @@ constexpr int frames_ahead(const ProtocolTiming& t) {
     return (t.send_ahead_slots + t.frame_slots - 1) / t.frame_slots + 1;
 }
 
+/// Entries of a device's output ring: changes of outputs in the frames that are sent ahead.
+inline constexpr int kDeviceOutputEntries = 1024;
+/// How many changes of outputs a frame may have for each motor.
+struct OutputRoom {
+    std::size_t body = 0;
+    std::size_t tail = 0;
+};
+constexpr OutputRoom output_room(const ProtocolTiming& t) {
+    const auto room = static_cast<std::size_t>(kDeviceOutputEntries / frames_ahead(t));
+    const std::size_t tail = std::min(room / 4, OutputTrack::kMostInTail);
+    return {std::min(room - tail, OutputTrack::kMostInBody), tail};
+}
+
 /// How many pieces the body of a frame may have for each axis. The device's ring then has room for all frames ahead,
 /// with their headers, their tails and kDevicePieces. If the result is below kLeastBodyPieces, too many frames are
 /// ahead.

@@ -10,6 +10,7 @@
 
 #include "core/axis_set.hpp"
 #include "core/faults.hpp"
+#include "core/hardware/output_change.hpp"
 #include "core/overrides.hpp"
 #include "core/path_place.hpp"
 #include "core/pause.hpp"
@@ -59,6 +60,13 @@ struct AxisTrack {
     bool operator==(const AxisTrack&) const = default;
 };
 
+/// The changes of outputs of one motor's device in a frame.
+struct MotorOutputs {
+    std::uint32_t motor = 0;
+    OutputTrack track;
+    bool operator==(const MotorOutputs&) const = default;
+};
+
 /// Frame k: every axis's motion in [start, start + ticks), and the tail that brings it to rest from there.
 struct Frame {
     Term term;
@@ -68,7 +76,16 @@ struct Frame {
     Ticks ticks;
     bool last = false;  // the epoch ends with this frame, at rest; the tail is empty
     std::vector<AxisTrack> axes;
+    std::vector<MotorOutputs> outputs;  // of the motors whose devices have outputs, in order
     bool operator==(const Frame&) const = default;
+
+    /// nullptr: the motor's device has no outputs.
+    const OutputTrack* outputs_of(std::size_t motor) const {
+        for (const MotorOutputs& of : outputs) {
+            if (of.motor == motor) { return &of.track; }
+        }
+        return nullptr;
+    }
 };
 
 /// The six states of an axis, and Fault.
@@ -220,6 +237,7 @@ struct MachineState {
     AxisSet axes_present = 0;  // the axes that the coordinator receives
     std::uint64_t config_hash = 0;
     ProgramDevices devices;             // as the words of programs have switched them
+    std::optional<Epoch> devices_after;  // at rest after this epoch or an earlier one, they hold; empty: axes follow frames
     std::optional<HeldLease> lease;     // the writer's; empty: every client may give commands
     std::optional<MachinePause> pause;  // of the job; present also while axes are jogged and return in the pause
     // What another coordinator needs to continue the job in motion:

@@ -51,6 +51,7 @@ Problems problems_of(const MachineDraft& draft, const Text& text) {
     }
     if (problems.empty()) { add(kinematics_problems(draft.machine)); }
     if (problems.empty()) { add(pin_problems(draft.machine)); }
+    if (problems.empty()) { add(output_problems(draft.machine)); }
     return problems;
 }
 

@@ -220,6 +220,60 @@ PinsConfig read_pins(const proto::Pins& message) {
             .enable_inverted = message.enable_inverted()};
 }
 
+OutputUse read_use(proto::OutputUse use) {
+    switch (use) {
+        case proto::SPINDLE: return OutputUse::Spindle;
+        case proto::SPINDLE_REVERSE: return OutputUse::SpindleReverse;
+        case proto::MIST: return OutputUse::Mist;
+        case proto::FLOOD: return OutputUse::Flood;
+        default: return OutputUse::Number;
+    }
+}
+
+/// Whether the output keeps its level.
+bool read_level(bool is_given, proto::OutputLevel level, bool preset, const std::string& key, Reader& reader) {
+    if (!is_given) { return preset; }
+    if (!proto::OutputLevel_IsValid(level)) {
+        reader.refuse(key, fmt::format("{} is {}; it must be KEEP or OFF", key, int{level}));
+    }
+    return level == proto::KEEP;
+}
+
+PwmConfig read_pwm(const proto::Pwm& message, const std::string& place, Reader& reader) {
+    PwmConfig pwm{.full_scale = message.has_full_scale() ? message.full_scale() : PwmConfig{}.full_scale,
+                  .follows_speed = message.follows_speed()};
+    reader.require(message.has_hz(), message.hz(), pwm.hz, place + ".hz");
+    return pwm;
+}
+
+OutputConfig read_output(const proto::Output& message, const std::string& place, Reader& reader) {
+    OutputConfig output{.channel = message.channel(),
+                        .use = read_use(message.use()),
+                        .number = message.number(),
+                        .inverted = message.inverted()};
+    reader.require(message.has_name(), message.name(), output.name, place + ".name");
+    reader.require(message.has_motor(), message.motor(), output.motor, place + ".motor");
+    if (!proto::OutputUse_IsValid(message.use())) {
+        reader.refuse(place + ".use",
+                      fmt::format("{}.use is {}; it must be NUMBER, SPINDLE, SPINDLE_REVERSE, MIST or FLOOD", place,
+                                  int{message.use()}));
+    }
+    if (message.has_pwm()) { output.pwm = read_pwm(message.pwm(), place + ".pwm", reader); }
+    output.stays_at_interruption = read_level(message.has_at_interruption(), message.at_interruption(),
+                                              output.stays_at_interruption, place + ".at_interruption", reader);
+    output.stays_at_fault =
+        read_level(message.has_at_fault(), message.at_fault(), output.stays_at_fault, place + ".at_fault", reader);
+    output.stays_at_silence = read_level(message.has_at_silence(), message.at_silence(), output.stays_at_silence,
+                                         place + ".at_silence", reader);
+    return output;
+}
+
+/// Long enough for any stall that the machine bears.
+double usual_silence_ms(const ProtocolTiming& timing) {
+    const double stall_ms = static_cast<double>(timing.slot_us) / 1000 * (timing.stall_slots + 1);
+    return std::max(MachineConfig{}.output_silence_ms, 5 * stall_ms);
+}
+
 StepMethod read_method(proto::Method method) {
     switch (method) {
         case proto::SPIELAUER: return StepMethod::Spielauer;
@@ -387,6 +441,12 @@ MachineDraft machine_from_proto(const proto::Machine& message) {
     for (const proto::Axis& axis : message.axis()) {
         draft.machine.axes.push_back(read_axis(axis, Reader(draft.missing, draft.machine.axes.size())));
     }
+    Reader of_outputs(draft.missing);
+    for (int k = 0; k < message.output_size(); ++k) {
+        draft.machine.outputs.push_back(read_output(message.output(k), fmt::format("output[{}]", k), of_outputs));
+    }
+    draft.machine.output_silence_ms =
+        message.has_output_silence_ms() ? message.output_silence_ms() : usual_silence_ms(draft.machine.timing);
     draft.machine.kinematics = read_kinematics(message, Reader(draft.missing));
     set_steps_of_axes(draft.machine);
     draft.machine.network.processes = motor_count(draft.machine) + 1;  // the coordinator

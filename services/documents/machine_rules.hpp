@@ -38,4 +38,7 @@ std::vector<Problem> kinematics_problems(const MachineConfig& machine);
 /// Checks the pulses of motors against their speeds, after all that was found sound.
 std::vector<Problem> pin_problems(const MachineConfig& machine);
 
+/// Checks the outputs, after all motors were found sound.
+std::vector<Problem> output_problems(const MachineConfig& machine);
+
 }  // namespace lockstep

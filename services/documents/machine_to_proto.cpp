@@ -86,6 +86,29 @@ void write_plant(const PlantConfig& plant, proto::Plant& message) {
     message.set_max_jump_mm_s(plant.max_jump_mm_s);
 }
 
+proto::OutputUse use_to_proto(OutputUse use) {
+    constexpr std::array kUses{proto::NUMBER, proto::SPINDLE, proto::SPINDLE_REVERSE, proto::MIST, proto::FLOOD};
+    return kUses[static_cast<std::size_t>(use)];
+}
+
+proto::OutputLevel level_to_proto(bool stays) { return stays ? proto::KEEP : proto::OFF; }
+
+void write_output(const OutputConfig& output, proto::Output& message) {
+    message.set_name(output.name);
+    message.set_motor(output.motor);
+    message.set_channel(output.channel);
+    message.set_use(use_to_proto(output.use));
+    message.set_number(output.number);
+    message.set_inverted(output.inverted);
+    message.set_at_interruption(level_to_proto(output.stays_at_interruption));
+    message.set_at_fault(level_to_proto(output.stays_at_fault));
+    message.set_at_silence(level_to_proto(output.stays_at_silence));
+    if (!output.pwm) { return; }
+    message.mutable_pwm()->set_hz(output.pwm->hz);
+    message.mutable_pwm()->set_full_scale(output.pwm->full_scale);
+    message.mutable_pwm()->set_follows_speed(output.pwm->follows_speed);
+}
+
 void write_pins(const PinsConfig& pins, proto::Pins& message) {
     message.set_step_width_us(pins.step_width_us);
     message.set_direction_setup_us(pins.direction_setup_us);
@@ -195,6 +218,8 @@ proto::Machine machine_to_proto(const MachineConfig& machine) {
     message.set_coordination(method_to_proto(machine.coordination));
     for (const AxisConfig& axis : machine.axes) { write_axis(axis, *message.add_axis()); }
     write_kinematics(machine.kinematics, message);
+    for (const OutputConfig& output : machine.outputs) { write_output(output, *message.add_output()); }
+    if (!machine.outputs.empty()) { message.set_output_silence_ms(machine.output_silence_ms); }
     return message;
 }
 

@@ -61,7 +61,7 @@ struct LoadFrame {
     bool last = false;
     AxisTrack track;
 };
-/// Loads the changes of outputs of a frame, before the frame itself.
+/// Loads the changes of outputs of the frame that was loaded last, before it is armed.
 struct LoadOutputs {
     FrameNumber number = 0;
     OutputTrack track;
@@ -70,6 +70,7 @@ struct LoadOutputs {
 struct ChangeOutputs {
     SetDigital digital;
     StaticVector<RampAnalog, kMostAnalogOutputs> analog;  // without slope
+    bool operator==(const ChangeOutputs&) const = default;
 };
 /// Frames up to this one may be run.
 struct Arm {

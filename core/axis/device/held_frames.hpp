@@ -16,6 +16,7 @@ struct HeldFrame {
     Ticks ticks;
     bool last = false;
     AxisTrack track;
+    OutputTrack outputs;
     Tick end() const { return start + ticks; }
     Position body_end() const {
         Position at = track.from;

@@ -104,6 +104,17 @@ bool retime(StaticVector<Piece, Capacity>& pieces, const Retiming& when) {
     return fits;
 }
 
+void retime(OutputChange* changes, std::size_t count, Ticks machine, const Retiming& when) {
+    const Pace pace(machine, when);
+    for (std::size_t k = 0; k < count; ++k) {
+        const auto gone = static_cast<double>(changes[k].at.value);
+        changes[k].at = std::clamp(Ticks{std::llround(pace.device_at(gone))}, Ticks{1}, when.end - when.start);
+        if (auto* ramp = std::get_if<RampAnalog>(&changes[k].what)) {
+            ramp->slope = std::llround(static_cast<double>(ramp->slope) / pace.rate_at(gone));
+        }
+    }
+}
+
 template bool retime(StaticVector<Piece, kMaxBodyPieces + 1>&, const Retiming&);
 template bool retime(StaticVector<Piece, kMaxTailPieces + 1>&, const Retiming&);
 

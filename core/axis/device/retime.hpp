@@ -27,6 +27,9 @@ struct Retiming {
 template <std::size_t Capacity>
 [[nodiscard]] bool retime(StaticVector<Piece, Capacity>& pieces, const Retiming& when);
 
+/// Moves changes of outputs in a stretch of `machine` ticks to the same places of the motion by the device's clock.
+void retime(OutputChange* changes, std::size_t count, Ticks machine, const Retiming& when);
+
 extern template bool retime(StaticVector<Piece, kMaxBodyPieces + 1>&, const Retiming&);
 extern template bool retime(StaticVector<Piece, kMaxTailPieces + 1>&, const Retiming&);
 

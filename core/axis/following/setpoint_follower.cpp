@@ -22,6 +22,7 @@ SetpointFollower::SetpointFollower(std::size_t axis, const MachineConfig& machin
       timing_(machine.timing),
       slot_(machine.slot_ticks()),
       limits_(frame_limits_of(machine, axis)),
+      outputs_(axis, machine),
       peers_(motor_count(machine)) {}
 
 void SetpointFollower::receive(const AxisState& peer) {
@@ -50,12 +51,18 @@ FaultCode SetpointFollower::offer(const Frame& frame, std::optional<Position> re
     MotionPoint end = first ? MotionPoint{start_from(track.from, *rest), 0, {}} : end_;
     const FaultCode fault = check_track(track, frame.ticks, frame.last, limits_, end);
     if (fault != FaultCode::None) { return fault; }
+    const OutputTrack* const outputs = frame.outputs_of(axis_);
+    if (outputs != nullptr) {
+        const FaultCode why = outputs_.check(*outputs, frame.ticks, total_ticks(track.tail));
+        if (why != FaultCode::None) { return why; }
+    }
     if (first) { begin(frame.epoch); }
     end_ = end;
     held_ = frame.number;
     last_held_ = frame.last;
     end_tick_ = frame.start + frame.ticks;
-    frames_.push_back({frame.number, frame.start, frame.ticks, frame.last, track});
+    frames_.push_back({frame.number, frame.start, frame.ticks, frame.last, track,
+                       outputs != nullptr ? *outputs : OutputTrack{}});
     return FaultCode::None;
 }
 

@@ -7,6 +7,7 @@
 #include "core/axis/device/device.hpp"
 #include "core/axis/device/held_frames.hpp"
 #include "core/axis/following/frame_check.hpp"
+#include "core/axis/following/output_check.hpp"
 #include "core/axis/state/axis_io.hpp"
 #include "core/machine.hpp"
 #include "core/protocol/frame_room.hpp"
@@ -69,6 +70,7 @@ private:
     ProtocolTiming timing_;
     Ticks slot_;
     AxisLimits limits_;
+    OutputCheck outputs_;
     std::vector<PeerEvidence> peers_;
     PeerEvidence coordinator_;
 

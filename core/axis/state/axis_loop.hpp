@@ -50,6 +50,7 @@ struct AxisLoop {
         AxisTrack track = frame.track;
         track.from = condition.position.in_device(track.from);
         out.orders.emplace_back(device::LoadFrame{frame.number, frame.start, frame.last, track});
+        if (!frame.outputs.empty()) { out.orders.emplace_back(device::LoadOutputs{frame.number, frame.outputs}); }
     }
 };
 

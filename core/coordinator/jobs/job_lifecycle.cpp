@@ -72,7 +72,7 @@ void JobLifecycle::end(JobOutcome outcome, CoordinatorLoop& loop) {
 }
 
 void JobLifecycle::note_end(const MachineJob& job, JobOutcome outcome, CoordinatorLoop& loop) {
-    if (outcome != JobOutcome::Done) { path_.events().switch_off(job.number, loop, loop.out.events); }
+    if (outcome != JobOutcome::Done) { path_.events().switch_off(job.number, outcome, loop, loop.out.events); }
     loop.out.jobs.push_back(ended(job, outcome));
     count_.end(outcome);
 }
@@ -123,6 +123,7 @@ void JobLifecycle::fail_at_rest(const MachineFault& fault, CoordinatorLoop& loop
     const activity::Paused* const pause = activity_.pause();
     if (pause != nullptr) { loop.out.jobs.push_back(ended(*job, JobOutcome::Failed)); }
     if (job != nullptr) { note_end(pause != nullptr ? pause->task.job : *job, JobOutcome::Failed, loop); }
+    path_.events().switch_off_outputs(count_.number(), JobOutcome::Failed, loop, loop.out.events);
     activity_.become(MachineEvent::Fails, activity::InFault{first}, loop.out);
 }
 
@@ -147,7 +148,7 @@ void JobLifecycle::cut_inherited(TakeoverDoubt doubt, CoordinatorLoop& loop) {
     if (activity_.inherited() == nullptr) { return; }
     count_.cut(activity_.inherited()->line);
     activity_.as<activity::Waiting>()->inherited.reset();
-    path_.events().switch_off(count_.number(), loop, loop.out.events);
+    path_.events().switch_off(count_.number(), JobOutcome::Failed, loop, loop.out.events);
     loop.notice({CoordinatorNotice::Kind::JobCutShort, FaultCode::None, number_of(count_.line()), doubt});
 }
 

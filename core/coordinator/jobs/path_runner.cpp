@@ -103,7 +103,7 @@ void PathRunner::begin_epoch(PathTask& task, const PathPlace& place, MotorPositi
         at.append(Position::steps(loop.axes.state(i)->position.count()));
     }
     task.has_moved = true;
-    runner_.begin(next_epoch(loop), place, at, overrides_);
+    runner_.begin(next_epoch(loop), place, at, overrides_, {events_.devices(), events_.from()});
 }
 
 void PathRunner::note_start(const PathTask& task, const LoopView& loop, CoordinatorOutputs& out) {

@@ -1,6 +1,24 @@
 #include "core/coordinator/jobs/program_events.hpp"
 
+#include "core/outputs/output_levels.hpp"
+
 namespace lockstep {
+namespace {
+
+/// The word that switches an output off.
+ProgramEvent::Kind end_of(const OutputConfig& output) {
+    switch (output.use) {
+        case OutputUse::Number:
+            return output.is_analog() ? ProgramEvent::Kind::AnalogOutput : ProgramEvent::Kind::OutputOff;
+        case OutputUse::Spindle:
+        case OutputUse::SpindleReverse: return ProgramEvent::Kind::SpindleStop;
+        case OutputUse::Mist:
+        case OutputUse::Flood: return ProgramEvent::Kind::CoolantOff;
+    }
+    return ProgramEvent::Kind::SpindleStop;
+}
+
+}  // namespace
 
 void ProgramEvents::publish(PublishedEvent event, const LoopView& loop, std::vector<PublishedEvent>& out) {
     event.term = loop.term;
@@ -29,15 +47,31 @@ void ProgramEvents::pass(const PathEvent& event, const Of& of, const LoopView& l
     publish(event, {.job = of.job, .epoch = of.epoch, .tick = loop.now, .at_rest = true}, loop, out);
 }
 
-void ProgramEvents::switch_off(std::uint64_t job, const LoopView& loop, std::vector<PublishedEvent>& out) {
-    const PublishedEvent off{.job = job, .tick = loop.now, .at_rest = true, .is_of_program = false};
-    const auto switch_off = [&](ProgramEvent::Kind kind) {
-        PublishedEvent event = off;
-        event.event.kind = kind;
-        publish(event, loop, out);
-    };
-    if (devices_.spindle != ProgramDevices::Spindle::Stopped) { switch_off(ProgramEvent::Kind::SpindleStop); }
-    if (devices_.mist || devices_.flood) { switch_off(ProgramEvent::Kind::CoolantOff); }
+void ProgramEvents::switch_off(std::uint64_t job, JobOutcome outcome, const LoopView& loop,
+                               std::vector<PublishedEvent>& out) {
+    if (devices_.spindle != ProgramDevices::Spindle::Stopped) { end_by(Kind::SpindleStop, 0, job, loop, out); }
+    if (devices_.mist || devices_.flood) { end_by(Kind::CoolantOff, 0, job, loop, out); }
+    switch_off_outputs(job, outcome, loop, out);
+}
+
+void ProgramEvents::switch_off_outputs(std::uint64_t job, JobOutcome outcome, const LoopView& loop,
+                                       std::vector<PublishedEvent>& out) {
+    for (const OutputConfig& output : loop.machine.outputs) {
+        const bool stays = output.stays_at_interruption && (output.stays_at_fault || outcome != JobOutcome::Failed);
+        if (stays) { continue; }
+        const bool is_on = output.is_analog() ? share_of(output, devices_) != 0 : lockstep::is_on(output, devices_);
+        if (is_on) { end_by(end_of(output), output.number, job, loop, out); }
+    }
+}
+
+void ProgramEvents::end_by(Kind kind, std::int32_t index, std::uint64_t job, const LoopView& loop,
+                           std::vector<PublishedEvent>& out) {
+    publish({.job = job,
+             .tick = loop.now,
+             .at_rest = true,
+             .is_of_program = false,
+             .event = {.kind = kind, .index = index}},
+            loop, out);
 }
 
 }  // namespace lockstep

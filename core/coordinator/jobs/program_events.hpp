@@ -23,8 +23,11 @@ public:
                 std::vector<PublishedEvent>& out);
     /// The axes rest beyond the event's place. An event that was published before is left out.
     void pass(const PathEvent& event, const Of& of, const LoopView& loop, std::vector<PublishedEvent>& out);
-    /// The job ended early. Switches off spindle and coolant if they are on. Outputs stay.
-    void switch_off(std::uint64_t job, const LoopView& loop, std::vector<PublishedEvent>& out);
+    /// The job ended early. Switches off spindle and coolant if they are on, and outputs that do not keep their levels.
+    void switch_off(std::uint64_t job, JobOutcome outcome, const LoopView& loop, std::vector<PublishedEvent>& out);
+    /// A fault without a job. Switches off what its outputs have switched off.
+    void switch_off_outputs(std::uint64_t job, JobOutcome outcome, const LoopView& loop,
+                            std::vector<PublishedEvent>& out);
     /// Takes the devices' state from the last owner.
     void inherit(const ProgramDevices& devices) { devices_ = devices; }
 
@@ -33,6 +36,10 @@ public:
     std::uint32_t from() const { return from_; }
 
 private:
+    using Kind = ProgramEvent::Kind;
+
+    void end_by(Kind kind, std::int32_t index, std::uint64_t job, const LoopView& loop,
+                std::vector<PublishedEvent>& out);
     void publish(PublishedEvent event, const LoopView& loop, std::vector<PublishedEvent>& out);
     void publish(const PathEvent& event, PublishedEvent place, const LoopView& loop, std::vector<PublishedEvent>& out);
 

@@ -4,13 +4,16 @@
 
 namespace lockstep {
 
-EpochRunner::EpochRunner(const MachineConfig& machine) : timing_(machine.timing), slot_(machine.slot_ticks()) {}
+EpochRunner::EpochRunner(const MachineConfig& machine)
+    : timing_(machine.timing), slot_(machine.slot_ticks()), outputs_(machine) {}
 
-void EpochRunner::begin(Epoch epoch, const PathPlace& place, const MotorPositions& at, const Overrides& overrides) {
+void EpochRunner::begin(Epoch epoch, const PathPlace& place, const MotorPositions& at, const Overrides& overrides,
+                        const SwitchedBy& switched) {
     epoch_ = epoch;
     begin_ = {place, overrides};
     at_ = at;
     source_->resume(place, at_, overrides);
+    switched_ = switched;
     start_.reset();
     made_ticks_ = {};
     slots_over_ = 0;
@@ -96,6 +99,14 @@ void EpochRunner::try_overrides() {
     wanted_.reset();
 }
 
+/// The source knows the events before its begin by now.
+void EpochRunner::begin_outputs() {
+    for (const PathEvent& event : source_->events_before(begin_.place.block)) {
+        if (event.block >= switched_.block) { switched_.devices.apply(event.event); }
+    }
+    outputs_.begin(switched_.devices);
+}
+
 /// Returns null while too little of the program has been read. If that lasts too long, the machine rests after the
 /// frames made so far and continues from there.
 const Frame* EpochRunner::make_frame() {
@@ -109,9 +120,12 @@ const Frame* EpochRunner::make_frame() {
                      .start = *start_ + made_ticks_,
                      .ticks = path.ticks,
                      .last = path.last,
-                     .axes = std::move(old.axes)};
+                     .axes = std::move(old.axes),
+                     .outputs = std::move(old.outputs)};
     });
     frame.axes = path.axes;
+    if (sent_ == 1) { begin_outputs(); }
+    outputs_.plan(path, {source_->events(), source_->tail_events()}, frame.outputs);
     if (path.last) { end(Ending::Whole); }
     for (const FrameEvent& event : source_->events()) {
         due_.push_back({sent_, {frame.start + event.at, event.event}});

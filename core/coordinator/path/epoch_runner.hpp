@@ -10,6 +10,7 @@
 
 #include "core/coordinator/axes/axis_view.hpp"
 #include "core/coordinator/path/frame_source.hpp"
+#include "core/coordinator/path/output_planner.hpp"
 #include "core/machine.hpp"
 #include "core/path/sliding_vector.hpp"
 #include "core/protocol/messages.hpp"
@@ -34,6 +35,12 @@ struct EpochEnd {
     MotorPositions positions;  // the exact ones
 };
 
+/// The state of spindle, coolant and outputs by the events before a block of the program.
+struct SwitchedBy {
+    ProgramDevices devices;
+    std::uint32_t block = 0;
+};
+
 class EpochRunner {
 public:
     explicit EpochRunner(const MachineConfig& machine);
@@ -42,7 +49,8 @@ public:
     void load(OwnedSource source) { source_ = std::move(source); }
     /// The epoch starts when its first frame can be made, as soon as the send-ahead allows. `at` is where each axis
     /// rests, exactly.
-    void begin(Epoch epoch, const PathPlace& place, const MotorPositions& at, const Overrides& overrides);
+    void begin(Epoch epoch, const PathPlace& place, const MotorPositions& at, const Overrides& overrides,
+               const SwitchedBy& switched);
 
     /// Returns the frames to send in this slot: new frames that are due, until an axis vetoes one, and frames that an
     /// axis lacks. The frames are valid until the next call. The caller fills in their term.
@@ -129,6 +137,7 @@ private:
     void repeat_frames(Slot now, FrameNumber held_by_all);
     void make_frames(Slot now);
     const Frame* make_frame();
+    void begin_outputs();
     void finish(const Frame& frame, const PathFrame& path);
     void try_overrides();
     const Made& made_frame(FrameNumber number) const { return made_[number - oldest()]; }
@@ -137,6 +146,8 @@ private:
     ProtocolTiming timing_;
     Ticks slot_;
     OwnedSource source_;
+    SwitchedBy switched_;  // when the epoch began
+    OutputPlanner outputs_;
     Epoch epoch_ = 0;
     Begin begin_;
     std::optional<Tick> start_;

@@ -60,9 +60,16 @@ public:
     /// Call it when a frame was made. Sets `due` to the events with places in this frame. `begins`: the moves that
     /// begin in it.
     void take_due(const PathFrame& frame, std::span<const MoveBegin> begins, std::vector<FrameEvent>& due) {
-        due.clear();
-        for (const MoveBegin& begin : begins) { take_before(begin.block, Ticks{std::llround(begin.at)}, due); }
-        if (frame.last) { take_before(kAll, frame.ticks, due); }
+        next_ = list_due(next_, begins, frame.last ? std::optional(frame.ticks) : std::nullopt, due);
+    }
+    /// Sets `due` to the events with places in the tail of the frame whose events were taken last. They stay due.
+    void list_in_tail(std::span<const MoveBegin> begins, std::vector<FrameEvent>& due) const {
+        (void)list_due(next_, begins, std::nullopt, due);
+    }
+    /// The same before the frame is made. `end`: of the path, if it ends in the frame.
+    void list_ahead(std::span<const MoveBegin> body, std::span<const MoveBegin> tail, std::optional<Ticks> end,
+                    std::vector<FrameEvent>& in_body, std::vector<FrameEvent>& in_tail) const {
+        (void)list_due(list_due(next_, body, end, in_body), tail, std::nullopt, in_tail);
     }
     /// The kept events before a block.
     std::span<const PathEvent> before(std::uint32_t block) const {
@@ -77,8 +84,16 @@ public:
 private:
     static constexpr std::uint32_t kAll = std::numeric_limits<std::uint32_t>::max();
 
-    void take_before(std::uint32_t block, Ticks at, std::vector<FrameEvent>& due) {
-        for (; next_ < events_.size() && events_[next_].block < block; ++next_) { due.push_back({at, events_[next_]}); }
+    /// Returns the first event that is not due.
+    std::size_t list_due(std::size_t next, std::span<const MoveBegin> begins, std::optional<Ticks> end,
+                         std::vector<FrameEvent>& due) const {
+        due.clear();
+        const auto list_before = [&](std::uint32_t block, Ticks at) {
+            for (; next < events_.size() && events_[next].block < block; ++next) { due.push_back({at, events_[next]}); }
+        };
+        for (const MoveBegin& begin : begins) { list_before(begin.block, Ticks{std::llround(begin.at)}); }
+        if (end) { list_before(kAll, *end); }
+        return next;
     }
 
     SlidingVector<PathEvent> events_;

@@ -61,6 +61,8 @@ public:
     virtual LegEnd end() const = 0;
     /// The events with places in the last frame. Only valid directly after next().
     virtual std::span<const FrameEvent> events() const { return {}; }
+    /// Those with places in its tail.
+    virtual std::span<const FrameEvent> tail_events() const { return {}; }
     /// Events before this block have happened. Call it before any block is read.
     virtual void begin_events_from(std::uint32_t /*block*/) {}
     /// The events before a block that were read and not forgotten.

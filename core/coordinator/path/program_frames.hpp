@@ -8,7 +8,7 @@
 
 namespace lockstep {
 
-class ProgramFrames final : public FrameSource {
+class ProgramFrames final : public FrameSource, private FrameRoom {
 public:
     ProgramFrames(const MachineConfig& machine, const std::shared_ptr<const ProgramBlocks>& program,
                   std::uint32_t first, const AxisCounts& from);
@@ -27,6 +27,7 @@ public:
     bool set_overrides(const Overrides& overrides) override;
     LegEnd end() const override { return moves_.end(); }
     std::span<const FrameEvent> events() const override { return due_; }
+    std::span<const FrameEvent> tail_events() const override { return due_in_tail_; }
     void begin_events_from(std::uint32_t block) override { events_.begin_from(block); }
     std::span<const PathEvent> events_before(std::uint32_t block) const override { return events_.before(block); }
     std::optional<std::int32_t> line_of(std::uint32_t block) const override;
@@ -40,6 +41,7 @@ public:
 
 private:
     bool read_block();
+    bool has_room(std::span<const MoveBegin> body, std::span<const MoveBegin> tail, bool is_last) const override;
     void forget_lines(const PathFrame& frame);
 
     ProgramMoves moves_;
@@ -49,6 +51,8 @@ private:
     SlidingVector<std::uint32_t> begins_;               // the blocks in which the last frames begin
     EventQueue events_;
     std::vector<FrameEvent> due_;  // events in the last frame
+    std::vector<FrameEvent> due_in_tail_;
+    std::optional<OutputRoom> output_room_;  // nullopt: the machine has no outputs
     PathPlanner planner_;
 };
 

@@ -41,6 +41,11 @@ struct SetpointMessage : lockstep_wire_Setpoint {
         std::vector<std::uint64_t> from_phase;
         std::vector<std::uint16_t> body_count, tail_count;
         std::vector<std::int64_t> ticks, velocity, acceleration;
+        std::vector<std::uint8_t> output_motor;
+        std::vector<std::uint16_t> output_body_count, output_tail_count;
+        std::vector<std::int64_t> output_at;
+        std::vector<std::uint8_t> output_channel;
+        std::vector<std::int64_t> output_value, output_slope;
     } storage;
 };
 
@@ -50,6 +55,7 @@ struct MachineStateMessage : lockstep_wire_MachineState {
     MachineStateMessage(MachineStateMessage&&) = default;
     std::vector<lockstep_wire_FrameRest> rest_storage;
     std::vector<std::int64_t> place_storage;
+    std::vector<double> analog_storage;
 };
 
 /// A command and the array it points to; not copyable either.

@@ -58,6 +58,25 @@ void pause_from_wire(const lockstep_wire_MachineState& wire, std::optional<Machi
     for (const std::int64_t steps : places_of(wire)) { pause.place.append(steps); }
 }
 
+auto analog_from_wire(const lockstep_wire_MachineState& wire, Checks& check) {
+    auto analog = ProgramDevices{}.analog;
+    check.within<std::size_t>("the number of analog_outputs", wire.analog_outputs._length, 0, analog.size());
+    for (std::size_t k = 0; k < analog.size() && k < wire.analog_outputs._length; ++k) {
+        analog[k] = wire.analog_outputs._buffer[k];
+        check.finite("analog_outputs", analog[k]);
+    }
+    return analog;
+}
+
+/// Those behind the last one that is not 0 are left out.
+void analog_to_wire(const ProgramDevices& devices, MachineStateMessage& message) {
+    message.analog_storage.assign(devices.analog.begin(), devices.analog.end());
+    while (!message.analog_storage.empty() && message.analog_storage.back() == 0) { message.analog_storage.pop_back(); }
+    const auto size = static_cast<std::uint32_t>(message.analog_storage.size());
+    message.analog_outputs = {
+        ._maximum = size, ._length = size, ._buffer = message.analog_storage.data(), ._release = false};
+}
+
 ProgramDevices devices_from_wire(const lockstep_wire_MachineState& wire, Checks& check) {
     check.finite("spindle_rpm", wire.spindle_rpm);
     return {.spindle = check.choice("spindle", wire.spindle, ProgramDevices::Spindle::Reverse),
@@ -65,7 +84,8 @@ ProgramDevices devices_from_wire(const lockstep_wire_MachineState& wire, Checks&
             .mist = wire.mist,
             .flood = wire.flood,
             .tool = if_positive(wire.tool),
-            .outputs = wire.outputs};
+            .outputs = wire.outputs,
+            .analog = analog_from_wire(wire, check)};
 }
 
 void check_numbers(const lockstep_wire_MachineState& wire, Checks& check) {
@@ -128,6 +148,9 @@ void to_wire(const MachineState& state, MachineStateMessage& message) {
             .flood = state.devices.flood,
             .tool = state.devices.tool.value_or(0),
             .outputs = state.devices.outputs,
+            .analog_outputs = {},
+            .has_devices_after = state.devices_after.has_value(),
+            .devices_after = state.devices_after.value_or(0),
             .has_writer = state.lease.has_value(),
             .writer = state.lease ? state.lease->writer.id : 0,
             .writer_name = {},
@@ -147,6 +170,7 @@ void to_wire(const MachineState& state, MachineStateMessage& message) {
             .lost_records = state.lost_records,
             .reopened = state.process.reopened,
             .lost_log_lines = state.process.lost_log_lines};
+    analog_to_wire(state.devices, message);
     if (state.lease) {
         write_text(state.lease->writer.name, wire.writer_name);
         write_text(state.lease->writer.host, wire.writer_host);
@@ -196,6 +220,7 @@ std::expected<void, std::string> from_wire(const lockstep_wire_MachineState& wir
             .axes_present = wire.axes_present,
             .config_hash = wire.config_hash,
             .devices = devices,
+            .devices_after = wire.has_devices_after ? std::optional<Epoch>(wire.devices_after) : std::nullopt,
             .lease = std::move(into.lease),
             .pause = std::move(into.pause),
             .job_kind = wire.is_run ? JobKind::Run : JobKind::Move,

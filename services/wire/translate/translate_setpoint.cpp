@@ -8,6 +8,7 @@ namespace lockstep {
 namespace {
 
 static_assert(kMaxAxes == lockstep_wire_MAX_AXES);
+static_assert(kMaxAxes * (OutputTrack::kMostInBody + OutputTrack::kMostInTail) <= lockstep_wire_MAX_OUTPUT_CHANGES);
 static_assert(kMaxAxes * (kMaxBodyPieces + kMaxTailPieces) <= lockstep_wire_MAX_FRAME_PIECES);
 
 /// Makes a sequence of the IDL point to a vector's elements.
@@ -52,6 +53,103 @@ void append(SetpointMessage::Storage& storage, const AxisTrack& axis) {
     };
     for (const Piece& piece : axis.body) { append_piece(piece); }
     for (const Piece& piece : axis.tail) { append_piece(piece); }
+}
+
+/// Appends the changes of one motor's outputs.
+class OutputWriter {
+public:
+    explicit OutputWriter(SetpointMessage::Storage& storage) : storage_(storage) {
+        for (auto* items : {&storage.output_at, &storage.output_value, &storage.output_slope}) { items->clear(); }
+        storage.output_motor.clear();
+        storage.output_body_count.clear();
+        storage.output_tail_count.clear();
+        storage.output_channel.clear();
+    }
+    void append(const MotorOutputs& outputs) {
+        storage_.output_motor.push_back(static_cast<std::uint8_t>(outputs.motor));
+        storage_.output_body_count.push_back(static_cast<std::uint16_t>(outputs.track.body.size()));
+        storage_.output_tail_count.push_back(static_cast<std::uint16_t>(outputs.track.tail.size()));
+        for (const OutputChange& change : outputs.track.body) { append(change); }
+        for (const OutputChange& change : outputs.track.tail) { append(change); }
+    }
+
+private:
+    void append(const OutputChange& change) {
+        storage_.output_at.push_back(change.at.value);
+        if (const auto* analog = std::get_if<RampAnalog>(&change.what)) {
+            return append(analog->channel, analog->value, analog->slope);
+        }
+        const auto* digital = std::get_if<SetDigital>(&change.what);
+        check(digital != nullptr, "frames carry levels and ramps");
+        append(lockstep_wire_DIGITAL_OUTPUTS, digital->levels + (std::int64_t{digital->mask} << 16), 0);
+    }
+    void append(std::uint8_t channel, std::int64_t value, std::int64_t slope) {
+        storage_.output_channel.push_back(channel);
+        storage_.output_value.push_back(value);
+        storage_.output_slope.push_back(slope);
+    }
+
+    SetpointMessage::Storage& storage_;
+};
+
+/// Checks the counts of outputs, as check_shape does those of pieces.
+void check_outputs(const lockstep_wire_Setpoint& wire, Checks& check) {
+    const std::size_t motors = wire.output_motor._length;
+    check.within<std::size_t>("the number of motors with outputs", motors, 0, kMaxAxes);
+    check.same("the number of output body counts", wire.output_body_count._length, motors);
+    check.same("the number of output tail counts", wire.output_tail_count._length, motors);
+    if (!check.passed()) { return; }
+    for (const auto motor : elements(wire.output_motor)) {
+        check.within<std::size_t>("a motor with outputs", motor, 0, kMaxAxes - 1);
+    }
+    for (const auto count : elements(wire.output_body_count)) {
+        check.within<std::size_t>("an output body count", count, 0, OutputTrack::kMostInBody);
+    }
+    for (const auto count : elements(wire.output_tail_count)) {
+        check.within<std::size_t>("an output tail count", count, 0, OutputTrack::kMostInTail);
+    }
+    const std::size_t changes = sum(elements(wire.output_body_count)) + sum(elements(wire.output_tail_count));
+    check.same("the number of output ticks", wire.output_at._length, changes);
+    check.same("the number of output channels", wire.output_channel._length, changes);
+    check.same("the number of output values", wire.output_value._length, changes);
+    check.same("the number of output slopes", wire.output_slope._length, changes);
+    for (const auto at : elements(wire.output_at)) { check.within<std::int64_t>("an output tick", at, 1, kMaxWireTicks); }
+    for (std::size_t i = 0; i < changes && check.passed(); ++i) {
+        const bool is_digital = wire.output_channel._buffer[i] == lockstep_wire_DIGITAL_OUTPUTS;
+        const std::int64_t most = is_digital ? std::int64_t{1} << 32 : kFullScale;
+        check.within<std::size_t>("an output channel", wire.output_channel._buffer[i], 0,
+                                  is_digital ? lockstep_wire_DIGITAL_OUTPUTS : kMostAnalogOutputs - 1);
+        check.within<std::int64_t>("an output value", wire.output_value._buffer[i], 0, is_digital ? most - 1 : most);
+        check.within<std::int64_t>("an output slope", wire.output_slope._buffer[i], is_digital ? 0 : -kFullScale,
+                                   is_digital ? 0 : kFullScale);
+    }
+}
+
+OutputChange read_change(const lockstep_wire_Setpoint& wire, std::size_t at) {
+    const Ticks tick{wire.output_at._buffer[at]};
+    const std::uint8_t channel = wire.output_channel._buffer[at];
+    const std::int64_t value = wire.output_value._buffer[at];
+    if (channel != lockstep_wire_DIGITAL_OUTPUTS) {
+        return {tick, RampAnalog{channel, value, wire.output_slope._buffer[at]}};
+    }
+    return {tick, SetDigital{static_cast<std::uint16_t>(value & 0xffff), static_cast<std::uint16_t>(value >> 16)}};
+}
+
+/// The target has room, because the shape was checked.
+template <typename Changes>
+void read_changes(const lockstep_wire_Setpoint& wire, std::size_t& at, std::size_t count, Changes& changes) {
+    changes.clear();
+    for (const std::size_t end = at + count; at < end; ++at) { changes.append(read_change(wire, at)); }
+}
+
+void read_outputs(const lockstep_wire_Setpoint& wire, std::vector<MotorOutputs>& outputs) {
+    outputs.resize(wire.output_motor._length);
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        outputs[i].motor = wire.output_motor._buffer[i];
+        read_changes(wire, at, wire.output_body_count._buffer[i], outputs[i].track.body);
+        read_changes(wire, at, wire.output_tail_count._buffer[i], outputs[i].track.tail);
+    }
 }
 
 /// Checks that the counts match. After this every index below is within its sequence.
@@ -120,6 +218,15 @@ void to_wire(const Frame& frame, SetpointMessage& message) {
     show(message.ticks, storage.ticks);
     show(message.velocity, storage.velocity);
     show(message.acceleration, storage.acceleration);
+    OutputWriter outputs(storage);
+    for (const MotorOutputs& motor : frame.outputs) { outputs.append(motor); }
+    show(message.output_motor, storage.output_motor);
+    show(message.output_body_count, storage.output_body_count);
+    show(message.output_tail_count, storage.output_tail_count);
+    show(message.output_at, storage.output_at);
+    show(message.output_channel, storage.output_channel);
+    show(message.output_value, storage.output_value);
+    show(message.output_slope, storage.output_slope);
 }
 
 FromWire<Frame> from_wire(const lockstep_wire_Setpoint& wire) {
@@ -131,6 +238,7 @@ FromWire<Frame> from_wire(const lockstep_wire_Setpoint& wire) {
 std::expected<void, std::string> from_wire(const lockstep_wire_Setpoint& wire, Frame& into) {
     Checks check("setpoint");
     check_shape(wire, check);
+    if (check.passed()) { check_outputs(wire, check); }
     if (check.passed()) { check_values(wire, check); }
     if (!check.passed()) { return std::unexpected(check.refusal()); }
     into.term = {wire.term, wire.coordinator};
@@ -147,6 +255,7 @@ std::expected<void, std::string> from_wire(const lockstep_wire_Setpoint& wire, F
         read_pieces(wire, at, wire.body_count._buffer[i], axis.body);
         read_pieces(wire, at, wire.tail_count._buffer[i], axis.tail);
     }
+    read_outputs(wire, into.outputs);
     return {};
 }
 

@@ -51,7 +51,7 @@ EpochRunner runner_of(const MachineConfig& machine, const Program& program) {
     runner.load(planner.frames(std::make_shared<const Program>(program), legs[0]));
     MotorPositions at;
     for (std::size_t i = 0; i < axes; ++i) { at.append({}); }
-    runner.begin(1, {legs[0].first, {}}, at, {});
+    runner.begin(1, {legs[0].first, {}}, at, {}, {});
     (void)runner.send(100, {});
     return runner;
 }
@@ -139,7 +139,7 @@ TEST(EpochRunner, SendsNoFrameOfAnEpochBefore) {
     Slot slot = 101;
     for (; runner.sent() < 3; ++slot) { (void)runner.send(slot, says(slot, 0, {}, 0, {})); }
     runner.stop(slot);
-    runner.begin(2, {0, {}}, {Position{}}, {});
+    runner.begin(2, {0, {}}, {Position{}}, {}, {});
     for (const Slot last = slot + 30; slot < last; ++slot) {
         for (const Frame& frame : runner.send(slot, says(slot, 0, {}, 0, {}, 2))) { EXPECT_EQ(frame.epoch, 2u); }
     }
@@ -232,7 +232,7 @@ protected:
         const auto legs = planner.plan(program, {0}).value();
         auto frames = planner.frames(std::make_shared<const Program>(program), legs[0]);
         runner.load(OwnedSource(std::make_unique<LateFrames>(std::move(frames), is_known)));
-        runner.begin(1, {0, {}}, {Position{}}, {});
+        runner.begin(1, {0, {}}, {Position{}}, {}, {});
     }
     /// Sends frames slot by slot up to `until`. Sets `rest` to the place where the last frame rests.
     void go_on(Slot until) {
@@ -291,7 +291,7 @@ TEST_F(LatePlanner, RestsOnThePathAndGoesOnFromThere) {
     EXPECT_NEAR(rest.as_steps(), 5.0 * end->place.block + 100 * end->place.along.as_steps(), 1e-6);
 
     is_known = true;
-    runner.begin(2, end->place, end->positions, {});
+    runner.begin(2, end->place, end->positions, {}, {});
     bool is_done = false;
     for (const Slot last = slot + 40'000; slot < last && !is_done; ++slot) {
         for (const Frame& frame : runner.send(slot, says(slot, runner.sent(), {}, 0, {}, 2))) {

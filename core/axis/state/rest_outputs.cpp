@@ -1,0 +1,52 @@
+#include "core/axis/state/rest_outputs.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "core/kinematics/motors.hpp"
+#include "core/outputs/output_levels.hpp"
+
+namespace lockstep {
+
+RestOutputs::RestOutputs(std::size_t motor, const MachineConfig& machine) {
+    const std::string name = motor_name(machine, motor);
+    std::ranges::copy_if(machine.outputs, std::back_inserter(outputs_),
+                         [&](const OutputConfig& output) { return output.motor == name; });
+    for (const OutputConfig& output : outputs_) {
+        if (!output.pwm) { digital_ |= static_cast<std::uint16_t>(1U << output.channel); }
+    }
+}
+
+/// An output that goes off at an interruption is on again when the motion goes on, and not before.
+bool RestOutputs::is_off(const OutputConfig& output, const Axis& axis) const {
+    const bool is_safe = axis.is_safe && owner_->phase != MachinePhase::Fault;
+    if (!is_safe && !output.stays_at_fault) { return true; }
+    return !output.stays_at_interruption && owner_->phase != MachinePhase::Idle;
+}
+
+std::optional<device::ChangeOutputs> RestOutputs::change(const Axis& axis) {
+    if (none() || !owner_ || axis.device.moving || axis.device.host_silent) { return std::nullopt; }
+    const bool is_known = owner_->devices_after && axis.epoch <= *owner_->devices_after;
+    if (!is_known && axis.is_safe) { return std::nullopt; }
+    device::ChangeOutputs wanted;
+    for (const OutputConfig& output : outputs_) {
+        const bool off = is_off(output, axis);
+        if (!is_known && !off) { continue; }
+        const auto bit = static_cast<std::uint16_t>(1U << output.channel);
+        if (!output.pwm) {
+            wanted.digital.mask |= bit;
+            if (!off && is_on(output, owner_->devices)) { wanted.digital.levels |= bit; }
+        } else {
+            const bool rests = off || follows_speed(output, owner_->devices);
+            wanted.analog.append({.channel = static_cast<std::uint8_t>(output.channel),
+                                  .value = rests ? 0 : analog_value(share_of(output, owner_->devices)),
+                                  .slope = 0});
+        }
+    }
+    const bool is_shown = ((axis.device.outputs ^ wanted.digital.levels) & wanted.digital.mask) == 0;
+    if (is_shown && ordered_ && *ordered_ == wanted) { return std::nullopt; }
+    ordered_ = wanted;
+    return wanted;
+}
+
+}  // namespace lockstep

@@ -1,0 +1,47 @@
+// The outputs of a machine: which channel of a device each of them is, and which words of programs switch it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace lockstep {
+
+/// The words that switch an output.
+enum class OutputUse : std::uint8_t {
+    Number,          // M62 to M65 if it is digital, M67 and M68 if it is analog, by its number
+    Spindle,         // M3 and M4 on, M5 off. Analog: the speed S
+    SpindleReverse,  // M4 on, M3 and M5 off
+    Mist,            // M7 on, M9 off
+    Flood,           // M8 on, M9 off
+};
+
+/// The pulses of an analog output: they are longer for greater values.
+struct PwmConfig {
+    double hz = 0;
+    double full_scale = 1;          // the value, such as S, at which it is always on
+    bool follows_speed = false;     // after M4 it is in proportion to the speed of the path, and full at the feed
+    bool operator==(const PwmConfig&) const = default;
+};
+
+struct OutputConfig {
+    std::string name;
+    std::string motor;  // whose device has it
+    int channel = 0;    // of the device's digital outputs, or of its analog ones
+    OutputUse use = OutputUse::Number;
+    std::int32_t number = 0;       // Number
+    std::optional<PwmConfig> pwm;  // empty: a digital output
+    bool inverted = false;         // it is on while its pin is low
+    // Whether it keeps its level. Otherwise it goes off, and on again when a program goes on.
+    bool stays_at_interruption = true;  // when motion ends before its path does
+    bool stays_at_fault = false;        // and after an emergency stop
+    bool stays_at_silence = false;      // when the device hears nothing from its process
+    bool operator==(const OutputConfig&) const = default;
+
+    bool is_analog() const { return pwm.has_value(); }
+};
+
+inline constexpr std::int32_t kMostAnalogNumbers = 16;   // of M67 and M68
+inline constexpr std::int32_t kMostDigitalNumbers = 64;  // of M62 to M65
+
+}  // namespace lockstep

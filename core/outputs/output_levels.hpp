@@ -1,0 +1,24 @@
+// The levels of outputs that the words of a program ask for.
+#pragma once
+
+#include <cstdint>
+
+#include "core/hardware/output_change.hpp"
+#include "core/outputs/output_config.hpp"
+#include "core/program_devices.hpp"
+
+namespace lockstep {
+
+/// Whether a digital output is on.
+bool is_on(const OutputConfig& output, const ProgramDevices& devices);
+
+/// The value of an analog output, from 0 to 1. Where it follows the speed, this is its value at the feed.
+double share_of(const OutputConfig& output, const ProgramDevices& devices);
+
+/// Whether an analog output is now in proportion to the speed of the path.
+bool follows_speed(const OutputConfig& output, const ProgramDevices& devices);
+
+/// A share of full scale as a device counts it.
+std::int64_t analog_value(double share);
+
+}  // namespace lockstep

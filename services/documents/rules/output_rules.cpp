@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+#include "core/hardware/output_change.hpp"
+#include "core/kinematics/motors.hpp"
+#include "services/documents/machine_rules.hpp"
+#include "services/documents/names.hpp"
+#include "services/documents/problem_list.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::size_t kMostOutputs = 64;
+constexpr double kMostFullScale = 1e6;
+constexpr double kLeastPwmTicks = 4;
+constexpr double kMostSilence_ms = 60'000;
+
+/// Checks one output after another, so that a second use of a channel or a word is found.
+class OutputRules {
+public:
+    explicit OutputRules(const MachineConfig& machine) : machine_(machine) {}
+
+    void check(const OutputConfig& output, const std::string& at) {
+        check_name(output, at);
+        check_channel(output, at);
+        check_use(output, at);
+        if (output.pwm) { check_pwm(*output.pwm, output.use, at + "pwm."); }
+    }
+    void check_silence() {
+        const ProtocolTiming& timing = machine_.timing;
+        const double stall_ms = static_cast<double>(timing.slot_us) / 1000 * (timing.stall_slots + 1);
+        const double silence = machine_.output_silence_ms;
+        problems_.require(silence > stall_ms && silence <= kMostSilence_ms, "output_silence_ms",
+                          fmt::format("output_silence_ms is {}; it must be above {}, for which a process may stall, and "
+                                      "at most {}",
+                                      number_text(silence), number_text(stall_ms), number_text(kMostSilence_ms)));
+    }
+    ProblemList& problems() { return problems_; }
+
+private:
+    void check_name(const OutputConfig& output, const std::string& at) {
+        problems_.require(is_axis_name(output.name), at + "name",
+                          fmt::format("the name of an output is \"{}\"; it must be a letter, then letters, digits and "
+                                      "_, at most {}",
+                                      output.name, kMaxAxisName));
+        const bool is_new = std::ranges::none_of(names_, [&](auto& name) { return same_name(name, output.name); });
+        problems_.require(is_new, at + "name",
+                          fmt::format("two outputs have the name {}; give each its own", output.name));
+        names_.push_back(output.name);
+    }
+
+    void check_channel(const OutputConfig& output, const std::string& at) {
+        problems_.require(motor_named(machine_, output.motor).has_value(), at + "motor",
+                          fmt::format("output {} is at motor \"{}\", which the machine does not have; its motors are {}",
+                                      output.name, output.motor, fmt::join(motor_names(machine_), ", ")));
+        const std::size_t most = output.is_analog() ? kMostAnalogOutputs : kMostDigitalOutputs;
+        problems_.require_range(at + "channel", output.channel, 0, static_cast<double>(most) - 1);
+        problems_.require(channels_.emplace(output.motor, output.is_analog(), output.channel).second, at + "channel",
+                          fmt::format("{} output {} of motor {} is given twice; use another channel",
+                                      output.is_analog() ? "analog" : "digital", output.channel, output.motor));
+    }
+
+    void check_use(const OutputConfig& output, const std::string& at) {
+        const bool may_be_analog = output.use == OutputUse::Number || output.use == OutputUse::Spindle;
+        problems_.require(may_be_analog || !output.pwm, at + "use",
+                          fmt::format("output {} is switched on and off; remove pwm, or use NUMBER or SPINDLE",
+                                      output.name));
+        problems_.require(!output.inverted || !output.pwm, at + "inverted",
+                          fmt::format("output {} has pwm, and its pulses cannot be inverted; remove inverted, and "
+                                      "invert them where they are used",
+                                      output.name));
+        const bool has_number = output.use == OutputUse::Number;
+        const std::int32_t most = output.is_analog() ? kMostAnalogNumbers : kMostDigitalNumbers;
+        if (has_number) { problems_.require_range(at + "number", output.number, 0, most - 1); }
+        const auto word = std::tuple(output.use, output.is_analog(), has_number ? output.number : 0);
+        problems_.require(words_.insert(word).second, at + "use",
+                          fmt::format("output {} has the words of another output; give it another use or number",
+                                      output.name));
+    }
+
+    void check_pwm(const PwmConfig& pwm, OutputUse use, const std::string& at) {
+        problems_.require_range(at + "hz", pwm.hz, 1, machine_.ticks_per_second() / kLeastPwmTicks);
+        problems_.require(pwm.full_scale > 0 && pwm.full_scale <= kMostFullScale, at + "full_scale",
+                          fmt::format("full_scale is {}; it must be above 0 and at most {}",
+                                      number_text(pwm.full_scale), number_text(kMostFullScale)));
+        if (!pwm.follows_speed) { return; }
+        problems_.require(use == OutputUse::Spindle, at + "follows_speed",
+                          "follows_speed needs use: SPINDLE, because M4 begins it");
+        problems_.require(machine_.coordination == StepMethod::Ranade, at + "follows_speed",
+                          "follows_speed needs coordination: RANADE, because LAI does not tell the speed of the path");
+    }
+
+    const MachineConfig& machine_;
+    ProblemList problems_;
+    std::vector<std::string> names_;
+    std::set<std::tuple<std::string, bool, int>> channels_;
+    std::set<std::tuple<OutputUse, bool, std::int32_t>> words_;
+};
+
+}  // namespace
+
+std::vector<Problem> output_problems(const MachineConfig& machine) {
+    OutputRules rules(machine);
+    rules.problems().require(machine.outputs.size() <= kMostOutputs, "output",
+                             fmt::format("the machine has {} outputs; it can have {}", machine.outputs.size(),
+                                         kMostOutputs));
+    for (std::size_t k = 0; k < machine.outputs.size(); ++k) {
+        rules.check(machine.outputs[k], fmt::format("output[{}].", k));
+    }
+    if (!machine.outputs.empty()) { rules.check_silence(); }
+    return rules.problems().take();
+}
+
+}  // namespace lockstep
