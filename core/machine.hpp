@@ -10,6 +10,7 @@
 #include "core/axis_set.hpp"
 #include "core/device/device_name.hpp"
 #include "core/outputs/output_config.hpp"
+#include "core/device/input_config.hpp"
 #include "core/protocol/timing.hpp"
 #include "core/unassigned_words.hpp"
 #include "core/units.hpp"
@@ -218,6 +219,7 @@ struct MachineConfig {
     KinematicsConfig kinematics;
     std::vector<OutputConfig> outputs;
     double output_silence_ms = 500;  // how long a process may be silent until the outputs of its device go off
+    std::vector<InputConfig> inputs;
 
     std::vector<std::string> axis_names() const;
     constexpr double ticks_per_second() const { return 1e9 / static_cast<double>(tick_ns); }

@@ -45,6 +45,15 @@ std::uint64_t debounced(const DeviceSetup& setup) {
     return inputs;
 }
 
+/// The machine's inputs at the motor's device.
+std::uint64_t input_channels(const MachineConfig& machine, const MotorConfig& motor) {
+    std::uint64_t channels = 0;
+    for (const InputConfig& input : machine.inputs) {
+        if (input.motor == motor.name) { channels |= std::uint64_t{1} << input.channel; }
+    }
+    return channels;
+}
+
 std::uint64_t modulated(const DeviceSetup& setup) {
     std::uint64_t outputs = 0;
     for (std::size_t n = 0; n < kMostAnalogOutputs; ++n) { outputs |= std::uint64_t{setup.pwm_period_ns[n] > 0} << n; }
@@ -118,6 +127,7 @@ std::optional<std::string> lack_of(const DeviceAbilities& device, const MachineC
     const UsedOutputs used = used_outputs(machine, motor);
     if (auto lack = missing_channel("digital output", used.digital, device.digital_outputs)) { return lack; }
     if (auto lack = missing_channel("analog output", used.analog, device.analog_outputs)) { return lack; }
+    if (auto lack = missing_channel("input", input_channels(machine, motor), device.inputs)) { return lack; }
     return lack_of(device, setup_of(machine, motor));
 }
 
@@ -159,6 +169,13 @@ DeviceSetup setup_of(const MachineConfig& machine, const MotorConfig& motor) {
     }
     const bool has_safe_outputs = setup.at_silence != SafeOutputs{};
     if (has_safe_outputs) { setup.silence = ticks(machine.output_silence_ms); }
+    for (const InputConfig& input : machine.inputs) {
+        if (input.motor != motor.name) { continue; }
+        const auto bit = std::uint32_t{1} << input.channel;
+        setup.inputs_inverted |= input.active_low ? bit : 0;
+        setup.stop |= input.use == InputUse::EmergencyStop ? bit : 0;
+        setup.debounce[static_cast<std::size_t>(input.channel)] = ticks(input.debounce_ms);
+    }
     return setup;
 }
 

@@ -50,8 +50,11 @@ Problems problems_of(const MachineDraft& draft, const Text& text) {
         add(motor_problems(draft.machine, axis));
     }
     if (problems.empty()) { add(kinematics_problems(draft.machine)); }
-    if (problems.empty()) { add(pin_problems(draft.machine)); }
-    if (problems.empty()) { add(output_problems(draft.machine)); }
+    if (problems.empty()) {
+        add(pin_problems(draft.machine));
+        add(input_problems(draft.machine));
+        add(output_problems(draft.machine));
+    }
     return problems;
 }
 

@@ -376,6 +376,30 @@ KinematicsConfig read_kinematics(const proto::Machine& message, Reader reader) {
     return kinematics;
 }
 
+InputUse read_use(proto::InputUse use) {
+    switch (use) {
+        case proto::DOOR: return InputUse::Door;
+        case proto::PROGRAM: return InputUse::Program;
+        default: return InputUse::EmergencyStop;
+    }
+}
+
+InputConfig read_input(const proto::Input& message, const std::string& place, Reader reader) {
+    InputConfig input;
+    reader.require(message.has_name(), message.name(), input.name, place + ".name");
+    reader.require(message.has_motor(), message.motor(), input.motor, place + ".motor");
+    reader.require(message.has_channel(), message.channel(), input.channel, place + ".channel");
+    reader.require(message.has_use(), read_use(message.use()), input.use, place + ".use");
+    if (!proto::InputUse_IsValid(message.use())) {
+        reader.refuse(place + ".use", fmt::format("{}.use is {}; it must be EMERGENCY_STOP, DOOR or PROGRAM", place,
+                                                  int{message.use()}));
+    }
+    input.active_low = message.active_low();
+    if (message.has_debounce_ms()) { input.debounce_ms = message.debounce_ms(); }
+    if (message.has_number()) { input.number = message.number(); }
+    return input;
+}
+
 AxisConfig read_axis(const proto::Axis& message, Reader reader) {
     AxisConfig axis;
     reader.require(message.has_name(), message.name(), axis.name, "name");
@@ -448,6 +472,10 @@ MachineDraft machine_from_proto(const proto::Machine& message) {
     draft.machine.output_silence_ms =
         message.has_output_silence_ms() ? message.output_silence_ms() : usual_silence_ms(draft.machine.timing);
     draft.machine.kinematics = read_kinematics(message, Reader(draft.missing));
+    for (const proto::Input& input : message.input()) {
+        const std::string place = fmt::format("input[{}]", draft.machine.inputs.size());
+        draft.machine.inputs.push_back(read_input(input, place, Reader(draft.missing)));
+    }
     set_steps_of_axes(draft.machine);
     draft.machine.network.processes = motor_count(draft.machine) + 1;  // the coordinator
     return draft;

@@ -41,4 +41,7 @@ std::vector<Problem> pin_problems(const MachineConfig& machine);
 /// Checks the outputs, after all motors were found sound.
 std::vector<Problem> output_problems(const MachineConfig& machine);
 
+/// Checks the inputs, after all motors were found sound.
+std::vector<Problem> input_problems(const MachineConfig& machine);
+
 }  // namespace lockstep

@@ -175,6 +175,17 @@ void write_kinematics(const KinematicsConfig& kinematics, proto::Machine& messag
     }
 }
 
+void write_input(const InputConfig& input, proto::Input& message) {
+    constexpr std::array kUses{proto::EMERGENCY_STOP, proto::DOOR, proto::PROGRAM};
+    message.set_name(input.name);
+    message.set_motor(input.motor);
+    message.set_channel(input.channel);
+    message.set_use(kUses[static_cast<std::size_t>(input.use)]);
+    message.set_active_low(input.active_low);
+    message.set_debounce_ms(input.debounce_ms);
+    if (input.number) { message.set_number(*input.number); }
+}
+
 void write_axis(const AxisConfig& axis, proto::Axis& message) {
     message.set_name(axis.name);
     if (axis.motors.empty()) { message.set_steps_per_mm(axis.steps_per_mm); }  // otherwise each motor has its own
@@ -220,6 +231,7 @@ proto::Machine machine_to_proto(const MachineConfig& machine) {
     write_kinematics(machine.kinematics, message);
     for (const OutputConfig& output : machine.outputs) { write_output(output, *message.add_output()); }
     if (!machine.outputs.empty()) { message.set_output_silence_ms(machine.output_silence_ms); }
+    for (const InputConfig& input : machine.inputs) { write_input(input, *message.add_input()); }
     return message;
 }
 

@@ -1,0 +1,30 @@
+// An input of the machine: a pin of a motor's device that is wired to something other than the motor's own switches.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace lockstep {
+
+enum class InputUse : std::uint8_t {
+    EmergencyStop,  // the device stops by itself, and the whole machine stops
+    Door,           // the machine comes to rest on its path and stays there
+    Program,        // programs may read it
+};
+
+/// Inputs 0, 1 and 2 of each device have the switches of its motor: the limit switches and the home switch.
+inline constexpr int kSwitchInputs = 3;
+
+struct InputConfig {
+    std::string name;
+    std::string motor;  // whose device has the pin
+    int channel = kSwitchInputs;
+    InputUse use = InputUse::Program;
+    bool active_low = false;    // closed while the pin is low
+    double debounce_ms = 1;     // for how long the pin must keep its level until the input follows
+    std::optional<int> number;  // under which programs read it: Program only
+    bool operator==(const InputConfig&) const = default;
+};
+
+}  // namespace lockstep

@@ -1,0 +1,101 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+#include "core/hardware/device_abilities.hpp"
+#include "core/kinematics/motors.hpp"
+#include "services/documents/machine_rules.hpp"
+#include "services/documents/names.hpp"
+#include "services/documents/problem_list.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr double kMaxDebounce_ms = 1000;
+constexpr int kMaxProgramInput = 63;
+
+/// The greatest channel that the device may have. The process of a motor compares it with the device that it finds.
+int last_channel(const MotorConfig& motor) {
+    return static_cast<int>(motor.device.has_own_clock() ? kMostInputs : DeviceAbilities{}.inputs) - 1;
+}
+
+class InputRules {
+public:
+    explicit InputRules(const MachineConfig& machine) : machine_(machine), motors_(motors_of(machine)) {}
+
+    std::vector<Problem> check() {
+        for (std::size_t k = 0; k < machine_.inputs.size(); ++k) {
+            check(machine_.inputs[k], {machine_.inputs.begin(), machine_.inputs.begin() + static_cast<long>(k)},
+                  fmt::format("input[{}].", k));
+        }
+        return problems_.take();
+    }
+
+private:
+    using Inputs = std::span<const InputConfig>;
+
+    void check(const InputConfig& input, Inputs before, const std::string& at) {
+        check_name(input, before, at + "name");
+        problems_.require_range(at + "debounce_ms", input.debounce_ms, 0, kMaxDebounce_ms);
+        check_number(input, before, at + "number");
+        const auto motor = std::ranges::find(motors_, input.motor, &MotorConfig::name);
+        problems_.require(motor != motors_.end(), at + "motor",
+                          fmt::format("{}motor is \"{}\"; it must be one of the machine's motors: {}", at, input.motor,
+                                      fmt::join(motor_names(machine_), ", ")));
+        if (motor != motors_.end()) { check_channel(input, *motor, before, at + "channel"); }
+    }
+
+    void check_name(const InputConfig& input, Inputs before, const std::string& key) {
+        problems_.require(
+            is_axis_name(input.name), key,
+            fmt::format("the input's name is \"{}\"; it must be a letter, then letters, digits and _, at most {} "
+                        "characters",
+                        input.name, kMaxAxisName));
+        const auto is_same = [&](const auto& named) { return same_name(named.name, input.name); };
+        problems_.require(std::ranges::none_of(machine_.axes, is_same) && std::ranges::none_of(motors_, is_same) &&
+                              std::ranges::none_of(before, is_same),
+                          key,
+                          fmt::format("{} names an axis, a motor or another input already; give this input another "
+                                      "name",
+                                      input.name));
+    }
+
+    void check_number(const InputConfig& input, Inputs before, const std::string& key) {
+        const bool is_read = input.use == InputUse::Program;
+        problems_.require(is_read || !input.number, key,
+                          fmt::format("{} is given, but only an input with use: PROGRAM has a number; remove it", key));
+        problems_.require(!is_read || input.number, key,
+                          fmt::format("{} is missing; programs read an input with use: PROGRAM by its number", key));
+        if (!input.number) { return; }
+        problems_.require_range(key, *input.number, 0, kMaxProgramInput);
+        const auto other = std::ranges::find(before, input.number, &InputConfig::number);
+        problems_.require(other == before.end(), key,
+                          fmt::format("{} is {}, which input {} has already; choose another", key, *input.number,
+                                      other == before.end() ? "" : other->name));
+    }
+
+    void check_channel(const InputConfig& input, const MotorConfig& motor, Inputs before, const std::string& key) {
+        const int last = last_channel(motor);
+        problems_.require(
+            input.channel >= kSwitchInputs && input.channel <= last, key,
+            fmt::format("{} is {}; it must be from {} to {}: inputs 0, 1 and 2 have the switches of motor {}, and "
+                        "its device has {} at most",
+                        key, input.channel, kSwitchInputs, last, motor.name, last + 1));
+        const auto other = std::ranges::find_if(
+            before, [&](const InputConfig& one) { return one.motor == input.motor && one.channel == input.channel; });
+        problems_.require(other == before.end(), key,
+                          fmt::format("{} is {}, which input {} of motor {} has already; choose another", key,
+                                      input.channel, other == before.end() ? "" : other->name, input.motor));
+    }
+
+    const MachineConfig& machine_;
+    std::vector<MotorConfig> motors_;
+    ProblemList problems_;
+};
+
+}  // namespace
+
+std::vector<Problem> input_problems(const MachineConfig& machine) { return InputRules(machine).check(); }
+
+}  // namespace lockstep

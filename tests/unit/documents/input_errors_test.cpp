@@ -1,0 +1,104 @@
+// The errors in `input`, and what an input means when it is right.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/hardware/device_abilities.hpp"
+#include "core/kinematics/motors.hpp"
+#include "services/documents/machine_file.hpp"
+#include "tests/unit/documents/machine_text_examples.hpp"
+
+namespace lockstep {
+namespace {
+
+using testing::HasSubstr;
+
+/// The shortest machine with these inputs; each text is the inside of a block.
+std::string with_inputs(std::initializer_list<std::string> inputs) {
+    std::string text(kShortest);
+    for (const std::string& input : inputs) { text += "input { " + input + " }\n"; }
+    return text;
+}
+
+std::string error_of(const std::string& text) {
+    const auto read = parse_machine(text);
+    return read ? "no error" : to_text("m", read.error());
+}
+
+const std::string kStop = R"(name: "stop" motor: "X" channel: 3 use: EMERGENCY_STOP)";
+
+TEST(Inputs, WrongValuesAreRefusedWithPlaceValueAndRemedy) {
+    const std::pair<std::string, std::string> mistakes[] = {
+        {with_inputs({R"(motor: "X" channel: 3 use: DOOR)"}), "m:11:1: error: input[0].name is missing"},
+        {with_inputs({R"(name: "a" channel: 3 use: DOOR)"}), "input[0].motor is missing"},
+        {with_inputs({R"(name: "a" motor: "X" use: DOOR)"}), "input[0].channel is missing"},
+        {with_inputs({R"(name: "a" motor: "X" channel: 3)"}), "input[0].use is missing"},
+        {with_inputs({R"(name: "4" motor: "X" channel: 3 use: DOOR)"}),
+         "the input's name is \"4\"; it must be a letter"},
+        {with_inputs({R"(name: "x" motor: "X" channel: 3 use: DOOR)"}),
+         "x names an axis, a motor or another input already; give this input another name"},
+        {with_inputs({kStop, R"(name: "Stop" motor: "X" channel: 4 use: DOOR)"}),
+         "m:12:9: error: Stop names an axis, a motor or another input already"},
+        {with_inputs({R"(name: "a" motor: "Y" channel: 3 use: DOOR)"}),
+         "input[0].motor is \"Y\"; it must be one of the machine's motors: X"},
+        {with_inputs({R"(name: "a" motor: "X" channel: 2 use: DOOR)"}),
+         "input[0].channel is 2; it must be from 3 to 7: inputs 0, 1 and 2 have the switches of motor X, and its "
+         "device has 8 at most"},
+        {with_inputs({R"(name: "a" motor: "X" channel: 8 use: DOOR)"}),
+         "input[0].channel is 8; it must be from 3 to 7"},
+        {with_inputs({kStop, R"(name: "a" motor: "X" channel: 3 use: DOOR)"}),
+         "input[1].channel is 3, which input stop of motor X has already; choose another"},
+        {with_inputs({kStop + " debounce_ms: 1001"}), "input[0].debounce_ms is 1001; it must be from 0 to 1000"},
+        {with_inputs({kStop + " debounce_ms: nan"}), "input[0].debounce_ms is nan; it must be from 0 to 1000"},
+        {with_inputs({kStop + " number: 1"}), "only an input with use: PROGRAM has a number; remove it"},
+        {with_inputs({R"(name: "a" motor: "X" channel: 3 use: PROGRAM)"}), "input[0].number is missing"},
+        {with_inputs({R"(name: "a" motor: "X" channel: 3 use: PROGRAM number: 64)"}),
+         "input[0].number is 64; it must be from 0 to 63"},
+        {with_inputs({R"(name: "a" motor: "X" channel: 3 use: PROGRAM number: 0)",
+                      R"(name: "b" motor: "X" channel: 4 use: PROGRAM number: 0)"}),
+         "input[1].number is 0, which input a has already; choose another"}};
+    for (const auto& [text, message] : mistakes) {
+        const std::string found = error_of(text);
+        EXPECT_THAT(found, HasSubstr(message));
+        EXPECT_THAT(found, testing::MatchesRegex("m:[0-9]+:[0-9]+: [^\n]*\n?")) << "one error, with its place";
+    }
+}
+
+TEST(Inputs, BecomeTheSetupOfTheirDevice) {
+    const auto read = parse_machine(
+        with_inputs({kStop + " active_low: true", R"(name: "door" motor: "X" channel: 7 use: DOOR debounce_ms: 20)",
+                     R"(name: "part" motor: "X" channel: 4 use: PROGRAM number: 0 active_low: true debounce_ms: 0)"}));
+    ASSERT_TRUE(read);
+    const DeviceSetup setup = setup_of(*read, motors_of(*read)[0]);
+    EXPECT_EQ(setup.inputs_inverted, 0x18u);
+    EXPECT_EQ(setup.stop, 0x8u);
+    EXPECT_EQ(setup.debounce[3], Ticks{1000});
+    EXPECT_EQ(setup.debounce[4], Ticks{0});
+    EXPECT_EQ(setup.debounce[7], Ticks{20'000});
+    EXPECT_EQ(setup_of(*read, MotorConfig{.name = "Y"}), DeviceSetup{}) << "a motor without inputs";
+}
+
+TEST(Inputs, ThatTheDeviceDoesNotHaveAreRefusedBeforeAnythingMoves) {
+    const auto read = parse_machine(with_inputs({R"(name: "door" motor: "X" channel: 7 use: DOOR debounce_ms: 0)"}));
+    ASSERT_TRUE(read);
+    const MotorConfig motor = motors_of(*read)[0];
+    EXPECT_EQ(lack_of({.inputs = 8}, *read, motor), std::nullopt);
+    EXPECT_EQ(lack_of({.inputs = 7}, *read, motor), "device: there is no input 7; it has 7, numbered from 0");
+}
+
+TEST(Inputs, ThatAreWrittenAreReadAgain) {
+    const auto read = parse_machine(with_inputs({kStop + " active_low: true debounce_ms: 2.5",
+                                                 R"(name: "part" motor: "X" channel: 4 use: PROGRAM number: 5)"}));
+    ASSERT_TRUE(read);
+    const auto again = parse_machine(machine_text(*read));
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->inputs, read->inputs);
+}
+
+TEST(Inputs, OnHardwareMayHaveEveryNumberOfTheRegisterMap) {
+    const std::string on_hardware = with("name: \"X\"", "name: \"X\" device: \"uio:/dev/uio0\"",
+                                         with_inputs({R"(name: "a" motor: "X" channel: 31 use: DOOR)"}));
+    EXPECT_EQ(error_of(on_hardware), "no error");
+}
+
+}  // namespace
+}  // namespace lockstep
