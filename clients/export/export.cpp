@@ -27,6 +27,9 @@ public:
         take(RecordKind::Position, message);
     }
     void on_health(const axis_health_t& message, LogPlace /*place*/) override { take(RecordKind::Health, message); }
+    void on_channel(const channel_event_t& message, LogPlace /*place*/) override {
+        take(RecordKind::Channels, message);
+    }
     void on_job(const analysis::RecordedJob& message, LogPlace /*place*/) override {
         check_.take_machine(message.config);
         take(RecordKind::Job, message);

@@ -53,6 +53,20 @@ Sample sample_of(const axis_health_t& m) {
              {"skipped_loops", whole(m.skipped_loops)}}};
 }
 
+Sample sample_of(const channel_event_t& m) {
+    return {topic_of(m.machine, m.axis, "channels"),
+            m.utime,
+            {{"kind", m.kind},
+             {"channel", whole(m.channel)},
+             {"closed", whole(m.closed)},
+             {"levels", whole(m.levels)},
+             {"value", whole(m.value)},
+             {"detail", whole(m.detail)},
+             {"tick", m.tick + m.ahead},
+             {"clock_error_ticks", whole(m.clock_error)},
+             {"lost", whole(m.lost)}}};
+}
+
 Sample sample_of(const job_t& m) {
     return {"/" + m.machine + "/job",
             m.utime,

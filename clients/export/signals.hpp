@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <lockstep/axis_health_t.hpp>
 #include <lockstep/axis_position_t.hpp>
+#include <lockstep/channel_event_t.hpp>
 #include <lockstep/job_t.hpp>
 #include <lockstep/program_event_t.hpp>
 #include <string>
@@ -32,6 +33,7 @@ struct Sample {
 
 Sample sample_of(const axis_position_t& message);
 Sample sample_of(const axis_health_t& message);
+Sample sample_of(const channel_event_t& message);
 Sample sample_of(const job_t& message);
 Sample sample_of(const program_event_t& message);
 

@@ -43,6 +43,7 @@ std::expected<std::optional<MessageId>, std::string> identify(const LogEvent& ev
         case RecordKind::Position: return identify_as<axis_position_t>(event);
         case RecordKind::Health: return identify_as<axis_health_t>(event);
         case RecordKind::Run: return identify_as<run_t>(event);
+        case RecordKind::Channels: return identify_as<channel_event_t>(event);
         case RecordKind::Job: return identify_as<job_t>(event);
         case RecordKind::Event: return identify_as<program_event_t>(event);
         case RecordKind::ProgramPart: return identify_as<program_part_t>(event);

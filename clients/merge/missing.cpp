@@ -33,6 +33,7 @@ analysis::RecordingProcess publisher_of(RecordKind kind, const std::vector<std::
         case RecordKind::Run: return publisher_in<run_t>(data);
         case RecordKind::Position: return publisher_in<axis_position_t>(data);
         case RecordKind::Health: return publisher_in<axis_health_t>(data);
+        case RecordKind::Channels: return publisher_in<channel_event_t>(data);
         case RecordKind::Job: return publisher_in<job_t>(data);
         case RecordKind::Event: return publisher_in<program_event_t>(data);
         case RecordKind::ProgramPart: return publisher_in<program_part_t>(data);

@@ -27,6 +27,7 @@ public:
         check_.on_position(message, place);
     }
     void on_health(const axis_health_t& message, LogPlace /*place*/) override { pass(message); }
+    void on_channel(const channel_event_t& message, LogPlace /*place*/) override { pass(message); }
     void on_job(const analysis::RecordedJob& message, LogPlace place) override {
         pass(message);
         check_.on_job(message, place);

@@ -58,6 +58,10 @@ void ReplayedLog::take(const axis_health_t& message) {
     sink_.publish(channels_of(message.machine, message.axis).health, message);
 }
 
+void ReplayedLog::take(const channel_event_t& message) {
+    sink_.publish(channels_of(message.machine, message.axis).channels, message);
+}
+
 void ReplayedLog::take(const program_part_t& message) { sink_.publish(program_channel(message.machine), message); }
 
 void ReplayedLog::take(const job_t& message) { sink_.publish(job_channel(message.machine), message); }

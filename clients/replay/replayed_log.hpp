@@ -48,6 +48,7 @@ public:
     void take(const run_t& message);
     void take(const axis_position_t& message);
     void take(const axis_health_t& message);
+    void take(const channel_event_t& message);
     void take(const job_t& message);
     void take(const program_event_t& message);
     void take(const program_part_t& message);

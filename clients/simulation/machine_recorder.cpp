@@ -8,7 +8,11 @@
 namespace lockstep {
 
 MachineRecorder::MachineRecorder(VirtualMachine& vm, RecordSink& sink)
-    : machine_(vm.machine()), sink_(sink), axes_(motor_count(machine_)), found_(motor_count(machine_)) {
+    : machine_(vm.machine()),
+      sink_(sink),
+      axes_(motor_count(machine_)),
+      found_(motor_count(machine_)),
+      noted_(motor_count(machine_)) {
     vm.observe(*this);
 }
 
@@ -18,13 +22,19 @@ void MachineRecorder::on_step(std::size_t axis, StepEdge step) {
     ++steps_;
 }
 
+void MachineRecorder::on_channel(std::size_t axis, const ChannelEvent& event) {
+    axes_[axis] ? axes_[axis]->channel(event) : noted_[axis].push_back(event);
+}
+
 void MachineRecorder::on_axis(std::size_t axis, Tick /*now*/, const AxisOutputs& out, AxisNode& node) {
     auto& recorder = axes_[axis];
     if (!recorder && out.state) {
         recorder = std::make_unique<AxisRecorder>(machine_, axis, out.state->identity, sink_);
         for (const StepEdge& step : std::exchange(found_[axis], {})) { recorder->step(step); }
+        for (const ChannelEvent& event : std::exchange(noted_[axis], {})) { recorder->channel(event); }
     }
     if (!recorder) { return; }
+    recorder->lost_channel_events(node.lost_channel_events());
     recorder->loop(out, node.controller().zero_count(), node.lost_captures());
     if (!jobs_ || !out.state) { return; }
     jobs_->note_axis({.identity = out.state->identity,

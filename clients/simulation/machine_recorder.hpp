@@ -17,6 +17,7 @@ public:
     MachineRecorder(VirtualMachine& vm, RecordSink& sink);
 
     void on_step(std::size_t axis, StepEdge step) override;
+    void on_channel(std::size_t axis, const ChannelEvent& event) override;
     void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
     void on_part(std::size_t process, Tick now, const ProgramPart& part) override;
     void on_coordinator(std::size_t process, Tick now, const CoordinatorOutputs& out) override;
@@ -34,6 +35,7 @@ private:
     RecordSink& sink_;
     std::vector<std::unique_ptr<AxisRecorder>> axes_;  // created when the axis's process publishes its identity
     std::vector<std::vector<StepEdge>> found_;         // steps found by a process before it published its identity
+    std::vector<std::vector<ChannelEvent>> noted_;     // likewise, changes of inputs and outputs
     Identity owner_ = 0;                               // the coordinator of the recorded jobs
     std::size_t owning_ = 0;                           // its process
     std::unique_ptr<JobRecorder> jobs_;                // its recorder

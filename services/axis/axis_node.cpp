@@ -34,6 +34,7 @@ const AxisOutputs& AxisNode::decide(Tick own, const AxisMail& mail, const OnStep
     must_restart_ = clock_reset_.must_restart(own, std::ranges::any_of(mail.coordinator, owns), controller_.at_rest(),
                                               knows_time_ ? time_.error() : Ticks{});
     drain(own, on_step, out_.device_clock);
+    drain_channels(own);
     return out_;
 }
 
@@ -76,6 +77,12 @@ void AxisNode::drain(Tick own, const OnStep& on_step, const ClockView& machine_t
     if (!free_captures) { return lose_device(own, free_captures.error()); }
     lost_captures_ = found_->port->lost_captures();
     if (meter != nullptr) { meter->end_loop(*free_captures); }
+}
+
+void AxisNode::drain_channels(Tick own) {
+    if (!has_device()) { return; }
+    const auto drained = found_->port->drain_channels(on_channel_);
+    if (!drained) { lose_device(own, drained.error()); }
 }
 
 void AxisNode::control(const AxisMail& mail) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "core/axis/axis_controller.hpp"
 #include "core/axis/device/device_watch.hpp"
@@ -43,6 +44,7 @@ public:
         KeptOrNot kept = std::unexpected(FaultCode::PositionNotKept);
     };
     using OnStep = DevicePort::OnStep;
+    using OnChannel = DevicePort::OnChannel;
 
     /// While the device is missing or lost, the node searches for it every kSeekPeriod.
     AxisNode(const Setup& setup, OpenDevice open);
@@ -63,9 +65,12 @@ public:
     void measure(HealthMeter& meter) { meter_ = &meter; }
     /// Notes the decisions from the next step on. `flight` must outlive the node.
     void note_in(AxisFlight& flight) { flight_ = &flight; }
+    /// Passes every change of an input or output of the device from the next step on, in order, in the device's time.
+    void pass_channels(OnChannel on_channel) { on_channel_ = std::move(on_channel); }
     /// Number of device errors so far: refused orders and lost devices.
     std::uint64_t troubles() const { return troubles_; }
     std::uint64_t lost_captures() const { return lost_before_ + lost_captures_; }
+    std::uint64_t lost_channel_events() const { return has_device() ? found_->port->lost_channel_events() : 0; }
     /// Why the node has no device. Empty if it has one, or if the search has just begun.
     std::string lacks() const { return has_device() || is_looking() ? std::string() : lacks_; }
     /// Upper bound of the error of `now`.
@@ -88,6 +93,7 @@ private:
     std::optional<DeviceTime::Device> device_clock() const;
     void control(const AxisMail& mail);
     void drain(Tick own, const OnStep& on_step, const ClockView& machine_time);
+    void drain_channels(Tick own);
     void note(std::string trouble);
     void give(const std::vector<DeviceOrder>& orders);
 
@@ -122,8 +128,9 @@ private:
     std::uint64_t troubles_ = 0;
     HealthMeter* meter_ = nullptr;  // null: nothing is measured
     AxisFlight* flight_ = nullptr;  // null: nothing is noted
-    bool failed_ = false;           // a device order failed since the last control step
-    AxisOutputs out_;               // of the last loop
+    OnChannel on_channel_ = [](const ChannelEvent&) {};
+    bool failed_ = false;  // a device order failed since the last control step
+    AxisOutputs out_;      // of the last loop
 };
 
 }  // namespace lockstep

@@ -86,7 +86,8 @@ public:
           meter_(setup.axis, setup.identity, setup.machine.tick_ns) {
         node_.measure(meter_);
         node_.note_in(flight_);
-        recorder_.reserve(registers::kCaptureRingMostEntries);
+        node_.pass_channels([this](const ChannelEvent& event) { recorder_.channel(event); });
+        recorder_.reserve(registers::kCaptureRingMostEntries, registers::kEventRingMostEntries);
     }
 
     AxisService(const AxisService&) = delete;  // the node points to members of this object
@@ -104,6 +105,7 @@ public:
         looped_ = node_.now();
         if (out.state) { network_.publish(*out.state); }
         for (const MachineState& state : in.machine) { recorder_.note_coordinator(state); }
+        recorder_.lost_channel_events(node_.lost_channel_events());
         recorder_.loop(out, node_.controller().zero_count(), node_.lost_captures());
         if (out.rests) { keeper_.keep(*out.rests); }
         for (const AxisNotice& notice : out.notices) { log_notice(notice); }

@@ -19,6 +19,7 @@ namespace lockstep {
 class DevicePort {
 public:
     using OnStep = std::function<void(StepEdge)>;
+    using OnChannel = std::function<void(const ChannelEvent&)>;
 
     virtual ~DevicePort() = default;
 
@@ -38,6 +39,12 @@ public:
     virtual std::expected<std::uint32_t, std::string> drain(const OnStep& on_step) = 0;
     /// Steps that were made while the device had no room to capture them, since its power-up.
     virtual std::uint64_t lost_captures() const = 0;
+
+    /// Passes to on_channel, in order, every change of an input or output that the device had noted at the newest
+    /// answer, once. Error: impossible changes.
+    virtual std::expected<void, std::string> drain_channels(const OnChannel& on_channel) = 0;
+    /// Changes that the device had no room to note, since its power-up.
+    virtual std::uint64_t lost_channel_events() const = 0;
 
 protected:
     DevicePort() = default;

@@ -25,6 +25,12 @@ std::expected<std::uint32_t, std::string> WindowPort::drain(const OnStep& on_ste
     return static_cast<std::uint32_t>(driver_.abilities().capture_entries - *captured);
 }
 
+std::expected<void, std::string> WindowPort::drain_channels(const OnChannel& on_channel) {
+    const auto drained = driver_.drain_events(on_channel);
+    if (!drained) { return std::unexpected(drained.error()); }
+    return {};
+}
+
 std::expected<DeviceDriver, std::string> find_device(RegisterWindow window, const MachineConfig& machine,
                                                      const MotorConfig& motor) {
     auto driver = DeviceDriver::attach(std::move(window), machine.tick_ns);

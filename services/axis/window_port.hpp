@@ -35,6 +35,8 @@ public:
     std::expected<void, std::string> apply(const DeviceOrder& order) override { return driver_.apply(order); }
     std::expected<std::uint32_t, std::string> drain(const OnStep& on_step) override;
     std::uint64_t lost_captures() const override { return driver_.lost_captures(); }
+    std::expected<void, std::string> drain_channels(const OnChannel& on_channel) override;
+    std::uint64_t lost_channel_events() const override { return driver_.lost_events(); }
 
 private:
     Tick now(Tick own) const { return host_clock_ ? host_clock_() : own; }

@@ -19,7 +19,10 @@ AxisRecorder::AxisRecorder(const MachineConfig& machine, std::size_t axis, Ident
                 .incarnation = incarnation,
                 .tick_ns = machine.tick_ns},
                0, [this](step_batch_t& batch) { publish(batch); }),
-      marker_(machine, motor_name(machine, axis), sink) {}
+      marker_(machine, motor_name(machine, axis), sink) {
+    channel_event_.machine = machine.name;
+    channel_event_.axis = motor_name(machine, axis);
+}
 
 /// Sets the count before the first recorded step to the axis's position minus its steps so far.
 void AxisRecorder::place(const AxisState& state) {
@@ -36,8 +39,22 @@ void AxisRecorder::batch_steps() {
     steps_.clear();
 }
 
+void AxisRecorder::publish_channel_events() {
+    for (const ChannelEvent& event : channel_events_) {
+        to_lcm(ChannelRecord{.number = {incarnation_, channel_messages_++},
+                             .lost = lost_channel_events_,
+                             .zero_count = zero_count_,
+                             .clock = clock_,
+                             .event = event},
+               machine_.tick_ns, channel_event_);
+        sink_.publish(channels_.channels, channel_event_);
+    }
+    channel_events_.clear();
+}
+
 void AxisRecorder::finish() {
     batch_steps();
+    publish_channel_events();
     batcher_.flush();
     marker_.note_end(motor_name(machine_, axis_), incarnation_, counts_, clock_.other);
 }
@@ -68,6 +85,7 @@ void AxisRecorder::loop(const AxisOutputs& out, std::int64_t zero_count, std::ui
         zero_count_ = zero_count;  // a process may begin homed, so its first zero is not a jump
     }
     batch_steps();
+    publish_channel_events();
     for (const ExecutedTrack& track : out.tracks) {
         const RunRecord record{.machine = machine_.name,
                                .axis = motor_name(machine_, axis_),

@@ -21,10 +21,17 @@ public:
     AxisRecorder(const AxisRecorder&) = delete;  // the batcher publishes through this object
     AxisRecorder& operator=(const AxisRecorder&) = delete;
 
-    /// Makes room for that many steps in one loop, so that it does not allocate memory for fewer.
-    void reserve(std::size_t steps) { steps_.reserve(steps); }
+    /// Makes room for that many steps and changes in one loop, so that it does not allocate memory for fewer.
+    void reserve(std::size_t steps, std::size_t channel_events) {
+        steps_.reserve(steps);
+        channel_events_.reserve(channel_events);
+    }
     /// Call it for every step, in order, before loop().
     void step(StepEdge step) { steps_.push_back(step); }
+    /// Call it for every change of an input or output of the device, in order, before loop().
+    void channel(const ChannelEvent& event) { channel_events_.push_back(event); }
+    /// The number of such changes that the device has lost so far. Call it before loop().
+    void lost_channel_events(std::uint64_t count) { lost_channel_events_ = count; }
     /// Call it after each loop, with the loop's outputs and the axis's zero after it. `lost_captures` is the number of
     /// steps so far that have no recorded time; new ones are missing after the steps of this loop. Steps and runs are
     /// recorded in the device's time and in machine time.
@@ -37,12 +44,13 @@ public:
         marker_.note("", state.term.coordinator, state.published, state.tick);
     }
     RecordCounts published() const { return counts_; }
-    /// Call it at the end. Publishes the remaining steps and the last mark.
+    /// Call it at the end. Publishes the remaining steps and changes, and the last mark.
     void finish();
 
 private:
     void place(const AxisState& state);
     void batch_steps();
+    void publish_channel_events();
     void publish(step_batch_t& batch);
 
     MachineConfig machine_;
@@ -54,7 +62,11 @@ private:
     std::int64_t zero_count_ = 0;
     RecordCounts counts_;  // published so far
     RecordMarker marker_;
-    run_t run_{};  // the run published last
+    run_t run_{};                               // the run published last
+    std::vector<ChannelEvent> channel_events_;  // not yet published
+    channel_event_t channel_event_{};           // the last one published
+    std::uint64_t channel_messages_ = 0;        // published so far
+    std::uint64_t lost_channel_events_ = 0;
     std::uint64_t lost_captures_ = 0;
     /// Whether the device's position is known. It is unknown at first, since the device may have outlived another
     /// process, and after a change of the device or steps without a recorded time.

@@ -60,15 +60,19 @@ void LateLink::arrive() {
     if (!given) { refusal_ = given.error(); }
 }
 
-/// Steps are read for each question, even if the process that asked it has ended.
+/// Steps and changes of channels are read for each question, even if the process that asked it has ended.
 void LateLink::answer(const Question& question, Tick now) {
     Answer answer{.status = driver_->read(),
                   .asked = question.asked,
                   .arrives = now + question.back,
                   .lost_captures = driver_->lost_captures(),
+                  .lost_channel_events = driver_->lost_events(),
                   .segments = arrived_segments_};
     const auto captured = driver_->drain_capture([this](StepEdge step) { steps_.push_back(step); });
     if (!captured) { answer.status = std::unexpected(captured.error()); }
+    const auto noted = driver_->drain_events([this](const ChannelEvent& event) { channel_events_.push_back(event); });
+    if (!noted) { answer.status = std::unexpected(noted.error()); }
+    answer.channel_events = noted_ += noted.value_or(0);
     if (refusal_) { answer.status = std::unexpected(*refusal_); }
     captured_ += captured.value_or(0);
     answer.captured = captured_;
@@ -86,6 +90,13 @@ void LateLink::pass_steps(std::uint64_t captured, const DevicePort::OnStep& on_s
     for (std::uint64_t passed = captured_ - steps_.size(); passed < captured; ++passed) {
         on_step(steps_.front());
         steps_.pop_front();
+    }
+}
+
+void LateLink::pass_channels(std::uint64_t events, const DevicePort::OnChannel& on_channel) {
+    for (std::uint64_t passed = noted_ - channel_events_.size(); passed < events; ++passed) {
+        on_channel(channel_events_.front());
+        channel_events_.pop_front();
     }
 }
 
@@ -116,6 +127,11 @@ std::expected<std::uint32_t, std::string> LatePort::drain(const OnStep& on_step)
     if (!newest_) { return static_cast<std::uint32_t>(registers::kCaptureRingMostEntries); }
     link_.pass_steps(newest_->captured, on_step);
     return newest_->free_captures;
+}
+
+std::expected<void, std::string> LatePort::drain_channels(const OnChannel& on_channel) {
+    if (newest_) { link_.pass_channels(newest_->channel_events, on_channel); }
+    return {};
 }
 
 }  // namespace lockstep

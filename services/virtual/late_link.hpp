@@ -55,6 +55,8 @@ public:
         std::uint64_t captured = 0;       // the steps that the device had made up to then
         std::uint32_t free_captures = 0;  // before these steps were read
         std::uint64_t lost_captures = 0;
+        std::uint64_t channel_events = 0;  // the changes of inputs and outputs up to then
+        std::uint64_t lost_channel_events = 0;
         std::uint64_t segments = 0;  // those that had reached the device
     };
     /// The answer to the last question; nullopt: it has not arrived by `now`, or was taken.
@@ -62,6 +64,8 @@ public:
     bool is_asked() const { return is_asked_; }
     /// Passes the steps that have not been passed yet, up to this number in all.
     void pass_steps(std::uint64_t captured, const DevicePort::OnStep& on_step);
+    /// The same for changes of inputs and outputs.
+    void pass_channels(std::uint64_t events, const DevicePort::OnChannel& on_channel);
     /// Segments given so far.
     std::uint64_t segments() const { return segments_; }
 
@@ -93,6 +97,8 @@ private:
     std::optional<Answer> answer_;
     std::deque<StepEdge> steps_;  // that have crossed the link and were not passed yet
     std::uint64_t captured_ = 0;
+    std::deque<ChannelEvent> channel_events_;  // likewise
+    std::uint64_t noted_ = 0;
     std::uint64_t segments_ = 0;
     std::uint64_t arrived_segments_ = 0;
 };
@@ -110,6 +116,8 @@ public:
     std::expected<void, std::string> apply(const DeviceOrder& order) override;
     std::expected<std::uint32_t, std::string> drain(const OnStep& on_step) override;
     std::uint64_t lost_captures() const override { return newest_ ? newest_->lost_captures : 0; }
+    std::expected<void, std::string> drain_channels(const OnChannel& on_channel) override;
+    std::uint64_t lost_channel_events() const override { return newest_ ? newest_->lost_channel_events : 0; }
 
 private:
     DeviceReading reading_of(const LateLink::Answer& answer) const;

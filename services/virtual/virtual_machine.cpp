@@ -36,6 +36,9 @@ void VirtualMachine::start_axis(std::size_t axis, std::uint64_t config_hash) {
     const AxisNode::Setup setup{axis, options_.machine, axis_identities_++, config_hash, it.kept};
     it.asker.emplace(static_cast<std::uint32_t>(axis), setup.identity, options_.machine.tick_ns);
     it.node.emplace(setup, [this, axis](Tick) { return devices_.open(axis); });
+    it.node->pass_channels([this, axis](const ChannelEvent& event) {
+        for (VirtualObserver* observer : observers_) { observer->on_channel(axis, event); }
+    });
     if (!options_.flight) { return; }
     it.flight.emplace(axis, options_.machine, options_.flight(axis));
     it.node->note_in(*it.flight);

@@ -26,6 +26,8 @@ class VirtualObserver {
 public:
     virtual ~VirtualObserver() = default;
     virtual void on_step(std::size_t /*axis*/, StepEdge /*step*/) {}
+    /// Called for each change of an input or output of an axis's device, when the axis's process reads it.
+    virtual void on_channel(std::size_t /*axis*/, const ChannelEvent& /*event*/) {}
     /// Called after the decisions of an axis's loop, with the node in its new state.
     virtual void on_axis(std::size_t /*axis*/, Tick /*now*/, const AxisOutputs& /*out*/, AxisNode& /*node*/) {}
     /// Called when a coordinator has taken a part of a program.

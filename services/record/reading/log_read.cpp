@@ -78,6 +78,7 @@ void deliver(const LogEvent& event, LogListener& listener, ProgramParts& program
         case RecordKind::Position: return deliver<axis_position_t>(event, listener, &LogListener::on_position);
         case RecordKind::Health: return deliver<axis_health_t>(event, listener, &LogListener::on_health);
         case RecordKind::Run: return deliver<run_t>(event, listener, &LogListener::on_run);
+        case RecordKind::Channels: return deliver<channel_event_t>(event, listener, &LogListener::on_channel);
         case RecordKind::Job: return deliver_job(event, listener, programs, path);
         case RecordKind::Event: return deliver<program_event_t>(event, listener, &LogListener::on_event);
         case RecordKind::ProgramPart: return deliver_part(event, listener, programs);

@@ -9,6 +9,7 @@
 #include <functional>
 #include <lockstep/axis_health_t.hpp>
 #include <lockstep/axis_position_t.hpp>
+#include <lockstep/channel_event_t.hpp>
 #include <lockstep/program_event_t.hpp>
 #include <lockstep/program_part_t.hpp>
 #include <lockstep/record_mark_t.hpp>
@@ -31,6 +32,8 @@ public:
     virtual void on_run(const run_t& message, LogPlace place) = 0;
     virtual void on_job(const RecordedJob& message, LogPlace place) = 0;
     virtual void on_health(const axis_health_t& /*message*/, LogPlace /*place*/) {}
+    /// A change of an input or output of a device.
+    virtual void on_channel(const channel_event_t& /*message*/, LogPlace /*place*/) {}
     /// Events share one sequence of numbers with the jobs.
     virtual void on_event(const program_event_t& /*message*/, LogPlace /*place*/) {}
     /// For listeners that count messages. Jobs already have their programs (program_parts.hpp).

@@ -78,6 +78,7 @@ void RecordEndCheck::saw(RecordKind kind, const std::string& machine, const std:
     Counted* counted = of(machine, axis, incarnation);
     if (counted == nullptr) { return; }
     const std::size_t of_kind = index_of(kind);
+    if (of_kind == kNumbered.size()) { return; }  // marks do not count it
     std::optional<std::int64_t>& there = counted->there[of_kind];
     there = std::exchange(counted->is_seen[of_kind], true) ? std::max(*there, sequence + 1) : sequence + 1;
 }

@@ -22,7 +22,11 @@ std::string upper(std::string_view name) {
 
 AxisChannels channels_of(std::string_view machine, std::string_view axis) {
     const std::string stem = "LOCKSTEP_" + upper(machine) + "_" + upper(axis);
-    return {.steps = stem + "_STEPS", .position = stem + "_POSITION", .run = stem + "_RUN", .health = stem + "_HEALTH"};
+    return {.steps = stem + "_STEPS",
+            .position = stem + "_POSITION",
+            .run = stem + "_RUN",
+            .health = stem + "_HEALTH",
+            .channels = stem + "_CHANNELS"};
 }
 
 std::string job_channel(std::string_view machine) { return "LOCKSTEP_" + upper(machine) + "_JOB"; }
@@ -44,15 +48,16 @@ std::string flight_channel(std::string_view machine, std::string_view process) {
 }
 
 RecordKind kind_of(std::string_view channel) {
-    constexpr std::array<std::pair<std::string_view, RecordKind>, 9> kEnds{{{"_STEPS", RecordKind::Steps},
-                                                                            {"_POSITION", RecordKind::Position},
-                                                                            {"_HEALTH", RecordKind::Health},
-                                                                            {"_RUN", RecordKind::Run},
-                                                                            {"_JOB", RecordKind::Job},
-                                                                            {"_EVENTS", RecordKind::Event},
-                                                                            {"_PROGRAM", RecordKind::ProgramPart},
-                                                                            {"_LOSS", RecordKind::Loss},
-                                                                            {"_MARK", RecordKind::Mark}}};
+    constexpr std::array<std::pair<std::string_view, RecordKind>, 10> kEnds{{{"_STEPS", RecordKind::Steps},
+                                                                             {"_POSITION", RecordKind::Position},
+                                                                             {"_HEALTH", RecordKind::Health},
+                                                                             {"_RUN", RecordKind::Run},
+                                                                             {"_CHANNELS", RecordKind::Channels},
+                                                                             {"_JOB", RecordKind::Job},
+                                                                             {"_EVENTS", RecordKind::Event},
+                                                                             {"_PROGRAM", RecordKind::ProgramPart},
+                                                                             {"_LOSS", RecordKind::Loss},
+                                                                             {"_MARK", RecordKind::Mark}}};
     if (!channel.starts_with("LOCKSTEP_")) { return RecordKind::Foreign; }
     for (const auto& [end, kind] : kEnds) {
         if (channel.ends_with(end)) { return kind; }

@@ -15,6 +15,7 @@ struct AxisChannels {
     std::string position;
     std::string run;
     std::string health;
+    std::string channels;  // of the device: its inputs and outputs
 };
 
 AxisChannels channels_of(std::string_view machine, std::string_view axis);
@@ -33,7 +34,19 @@ std::string program_channel(std::string_view machine);
 std::string flight_channel(std::string_view machine, std::string_view process);
 
 /// The kind of a channel's messages, from its name.
-enum class RecordKind : std::uint8_t { Steps, Position, Health, Run, Job, Event, ProgramPart, Loss, Mark, Foreign };
+enum class RecordKind : std::uint8_t {
+    Steps,
+    Position,
+    Health,
+    Run,
+    Channels,
+    Job,
+    Event,
+    ProgramPart,
+    Loss,
+    Mark,
+    Foreign
+};
 RecordKind kind_of(std::string_view channel);
 
 /// Returns the kind that shares its sequence numbers with this one: events are numbered together with jobs.

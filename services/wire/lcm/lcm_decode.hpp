@@ -10,6 +10,7 @@
 
 #include <lockstep/axis_health_t.hpp>
 #include <lockstep/axis_position_t.hpp>
+#include <lockstep/channel_event_t.hpp>
 #include <lockstep/flight_event_t.hpp>
 #include <lockstep/flight_head_t.hpp>
 #include <lockstep/flight_note_t.hpp>
@@ -31,6 +32,8 @@ template <>
 inline constexpr std::string_view kLcmLayout<axis_health_t> = "88ss88888888888448881888888888";
 template <>
 inline constexpr std::string_view kLcmLayout<axis_position_t> = "88ss888888s148";
+template <>
+inline constexpr std::string_view kLcmLayout<channel_event_t> = "8ss8888888s41488";
 template <>
 inline constexpr std::string_view kLcmLayout<flight_event_t> = "8ss888ss4s88888";
 template <>

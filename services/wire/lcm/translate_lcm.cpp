@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/axis/state/fsm.hpp"
 #include "core/kinematics/motors.hpp"
@@ -17,6 +18,13 @@ std::int64_t bits(std::uint64_t value) { return static_cast<std::int64_t>(value)
 constexpr std::array<std::string_view, ProgramEvent::kKinds> kEventKinds{
     "spindle-stop", "spindle-forward", "spindle-reverse", "spindle-speed", "coolant-off", "mist-on",
     "flood-on",     "output-on",       "output-off",      "analog-output", "tool"};
+
+constexpr std::array<std::string_view, 5> kChannelKinds{"input", "digital", "analog", "compare-begins", "compare-ends"};
+
+template <typename Small>
+bool fits(std::int32_t number) {
+    return number >= 0 && number <= std::numeric_limits<Small>::max();
+}
 
 }  // namespace
 
@@ -78,6 +86,41 @@ axis_health_t to_lcm(const MachineConfig& machine, const AxisHealth& health, Rec
     out.skipped_loops = bits(health.refused.skipped_loops);
     return out;
 }
+
+void to_lcm(const ChannelRecord& record, std::int64_t tick_ns, channel_event_t& out) {
+    const ChannelEvent& event = record.event;
+    out.utime = utime_of(record.clock.other, tick_ns);
+    out.incarnation = bits(record.number.incarnation);
+    out.sequence = bits(record.number.sequence);
+    out.lost = bits(record.lost);
+    out.tick = event.tick.value;
+    out.ahead = (record.clock.at(event.tick) - event.tick).value;
+    out.clock_error = record.clock.error_at(event.tick).value;
+    out.zero_count = record.zero_count;
+    out.kind = name_of(event.kind);
+    out.channel = event.channel;
+    out.closed = event.closed ? 1 : 0;
+    out.levels = event.levels;
+    out.value = event.value;
+    out.detail = event.detail;
+}
+
+std::optional<ChannelEvent> event_of(const channel_event_t& message) {
+    const auto kind = std::ranges::find(kChannelKinds, message.kind) - kChannelKinds.begin();
+    const bool is_known = kind != std::ssize(kChannelKinds);
+    if (!is_known || !fits<std::uint8_t>(message.channel) || !fits<std::uint16_t>(message.levels)) {
+        return std::nullopt;
+    }
+    return ChannelEvent{.tick = {message.tick},
+                        .kind = static_cast<ChannelEvent::Kind>(kind),
+                        .channel = static_cast<std::uint8_t>(message.channel),
+                        .closed = message.closed != 0,
+                        .levels = static_cast<std::uint16_t>(message.levels),
+                        .value = message.value,
+                        .detail = message.detail};
+}
+
+std::string_view name_of(ChannelEvent::Kind kind) { return kChannelKinds[static_cast<std::size_t>(kind)]; }
 
 run_t to_lcm(const RunRecord& record, std::int64_t tick_ns) {
     run_t out{};

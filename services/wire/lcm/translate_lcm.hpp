@@ -10,11 +10,14 @@
 
 #include <lockstep/axis_health_t.hpp>
 #include <lockstep/axis_position_t.hpp>
+#include <lockstep/channel_event_t.hpp>
 #include <lockstep/job_t.hpp>
 #include <lockstep/program_event_t.hpp>
 #include <lockstep/record_mark_t.hpp>
 #include <lockstep/run_t.hpp>
 
+#include "core/clock/clock_view.hpp"
+#include "core/hardware/output_change.hpp"
 #include "core/machine.hpp"
 #include "core/protocol/axis_health.hpp"
 #include "core/protocol/messages.hpp"
@@ -35,6 +38,24 @@ axis_position_t to_lcm(const MachineConfig& machine, const AxisState& state, Rec
 
 /// The health of an axis. health.axis is an index into the machine's axes.
 axis_health_t to_lcm(const MachineConfig& machine, const AxisHealth& health, RecordNumber number);
+
+/// A change of an input or an output of an axis's device.
+struct ChannelRecord {
+    RecordNumber number;
+    std::uint64_t lost = 0;       // changes that the device has lost so far
+    std::int64_t zero_count = 0;  // machine coordinates = device count - zero_count
+    ClockView clock;              // the device's clock in machine time, now
+    ChannelEvent event;
+};
+
+/// Writes all fields but the names of machine and axis into a reused message.
+void to_lcm(const ChannelRecord& record, std::int64_t tick_ns, channel_event_t& out);
+
+/// Returns the change that the message reports; nullopt if its kind is unknown or a number is beyond its range.
+std::optional<ChannelEvent> event_of(const channel_event_t& message);
+
+/// Returns the name as in channel_event_t, such as "compare-begins".
+std::string_view name_of(ChannelEvent::Kind kind);
 
 /// One frame or tail that an axis's device has run.
 struct RunRecord {

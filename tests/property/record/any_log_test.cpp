@@ -76,6 +76,7 @@ Bytes whole_log(const std::filesystem::path& path) {
             writer.write_message("LOCKSTEP_MILL_Y_RUN", i, run());
             writer.write_message("LOCKSTEP_MILL_Z_POSITION", i, position());
             writer.write_message("LOCKSTEP_MILL_Z_HEALTH", i, axis_health_t{});
+            writer.write_message("LOCKSTEP_MILL_Z_CHANNELS", i, channel_event_t{});
         }
         EXPECT_TRUE(writer.flush());
     }
@@ -118,6 +119,7 @@ void decode_as_everything(std::span<const std::uint8_t> data) {
     EXPECT_TRUE(is_decoded_or_refused<job_t>(data));
     EXPECT_TRUE(is_decoded_or_refused<axis_health_t>(data));
     EXPECT_TRUE(is_decoded_or_refused<program_event_t>(data));
+    EXPECT_TRUE(is_decoded_or_refused<channel_event_t>(data));
 }
 
 /// Reads everything and returns the number of bytes in events.

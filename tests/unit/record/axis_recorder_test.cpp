@@ -44,7 +44,7 @@ TEST(RecordOfAStalledAxis, AllocatesNothingForTheLargestMessageOfSteps) {
     const MachineConfig machine{.name = "mill", .axes = {{.name = "X", .steps_per_mm = 80}}};
     Sizes sink;
     AxisRecorder recorder(machine, 0, 7, sink);
-    recorder.reserve(2 * StepBatcher::kMaxSteps);
+    recorder.reserve(2 * StepBatcher::kMaxSteps, 0);
     recorder.loop(outputs_at(0, 100), 0, 0);
     const AxisOutputs out;
     const std::uint64_t before = CountedAllocations::count();

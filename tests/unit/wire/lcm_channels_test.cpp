@@ -10,6 +10,8 @@ TEST(LcmChannels, AreUpperCasedAndFreeOfRegularExpressions) {
     EXPECT_EQ(channels_of("Mill", "Z").position, "LOCKSTEP_MILL_Z_POSITION");
     EXPECT_EQ(channels_of("Mill", "Z").run, "LOCKSTEP_MILL_Z_RUN");
     EXPECT_EQ(channels_of("Mill", "Z").health, "LOCKSTEP_MILL_Z_HEALTH");
+    EXPECT_EQ(channels_of("Mill", "Z").channels, "LOCKSTEP_MILL_Z_CHANNELS");
+    EXPECT_EQ(kind_of("LOCKSTEP_MILL_Z_CHANNELS"), RecordKind::Channels);
     EXPECT_EQ(job_channel("Mill"), "LOCKSTEP_MILL_JOB");
     EXPECT_EQ(event_channel("Mill"), "LOCKSTEP_MILL_EVENTS");
 }

@@ -228,6 +228,53 @@ TEST(ToLcm, AnEventHasItsNumbersAndItsName) {
     EXPECT_DOUBLE_EQ(event.value, 1200.5);
 }
 
+TEST(FromLcm, AChangeOfAChannelOfEachKindIsWhatItWas) {
+    for (const auto kind : {ChannelEvent::Kind::Input, ChannelEvent::Kind::Digital, ChannelEvent::Kind::Analog,
+                            ChannelEvent::Kind::CompareBegins, ChannelEvent::Kind::CompareEnds}) {
+        const ChannelEvent event{.tick = {4000},
+                                 .kind = kind,
+                                 .channel = 7,
+                                 .closed = true,
+                                 .levels = 0xFFFF,
+                                 .value = -(std::int64_t{1} << 62),
+                                 .detail = INT64_MIN};
+        channel_event_t message{};
+        to_lcm(ChannelRecord{.event = event}, 1000, message);
+        EXPECT_EQ(event_of(message), event) << message.kind;
+    }
+}
+
+TEST(FromLcm, AChangeOfAChannelOfUnknownKindOrBeyondItsRangeIsRefused) {
+    channel_event_t message{};
+    to_lcm(ChannelRecord{}, 1000, message);
+    ASSERT_TRUE(event_of(message));
+    message.kind = "laser";
+    EXPECT_FALSE(event_of(message));
+    to_lcm(ChannelRecord{}, 1000, message);
+    message.channel = 256;
+    EXPECT_FALSE(event_of(message));
+    message.channel = 0;
+    message.levels = -1;
+    EXPECT_FALSE(event_of(message));
+}
+
+TEST(ToLcm, AChangeOfAChannelHasItsTickOnBothClocks) {
+    channel_event_t message{};
+    to_lcm(ChannelRecord{.number = {7, 3},
+                         .lost = 2,
+                         .zero_count = -50,
+                         .clock = {.own = {1000}, .other = {900'000}, .error = {4}},
+                         .event = {.tick = {990}}},
+           1000, message);
+    EXPECT_EQ(message.utime, 900'000);
+    EXPECT_EQ(message.tick + message.ahead, 899'990);
+    EXPECT_EQ(message.clock_error, 4);
+    EXPECT_EQ(message.incarnation, 7);
+    EXPECT_EQ(message.sequence, 3);
+    EXPECT_EQ(message.lost, 2);
+    EXPECT_EQ(message.zero_count, -50);
+}
+
 TEST(ToLcm, ARunThatWasNotCutEndsWhereItsPiecesDo) {
     const Piece piece{{1000}, {INT64_MAX}, {0}};  // half a step a tick
     const run_t run = to_lcm(RunRecord{.from = Position::steps(7), .pieces = {&piece, 1}}, 1000);
