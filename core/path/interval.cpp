@@ -68,9 +68,10 @@ double IntervalBounds::least_after(double w0) const {
 
 /// Overrides scale the feed. In rapid moves they scale the speeds that the axes allow, and never exceed these.
 double IntervalBounds::cap(const Overrides& overrides) const {
-    if (!piece_.shape.feed_mm_per_tick) { return limit(std::min(1.0, overrides.rapid())); }
+    const double most = piece_.shape.most_mm_per_tick * piece_.shape.most_mm_per_tick;
+    if (!piece_.shape.feed_mm_per_tick) { return std::min(most, limit(std::min(1.0, overrides.rapid()))); }
     const double feed = *piece_.shape.feed_mm_per_tick * (piece_.shape.is_feed_fixed ? 1 : overrides.feed());
-    return std::min(feed * feed, limit());
+    return std::min({feed * feed, most, limit()});
 }
 
 double IntervalBounds::limit(double speed_share) const {

@@ -3,13 +3,18 @@
 namespace lockstep {
 namespace {
 
-/// The greatest number of changes of outputs for these events.
+/// The greatest number of changes of outputs for these events. Those of one kind change outputs at the same tick together.
 std::size_t most_changes(std::span<const FrameEvent> events) {
     std::size_t changes = 0;
     for (std::size_t k = 0; k < events.size(); ++k) {
-        const bool is_new = k == 0 || events[k - 1].at != events[k].at || events[k].event.event.is_analog() ||
-                            events[k - 1].event.event.is_analog();
-        changes += is_new ? 1 : 0;
+        const auto is_same = [&](const FrameEvent& other) {
+            return other.at == events[k].at && other.event.event.is_analog() == events[k].event.event.is_analog();
+        };
+        bool is_counted = false;
+        for (std::size_t j = k; j > 0 && events[j - 1].at == events[k].at; --j) {
+            is_counted = is_counted || is_same(events[j - 1]);
+        }
+        changes += is_counted ? 0 : 1;
     }
     return changes;
 }

@@ -31,6 +31,8 @@ ProgramMoves::Read ProgramMoves::read(PathInput& path) {
     if (const auto* dwell = std::get_if<Dwell>(&block->action)) {
         const Ticks ticks = ticks_of(*dwell, tick_s_);
         if (ticks > Ticks{}) { path.rest(ticks, number); }
+    } else if (const auto* event = std::get_if<ProgramEvent>(&block->action)) {
+        pace_.add(*event);
     } else if (move != nullptr) {
         has_moved_ = true;
         pass(*move, number, path);
@@ -58,14 +60,19 @@ ProgramMoves::Read ProgramMoves::finish(LegEnd::Kind end, PathInput& path) {
 }
 
 void ProgramMoves::pass(const ProgramMove& move, std::uint32_t number, PathInput& path) {
+    double square = 0;
     for (std::size_t i = 0; i < axes_.size(); ++i) {
+        const double from_mm = at_[axes_[i]] / steps_per_mm_[axes_[i]];
+        square += (move.target_mm[i] - from_mm) * (move.target_mm[i] - from_mm);
         at_[axes_[i]] = move.target_mm[i] * steps_per_mm_[axes_[i]];
         to_[axes_[i]] = std::llround(at_[axes_[i]]);
     }
+    const double chord_mm = std::sqrt(square);
     const MoveSettings settings{.feed_mm_per_tick = move.feed_for(tick_s_),
                                 .mode = move.mode,
                                 .tolerance_mm = move.tolerance_mm,
-                                .is_feed_fixed = move.is_feed_fixed};
+                                .is_feed_fixed = move.is_feed_fixed,
+                                .most_mm_per_tick = pace_.next(chord_mm)};
     if (!move.arc) { return path.line_to_steps(at_, settings, number); }
     ArcShape arc = *move.arc;
     arc.first = axes_[arc.first];

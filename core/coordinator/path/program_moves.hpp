@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/coordinator/path/frame_source.hpp"
+#include "core/coordinator/path/output_pace.hpp"
 #include "core/coordinator/path/program_plan.hpp"
 #include "core/path/path_input.hpp"
 #include "core/program_blocks.hpp"
@@ -14,7 +15,8 @@ namespace lockstep {
 
 class ProgramMoves {
 public:
-    explicit ProgramMoves(const MachineConfig& machine) : tick_s_(static_cast<double>(machine.tick_ns) * 1e-9) {
+    explicit ProgramMoves(const MachineConfig& machine)
+        : tick_s_(static_cast<double>(machine.tick_ns) * 1e-9), pace_(machine) {
         for (const AxisConfig& axis : machine.axes) { steps_per_mm_.push_back(axis.steps_per_mm); }
     }
 
@@ -47,6 +49,7 @@ private:
     std::vector<double> steps_per_mm_;
     std::vector<std::size_t> axes_;  // the machine's axes that the program names
     double tick_s_ = 0;
+    OutputPace pace_;
     std::uint32_t next_ = 0;
     bool has_moved_ = false;  // a move of the leg was read
     bool is_starved_ = false;

@@ -50,6 +50,7 @@ bool ArcCutter::begin(const PathSetup& setup, const ArcShape& arc, const ArcEnds
     block_ = block;
     pattern_.feed_mm_per_tick = settings.feed_mm_per_tick;
     pattern_.is_feed_fixed = settings.is_feed_fixed;
+    pattern_.most_mm_per_tick = settings.most_mm_per_tick;
     begin_ = direction(setup, from_, radius_begin_);
     end_ = direction(setup, to_, radius_end_);
     const double least_mm = kLeastRadius_steps / scale(setup);

@@ -1,6 +1,7 @@
 // The input of the path planner: lines, arcs and rests, in machine coordinates, with everything modal resolved.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct MoveSettings {
     PathMode mode = PathMode::Blend;
     double tolerance_mm = 0;     // Blend: the greatest deviation of an axis, steps included; at least one step
     bool is_feed_fixed = false;  // the feed override has no effect
+    double most_mm_per_tick = std::numeric_limits<double>::infinity();  // for other reasons than the feed
     bool operator==(const MoveSettings&) const = default;
 };
 

@@ -6,6 +6,7 @@
 // square of a small angle).
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "core/path/axis_vector.hpp"
@@ -20,6 +21,7 @@ struct Quadratic {
     double length = 0;                       // mm; 0: a rest
     std::optional<double> feed_mm_per_tick;  // nullopt: as fast as the axes allow
     bool is_feed_fixed = false;              // the feed override has no effect
+    double most_mm_per_tick = std::numeric_limits<double>::infinity();
     bool is_straight = true;                 // bend is 0
     bool begins_at_rest = false;             // the machine rests at its begin, and there at whole steps
     bool ends_at_rest = false;
