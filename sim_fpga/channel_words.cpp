@@ -139,8 +139,9 @@ void store_change(RegisterWindow& window, std::size_t at, const OutputPlace& pla
 bool is_of_run(const RegisterWindow& window, std::size_t at, std::uint64_t run) {
     return kOutputRingTagRun.shows(window.load(at + kOutputRingTag), run);
 }
-bool is_of_frame(const RegisterWindow& window, std::size_t at, FrameNumber frame) {
-    return kOutputRingTagFrame.shows(window.load(at + kOutputRingTag), frame);
+std::int32_t frames_after(const RegisterWindow& window, std::size_t at, FrameNumber frame) {
+    const std::uint64_t its = kOutputRingTagFrame.of(window.load(at + kOutputRingTag));
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(its - frame));
 }
 bool is_of_tail(const RegisterWindow& window, std::size_t at) {
     return (window.load(at + kOutputRingTag) & kOutputRingTagTail) != 0;

@@ -25,9 +25,10 @@ struct OutputPlace {
 };
 /// at: the byte at which the entry begins.
 void store_change(RegisterWindow& window, std::size_t at, const OutputPlace& place, const OutputChange& change);
-/// Whether the entry belongs to this run, and to this frame of it. Only low bits are compared.
+/// Whether the entry belongs to this run. Only low bits are compared.
 bool is_of_run(const RegisterWindow& window, std::size_t at, std::uint64_t run);
-bool is_of_frame(const RegisterWindow& window, std::size_t at, FrameNumber frame);
+/// By how many frames the entry's is after this one; below 0: before it. Only low bits are compared.
+std::int32_t frames_after(const RegisterWindow& window, std::size_t at, FrameNumber frame);
 bool is_of_tail(const RegisterWindow& window, std::size_t at);
 /// Returns nullopt if the entry is of an unknown kind.
 std::optional<OutputChange> load_change(const RegisterWindow& window, std::size_t at);

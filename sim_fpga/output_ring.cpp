@@ -27,9 +27,9 @@ bool OutputRing::take(std::uint64_t run, FrameNumber frame, OutputTrack& track) 
     bool is_well = true;
     while (!is_empty()) {
         const bool of_run = is_of_run(window_, oldest(), run);
-        const bool of_frame = of_run && is_of_frame(window_, oldest(), frame);
-        if (of_run && !of_frame && is_of_frame(window_, oldest(), frame + 1)) { break; }
-        if (of_frame) { is_well = read(track) && is_well; }
+        const std::int32_t after = of_run ? frames_after(window_, oldest(), frame) : -1;
+        if (after > 0) { break; }
+        if (after == 0) { is_well = read(track) && is_well; }
         ++tail_;
     }
     if (!is_well) {

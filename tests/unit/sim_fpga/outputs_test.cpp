@@ -56,6 +56,19 @@ TEST(Outputs, ChangeAtTheirTicksOfTheBodyWhateverTheCallsOfAdvance) {
     }
 }
 
+TEST(Outputs, OfALaterFrameWaitForItWhileFramesBeforeItChangeNone) {
+    OutputBench bench;
+    bench.load(frame(1), {{at(1, kLaser, kLaser)}, {}});
+    bench.order(frame(2));
+    bench.order(frame(3));
+    bench.load(last_frame(4), {{at(5, 0, kLaser)}, {}});
+    bench.order(device::Arm{4});
+    (void)bench.at(kMuchLater);
+    const auto seen = bench.events();
+    ASSERT_EQ(seen.size(), 2u);
+    EXPECT_EQ(seen[1].tick, kStart + kBody * 3 + Ticks{5});
+}
+
 TEST(Outputs, OfAVetoedFrameDoNotChangeAndThoseOfTheTailDo) {
     OutputBench bench;
     bench.load(frame(1), {{at(1, kLaser, kLaser)}, {at(128, 0, kLaser)}});
