@@ -36,6 +36,7 @@ struct Findings {
     std::int64_t local_runs = 0;            // of axes on their own: homing, own moves
     std::int64_t jobs = 0;                  // moves and programs, from begin to end
     std::int64_t events = 0;                // of programs, each at its place
+    std::int64_t outputs = 0;               // changes of outputs by frames, each at its tick
     std::optional<Tick> last_tick;          // of the steps compared
     Ticks latest;                           // the largest time error of a step of a frame, in machine time
     Ticks clock_error;                      // uncertainty of machine time; 0 if one clock drives all devices

@@ -9,6 +9,7 @@
 #include "core/kinematics/kinematics.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/record/reading/log_step.hpp"
+#include "services/wire/lcm/translate_lcm.hpp"
 
 namespace lockstep::verification {
 
@@ -18,6 +19,7 @@ LogCheck::Axis::Axis(const std::string& name, Findings& findings, JobCheck* jobs
           name, findings,
           [jobs](const Run& run, Tick tick) { return jobs != nullptr ? jobs->commanded(run, tick) : name_of(run); },
           [jobs, name](Tick tick) { return jobs != nullptr ? jobs->planned(name, tick) : std::vector<Course>{}; }),
+      outputs(name, findings),
       runs(
           [this, name, &findings, jobs](Run run) {
               if (!findings.going()) { return; }
@@ -37,7 +39,12 @@ LogCheck::Machine::Machine(Findings& findings)
     : jobs(findings),
       records([this](const JobRecord& record,
                      bool is_behind_gap) { std::visit([&](const auto& of) { jobs.take(of, is_behind_gap); }, record); },
-              [this](const JobRecord& other) { jobs.contradict(other); }) {}
+              [this](const JobRecord& other) { jobs.contradict(other); }) {
+    jobs.pass_outputs([this](const std::string& axis, OutputCheck::Planned planned) {
+        const auto found = axes.find(axis);
+        if (found != axes.end()) { found->second->outputs.take(std::move(planned)); }
+    });
+}
 
 void LogCheck::take(const analysis::StepMessage& message, analysis::LogPlace place) {
     Axis* to = axis(message.machine, message.axis, place);
@@ -67,6 +74,17 @@ void LogCheck::take(const analysis::RunMessage& message, analysis::LogPlace plac
 void LogCheck::on_health(const axis_health_t& message, analysis::LogPlace /*place*/) {
     if (!analysis::is_message_number(message.sequence)) { return; }
     end_.saw(RecordKind::Health, message.machine, message.axis, message.incarnation, message.sequence);
+}
+
+void LogCheck::on_channel(const channel_event_t& message, analysis::LogPlace place) {
+    if (make_follower_) { return; }
+    Axis* of = axis(message.machine, message.axis, place);
+    if (of == nullptr) { return; }
+    const auto event = event_of(message);
+    const bool is_possible = event && analysis::is_countable(message.tick) &&
+                             analysis::is_message_number(message.sequence) && message.lost >= 0;
+    if (!is_possible) { return on_damage(place, "a change of an input or output with impossible numbers"); }
+    of->outputs.take({message.incarnation, message.sequence, message.lost, *event});
 }
 
 void LogCheck::on_program_part(const program_part_t& message, analysis::LogPlace /*place*/) {
@@ -297,6 +315,7 @@ void LogCheck::Machine::finish(const std::string& name, const analysis::RecordEn
                           .ends_early = of->last.is_cut(),
                           .lacks_steps = is_damaged || end.lacks(RecordKind::Steps, name, axis),
                           .lacks_runs = is_damaged || end.lacks(RecordKind::Run, name, axis)});
+        of->outputs.finish(!is_damaged && !of->is_late && !of->last.is_cut());
     }
 }
 

@@ -12,6 +12,7 @@
 #include "clients/verification/activity.hpp"
 #include "clients/verification/jobs/job_check.hpp"
 #include "clients/verification/steps/axis_check.hpp"
+#include "clients/verification/steps/output_check.hpp"
 #include "clients/verification/steps/run_stream.hpp"
 #include "services/record/reading/log_read.hpp"
 #include "services/record/reading/log_step.hpp"
@@ -42,6 +43,7 @@ public:
     void on_job(const analysis::RecordedJob& message, analysis::LogPlace place) override;
     void on_event(const program_event_t& message, analysis::LogPlace place) override;
     void on_health(const axis_health_t& message, analysis::LogPlace place) override;
+    void on_channel(const channel_event_t& message, analysis::LogPlace place) override;
     void on_program_part(const program_part_t& message, analysis::LogPlace place) override;
     void on_mark(const record_mark_t& message, analysis::LogPlace place) override;
     void on_foreign(std::string_view /*channel*/) override {}
@@ -69,6 +71,7 @@ private:
         bool is_behind_gap = false;  // runs before the next one are missing
         std::unique_ptr<RunFollower> follower;
         AxisCheck check;
+        OutputCheck outputs;
         RunStream runs;
     };
     struct Machine {

@@ -21,7 +21,11 @@ namespace {
 std::string counted(const Findings& findings) {
     return plural(findings.steps, "step") + ", " + plural(findings.runs + findings.local_runs, "run") + " and " +
            plural(findings.jobs, "job") +
-           (findings.events > 0 ? ", with " + plural(findings.events, "event") + "," : "");
+           (findings.events > 0 ? ", with " + plural(findings.events, "event") : "") +
+           (findings.outputs > 0 ? (findings.events > 0 ? " and " : ", with ") +
+                                       plural(findings.outputs, "output change")
+                                 : "") +
+           (findings.events + findings.outputs > 0 ? "," : "");
 }
 
 }  // namespace
@@ -55,6 +59,7 @@ proto::VerifyReport to_report(const Findings& findings) {
     report.set_runs_compared(findings.runs + findings.local_runs);
     report.set_jobs_compared(findings.jobs);
     report.set_events_compared(findings.events);
+    report.set_outputs_compared(findings.outputs);
     if (findings.difference) { fill(*findings.difference, *report.mutable_first_difference()); }
     for (const std::string& note : findings.notes) { report.add_notes(note); }
     for (const std::string& line : analysis::missing_sentences(findings.end)) { report.add_missing_at_end(line); }

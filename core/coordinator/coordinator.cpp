@@ -1,5 +1,6 @@
 #include "core/coordinator/coordinator.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/coordinator/jobs/job_advance.hpp"
@@ -76,6 +77,7 @@ void Coordinator::receive(const AxisState& state, CoordinatorLoop& loop) {
     const bool is_replaced = arrival == AxisRoster::Arrival::Replaced;
     if (is_replaced && jobs_.activity().job() != nullptr) { jobs_.fail({FaultCode::AxisLost, state.axis}, loop); }
     if (arrival != AxisRoster::Arrival::SameAxis) { orders_.withdraw(state.axis, axes_); }
+    if (is_replaced) { lose_outputs(state.axis, loop); }
     if (is_replaced) { jobs_.cut_inherited(TakeoverDoubt::AxisInDoubt, loop); }
     const bool has_open_order = !loop.is_order_done(state.axis);
     axes_.take(state, loop.slot);
@@ -165,10 +167,18 @@ void Coordinator::watch_axis(std::size_t axis, CoordinatorLoop& loop) {
     }
 }
 
+/// An axis without its process cannot keep its outputs, and another process must not switch them on again by itself.
+void Coordinator::lose_outputs(std::size_t axis, CoordinatorLoop& loop) {
+    const auto is_of_axis = [&](const OutputConfig& output) { return output.motor == motor_name(machine_, axis); };
+    if (jobs_.activity().job() != nullptr || std::ranges::none_of(machine_.outputs, is_of_axis)) { return; }
+    jobs_.path().events().switch_off_outputs(jobs_.count().number(), JobOutcome::Failed, loop, loop.out.events);
+}
+
 void Coordinator::lose_axis(std::size_t axis, CoordinatorLoop& loop) {
     loop.notice({CoordinatorNotice::Kind::AxisGone, FaultCode::AxisLost, axis});
     orders_.withdraw(axis, axes_);
     axes_.forget(axis);
+    lose_outputs(axis, loop);
     jobs_.cut_inherited(TakeoverDoubt::AxisInDoubt, loop);
     wait_for_axes(loop);
     if (phase() != MachinePhase::Waiting) { jobs_.fail({FaultCode::AxisLost, axis}, loop); }

@@ -58,6 +58,7 @@ private:
     void tend_lease(Slot missed, CoordinatorLoop& loop);
     void watch_axis(std::size_t axis, CoordinatorLoop& loop);
     void lose_axis(std::size_t axis, CoordinatorLoop& loop);
+    void lose_outputs(std::size_t axis, CoordinatorLoop& loop);
     void answer(const Command& command, CoordinatorLoop& loop);
     bool answer_about_lease(const Command& command, CoordinatorLoop& loop);
     CommandResult carry_out(const Command& command, CoordinatorLoop& loop);

@@ -7,10 +7,10 @@ namespace lockstep::verification {
 
 /// The start is fixed in the first slot, and the first frame is due in a later one.
 EpochReplay::EpochReplay(const MachineConfig& machine, Epoch epoch, EpochStart start, const Overrides& overrides,
-                         Tick begin)
+                         Tick begin, const ProgramDevices& devices)
     : runner_(machine) {
     runner_.load(std::move(start.source));
-    runner_.begin(epoch, start.place, start.at, overrides, {});
+    runner_.begin(epoch, start.place, start.at, overrides, {devices, start.place.block});
     runner_.read_ahead();
     (void)runner_.send(slot_++, {});
     shift_ = begin - runner_.start().value_or(begin);

@@ -25,8 +25,9 @@ struct AxisEnd {
 
 class EpochReplay {
 public:
-    /// `begin`: the recorded begin of frame 1.
-    EpochReplay(const MachineConfig& machine, Epoch epoch, EpochStart start, const Overrides& overrides, Tick begin);
+    /// `begin`: the recorded begin of frame 1. `devices`: as the events before the epoch have left them.
+    EpochReplay(const MachineConfig& machine, Epoch epoch, EpochStart start, const Overrides& overrides, Tick begin,
+                const ProgramDevices& devices);
 
     Epoch epoch() const { return runner_.epoch(); }
     /// The source after the frames made so far, for the next epoch of the leg.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/outputs/output_levels.hpp"
 #include "services/wire/lcm/translate_lcm.hpp"
 
 namespace lockstep::verification {
@@ -31,6 +32,7 @@ void EventCheck::begin(std::int64_t coordinator, std::int64_t job, const std::st
                        std::shared_ptr<const analysis::RecordedProgram> program) {
     if (job != job_ || std::ranges::find(coordinators_, coordinator) == coordinators_.end()) { forget_job(); }
     if (epoch_coordinator_ != 0 && epoch_coordinator_ != coordinator) { knows_devices_ = false; }
+    apply_later_ends(job);
     job_ = job;
     label_ = label;
     coordinators_ = {coordinator};
@@ -183,7 +185,8 @@ void EventCheck::forget_job() {
     coordinators_.clear();
 }
 
-void EventCheck::end(bool is_done) {
+void EventCheck::end(JobOutcome outcome) {
+    const bool is_done = outcome == JobOutcome::Done;
     if (!findings_.going() || coordinators_.empty()) { return; }
     skip_repeats();
     const program_event_t* there = next();
@@ -193,33 +196,54 @@ void EventCheck::end(bool is_done) {
                      there->line, {}, Tick{there->tick});
         return;
     }
-    if (!is_done) { check_switched_off(); }
+    if (!is_done) { check_switched_off(outcome); }
     forget_job();
 }
 
 /// Compares the events of the coordinator that ended the job.
-void EventCheck::check_switched_off() {
+void EventCheck::check_switched_off(JobOutcome outcome) {
     using Kind = ProgramEvent::Kind;
-    std::vector<Kind> planned;
-    if (devices_.spindle != ProgramDevices::Spindle::Stopped) { planned.push_back(Kind::SpindleStop); }
-    if (devices_.mist || devices_.flood) { planned.push_back(Kind::CoolantOff); }
-    for (const Kind kind : {Kind::SpindleStop, Kind::CoolantOff}) {
-        const program_event_t* there = next();
-        const bool is_there = there != nullptr && there->kind == name_of(kind);
-        const bool is_planned = std::ranges::find(planned, kind) != planned.end();
-        if (knows_devices_ && is_there != is_planned) {
-            (void)differ(std::string(name_of(kind)) + (is_there ? " is recorded at the job's end, but it was off"
-                                                                : " is not recorded at the job's end"),
-                         0, {}, is_there ? std::optional(Tick{there->tick}) : std::nullopt);
-            return;
-        }
-        if (!is_there) { continue; }
-        devices_.apply({.kind = kind});
-        pop();
-        ++findings_.events;
+    const bool turns = devices_.spindle != ProgramDevices::Spindle::Stopped;
+    if (!check_off(Kind::SpindleStop, 0, turns) || !check_off(Kind::CoolantOff, 0, devices_.mist || devices_.flood)) {
+        return;
+    }
+    for (const OutputConfig& output : outputs_) {
+        const bool stays = output.stays_at_interruption && (output.stays_at_fault || outcome != JobOutcome::Failed);
+        if (stays || output.use != OutputUse::Number) { continue; }
+        const bool is_planned = output.is_analog() ? share_of(output, devices_) != 0 : is_on(output, devices_);
+        const Kind kind = output.is_analog() ? Kind::AnalogOutput : Kind::OutputOff;
+        if (!check_off(kind, output.number, is_planned)) { return; }
     }
     if (const program_event_t* more = next()) {
         (void)differ("the job's end switched more off than was on: " + text_of(*more), 0, {}, Tick{more->tick});
+    }
+}
+
+/// Returns false if the next event is not the planned one.
+bool EventCheck::check_off(ProgramEvent::Kind kind, std::int32_t index, bool is_planned) {
+    const program_event_t* there = next();
+    const bool is_there = there != nullptr && there->kind == name_of(kind) && there->index == index;
+    if (knows_devices_ && is_there != is_planned) {
+        return differ(std::string(name_of(kind)) + (is_there ? " is recorded at the job's end, but it was off"
+                                                             : " is not recorded at the job's end"),
+                      0, {}, is_there ? std::optional(Tick{there->tick}) : std::nullopt);
+    }
+    if (!is_there) { return true; }
+    devices_.apply({.kind = kind, .index = index});
+    pop();
+    ++findings_.events;
+    return true;
+}
+
+/// A fault after the end of a job switches outputs off.
+void EventCheck::apply_later_ends(std::int64_t job) {
+    for (auto& [whose, events] : waiting_) {
+        if (whose.first >= job) { return; }
+        std::erase_if(events, [&](const program_event_t& event) {
+            const auto switched = event.of_program == 0 ? event_of(event) : std::nullopt;
+            if (switched) { devices_.apply(*switched); }
+            return event.of_program == 0;
+        });
     }
 }
 

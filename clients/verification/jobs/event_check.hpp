@@ -15,6 +15,7 @@
 
 #include "clients/verification/findings.hpp"
 #include "core/coordinator/path/epoch_runner.hpp"
+#include "core/outputs/output_config.hpp"
 #include "core/program_devices.hpp"
 #include "services/record/reading/recorded_program.hpp"
 
@@ -45,7 +46,12 @@ public:
     /// Leaves the remaining events of the job uncompared.
     void leave();
     /// The job has ended. The only events left on record may be those by which the coordinator switched devices off.
-    void end(bool is_done);
+    void end(JobOutcome outcome);
+    /// The outputs of the job's machine.
+    void set_outputs(std::span<const OutputConfig> outputs) { outputs_.assign(outputs.begin(), outputs.end()); }
+    /// As the events so far have left them, if they are known.
+    const ProgramDevices& devices() const { return devices_; }
+    bool knows_devices() const { return knows_devices_; }
     /// Call once, at the end of a log that continues after the last motion.
     void finish();
 
@@ -66,7 +72,9 @@ private:
     PathEvent event_at(std::uint32_t block) const;
     bool is_done() const { return !program_ || done_ == program_->events().size(); }
     std::uint32_t next_block() const { return program_->events()[done_]; }
-    void check_switched_off();
+    void check_switched_off(JobOutcome outcome);
+    bool check_off(ProgramEvent::Kind kind, std::int32_t index, bool is_planned);
+    void apply_later_ends(std::int64_t job);
     bool differ(const std::string& text, std::int32_t line, std::optional<Tick> expected = {},
                 std::optional<Tick> seen = {});
 
@@ -74,6 +82,7 @@ private:
     std::map<Whose, std::deque<program_event_t>> waiting_;
     bool knows_devices_ = true;
     ProgramDevices devices_;
+    std::vector<OutputConfig> outputs_;
     // The job in progress:
     std::int64_t job_ = 0;
     std::string label_;

@@ -45,6 +45,9 @@ public:
     /// of their numbers. `is_behind_gap`: runs before it are missing from the log.
     void take(const std::string& axis, const Run& run, bool is_behind_gap);
 
+    /// As JobProgress.
+    void pass_outputs(JobProgress::OnOutputs on_outputs) { progress_.pass_outputs(std::move(on_outputs)); }
+
     /// Call once, at the end of the log.
     void finish(LogEnd end);
 

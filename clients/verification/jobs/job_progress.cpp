@@ -16,6 +16,11 @@ std::size_t index_of(const MachineConfig& machine, const std::string& axis) {
     return motor_named(machine, axis).value_or(motor_count(machine));
 }
 
+JobOutcome outcome_of(const RecordedJob& record) {
+    if (record.outcome == "done") { return JobOutcome::Done; }
+    return record.outcome == "failed" ? JobOutcome::Failed : JobOutcome::Stopped;
+}
+
 }  // namespace
 
 // ---- Records -----------------------------------------------------------------------------------------------------
@@ -113,6 +118,7 @@ void JobProgress::begin(const OrderedRecord& record) {
     job_->replay = std::move(*replay);
     if (is_in_pause) { return; }  // a return has no events
     events_.begin(record.coordinator, record.job, job_->label, job_->replay->program());
+    events_.set_outputs(machine->outputs);
     if (record.is_behind_gap) { events_.leave(); }  // events at rest may come before the job's begin
 }
 
@@ -154,7 +160,8 @@ void JobProgress::begin_epoch(const RecordedJob& record) {
     }
     const MotorPositions at = start->at;
     const MachineConfig& machine = job_->replay->machine();
-    epoch_.emplace(machine, EpochReplay(machine, epoch, std::move(*start), overrides, {record.start_tick}), at);
+    epoch_.emplace(machine, EpochReplay(machine, epoch, std::move(*start), overrides, {record.start_tick}, events_.devices()), at);
+    knows_outputs_ = events_.knows_devices();
     labels_.emplace_back(epoch, job_->label);
     if (labels_.size() > kLabelsKept) { labels_.pop_front(); }
 }
@@ -175,7 +182,7 @@ void JobProgress::end(const RecordedJob& record) {
     }
     Job job = *std::exchange(job_, std::exchange(paused_, std::nullopt));
     if (job.is_lost) { return; }
-    if (!job.replay) { return job.is_in_pause ? void() : events_.end(record.outcome == "done"); }
+    if (!job.replay) { return job.is_in_pause ? void() : events_.end(outcome_of(record)); }
     const auto left = job.replay->next();
     if (record.outcome == "failed") {
         findings_.notes.push_back(fmt::format("{} failed{}; what was run of it is as planned", job.label,
@@ -195,7 +202,7 @@ void JobProgress::end(const RecordedJob& record) {
     if (!job.broken.empty()) { return events_.leave(); }
     const std::uint32_t rest = job.replay->moves_from();
     events_.check_rest(record.outcome == "done" ? rest : 0, rest);
-    events_.end(record.outcome == "done");
+    events_.end(outcome_of(record));
 }
 
 // ---- Epochs and runs ---------------------------------------------------------------------------------------------
@@ -211,13 +218,35 @@ void JobProgress::take(const AxisRun& of) {
                                           name_of(run), run.epoch));
     }
     const auto found = epoch_->compare(axis, run, is_behind_gap);
-    if (!found) { return void(++findings_.runs); }
+    if (!found) {
+        ++findings_.runs;
+        return note_outputs(of, axis);
+    }
     if (job_->replay->program()->failure()) { return differ("", name, &run); }
     questions_.ask_plan({findings_.label_of(name) + ": " + name_of(run) + found->text, name, found->tick_expected,
                          found->tick_seen, commanded(run, found->tick_expected.value_or(run.start))},
                         run);
     job_->is_lost = true;
     lose_epoch();
+}
+
+/// Those of a run that was cut are not compared: its device made them safe.
+void JobProgress::note_outputs(const AxisRun& of, std::size_t axis) {
+    const Run& run = of.run;
+    const Frame* const frame = epoch_->replay().frame(run.frame);
+    const OutputTrack* const track = frame != nullptr ? frame->outputs_of(axis) : nullptr;
+    if (track == nullptr || !on_outputs_ || !knows_outputs_ || run.cut) { return; }
+    OutputCheck::Planned planned{.incarnation = run.incarnation,
+                                 .begin = run.start,
+                                 .end = run.start + run.ticks(),
+                                 .changes = {},
+                                 .ticks = run.tail ? total_ticks(frame->axes[axis].tail) : frame->ticks,
+                                 .is_retimed = !run.commanded_ticks.empty(),
+                                 .clock_error = run.clock_error,
+                                 .commanded = commanded(run, run.start)};
+    const auto take = [&](const auto& changes) { planned.changes.assign(changes.begin(), changes.end()); };
+    run.tail ? take(track->tail) : take(track->body);
+    on_outputs_(of.axis, std::move(planned));
 }
 
 /// Compares the epoch's end, and takes the state of the job after it.

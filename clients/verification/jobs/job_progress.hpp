@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -19,6 +20,7 @@
 #include "clients/verification/jobs/open_questions.hpp"
 #include "clients/verification/jobs/record_order.hpp"
 #include "clients/verification/steps/left_steps.hpp"
+#include "clients/verification/steps/output_check.hpp"
 #include "services/record/reading/program_parts.hpp"
 #include "services/record/reading/run.hpp"
 
@@ -35,6 +37,10 @@ class JobProgress {
 public:
     JobProgress(Findings& findings, EventCheck& events, OpenQuestions& questions)
         : findings_(findings), events_(events), questions_(questions) {}
+
+    /// Called for each run that is as planned, with the planned changes of outputs in it.
+    using OnOutputs = std::function<void(const std::string& axis, OutputCheck::Planned planned)>;
+    void pass_outputs(OnOutputs on_outputs) { on_outputs_ = std::move(on_outputs); }
 
     /// The next record in order.
     void take(const OrderedRecord& record);
@@ -93,6 +99,7 @@ private:
     bool suspect(const Shortfall& shortfall);
     bool is_of_job(const RecordedJob& record) const;
     void plan_next(EpochReplay replay);
+    void note_outputs(const AxisRun& of, std::size_t axis);
 
     static constexpr std::size_t kLabelsKept = 16;
 
@@ -102,6 +109,8 @@ private:
     std::optional<Job> job_;
     std::optional<Job> paused_;  // the job in whose pause job_ takes place
     std::optional<EpochCheck> epoch_;
+    bool knows_outputs_ = false;  // in the epoch
+    OnOutputs on_outputs_;
     std::deque<Epoch> lost_epochs_;                       // the newest whose plan is not known
     std::deque<std::pair<Epoch, std::string>> labels_;    // of the newest epochs
     std::map<std::string, std::vector<Course>> planned_;  // by axis: what may follow its newest run

@@ -1,0 +1,154 @@
+#include "clients/verification/steps/output_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lockstep::verification {
+namespace {
+
+std::string text_of(const ChannelEvent& event) {
+    if (event.kind == ChannelEvent::Kind::Digital) { return fmt::format("digital outputs {:#06b}", event.levels); }
+    const double scale = static_cast<double>(kFullScale);
+    return fmt::format("analog output {} at {:.6f} with slope {:.3e}", event.channel,
+                       static_cast<double>(event.value) / scale, static_cast<double>(event.detail) / scale);
+}
+
+bool is_of_output(const ChannelEvent& event) {
+    return event.kind == ChannelEvent::Kind::Digital || event.kind == ChannelEvent::Kind::Analog;
+}
+
+}  // namespace
+
+/// Nothing is known across a gap.
+void OutputCheck::lose() {
+    seen_.clear();
+    planned_.clear();
+    levels_.reset();
+}
+
+void OutputCheck::take(const Seen& seen) {
+    const bool is_another = last_ && last_->incarnation != seen.incarnation;
+    const bool is_gap = last_ && !is_another && (seen.sequence != last_->sequence + 1 || seen.lost != last_->lost);
+    if (last_ && !is_another && seen.sequence <= last_->sequence) { return; }  // a copy
+    if (is_gap) {
+        findings_.add_missing(fmt::format("{}: changes of its outputs before tick {} are not in the log",
+                                          findings_.label_of(axis_), seen.event.tick.value));
+    }
+    if (is_another) { compare_passed(); }
+    if (is_gap || is_another) { lose(); }
+    last_ = seen;
+    if (!is_of_output(seen.event)) { return; }
+    seen_.push_back(seen);
+    compare_passed();
+    if (seen_.size() > kMostWaiting) { lose(); }
+}
+
+void OutputCheck::take(Planned planned) {
+    planned_.push_back(std::move(planned));
+    if (planned_.size() > kMostWaiting) { lose(); }
+}
+
+/// Events of a frame are complete when a later one was seen.
+void OutputCheck::compare_passed() {
+    while (!planned_.empty() && !seen_.empty() && seen_.back().event.tick > planned_.front().end) {
+        compare(planned_.front());
+        planned_.pop_front();
+    }
+}
+
+/// An event is expected only where a change has an effect: digital outputs that keep their levels make none.
+std::vector<OutputCheck::Expected> OutputCheck::expected_of(const Planned& planned) const {
+    std::vector<Expected> expected;
+    const double rate = static_cast<double>((planned.end - planned.begin).value) / static_cast<double>(planned.ticks.value);
+    std::uint16_t levels = levels_.value_or(0);
+    for (const OutputChange& change : planned.changes) {
+        const Ticks at = planned.is_retimed
+                             ? Ticks{std::llround(rate * static_cast<double>(change.at.value))}
+                             : change.at;
+        const Tick tick = planned.begin + at;
+        if (const auto* digital = std::get_if<SetDigital>(&change.what)) {
+            const auto next = static_cast<std::uint16_t>((levels & ~digital->mask) | (digital->levels & digital->mask));
+            if (std::exchange(levels, next) == next) { continue; }
+            expected.push_back({tick, {.tick = tick, .kind = ChannelEvent::Kind::Digital, .levels = next}});
+        } else if (const auto* analog = std::get_if<RampAnalog>(&change.what)) {
+            expected.push_back({tick,
+                                {.tick = tick,
+                                 .kind = ChannelEvent::Kind::Analog,
+                                 .channel = analog->channel,
+                                 .value = analog->value,
+                                 .detail = analog->slope}});
+        }
+    }
+    return expected;
+}
+
+/// A device with a clock of its own gets slopes and ticks that are fitted to it.
+bool OutputCheck::is_same(const Expected& expected, const ChannelEvent& seen, const Planned& planned) const {
+    const ChannelEvent& wanted = expected.event;
+    if (seen.kind != wanted.kind) { return false; }
+    const Ticks within = planned.is_retimed ? planned.clock_error + Ticks{2} : Ticks{};
+    if (length_of(seen.tick - expected.tick) > within) { return false; }
+    if (seen.kind == ChannelEvent::Kind::Digital) { return seen.levels == wanted.levels; }
+    const bool is_value = seen.channel == wanted.channel && seen.value == wanted.value;
+    if (!planned.is_retimed) { return is_value && seen.detail == wanted.detail; }
+    constexpr double kRates = 1e-3;
+    const auto slope = static_cast<double>(wanted.detail);
+    return is_value && std::abs(static_cast<double>(seen.detail) - slope) <= kRates * std::abs(slope) + 1;
+}
+
+void OutputCheck::compare(const Planned& planned) {
+    if (!findings_.going()) { return; }
+    const auto note = [&](const ChannelEvent& event) {
+        if (event.kind == ChannelEvent::Kind::Digital) { levels_ = event.levels; }
+    };
+    const auto is_before = [&](const Seen& seen) { return seen.event.tick <= planned.begin; };
+    for (; !seen_.empty() && is_before(seen_.front()); seen_.pop_front()) { note(seen_.front().event); }
+    const bool is_known = levels_.has_value() || std::ranges::none_of(planned.changes, [](const OutputChange& change) {
+                              return std::holds_alternative<SetDigital>(change.what);
+                          });
+    const bool is_of_process = seen_.empty() || seen_.front().incarnation == planned.incarnation;
+    if (!is_of_process) { return; }
+    for (const Expected& expected : expected_of(planned)) {
+        const bool has_one = !seen_.empty() && seen_.front().event.tick <= planned.end;
+        if (!has_one && !is_known && expected.event.kind == ChannelEvent::Kind::Digital) { continue; }
+        if (!has_one) {
+            return differ(planned, "no change on record, but planned: " + text_of(expected.event), expected.tick, {});
+        }
+        const ChannelEvent& seen = seen_.front().event;
+        if (!is_same(expected, seen, planned)) {
+            if (!is_known && expected.event.kind == ChannelEvent::Kind::Digital) { continue; }
+            return differ(planned, fmt::format("{}; planned: {}", text_of(seen), text_of(expected.event)), expected.tick,
+                          seen.tick);
+        }
+        note(seen);
+        seen_.pop_front();
+        ++findings_.outputs;
+    }
+    const bool has_more = !seen_.empty() && seen_.front().event.tick < planned.end;
+    if (has_more) {
+        differ(planned, text_of(seen_.front().event) + ", which its frame does not ask for", {},
+               seen_.front().event.tick);
+    }
+}
+
+void OutputCheck::differ(const Planned& planned, const std::string& text, std::optional<Tick> expected,
+                         std::optional<Tick> seen) {
+    findings_.differ({.text = findings_.label_of(axis_) + ": " + text,
+                      .axis = axis_,
+                      .tick_expected = expected,
+                      .tick_seen = seen,
+                      .commanded = planned.commanded});
+}
+
+void OutputCheck::finish(bool is_whole) {
+    compare_passed();
+    for (const Planned& planned : planned_) {
+        if (is_whole) { compare(planned); }
+    }
+    planned_.clear();
+}
+
+}  // namespace lockstep::verification

@@ -1,0 +1,69 @@
+// Compares the changes of a device's outputs on record with those that the frames it ran ask for: each at its tick, with
+// its level, or its value and slope, and no other while the frame runs. What outputs do at rest is not compared.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "clients/verification/findings.hpp"
+#include "core/hardware/output_change.hpp"
+#include "services/record/reading/run.hpp"
+
+namespace lockstep::verification {
+
+class OutputCheck {
+public:
+    OutputCheck(std::string axis, Findings& findings) : axis_(std::move(axis)), findings_(findings) {}
+
+    /// A change of an output on record. They come in the order of their numbers.
+    struct Seen {
+        std::int64_t incarnation = 0;  // of the axis's process
+        std::int64_t sequence = 0;
+        std::int64_t lost = 0;  // by the device, so far
+        ChannelEvent event;
+    };
+    void take(const Seen& seen);
+
+    /// The changes of a body or a tail that was run whole.
+    struct Planned {
+        std::int64_t incarnation = 0;
+        Tick begin;  // by the device's clock, as the next
+        Tick end;
+        std::vector<OutputChange> changes;  // ticks are those of the plan
+        Ticks ticks;                        // of the plan
+        bool is_retimed = false;            // the device has a clock of its own
+        Ticks clock_error;
+        std::string commanded;  // the job and its frame
+    };
+    void take(Planned planned);
+
+    /// Call once, at the end of the log. `is_whole`: the log lacks no messages.
+    void finish(bool is_whole);
+
+private:
+    static constexpr std::size_t kMostWaiting = 65'536;
+
+    /// What is compared: the outputs after a change.
+    struct Expected {
+        Tick tick;
+        ChannelEvent event;
+    };
+    std::vector<Expected> expected_of(const Planned& planned) const;
+    void compare_passed();
+    void compare(const Planned& planned);
+    void differ(const Planned& planned, const std::string& text, std::optional<Tick> expected, std::optional<Tick> seen);
+    bool is_same(const Expected& expected, const ChannelEvent& seen, const Planned& planned) const;
+    void lose();
+
+    std::string axis_;
+    Findings& findings_;
+    std::deque<Seen> seen_;        // not compared yet
+    std::deque<Planned> planned_;  // not compared yet
+    std::optional<Seen> last_;
+    std::optional<std::uint16_t> levels_;  // after the events compared; nullopt: not known
+};
+
+}  // namespace lockstep::verification
