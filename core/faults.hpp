@@ -132,10 +132,14 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
       "a resume first shows the way back, then moves the axes there", either(Remedy::Resume, Remedy::Stop)) \
     X(MotorsSkewed, 147, "motors-skewed", "the motors of an axis are not at the same place of it, or came apart by more than max_skew_mm while they homed", \
       "find out what holds the slower side back; the machine may be racked", in_order(Remedy::Reset, Remedy::Home)) \
-    X(OutputsImpossible, 149, "outputs-impossible", "a frame changes outputs in a way that the axis's device cannot", \
-      "check that coordinator and axes are of the same version; please report it", in_order(Remedy::Reset, Remedy::Again)) \
+    X(EmergencyStopInput, 148, "emergency-stop-input", "an emergency stop input of the axis's device is closed, or was", \
+      "make sure that the machine is safe and release the emergency stop; axes that were stopped in motion must be homed again", in_order(Remedy::Reset, Remedy::Home)) \
+    X(DoorOpen, 149, "door-open", "a door is open", \
+      "close the door", in_order(Remedy::Again)) \
     X(WriterHeld, 150, "writer-held", "another writer has the machine; other clients can only watch, hold and stop it", \
-      "wait until the writer gives it back; or take it over: {take}", {})
+      "wait until the writer gives it back; or take it over: {take}", {}) \
+    X(OutputsImpossible, 151, "outputs-impossible", "a frame changes outputs in a way that the axis's device cannot", \
+      "check that coordinator and axes are of the same version; please report it", in_order(Remedy::Reset, Remedy::Again))
 // clang-format on
 
 enum class FaultCode : std::uint16_t {
@@ -175,6 +179,10 @@ std::string remedy_text(const FaultText& fault, RemedyWords words = plain_words)
 constexpr bool is_of_an_axis(FaultCode code) {
     return code != FaultCode::None && code != FaultCode::EmergencyStopped && code != FaultCode::FrameLate &&
            code != FaultCode::SecondCoordinator;
+}
+
+constexpr bool is_emergency_stop(FaultCode code) {
+    return code == FaultCode::EmergencyStopped || code == FaultCode::EmergencyStopInput;
 }
 
 /// The stable name, such as "not-homed"; "none" for None, "unknown" for numbers outside the table.

@@ -26,7 +26,7 @@ Channels::Channels(RegisterWindow window, const DeviceAbilities& abilities)
 void Channels::set(const DeviceSetup& setup, const DevicePlace& at) {
     setup_ = setup;
     outputs_.set(setup);
-    inputs_.set(setup);
+    note_inputs(inputs_.set(setup), at);
     host_.begin(setup.silence, at.now);
 }
 
@@ -78,8 +78,9 @@ void Channels::tend(std::uint32_t pins, const DevicePlace& at) {
     look(pins, at);
 }
 
-void Channels::look(std::uint32_t pins, const DevicePlace& at) {
-    std::uint32_t changed = inputs_.look(pins, at.now);
+void Channels::look(std::uint32_t pins, const DevicePlace& at) { note_inputs(inputs_.look(pins, at.now), at); }
+
+void Channels::note_inputs(std::uint32_t changed, const DevicePlace& at) {
     for (std::uint8_t n = 0; changed != 0; ++n, changed >>= 1) {
         if ((changed & 1) == 0) { continue; }
         events_.put({.tick = at.now,

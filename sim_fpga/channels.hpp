@@ -60,6 +60,7 @@ public:
 
 private:
     void look(std::uint32_t pins, const DevicePlace& at);
+    void note_inputs(std::uint32_t changed, const DevicePlace& at);
     void change_directly(const DevicePlace& at);
 
     RegisterWindow window_;

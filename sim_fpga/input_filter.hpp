@@ -12,9 +12,13 @@ namespace lockstep {
 
 class InputFilter {
 public:
-    void set(const DeviceSetup& setup) {
+    /// Returns the inputs that change at once, because their level has another meaning from now on.
+    std::uint32_t set(const DeviceSetup& setup) {
+        const std::uint32_t changed = inverted_ ^ setup.inputs_inverted;
+        closed_ ^= changed;
         inverted_ = setup.inputs_inverted;
         debounce_ = setup.debounce;
+        return changed;
     }
 
     /// pins: their levels after tick `now`; pin n is bit n. Returns the inputs that change at this tick.

@@ -71,4 +71,12 @@ void Plant::evaluate(StepEdge edge) {
 
 double Plant::position_mm() const { return start_mm_ + static_cast<double>(slide_) / steps_per_mm_; }
 
+Plant plant_of(const MachineConfig& machine, const MotorConfig& motor) {
+    Plant plant(motor, machine.tick_ns);
+    for (const InputConfig& input : machine.inputs) {
+        if (input.motor == motor.name) { set_input(plant, input, false); }
+    }
+    return plant;
+}
+
 }  // namespace lockstep

@@ -112,4 +112,11 @@ private:
     std::int64_t slide_ = 0;
 };
 
+/// The plant of a motor of the machine. Nobody touches its inputs: all are open.
+Plant plant_of(const MachineConfig& machine, const MotorConfig& motor);
+/// Closes or opens an input of the machine whose pin is at this plant.
+inline void set_input(Plant& plant, const InputConfig& input, bool closed) {
+    plant.set_pin(static_cast<unsigned>(input.channel), closed != input.active_low);
+}
+
 }  // namespace lockstep

@@ -3,6 +3,9 @@
 #include <cstdlib>
 #include <utility>
 
+#include "core/kinematics/motor_inputs.hpp"
+#include "core/kinematics/motors.hpp"
+
 namespace lockstep {
 
 AxisController::AxisController(std::size_t axis, const MachineConfig& machine, Identity identity,
@@ -11,6 +14,7 @@ AxisController::AxisController(std::size_t axis, const MachineConfig& machine, I
       identity_(identity),
       config_hash_(config_hash),
       slot_(machine.slot_ticks()),
+      stop_inputs_(inputs_with(machine, motor_name(machine, axis), InputUse::EmergencyStop)),
       condition_{.phases = {}, .position = {scale_of(machine, axis), std::move(kept)}, .orders = {}},
       owner_(machine.timing),
       following_(axis, machine),
@@ -39,6 +43,7 @@ void AxisController::look(const AxisInputs& inputs, AxisLoop& loop) {
     device_.see(inputs.device, is_resting());
     if (!is_resting() && device_.is_in_newest_run()) { observe_run(loop); }
     if (phase() == AxisPhase::Stop && is_resting()) { condition_.phases.happen(AxisEvent::Released); }
+    check_stop_inputs(loop);
     check_encoder(loop);
     if (inputs.device_failed && condition_.phases.fault() != FaultCode::DeviceFault) {
         condition_.position.lose();
@@ -93,15 +98,11 @@ void AxisController::follow_speed() {
 void AxisController::end_run(AxisLoop& loop) {
     const DeviceStatus& device = device_.status();
     const bool is_own = own_.is_running();
+    const bool is_emergency = device.stopped_by_host || device.stopped_by_input;
     trend_.rest();
-    if (!is_own && !device.stopped_by_limit && !device.stopped_by_host) {
-        condition_.phases.happen(AxisEvent::MotionEnds);
-    }
-    if (device.stopped_by_host) {
-        condition_.position.lose();
-        own_.abandon();
-        condition_.phases.happen(AxisEvent::HostStops);
-        if (condition_.phases.fault() != FaultCode::EmergencyStopped) { loop.fail(FaultCode::EmergencyStopped); }
+    if (!is_own && !device.stopped_by_limit && !is_emergency) { condition_.phases.happen(AxisEvent::MotionEnds); }
+    if (is_emergency) {
+        end_by_emergency(loop);
     } else if (device.capture_overflow || (device.bad_segment && !(is_own && device.frame == 0))) {
         own_.abandon();
         loop.fail(FaultCode::DeviceFault);
@@ -114,6 +115,21 @@ void AxisController::end_run(AxisLoop& loop) {
         loop.fail(FaultCode::LimitHit);
     }
     if (!is_own) { following_.end(loop); }
+}
+
+/// The device stopped by itself if its input closed, and the other axes do not know it yet.
+void AxisController::end_by_emergency(AxisLoop& loop) {
+    condition_.position.lose();
+    own_.abandon();
+    following_.veto(loop);
+    condition_.phases.happen(AxisEvent::HostStops);
+    if (is_emergency_stop(condition_.phases.fault())) { return; }
+    loop.fail(device_.status().stopped_by_input ? FaultCode::EmergencyStopInput : FaultCode::EmergencyStopped);
+}
+
+/// At rest the device does not show by itself that no run would begin.
+void AxisController::check_stop_inputs(AxisLoop& loop) {
+    if (is_stop_closed() && !condition_.phases.has_fault()) { stop_now(FaultCode::EmergencyStopInput, loop); }
 }
 
 /// Compares encoder and count, also in a Fault that leaves the position known, because the slide may be pushed before
@@ -134,7 +150,7 @@ void AxisController::receive(const AxisInputs& inputs, AxisLoop& loop) {
         if (condition_.orders.is_new(order.sequence)) { carry_out(order, loop); }
     }
     for (const Command& request : inputs.requests) {
-        if (stops_.take(request)) { stop_now(loop); }
+        if (stops_.take(request)) { stop_now(FaultCode::EmergencyStopped, loop); }
     }
     for (const Frame& frame : inputs.frames) {
         if (!owner_.is_from_owner(frame.term)) { continue; }
@@ -162,7 +178,9 @@ void AxisController::carry_out(const AxisCommand& order, AxisLoop& loop) {
         case AxisCommandKind::Home:
         case AxisCommandKind::Approach: return own_.home(order, is_resting(), loop);
         case AxisCommandKind::Reset: return reset(order, loop);
-        case AxisCommandKind::StopNow: condition_.orders.end(FaultCode::None); return stop_now(loop);
+        case AxisCommandKind::StopNow:
+            condition_.orders.end(FaultCode::None);
+            return stop_now(FaultCode::EmergencyStopped, loop);
         case AxisCommandKind::MoveOwn: return own_.move(order, is_resting(), loop);
         case AxisCommandKind::Halt: return own_.halt(loop);
         case AxisCommandKind::Jog: return own_.jog(order, is_resting(), loop);
@@ -171,18 +189,19 @@ void AxisController::carry_out(const AxisCommand& order, AxisLoop& loop) {
 
 /// Enters the emergency stop also at rest, so that messages still on their way do not move this axis before a person
 /// has reset it.
-void AxisController::stop_now(AxisLoop& loop) {
+void AxisController::stop_now(FaultCode why, AxisLoop& loop) {
     if (!is_resting()) {
         loop.out.orders.emplace_back(device::StopNow{});
         following_.veto(loop);
     } else if (!condition_.phases.has_fault()) {
         condition_.phases.happen(AxisEvent::Fails);
     }
-    loop.fail(FaultCode::EmergencyStopped);
+    loop.fail(why);
 }
 
 void AxisController::reset(const AxisCommand& order, AxisLoop& loop) {
     if (!is_resting()) { return loop.refuse(order, FaultCode::Busy); }
+    if (is_stop_closed()) { return loop.refuse(order, FaultCode::EmergencyStopInput); }
     condition_.phases.reset(homed());
     loop.notice({AxisNotice::Kind::Reset, FaultCode::None, 0});
     condition_.orders.end(FaultCode::None);
@@ -240,7 +259,8 @@ AxisState AxisController::state(const AxisLoop& loop, Ticks clock_error) const {
             .term = owner_.term(),
             .hears_owner = owner_.receives_owner(loop.slot),
             .unproved = condition_.position.unproved(),
-            .switches = {device.limit_min, device.limit_max, device.home}};
+            .switches = {device.limit_min, device.limit_max, device.home},
+            .inputs = device.inputs};
 }
 
 }  // namespace lockstep

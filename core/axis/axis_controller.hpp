@@ -42,19 +42,22 @@ private:
     void observe_run(AxisLoop& loop);
     void follow_speed();
     void end_run(AxisLoop& loop);
+    void end_by_emergency(AxisLoop& loop);
     void check_encoder(AxisLoop& loop);
+    void check_stop_inputs(AxisLoop& loop);
 
     // Messages.
     void receive(const AxisInputs& inputs, AxisLoop& loop);
     void receive(const MachineState& state, AxisLoop& loop);
     void carry_out(const AxisCommand& order, AxisLoop& loop);
-    void stop_now(AxisLoop& loop);
+    void stop_now(FaultCode why, AxisLoop& loop);
     void reset(const AxisCommand& order, AxisLoop& loop);
 
     void move_on(AxisLoop& loop);
     void tend_outputs(AxisLoop& loop);
     void publish(const AxisInputs& inputs, AxisLoop& loop);
     AxisState state(const AxisLoop& loop, Ticks clock_error) const;
+    bool is_stop_closed() const { return (device_.status().inputs & stop_inputs_) != 0; }
     /// The axis runs neither its own nor the owner's frames.
     bool is_resting() const { return !following_.is_open() && !own_.is_running(); }
 
@@ -62,6 +65,7 @@ private:
     Identity identity_;
     std::uint64_t config_hash_;
     Ticks slot_;
+    std::uint32_t stop_inputs_;
     AxisCondition condition_;
     DeviceView device_;
     OwnerLink owner_;

@@ -135,7 +135,9 @@ void Coordinator::own(CoordinatorLoop& loop) {
         return;
     }
     if (axes_.without_device()) { wait_for_axes(loop); }
+    watch_stop_inputs(loop);
     for (std::size_t i = 0; i < axes_.size(); ++i) { watch_axis(i, loop); }
+    commands::hold_for_doors(jobs_, loop);
     inbox_.take_each([&](const Command& command) { answer(command, loop); });
     advance_jogs(jobs_, loop);
     if (!gate_.enter(loop.slot)) { return; }
@@ -149,6 +151,15 @@ void Coordinator::own(CoordinatorLoop& loop) {
 
 void Coordinator::tend_lease(Slot missed, CoordinatorLoop& loop) {
     for (const Identity client : lease_.tend(loop.slot, missed)) { commands::lose_client(client, jobs_, loop); }
+}
+
+/// A device has stopped by itself. All other motors stop at once too, as by a client's emergency stop.
+void Coordinator::watch_stop_inputs(CoordinatorLoop& loop) {
+    const auto motor = axes_.stopped_by_input();
+    const bool was_stopped = std::exchange(is_stopped_by_input_, motor.has_value());
+    if (!motor || was_stopped) { return; }
+    loop.order_each(all_axes(axes_.size()), AxisCommandKind::StopNow);
+    jobs_.fail({FaultCode::EmergencyStopInput, *motor}, loop);
 }
 
 void Coordinator::watch_axis(std::size_t axis, CoordinatorLoop& loop) {
@@ -237,6 +248,7 @@ CommandResult Coordinator::carry_out(const Command& command, CoordinatorLoop& lo
 }
 
 CommandResult Coordinator::reset(CoordinatorLoop& loop) {
+    if (auto released = check_emergency_stops(loop); !released) { return released; }
     const CommandResult result = commands::reset(jobs_, loop);
     if (result) { loop.order_each(all_axes(axes_.size()), AxisCommandKind::Reset); }
     return result;

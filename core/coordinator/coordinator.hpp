@@ -56,6 +56,7 @@ private:
     // Called on an owner only.
     void own(CoordinatorLoop& loop);
     void tend_lease(Slot missed, CoordinatorLoop& loop);
+    void watch_stop_inputs(CoordinatorLoop& loop);
     void watch_axis(std::size_t axis, CoordinatorLoop& loop);
     void lose_axis(std::size_t axis, CoordinatorLoop& loop);
     void lose_outputs(std::size_t axis, CoordinatorLoop& loop);
@@ -87,6 +88,7 @@ private:
     Inheritance inheritance_;
     SlotGate gate_;
     std::optional<Tick> stepped_;
+    bool is_stopped_by_input_ = false;
     CoordinatorOutputs out_;
 };
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "core/kinematics/motor_inputs.hpp"
 #include "core/number_text.hpp"
 #include "core/protocol/frame_room.hpp"
 
@@ -47,11 +48,8 @@ std::uint64_t debounced(const DeviceSetup& setup) {
 
 /// The machine's inputs at the motor's device.
 std::uint64_t input_channels(const MachineConfig& machine, const MotorConfig& motor) {
-    std::uint64_t channels = 0;
-    for (const InputConfig& input : machine.inputs) {
-        if (input.motor == motor.name) { channels |= std::uint64_t{1} << input.channel; }
-    }
-    return channels;
+    return inputs_with(machine, motor.name, InputUse::EmergencyStop) |
+           inputs_with(machine, motor.name, InputUse::Door) | inputs_with(machine, motor.name, InputUse::Program);
 }
 
 std::uint64_t modulated(const DeviceSetup& setup) {
@@ -163,7 +161,8 @@ DeviceSetup setup_of(const MachineConfig& machine, const MotorConfig& motor) {
                       .enable_wait = ticks(pins.enable_wait_ms),
                       .step_inverted = pins.step_inverted,
                       .direction_inverted = pins.direction_inverted,
-                      .enable_inverted = pins.enable_inverted};
+                      .enable_inverted = pins.enable_inverted,
+                      .stop = inputs_with(machine, motor.name, InputUse::EmergencyStop)};
     for (const OutputConfig& output : machine.outputs) {
         if (output.motor == motor.name) { add_output(output, setup); }
     }
@@ -171,9 +170,7 @@ DeviceSetup setup_of(const MachineConfig& machine, const MotorConfig& motor) {
     if (has_safe_outputs) { setup.silence = ticks(machine.output_silence_ms); }
     for (const InputConfig& input : machine.inputs) {
         if (input.motor != motor.name) { continue; }
-        const auto bit = std::uint32_t{1} << input.channel;
-        setup.inputs_inverted |= input.active_low ? bit : 0;
-        setup.stop |= input.use == InputUse::EmergencyStop ? bit : 0;
+        setup.inputs_inverted |= input.active_low ? std::uint32_t{1} << input.channel : 0;
         setup.debounce[static_cast<std::size_t>(input.channel)] = ticks(input.debounce_ms);
     }
     return setup;

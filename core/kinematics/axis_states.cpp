@@ -63,6 +63,7 @@ std::optional<AxisState> axis_state_of(std::size_t axis, const Kinematics& kinem
         if (!state) {
             state = motor;
             state->switches = {};
+            state->inputs = {};  // those of its motors, which are different devices
         }
         if (has_axis(own, m)) { state->switches = any_of(state->switches, motor.switches); }
         if (state->fault == FaultCode::None && motor.fault != FaultCode::None) {

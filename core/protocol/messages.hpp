@@ -91,7 +91,7 @@ struct Frame {
 /// The six states of an axis, and Fault.
 enum class AxisPhase : std::uint8_t { Initialize, Standby, Accelerate, Cruise, Decelerate, Stop, Fault };
 
-/// The inputs of an axis's device. True: the switch is closed.
+/// The switches of an axis. True: the switch is closed.
 struct Switches {
     bool limit_min = false;
     bool limit_max = false;
@@ -126,6 +126,7 @@ struct AxisState {
     bool hears_owner = false;                   // it received its owner within silence_slots
     FaultCode unproved = FaultCode::None;       // why it did not know its position at its start; None: it knows it now
     Switches switches;
+    std::uint32_t inputs = 0;  // all closed inputs of its device; input n is bit n
     bool operator==(const AxisState&) const = default;
 };
 

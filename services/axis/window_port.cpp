@@ -50,7 +50,7 @@ std::expected<DeviceDriver, std::string> attach_driver(RegisterWindow window, co
 std::expected<std::unique_ptr<DevicePort>, std::string> simulated_port(const MachineConfig& machine,
                                                                        const MotorConfig& motor, Tick now) {
     const RegisterWindow window = RegisterWindow::in_process();
-    auto device = std::make_unique<SimulatedDevice>(window, Plant(motor, machine.tick_ns), machine.tick_ns, now,
+    auto device = std::make_unique<SimulatedDevice>(window, plant_of(machine, motor), machine.tick_ns, now,
                                                     static_cast<std::uint64_t>(now.value));
     auto driver = attach_driver(window, machine, motor);
     if (!driver) { return std::unexpected(driver.error()); }

@@ -224,6 +224,9 @@ private:
                     "the client of job {} fell silent; the job is held (unattended_job: BE_HELD); continue: lockstep "
                     "resume",
                     notice.number);
+            case Kind::DoorOpen:
+                return log_warning("a door opened in motion: " + lockstep::label_of(machine_.inputs[notice.number]) +
+                                   " is closed; the machine comes to rest; close the door, then: lockstep resume");
             case Kind::EpochBegun: return log_info("epoch {} begun", notice.number);
             case Kind::Interrupted:
                 return log_event(

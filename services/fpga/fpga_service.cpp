@@ -37,7 +37,7 @@ public:
         : options_(options),
           tick_ns_(machine.tick_ns),
           clock_(machine.tick_ns, machine.timing.time_source),
-          plant_(axis, machine.tick_ns) {}
+          plant_(plant_of(machine, axis)) {}
 
     /// Error: why its registers cannot be created.
     std::expected<void, std::string> power_up() {

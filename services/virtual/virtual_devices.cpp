@@ -42,7 +42,7 @@ VirtualDevices::VirtualDevices(const MachineConfig& machine, const MachineClocks
         devices_.push_back({.window = RegisterWindow::in_process(), .simulated = nullptr, .link = {}});
         const bool has_link = i < links.size() && links[i].most > Ticks{};
         if (has_link) { devices_[i].link.emplace(links[i], seed + i); }
-        power_up(i, devices_[i].window, Plant(motors_[i], machine.tick_ns), now);
+        power_up(i, devices_[i].window, plant_of(machine, motors_[i]), now);
     }
 }
 
@@ -88,6 +88,8 @@ void VirtualDevices::disturb(const VirtualFault& fault, bool begins) {
         (*this)[i].plant().stick(fault.contact, begins ? std::optional(fault.closed) : std::nullopt);
     } else if (fault.kind == VirtualFault::Kind::Push && begins) {
         (*this)[i].plant().push(fault.push_steps);
+    } else if (fault.kind == VirtualFault::Kind::CloseInput) {
+        set_input((*this)[i].plant(), machine_.inputs[fault.input], begins);
     } else if (begins) {
         RegisterWindow& window = devices_[i].window;
         fault.ends_elsewhere ? mislead_newest_frame(window) : damage_newest_frame(window);

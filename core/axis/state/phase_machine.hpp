@@ -28,7 +28,7 @@ public:
     /// A limit switch and an emergency stop in motion have transitions of their own. Every other fault leads to Fault.
     void fail(FaultCode fault) {
         if (!has_fault()) { fault_ = fault; }
-        if (fault != FaultCode::LimitHit && fault != FaultCode::EmergencyStopped) { happen(AxisEvent::Fails); }
+        if (fault != FaultCode::LimitHit && !is_emergency_stop(fault)) { happen(AxisEvent::Fails); }
     }
 
     void clear_fault() { fault_ = FaultCode::None; }

@@ -84,6 +84,17 @@ bool AxisRoster::all_rest() const {
     return std::ranges::all_of(views_, [](const AxisView& view) { return view.state && view.state->at_rest; });
 }
 
+std::optional<std::size_t> AxisRoster::closed_input(InputUse use) const {
+    return inputs_.closed(use,
+                          [this](std::size_t motor) { return views_[motor].state ? views_[motor].state->inputs : 0; });
+}
+
+std::optional<std::size_t> AxisRoster::stopped_by_input() const {
+    if (const auto input = closed_input(InputUse::EmergencyStop)) { return inputs_.motor(*input); }
+    return first_axis(
+        views_, [](const AxisView& view) { return view.state && view.state->fault == FaultCode::EmergencyStopInput; });
+}
+
 AxisSet AxisRoster::present(Slot now) const {
     AxisSet present = 0;
     for (std::size_t i = 0; i < views_.size(); ++i) { present |= is_present(i, now) ? axis_bit(i) : 0; }

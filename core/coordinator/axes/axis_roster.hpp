@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/coordinator/axes/axis_view.hpp"
+#include "core/kinematics/motor_inputs.hpp"
 #include "core/kinematics/motors.hpp"
 #include "core/motion/path.hpp"
 
@@ -13,7 +14,8 @@ namespace lockstep {
 
 class AxisRoster {
 public:
-    explicit AxisRoster(const MachineConfig& machine) : timing_(machine.timing), views_(motor_count(machine)) {}
+    explicit AxisRoster(const MachineConfig& machine)
+        : timing_(machine.timing), inputs_(machine), views_(motor_count(machine)) {}
 
     /// How a received state relates to what is known of its axis.
     enum class Arrival : std::uint8_t {
@@ -50,12 +52,18 @@ public:
     /// Returns an axis that is present and not at rest; nullopt if there is none.
     std::optional<std::size_t> moving(Slot now) const;
     bool all_rest() const;
+    /// The first of the machine's inputs with this use that is closed; nullopt if there is none.
+    std::optional<std::size_t> closed_input(InputUse use) const;
+    /// A motor whose emergency stop input is closed, or that was stopped by it and not reset yet; nullopt: there is
+    /// none.
+    std::optional<std::size_t> stopped_by_input() const;
     AxisSet present(Slot now) const;
     /// Positions in whole steps; 0 for a motor that is not known.
     MotorCounts counts() const;
 
 private:
     ProtocolTiming timing_;
+    MotorInputs inputs_;
     std::vector<AxisView> views_;
     std::optional<Slot> woken_;  // when a stall ended in which another coordinator may have taken over
 };

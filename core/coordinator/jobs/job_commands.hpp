@@ -24,6 +24,9 @@ CommandResult set_overrides(const Command& command, JobLifecycle& jobs, const Lo
 /// A person gives up the job, held or inherited, and the fault.
 CommandResult reset(JobLifecycle& jobs, CoordinatorLoop& loop);
 
+/// While a door is open, what moves comes to rest: held as by a client, or stopped if it cannot be held.
+void hold_for_doors(JobLifecycle& jobs, CoordinatorLoop& loop);
+
 /// The client with the lease fell silent. Its job on a path runs on or is held, as configured.
 void lose_client(Identity client, JobLifecycle& jobs, CoordinatorLoop& loop);
 /// The client has given the lease back: its job runs on without it.

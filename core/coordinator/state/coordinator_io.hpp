@@ -74,11 +74,12 @@ struct CoordinatorNotice {
         ProgramLate,       // the axes rest on the path after frame `number` and wait for more of the program
         ProgramCut,        // the job ended at line `number`, where its known program ends; `fault` says why
         UnattendedRunsOn,  // the client of job `number` fell silent; the job runs on
-        UnattendedHeld     // the client of job `number` fell silent; the job is held
+        UnattendedHeld,    // the client of job `number` fell silent; the job is held
+        DoorOpen           // a door opened in motion: input `number` of the machine closed
     };
     Kind kind = Kind::Phase;
     FaultCode fault = FaultCode::None;
-    std::uint64_t number = 0;  // an axis, an epoch, a phase, a term, a line, a frame or a job, by kind
+    std::uint64_t number = 0;  // an axis, an epoch, a phase, a term, a line, a frame, a job or an input, by kind
     TakeoverDoubt doubt = TakeoverDoubt::NotAsked;  // JobCutShort
 };
 

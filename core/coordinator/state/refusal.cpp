@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/kinematics/motor_inputs.hpp"
 #include "core/number_text.hpp"
 #include "core/protocol/names.hpp"
 
@@ -41,6 +42,21 @@ CommandResult check_clocks(const LoopView& loop) {
                       std::to_string(machine.timing.clock_error_limit_us) +
                       "); wait some seconds until the axis has measured the "
                       "coordinator's clock, check the network to the axis, or increase timing.slot_us");
+}
+
+CommandResult check_doors(const LoopView& loop) {
+    const auto door = loop.axes.closed_input(InputUse::Door);
+    if (!door) { return {}; }
+    return refuse(FaultCode::DoorOpen, "a door is open: " + label_of(loop.machine.inputs[*door]) +
+                                           " is closed; close the door, then give the command again");
+}
+
+CommandResult check_emergency_stops(const LoopView& loop) {
+    const auto stop = loop.axes.closed_input(InputUse::EmergencyStop);
+    if (!stop) { return {}; }
+    return refuse(FaultCode::EmergencyStopInput,
+                  "the emergency stop is pressed: " + label_of(loop.machine.inputs[*stop]) +
+                      " is closed; release it, then reset");
 }
 
 std::unexpected<Refusal> refuse_in_fault(FaultCode fault) {

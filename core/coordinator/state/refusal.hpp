@@ -25,6 +25,10 @@ CommandResult check_homed(const LoopView& loop);
 CommandResult check_square(const LoopView& loop);
 /// Checks that the axes agree on the time well enough for coordinated moves.
 CommandResult check_clocks(const LoopView& loop);
+/// Checks that no door is open.
+CommandResult check_doors(const LoopView& loop);
+/// Checks that no emergency stop is closed.
+CommandResult check_emergency_stops(const LoopView& loop);
 std::unexpected<Refusal> refuse_in_fault(FaultCode fault);
 std::unexpected<Refusal> refuse_without_device(std::size_t axis, const LoopView& loop);
 

@@ -52,7 +52,8 @@ lockstep_wire_AxisState to_wire(const AxisState& state) {
             .coordinator = state.term.coordinator,
             .hears_owner = state.hears_owner,
             .unproved = static_cast<std::uint16_t>(state.unproved),
-            .switches = to_bits(state.switches)};
+            .switches = to_bits(state.switches),
+            .inputs = state.inputs};
 }
 
 FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
@@ -92,7 +93,8 @@ FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
                      .unproved = static_cast<FaultCode>(wire.unproved),
                      .switches = {.limit_min = (wire.switches & kLimitMinBit) != 0,
                                   .limit_max = (wire.switches & kLimitMaxBit) != 0,
-                                  .home = (wire.switches & kHomeBit) != 0}};
+                                  .home = (wire.switches & kHomeBit) != 0},
+                     .inputs = wire.inputs};
 }
 
 lockstep_wire_AxisCommand to_wire(const AxisCommand& command) {

@@ -42,7 +42,8 @@ AxisState RandomMessages::axis_state() {
             .term = term(),
             .hears_owner = coin(),
             .unproved = fault(),
-            .switches = {coin(), coin(), coin()}};
+            .switches = {coin(), coin(), coin()},
+            .inputs = static_cast<std::uint32_t>(bits())};
 }
 
 AxisHealth RandomMessages::axis_health() {

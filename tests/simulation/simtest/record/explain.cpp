@@ -17,6 +17,8 @@ enum class Cause : std::uint8_t {
     Cut,
     SetClock,
     Switch,
+    StopInput,
+    Door,
     Push,
     Hand,
     DamagedFrame,
@@ -33,6 +35,7 @@ struct Explanation {
 
 constexpr std::array kExplanations{
     Explanation{Cause::EmergencyStop, FaultCode::EmergencyStopped},
+    Explanation{Cause::StopInput, FaultCode::EmergencyStopInput},
     // In three epochs in a row no frame ran, or one axis received other messages than the others.
     Explanation{Cause::Loss, FaultCode::FrameLate},
     Explanation{Cause::Loss, FaultCode::FramesDiffer},
@@ -101,6 +104,8 @@ Cause cause_of(const VirtualFault& fault, const MachineConfig& machine) {
         case VirtualFault::Kind::SetClock: return Cause::SetClock;
         case VirtualFault::Kind::Stick: return Cause::Switch;
         case VirtualFault::Kind::Push: return Cause::Push;
+        case VirtualFault::Kind::CloseInput:
+            return machine.inputs[fault.input].use == InputUse::Door ? Cause::Door : Cause::StopInput;
         case VirtualFault::Kind::DamageFrame: return Cause::DamagedFrame;
         case VirtualFault::Kind::StopDevice:
         case VirtualFault::Kind::KillDevice:

@@ -1,0 +1,53 @@
+// The machine's inputs by the motors whose devices have them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/machine.hpp"
+
+namespace lockstep {
+
+/// The inputs of the motor's device that have this use; input n is bit n.
+std::uint32_t inputs_with(const MachineConfig& machine, std::string_view motor, InputUse use);
+
+/// For texts: "input stop of motor X".
+std::string label_of(const InputConfig& input);
+
+/// The same for all inputs of the motor with this use: "input stop of motor X or input gate of motor X".
+std::string labels_of(const MachineConfig& machine, std::string_view motor, InputUse use);
+
+/// Where the machine's inputs are: each by the number of its motor, in the order of the machine's file.
+class MotorInputs {
+public:
+    explicit MotorInputs(const MachineConfig& machine);
+
+    /// The number of the first input with this use that is closed; nullopt if there is none. `closed_of(motor)`: the
+    /// closed inputs of the motor's device, 0 if they are not known.
+    template <typename ClosedOf>
+    std::optional<std::size_t> closed(InputUse use, ClosedOf&& closed_of) const {
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            if (places_[i].use == use && is_closed(i, closed_of)) { return i; }
+        }
+        return std::nullopt;
+    }
+    /// Whether this input of the machine is closed.
+    template <typename ClosedOf>
+    bool is_closed(std::size_t input, ClosedOf&& closed_of) const {
+        return (closed_of(places_[input].motor) & places_[input].bit) != 0;
+    }
+    std::size_t motor(std::size_t input) const { return places_[input].motor; }
+
+private:
+    struct Place {
+        std::size_t motor = 0;
+        std::uint32_t bit = 0;
+        InputUse use = InputUse::Program;
+    };
+    std::vector<Place> places_;
+};
+
+}  // namespace lockstep
