@@ -204,6 +204,9 @@ MachineView MachineLink::view() {
         is_received = is_received && session_.axis_present(i);
     }
     MachineView view = view_of(session_.config(), state->state, axes, speeds);
+    view.closed_inputs = letters_of_inputs(session_.config(), [this](std::size_t motor) {
+        return session_.motor(motor) ? session_.motor(motor)->state.inputs : 0;
+    });
     view.is_received = is_received;
     if (const auto way = way_back(session_)) { view.way_back = text_of_way(*way); }
     if (const auto values = session_.newest_values()) { values_ = values->values; }

@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "clients/session/health_report.hpp"
+#include "clients/session/inputs/input_report.hpp"
 #include "clients/text/format.hpp"
 #include "core/coordinator/path/return_way.hpp"
 #include "core/protocol/names.hpp"
@@ -76,7 +77,10 @@ proto::FaultReport motor_fault(FaultCode fault, const Kinematics& kinematics, st
 std::optional<proto::FaultReport> fault_of(const MachineState& state, const MachineConfig& machine) {
     if (state.fault == FaultCode::None) { return std::nullopt; }
     const bool has_axis = state.fault_axis && *state.fault_axis < motor_count(machine);
-    return has_axis ? motor_fault(state.fault, Kinematics(machine), *state.fault_axis) : fault_report(state.fault, "");
+    if (!has_axis) { return fault_report(state.fault, ""); }
+    proto::FaultReport report = motor_fault(state.fault, Kinematics(machine), *state.fault_axis);
+    name_stop_inputs(machine, *state.fault_axis, report);
+    return report;
 }
 
 std::optional<proto::DevicesReport> devices_report(const ProgramDevices& devices) {
@@ -168,7 +172,10 @@ void name_faults(const Session& session, AxisSet motors, proto::AxisStatus& row)
         for (std::size_t m = 0; m < session.kinematics().motors().size(); ++m) {
             const auto code = static_cast<FaultCode>(fault.number());
             const bool has_it = has_axis(motors, m) && session.motor(m) && session.motor(m)->state.*of == code;
-            if (has_it) { return motor_fault(code, session.kinematics(), m); }
+            if (!has_it) { continue; }
+            proto::FaultReport of_motor = motor_fault(code, session.kinematics(), m);
+            name_stop_inputs(session.config(), m, of_motor);
+            return of_motor;
         }
         return fault;
     };
@@ -225,6 +232,10 @@ proto::StatusReport status_report(const Session& session) {
     report.set_unsaved_values(session.values_unsaved_since().has_value());
     add_axes(session, report);
     add_motors(session, report);
+    const auto closed_of = [&](std::size_t motor) {
+        return session.motor(motor) ? std::optional(session.motor(motor)->state.inputs) : std::nullopt;
+    };
+    add_inputs(machine, closed_of, report);
     return report;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "clients/session/inputs/input_report.hpp"
 #include "clients/session/record_loss.hpp"
 #include "clients/session/reports.hpp"
 #include "clients/text/format.hpp"
@@ -133,6 +134,9 @@ std::string status_text(const proto::StatusReport& status) {
     if (const std::string turned = overrides_text(status); !turned.empty()) { text += "overrides: " + turned + "\n"; }
     if (const std::string on = devices_text(status); !on.empty()) {
         text += wrapped("devices: " + on, 80, "  ") + "\n";
+    }
+    if (const std::string closed = closed_inputs_text(status); !closed.empty()) {
+        text += wrapped("closed inputs: " + closed, 80, "  ") + "\n";
     }
     text += writer_line(status);
     text += clock_line(status) + unproved_lines(status);

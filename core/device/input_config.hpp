@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace lockstep {
 
@@ -12,6 +13,15 @@ enum class InputUse : std::uint8_t {
     Door,           // the machine comes to rest on its path and stays there
     Program,        // programs may read it
 };
+
+constexpr std::string_view name_of(InputUse use) {
+    switch (use) {
+        case InputUse::EmergencyStop: return "emergency-stop";
+        case InputUse::Door: return "door";
+        case InputUse::Program: break;
+    }
+    return "program";
+}
 
 /// Inputs 0, 1 and 2 of each device have the switches of its motor: the limit switches and the home switch.
 inline constexpr int kSwitchInputs = 3;

@@ -12,6 +12,8 @@
 #include "core/coordinator/path/coordination.hpp"
 #include "core/flight/coordinator_flight.hpp"
 #include "core/kinematics/kinematics.hpp"
+#include "core/kinematics/motor_inputs.hpp"
+#include "core/kinematics/motors.hpp"
 #include "core/methods/paper_steps.hpp"
 #include "core/protocol/names.hpp"
 #include "services/coordinator/coordinator_network.hpp"
@@ -186,6 +188,12 @@ private:
         return motor < kinematics_.motors().size() ? kinematics_.label(motor) : fmt::format("axis {}", motor);
     }
 
+    std::string cause_of(const CoordinatorNotice& fault, const FaultText& text) const {
+        if (fault.fault != FaultCode::EmergencyStopInput) { return std::string(text.cause); }
+        const std::string& motor = motor_name(machine_, fault.number);
+        return std::string(text.cause) + ": " + labels_of(machine_, motor, InputUse::EmergencyStop);
+    }
+
     void log_notice(const CoordinatorNotice& notice) const {
         using Kind = CoordinatorNotice::Kind;
         switch (notice.kind) {
@@ -237,7 +245,7 @@ private:
                 const FaultText* text = find_fault(notice.fault);
                 return log_event(spdlog::level::err, notice.fault,
                                  label_of(notice.number) + ": " +
-                                     (text == nullptr ? "" : std::string(text->cause) + "; " + remedy_text(*text)));
+                                     (text == nullptr ? "" : cause_of(notice, *text) + "; " + remedy_text(*text)));
             }
         }
     }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/kinematics/kinematics.hpp"
+#include "core/kinematics/motor_inputs.hpp"
 
 namespace lockstep::grbl {
 
@@ -36,6 +37,15 @@ MachineView view_of(const MachineConfig& machine, const MachineState& state, con
     }
     view.feed_mm_min = std::sqrt(squares);
     return view;
+}
+
+std::string letters_of_inputs(const MachineConfig& machine,
+                              const std::function<std::uint32_t(std::size_t motor)>& closed_of) {
+    const MotorInputs inputs(machine);
+    std::string letters;
+    if (inputs.closed(InputUse::Door, closed_of)) { letters += 'D'; }
+    if (inputs.closed(InputUse::EmergencyStop, closed_of)) { letters += 'E'; }
+    return letters;
 }
 
 }  // namespace lockstep::grbl

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,7 @@ struct MachineView {
     std::string fault_place;           // whose fault it is: "axis X", "motor Y2"; empty: no single motor's
     std::vector<AxisPlace> axes;       // in the configuration's order
     double feed_mm_min = 0;            // of all axes together, now
+    std::string closed_inputs;         // D: a door is open; E: an emergency stop is closed
     std::string closed_switches;       // the letters of the axes with a limit or home switch closed at a motor
     std::optional<std::int32_t> line;  // of the program in motion, or the N word of the sender's line
     Overrides overrides;
@@ -49,5 +51,10 @@ struct MachineView {
 /// `axes`: the newest state of each axis; null if none was received. The caller sets the other fields of the view.
 MachineView view_of(const MachineConfig& machine, const MachineState& state, const std::vector<const AxisState*>& axes,
                     std::span<const double> steps_per_tick);
+
+/// The letters of `Pn` for the machine's inputs that are closed: D for a door, E for an emergency stop. `closed_of`:
+/// the closed inputs of a motor's device, by the motor's number; 0 if it was not received.
+std::string letters_of_inputs(const MachineConfig& machine,
+                              const std::function<std::uint32_t(std::size_t motor)>& closed_of);
 
 }  // namespace lockstep::grbl

@@ -109,7 +109,8 @@ std::string StatusReport::text(const MachineView& view, State state, const std::
     if (view.line && is_in_program(state)) { text += fmt::format("|Ln:{}", *view.line); }
     text += "|FS:" + number(options.inches ? view.feed_mm_min / kInch_mm : view.feed_mm_min, 0) + "," +
             number(view.devices.spindle_rpm, 0);
-    if (!view.closed_switches.empty()) { text += "|Pn:" + view.closed_switches; }
+    const std::string closed = view.closed_switches + view.closed_inputs;
+    if (!closed.empty()) { text += "|Pn:" + closed; }
     const std::string accessories = accessories_of(view.devices);
     if (offset_mm != offset_mm_) { offsets_due_ = 0; }
     if (view.overrides.feed_percent != overrides_.feed_percent ||

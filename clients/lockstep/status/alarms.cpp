@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "clients/session/inputs/input_report.hpp"
 #include "clients/session/record_loss.hpp"
 #include "clients/text/format.hpp"
 
@@ -64,6 +65,11 @@ std::vector<std::string> alarms_of(const proto::StatusReport& status, const Slac
     if (status.has_fault()) { add(sentence(status.fault())); }
     for (const proto::AxisStatus* const axis : rows_of(status)) {
         if (axis->has_fault()) { add(sentence(axis->fault())); }
+    }
+    for (const proto::InputStatus& input : status.inputs()) {
+        if (input.closed() && input.use() == name_of(InputUse::Door)) {
+            add("a door is open: " + label_of(input) + " is closed; close the door, then: lockstep resume");
+        }
     }
     for (const proto::AxisStatus* const row : process_rows(status)) {
         if (!row->present()) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "clients/lockstep/status/alarms.hpp"
+#include "clients/session/inputs/input_report.hpp"
 #include "clients/session/status_text.hpp"
 #include "clients/text/colour.hpp"
 #include "clients/text/format.hpp"
@@ -95,6 +96,12 @@ std::string conditions_row(const proto::StatusReport& status, Ink ink) {
     return painted(writer.empty() ? overrides : spread(overrides, "writer: " + writer), kWarning, ink);
 }
 
+/// Empty if all inputs are open.
+std::string inputs_row(const proto::StatusReport& status, Ink ink) {
+    const std::string closed = closed_inputs_text(status);
+    return closed.empty() ? "" : painted(cut("closed inputs: " + closed, kColumns), kWarning, ink) + "\n";
+}
+
 /// Empty if all devices are off.
 std::string devices_row(const proto::StatusReport& status, Ink ink) {
     const std::string devices = devices_text(status);
@@ -113,7 +120,8 @@ std::string watch_text(const proto::StatusReport& status, const SlackScale& scal
     const std::string job = status.has_job() ? fmt::format(", job {}", status.job()) : "";
     const std::string heading = spread(status.machine() + ": " + phase + job, age_text(status));
     std::string text = painted(heading, kBold, ink) + "\n" + job_row(status, ink) + "\n" + conditions_row(status, ink) +
-                       "\n" + devices_row(status, ink) + painted(title_row(), kFaint, ink) + "\n";
+                       "\n" + devices_row(status, ink) + inputs_row(status, ink) + painted(title_row(), kFaint, ink) +
+                       "\n";
     for (const proto::AxisStatus* const axis : rows_of(status)) { text += axis_row(*axis, scale, ink) + "\n"; }
     const auto alarms = alarms_of(status, scale);
     text += "\n" + (alarms.empty() ? painted("no alarms", kFaint, ink) + "\n" : "");
@@ -131,6 +139,9 @@ std::string watch_line(const proto::StatusReport& status, const SlackScale& scal
     }
     if (status.has_pause()) { text += "; paused: " + status.pause().text(); }
     if (status.has_devices()) { text += "; " + devices_text(status); }
+    if (const std::string closed = closed_inputs_text(status); !closed.empty()) {
+        text += "; closed inputs: " + closed;
+    }
     if (status.has_writer()) { text += "; writer " + writer_text(status); }
     for (const std::string& alarm : alarms_of(status, scale)) { text += "; " + alarm; }
     return text;

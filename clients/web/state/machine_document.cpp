@@ -45,6 +45,17 @@ json motors_json(const MachineConfig& machine) {
     return motors;
 }
 
+json inputs_json(const MachineConfig& machine) {
+    json inputs = json::array();
+    for (const InputConfig& input : machine.inputs) {
+        inputs.push_back({{"name", input.name},
+                          {"motor", input.motor},
+                          {"use", name_of(input.use)},
+                          {"number", input.number ? json(*input.number) : json()}});
+    }
+    return inputs;
+}
+
 json faults_json() {
     json faults = json::object();
 #define X(name, number, text, cause, by_hand, remedies) \
@@ -76,6 +87,7 @@ json machine_document(const MachineConfig& machine, const std::string& version) 
             {"version", version},
             {"axes", axes},
             {"motors", motors_json(machine)},
+            {"inputs", inputs_json(machine)},
             {"features", json::array()},
             {"faults", faults_json()},
             {"coordinate_systems", systems},

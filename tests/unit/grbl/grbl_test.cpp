@@ -62,6 +62,17 @@ TEST_F(Sender, SeesWhichSwitchesAreClosed) {
     EXPECT_THAT(status(), testing::Not(HasSubstr("|Pn:")));
 }
 
+TEST_F(Sender, SeesThatADoorIsOpenOrAnEmergencyStopIsPressed) {
+    MachineConfig machine = mill();
+    machine.inputs = {{.name = "stop", .motor = "Y", .channel = 3, .use = InputUse::EmergencyStop},
+                      {.name = "door", .motor = "X", .channel = 4, .use = InputUse::Door}};
+    view.closed_switches = "X";
+    view.closed_inputs = letters_of_inputs(machine, [](std::size_t) { return 0x18U; });
+    grbl.see(view);
+    EXPECT_THAT(status(), HasSubstr("|Pn:XDE|"));
+    EXPECT_EQ(letters_of_inputs(machine, [](std::size_t motor) { return motor == 0 ? 0x18U : 0U; }), "D");
+}
+
 TEST_F(Sender, GetsOffsetsAndOverridesAsOftenAsFromGrbl) {
     const auto distances_of = [&](const std::string& field) {
         std::vector<int> distances;

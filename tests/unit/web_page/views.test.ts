@@ -9,6 +9,7 @@ import { speedTexts, unitTexts } from "../../../clients/web/page/src/format/unit
 import { phaseLook, phaseText, troubleText } from "../../../clients/web/page/src/state/axis_texts";
 import { deviceTexts } from "../../../clients/web/page/src/state/device_texts";
 import { groupedAlarms } from "../../../clients/web/page/src/state/grouped_alarms";
+import { inputTexts } from "../../../clients/web/page/src/state/input_texts";
 import { otherWriter } from "../../../clients/web/page/src/state/other_writer";
 import { pageRemedy } from "../../../clients/web/page/src/state/page_remedy";
 import { mayHandle, pauseText, wayTexts } from "../../../clients/web/page/src/state/pause_texts";
@@ -177,6 +178,22 @@ describe("what a fault is about", () => {
     const limit = { severity: "fault", number: 103, code: "limit-hit", cause: "c", remedy: "r" } as const;
     expect(groupedAlarms([{ ...limit, motor: "Y2" }, { ...limit, axis: "X" }]).map(({ axes, motors }) => [axes, motors])).toEqual([[["X"], ["Y2"]]]);
     expect(groupedAlarms([limit, { ...limit, motor: "Y2" }]).map(({ axes, motors }) => [axes, motors])).toEqual([[[], []]]);
+  });
+});
+
+describe("the inputs", () => {
+  const machine = [
+    { name: "stop", motor: "X", use: "emergency-stop" }, { name: "door", motor: "X", use: "door" }, { name: "part", motor: "X", use: "program", number: 0 },
+  ] as const;
+
+  test("have the words and the look of what they do", () => {
+    expect(inputTexts(machine, { stop: true, door: true, part: false }, en)).toEqual([
+      { text: "stop: emergency stop pressed", look: "bad" }, { text: "door: door open", look: "warning" }, { text: "part: open", look: "good" },
+    ]);
+  });
+
+  test("that were not received are left out", () => {
+    expect(inputTexts(machine, { part: true }, en)).toEqual([{ text: "part: closed", look: "busy" }]);
   });
 });
 

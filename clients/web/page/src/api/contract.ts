@@ -81,6 +81,13 @@ export interface MachineMotor {
   host?: Maybe<string>;
 }
 
+export interface MachineInput {
+  name: string;
+  motor: string;
+  use: "emergency-stop" | "door" | "program";
+  number?: Maybe<number>;
+}
+
 export interface Limits {
   program_bytes: number;
   body_bytes: number;
@@ -96,6 +103,7 @@ export interface Machine {
   version: string;
   axes: MachineAxis[];
   motors: MachineMotor[];
+  inputs: MachineInput[];
   features: string[];
   faults: Record<string, { code: string; cause: string; remedy: string }>;
   coordinate_systems: string[];
@@ -147,6 +155,7 @@ export interface State {
   alarms: Alarm[];
   axes: Record<string, AxisState>;
   motors: Record<string, AxisState>;
+  inputs: Record<string, boolean>;
   offsets?: Maybe<Offsets>;
   tools?: Maybe<Record<string, Tool>>;
   devices?: Maybe<Devices>;

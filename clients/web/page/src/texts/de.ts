@@ -78,6 +78,10 @@ export const de: Texts = {
     kind: { home: "Referenzfahrt", move: "Fahrt", run: "Programm", "own-move": "Fahrt einer Achse", jog: "Handfahrt", return: "Rückweg zur Pause" },
     number: "Auftrag {number}", held: "Angehalten in Zeile {line}", braking: "Bremst …",
   },
+  inputs: {
+    title: "Eingänge", open: "{name}: offen",
+    closed: { "emergency-stop": "{name}: Not-Halt gedrückt", door: "{name}: Tür offen", program: "{name}: geschlossen" },
+  },
   devices: {
     title: "Vom Programm befohlen", forward: "Spindel rechts {rpm} 1/min", reverse: "Spindel links {rpm} 1/min", mist: "Nebel", flood: "Kühlmittel",
     tool: "Werkzeug {number}", output: "Ausgang {number}", notConnected: "nichts ist angeschlossen",

@@ -77,6 +77,10 @@ export const en = {
     kind: { home: "Homing", move: "Move", run: "Program", "own-move": "Single-axis move", jog: "Jog", return: "Return to the pause" },
     number: "Job {number}", held: "Held at line {line}", braking: "Braking …",
   },
+  inputs: {
+    title: "Inputs", open: "{name}: open",
+    closed: { "emergency-stop": "{name}: emergency stop pressed", door: "{name}: door open", program: "{name}: closed" },
+  },
   devices: {
     title: "Commanded by the program", forward: "Spindle forward {rpm} rpm", reverse: "Spindle reverse {rpm} rpm", mist: "Mist", flood: "Flood",
     tool: "Tool {number}", output: "Output {number}", notConnected: "nothing is connected",

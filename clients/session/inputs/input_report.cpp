@@ -1,0 +1,45 @@
+#include "clients/session/inputs/input_report.hpp"
+
+#include "core/kinematics/motor_inputs.hpp"
+#include "core/kinematics/motors.hpp"
+
+namespace lockstep {
+namespace {
+
+std::string meaning_of(const proto::InputStatus& input) {
+    if (input.use() == name_of(InputUse::EmergencyStop)) { return " (emergency stop)"; }
+    return input.use() == name_of(InputUse::Door) ? " (door open)" : "";
+}
+
+}  // namespace
+
+void add_inputs(const MachineConfig& machine, const ClosedInputs& closed_of, proto::StatusReport& report) {
+    const MotorInputs places(machine);
+    for (std::size_t i = 0; i < machine.inputs.size(); ++i) {
+        const InputConfig& config = machine.inputs[i];
+        proto::InputStatus& input = *report.add_inputs();
+        input.set_name(config.name);
+        input.set_motor(config.motor);
+        input.set_use(std::string(name_of(config.use)));
+        if (config.number) { input.set_number(static_cast<std::uint32_t>(*config.number)); }
+        if (!closed_of(places.motor(i))) { continue; }
+        input.set_closed(places.is_closed(i, [&](std::size_t motor) { return *closed_of(motor); }));
+    }
+}
+
+void name_stop_inputs(const MachineConfig& machine, std::size_t motor, proto::FaultReport& fault) {
+    if (fault.number() != static_cast<std::uint32_t>(FaultCode::EmergencyStopInput)) { return; }
+    fault.set_cause(fault.cause() + ": " + labels_of(machine, motor_name(machine, motor), InputUse::EmergencyStop));
+}
+
+std::string closed_inputs_text(const proto::StatusReport& status) {
+    std::string text;
+    for (const proto::InputStatus& input : status.inputs()) {
+        if (input.closed()) { text += (text.empty() ? "" : ", ") + input.name() + meaning_of(input); }
+    }
+    return text;
+}
+
+std::string label_of(const proto::InputStatus& input) { return "input " + input.name() + " of motor " + input.motor(); }
+
+}  // namespace lockstep

@@ -1,0 +1,29 @@
+// The machine's inputs in the status: which are closed, and what that means.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "core/machine.hpp"
+#include "idl/proto/report.pb.h"
+
+namespace lockstep {
+
+/// The closed inputs of a motor's device, by the motor's number; nullopt if it was never received.
+using ClosedInputs = std::function<std::optional<std::uint32_t>(std::size_t motor)>;
+
+/// Adds the inputs in the order of the machine's file.
+void add_inputs(const MachineConfig& machine, const ClosedInputs& closed_of, proto::StatusReport& report);
+
+/// Names the emergency stop inputs of the motor in a fault that they caused.
+void name_stop_inputs(const MachineConfig& machine, std::size_t motor, proto::FaultReport& fault);
+
+/// "stop (emergency stop), door (door open)": those that are closed.
+std::string closed_inputs_text(const proto::StatusReport& status);
+
+/// "input stop of motor X"
+std::string label_of(const proto::InputStatus& input);
+
+}  // namespace lockstep
