@@ -76,6 +76,13 @@ void VirtualDevices::deliver(std::size_t axis, Tick now) {
     }
 }
 
+void VirtualDevices::set_input(std::size_t input, bool closed, Tick now) {
+    const InputConfig& config = machine_.inputs[input];
+    const std::size_t motor = motor_named(machine_, config.motor).value();
+    advance(motor, now);
+    lockstep::set_input((*this)[motor].plant(), config, closed);
+}
+
 void VirtualDevices::apply(const VirtualFault& fault, bool begins, Tick now) {
     advance(fault.process, now);
     fault.is_of_device() ? strike(fault, begins, now) : disturb(fault, begins);
@@ -88,8 +95,6 @@ void VirtualDevices::disturb(const VirtualFault& fault, bool begins) {
         (*this)[i].plant().stick(fault.contact, begins ? std::optional(fault.closed) : std::nullopt);
     } else if (fault.kind == VirtualFault::Kind::Push && begins) {
         (*this)[i].plant().push(fault.push_steps);
-    } else if (fault.kind == VirtualFault::Kind::CloseInput) {
-        set_input((*this)[i].plant(), machine_.inputs[fault.input], begins);
     } else if (begins) {
         RegisterWindow& window = devices_[i].window;
         fault.ends_elsewhere ? mislead_newest_frame(window) : damage_newest_frame(window);

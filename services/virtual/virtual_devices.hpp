@@ -34,6 +34,8 @@ public:
     /// inputs after it.
     void begin(const VirtualFault& fault, Tick now) { apply(fault, true, now); }
     void end(const VirtualFault& fault, Tick now) { apply(fault, false, now); }
+    /// Closes or opens an input of the machine, by its number there.
+    void set_input(std::size_t input, bool closed, Tick now);
 
 private:
     struct Device {

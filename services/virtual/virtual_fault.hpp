@@ -12,13 +12,12 @@ namespace lockstep {
 /// Process numbers: first the axes in the configured order, then the coordinators.
 struct VirtualFault {
     enum class Kind : std::uint8_t {
-        Freeze,      // the process's loop does not run; messages to it wait; its device continues
-        Crash,       // the process ends, messages to it are lost, its device continues; at the end a new process starts
-        Cut,         // messages between the process and its peers are lost
-        SetClock,    // the clock of an axis's process is set; the fault lasts until this must be detected
-        Stick,       // a switch of an axis always reads closed, or always open
-        Push,        // a hand moves an axis's slide
-        CloseInput,  // an input of the machine is closed; at the end it opens
+        Freeze,    // the process's loop does not run; messages to it wait; its device continues
+        Crash,     // the process ends, messages to it are lost, its device continues; at the end a new process starts
+        Cut,       // messages between the process and its peers are lost
+        SetClock,  // the clock of an axis's process is set; the fault lasts until this must be detected
+        Stick,     // a switch of an axis always reads closed, or always open
+        Push,      // a hand moves an axis's slide
         DamageFrame,  // the newest frame that an axis's device holds is altered
         StopDevice,   // an axis's device does nothing; at the end it continues
         KillDevice,   // an axis's device ends; at the end a new one powers up, with the slide where it was
@@ -33,7 +32,6 @@ struct VirtualFault {
     Ticks set_by;                                    // SetClock: forward by this
     PlantContact contact = &PlantInputs::limit_min;  // Stick: the switch
     bool closed = true;                              // Stick: reads closed
-    std::size_t input = 0;                           // CloseInput: its number among the machine's inputs
     std::int64_t push_steps = 0;                     // Push: distance
     bool reboots = false;                            // Crash: a coordinator's host reboots, so its clock restarts
     bool other_config = false;                       // Crash: the next process reads another configuration
@@ -45,8 +43,7 @@ struct VirtualFault {
     constexpr Tick end() const { return at + lasts; }
     /// Whether it is a fault of an axis's slide, switches or device, not of a process or link.
     constexpr bool is_of_plant() const {
-        return kind == Kind::Stick || kind == Kind::Push || kind == Kind::CloseInput || kind == Kind::DamageFrame ||
-               is_of_device();
+        return kind == Kind::Stick || kind == Kind::Push || kind == Kind::DamageFrame || is_of_device();
     }
     /// Whether it is a fault that makes the axis lose its device if it lasts long enough.
     constexpr bool is_of_device() const {

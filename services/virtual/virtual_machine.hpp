@@ -110,6 +110,8 @@ public:
     Tick device_time(std::size_t i) const { return clocks_.device(i, now_); }
     /// An axis's device, which outlives its processes.
     SimulatedDevice& device(std::size_t i) { return devices_[i]; }
+    /// A person closes or opens an input of the machine, by its number in the machine's file.
+    void set_input(std::size_t input, bool closed) { devices_.set_input(input, closed, now_); }
     const SimulatedDevice& device(std::size_t i) const { return devices_[i]; }
     const AlterationCounts& alterations() const { return post_.alterations(); }
 

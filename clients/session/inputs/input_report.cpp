@@ -1,5 +1,6 @@
 #include "clients/session/inputs/input_report.hpp"
 
+#include "core/faults.hpp"
 #include "core/kinematics/motor_inputs.hpp"
 #include "core/kinematics/motors.hpp"
 

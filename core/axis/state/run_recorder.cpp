@@ -32,7 +32,8 @@ void record(const HeldFrame& frame, bool tail, std::optional<std::int64_t> cut_a
 
 void record_end(const HeldFrame& frame, const DeviceStatus& device, const RunRecorder::Run& run,
                 ReusedVector<ExecutedTrack>& tracks) {
-    const bool stopped = device.stopped_by_limit || device.stopped_by_trigger || device.stopped_by_host;
+    const bool stopped =
+        device.stopped_by_limit || device.stopped_by_trigger || device.stopped_by_host || device.stopped_by_input;
     const std::int64_t here = device.position.count() - run.zero_count;
     const bool in_tail = !frame.last && (!stopped || device.in_tail);
     record(frame, false, stopped && !in_tail ? std::optional(here) : std::nullopt, run, tracks);

@@ -25,10 +25,23 @@ bool is_faulty(const Recording& recording, Tick from, Tick until) {
                                [&](const VirtualFault& fault) { return fault.at <= until && fault.end() >= from; });
 }
 
+/// When a motor makes no pulse any more. The device with the input does not wait for a message, the others wait also
+/// for the state of its motor.
+Tick ceases_by(const Recording& recording, const Emergency& emergency, std::size_t motor) {
+    const Ticks rounding{2};  // conversion from the device's time to the true time
+    const Ticks slot = recording.machine.slot_ticks();
+    if (!emergency.by_input) { return emergency.asked + slot * kCeaseSlots; }
+    if (motor == *emergency.by_input) { return emergency.asked + emergency.debounce + rounding; }
+    const Ticks late = recording.motors[*emergency.by_input].lateness + recording.motors[motor].lateness;
+    return emergency.asked + emergency.debounce + late + slot * kInputCeaseSlots;
+}
+
 void check_emergency(const Recording& recording, const Emergency& emergency, Violations& violations) {
-    const Tick ceased = emergency.asked + recording.machine.slot_ticks() * kCeaseSlots;
-    if (recording.lossy() || is_faulty(recording, emergency.asked, ceased)) { return; }
+    const Tick all_ceased =
+        emergency.asked + emergency.debounce + recording.machine.slot_ticks() * std::max(kCeaseSlots, kInputCeaseSlots);
+    if (recording.lossy() || is_faulty(recording, emergency.asked, all_ceased)) { return; }
     for (std::size_t i = 0; i < recording.motors.size(); ++i) {
+        const Tick ceased = ceases_by(recording, emergency, i);
         for (const StepEdge& step : recording.motors[i].steps) {
             const Tick tick = recording.motors[i].truth(step);
             if (tick > ceased && tick <= emergency.rests) {

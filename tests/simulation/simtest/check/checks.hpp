@@ -36,11 +36,13 @@ Violations check_together(const Recording& recording, const Followings& followin
 /// separate any axis, by at most one frame.
 Violations check_frames(const Recording& recording);
 
-/// Stops: after an emergency stop all pulses have ceased within kCeaseSlots. A motion is interrupted only by a fault
+/// Stops: after an emergency stop all pulses have ceased within kCeaseSlots; those of the device with
+/// its input after the debounce, those of the others within kInputCeaseSlots. A motion is interrupted only by a fault
 /// that the machine need not tolerate. An axis that moves by itself brakes within kHaltSlots and kHalt_ns of the
 /// coordinator's order to halt: 30 ms with slots of 10 ms.
 Violations check_stops(const Recording& recording);
 inline constexpr int kCeaseSlots = 6;                 // two messages with a loop at both ends, and one coordinator slot
+inline constexpr int kInputCeaseSlots = 10;           // also the state of the motor whose device was stopped
 inline constexpr int kHaltSlots = 2;                  // one message, with a loop at both ends
 inline constexpr std::int64_t kHalt_ns = 10'000'000;  // the frame in progress, and the time between two readings
 

@@ -2,6 +2,7 @@
 
 #include "tests/simulation/simtest/draw/draw_delta.hpp"
 #include "tests/simulation/simtest/draw/draw_fault.hpp"
+#include "tests/simulation/simtest/draw/draw_inputs.hpp"
 #include "tests/simulation/simtest/draw/draw_jogs.hpp"
 #include "tests/simulation/simtest/draw/draw_late_devices.hpp"
 #include "tests/simulation/simtest/draw/draw_machine.hpp"
@@ -299,6 +300,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     if (asked.curve) { give_curves(seed, asked.mixed, scenario); }
     if (asked.stream) { give_streams(seed, asked.mixed, scenario); }
     if (kind.late_devices) { give_late_devices(seed, scenario); }
+    if (kind.inputs) { give_inputs(seed, scenario); }
     if (kind.jogs) { give_jogs(seed, with_plant(faults, asked), scenario); }
     return scenario;
 }

@@ -74,6 +74,7 @@ struct MachineKind {
     bool motors = false;              // axes have several motors, or share them (draw_motors.hpp)
     bool deltas = false;              // draw_delta.hpp
     bool jogs = false;                // axes are jogged between programs (draw_jogs.hpp)
+    bool inputs = false;              // with an emergency stop and a door (draw_inputs.hpp)
 };
 
 /// A command that the machine must refuse, and the reason. The machine must continue as if it had not been given.
@@ -117,7 +118,16 @@ struct PlannedFault {
 
 /// An interruption of a job in motion.
 struct Interrupt {
-    enum class Kind : std::uint8_t { HoldAndResume, HoldAndStop, Stop, EmergencyStop, WrongCommand, Override };
+    enum class Kind : std::uint8_t {
+        HoldAndResume,
+        HoldAndStop,
+        Stop,
+        EmergencyStop,
+        WrongCommand,
+        Override,
+        StopInput,  // a person presses the emergency stop at a device, tries a reset, and releases it
+        Door        // a door opens, and closes after the hold
+    };
     Kind kind = Kind::HoldAndResume;
     double after_s = 0;  // after the motion began or continued
     double rest_s = 0;   // duration of the hold

@@ -17,8 +17,6 @@ enum class Cause : std::uint8_t {
     Cut,
     SetClock,
     Switch,
-    StopInput,
-    Door,
     Push,
     Hand,
     DamagedFrame,
@@ -35,7 +33,7 @@ struct Explanation {
 
 constexpr std::array kExplanations{
     Explanation{Cause::EmergencyStop, FaultCode::EmergencyStopped},
-    Explanation{Cause::StopInput, FaultCode::EmergencyStopInput},
+    Explanation{Cause::EmergencyStop, FaultCode::EmergencyStopInput},
     // In three epochs in a row no frame ran, or one axis received other messages than the others.
     Explanation{Cause::Loss, FaultCode::FrameLate},
     Explanation{Cause::Loss, FaultCode::FramesDiffer},
@@ -104,8 +102,6 @@ Cause cause_of(const VirtualFault& fault, const MachineConfig& machine) {
         case VirtualFault::Kind::SetClock: return Cause::SetClock;
         case VirtualFault::Kind::Stick: return Cause::Switch;
         case VirtualFault::Kind::Push: return Cause::Push;
-        case VirtualFault::Kind::CloseInput:
-            return machine.inputs[fault.input].use == InputUse::Door ? Cause::Door : Cause::StopInput;
         case VirtualFault::Kind::DamageFrame: return Cause::DamagedFrame;
         case VirtualFault::Kind::StopDevice:
         case VirtualFault::Kind::KillDevice:

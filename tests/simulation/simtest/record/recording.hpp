@@ -122,10 +122,12 @@ struct JobRecord {
     std::optional<Tick> emergency;  // the time of an emergency stop
 };
 
-/// An emergency stop, from the command until the machine is at rest.
+/// An emergency stop, from the command, or from the pressing of an input, until the machine is at rest.
 struct Emergency {
     Tick asked;
     Tick rests;
+    std::optional<std::size_t> by_input = {};  // the motor whose device has the input
+    Ticks debounce = {};                       // of that input
 };
 
 /// Keys of a jog that a client released, or whose renewals ceased.

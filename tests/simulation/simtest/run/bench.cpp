@@ -231,4 +231,13 @@ std::vector<std::size_t> Bench::steps_made() const {
     return made;
 }
 
+double Bench::input_seconds(std::size_t input) const {
+    constexpr double kSlots = 12;
+    constexpr double kLossySlots = 40;
+    const double late =
+        static_cast<double>(scenario_.lateness(motor_named(machine(), machine().inputs[input].motor).value()).value);
+    return machine().inputs[input].debounce_ms * 1e-3 + (lossy() ? kLossySlots : kSlots) * slot_s() +
+           2 * late / machine().ticks_per_second();
+}
+
 }  // namespace lockstep::simtest

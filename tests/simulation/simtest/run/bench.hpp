@@ -53,6 +53,10 @@ public:
     std::uint64_t stream_program(Program program, const std::vector<SentPart>& parts);
     void end_stream() { stream_.reset(); }
 
+    /// A person closes or opens an input of the machine, by its number in the machine's file.
+    void set_input(std::size_t input, bool closed) { vm_.set_input(input, closed); }
+    /// After this time, every process knows of a change of an input.
+    double input_seconds(std::size_t input) const;
     void move_by_hand(std::size_t motor, std::int64_t steps);
     /// The steps by which a motor's slide was moved by hand.
     std::int64_t moved_by_hand(std::size_t motor) const { return by_hand_[motor]; }

@@ -43,9 +43,7 @@ constexpr std::array kInjectedNames{"freeze of an axis that must not stop the ma
                                     "home switch stuck open",
                                     "slide pushed",
                                     "frame damaged in a device",
-                                    "device lost",
-                                    "emergency stop input",
-                                    "door"};
+                                    "device lost"};
 
 template <typename Row>
 std::string row_name(const Row& row) {
@@ -63,8 +61,6 @@ std::string_view injected_name(const VirtualFault& fault, const MachineConfig& m
         case VirtualFault::Kind::Stick: return kInjectedNames[!home ? 16 : (fault.closed ? 17 : 18)];
         case VirtualFault::Kind::Push: return kInjectedNames[19];
         case VirtualFault::Kind::DamageFrame: return kInjectedNames[20];
-        case VirtualFault::Kind::CloseInput:
-            return kInjectedNames[machine.inputs[fault.input].use == InputUse::Door ? 23 : 22];
         case VirtualFault::Kind::StopDevice:
         case VirtualFault::Kind::KillDevice:
         case VirtualFault::Kind::Overwrite: return kInjectedNames[21];

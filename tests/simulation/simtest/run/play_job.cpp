@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/axis/device/position_claim.hpp"
+#include "tests/simulation/simtest/draw/draw_inputs.hpp"
 #include "tests/simulation/simtest/record/motor_course.hpp"
 
 namespace lockstep::simtest {
@@ -303,6 +304,8 @@ void JobPlayer::interrupt(const Interrupt& interrupt) {
         case Interrupt::Kind::EmergencyStop: return stop_at_once();
         case Interrupt::Kind::WrongCommand: return give(interrupt.wrong);
         case Interrupt::Kind::Override: return set_overrides(interrupt.overrides);
+        case Interrupt::Kind::StopInput: return press_stop();
+        case Interrupt::Kind::Door: return open_door(interrupt);
     }
 }
 
@@ -338,6 +341,46 @@ void JobPlayer::set_overrides(const Overrides& overrides) {
     const Reply* reply = bench_.set_overrides(overrides);
     const bool has_none = bench_.machine().coordination == StepMethod::Lai;
     if (reply != nullptr && reply->status != ReplyStatus::Accepted && !has_none) { refused("override", *reply); }
+}
+
+/// While the stop is pressed, a reset is refused. It is released for the reset that makes the machine ready.
+void JobPlayer::press_stop() {
+    const InputConfig& input = bench_.machine().inputs[kStopInput];
+    const Tick pressed = bench_.vm().now();
+    job_.emergency = pressed;
+    bench_.recording().emergencies.push_back(
+        {.asked = pressed,
+         .rests = pressed,
+         .by_input = motor_named(bench_.machine(), input.motor),
+         .debounce = {std::llround(input.debounce_ms * 1e-3 * bench_.machine().ticks_per_second())}});
+    bench_.set_input(kStopInput, true);
+    (void)bench_.await([&] { return disturbed(); }, bench_.protocol_seconds(), "an emergency stop by an input");
+    if (!bench_.over() && bench_.faulted() && !disturbed()) {
+        const Reply* reply = bench_.ask(CommandKind::Reset);
+        if (reply != nullptr && !is_refusal(*reply, FaultCode::EmergencyStopInput) && !disturbed()) {
+            bench_.object("reset", "while the emergency stop is pressed: " + answer_text(*reply));
+        }
+    }
+    bench_.set_input(kStopInput, false);
+    bench_.wait(bench_.input_seconds(kStopInput));
+}
+
+/// The machine comes to rest on its path and stays there, until the door is closed and the job is resumed.
+void JobPlayer::open_door(const Interrupt& interrupt) {
+    bench_.set_input(kDoorInput, true);
+    const auto rests = [this] { return in(MachinePhase::Holding) || in(MachinePhase::Paused) || ended(); };
+    const double seconds = 2 * bench_.protocol_seconds() + job_.course.seconds;
+    if (bench_.await([&] { return rests() || disturbed(); }, seconds, "the hold by a door") && rests() && !ended()) {
+        const auto before = bench_.steps_made();
+        bench_.wait(interrupt.rest_s);
+        const Reply* reply = bench_.ask(CommandKind::Resume);
+        if (reply != nullptr && !is_refusal(*reply, FaultCode::DoorOpen) && !disturbed()) {
+            bench_.object("door", "a resume while it is open: " + answer_text(*reply));
+        }
+        if (bench_.steps_made() != before && !disturbed()) { bench_.object("door", "steps occur while it is open"); }
+    }
+    bench_.set_input(kDoorInput, false);
+    bench_.wait(bench_.input_seconds(kDoorInput));
 }
 
 void JobPlayer::stop_at_once() { job_.emergency = play_emergency(bench_); }

@@ -23,6 +23,8 @@ private:
     void set_overrides(const Overrides& overrides);
     void stop();
     void stop_at_once();
+    void press_stop();
+    void open_door(const Interrupt& interrupt);
     void give(const WrongCommand& wrong);
     void resume();
     void record();

@@ -1,0 +1,16 @@
+// An emergency stop and a door that are wired to inputs of devices.
+#pragma once
+
+#include "tests/simulation/simtest/draw/scenario.hpp"
+
+namespace lockstep::simtest {
+
+// The numbers of the machine's inputs.
+inline constexpr std::size_t kStopInput = 0;
+inline constexpr std::size_t kDoorInput = 1;
+
+/// Both inputs at drawn motors, and times in jobs at which the door opens or the stop is pressed. The random numbers
+/// are separate: scenarios without inputs stay the same.
+void give_inputs(std::uint64_t seed, Scenario& scenario);
+
+}  // namespace lockstep::simtest
