@@ -355,6 +355,7 @@ void JobPlayer::press_stop() {
          .debounce = {std::llround(input.debounce_ms * 1e-3 * bench_.machine().ticks_per_second())}});
     bench_.set_input(kStopInput, true);
     (void)bench_.await([&] { return disturbed(); }, bench_.protocol_seconds(), "an emergency stop by an input");
+    bench_.wait(bench_.input_seconds(kStopInput));  // a disturbed machine may need as long to notice it
     if (!bench_.over() && bench_.faulted() && !disturbed()) {
         const Reply* reply = bench_.ask(CommandKind::Reset);
         if (reply != nullptr && !is_refusal(*reply, FaultCode::EmergencyStopInput) && !disturbed()) {
