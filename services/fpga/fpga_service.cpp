@@ -12,6 +12,7 @@
 
 #include "core/kinematics/motors.hpp"
 #include "services/documents/edit/kept_settings.hpp"
+#include "services/fpga/closed_inputs.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/end_guard.hpp"
 #include "services/runtime/log.hpp"
@@ -37,6 +38,7 @@ public:
         : options_(options),
           tick_ns_(machine.tick_ns),
           clock_(machine.tick_ns, machine.timing.time_source),
+          inputs_(machine, axis, options.closed_inputs),
           plant_(plant_of(machine, axis)) {}
 
     /// Error: why its registers cannot be created.
@@ -57,6 +59,7 @@ public:
                 "the registers were overwritten or removed; the device powers up again, and the axis must be homed");
             if (auto up = power_up(); !up) { return up; }
         }
+        inputs_.apply_to(device_->plant());
         device_->advance(clock_.now());
         return {};
     }
@@ -65,6 +68,7 @@ private:
     FpgaOptions options_;
     std::int64_t tick_ns_;
     MachineClock clock_;
+    ClosedInputs inputs_;
     Plant plant_;
     std::unique_ptr<SimulatedDevice> device_;
 };

@@ -10,9 +10,10 @@ namespace lockstep {
 
 struct FpgaOptions {
     std::string machine_file;
-    std::string axis;  // its name in the file
-    std::string name;  // name of the shared memory; empty: the registers are in `file`
-    std::string file;  // path of the register file
+    std::string axis;           // its name in the file
+    std::string name;           // name of the shared memory; empty: the registers are in `file`
+    std::string file;           // path of the register file
+    std::string closed_inputs;  // path of the file with the names of closed inputs; empty: none closes
 };
 
 /// Serves until SIGINT or SIGTERM. Returns the exit code: 0 after a requested end, 1 after a failure, with the cause in

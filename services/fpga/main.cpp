@@ -13,6 +13,9 @@ int main(int argc, char** argv) {
                      "use shared memory of this name, under /dev/shm; the axis's device is then shm:NAME");
     place.add_option("--file", options.file,
                      "map this file, and create it if it is missing; the axis's device is then uio:PATH");
+    parser.add_option("--closed-inputs", options.closed_inputs,
+                      "a file with the names of the inputs of the machine that are closed; write it to press or open "
+                      "them");
     parser.footer(
         "Examples:\n  lockstep-fpga --machine machine.textproto --axis X --name lockstep-x\n"
         "  lockstep-fpga --machine machine.textproto --axis X --file /run/lockstep/x.registers\n"
