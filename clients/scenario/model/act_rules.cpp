@@ -36,11 +36,13 @@ private:
                 return problems_.require(act.command() != Asked::NONE, path_ + ".command",
                                          "NONE is not a command; use HOLD, RESUME, STOP, EMERGENCY_STOP or RESET");
             case Act::kOverride: return check_override(act.override());
+            case Act::kCloseInput: return require_devices("close_input");
+            case Act::kOpenInput: return require_devices("open_input");
             case Act::WHAT_NOT_SET: break;
         }
         problems_.add(path_,
-                      "this act is empty; use one of: kill, restart, pause, unpause, cut, lose, heal, command "
-                      "or override");
+                      "this act is empty; use one of: kill, restart, pause, unpause, cut, lose, heal, command, "
+                      "override, close_input or open_input");
     }
 
     void require_process(const std::string& key, const std::string& name, const std::vector<std::string>& names) {
@@ -50,6 +52,13 @@ private:
     void require_links(const std::string& key) {
         problems_.require(has_links(asked_.place()), path_ + "." + key,
                           key + " needs links between the processes; set place: NAMESPACE or CONTAINER");
+    }
+
+    void require_devices(const std::string& key) {
+        problems_.require(asked_.separate_devices() && asked_.place() != Asked::CONTAINER, path_ + "." + key,
+                          key +
+                              " presses a device that is a process of this host; set separate_devices: true, and not "
+                              "place: CONTAINER");
     }
 
     /// A device has no link: its axis reaches it through memory.

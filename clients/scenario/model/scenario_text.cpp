@@ -51,6 +51,8 @@ std::string what_text(const Asked::Act& act) {
         case Act::kHeal: return "heal " + act.heal();
         case Act::kCommand: return lower(Asked::Command_Name(act.command()));
         case Act::kOverride: return override_text(act.override());
+        case Act::kCloseInput: return "close input " + act.close_input();
+        case Act::kOpenInput: return "open input " + act.open_input();
         case Act::WHAT_NOT_SET: break;
     }
     return "nothing";

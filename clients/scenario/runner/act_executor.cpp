@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "clients/session/command_effect.hpp"
+#include "services/files/text_file.hpp"
 #include "services/runtime/clock.hpp"
 
 namespace lockstep::scenario {
@@ -65,9 +66,23 @@ Done ActExecutor::apply(const Asked::Act& act) {
                         .feed_percent = turn.has_feed() ? std::optional(turn.feed()) : std::nullopt,
                         .rapid_percent = turn.has_rapid() ? std::optional(turn.rapid()) : std::nullopt});
         }
+        case Act::kCloseInput: return set_input(act.close_input(), true);
+        case Act::kOpenInput: return set_input(act.open_input(), false);
         case Act::WHAT_NOT_SET: break;
     }
     return std::unexpected("the act is empty");
+}
+
+Done ActExecutor::set_input(const std::string& name, bool closed) {
+    const auto& inputs = session_.config().inputs;
+    if (std::ranges::find(inputs, name, &InputConfig::name) == inputs.end()) {
+        return std::unexpected("the machine has no input " + name + "; name an input of its file");
+    }
+    closed ? void(closed_.insert(name)) : void(closed_.erase(name));
+    std::string text;
+    for (const std::string& one : closed_) { text += one + "\n"; }
+    if (const auto written = write_text_file(inputs_file_, text); !written) { return std::unexpected(written.error()); }
+    return {};
 }
 
 Done ActExecutor::lose(const Asked::Loss& loss) {

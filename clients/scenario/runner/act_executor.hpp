@@ -4,8 +4,11 @@
 
 #include <chrono>
 #include <expected>
+#include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "clients/scenario/runner/network.hpp"
@@ -16,8 +19,9 @@ namespace lockstep::scenario {
 
 class ActExecutor {
 public:
-    ActExecutor(ProcessSet& processes, Network& network, Session& session)
-        : processes_(processes), network_(network), session_(session) {}
+    /// `closed_inputs`: the file that tells the devices which inputs are closed.
+    ActExecutor(ProcessSet& processes, Network& network, Session& session, std::filesystem::path closed_inputs)
+        : processes_(processes), network_(network), session_(session), inputs_file_(std::move(closed_inputs)) {}
 
     /// The error says why the act failed, or quotes the machine's refusal.
     std::expected<void, std::string> execute(const Asked::Act& act);
@@ -38,10 +42,13 @@ private:
     std::expected<void, std::string> reset();
     std::expected<void, std::string> stop_at_once();
     std::expected<void, std::string> ask(const Command& command);
+    std::expected<void, std::string> set_input(const std::string& name, bool closed);
 
     ProcessSet& processes_;
     Network& network_;
     Session& session_;
+    std::filesystem::path inputs_file_;
+    std::set<std::string> closed_;  // inputs
     std::vector<Undo> undoing_;
 };
 

@@ -42,7 +42,7 @@ std::string clock_error_text(const Asked::WrongClock& clock) {
 
 /// The command lines of all processes, each in its own network or container.
 std::vector<ServiceLine> lines_of(const Scenario& scenario, const Network& network, const Containers* containers,
-                                  const StateDirectory& state) {
+                                  const StateDirectory& state, const fs::path& closed_inputs) {
     const Layout layout{scenario.asked.separate_devices() ? FpgaKind::Shared : FpgaKind::Sim, scenario.asked.standby(),
                         scenario.asked.continues()};
     const fs::path programs = containers == nullptr ? program_folder() : "";
@@ -51,6 +51,10 @@ std::vector<ServiceLine> lines_of(const Scenario& scenario, const Network& netwo
         for (const auto& clock : scenario.asked.wrong_clock()) {
             if (line.name != "axis-" + clock.axis()) { continue; }
             line.words.insert(line.words.end(), {"--clock-error", clock_error_text(clock)});
+        }
+        const bool is_device = line.name.starts_with("fpga-");
+        if (is_device && !scenario.machine.inputs.empty()) {
+            line.words.insert(line.words.end(), {"--closed-inputs", closed_inputs.string()});
         }
         const CommandLine entry = containers == nullptr ? network.entry(line.name)
                                                         : containers->entry(line.name, network.namespace_of(line.name));
@@ -139,10 +143,10 @@ void add_clock_checks(const Scenario& scenario, std::chrono::nanoseconds lived, 
 }
 
 Observations run_session(const Scenario& scenario, const ChosenMachine& machine, ProcessSet& processes,
-                         Network& network, const StateDirectory& state) {
+                         Network& network, const StateDirectory& state, const fs::path& closed_inputs) {
     auto session = Session::join(machine, Purpose::Command);
     if (!session) { return broken(to_text("", session.error().errors)); }
-    ActExecutor acts(processes, network, *session);
+    ActExecutor acts(processes, network, *session, closed_inputs);
     ScenarioExecutor executor(scenario, *session, processes, acts);
     const auto begun = monotonic_now();
     if (const auto up = bring_up(scenario, processes, *session, executor, state); !up) { return broken(up.error()); }
@@ -169,10 +173,11 @@ Observations run_machine(const Scenario& scenario, const Containers* containers,
     if (!network) { return broken(network.error()); }
     const Logger logger(scenario.machine.network.lcm_url, folder);
     if (!logger.pid()) { return broken(logger.pid().error()); }
-    ProcessSet processes(lines_of(scenario, *network, containers, state), state,
+    const fs::path closed_inputs = folder / "closed-inputs";
+    ProcessSet processes(lines_of(scenario, *network, containers, state, closed_inputs), state,
                          containers == nullptr ? fs::path() : Containers::pid_folder());
-    Observations observed =
-        run_session(scenario, {file, scenario.machine, config_hash(scenario.machine)}, processes, *network, state);
+    Observations observed = run_session(scenario, {file, scenario.machine, config_hash(scenario.machine)}, processes,
+                                        *network, state, closed_inputs);
     observed.checks.push_back(processes.exit_check());
     processes.end_all();
     return observed;
