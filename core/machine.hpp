@@ -9,8 +9,8 @@
 
 #include "core/axis_set.hpp"
 #include "core/device/device_name.hpp"
-#include "core/outputs/output_config.hpp"
 #include "core/device/input_config.hpp"
+#include "core/outputs/output_config.hpp"
 #include "core/protocol/timing.hpp"
 #include "core/unassigned_words.hpp"
 #include "core/units.hpp"

@@ -20,11 +20,10 @@ namespace {
 
 std::string counted(const Findings& findings) {
     return plural(findings.steps, "step") + ", " + plural(findings.runs + findings.local_runs, "run") + " and " +
-           plural(findings.jobs, "job") +
-           (findings.events > 0 ? ", with " + plural(findings.events, "event") : "") +
-           (findings.outputs > 0 ? (findings.events > 0 ? " and " : ", with ") +
-                                       plural(findings.outputs, "output change")
-                                 : "") +
+           plural(findings.jobs, "job") + (findings.events > 0 ? ", with " + plural(findings.events, "event") : "") +
+           (findings.outputs > 0
+                ? (findings.events > 0 ? " and " : ", with ") + plural(findings.outputs, "output change")
+                : "") +
            (findings.events + findings.outputs > 0 ? "," : "");
 }
 

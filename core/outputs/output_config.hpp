@@ -19,8 +19,8 @@ enum class OutputUse : std::uint8_t {
 /// The pulses of an analog output: they are longer for greater values.
 struct PwmConfig {
     double hz = 0;
-    double full_scale = 1;          // the value, such as S, at which it is always on
-    bool follows_speed = false;     // after M4 it is in proportion to the speed of the path, and full at the feed
+    double full_scale = 1;       // the value, such as S, at which it is always on
+    bool follows_speed = false;  // after M4 it is in proportion to the speed of the path, and full at the feed
     bool operator==(const PwmConfig&) const = default;
 };
 

@@ -125,8 +125,8 @@ private:
     PathFrame last_;                 // the frame before it
     std::vector<MoveBegin> begins_;  // in the last frame
     std::vector<MoveBegin> tail_begins_;
-    SpeedWindow overridden_;         // set_overrides: the window with the new overrides
-    bool is_traced_ = false;         // path_ begins at the cursor
+    SpeedWindow overridden_;  // set_overrides: the window with the new overrides
+    bool is_traced_ = false;  // path_ begins at the cursor
     bool has_begun_ = false;
     bool has_made_ = false;
     bool is_done_ = false;

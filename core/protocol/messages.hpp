@@ -237,9 +237,10 @@ struct MachineState {
     Overrides overrides;       // for what is planned from now on
     AxisSet axes_present = 0;  // the axes that the coordinator receives
     std::uint64_t config_hash = 0;
-    ProgramDevices devices;             // as the words of programs have switched them
-    std::optional<Epoch> devices_after;  // at rest after this epoch or an earlier one, they hold; empty: axes follow frames
-    std::optional<HeldLease> lease;     // the writer's; empty: every client may give commands
+    ProgramDevices devices;  // as the words of programs have switched them
+    std::optional<Epoch>
+        devices_after;               // at rest after this epoch or an earlier one, they hold; empty: axes follow frames
+    std::optional<HeldLease> lease;  // the writer's; empty: every client may give commands
     std::optional<MachinePause> pause;  // of the job; present also while axes are jogged and return in the pause
     // What another coordinator needs to continue the job in motion:
     JobKind job_kind = JobKind::Run;

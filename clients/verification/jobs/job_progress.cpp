@@ -160,7 +160,8 @@ void JobProgress::begin_epoch(const RecordedJob& record) {
     }
     const MotorPositions at = start->at;
     const MachineConfig& machine = job_->replay->machine();
-    epoch_.emplace(machine, EpochReplay(machine, epoch, std::move(*start), overrides, {record.start_tick}, events_.devices()), at);
+    epoch_.emplace(
+        machine, EpochReplay(machine, epoch, std::move(*start), overrides, {record.start_tick}, events_.devices()), at);
     knows_outputs_ = events_.knows_devices();
     labels_.emplace_back(epoch, job_->label);
     if (labels_.size() > kLabelsKept) { labels_.pop_front(); }

@@ -62,12 +62,12 @@ void OutputCheck::compare_passed() {
 /// An event is expected only where a change has an effect: digital outputs that keep their levels make none.
 std::vector<OutputCheck::Expected> OutputCheck::expected_of(const Planned& planned) const {
     std::vector<Expected> expected;
-    const double rate = static_cast<double>((planned.end - planned.begin).value) / static_cast<double>(planned.ticks.value);
+    const double rate =
+        static_cast<double>((planned.end - planned.begin).value) / static_cast<double>(planned.ticks.value);
     std::uint16_t levels = levels_.value_or(0);
     for (const OutputChange& change : planned.changes) {
-        const Ticks at = planned.is_retimed
-                             ? Ticks{std::llround(rate * static_cast<double>(change.at.value))}
-                             : change.at;
+        const Ticks at =
+            planned.is_retimed ? Ticks{std::llround(rate * static_cast<double>(change.at.value))} : change.at;
         const Tick tick = planned.begin + at;
         if (const auto* digital = std::get_if<SetDigital>(&change.what)) {
             const auto next = static_cast<std::uint16_t>((levels & ~digital->mask) | (digital->levels & digital->mask));
@@ -120,8 +120,8 @@ void OutputCheck::compare(const Planned& planned) {
         const ChannelEvent& seen = seen_.front().event;
         if (!is_same(expected, seen, planned)) {
             if (!is_known && expected.event.kind == ChannelEvent::Kind::Digital) { continue; }
-            return differ(planned, fmt::format("{}; planned: {}", text_of(seen), text_of(expected.event)), expected.tick,
-                          seen.tick);
+            return differ(planned, fmt::format("{}; planned: {}", text_of(seen), text_of(expected.event)),
+                          expected.tick, seen.tick);
         }
         note(seen);
         seen_.pop_front();

@@ -1,5 +1,5 @@
-// Compares the changes of a device's outputs on record with those that the frames it ran ask for: each at its tick, with
-// its level, or its value and slope, and no other while the frame runs. What outputs do at rest is not compared.
+// Compares the changes of a device's outputs on record with those that the frames it ran ask for: each at its tick,
+// with its level, or its value and slope, and no other while the frame runs. What outputs do at rest is not compared.
 #pragma once
 
 #include <cstdint>
@@ -54,7 +54,8 @@ private:
     std::vector<Expected> expected_of(const Planned& planned) const;
     void compare_passed();
     void compare(const Planned& planned);
-    void differ(const Planned& planned, const std::string& text, std::optional<Tick> expected, std::optional<Tick> seen);
+    void differ(const Planned& planned, const std::string& text, std::optional<Tick> expected,
+                std::optional<Tick> seen);
     bool is_same(const Expected& expected, const ChannelEvent& seen, const Planned& planned) const;
     void lose();
 

@@ -61,8 +61,8 @@ FaultCode SetpointFollower::offer(const Frame& frame, std::optional<Position> re
     held_ = frame.number;
     last_held_ = frame.last;
     end_tick_ = frame.start + frame.ticks;
-    frames_.push_back({frame.number, frame.start, frame.ticks, frame.last, track,
-                       outputs != nullptr ? *outputs : OutputTrack{}});
+    frames_.push_back(
+        {frame.number, frame.start, frame.ticks, frame.last, track, outputs != nullptr ? *outputs : OutputTrack{}});
     return FaultCode::None;
 }
 

@@ -21,8 +21,8 @@ public:
     void forget() { ordered_.reset(); }
 
     struct Axis {
-        Epoch epoch = 0;        // the newest that it followed
-        bool is_safe = true;    // no fault, and its owner is present
+        Epoch epoch = 0;      // the newest that it followed
+        bool is_safe = true;  // no fault, and its owner is present
         const DeviceStatus& device;
     };
     /// Call it in a loop in which the axis follows no frames. Returns the change that its outputs need.

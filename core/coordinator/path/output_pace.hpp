@@ -28,8 +28,8 @@ public:
     /// An event before the next move. Those of one kind change outputs at the same tick together.
     void add(const ProgramEvent& event) { (event.is_analog() ? analog_ : digital_) = 1; }
 
-    /// The greatest speed of the next move, in mm per tick: one that is as long as the next ones, and has as many changes
-    /// at its begin. A tail slows down by at least the weakest axis's deceleration.
+    /// The greatest speed of the next move, in mm per tick: one that is as long as the next ones, and has as many
+    /// changes at its begin. A tail slows down by at least the weakest axis's deceleration.
     double next(double length_mm) {
         const double changes = std::exchange(analog_, 0) + std::exchange(digital_, 0);
         if (!has_outputs_ || changes == 0 || length_mm <= 0) { return std::numeric_limits<double>::infinity(); }

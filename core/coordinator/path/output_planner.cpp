@@ -134,14 +134,15 @@ void OutputPlanner::list_digital(const Part& part, const Motor& motor, std::vect
         const std::uint16_t next = levels_of(devices);
         const auto mask = is_stated ? static_cast<std::uint16_t>(next ^ levels) : all;
         if (from < 1 || mask == 0) { return; }
-        changes.push_back({{static_cast<std::int64_t>(from)}, SetDigital{static_cast<std::uint16_t>(next & mask), mask}});
+        changes.push_back(
+            {{static_cast<std::int64_t>(from)}, SetDigital{static_cast<std::uint16_t>(next & mask), mask}});
         levels = next;
         is_stated = true;
     });
 }
 
-/// Lists a change where the value would otherwise leave the wanted one by more than the tolerance. `ramp` begins as it is
-/// at the begin of the part, and becomes that at its end.
+/// Lists a change where the value would otherwise leave the wanted one by more than the tolerance. `ramp` begins as it
+/// is at the begin of the part, and becomes that at its end.
 void OutputPlanner::list_analog(const Part& part, const OutputConfig& output, Ramp& ramp, double tolerance,
                                 std::vector<OutputChange>& changes) const {
     bool is_stated = !part.states_all;
@@ -150,8 +151,8 @@ void OutputPlanner::list_analog(const Part& part, const OutputConfig& output, Ra
         if (tick >= to && to < static_cast<double>(part.ticks.value)) { return; }  // the next one begins by then
         const double there = value + slope * (tick - from);
         const double ends = value + slope * (to - from);
-        const bool holds = is_stated && std::abs(ramp.at(tick) - there) <= tolerance &&
-                           std::abs(ramp.at(to) - ends) <= tolerance;
+        const bool holds =
+            is_stated && std::abs(ramp.at(tick) - there) <= tolerance && std::abs(ramp.at(to) - ends) <= tolerance;
         if (holds) { return; }
         changes.push_back({{static_cast<std::int64_t>(tick)}, ramp_of(output, there, slope)});
         ramp = {.value = there - slope * tick, .slope = slope};

@@ -1,10 +1,10 @@
 // The changes of outputs that travel in frames: switched by the events of a program, or in proportion to the speed of
 // its path.
 //
-// An event changes outputs at the tick at which the motion reaches its place, in the body or in the tail of a frame. The
-// first frame of an epoch states the levels of all outputs at its first tick, because those that go off at an
-// interruption are off. While the speed of the path changes evenly, an output that follows it changes by the same amount
-// in each tick.
+// An event changes outputs at the tick at which the motion reaches its place, in the body or in the tail of a frame.
+// The first frame of an epoch states the levels of all outputs at its first tick, because those that go off at an
+// interruption are off. While the speed of the path changes evenly, an output that follows it changes by the same
+// amount in each tick.
 #pragma once
 
 #include <span>

@@ -3,7 +3,8 @@
 namespace lockstep {
 namespace {
 
-/// The greatest number of changes of outputs for these events. Those of one kind change outputs at the same tick together.
+/// The greatest number of changes of outputs for these events. Those of one kind change outputs at the same tick
+/// together.
 std::size_t most_changes(std::span<const FrameEvent> events) {
     std::size_t changes = 0;
     for (std::size_t k = 0; k < events.size(); ++k) {

@@ -22,8 +22,8 @@ struct Quadratic {
     std::optional<double> feed_mm_per_tick;  // nullopt: as fast as the axes allow
     bool is_feed_fixed = false;              // the feed override has no effect
     double most_mm_per_tick = std::numeric_limits<double>::infinity();
-    bool is_straight = true;                 // bend is 0
-    bool begins_at_rest = false;             // the machine rests at its begin, and there at whole steps
+    bool is_straight = true;      // bend is 0
+    bool begins_at_rest = false;  // the machine rests at its begin, and there at whole steps
     bool ends_at_rest = false;
     Ticks rest;             // duration if length is 0
     std::size_t piece = 0;  // the number of the piece of geometry in its stream

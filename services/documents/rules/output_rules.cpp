@@ -33,10 +33,11 @@ public:
         const ProtocolTiming& timing = machine_.timing;
         const double stall_ms = static_cast<double>(timing.slot_us) / 1000 * (timing.stall_slots + 1);
         const double silence = machine_.output_silence_ms;
-        problems_.require(silence > stall_ms && silence <= kMostSilence_ms, "output_silence_ms",
-                          fmt::format("output_silence_ms is {}; it must be above {}, for which a process may stall, and "
-                                      "at most {}",
-                                      number_text(silence), number_text(stall_ms), number_text(kMostSilence_ms)));
+        problems_.require(
+            silence > stall_ms && silence <= kMostSilence_ms, "output_silence_ms",
+            fmt::format("output_silence_ms is {}; it must be above {}, for which a process may stall, and "
+                        "at most {}",
+                        number_text(silence), number_text(stall_ms), number_text(kMostSilence_ms)));
     }
     ProblemList& problems() { return problems_; }
 
@@ -53,9 +54,10 @@ private:
     }
 
     void check_channel(const OutputConfig& output, const std::string& at) {
-        problems_.require(motor_named(machine_, output.motor).has_value(), at + "motor",
-                          fmt::format("output {} is at motor \"{}\", which the machine does not have; its motors are {}",
-                                      output.name, output.motor, fmt::join(motor_names(machine_), ", ")));
+        problems_.require(
+            motor_named(machine_, output.motor).has_value(), at + "motor",
+            fmt::format("output {} is at motor \"{}\", which the machine does not have; its motors are {}", output.name,
+                        output.motor, fmt::join(motor_names(machine_), ", ")));
         const std::size_t most = output.is_analog() ? kMostAnalogOutputs : kMostDigitalOutputs;
         problems_.require_range(at + "channel", output.channel, 0, static_cast<double>(most) - 1);
         problems_.require(channels_.emplace(output.motor, output.is_analog(), output.channel).second, at + "channel",
@@ -65,9 +67,9 @@ private:
 
     void check_use(const OutputConfig& output, const std::string& at) {
         const bool may_be_analog = output.use == OutputUse::Number || output.use == OutputUse::Spindle;
-        problems_.require(may_be_analog || !output.pwm, at + "use",
-                          fmt::format("output {} is switched on and off; remove pwm, or use NUMBER or SPINDLE",
-                                      output.name));
+        problems_.require(
+            may_be_analog || !output.pwm, at + "use",
+            fmt::format("output {} is switched on and off; remove pwm, or use NUMBER or SPINDLE", output.name));
         problems_.require(!output.inverted || !output.pwm, at + "inverted",
                           fmt::format("output {} has pwm, and its pulses cannot be inverted; remove inverted, and "
                                       "invert them where they are used",
@@ -76,9 +78,9 @@ private:
         const std::int32_t most = output.is_analog() ? kMostAnalogNumbers : kMostDigitalNumbers;
         if (has_number) { problems_.require_range(at + "number", output.number, 0, most - 1); }
         const auto word = std::tuple(output.use, output.is_analog(), has_number ? output.number : 0);
-        problems_.require(words_.insert(word).second, at + "use",
-                          fmt::format("output {} has the words of another output; give it another use or number",
-                                      output.name));
+        problems_.require(
+            words_.insert(word).second, at + "use",
+            fmt::format("output {} has the words of another output; give it another use or number", output.name));
     }
 
     void check_pwm(const PwmConfig& pwm, OutputUse use, const std::string& at) {
@@ -104,9 +106,9 @@ private:
 
 std::vector<Problem> output_problems(const MachineConfig& machine) {
     OutputRules rules(machine);
-    rules.problems().require(machine.outputs.size() <= kMostOutputs, "output",
-                             fmt::format("the machine has {} outputs; it can have {}", machine.outputs.size(),
-                                         kMostOutputs));
+    rules.problems().require(
+        machine.outputs.size() <= kMostOutputs, "output",
+        fmt::format("the machine has {} outputs; it can have {}", machine.outputs.size(), kMostOutputs));
     for (std::size_t k = 0; k < machine.outputs.size(); ++k) {
         rules.check(machine.outputs[k], fmt::format("output[{}].", k));
     }

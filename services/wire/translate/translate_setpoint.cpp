@@ -113,7 +113,9 @@ void check_outputs(const lockstep_wire_Setpoint& wire, Checks& check) {
     check.same("the number of output channels", wire.output_channel._length, changes);
     check.same("the number of output values", wire.output_value._length, changes);
     check.same("the number of output slopes", wire.output_slope._length, changes);
-    for (const auto at : elements(wire.output_at)) { check.within<std::int64_t>("an output tick", at, 1, kMaxWireTicks); }
+    for (const auto at : elements(wire.output_at)) {
+        check.within<std::int64_t>("an output tick", at, 1, kMaxWireTicks);
+    }
     for (std::size_t i = 0; i < changes && check.passed(); ++i) {
         const bool is_digital = wire.output_channel._buffer[i] == lockstep_wire_DIGITAL_OUTPUTS;
         const std::int64_t most = is_digital ? std::int64_t{1} << 32 : kFullScale;

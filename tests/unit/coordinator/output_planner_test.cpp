@@ -51,9 +51,9 @@ struct Outputs {
     }
     /// Of full scale.
     double analog(std::size_t channel, Tick now) const {
-        const double value = static_cast<double>(ramps[channel].value) +
-                             static_cast<double>(ramps[channel].slope) *
-                                 static_cast<double>((now - since[channel]).value);
+        const double value =
+            static_cast<double>(ramps[channel].value) +
+            static_cast<double>(ramps[channel].slope) * static_cast<double>((now - since[channel]).value);
         return std::clamp(value / static_cast<double>(kFullScale), 0.0, 1.0);
     }
 };
@@ -75,7 +75,9 @@ protected:
         for (source->read_ahead(); !source->is_done(); source->read_ahead()) {
             frames.push_back(*source->next().value());
             planner.plan(frames.back(), {source->events(), source->tail_events()}, outputs.emplace_back());
-            for (const FrameEvent& event : source->events()) { events.push_back({starts.back() + event.at, event.event}); }
+            for (const FrameEvent& event : source->events()) {
+                events.push_back({starts.back() + event.at, event.event});
+            }
             for (const MoveBegin& begin : source->begins()) {
                 begins.emplace_back(starts.back() + Ticks{std::llround(begin.at)}, begin.block);
             }
@@ -101,8 +103,8 @@ protected:
         }
         return std::sqrt(square);
     }
-    /// Runs the bodies up to frame `last`, and calls visit(frame, tick in it, outputs of X, outputs of Y) for each tenth
-    /// tick. Then runs the tail of `last`, and calls `visit_tail` in the same way.
+    /// Runs the bodies up to frame `last`, and calls visit(frame, tick in it, outputs of X, outputs of Y) for each
+    /// tenth tick. Then runs the tail of `last`, and calls `visit_tail` in the same way.
     template <typename Visit, typename VisitTail>
     void run(std::size_t last, Visit visit, VisitTail visit_tail) {
         std::array<Outputs, 2> devices;
@@ -129,8 +131,8 @@ protected:
             if (at.value % 10 == 0 || at == ticks) { visit(at); }
         }
     }
-    /// The power at a tick by the program's words: that at the feed, and the feed in mm/s. nullopt beside the begin of a
-    /// move.
+    /// The power at a tick by the program's words: that at the feed, and the feed in mm/s. nullopt beside the begin of
+    /// a move.
     struct Settings {
         double share = 0;
         double feed_mm_s = 0;
