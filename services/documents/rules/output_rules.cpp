@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kMostOutputs = 64;
 constexpr double kMostFullScale = 1e6;
 constexpr double kLeastPwmTicks = 4;
-constexpr double kMostSilence_ms = 60'000;
+constexpr double kMostSilence_ms = 3'600'000;
 
 /// Checks one output after another, so that a second use of a channel or a word is found.
 class OutputRules {
@@ -33,11 +33,10 @@ public:
         const ProtocolTiming& timing = machine_.timing;
         const double stall_ms = static_cast<double>(timing.slot_us) / 1000 * (timing.stall_slots + 1);
         const double silence = machine_.output_silence_ms;
-        problems_.require(
-            silence > stall_ms && silence <= kMostSilence_ms, "output_silence_ms",
-            fmt::format("output_silence_ms is {}; it must be above {}, for which a process may stall, and "
-                        "at most {}",
-                        number_text(silence), number_text(stall_ms), number_text(kMostSilence_ms)));
+        problems_.require(silence > stall_ms && silence <= kMostSilence_ms, "output_silence_ms",
+                          fmt::format("output_silence_ms is {}; it must be above {}, for which a process may stall, up "
+                                      "to {}",
+                                      number_text(silence), number_text(stall_ms), number_text(kMostSilence_ms)));
     }
     ProblemList& problems() { return problems_; }
 
@@ -86,8 +85,8 @@ private:
     void check_pwm(const PwmConfig& pwm, OutputUse use, const std::string& at) {
         problems_.require_range(at + "hz", pwm.hz, 1, machine_.ticks_per_second() / kLeastPwmTicks);
         problems_.require(pwm.full_scale > 0 && pwm.full_scale <= kMostFullScale, at + "full_scale",
-                          fmt::format("full_scale is {}; it must be above 0 and at most {}",
-                                      number_text(pwm.full_scale), number_text(kMostFullScale)));
+                          fmt::format("full_scale is {}; it must be above 0, up to {}", number_text(pwm.full_scale),
+                                      number_text(kMostFullScale)));
         if (!pwm.follows_speed) { return; }
         problems_.require(use == OutputUse::Spindle, at + "follows_speed",
                           "follows_speed needs use: SPINDLE, because M4 begins it");
@@ -112,7 +111,7 @@ std::vector<Problem> output_problems(const MachineConfig& machine) {
     for (std::size_t k = 0; k < machine.outputs.size(); ++k) {
         rules.check(machine.outputs[k], fmt::format("output[{}].", k));
     }
-    if (!machine.outputs.empty()) { rules.check_silence(); }
+    rules.check_silence();
     return rules.problems().take();
 }
 

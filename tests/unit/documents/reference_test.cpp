@@ -57,6 +57,8 @@ std::optional<std::string> machine_with_key(const Key& key, const std::string& v
         {"Plant", {"plant { ", " }"}},
         {"Pins", {"pins { ", " }"}},
         {"Input", {"input { name: \"s\" motor: \"X\" channel: 3 use: PROGRAM number: 1 ", " }"}},
+        {"Output", {"output { name: \"o\" motor: \"X\" channel: 0 number: 0 ", " }"}},
+        {"Pwm", {"output { name: \"o\" motor: \"X\" use: SPINDLE pwm { hz: 100 ", " } }"}},
         {"Axis", {"", ""}}};
     const auto around = kAround.find(key.block);
     if (around == kAround.end()) { return std::nullopt; }
@@ -133,7 +135,7 @@ TEST(MachineReference, EveryDefaultStatedIsTheOneTaken) {
         const auto given = parse_machine(*text);
         ASSERT_TRUE(given) << to_text("machine", given.error());
         std::string without = std::string(kShortest) + (key.block == "Web" ? "web { }\n" : "");
-        if (key.block == "Input") {
+        if (key.block == "Input" || key.block == "Output" || key.block == "Pwm") {
             without = std::regex_replace(*text, std::regex(key.name + ": " + stated[1].str() + " \\}"), "}");
         }
         EXPECT_EQ(machine_text(*given), machine_text(parse_machine(without).value())) << key.name << " " << stated[0];

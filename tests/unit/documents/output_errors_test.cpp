@@ -1,0 +1,71 @@
+// Outputs that a machine cannot have are refused before motion, with their place and a remedy.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "services/documents/machine_file.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr const char* kAxis = R"(name: "m"
+axis {
+  name: "X"
+  steps_per_mm: 80
+  start_velocity_mm_s: 10
+  max_velocity_mm_s: 100
+  max_accel_mm_s2: 1000
+  position_min_mm: 0
+  position_max_mm: 100
+}
+)";
+
+std::string errors_of(const std::string& outputs) {
+    const auto machine = parse_machine(kAxis + outputs);
+    return machine ? "" : to_text("m", machine.error());
+}
+
+TEST(Outputs, AreTakenWithTheirDefaults) {
+    const auto machine = parse_machine(std::string(kAxis) +
+                                       "output { name: \"laser\" motor: \"X\" use: SPINDLE at_interruption: OFF "
+                                       "pwm { hz: 5000 full_scale: 1000 follows_speed: true } }\n");
+    ASSERT_TRUE(machine) << to_text("m", machine.error());
+    ASSERT_EQ(machine->outputs.size(), 1u);
+    const OutputConfig& laser = machine->outputs[0];
+    EXPECT_FALSE(laser.stays_at_interruption);
+    EXPECT_FALSE(laser.stays_at_fault);
+    EXPECT_FALSE(laser.stays_at_silence);
+    EXPECT_TRUE(laser.pwm->follows_speed);
+    EXPECT_EQ(laser.pwm->full_scale, 1000);
+}
+
+TEST(Outputs, ThatCannotBeAreRefusedWithPlaceAndRemedy) {
+    struct Case {
+        const char* outputs;
+        const char* error;
+    };
+    for (const Case& one : {
+             Case{"output { name: \"a\" motor: \"X\" }\noutput { name: \"A\" motor: \"X\" channel: 1 number: 1 }\n",
+                  "m:12"},
+             Case{"output { name: \"a\" motor: \"Z\" }\n", "its motors are X"},
+             Case{"output { name: \"a\" motor: \"X\" channel: 16 }\n", "from 0 to 15"},
+             Case{"output { name: \"a\" motor: \"X\" }\noutput { name: \"b\" motor: \"X\" number: 1 }\n",
+                  "digital output 0 of motor X is given twice"},
+             Case{"output { name: \"a\" motor: \"X\" }\noutput { name: \"b\" motor: \"X\" channel: 1 }\n",
+                  "has the words of another output"},
+             Case{"output { name: \"a\" motor: \"X\" use: MIST pwm { hz: 10 } }\n", "remove pwm"},
+             Case{"output { name: \"a\" motor: \"X\" pwm { hz: 300000 } }\n", "hz is 300000"},
+             Case{"output { name: \"a\" motor: \"X\" pwm { hz: 10 full_scale: 0 } }\n", "above 0"},
+             Case{"output { name: \"a\" motor: \"X\" pwm { hz: 10 follows_speed: true } }\n", "needs use: SPINDLE"},
+             Case{"output { name: \"a\" motor: \"X\" number: 64 }\n", "from 0 to 63"},
+             Case{"output { name: \"a\" motor: \"X\" pwm { hz: 10 } inverted: true }\n", "cannot be inverted"},
+             Case{"output { motor: \"X\" }\n", "name is missing"},
+             Case{"output { name: \"a\" motor: \"X\" }\noutput_silence_ms: 110\n", "for which a process may stall"},
+         }) {
+        EXPECT_NE(errors_of(one.outputs).find(one.error), std::string::npos) << one.outputs << errors_of(one.outputs);
+    }
+}
+
+}  // namespace
+}  // namespace lockstep
