@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "core/kinematics/motors.hpp"
 #include "core/outputs/output_levels.hpp"
@@ -110,10 +111,12 @@ void OutputPlanner::plan_part(const Part& part, Motor& motor, std::size_t room, 
         }
         if (listed.size() <= room) { break; }
     }
-    std::ranges::stable_sort(listed, {}, &OutputChange::at);
     motor.ramps = ramps;
+    std::vector<std::pair<Ticks, std::size_t>> order;  // those of one tick stay in order
+    for (std::size_t k = 0; k < listed.size(); ++k) { order.emplace_back(listed[k].at, k); }
+    std::ranges::sort(order);
     changes.clear();
-    for (const OutputChange& change : listed) { changes.append(change); }
+    for (const auto& [at, k] : order) { changes.append(listed[k]); }
 }
 
 void OutputPlanner::list_digital(const Part& part, const Motor& motor, std::vector<OutputChange>& changes) const {
