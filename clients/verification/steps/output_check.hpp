@@ -1,5 +1,6 @@
-// Compares the changes of a device's outputs on record with those that the frames it ran ask for: each at its tick,
-// with its level, or its value and slope, and no other while the frame runs. What outputs do at rest is not compared.
+// Compares the recorded changes of a device's outputs with those of the frames that it ran. Each must be at its tick,
+// with its level, or its value and slope, and there must be no other while a frame runs. Changes at rest are not
+// compared.
 #pragma once
 
 #include <cstdint>
