@@ -56,4 +56,9 @@ inline Run any_run() {
     return run;
 }
 
+/// A time until the next call. It does not shrink, because shorter times make more calls: up to one for each tick.
+inline Ticks any_time_to_next_call(std::int64_t below) {
+    return Ticks{*rc::gen::noShrink(rc::gen::inRange<std::int64_t>(1, below))};
+}
+
 }  // namespace lockstep

@@ -68,7 +68,7 @@ RC_GTEST_PROP(Outputs, OfAnyFramesChangeAsTheProtocolDefines, ()) {
     }
     bench.order(device::Arm{run.armed});
     bench.order(device::Veto{run.vetoed});
-    for (Tick now; now < Tick{20'000}; now += Ticks{*rc::gen::inRange<std::int64_t>(1, 3000)}) { (void)bench.at(now); }
+    for (Tick now; now < Tick{20'000}; now += any_time_to_next_call(3000)) { (void)bench.at(now); }
     (void)bench.at(Tick{20'000});
     std::vector<Level> seen;
     const auto drained = bench.driver.drain_events([&](const ChannelEvent& event) {

@@ -53,7 +53,7 @@ RC_GTEST_PROP(Runs, TimeMayBeCutIntoAnyCalls, ()) {
     const Run run = any_run();
     DeviceBench bench(endless_axis());
     load(bench, run);
-    for (Tick now; now < kEnd; now += Ticks{*rc::gen::inRange<std::int64_t>(1, 1000)}) { bench.device.advance(now); }
+    for (Tick now; now < kEnd; now += any_time_to_next_call(1000)) { bench.device.advance(now); }
     bench.device.advance(kEnd);
     RC_ASSERT(bench.steps() == expected_steps(run));
 }
