@@ -12,9 +12,6 @@ RestOutputs::RestOutputs(std::size_t motor, const MachineConfig& machine) {
     const std::string name = motor_name(machine, motor);
     std::ranges::copy_if(machine.outputs, std::back_inserter(outputs_),
                          [&](const OutputConfig& output) { return output.motor == name; });
-    for (const OutputConfig& output : outputs_) {
-        if (!output.pwm) { digital_ |= static_cast<std::uint16_t>(1U << output.channel); }
-    }
 }
 
 /// An output that goes off at an interruption is on again when the motion goes on, and not before.

@@ -37,7 +37,6 @@ private:
     bool is_off(const OutputConfig& output, const Axis& axis) const;
 
     std::vector<OutputConfig> outputs_;
-    std::uint16_t digital_ = 0;  // output n is bit n
     std::optional<Owner> owner_;
     std::optional<device::ChangeOutputs> ordered_;
 };

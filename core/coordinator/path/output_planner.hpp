@@ -23,7 +23,6 @@ class OutputPlanner {
 public:
     explicit OutputPlanner(const MachineConfig& machine);
 
-    bool has_outputs() const { return !motors_.empty(); }
     /// An epoch begins. `devices`: as the program's words have left them.
     void begin(const ProgramDevices& devices);
 
