@@ -15,12 +15,17 @@ export function openBrowser(graphics = WITHOUT_GPU) {
 export const PHONE = { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2, hasTouch: true, isMobile: true };
 export const DESKTOP = { viewport: { width: 1440, height: 900 } };
 
+const crashes = new WeakMap(); // page: a promise that its first uncaught error rejects
+
 /** A page with its own cookies. `complaints` collects the errors on its console, except those of the network. */
 export async function openPage(browser, address, options = DESKTOP) {
   const context = await browser.newContext({ locale: "en-GB", colorScheme: "light", ...options });
   context.setDefaultTimeout(PATIENCE_MS);
   const page = await context.newPage();
   const complaints = [];
+  const crash = new Promise((_, reject) => page.once("pageerror", reject));
+  crash.catch(() => {}); // it may be of interest to nobody: it is among the complaints
+  crashes.set(page, crash);
   page.on("pageerror", (error) => complaints.push(String(error)));
   page.on("console", (message) => {
     if (message.type() === "error" && !/Failed to load resource|ERR_/.test(message.text())) complaints.push(message.text());
@@ -29,6 +34,7 @@ export async function openPage(browser, address, options = DESKTOP) {
   return { page, context, complaints };
 }
 
+/** Waits until the page shows its machine. An uncaught error before that is thrown at once. */
 export async function shown(page) {
-  await page.waitForSelector('html[data-shown="yes"]');
+  await Promise.race([page.waitForSelector('html[data-shown="yes"]'), crashes.get(page)]);
 }

@@ -25,11 +25,13 @@ function turn(page) {
   });
 }
 
-test("a million segments", async () => {
+test("a million segments", async (t) => {
   const machine = new StandInMachine();
   machine.load("million.gcode", SEGMENTS);
   const server = new StandInServer(machine, process.env.PAGE, { pointsEachTick: 2000 });
+  t.after(() => server.close());
   const browser = await openBrowser();
+  t.after(() => browser.close());
   const { page, complaints } = await openPage(browser, `${await server.listen()}/#token=${TOKENS.operate}`);
   const started = Date.now();
   await shown(page);
@@ -45,6 +47,4 @@ test("a million segments", async () => {
   await page.locator('.code li[aria-current="true"]').waitFor();
   assert.ok((await page.locator(".code li").count()) < 200, "only the lines in view are in the document");
   assert.deepEqual(complaints, []);
-  await browser.close();
-  await server.close();
 });

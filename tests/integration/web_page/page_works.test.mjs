@@ -313,6 +313,24 @@ describe("motors", () => {
   });
 });
 
+describe("inputs", () => {
+  test("are not shown where the machine has none", async () => {
+    const page = await enter();
+    assert.equal(await page.locator(".inputs:visible").count(), 0);
+  });
+
+  test("are shown with what they mean while they are closed", async () => {
+    machine.haveInputs();
+    const page = await enter();
+    const chip = (look, hasText) => page.locator(`.inputs .chip[data-look="${look}"]`, { hasText });
+    for (const name of ["stop", "door", "tool"]) await chip("good", `${name}: open`).waitFor();
+    machine.state.inputs = { stop: true, door: true, tool: true };
+    await chip("bad", "stop: emergency stop pressed").waitFor();
+    await chip("warning", "door: door open").waitFor();
+    await chip("busy", "tool: closed").waitFor();
+  });
+});
+
 describe("settings", () => {
   test("overrides, work offsets and tools go to the machine and come back", async () => {
     const page = await enter();

@@ -10,7 +10,7 @@ const axis = (name, max, max_velocity) => ({
 });
 
 export const MACHINE = {
-  name: "mill", version: "1", axes: [axis("X", 200, 150), axis("Y", 200, 150), axis("Z", 60, 25)], motors: [], features: [], faults: {},
+  name: "mill", version: "1", axes: [axis("X", 200, 150), axis("Y", 200, 150), axis("Z", 60, 25)], motors: [], inputs: [], features: [], faults: {},
   coordinate_systems: ["G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"], slack_deadline_ms: 8, step_lateness_limit_us: 20,
   limits: { program_bytes: 50_000_000, body_bytes: 65536, jog_renew_ms: 40, jog_life_ms: 120, override_min_percent: 10, override_max_percent: 200, path_points: 1_000_000 },
 };
@@ -58,8 +58,8 @@ export class StandInMachine {
   jogUntil = 0;
   endsJogs = false;
   state = {
-    machine: "mill", mode: "Idle", link: { age_ms: 0, standby: false, config_differs: false }, job: null, program: null, hold: null,
-    override: { feed_percent: 100, rapid_percent: 100 }, alarms: [], axes: { X: axisState(5), Y: axisState(5), Z: axisState(58) }, motors: {},
+    machine: "mill", mode: "Idle", link: { age_ms: 0, standby: false, config_differs: false }, job: null, program: null, hold: null, pause: null,
+    override: { feed_percent: 100, rapid_percent: 100 }, alarms: [], axes: { X: axisState(5), Y: axisState(5), Z: axisState(58) }, motors: {}, inputs: {},
     offsets: { revision: 1, active: "G54", systems: Object.fromEntries(MACHINE.coordinate_systems.map((s) => [s, { origin: {}, rotation_deg: 0 }])), g92: null },
     tools: { 1: { pocket: 1, offset: { Z: 42.5 }, diameter: 6 }, 2: { pocket: 2, offset: { Z: 38.1 }, diameter: 3 } }, 
     devices: { spindle: { direction: "stopped", rpm: 0 }, mist: false, flood: false, tool: null, outputs: [] }, writer: null,
@@ -69,9 +69,16 @@ export class StandInMachine {
   /** Y is moved by Y1 and Y2. Call it before the page is opened. */
   haveTwoMotorsOnY() {
     const motor = (name) => ({ name, axes: ["Y"], unit: "mm", steps_per_unit: 80, host: null });
-    this.description = { ...MACHINE, motors: [motor("Y1"), motor("Y2")] };
+    this.description = { ...this.description, motors: [motor("Y1"), motor("Y2")] };
     this.state.motors = { Y1: axisState(5), Y2: axisState(5) };
     this.state.axes.Y.health = null;
+  }
+
+  /** All are open. Call it before the page is opened. */
+  haveInputs() {
+    const inputs = [{ name: "stop", motor: "X", use: "emergency-stop", number: null }, { name: "door", motor: "Y", use: "door", number: null }, { name: "tool", motor: "Z", use: "program", number: 3 }];
+    this.description = { ...this.description, inputs };
+    this.state.inputs = Object.fromEntries(inputs.map(({ name }) => [name, false]));
   }
 
   load(name, segments) {
@@ -187,6 +194,7 @@ export class StandInMachine {
     const a = this.state.axes[name], velocity = 10 * (to - a.position);
     Object.assign(a, { position: to, velocity, state: "Cruise", at_rest: false });
     const late = 0.6 + 0.3 * Math.sin(to);
+    if (a.health === null) return; // it is that of its motors
     Object.assign(a.health, { slack_ms: { count: 100, min: 212 + 4 * Math.cos(to), max: 260 }, lateness_us: { count: 800, min: -late, max: late }, skew_us: 1.1 + 0.2 * Math.sin(to * 2) });
   }
 }

@@ -19,11 +19,13 @@ function pixels(page) {
   });
 }
 
-test("WebGL draws what is ahead and what is done", async () => {
+test("WebGL draws what is ahead and what is done", async (t) => {
   const machine = new StandInMachine();
   machine.load("rose.gcode", 600);
   const server = new StandInServer(machine, process.env.PAGE, { pointsEachTick: 30 });
+  t.after(() => server.close());
   const browser = await openBrowser(WEBGL);
+  t.after(() => browser.close());
   const { page, complaints } = await openPage(browser, `${await server.listen()}/?draw=webgl#token=${TOKENS.operate}`);
   await shown(page);
   await page.getByText("600 segments").waitFor();
@@ -36,6 +38,4 @@ test("WebGL draws what is ahead and what is done", async () => {
   const after = await pixels(page);
   assert.ok(after.done > 500 && after.ahead < before.ahead / 4, JSON.stringify({ before, after }));
   assert.deepEqual(complaints, []);
-  await browser.close();
-  await server.close();
 });
