@@ -66,25 +66,24 @@ struct UsedOutputs {
 
 UsedOutputs used_outputs(const MachineConfig& machine, const MotorConfig& motor) {
     UsedOutputs used;
-    for (const OutputConfig& output : machine.outputs) {
-        if (output.motor != motor.name) { continue; }
-        (output.is_analog() ? used.analog : used.digital) |= std::uint64_t{1} << output.channel;
+    for (const OutputConfig& output : outputs_of(machine.outputs, motor.name)) {
+        (output.is_analog() ? used.analog : used.digital) |= output.bit();
     }
     return used;
 }
 
 void turn_off(const OutputConfig& output, SafeOutputs& safe) {
     if (output.is_analog()) {
-        safe.analog_off |= static_cast<std::uint8_t>(1U << output.channel);
+        safe.analog_off |= static_cast<std::uint8_t>(output.bit());
     } else {
-        safe.digital.mask |= static_cast<std::uint16_t>(1U << output.channel);
+        safe.digital.mask |= output.bit();
     }
 }
 
 void add_output(const OutputConfig& output, DeviceSetup& setup) {
     if (!output.stays_at_interruption) { turn_off(output, setup.at_cut); }
     if (!output.stays_at_silence) { turn_off(output, setup.at_silence); }
-    if (output.inverted) { setup.outputs_inverted |= static_cast<std::uint16_t>(1U << output.channel); }
+    if (output.inverted) { setup.outputs_inverted |= output.bit(); }
     if (output.pwm) {
         setup.pwm_period_ns[static_cast<std::size_t>(output.channel)] = std::llround(1e9 / output.pwm->hz);
     }

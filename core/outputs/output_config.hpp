@@ -3,7 +3,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace lockstep {
 
@@ -39,7 +42,20 @@ struct OutputConfig {
     bool operator==(const OutputConfig&) const = default;
 
     bool is_analog() const { return pwm.has_value(); }
+    /// Of its channel, in words of the outputs of its kind.
+    std::uint16_t bit() const { return static_cast<std::uint16_t>(1U << channel); }
+    /// Whether it keeps its level when a job ends before its end.
+    bool stays_after(bool is_failure) const { return stays_at_interruption && (stays_at_fault || !is_failure); }
 };
+
+/// Those of a motor's device.
+inline std::vector<OutputConfig> outputs_of(std::span<const OutputConfig> outputs, std::string_view motor) {
+    std::vector<OutputConfig> those;
+    for (const OutputConfig& output : outputs) {
+        if (output.motor == motor) { those.push_back(output); }
+    }
+    return those;
+}
 
 inline constexpr std::int32_t kMostAnalogNumbers = 16;   // of M67 and M68
 inline constexpr std::int32_t kMostDigitalNumbers = 64;  // of M62 to M65

@@ -31,6 +31,29 @@ double share_of(const OutputConfig& output, const ProgramDevices& devices) {
     return std::clamp(commanded(output, devices) / output.pwm->full_scale, 0.0, 1.0);
 }
 
+bool is_active(const OutputConfig& output, const ProgramDevices& devices) {
+    return output.is_analog() ? share_of(output, devices) > 0 : is_on(output, devices);
+}
+
+bool is_switched_by(const OutputConfig& output, const ProgramEvent& event) {
+    using Kind = ProgramEvent::Kind;
+    const bool is_of_number = output.use == OutputUse::Number && output.number == event.index;
+    switch (event.kind) {
+        case Kind::SpindleStop:
+        case Kind::SpindleForward:
+        case Kind::SpindleReverse: return output.use == OutputUse::Spindle || output.use == OutputUse::SpindleReverse;
+        case Kind::SpindleSpeed: return output.use == OutputUse::Spindle && output.is_analog();
+        case Kind::CoolantOff: return output.use == OutputUse::Mist || output.use == OutputUse::Flood;
+        case Kind::MistOn: return output.use == OutputUse::Mist;
+        case Kind::FloodOn: return output.use == OutputUse::Flood;
+        case Kind::OutputOn:
+        case Kind::OutputOff: return is_of_number && !output.is_analog();
+        case Kind::AnalogOutput: return is_of_number && output.is_analog();
+        case Kind::Tool: return false;
+    }
+    return false;
+}
+
 bool follows_speed(const OutputConfig& output, const ProgramDevices& devices) {
     return output.pwm->follows_speed && output.use == OutputUse::Spindle &&
            devices.spindle == ProgramDevices::Spindle::Reverse;

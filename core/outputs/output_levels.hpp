@@ -15,6 +15,12 @@ bool is_on(const OutputConfig& output, const ProgramDevices& devices);
 /// The value of an analog output, from 0 to 1. Where it follows the speed, this is its value at the feed.
 double share_of(const OutputConfig& output, const ProgramDevices& devices);
 
+/// Whether a digital output is on, or the value of an analog one is above 0.
+bool is_active(const OutputConfig& output, const ProgramDevices& devices);
+
+/// Whether an event can change an output.
+bool is_switched_by(const OutputConfig& output, const ProgramEvent& event);
+
 /// Whether an analog output is now in proportion to the speed of the path.
 bool follows_speed(const OutputConfig& output, const ProgramDevices& devices);
 

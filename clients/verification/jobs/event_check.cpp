@@ -208,11 +208,10 @@ void EventCheck::check_switched_off(JobOutcome outcome) {
         return;
     }
     for (const OutputConfig& output : outputs_) {
-        const bool stays = output.stays_at_interruption && (output.stays_at_fault || outcome != JobOutcome::Failed);
+        const bool stays = output.stays_after(outcome == JobOutcome::Failed);
         if (stays || output.use != OutputUse::Number) { continue; }
-        const bool is_planned = output.is_analog() ? share_of(output, devices_) != 0 : is_on(output, devices_);
         const Kind kind = output.is_analog() ? Kind::AnalogOutput : Kind::OutputOff;
-        if (!check_off(kind, output.number, is_planned)) { return; }
+        if (!check_off(kind, output.number, is_active(output, devices_))) { return; }
     }
     if (const program_event_t* more = next()) {
         (void)differ("the job's end switched more off than was on: " + text_of(*more), 0, {}, Tick{more->tick});

@@ -20,14 +20,8 @@ bool is_in_order(const auto& changes, Ticks length) {
 }  // namespace
 
 OutputCheck::OutputCheck(std::size_t motor, const MachineConfig& machine) : room_(output_room(machine.timing)) {
-    for (const OutputConfig& output : machine.outputs) {
-        if (output.motor != motor_name(machine, motor)) { continue; }
-        const auto bit = 1U << output.channel;
-        if (output.is_analog()) {
-            analog_ |= static_cast<std::uint8_t>(bit);
-        } else {
-            digital_ |= static_cast<std::uint16_t>(bit);
-        }
+    for (const OutputConfig& output : outputs_of(machine.outputs, motor_name(machine, motor))) {
+        (output.is_analog() ? analog_ : digital_) |= output.bit();
     }
 }
 

@@ -23,7 +23,7 @@ private:
     bool is_possible(const OutputChange& change) const;
 
     std::uint16_t digital_ = 0;  // output n is bit n
-    std::uint8_t analog_ = 0;
+    std::uint16_t analog_ = 0;
     OutputRoom room_;
 };
 

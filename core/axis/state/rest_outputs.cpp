@@ -1,18 +1,12 @@
 #include "core/axis/state/rest_outputs.hpp"
 
-#include <algorithm>
-#include <iterator>
-
 #include "core/kinematics/motors.hpp"
 #include "core/outputs/output_levels.hpp"
 
 namespace lockstep {
 
-RestOutputs::RestOutputs(std::size_t motor, const MachineConfig& machine) {
-    const std::string name = motor_name(machine, motor);
-    std::ranges::copy_if(machine.outputs, std::back_inserter(outputs_),
-                         [&](const OutputConfig& output) { return output.motor == name; });
-}
+RestOutputs::RestOutputs(std::size_t motor, const MachineConfig& machine)
+    : outputs_(outputs_of(machine.outputs, motor_name(machine, motor))) {}
 
 /// An output that goes off at an interruption is on again when the motion goes on, and not before.
 bool RestOutputs::is_off(const OutputConfig& output, const Axis& axis) const {
@@ -29,10 +23,9 @@ std::optional<device::ChangeOutputs> RestOutputs::change(const Axis& axis) {
     for (const OutputConfig& output : outputs_) {
         const bool off = is_off(output, axis);
         if (!is_known && !off) { continue; }
-        const auto bit = static_cast<std::uint16_t>(1U << output.channel);
-        if (!output.pwm) {
-            wanted.digital.mask |= bit;
-            if (!off && is_on(output, owner_->devices)) { wanted.digital.levels |= bit; }
+        if (!output.is_analog()) {
+            wanted.digital.mask |= output.bit();
+            if (!off && is_on(output, owner_->devices)) { wanted.digital.levels |= output.bit(); }
         } else {
             const bool rests = off || follows_speed(output, owner_->devices);
             wanted.analog.append({.channel = static_cast<std::uint8_t>(output.channel),

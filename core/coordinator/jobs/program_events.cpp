@@ -57,10 +57,8 @@ void ProgramEvents::switch_off(std::uint64_t job, JobOutcome outcome, const Loop
 void ProgramEvents::switch_off_outputs(std::uint64_t job, JobOutcome outcome, const LoopView& loop,
                                        std::vector<PublishedEvent>& out) {
     for (const OutputConfig& output : loop.machine.outputs) {
-        const bool stays = output.stays_at_interruption && (output.stays_at_fault || outcome != JobOutcome::Failed);
-        if (stays) { continue; }
-        const bool is_on = output.is_analog() ? share_of(output, devices_) != 0 : lockstep::is_on(output, devices_);
-        if (is_on) { end_by(end_of(output), output.number, job, loop, out); }
+        const bool goes_off = !output.stays_after(outcome == JobOutcome::Failed) && is_active(output, devices_);
+        if (goes_off) { end_by(end_of(output), output.number, job, loop, out); }
     }
 }
 
