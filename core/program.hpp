@@ -91,12 +91,6 @@ struct ProgramEvent {
     Kind kind = Kind::SpindleStop;
     std::int32_t index = 0;
     double value = 0;
-
-    /// It can change the value of an analog output.
-    bool is_analog() const {
-        return kind == Kind::AnalogOutput || kind == Kind::SpindleStop || kind == Kind::SpindleForward ||
-               kind == Kind::SpindleReverse || kind == Kind::SpindleSpeed;
-    }
     bool operator==(const ProgramEvent&) const = default;
 };
 

@@ -120,7 +120,7 @@ void FramePlanner::note_tail(PathFrame& frame, const TimedPath& tail) {
     if (setup_.tells_speeds) { list_speeds(tail, length, frame.tail_speeds); }
 }
 
-std::optional<FitFailure> FramePlanner::fit(PathFrame& frame, Cursor& behind, const FrameRoom* room) {
+std::optional<FitFailure> FramePlanner::fit(PathFrame& frame, Cursor& behind, FrameRoom* room) {
     if (auto failure = fit_body(frame, behind)) { return failure; }
     if (!frame.last && !fit_tail(frame, behind)) { return FitFailure{frame.ticks, false}; }
     note_begins(path_, frame.ticks, begins_);
@@ -129,7 +129,7 @@ std::optional<FitFailure> FramePlanner::fit(PathFrame& frame, Cursor& behind, co
     return fits ? std::nullopt : std::optional(FitFailure{frame.ticks, true});
 }
 
-std::expected<const PathFrame*, PathStuck> FramePlanner::next(const FrameRoom* room) {
+std::expected<const PathFrame*, PathStuck> FramePlanner::next(FrameRoom* room) {
     if (!start()) { return nullptr; }
     PathFrame& frame = made_;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {

@@ -39,7 +39,7 @@ struct MoveBegin {
 class FrameRoom {
 public:
     virtual ~FrameRoom() = default;
-    virtual bool has_room(std::span<const MoveBegin> body, std::span<const MoveBegin> tail, bool is_last) const = 0;
+    virtual bool has_room(std::span<const MoveBegin> body, std::span<const MoveBegin> tail, bool is_last) = 0;
 };
 
 /// An error: even from rest no frame keeps the limits, because they contradict each other.
@@ -60,7 +60,7 @@ public:
     void begin(std::span<const Position> at);
     /// Returns the next frame, valid until the next call, or null while too little of the path is known. Must not be
     /// called after the last frame. A frame without `room` is made again, slower.
-    std::expected<const PathFrame*, PathStuck> next(const FrameRoom* room = nullptr);
+    std::expected<const PathFrame*, PathStuck> next(FrameRoom* room = nullptr);
     /// Whether the path is known far enough for the next frame.
     bool is_ready();
     bool is_done() const { return is_done_; }
@@ -95,7 +95,7 @@ private:
     void note_places(PathFrame& frame, const TimedPath& path) const;
     void note_begins(const TimedPath& path, Ticks ticks, std::vector<MoveBegin>& begins) const;
     void note_tail(PathFrame& frame, const TimedPath& tail);
-    std::optional<FitFailure> fit(PathFrame& frame, Cursor& behind, const FrameRoom* room);
+    std::optional<FitFailure> fit(PathFrame& frame, Cursor& behind, FrameRoom* room);
     Ticks end_of_frame() const;
     std::optional<FitFailure> fit_body(PathFrame& frame, Cursor& next);
     bool fit_tail(PathFrame& frame, const Cursor& from);

@@ -7,6 +7,9 @@ namespace lockstep {
 
 class PathInput {
 public:
+    /// Shorter moves are left out until they add up to this.
+    static constexpr double kLeastMove_mm = ChordJoiner::kLeast_mm;
+
     /// Sets the programmed place at the begin, which is less than a step from the place of rest. Arcs need it.
     void begin_program_at(const AxisVector& steps) { geometry_.begin_program_at(steps); }
 

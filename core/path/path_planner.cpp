@@ -83,7 +83,7 @@ OverrideResult PathPlanner::set_overrides(const Overrides& overrides) {
     return OverrideResult::Taken;
 }
 
-std::expected<const PathFrame*, PathStuck> PathPlanner::next(const FrameRoom* room) {
+std::expected<const PathFrame*, PathStuck> PathPlanner::next(FrameRoom* room) {
     const auto frame = frames_.next(room);
     if (frame && *frame) { remember(**frame); }
     return frame;

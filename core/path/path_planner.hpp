@@ -49,7 +49,7 @@ public:
 
     /// Returns the next frame, valid until the next call, or null while too few moves are known. Must not be called
     /// after the last frame.
-    std::expected<const PathFrame*, PathStuck> next(const FrameRoom* room = nullptr);
+    std::expected<const PathFrame*, PathStuck> next(FrameRoom* room = nullptr);
     /// Whether the next frame can be made.
     bool is_ready() { return frames_.is_ready(); }
     bool is_done() const { return frames_.is_done(); }

@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
-#include <utility>
+#include <span>
+#include <vector>
 
+#include "core/coordinator/path/touched_outputs.hpp"
 #include "core/machine.hpp"
+#include "core/path/path_input.hpp"
 #include "core/program.hpp"
 #include "core/protocol/frame_room.hpp"
 
@@ -16,36 +20,52 @@ namespace lockstep {
 class OutputPace {
 public:
     explicit OutputPace(const MachineConfig& machine)
-        : has_outputs_(!machine.outputs.empty()),
+        : touched_(machine.outputs),
           room_(output_room(machine.timing)),
           frame_ticks_(static_cast<double>(machine.frame_ticks().value)) {
         const double tick_s = static_cast<double>(machine.tick_ns) * 1e-9;
-        double weakest = std::numeric_limits<double>::infinity();
-        for (const AxisConfig& axis : machine.axes) { weakest = std::min(weakest, axis.max_decel_mm_s2); }
-        deceleration_ = weakest * tick_s * tick_s;
+        for (const AxisConfig& axis : machine.axes) {
+            decelerations_.push_back(axis.max_decel_mm_s2 * tick_s * tick_s);
+        }
     }
 
-    /// An event before the next move. Those of one kind change outputs at the same tick together.
-    void add(const ProgramEvent& event) { (event.is_analog() ? analog_ : digital_) = 1; }
+    /// An event before the next move or rest.
+    void add(const ProgramEvent& event) { touched_.add(event); }
 
-    /// The greatest speed of the next move, in mm per tick: one that is as long as the next ones, and has as many
-    /// changes at its begin. A tail slows down by at least the weakest axis's deceleration.
-    double next(double length_mm) {
-        const double changes = std::exchange(analog_, 0) + std::exchange(digital_, 0);
-        if (!has_outputs_ || changes == 0 || length_mm <= 0) { return std::numeric_limits<double>::infinity(); }
-        const double apart_mm = length_mm / changes;
-        const double in_body = apart_mm * static_cast<double>(room_.body - 1) / frame_ticks_;
-        const double in_tail = std::sqrt(2 * deceleration_ * apart_mm * static_cast<double>(room_.tail - 1));
+    /// The greatest speed of the next move, in mm per tick: one that is as long as the next ones, goes their way, and
+    /// has as many changes at its begin. `way_mm`: of each axis, at most `length_mm`. A move without length leaves the
+    /// events to the next one.
+    double next_move(double length_mm, std::span<const double> way_mm) {
+        if (touched_.changes() == 0 || is_left_out(length_mm)) { return std::numeric_limits<double>::infinity(); }
+        double deceleration = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < way_mm.size(); ++i) {
+            if (way_mm[i] == 0) { continue; }
+            deceleration = std::min(deceleration, decelerations_[i] * length_mm / std::abs(way_mm[i]));
+        }
+        const double apart_mm = length_mm / static_cast<double>(touched_.changes());
+        touched_.clear();
+        const double in_body = apart_mm * room_for_events(room_.body) / frame_ticks_;
+        const double in_tail = std::sqrt(2 * deceleration * apart_mm * room_for_events(room_.tail));
         return std::min(in_body, in_tail);
     }
 
+    /// The path leaves out moves that are so short.
+    static bool is_left_out(double length_mm) { return length_mm < PathInput::kLeastMove_mm; }
+
+    /// How long the next rest lasts at least, if all rests have as many changes at their begin.
+    Ticks next_rest() {
+        const auto changes = static_cast<double>(touched_.changes());
+        touched_.clear();
+        return {static_cast<std::int64_t>(std::ceil(changes * frame_ticks_ / room_for_events(room_.body)))};
+    }
+
 private:
-    bool has_outputs_;
+    double room_for_events(std::size_t room) const { return static_cast<double>(room - touched_.besides()); }
+
+    TouchedOutputs touched_;
     OutputRoom room_;
     double frame_ticks_;
-    double deceleration_;  // mm per tick^2
-    double analog_ = 0;
-    double digital_ = 0;
+    std::vector<double> decelerations_;  // of each axis, mm per tick^2
 };
 
 }  // namespace lockstep

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <optional>
 #include <utility>
 
 #include "core/kinematics/motors.hpp"
@@ -14,8 +14,8 @@ namespace {
 /// An output that follows the speed differs from it by at most so much of full scale, unless a frame has too many
 /// changes for it.
 constexpr double kTolerance = 0x1p-12;
-
-std::uint16_t bit_of(const OutputConfig& output) { return static_cast<std::uint16_t>(1U << output.channel); }
+/// It changes evenly from one event to the next.
+constexpr double kRoughest = 1;
 
 RampAnalog ramp_of(const OutputConfig& output, double value, double slope) {
     const double steepest = static_cast<double>(kFullScale);
@@ -52,12 +52,95 @@ struct OutputPlanner::Part {
     }
 };
 
+/// The changes of an analog output in a body or tail. It changes where its value would otherwise leave the wanted one
+/// by more than a tolerance.
+class OutputPlanner::AnalogChanges {
+public:
+    /// `ramp` begins as it is at the begin of the part, and becomes that at its end.
+    AnalogChanges(const Part& part, const OutputConfig& output, Ramp& ramp, std::vector<OutputChange>& changes)
+        : part_(part), output_(output), ramp_(ramp), changes_(changes), is_stated_(!part.states_all) {}
+
+    /// `tolerance`: where the output follows the speed. At events it is kTolerance.
+    void list(double tolerance) {
+        ProgramDevices last;
+        part_.each_time([&](double from, double to, const ProgramDevices& devices) {
+            last = devices;
+            is_event_ = true;
+            const double share = share_of(output_, devices);
+            if (!follows_speed(output_, devices)) { return want({from, to, share, share}, kTolerance); }
+            if (tolerance < kRoughest) {
+                each_speed(from, to, share, [&](const EvenTime& time) { want(time, tolerance); });
+            } else if (const auto whole = even(from, to, share)) {
+                want(*whole, tolerance);
+            }
+        });
+        const auto end = static_cast<double>(part_.ticks.value);
+        const bool is_on = ramp_.slope != 0 || ramp_.at(end) != 0;
+        if (part_.ends_at_rest && follows_speed(output_, last) && is_on) { change(part_.ticks, {}); }
+        ramp_ = {.value = ramp_.at(end), .slope = ramp_.slope};
+    }
+
+private:
+    /// Some time in which the wanted value changes evenly.
+    struct EvenTime {
+        double from = 0;
+        double to = 0;
+        double first = 0;
+        double last = 0;
+        double slope() const { return to > from ? (last - first) / (to - from) : 0; }
+    };
+
+    /// Calls visit(time) for each time of even acceleration.
+    template <typename Visit>
+    void each_speed(double from, double to, double share, Visit visit) const {
+        for (const PathSpeed& speed : part_.speeds) {
+            const double begin = std::max(from, speed.begin);
+            const double end = std::min(to, speed.end());
+            if (end <= begin) { continue; }
+            const double factor = speed.feed > 0 ? share / speed.feed : 0;
+            visit(EvenTime{begin, end, factor * speed.at(begin), factor * speed.at(end)});
+        }
+    }
+    /// From the first value straight to the last one.
+    std::optional<EvenTime> even(double from, double to, double share) const {
+        std::optional<EvenTime> whole;
+        each_speed(from, to, share, [&](const EvenTime& time) {
+            if (!whole) { whole = EvenTime{from, to, time.first, time.last}; }
+            whole->last = time.last;
+        });
+        return whole;
+    }
+    void want(const EvenTime& time, double tolerance) {
+        const double tick = std::max(1.0, std::ceil(time.from));
+        if (tick >= time.to && time.to < static_cast<double>(part_.ticks.value)) {
+            return;  // the next one begins by then
+        }
+        const double there = time.first + time.slope() * (tick - time.from);
+        const double at_begin = std::exchange(is_event_, false) ? kTolerance : tolerance;
+        const bool holds = is_stated_ && std::abs(ramp_.at(tick) - there) <= at_begin &&
+                           std::abs(ramp_.at(time.to) - time.last) <= tolerance;
+        if (holds) { return; }
+        change({static_cast<std::int64_t>(tick)}, {.value = there - time.slope() * tick, .slope = time.slope()});
+        is_stated_ = true;
+    }
+    void change(Ticks at, const Ramp& ramp) {
+        changes_.push_back({at, ramp_of(output_, ramp.at(static_cast<double>(at.value)), ramp.slope)});
+        ramp_ = ramp;
+    }
+
+    const Part& part_;
+    const OutputConfig& output_;
+    Ramp& ramp_;
+    std::vector<OutputChange>& changes_;
+    bool is_stated_;
+    bool is_event_ = false;  // no time since the last event
+};
+
 OutputPlanner::OutputPlanner(const MachineConfig& machine) : room_(output_room(machine.timing)) {
     const std::vector<std::string> names = motor_names(machine);
     for (std::size_t m = 0; m < names.size(); ++m) {
-        Motor motor{.number = static_cast<std::uint32_t>(m), .outputs = {}, .ramps = {}};
-        std::ranges::copy_if(machine.outputs, std::back_inserter(motor.outputs),
-                             [&](const OutputConfig& output) { return output.motor == names[m]; });
+        Motor motor{
+            .number = static_cast<std::uint32_t>(m), .outputs = outputs_of(machine.outputs, names[m]), .ramps = {}};
         motor.ramps.resize(motor.outputs.size());
         if (!motor.outputs.empty()) { motors_.push_back(std::move(motor)); }
     }
@@ -97,17 +180,19 @@ void OutputPlanner::plan(const PathFrame& frame, const Events& events, std::vect
     is_first_ = false;
 }
 
-/// Ramps are approximated more roughly until there is room. Events have room, because the path is slowed for them.
+/// Outputs follow the speed less closely until there is room. Events have room, because the path is slowed for them.
 template <typename Changes>
 void OutputPlanner::plan_part(const Part& part, Motor& motor, std::size_t room, Changes& changes) const {
     std::vector<OutputChange> listed;
     std::vector<Ramp> ramps;
-    for (double tolerance = kTolerance; tolerance < 2; tolerance *= 2) {
+    for (double tolerance = kTolerance; tolerance <= kRoughest; tolerance *= 2) {
         listed.clear();
         ramps = motor.ramps;
         list_digital(part, motor, listed);
         for (std::size_t k = 0; k < motor.outputs.size(); ++k) {
-            if (motor.outputs[k].pwm) { list_analog(part, motor.outputs[k], ramps[k], tolerance, listed); }
+            if (!motor.outputs[k].is_analog()) { continue; }
+            AnalogChanges analog(part, motor.outputs[k], ramps[k], listed);
+            analog.list(tolerance);
         }
         if (listed.size() <= room) { break; }
     }
@@ -121,11 +206,11 @@ void OutputPlanner::plan_part(const Part& part, Motor& motor, std::size_t room, 
 
 void OutputPlanner::list_digital(const Part& part, const Motor& motor, std::vector<OutputChange>& changes) const {
     std::uint16_t all = 0;
-    for (const OutputConfig& output : motor.outputs) { all |= output.pwm ? std::uint16_t{0} : bit_of(output); }
+    for (const OutputConfig& output : motor.outputs) { all |= output.is_analog() ? std::uint16_t{0} : output.bit(); }
     const auto levels_of = [&](const ProgramDevices& devices) {
         std::uint16_t levels = 0;
         for (const OutputConfig& output : motor.outputs) {
-            if (!output.pwm && is_on(output, devices)) { levels |= bit_of(output); }
+            if (!output.is_analog() && is_on(output, devices)) { levels |= output.bit(); }
         }
         return levels;
     };
@@ -142,45 +227,6 @@ void OutputPlanner::list_digital(const Part& part, const Motor& motor, std::vect
         levels = next;
         is_stated = true;
     });
-}
-
-/// Lists a change where the value would otherwise leave the wanted one by more than the tolerance. `ramp` begins as it
-/// is at the begin of the part, and becomes that at its end.
-void OutputPlanner::list_analog(const Part& part, const OutputConfig& output, Ramp& ramp, double tolerance,
-                                std::vector<OutputChange>& changes) const {
-    bool is_stated = !part.states_all;
-    const auto want = [&](double from, double to, double value, double slope) {
-        const auto tick = static_cast<double>(std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(from))));
-        if (tick >= to && to < static_cast<double>(part.ticks.value)) { return; }  // the next one begins by then
-        const double there = value + slope * (tick - from);
-        const double ends = value + slope * (to - from);
-        const bool holds =
-            is_stated && std::abs(ramp.at(tick) - there) <= tolerance && std::abs(ramp.at(to) - ends) <= tolerance;
-        if (holds) { return; }
-        changes.push_back({{static_cast<std::int64_t>(tick)}, ramp_of(output, there, slope)});
-        ramp = {.value = there - slope * tick, .slope = slope};
-        is_stated = true;
-    };
-    part.each_time([&](double from, double to, const ProgramDevices& devices) {
-        const double share = share_of(output, devices);
-        if (!follows_speed(output, devices)) { return want(from, to, share, 0); }
-        for (const PathSpeed& speed : part.speeds) {
-            const double begin = std::max(from, speed.begin);
-            const double end = std::min(to, speed.end());
-            if (end <= begin) { continue; }
-            const double factor = speed.feed > 0 ? share / speed.feed : 0;
-            want(begin, end, factor * speed.at(begin), factor * speed.a);
-        }
-    });
-    const auto end = static_cast<double>(part.ticks.value);
-    ProgramDevices last = part.devices;
-    for (const FrameEvent& event : part.events) { last.apply(event.event.event); }
-    const bool must_end = part.ends_at_rest && follows_speed(output, last) && (ramp.slope != 0 || ramp.at(end) != 0);
-    if (must_end) {
-        changes.push_back({part.ticks, ramp_of(output, 0, 0)});
-        ramp = {};
-    }
-    ramp = {.value = ramp.at(end), .slope = ramp.slope};
 }
 
 }  // namespace lockstep

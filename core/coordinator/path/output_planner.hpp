@@ -47,12 +47,11 @@ private:
         std::vector<Ramp> ramps;  // one for each of `outputs`
     };
     struct Part;
+    class AnalogChanges;
 
     template <typename Changes>
     void plan_part(const Part& part, Motor& motor, std::size_t room, Changes& changes) const;
     void list_digital(const Part& part, const Motor& motor, std::vector<OutputChange>& changes) const;
-    void list_analog(const Part& part, const OutputConfig& output, Ramp& ramp, double tolerance,
-                     std::vector<OutputChange>& changes) const;
 
     std::vector<Motor> motors_;
     OutputRoom room_;

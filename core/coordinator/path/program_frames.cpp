@@ -1,31 +1,10 @@
 #include "core/coordinator/path/program_frames.hpp"
 
 namespace lockstep {
-namespace {
-
-/// The greatest number of changes of outputs for these events. Those of one kind change outputs at the same tick
-/// together.
-std::size_t most_changes(std::span<const FrameEvent> events) {
-    std::size_t changes = 0;
-    for (std::size_t k = 0; k < events.size(); ++k) {
-        const auto is_same = [&](const FrameEvent& other) {
-            return other.at == events[k].at && other.event.event.is_analog() == events[k].event.event.is_analog();
-        };
-        bool is_counted = false;
-        for (std::size_t j = k; j > 0 && events[j - 1].at == events[k].at; --j) {
-            is_counted = is_counted || is_same(events[j - 1]);
-        }
-        changes += is_counted ? 0 : 1;
-    }
-    return changes;
-}
-
-}  // namespace
 
 ProgramFrames::ProgramFrames(const MachineConfig& machine, const std::shared_ptr<const ProgramBlocks>& program,
                              std::uint32_t first, const AxisCounts& from)
-    : moves_(machine), planner_(path_setup_of(machine)) {
-    if (!machine.outputs.empty()) { output_room_ = output_room(machine.timing); }
+    : moves_(machine), room_(machine), planner_(path_setup_of(machine)) {
     (void)begin(program, ProgramPlanner(machine).axes_of(program->axes()).value(), first, from);
 }
 
@@ -78,7 +57,7 @@ bool ProgramFrames::read_block() {
 }
 
 std::expected<const PathFrame*, PathStuck> ProgramFrames::next() {
-    const auto frame = planner_.next(output_room_ ? this : nullptr);
+    const auto frame = planner_.next(room_.none() ? nullptr : this);
     if (frame && *frame != nullptr) {
         events_.take_due(**frame, planner_.begins(), due_);
         events_.list_in_tail(planner_.tail_begins(), due_in_tail_);
@@ -88,11 +67,8 @@ std::expected<const PathFrame*, PathStuck> ProgramFrames::next() {
 }
 
 /// Events faster than the devices' rings slow the path down.
-bool ProgramFrames::has_room(std::span<const MoveBegin> body, std::span<const MoveBegin> tail, bool is_last) const {
-    std::vector<FrameEvent> in_body;
-    std::vector<FrameEvent> in_tail;
-    events_.list_ahead(body, tail, is_last ? std::optional(Ticks{1}) : std::nullopt, in_body, in_tail);
-    return most_changes(in_body) <= output_room_->body && most_changes(in_tail) <= output_room_->tail;
+bool ProgramFrames::has_room(std::span<const MoveBegin> body, std::span<const MoveBegin> tail, bool is_last) {
+    return room_.fits(events_, body, tail, is_last);
 }
 
 void ProgramFrames::forget_lines(const PathFrame& frame) {

@@ -1,6 +1,7 @@
 // The frames of a program's moves by core/path. The program is read as a stream, a bounded amount in each slot.
 #pragma once
 
+#include "core/coordinator/path/event_room.hpp"
 #include "core/coordinator/path/frame_source.hpp"
 #include "core/coordinator/path/program_moves.hpp"
 #include "core/path/path_planner.hpp"
@@ -41,7 +42,7 @@ public:
 
 private:
     bool read_block();
-    bool has_room(std::span<const MoveBegin> body, std::span<const MoveBegin> tail, bool is_last) const override;
+    bool has_room(std::span<const MoveBegin> body, std::span<const MoveBegin> tail, bool is_last) override;
     void forget_lines(const PathFrame& frame);
 
     ProgramMoves moves_;
@@ -52,7 +53,7 @@ private:
     EventQueue events_;
     std::vector<FrameEvent> due_;  // events in the last frame
     std::vector<FrameEvent> due_in_tail_;
-    std::optional<OutputRoom> output_room_;  // nullopt: the machine has no outputs
+    EventRoom room_;
     PathPlanner planner_;
 };
 

@@ -1,6 +1,9 @@
 #include "core/coordinator/path/program_moves.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "core/arc_path.hpp"
 
 namespace lockstep {
 
@@ -30,7 +33,7 @@ ProgramMoves::Read ProgramMoves::read(PathInput& path) {
     const std::uint32_t number = next_++;
     if (const auto* dwell = std::get_if<Dwell>(&block->action)) {
         const Ticks ticks = ticks_of(*dwell, tick_s_);
-        if (ticks > Ticks{}) { path.rest(ticks, number); }
+        if (ticks > Ticks{}) { path.rest(std::max(ticks, pace_.next_rest()), number); }
     } else if (const auto* event = std::get_if<ProgramEvent>(&block->action)) {
         pace_.add(*event);
     } else if (move != nullptr) {
@@ -60,19 +63,24 @@ ProgramMoves::Read ProgramMoves::finish(LegEnd::Kind end, PathInput& path) {
 }
 
 void ProgramMoves::pass(const ProgramMove& move, std::uint32_t number, PathInput& path) {
-    double square = 0;
+    from_mm_.clear();
+    for (const std::size_t axis : axes_) { from_mm_.push_back(at_[axis] / steps_per_mm_[axis]); }
+    const double length = length_mm(move, from_mm_);
+    way_mm_.assign(at_.size(), 0);
     for (std::size_t i = 0; i < axes_.size(); ++i) {
-        const double from_mm = at_[axes_[i]] / steps_per_mm_[axes_[i]];
-        square += (move.target_mm[i] - from_mm) * (move.target_mm[i] - from_mm);
+        const bool turns = move.arc && (i == move.arc->first || i == move.arc->second);
+        way_mm_[axes_[i]] = turns ? length : std::abs(move.target_mm[i] - from_mm_[i]);
         at_[axes_[i]] = move.target_mm[i] * steps_per_mm_[axes_[i]];
         to_[axes_[i]] = std::llround(at_[axes_[i]]);
     }
-    const double chord_mm = std::sqrt(square);
+    if (OutputPace::is_left_out(length) && move.mode == PathMode::ExactStop) {
+        return path.rest(pace_.next_rest(), number);
+    }
     const MoveSettings settings{.feed_mm_per_tick = move.feed_for(tick_s_),
                                 .mode = move.mode,
                                 .tolerance_mm = move.tolerance_mm,
                                 .is_feed_fixed = move.is_feed_fixed,
-                                .most_mm_per_tick = pace_.next(chord_mm)};
+                                .most_mm_per_tick = pace_.next_move(length, way_mm_)};
     if (!move.arc) { return path.line_to_steps(at_, settings, number); }
     ArcShape arc = *move.arc;
     arc.first = axes_[arc.first];

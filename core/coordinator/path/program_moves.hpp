@@ -50,6 +50,8 @@ private:
     std::vector<std::size_t> axes_;  // the machine's axes that the program names
     double tick_s_ = 0;
     OutputPace pace_;
+    std::vector<double> from_mm_;  // of the move that is read, by axis of the program
+    std::vector<double> way_mm_;   // of it, by axis of the machine; a circle goes all its length along both of its axes
     std::uint32_t next_ = 0;
     bool has_moved_ = false;  // a move of the leg was read
     bool is_starved_ = false;

@@ -87,11 +87,8 @@ private:
         problems_.require(pwm.full_scale > 0 && pwm.full_scale <= kMostFullScale, at + "full_scale",
                           fmt::format("full_scale is {}; it must be above 0, up to {}", number_text(pwm.full_scale),
                                       number_text(kMostFullScale)));
-        if (!pwm.follows_speed) { return; }
-        problems_.require(use == OutputUse::Spindle, at + "follows_speed",
+        problems_.require(!pwm.follows_speed || use == OutputUse::Spindle, at + "follows_speed",
                           "follows_speed needs use: SPINDLE, because M4 begins it");
-        problems_.require(machine_.coordination == StepMethod::Ranade, at + "follows_speed",
-                          "follows_speed needs coordination: RANADE, because LAI does not tell the speed of the path");
     }
 
     const MachineConfig& machine_;
@@ -111,6 +108,8 @@ std::vector<Problem> output_problems(const MachineConfig& machine) {
     for (std::size_t k = 0; k < machine.outputs.size(); ++k) {
         rules.check(machine.outputs[k], fmt::format("output[{}].", k));
     }
+    rules.problems().require(machine.outputs.empty() || machine.coordination == StepMethod::Ranade, "output",
+                             "outputs need coordination: RANADE, because LAI cannot slow a path for their changes");
     rules.check_silence();
     return rules.problems().take();
 }

@@ -85,6 +85,7 @@ protected:
         }
     }
 
+    double seconds() const { return static_cast<double>(starts.back().value) / machine.ticks_per_second(); }
     /// The speed along the path at a tick of a body or tail, in mm/s, by the pieces of both motors.
     template <typename Pieces>
     double speed_at(const PathFrame& frame, Pieces AxisTrack::*part, Ticks at) const {
@@ -264,13 +265,86 @@ TEST_F(Planned, EventsFasterThanTheRingOfADeviceSlowThePathDown) {
         changes += of[0].track.body.size();
     }
     EXPECT_GE(changes, 3000u) << "no pixel is left out";
-    EXPECT_GT(static_cast<double>(starts.back().value) / machine.ticks_per_second(), 1.0)
-        << "at the feed, it would take 0.3 s";
+    EXPECT_GT(seconds(), 1.0) << "at the feed, it would take 0.3 s";
+}
+
+/// Both analog outputs and a digital one of one device.
+class PlannedForOneDevice : public Planned {
+protected:
+    PlannedForOneDevice() : Planned(with_all_on_x()) {}
+    static MachineConfig with_all_on_x() {
+        MachineConfig machine = laser_machine();
+        for (OutputConfig& output : machine.outputs) { output.motor = "X"; }
+        return machine;
+    }
+};
+
+TEST_F(PlannedForOneDevice, EventsOfSeveralOutputsFitAndAreExactWhileOneFollowsTheSpeed) {
+    std::vector<Block> blocks{word(Kind::SpindleReverse, 0, 0)};
+    for (int k = 1; k <= 1500; ++k) {
+        blocks.push_back(word(Kind::SpindleSpeed, 0, k % 7 * 100));
+        blocks.push_back(word(Kind::AnalogOutput, 2, k % 3));
+        blocks.push_back(word(k % 2 == 0 ? Kind::OutputOn : Kind::OutputOff, 7));
+        blocks.push_back(move_to(0.02 * k, k / 500));
+    }
+    plan(blocks);
+    const OutputRoom room = output_room(machine.timing);
+    Outputs x;
+    ProgramDevices devices;
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < outputs.size(); ++k) {
+        const OutputTrack& track = outputs[k][0].track;
+        ASSERT_LE(track.body.size(), room.body);
+        ASSERT_LE(track.tail.size(), room.tail);
+        for (std::size_t c = 0; c < track.body.size(); ++c) {
+            x.change(track.body[c], starts[k]);
+            const Tick now = starts[k] + track.body[c].at;
+            const bool is_last_of_tick = c + 1 == track.body.size() || track.body[c + 1].at != track.body[c].at;
+            if (!is_last_of_tick) { continue; }
+            for (; next < events.size() && events[next].tick <= now; ++next) {
+                devices.apply(events[next].event.event);
+            }
+            ASSERT_EQ(x.digital >> 3 & 1, devices.output_is_on(7)) << now.value;
+            ASSERT_NEAR(x.analog(1, now), devices.analog_output(2) / 10, 0x1p-20) << now.value;
+        }
+    }
+    EXPECT_EQ(next, events.size());
+    EXPECT_EQ(events.size(), 4501u);
 }
 
 TEST_F(Planned, PixelsThatARingCanTakeKeepTheirFeed) {
     plan(raster(1000, 0.1, 100));
-    EXPECT_LT(static_cast<double>(starts.back().value) / machine.ticks_per_second(), 1.2);
+    EXPECT_LT(seconds(), 1.2);
+}
+
+TEST_F(Planned, AnAxisThatRestsDoesNotSlowThePixelsOfAnother) {
+    machine.axes[1].max_decel_mm_s2 = machine.axes[1].max_accel_mm_s2 = 10;
+    plan(raster(1000, 0.1, 100));
+    EXPECT_LT(seconds(), 1.2);
+}
+
+TEST_F(Planned, AWordBeforeAWholeCircleDoesNotSlowIt) {
+    ProgramMove circle{.target_mm = {40, 30}, .feed_mm_s = 50, .arc = ArcShape{.first = 0, .second = 1}};
+    circle.arc->centre_first_mm = 40;
+    circle.arc->centre_second_mm = 20;
+    plan({move_to(40, 30), word(Kind::OutputOn, 7), {{}, circle}, word(Kind::OutputOff, 7)});
+    EXPECT_LT(seconds(), 50 / kFeed_mm_s + 20 * 3.15 / 50 + 1);
+}
+
+TEST_F(Planned, WordsBetweenTheShortestRestsFit) {
+    std::vector<Block> blocks{move_to(10, 10)};
+    for (int k = 0; k < 600; ++k) {
+        blocks.push_back(word(k % 2 == 0 ? Kind::OutputOn : Kind::OutputOff, 7));
+        Block rest{{}, Dwell{1e-6}};
+        if (k % 3 == 0) {
+            rest = move_to(10, 10);
+            std::get<ProgramMove>(rest.action).mode = PathMode::ExactStop;
+        }
+        blocks.push_back(rest);
+    }
+    plan(blocks);
+    EXPECT_EQ(events.size(), 600u);
+    for (const auto& of : outputs) { EXPECT_LE(of[1].track.body.size(), output_room(machine.timing).body); }
 }
 
 }  // namespace

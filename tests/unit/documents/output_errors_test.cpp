@@ -61,6 +61,7 @@ TEST(Outputs, ThatCannotBeAreRefusedWithPlaceAndRemedy) {
              Case{"output { name: \"a\" motor: \"X\" number: 64 }\n", "from 0 to 63"},
              Case{"output { name: \"a\" motor: \"X\" pwm { hz: 10 } inverted: true }\n", "cannot be inverted"},
              Case{"output { motor: \"X\" }\n", "name is missing"},
+             Case{"coordination: LAI\noutput { name: \"a\" motor: \"X\" }\n", "outputs need coordination: RANADE"},
              Case{"output { name: \"a\" motor: \"X\" }\noutput_silence_ms: 110\n", "for which a process may stall"},
          }) {
         EXPECT_NE(errors_of(one.outputs).find(one.error), std::string::npos) << one.outputs << errors_of(one.outputs);
