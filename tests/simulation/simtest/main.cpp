@@ -89,6 +89,8 @@ int main(int argc, char** argv) {
     parser.add_flag("--deltas", options.machine.deltas, "machines whose first three axes are those of a delta");
     parser.add_flag("--inputs", options.machine.inputs,
                     "machines with an emergency stop and a door at inputs of devices");
+    parser.add_flag("--outputs", options.machine.outputs,
+                    "machines with outputs that programs switch, one of them in proportion to the speed");
     parser.add_flag("--jogs", options.machine.jogs, "axes are also jogged, between programs");
     parser
         .add_option("--faults", options.faults,

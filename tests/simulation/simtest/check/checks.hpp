@@ -54,6 +54,11 @@ Violations check_jogs(const Recording& recording);
 /// twice or with other content than sent. No coordinator takes over from a healthy owner.
 Violations check_owners(const Recording& recording);
 
+/// Outputs: at each step a digital output has the level that the words before the place ask for, and the energy of one
+/// that follows the speed is that of the way: the power at the feed for as long as the feed takes for it, whatever the
+/// speed was. After a job that ended early, outputs are off that may not stay on.
+Violations check_outputs(const Recording& recording, const Followings& followings);
+
 Violations check_all(const Recording& recording);
 
 }  // namespace lockstep::simtest

@@ -7,6 +7,7 @@
 #include "tests/simulation/simtest/draw/draw_late_devices.hpp"
 #include "tests/simulation/simtest/draw/draw_machine.hpp"
 #include "tests/simulation/simtest/draw/draw_motors.hpp"
+#include "tests/simulation/simtest/draw/draw_outputs.hpp"
 #include "tests/simulation/simtest/draw/draw_plant_fault.hpp"
 #include "tests/simulation/simtest/draw/draw_program.hpp"
 #include "tests/simulation/simtest/draw/draw_stream.hpp"
@@ -298,6 +299,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     }
     give_dense_curves(seed, scenario);
     if (asked.curve) { give_curves(seed, asked.mixed, scenario); }
+    if (kind.outputs) { give_outputs(seed, scenario); }
     if (asked.stream) { give_streams(seed, asked.mixed, scenario); }
     if (kind.late_devices) { give_late_devices(seed, scenario); }
     if (kind.inputs) { give_inputs(seed, scenario); }

@@ -75,6 +75,7 @@ struct MachineKind {
     bool deltas = false;              // draw_delta.hpp
     bool jogs = false;                // axes are jogged between programs (draw_jogs.hpp)
     bool inputs = false;              // with an emergency stop and a door (draw_inputs.hpp)
+    bool outputs = false;             // programs switch outputs (draw_outputs.hpp)
 };
 
 /// A command that the machine must refuse, and the reason. The machine must continue as if it had not been given.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 namespace lockstep::simtest {
 namespace {
@@ -36,6 +38,7 @@ public:
             std::visit([this](const auto& a) { add(a); }, block.action);
         }
         come_to_rest();
+        course_.last_events = std::move(events_);
         for (const double place : at_) { course_.to.push_back(std::llround(place)); }
         for (std::size_t k = 0; k < course_.stretches.size(); ++k) { mark_joined(k); }
         Places from(course_.from.begin(), course_.from.end());
@@ -44,6 +47,7 @@ public:
             from = stretch.to;
         }
         limit();
+        for (std::size_t k = 0; k < course_.stretches.size(); ++k) { time_at_feed(k); }
         return std::move(course_);
     }
 
@@ -134,6 +138,10 @@ private:
         stretch.tolerance = tolerance_of(move);
         stretch.tolerance_mm = move.tolerance_mm;
         at_ = stretch.to;
+        add_stretch(std::move(stretch));
+    }
+    void add_stretch(Stretch stretch) {
+        stretch.events = std::exchange(events_, {});
         course_.stretches.push_back(std::move(stretch));
     }
     /// In steps, of the axis for which it is greatest; at least 1.
@@ -144,15 +152,15 @@ private:
     }
     void add(const Dwell& dwell) {
         come_to_rest();
-        course_.stretches.push_back({.to = at_, .seconds = dwell.seconds, .rests = true, .ends_at_rest = true});
+        add_stretch({.to = at_, .seconds = dwell.seconds, .rests = true, .ends_at_rest = true});
         feed_.push_back(0);
         asked_.push_back(at_);
     }
-    void add(const ProgramEvent&) {}
+    void add(const ProgramEvent& event) { events_.push_back(event); }
     void add(const Settle&) { add(Dwell{}); }
     void add(const Pause&) {
         come_to_rest();
-        course_.stretches.push_back({.to = at_, .rests = true, .pauses = true, .ends_at_rest = true});
+        add_stretch({.to = at_, .rests = true, .pauses = true, .ends_at_rest = true});
         feed_.push_back(0);
         asked_.push_back(at_);
         ++course_.pauses;
@@ -212,7 +220,15 @@ private:
             const double corners = 4 * mm / axis.start_velocity_mm_s + 4 * std::sqrt(mm / slowest);
             seconds += mm == 0 ? 0 : mm / axis.max_velocity_mm_s + std::min(ramps, corners);
         }
-        return 2 * seconds;
+        return 2 * (seconds + seconds_for_outputs(stretch, length));
+    }
+    /// A path is slowed where its events would not fit into frames and tails.
+    double seconds_for_outputs(const Stretch& stretch, double length) const {
+        if (machine_.outputs.empty() || stretch.events.empty()) { return 0; }
+        double slowest = std::numeric_limits<double>::infinity();
+        for (const AxisConfig& axis : machine_.axes) { slowest = std::min(slowest, axis.max_decel_mm_s2); }
+        const double frame_s = static_cast<double>(machine_.frame_ticks().value) / machine_.ticks_per_second();
+        return static_cast<double>(stretch.events.size()) * (frame_s / 10 + std::sqrt(length / slowest));
     }
 
     /// Sets the speeds of each axis, after all places are known. A joined move may begin and end half a step of a motor
@@ -236,6 +252,24 @@ private:
         }
     }
 
+    /// A joined move may be shorter by its tolerance at both ends, and have there the feed of the moves beside it.
+    void time_at_feed(std::size_t k) {
+        if (feed_[k] == 0) { return; }
+        const double ticks_per_mm = machine_.ticks_per_second() / feed_[k];
+        Stretch& stretch = course_.stretches[k];
+        stretch.feed_ticks = length_mm(machine_, start_of(k), stretch.to) * ticks_per_mm;
+        double step_mm = 0;
+        for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
+            step_mm = std::max(step_mm, motors_.step_of(i) / machine_.axes[i].steps_per_mm);
+        }
+        const double tolerance_mm = stretch.is_joined ? std::max(stretch.tolerance_mm, step_mm) : 0;
+        double slowest = feed_[k];
+        for (const std::size_t j : {k - 1, k + 1}) {
+            if (stretch.is_joined && j < feed_.size() && feed_[j] > 0) { slowest = std::min(slowest, feed_[j]); }
+        }
+        stretch.feed_slack_ticks = 2 * (tolerance_mm + step_mm) * machine_.ticks_per_second() / slowest;
+    }
+
     const Program& program_;
     const MachineConfig& machine_;
     MotorShares motors_;
@@ -243,9 +277,10 @@ private:
     Places at_;
     std::vector<double> programmed_mm_;  // the end of the last move, for the program's axes
     Course course_;
-    std::size_t arc_ = 0;        // the first chord of the last arc
-    std::vector<double> feed_;   // of each stretch; 0: none
-    std::vector<Places> asked_;  // the programmed end of each stretch
+    std::vector<ProgramEvent> events_;  // since the last stretch
+    std::size_t arc_ = 0;               // the first chord of the last arc
+    std::vector<double> feed_;          // of each stretch; 0: none
+    std::vector<Places> asked_;         // the programmed end of each stretch
 };
 
 }  // namespace

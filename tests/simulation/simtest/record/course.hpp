@@ -34,6 +34,9 @@ struct Stretch {
     bool rests = false;  // a dwell or pause
     bool pauses = false;
     bool ends_at_rest = false;
+    std::vector<ProgramEvent> events = {};  // of the program, at its begin
+    double feed_ticks = 0;                  // how long it takes at the feed; 0 in rapid moves and rests
+    double feed_slack_ticks = 0;            // by which this may differ, because it is joined or leads to whole steps
 };
 
 /// How far a motor may be from a stretch, in steps.
@@ -44,6 +47,7 @@ struct Course {
     Counts from;
     Counts to;
     std::vector<Stretch> stretches;
+    std::vector<ProgramEvent> last_events = {};
     std::size_t pauses = 0;
     double seconds = 0;  // an upper bound of its duration, without the rests of the protocol
 

@@ -12,7 +12,10 @@ public:
     CourseMap(const MotorShares& map, const MachineConfig& machine) : map_(map), machine_(machine) {}
 
     Course of(Course axes, const Counts& from) const {
-        Course course{.from = from, .pauses = axes.pauses, .seconds = axes.seconds * map_.slower()};
+        Course course{.from = from,
+                      .last_events = axes.last_events,
+                      .pauses = axes.pauses,
+                      .seconds = axes.seconds * map_.slower()};
         for (std::size_t k = 0; k < axes.stretches.size(); ++k) { add_parts(axes, k, course.stretches); }
         const Places last(axes.to.begin(), axes.to.end());
         for (std::size_t m = 0; m < map_.motors(); ++m) { course.to.push_back(std::llround(map_.place(m, last))); }
@@ -62,6 +65,8 @@ private:
         stretch.to.clear();
         stretch.fastest.clear();
         stretch.moved.clear();
+        if (part.from > 0) { stretch.events.clear(); }
+        stretch.feed_ticks *= part.to - part.from;
         stretch.tolerance = tolerance(axes.stretches[k].tolerance_mm);
         // A joined move that begins or ends at a rest leads to the motor's whole step there, over its whole length.
         constexpr double kRest = 0.5;

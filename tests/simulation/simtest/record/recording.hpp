@@ -66,6 +66,7 @@ struct MotorRecord {
     Ticks lateness{};               // until the device answers, at most
     std::vector<StepEdge> steps{};  // from power-up on
     std::vector<Track> tracks{};
+    std::vector<ChannelEvent> channels{};
     std::vector<LostRun> lost{};
     std::vector<PublishedBound> bounds{};
     std::vector<Followed> followed{};  // by time
@@ -174,6 +175,9 @@ public:
         : recording_(recording), epoch_(recording.motors.size(), 0), armed_(recording.motors.size(), 0) {}
 
     void on_step(std::size_t axis, StepEdge step) override { recording_.motors[axis].steps.push_back(step); }
+    void on_channel(std::size_t axis, const ChannelEvent& event) override {
+        recording_.motors[axis].channels.push_back(event);
+    }
     void on_axis(std::size_t axis, Tick now, const AxisOutputs& out, AxisNode& node) override;
     void on_coordinator(std::size_t process, Tick now, const CoordinatorOutputs& out) override;
     void on_fault(Tick now, const VirtualFault& fault, bool begins) override;

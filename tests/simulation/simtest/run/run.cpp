@@ -19,6 +19,7 @@ Violations check_configuration(const MachineConfig& machine) {
     }
     for (Problem& problem : kinematics_problems(machine)) { problems.push_back(std::move(problem)); }
     for (Problem& problem : input_problems(machine)) { problems.push_back(std::move(problem)); }
+    for (Problem& problem : output_problems(machine)) { problems.push_back(std::move(problem)); }
     Violations violations;
     for (const Problem& problem : problems) { violations.push_back({"configuration", {}, {}, {}, problem.message}); }
     return violations;
