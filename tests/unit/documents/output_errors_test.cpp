@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "services/documents/machine_file.hpp"
+#include "services/documents/machine_rules.hpp"
 
 namespace lockstep {
 namespace {
@@ -61,11 +62,18 @@ TEST(Outputs, ThatCannotBeAreRefusedWithPlaceAndRemedy) {
              Case{"output { name: \"a\" motor: \"X\" number: 64 }\n", "from 0 to 63"},
              Case{"output { name: \"a\" motor: \"X\" pwm { hz: 10 } inverted: true }\n", "cannot be inverted"},
              Case{"output { motor: \"X\" }\n", "name is missing"},
-             Case{"coordination: LAI\noutput { name: \"a\" motor: \"X\" }\n", "outputs need coordination: RANADE"},
              Case{"output { name: \"a\" motor: \"X\" }\noutput_silence_ms: 110\n", "for which a process may stall"},
          }) {
         EXPECT_NE(errors_of(one.outputs).find(one.error), std::string::npos) << one.outputs << errors_of(one.outputs);
     }
+}
+
+TEST(Outputs, NeedACoordinationThatSlowsPathsForThem) {
+    auto machine = parse_machine(std::string(kAxis) + "output { name: \"a\" motor: \"X\" }\n").value();
+    EXPECT_TRUE(output_problems(machine).empty());
+    machine.coordination = StepMethod::Lai;
+    ASSERT_EQ(output_problems(machine).size(), 1u);
+    EXPECT_NE(output_problems(machine)[0].message.find("outputs need coordination: RANADE"), std::string::npos);
 }
 
 }  // namespace

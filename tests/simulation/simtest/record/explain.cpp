@@ -8,6 +8,7 @@ namespace {
 
 enum class Cause : std::uint8_t {
     EmergencyStop,
+    StopInput,
     Loss,
     Corruption,
     Freeze,
@@ -34,6 +35,8 @@ struct Explanation {
 constexpr std::array kExplanations{
     Explanation{Cause::EmergencyStop, FaultCode::EmergencyStopped},
     Explanation{Cause::EmergencyStop, FaultCode::EmergencyStopInput},
+    // It stops the motor of its device first, and the other motors of the axis later.
+    Explanation{Cause::StopInput, FaultCode::MotorsSkewed},
     // In three epochs in a row no frame ran, or one axis received other messages than the others.
     Explanation{Cause::Loss, FaultCode::FrameLate},
     Explanation{Cause::Loss, FaultCode::FramesDiffer},
@@ -114,6 +117,8 @@ Cause cause_of(const VirtualFault& fault, const MachineConfig& machine) {
 std::vector<Cause> causes_in(const Recording& recording) {
     std::vector<Cause> causes;
     if (!recording.emergencies.empty()) { causes.push_back(Cause::EmergencyStop); }
+    const auto is_by_input = [](const Emergency& emergency) { return emergency.by_input.has_value(); };
+    if (std::ranges::any_of(recording.emergencies, is_by_input)) { causes.push_back(Cause::StopInput); }
     if (recording.was_moved_by_hand) { causes.push_back(Cause::Hand); }
     if (recording.network.lost > 0) { causes.push_back(Cause::Loss); }
     if (recording.network.corrupted > 0) { causes.push_back(Cause::Corruption); }
