@@ -1,25 +1,57 @@
-// Why a job pauses, and what the person at the machine has to do.
+// Why a job pauses, and what the person at the machine has to do, or which input it waits for.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace lockstep {
 
-/// Hold: nothing of the program, but a hold that came to rest where a part of the program ends.
-enum class PauseReason : std::uint8_t { ProgramStop, OptionalStop, ToolChange, PalletChange, Hold };
+/// Hold: nothing of the program, but a hold that came to rest where a part of the program ends, or in a wait. Input:
+/// the job goes on by itself. InputTimeout: a person lets it wait again.
+enum class PauseReason : std::uint8_t {
+    ProgramStop,
+    OptionalStop,
+    ToolChange,
+    PalletChange,
+    Hold,
+    Input,
+    InputTimeout
+};
 
 inline constexpr std::size_t kMaxPauseText = 127;  // bytes
 inline constexpr std::int32_t kMaxTool = 1'000'000;
 
-/// Rest until a person resumes (M0, M1, M6, M60).
+/// What an input must do: L1 to L4 of M66.
+enum class InputMode : std::uint8_t { Closes, Opens, IsClosed, IsOpen };
+
+constexpr std::string_view name_of(InputMode mode) {
+    switch (mode) {
+        case InputMode::Closes: return "closes";
+        case InputMode::Opens: return "opens";
+        case InputMode::IsClosed: return "is closed";
+        case InputMode::IsOpen: break;
+    }
+    return "is open";
+}
+
+/// Rest until an input is as wanted (M66).
+struct InputWait {
+    std::int32_t input = 0;  // its number in programs
+    InputMode mode = InputMode::IsClosed;
+    double seconds = 0;  // after which a person has to help
+    bool operator==(const InputWait&) const = default;
+};
+
+/// Rest until a person resumes (M0, M1, M6, M60), or until an input is as wanted (M66).
 struct Pause {
     PauseReason reason = PauseReason::ProgramStop;
     std::int32_t tool = 0;  // ToolChange: to be put in; 0: none
     std::string text;       // the program's message, UTF-8 without control characters, at most kMaxPauseText bytes
+    std::optional<InputWait> wait;  // of M66
     bool operator==(const Pause&) const = default;
 };
 
@@ -30,6 +62,8 @@ constexpr std::string_view name_of(PauseReason reason) {
         case PauseReason::OptionalStop: return "optional-stop";
         case PauseReason::ToolChange: return "tool-change";
         case PauseReason::PalletChange: return "pallet-change";
+        case PauseReason::Input: return "input";
+        case PauseReason::InputTimeout: return "input-timeout";
         case PauseReason::Hold: break;
     }
     return "hold";
@@ -43,6 +77,8 @@ inline std::string what_of(const Pause& pause) {
         case PauseReason::ToolChange:
             return pause.tool == 0 ? "take out the tool" : "change to tool " + std::to_string(pause.tool);
         case PauseReason::PalletChange: return "change the pallet";
+        case PauseReason::Input: return "waits for an input";
+        case PauseReason::InputTimeout: return "the wait for an input timed out, and resume waits again";
         case PauseReason::Hold: break;
     }
     return "held";

@@ -1,6 +1,7 @@
 #include "clients/simulation/simulate.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "clients/simulation/machine_recorder.hpp"
@@ -38,6 +39,8 @@ private:
     void advance_a_turn(const std::function<bool()>& busy);
     std::optional<Reply> ask(CommandKind kind, std::uint64_t program);
     bool do_job(CommandKind kind, std::uint64_t program);
+    bool leave_pause();
+    bool set_input(const InputWait& wait);
     bool homed() const;
     SimulatedStage stage_since(Tick tick, double computing_s) const;
     double stopwatch() const { return hooks_.stopwatch ? hooks_.stopwatch() : 0; }
@@ -92,9 +95,38 @@ bool Simulation::do_job(CommandKind kind, std::uint64_t program) {
     const auto ended = [&] { return clock_.last_ended() && clock_.last_ended()->job == job; };
     while (!ended()) {
         if (!advance_while([&] { return !ended() && !is(MachinePhase::Paused); })) { return false; }
-        if (!ended() && !ask(CommandKind::Resume, 0)) { return false; }
+        if (!ended() && !leave_pause()) { return false; }
     }
     return advance_while([&] { return !at_rest(); });
+}
+
+/// Nobody changes a simulated input but the wait for it. Returns false if the caller cancelled.
+bool Simulation::leave_pause() {
+    const Pause why = vm_.state()->pause ? vm_.state()->pause->why : Pause{};
+    if (why.reason == PauseReason::InputTimeout) {
+        if (!ask(CommandKind::Stop, 0)) { return false; }
+        trouble_ = text_of(why) + "; in a simulation the input is as wanted within milliseconds: give Q more time";
+        return true;
+    }
+    return why.wait ? set_input(*why.wait) : ask(CommandKind::Resume, 0).has_value();
+}
+
+/// Makes the input as wanted, and returns when the machine no longer waits. An edge needs the other level first.
+bool Simulation::set_input(const InputWait& wait) {
+    const std::vector<InputConfig>& inputs = vm_.machine().inputs;
+    const auto input = static_cast<std::size_t>(input_numbered(inputs, wait.input) - inputs.data());
+    const bool is_closed = wait.mode == InputMode::Closes || wait.mode == InputMode::IsClosed;
+    if (wait.mode == InputMode::Closes || wait.mode == InputMode::Opens) {
+        vm_.set_input(input, !is_closed);
+        const Ticks debounce{std::llround(inputs[input].debounce_ms * 1e-3 * vm_.machine().ticks_per_second())};
+        const Tick seen = vm_.now() + debounce + vm_.machine().slot_ticks() * 10;
+        if (!advance_while([&] { return vm_.now() < seen; })) { return false; }
+    }
+    vm_.set_input(input, is_closed);
+    const auto waits = [&] {
+        return is(MachinePhase::Paused) && vm_.state()->pause && vm_.state()->pause->why.reason == PauseReason::Input;
+    };
+    return advance_while(waits);
 }
 
 bool Simulation::homed() const {

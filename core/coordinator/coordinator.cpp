@@ -263,6 +263,7 @@ CommandResult Coordinator::stop_at_once(CoordinatorLoop& loop) {
 void Coordinator::advance(CoordinatorLoop& loop) {
     if (jobs_.activity().in_motion()) { return advance_job(jobs_, loop); }
     if (ownership_.lacks_axes(loop.slot)) { wait_for_axes(loop); }
+    commands::go_on_at_input(jobs_, loop);
     if (phase() == MachinePhase::Waiting && are_axes_ready(loop)) { Inheritance::leave_waiting(jobs_, loop); }
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -36,5 +37,13 @@ struct InputConfig {
     std::optional<int> number;  // under which programs read it: Program only
     bool operator==(const InputConfig&) const = default;
 };
+
+/// The input that programs read under this number; null if there is none.
+inline const InputConfig* input_numbered(std::span<const InputConfig> inputs, int number) {
+    for (const InputConfig& input : inputs) {
+        if (input.use == InputUse::Program && input.number == number) { return &input; }
+    }
+    return nullptr;
+}
 
 }  // namespace lockstep

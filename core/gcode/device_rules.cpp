@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/gcode/program_builder.hpp"
+#include "core/number_text.hpp"
 
 namespace lockstep::gcode {
 namespace {
@@ -47,6 +48,22 @@ void ProgramBuilder::pause(PauseReason reason, int tool) {
     const bool lacks_name = reason == PauseReason::ToolChange && pause.text.empty() && name != tool_names_.end();
     if (lacks_name) { pause.text = name->second; }
     append(std::move(pause));
+}
+
+/// Without a wait M66 would only set #5399, which programs cannot read.
+void ProgramBuilder::wait_for_input(const Event& event) {
+    const InputConfig* const input = event.is_analog ? nullptr : input_numbered(setup_.inputs, event.index);
+    if (input == nullptr) {
+        const std::string name = (event.is_analog ? "analog input " : "input ") + std::to_string(event.index);
+        if (is_refused(setup_.unassigned.inputs, name.c_str(), "inputs")) { return; }
+        return note(name, name + " is not configured: M66 is ignored");
+    }
+    if (event.mode == 0) { return note("M66 L0", "M66 L0 has no effect: it does not wait, and #5399 cannot be read"); }
+    const auto mode = static_cast<InputMode>(event.mode - 1);
+    const std::string until = "until " + input->name + " " + std::string(name_of(mode));
+    append(Pause{.reason = PauseReason::Input,
+                 .text = pause_text(until + ", at most " + number_text(event.value) + " s"),
+                 .wait = InputWait{event.index, mode, event.value}});
 }
 
 /// Lists of tools at the beginning of a program name each tool in a comment: (T2 6 mm end mill).
@@ -117,9 +134,7 @@ void ProgramBuilder::event(const Event& event) {
         case EventKind::OutputOn: return output(Kind::OutputOn);
         case EventKind::OutputOff: return output(Kind::OutputOff);
         case EventKind::AnalogOutput: return output(Kind::AnalogOutput);
-        case EventKind::InputWait:
-            if (is_refused(rules.inputs, "an input", "inputs")) { return; }
-            return note("an input", "an input is not configured: M66 is ignored");
+        case EventKind::InputWait: return wait_for_input(event);
         case EventKind::SpeedOverride:  // also from M49, which has an effect on the feed
             if (event.value != 0 || interpreter_->block().code(Group::Override) != kSpindleOverrideWord) { return; }
             return note("M51", "M51 P0 has no effect: the machine has no spindle override");

@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/device/input_config.hpp"
 #include "core/gcode/kept_values.hpp"
 #include "core/gcode/motion.hpp"
 #include "core/gcode/setup.hpp"
@@ -54,6 +55,7 @@ struct GcodeSetup {
     GcodeSwitches switches;
     UnassignedWords unassigned;
     AssignedWords assigned;
+    std::vector<InputConfig> inputs;  // of the machine
     gcode::KeptValues values;
     double chord_tolerance_mm = 0.001;  // of chords of curves
     bool curves_as_chords = false;      // for a planner that takes straight moves only

@@ -97,6 +97,8 @@ struct Event {
     int index = 0;
     double value = 0;
     std::string text;
+    int mode = 0;            // InputWait: its L
+    bool is_analog = false;  // InputWait: E
 };
 
 using Action = std::variant<Straight, Arc, Spline, Dwell, Event>;

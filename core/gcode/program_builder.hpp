@@ -72,6 +72,7 @@ private:
     void end();
     void change_tool(int tool);
     void pause(PauseReason reason, int tool = 0);
+    void wait_for_input(const Event& event);
     void remark(const std::string& text);
     /// Reports the word as an error if its rule refuses it.
     bool is_refused(WordRule rule, const char* what, const char* key);

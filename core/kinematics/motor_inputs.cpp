@@ -30,7 +30,7 @@ std::string labels_of(const MachineConfig& machine, std::string_view motor, Inpu
 
 MotorInputs::MotorInputs(const MachineConfig& machine) {
     for (const InputConfig& input : machine.inputs) {
-        places_.push_back({motor_named(machine, input.motor).value_or(0), bit_of(input), input.use});
+        places_.push_back({motor_named(machine, input.motor).value_or(0), bit_of(input), input.use, input.number});
     }
 }
 

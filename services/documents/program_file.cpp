@@ -72,6 +72,7 @@ GcodeSetup gcode_setup(const MachineConfig& machine, const std::vector<double>& 
     GcodeSetup setup{.program_name = std::move(program_name), .axes = {}, .switches = switches};
     setup.unassigned = machine.unassigned;
     setup.assigned = assigned_words(machine.outputs);
+    setup.inputs = machine.inputs;
     setup.chord_tolerance_mm = chord_tolerance(machine);
     setup.curves_as_chords = coordination_of(machine).moves_straight;
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {

@@ -102,6 +102,17 @@ Refusal check_event(const proto::ProgramEvent& event) {
     return {};
 }
 
+Refusal check_wait(const proto::InputWait& wait) {
+    if (!proto::InputWait::Mode_IsValid(wait.mode())) {
+        return fmt::format("the mode of the wait for an input is unknown: {}", int{wait.mode()});
+    }
+    if (!(wait.seconds() > 0 && wait.seconds() <= kMaxDwell_s)) {
+        return fmt::format("the wait for an input is {} s; it must be above 0 and at most {}",
+                           number_text(wait.seconds()), number_text(kMaxDwell_s));
+    }
+    return {};
+}
+
 Refusal check_pause(const proto::Pause& pause) {
     if (!proto::Pause::Reason_IsValid(pause.reason())) {
         return fmt::format("the pause's reason is unknown: {}", int{pause.reason()});
@@ -113,6 +124,10 @@ Refusal check_pause(const proto::Pause& pause) {
         return "the length of the pause's text is " + at_most(pause.text().size(), kMaxPauseText);
     }
     if (pause.text() != pause_text(pause.text())) { return "the pause's text is not printable ASCII"; }
+    if (pause.has_wait() != (pause.reason() == proto::Pause::INPUT)) {
+        return "a pause has a wait for an input exactly if this is its reason";
+    }
+    if (pause.has_wait()) { return check_wait(pause.wait()); }
     return {};
 }
 
@@ -140,6 +155,11 @@ std::optional<ArcShape> read_arc(const proto::ProgramMove& move) {
                     .turns = arc.turns()};
 }
 
+std::optional<InputWait> read_wait(const proto::Pause& pause) {
+    if (!pause.has_wait()) { return std::nullopt; }
+    return InputWait{pause.wait().input(), static_cast<InputMode>(pause.wait().mode()), pause.wait().seconds()};
+}
+
 Block read_block(const proto::Block& message) {
     Block block{.line = if_positive(message.line()), .action = Pause{}};
     if (message.has_move()) {
@@ -155,7 +175,7 @@ Block read_block(const proto::Block& message) {
         block.action = Dwell{message.dwell().seconds()};
     } else if (message.has_pause()) {
         const proto::Pause& pause = message.pause();
-        block.action = Pause{static_cast<PauseReason>(pause.reason()), pause.tool(), pause.text()};
+        block.action = Pause{static_cast<PauseReason>(pause.reason()), pause.tool(), pause.text(), read_wait(pause)};
     } else if (message.has_settle()) {
         block.action = Settle{};
     } else if (message.has_event()) {

@@ -7,7 +7,9 @@ static_assert(static_cast<int>(PathMode::ExactStop) == proto::EXACT_STOP && prot
 static_assert(static_cast<int>(ProgramEvent::Kind::Tool) == proto::ProgramEvent::TOOL &&
               ProgramEvent::kKinds == proto::ProgramEvent::Kind_ARRAYSIZE);
 
-static_assert(static_cast<int>(PauseReason::Hold) == proto::Pause::Reason_ARRAYSIZE);  // not of a program
+static_assert(static_cast<int>(PauseReason::PalletChange) == proto::Pause::PALLET_CHANGE);
+static_assert(static_cast<int>(PauseReason::Input) == proto::Pause::INPUT);  // Hold is not of a program
+static_assert(static_cast<int>(InputMode::IsOpen) == proto::InputWait::IS_OPEN);
 
 struct ActionWriter {
     proto::Block& block;
@@ -28,6 +30,10 @@ struct ActionWriter {
         message.set_reason(static_cast<proto::Pause::Reason>(pause.reason));
         message.set_tool(pause.tool);
         message.set_text(pause.text);
+        if (!pause.wait) { return; }
+        message.mutable_wait()->set_input(pause.wait->input);
+        message.mutable_wait()->set_mode(static_cast<proto::InputWait::Mode>(pause.wait->mode));
+        message.mutable_wait()->set_seconds(pause.wait->seconds);
     }
     void operator()(const Settle&) const { block.mutable_settle(); }
     void operator()(const ProgramEvent& event) const {

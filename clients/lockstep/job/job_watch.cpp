@@ -134,6 +134,10 @@ void JobWatch::print_pause(const MachineState& state, const std::string& at_line
     printed_ = state.phase;
     if (printed_pause_ == state.pause->why) { return; }
     printed_pause_ = state.pause->why;
+    if (state.pause->why.reason == PauseReason::Input) {
+        return output_.print(fmt::format("{}{}\nit goes on by itself; end the job with: lockstep stop",
+                                         text_of(state.pause->why), at_line));
+    }
     output_.print(
         fmt::format("paused{}: {}\ncontinue with: lockstep resume; end the job with: lockstep stop; jog and touch off "
                     "in the pause with: lockstep jog, lockstep touch",

@@ -89,6 +89,14 @@ std::optional<std::size_t> AxisRoster::closed_input(InputUse use) const {
                           [this](std::size_t motor) { return views_[motor].state ? views_[motor].state->inputs : 0; });
 }
 
+std::optional<bool> AxisRoster::is_input_closed(int number, Slot since) const {
+    const auto input = inputs_.numbered(number);
+    if (!input) { return std::nullopt; }
+    const auto& state = views_[inputs_.motor(*input)].state;
+    if (!state || state->stamp < since) { return std::nullopt; }
+    return inputs_.is_closed(*input, [&](std::size_t) { return state->inputs; });
+}
+
 std::optional<std::size_t> AxisRoster::stopped_by_input() const {
     if (const auto input = closed_input(InputUse::EmergencyStop)) { return inputs_.motor(*input); }
     return first_axis(

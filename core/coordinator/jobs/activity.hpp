@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "core/coordinator/jobs/homing_sequence.hpp"
+#include "core/coordinator/jobs/input_watch.hpp"
 #include "core/coordinator/jobs/jogs.hpp"
 #include "core/coordinator/jobs/own_targets.hpp"
 #include "core/coordinator/jobs/path_jog.hpp"
@@ -41,6 +42,7 @@ struct Idle {};
 struct Paused {
     PathTask task;
     Pause why;
+    std::optional<InputWatch> watch;  // it goes on by itself when an input is as wanted
 };
 /// A job within a leg. All axes rest on the path.
 struct Holding {

@@ -28,8 +28,9 @@ void settle_interrupted(activity::OnPath& path, const EpochEnd& end, JobLifecycl
 /// A whole leg was run.
 void settle_complete(activity::OnPath& path, JobLifecycle& jobs, CoordinatorLoop& loop) {
     if (path.intent == Intent::Hold) {
-        activity::Paused paused{std::move(path.task), {}};
+        activity::Paused paused{std::move(path.task), {}, {}};
         paused.why = jobs.path().hold_behind_leg(paused.task);
+        if (paused.why.wait) { paused.why.reason = PauseReason::Hold; }
         return jobs.activity().become(MachineEvent::Pauses, std::move(paused), loop.out);
     }
     const PathNext next = jobs.path().end_leg(path.task, loop, loop.out.events);

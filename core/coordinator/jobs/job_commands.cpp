@@ -85,8 +85,16 @@ CommandResult check_homes_alone(AxisSet axes, const LoopView& loop) {
     return {};
 }
 
+bool waits_for_input(const MachineActivity& activity) {
+    const auto* const paused = activity.as<activity::Paused>();
+    return paused != nullptr && paused->watch.has_value();
+}
+
 /// Axes may also be jogged in a pause.
 CommandResult check_jog(const MachineActivity& activity, const LoopView& loop) {
+    if (waits_for_input(activity)) {
+        return refuse(FaultCode::Busy, "the job waits for an input and may go on at any time; hold it, then jog");
+    }
     const bool may_join = activity.is_jogging() || activity.is<activity::Paused>();
     return may_join ? check_present(loop) : check_ready(activity, loop);
 }
@@ -269,6 +277,10 @@ bool renew_jog(const Command& command, JobLifecycle& jobs, const LoopView& loop)
 
 CommandResult interrupt(Intent intent, JobLifecycle& jobs, CoordinatorLoop& loop) {
     MachineActivity& activity = jobs.activity();
+    if (waits_for_input(activity) && intent == Intent::Hold) {
+        jobs.end_wait(PauseReason::Hold, loop);
+        return {};
+    }
     if (activity.is_held()) {
         if (intent == Intent::Hold) { return refuse(FaultCode::Held, "the job is already held or paused"); }
         jobs.end(JobOutcome::Stopped, loop);
@@ -311,8 +323,7 @@ CommandResult resume(const Command& command, JobLifecycle& jobs, CoordinatorLoop
     if (auto placed = check_place(pause.task.from, loop); !placed) {
         return command.returns ? begin_return(pause, jobs, loop) : placed;
     }
-    const PathNext next = jobs.path().begin_leg(pause.task, loop, loop.out.events);
-    jobs.follow(std::move(pause.task), next, {}, loop);
+    pause.why.wait ? jobs.pause(std::move(pause), loop) : jobs.go_on(std::move(pause), loop);
     return {};
 }
 
@@ -342,12 +353,25 @@ CommandResult reset(JobLifecycle& jobs, CoordinatorLoop& loop) {
     return {};
 }
 
+void go_on_at_input(JobLifecycle& jobs, CoordinatorLoop& loop) {
+    if (!waits_for_input(jobs.activity())) { return; }
+    activity::Paused& paused = *jobs.activity().as<activity::Paused>();
+    const auto is_closed = loop.axes.is_input_closed(paused.why.wait->input, paused.watch->since());
+    const bool can_go_on = check_present(loop) && check_clocks(loop);
+    switch (paused.watch->look(can_go_on ? is_closed : std::nullopt, loop.now)) {
+        case InputWatch::Result::Waits: return;
+        case InputWatch::Result::TimedOut: return jobs.end_wait(PauseReason::InputTimeout, loop);
+        case InputWatch::Result::IsMet: return jobs.go_on(std::move(paused), loop);
+    }
+}
+
 void hold_for_doors(JobLifecycle& jobs, CoordinatorLoop& loop) {
     const auto door = loop.axes.closed_input(InputUse::Door);
     if (!door) { return; }
     jobs.cut_inherited(TakeoverDoubt::Interrupted, loop);
     const MachineActivity& activity = jobs.activity();
-    if (!activity.in_motion() || activity.intent() != Intent::GoOn) { return; }
+    const bool goes_on = activity.in_motion() && activity.intent() == Intent::GoOn;
+    if (!goes_on && !waits_for_input(activity)) { return; }
     loop.notice({CoordinatorNotice::Kind::DoorOpen, FaultCode::None, *door});
     (void)interrupt(activity.is<activity::OwnMoves>() ? Intent::Stop : Intent::Hold, jobs, loop);
 }
@@ -357,7 +381,8 @@ void lose_client(Identity client, JobLifecycle& jobs, CoordinatorLoop& loop) {
     const MachineJob* const job = activity.job();
     if (job == nullptr || job->client != client) { return; }
     leave_to_itself(client, jobs);
-    if (!activity.is<activity::OnPath>() || activity.intent() != Intent::GoOn) { return; }
+    const bool goes_on = activity.is<activity::OnPath>() && activity.intent() == Intent::GoOn;
+    if (!goes_on && !waits_for_input(activity)) { return; }
     const bool is_held = loop.machine.unattended_job == UnattendedJob::IsHeld;
     const std::uint64_t number = job->number;
     if (is_held) { (void)interrupt(Intent::Hold, jobs, loop); }

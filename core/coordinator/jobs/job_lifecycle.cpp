@@ -1,5 +1,6 @@
 #include "core/coordinator/jobs/job_lifecycle.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace lockstep {
@@ -59,10 +60,29 @@ void JobLifecycle::follow(PathTask task, const PathNext& next, std::optional<act
         activity::OnPath moving{{}, std::move(task), std::move(pause)};
         return activity_.become(MachineEvent::EpochBegins, std::move(moving), loop.out);
     }
-    if (const Pause* const why = std::get_if<Pause>(&next)) {
-        return activity_.become(MachineEvent::Pauses, activity::Paused{std::move(task), *why}, loop.out);
-    }
+    if (const Pause* const why = std::get_if<Pause>(&next)) { return this->pause({std::move(task), *why, {}}, loop); }
     pause ? end_in_pause(task.job, *std::move(pause), JobOutcome::Done, loop) : end_program(task.job, loop);
+}
+
+void JobLifecycle::pause(activity::Paused paused, CoordinatorLoop& loop) {
+    if (const auto& wait = paused.why.wait) {
+        const Ticks limit{std::llround(wait->seconds * loop.machine.ticks_per_second())};
+        paused.why.reason = PauseReason::Input;
+        paused.watch.emplace(wait->mode, loop.slot, loop.now + limit);
+    }
+    activity_.become(MachineEvent::Pauses, std::move(paused), loop.out);
+}
+
+void JobLifecycle::end_wait(PauseReason why, CoordinatorLoop& loop) {
+    activity::Paused paused = check_found(activity_.as<activity::Paused>(), "a job that waits for an input pauses");
+    paused.why.reason = why;
+    paused.watch.reset();
+    activity_.become(MachineEvent::Pauses, std::move(paused), loop.out);
+}
+
+void JobLifecycle::go_on(activity::Paused paused, CoordinatorLoop& loop) {
+    const PathNext next = path_.begin_leg(paused.task, loop, loop.out.events);
+    follow(std::move(paused.task), next, {}, loop);
 }
 
 void JobLifecycle::end(JobOutcome outcome, CoordinatorLoop& loop) {
@@ -92,9 +112,7 @@ void JobLifecycle::end_in_pause(const MachineJob& job, activity::Paused pause, J
     if (!is_return || outcome != JobOutcome::Done) {
         return activity_.become(MachineEvent::Pauses, std::move(pause), loop.out);
     }
-    PathTask task = std::move(pause.task);
-    const PathNext next = path_.begin_leg(task, loop, loop.out.events);
-    follow(std::move(task), next, {}, loop);
+    pause.why.wait ? this->pause(std::move(pause), loop) : go_on(std::move(pause), loop);
 }
 
 /// Ends the job where its program ends, or where the program was cut.

@@ -33,6 +33,12 @@ public:
                               CoordinatorLoop& loop);
     /// Enters the next activity of a task. `pause`: the job to whose place the task returns.
     void follow(PathTask task, const PathNext& next, std::optional<activity::Paused> pause, CoordinatorLoop& loop);
+    /// The job rests between two legs. If its program asks for an input, it waits for that from now on.
+    void pause(activity::Paused paused, CoordinatorLoop& loop);
+    /// A job that waits for an input waits for a person from now on.
+    void end_wait(PauseReason why, CoordinatorLoop& loop);
+    /// Begins the next leg of a paused job.
+    void go_on(activity::Paused paused, CoordinatorLoop& loop);
     /// Ends the job in motion or held: done or stopped. A job in whose pause it took place waits again, or goes on.
     void end(JobOutcome outcome, CoordinatorLoop& loop);
 

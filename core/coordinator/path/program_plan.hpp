@@ -56,6 +56,8 @@ public:
     /// long to count.
     std::expected<std::vector<Leg>, PlanError> plan(const ProgramHead& head, const ProgramBlocks& blocks,
                                                     const AxisCounts& start) const;
+    /// The machine has an input with this number for programs.
+    bool has_input(int number) const { return input_numbered(machine_.inputs, number) != nullptr; }
     std::expected<std::vector<Leg>, PlanError> plan(const Program& program, const AxisCounts& start) const {
         return plan(program.head(), WholeProgram(borrowed(program)), start);
     }

@@ -66,10 +66,13 @@ struct RowMaker {
     }
     Row operator()(const Dwell& dwell) const { return {.kind = RowKind::Dwell, .amount = dwell.seconds}; }
     Row operator()(const Pause& pause) const {
-        return {.kind = RowKind::Pause,
-                .amount = static_cast<double>(pause.tool),
+        Row row{.kind = RowKind::Pause,
+                .amount = static_cast<double>(pause.wait ? pause.wait->input : pause.tool),
                 .details = static_cast<std::int64_t>(pause.reason),
                 .other = static_cast<double>(texts.keep(pause.text))};
+        if (pause.wait) { row.centre[0] = static_cast<double>(pause.wait->mode); }
+        if (pause.wait) { row.centre[1] = pause.wait->seconds; }
+        return row;
     }
     Row operator()(const Settle&) const { return {.kind = RowKind::Settle}; }
     Row operator()(const ProgramEvent& event) const {
@@ -99,8 +102,14 @@ void read_move(RowKind kind, std::span<const double> row, ProgramMove& move) {
 }
 
 Pause pause_of(std::span<const double> row, const PauseTexts& texts) {
-    return {static_cast<PauseReason>(row[2]), static_cast<std::int32_t>(row[1]),
-            texts.text_of(static_cast<std::int64_t>(row[3]))};
+    const auto number = static_cast<std::int32_t>(row[1]);
+    Pause pause{.reason = static_cast<PauseReason>(row[2]), .text = texts.text_of(static_cast<std::int64_t>(row[3]))};
+    if (pause.reason != PauseReason::Input) {
+        pause.tool = number;
+    } else {
+        pause.wait = InputWait{number, static_cast<InputMode>(row[4]), row[5]};
+    }
+    return pause;
 }
 
 Block other_block(RowKind kind, std::optional<std::int32_t> line, std::span<const double> row,

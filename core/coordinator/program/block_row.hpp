@@ -1,7 +1,7 @@
 // A block of a program as a row of numbers, as a coordinator keeps it.
 //
 //     0  line and kind    1  feed, seconds or value    2  details (packed)    3  tolerance, mm, or index, or text
-//     4, 5  centre of an arc, mm    then the place after the block, mm
+//     4, 5  centre of an arc, mm, or mode and seconds of a wait    then the place after the block, mm
 #pragma once
 
 #include <cstddef>

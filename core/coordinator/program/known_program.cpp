@@ -33,6 +33,13 @@ std::expected<void, ProgramCut> KnownProgram::check(const Block& block, std::spa
         return std::unexpected(ProgramCut{FaultCode::BadProgram, block.line,
                                           "the program has more than 4,000 million blocks; split it in two"});
     }
+    const auto* pause = std::get_if<Pause>(&block.action);
+    if (pause != nullptr && pause->wait && !planner_.has_input(pause->wait->input)) {
+        return std::unexpected(ProgramCut{FaultCode::BadProgram, block.line,
+                                          "input " + std::to_string(pause->wait->input) +
+                                              " is not configured on this machine; remove M66, or write input { } "
+                                              "with this number in the machine's file"});
+    }
     const auto* move = std::get_if<ProgramMove>(&block.action);
     if (move == nullptr) { return {}; }
     if (move->target_mm.size() != axes_.size()) {

@@ -75,7 +75,10 @@ Result wait_for_input(const Context& context) {
     if (kind != 0 && !(seconds > 0)) {
         return context.refuse(Group::Output, " has no time limit; write Q and the seconds");
     }
-    context.event(EventKind::InputWait, *index, seconds);
+    if (seconds > kMaxDwell_s) {
+        return context.refuse('Q', " s is too long a wait; Q must be at most " + number_text(kMaxDwell_s) + " s");
+    }
+    context.emit(Event{EventKind::InputWait, *index, seconds, {}, kind, block.has('E')});
     return {};
 }
 

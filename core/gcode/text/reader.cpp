@@ -9,6 +9,8 @@
 namespace lockstep::gcode {
 namespace {
 
+constexpr int kInputResult = 5399;
+
 constexpr char small(char c) { return is_letter(c) ? static_cast<char>(c - 'A' + 'a') : c; }
 
 bool is_parameter(double number) {
@@ -136,7 +138,11 @@ double Reader::parameter() {
         if (!found) { fail(begin, "#<" + called + "> has no value; assign one before: #<" + called + ">=0"); }
         result = found.value_or(0);
     } else {
-        result = parameters_.numbered(parameter_number());
+        const int number = parameter_number();
+        if (number == kInputResult) {
+            fail(begin, "#5399, the result of M66, cannot be read: a program is read before it runs; let M66 wait");
+        }
+        result = parameters_.numbered(number);
     }
     --nesting_;
     return result;

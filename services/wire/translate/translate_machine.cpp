@@ -9,7 +9,7 @@ namespace lockstep {
 
 static_assert(lockstep_wire_MACHINE_JOGGING == static_cast<int>(MachinePhase::Jogging));
 static_assert(lockstep_wire_JOB_FAILED == static_cast<int>(JobOutcome::Failed));
-static_assert(lockstep_wire_PAUSE_HOLD == static_cast<int>(PauseReason::Hold));
+static_assert(lockstep_wire_PAUSE_INPUT_TIMEOUT == static_cast<int>(PauseReason::InputTimeout));
 static_assert(lockstep_wire_MAX_PAUSE_BYTES == kMaxPauseText && lockstep_wire_MAX_PLACES == kMaxAxes);
 static_assert(lockstep_wire_MAX_RESTS == kMaxRests);
 static_assert(lockstep_wire_MAX_HOLDER_BYTES == kMaxWriterBytes);
@@ -46,7 +46,7 @@ void pause_to_wire(const MachinePause& pause, MachineStateMessage& message) {
 }
 
 void pause_from_wire(const lockstep_wire_MachineState& wire, std::optional<MachinePause>& into, Checks& check) {
-    const auto reason = check.choice("pause_reason", wire.pause_reason, PauseReason::Hold);
+    const auto reason = check.choice("pause_reason", wire.pause_reason, PauseReason::InputTimeout);
     const std::string_view text = read_text("pause_text", wire.pause_text, check);
     if (!check.passed()) { return; }
     if (!wire.has_pause) { return into.reset(); }

@@ -42,6 +42,9 @@ TEST(BlockRow, KeepsEventsDwellsAndRests) {
     const Pause change{.reason = PauseReason::ToolChange, .tool = kMaxTool, .text = "6 mm end mill"};
     EXPECT_EQ(std::get<Pause>(through_a_row({7, change}, {1}).action), change);
     EXPECT_EQ(std::get<Pause>(through_a_row({7, Pause{}}, {1}).action), Pause{});
+    const Pause wait{
+        .reason = PauseReason::Input, .text = "until clamp opens", .wait = InputWait{3, InputMode::Opens, 0.25}};
+    EXPECT_EQ(std::get<Pause>(through_a_row({7, wait}, {1}).action), wait);
     EXPECT_TRUE(std::holds_alternative<Settle>(through_a_row({7, Settle{}}, {1}).action));
 }
 

@@ -130,7 +130,7 @@ export interface Job {
 }
 
 export interface Pause {
-  reason: "program-stop" | "optional-stop" | "tool-change" | "pallet-change" | "hold";
+  reason: "program-stop" | "optional-stop" | "tool-change" | "pallet-change" | "hold" | "input" | "input-timeout";
   tool?: Maybe<number>;
   message: string;
   way: Record<string, number>[];

@@ -89,6 +89,7 @@ export const de: Texts = {
   pause: {
     reason: {
       "program-stop": "Programmhalt", "optional-stop": "Wahlweiser Halt", "tool-change": "Werkzeug wechseln", "pallet-change": "Palette wechseln", hold: "Angehalten",
+      input: "Wartet auf einen Eingang", "input-timeout": "Der Eingang blieb aus, Weiter wartet erneut",
     },
     tool: "Wechsle zu Werkzeug {tool}", noTool: "Nimm das Werkzeug heraus", move: "{axis} nach {to}", title: "Zurückfahren und weiter",
     hint: "Der Auftrag wartet. Achsen dürfen von Hand gefahren und genullt werden; dann Weiter.",

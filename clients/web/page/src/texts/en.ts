@@ -88,6 +88,7 @@ export const en = {
   pause: {
     reason: {
       "program-stop": "Program stop", "optional-stop": "Optional stop", "tool-change": "Change the tool", "pallet-change": "Change the pallet", hold: "Held",
+      input: "Waits for an input", "input-timeout": "The wait for an input timed out, Resume waits again",
     },
     tool: "Change to tool {tool}", noTool: "Take out the tool", move: "{axis} to {to}", title: "Return and resume",
     hint: "The job waits. Axes may be jogged and touched off; then resume.",
