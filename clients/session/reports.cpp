@@ -11,6 +11,7 @@
 
 #include "clients/session/health_report.hpp"
 #include "clients/session/inputs/input_report.hpp"
+#include "clients/session/outputs/output_report.hpp"
 #include "clients/text/format.hpp"
 #include "core/coordinator/path/return_way.hpp"
 #include "core/protocol/names.hpp"
@@ -236,6 +237,10 @@ proto::StatusReport status_report(const Session& session) {
         return session.motor(motor) ? std::optional(session.motor(motor)->state.inputs) : std::nullopt;
     };
     add_inputs(machine, closed_of, report);
+    const auto on_of = [&](std::size_t motor) {
+        return session.motor(motor) ? std::optional(session.motor(motor)->state.outputs) : std::nullopt;
+    };
+    add_outputs(machine, on_of, session.state() ? &session.state()->state.devices : nullptr, report);
     return report;
 }
 

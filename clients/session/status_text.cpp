@@ -7,6 +7,7 @@
 #include <set>
 
 #include "clients/session/inputs/input_report.hpp"
+#include "clients/session/outputs/output_report.hpp"
 #include "clients/session/record_loss.hpp"
 #include "clients/session/reports.hpp"
 #include "clients/text/format.hpp"
@@ -137,6 +138,9 @@ std::string status_text(const proto::StatusReport& status) {
     }
     if (const std::string closed = closed_inputs_text(status); !closed.empty()) {
         text += wrapped("closed inputs: " + closed, 80, "  ") + "\n";
+    }
+    if (const std::string outputs = outputs_text(status); !outputs.empty()) {
+        text += wrapped("outputs: " + outputs, 80, "  ") + "\n";
     }
     text += writer_line(status);
     text += clock_line(status) + unproved_lines(status);

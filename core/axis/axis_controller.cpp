@@ -260,7 +260,8 @@ AxisState AxisController::state(const AxisLoop& loop, Ticks clock_error) const {
             .hears_owner = owner_.receives_owner(loop.slot),
             .unproved = condition_.position.unproved(),
             .switches = {device.limit_min, device.limit_max, device.home},
-            .inputs = device.inputs};
+            .inputs = device.inputs,
+            .outputs = device.outputs};
 }
 
 }  // namespace lockstep

@@ -64,6 +64,7 @@ std::optional<AxisState> axis_state_of(std::size_t axis, const Kinematics& kinem
             state = motor;
             state->switches = {};
             state->inputs = {};  // those of its motors, which are different devices
+            state->outputs = {};
         }
         if (has_axis(own, m)) { state->switches = any_of(state->switches, motor.switches); }
         if (state->fault == FaultCode::None && motor.fault != FaultCode::None) {

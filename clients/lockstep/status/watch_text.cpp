@@ -7,6 +7,7 @@
 
 #include "clients/lockstep/status/alarms.hpp"
 #include "clients/session/inputs/input_report.hpp"
+#include "clients/session/outputs/output_report.hpp"
 #include "clients/session/status_text.hpp"
 #include "clients/text/colour.hpp"
 #include "clients/text/format.hpp"
@@ -102,6 +103,12 @@ std::string inputs_row(const proto::StatusReport& status, Ink ink) {
     return closed.empty() ? "" : painted(cut("closed inputs: " + closed, kColumns), kWarning, ink) + "\n";
 }
 
+/// Empty if all outputs are off, as the program asks.
+std::string outputs_row(const proto::StatusReport& status) {
+    const std::string outputs = outputs_text(status);
+    return outputs.empty() ? "" : cut("outputs: " + outputs, kColumns) + "\n";
+}
+
 /// Empty if all devices are off.
 std::string devices_row(const proto::StatusReport& status, Ink ink) {
     const std::string devices = devices_text(status);
@@ -120,8 +127,8 @@ std::string watch_text(const proto::StatusReport& status, const SlackScale& scal
     const std::string job = status.has_job() ? fmt::format(", job {}", status.job()) : "";
     const std::string heading = spread(status.machine() + ": " + phase + job, age_text(status));
     std::string text = painted(heading, kBold, ink) + "\n" + job_row(status, ink) + "\n" + conditions_row(status, ink) +
-                       "\n" + devices_row(status, ink) + inputs_row(status, ink) + painted(title_row(), kFaint, ink) +
-                       "\n";
+                       "\n" + devices_row(status, ink) + inputs_row(status, ink) + outputs_row(status) +
+                       painted(title_row(), kFaint, ink) + "\n";
     for (const proto::AxisStatus* const axis : rows_of(status)) { text += axis_row(*axis, scale, ink) + "\n"; }
     const auto alarms = alarms_of(status, scale);
     text += "\n" + (alarms.empty() ? painted("no alarms", kFaint, ink) + "\n" : "");
@@ -142,6 +149,7 @@ std::string watch_line(const proto::StatusReport& status, const SlackScale& scal
     if (const std::string closed = closed_inputs_text(status); !closed.empty()) {
         text += "; closed inputs: " + closed;
     }
+    if (const std::string outputs = outputs_text(status); !outputs.empty()) { text += "; outputs: " + outputs; }
     if (status.has_writer()) { text += "; writer " + writer_text(status); }
     for (const std::string& alarm : alarms_of(status, scale)) { text += "; " + alarm; }
     return text;

@@ -118,6 +118,13 @@ std::vector<Served> served_of(const Snapshot& snapshot, const MachineConfig& mac
     return served;
 }
 
+const AxisState* state_of(const std::string& motor, const std::vector<Served>& all) {
+    // The process that serves the motor has the motor's name, or its axis's, which is the same then.
+    const auto serves = [&](const Served& one) { return one.place.motor == motor || one.place.axis == motor; };
+    const auto served = std::ranges::find_if(all, serves);
+    return served == all.end() || !served->seen.state ? nullptr : &served->seen.state->value;
+}
+
 json fault_json(FaultCode fault, const FaultPlace& place) {
     const FaultText* text = find_fault(fault);
     return {{"number", static_cast<int>(fault)},

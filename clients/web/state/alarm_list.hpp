@@ -31,6 +31,8 @@ struct Served {
     const AxisSnapshot& seen;
 };
 std::vector<Served> served_of(const Snapshot& snapshot, const MachineConfig& machine);
+/// The newest state of the motor with this name; nullptr if it was never received.
+const AxisState* state_of(const std::string& motor, const std::vector<Served>& all);
 
 /// The schema Fault.
 nlohmann::json fault_json(FaultCode fault, const FaultPlace& place);

@@ -1,20 +1,8 @@
 #include "clients/web/state/inputs_document.hpp"
 
-#include <algorithm>
-
 #include "clients/web/state/alarm_list.hpp"
 
 namespace lockstep::web {
-namespace {
-
-/// The process that serves the motor has the motor's name, or its axis's, which is the same then.
-const AxisState* state_of(const std::string& motor, const std::vector<Served>& all) {
-    const auto serves = [&](const Served& one) { return one.place.motor == motor || one.place.axis == motor; };
-    const auto served = std::ranges::find_if(all, serves);
-    return served == all.end() || !served->seen.state ? nullptr : &served->seen.state->value;
-}
-
-}  // namespace
 
 nlohmann::json inputs_document(const Snapshot& snapshot, const MachineConfig& machine) {
     const std::vector<Served> all = served_of(snapshot, machine);

@@ -56,6 +56,15 @@ json inputs_json(const MachineConfig& machine) {
     return inputs;
 }
 
+json outputs_json(const MachineConfig& machine) {
+    json outputs = json::array();
+    for (const OutputConfig& output : machine.outputs) {
+        outputs.push_back(
+            {{"name", output.name}, {"motor", output.motor}, {"kind", output.is_analog() ? "analog" : "digital"}});
+    }
+    return outputs;
+}
+
 json faults_json() {
     json faults = json::object();
 #define X(name, number, text, cause, by_hand, remedies) \
@@ -88,6 +97,7 @@ json machine_document(const MachineConfig& machine, const std::string& version) 
             {"axes", axes},
             {"motors", motors_json(machine)},
             {"inputs", inputs_json(machine)},
+            {"outputs", outputs_json(machine)},
             {"features", json::array()},
             {"faults", faults_json()},
             {"coordinate_systems", systems},

@@ -6,6 +6,7 @@
 #include "clients/web/state/axis_document.hpp"
 #include "clients/web/state/devices_document.hpp"
 #include "clients/web/state/inputs_document.hpp"
+#include "clients/web/state/outputs_document.hpp"
 #include "clients/web/state/pause_document.hpp"
 #include "clients/web/state/writer_document.hpp"
 #include "core/gcode/motion.hpp"
@@ -152,6 +153,7 @@ json state_document(const Snapshot& snapshot, const MachineConfig& machine, cons
             {"axes", axes_document(snapshot, machine)},
             {"motors", motors_document(snapshot, machine)},
             {"inputs", inputs_document(snapshot, machine)},
+            {"outputs", outputs_document(snapshot, machine)},
             {"offsets", offsets_json(snapshot, machine, modes)},
             {"tools", tools_json(snapshot, machine)},
             {"devices", snapshot.machine ? devices_document(snapshot.machine->value.devices) : json()},

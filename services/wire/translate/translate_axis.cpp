@@ -53,7 +53,8 @@ lockstep_wire_AxisState to_wire(const AxisState& state) {
             .hears_owner = state.hears_owner,
             .unproved = static_cast<std::uint16_t>(state.unproved),
             .switches = to_bits(state.switches),
-            .inputs = state.inputs};
+            .inputs = state.inputs,
+            .outputs = state.outputs};
 }
 
 FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
@@ -94,7 +95,8 @@ FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
                      .switches = {.limit_min = (wire.switches & kLimitMinBit) != 0,
                                   .limit_max = (wire.switches & kLimitMaxBit) != 0,
                                   .home = (wire.switches & kHomeBit) != 0},
-                     .inputs = wire.inputs};
+                     .inputs = wire.inputs,
+                     .outputs = wire.outputs};
 }
 
 lockstep_wire_AxisCommand to_wire(const AxisCommand& command) {

@@ -20,6 +20,7 @@ const tell = () => told.push(JSON.parse(JSON.stringify({ Machine: machine.descri
 tell();
 machine.haveTwoMotorsOnY();
 machine.haveInputs();
+machine.haveOutputs();
 machine.load("rose.gcode", 100);
 tell();
 for (const verb of ["run", "hold", "resume", "stop", "estop"]) {

@@ -331,6 +331,25 @@ describe("inputs", () => {
   });
 });
 
+describe("outputs", () => {
+  test("are not shown where the machine has none", async () => {
+    const page = await enter();
+    assert.equal(await page.locator(".outputs:visible").count(), 0);
+  });
+
+  test("are shown with the levels of their pins, and with the program's where it asks for others", async () => {
+    machine.haveOutputs();
+    const page = await enter();
+    const chip = (look, hasText) => page.locator(`.outputs .chip[data-look="${look}"]`, { hasText });
+    await chip("good", "air: off").waitFor();
+    machine.state.outputs = { laser: { on: null, asked: 0.3 }, air: { on: true, asked: 1 } };
+    await chip("busy", "laser: 30.0 % (program)").waitFor();
+    await chip("busy", "air: on").waitFor();
+    machine.state.outputs = { laser: { on: null, asked: 0 }, air: { on: false, asked: 1 } };
+    await chip("warning", "air: off (program: on)").waitFor();
+  });
+});
+
 describe("settings", () => {
   test("overrides, work offsets and tools go to the machine and come back", async () => {
     const page = await enter();

@@ -1,5 +1,5 @@
 import { describe, expect, test } from "vitest";
-import type { AxisState, MachineAxis, Offsets, Pause } from "../../../clients/web/page/src/api/contract";
+import type { AxisState, MachineAxis, MachineOutput, Offsets, Pause } from "../../../clients/web/page/src/api/contract";
 import { noAnswer, problemOf } from "../../../clients/web/page/src/api/result";
 import { Trace } from "../../../clients/web/page/src/chart/trace";
 import { History, MOST_LINES } from "../../../clients/web/page/src/mdi/history";
@@ -10,6 +10,7 @@ import { phaseLook, phaseText, troubleText } from "../../../clients/web/page/src
 import { deviceTexts } from "../../../clients/web/page/src/state/device_texts";
 import { groupedAlarms } from "../../../clients/web/page/src/state/grouped_alarms";
 import { inputTexts } from "../../../clients/web/page/src/state/input_texts";
+import { outputTexts } from "../../../clients/web/page/src/state/output_texts";
 import { otherWriter } from "../../../clients/web/page/src/state/other_writer";
 import { pageRemedy } from "../../../clients/web/page/src/state/page_remedy";
 import { mayHandle, pauseText, wayTexts } from "../../../clients/web/page/src/state/pause_texts";
@@ -194,6 +195,22 @@ describe("the inputs", () => {
 
   test("that were not received are left out", () => {
     expect(inputTexts(machine, { part: true }, en)).toEqual([{ text: "part: closed", look: "busy" }]);
+  });
+});
+
+describe("outputs", () => {
+  const machine: MachineOutput[] = [{ name: "laser", motor: "X", kind: "analog" }, { name: "air", motor: "Y", kind: "digital" }];
+
+  test("have the levels of their pins, and of an analog one what the program asks for", () => {
+    expect(outputTexts(machine, { laser: { on: null, asked: 0.305 }, air: { on: true, asked: 1 } }, en)).toEqual([
+      { text: "laser: 30.5 % (program)", look: "busy" }, { text: "air: on", look: "busy" },
+    ]);
+  });
+
+  test("say where the pin and the program differ, and that a pin is not known", () => {
+    const text = (on: boolean | null) => outputTexts(machine, { air: { on, asked: 1 } }, en);
+    expect(text(false)).toEqual([{ text: "air: off (program: on)", look: "warning" }]);
+    expect(text(null)).toEqual([{ text: "air: not known (program: on)", look: "busy" }]);
   });
 });
 

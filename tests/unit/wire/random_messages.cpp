@@ -43,7 +43,8 @@ AxisState RandomMessages::axis_state() {
             .hears_owner = coin(),
             .unproved = fault(),
             .switches = {coin(), coin(), coin()},
-            .inputs = static_cast<std::uint32_t>(bits())};
+            .inputs = static_cast<std::uint32_t>(bits()),
+            .outputs = static_cast<std::uint16_t>(bits())};
 }
 
 AxisHealth RandomMessages::axis_health() {

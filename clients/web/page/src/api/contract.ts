@@ -88,6 +88,12 @@ export interface MachineInput {
   number?: Maybe<number>;
 }
 
+export interface MachineOutput {
+  name: string;
+  motor: string;
+  kind: "digital" | "analog";
+}
+
 export interface Limits {
   program_bytes: number;
   body_bytes: number;
@@ -104,6 +110,7 @@ export interface Machine {
   axes: MachineAxis[];
   motors: MachineMotor[];
   inputs: MachineInput[];
+  outputs: MachineOutput[];
   features: string[];
   faults: Record<string, { code: string; cause: string; remedy: string }>;
   coordinate_systems: string[];
@@ -136,6 +143,11 @@ export interface Pause {
   way: Record<string, number>[];
 }
 
+export interface OutputState {
+  on?: Maybe<boolean>;
+  asked: number;
+}
+
 export interface Offsets {
   revision: number;
   active: string;
@@ -156,6 +168,7 @@ export interface State {
   axes: Record<string, AxisState>;
   motors: Record<string, AxisState>;
   inputs: Record<string, boolean>;
+  outputs: Record<string, OutputState>;
   offsets?: Maybe<Offsets>;
   tools?: Maybe<Record<string, Tool>>;
   devices?: Maybe<Devices>;

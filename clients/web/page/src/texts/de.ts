@@ -82,6 +82,10 @@ export const de: Texts = {
     title: "Eingänge", open: "{name}: offen",
     closed: { "emergency-stop": "{name}: Not-Halt gedrückt", door: "{name}: Tür offen", program: "{name}: geschlossen" },
   },
+  outputs: {
+    title: "Ausgänge", on: "ein", off: "aus", same: "{name}: {level}", differs: "{name}: {level} (Programm: {asked})",
+    unknown: "{name}: nicht bekannt (Programm: {asked})", analog: "{name}: {percent} % (Programm)",
+  },
   devices: {
     title: "Vom Programm befohlen", forward: "Spindel rechts {rpm} 1/min", reverse: "Spindel links {rpm} 1/min", mist: "Nebel", flood: "Kühlmittel",
     tool: "Werkzeug {number}", output: "Ausgang {number}", notConnected: "nichts ist angeschlossen",

@@ -81,6 +81,10 @@ export const en = {
     title: "Inputs", open: "{name}: open",
     closed: { "emergency-stop": "{name}: emergency stop pressed", door: "{name}: door open", program: "{name}: closed" },
   },
+  outputs: {
+    title: "Outputs", on: "on", off: "off", same: "{name}: {level}", differs: "{name}: {level} (program: {asked})",
+    unknown: "{name}: not known (program: {asked})", analog: "{name}: {percent} % (program)",
+  },
   devices: {
     title: "Commanded by the program", forward: "Spindle forward {rpm} rpm", reverse: "Spindle reverse {rpm} rpm", mist: "Mist", flood: "Flood",
     tool: "Tool {number}", output: "Output {number}", notConnected: "nothing is connected",
