@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "clients/analysis/axis_log.hpp"
+#include "clients/analysis/channels/channel_log.hpp"
 #include "clients/analysis/event_log.hpp"
 #include "clients/analysis/measure/job_moves.hpp"
 #include "clients/analysis/measure/skew.hpp"
@@ -97,6 +98,8 @@ struct Analysis {
     std::uint64_t events_not_kept = 0;
     std::vector<HappenedEvent> program_events;  // the first of the log, in the order of time
     std::uint64_t program_events_not_kept = 0;
+    std::vector<ChannelChange> channel_changes;  // of inputs and outputs, the first of the log, in the order of time
+    std::uint64_t channel_changes_not_kept = 0;
     double tolerance_mm = 0;                                 // of joined moves, the greatest of any program
     std::vector<PairSkew> step_skew;                         // between motors that ran frames together
     std::optional<double> largest_distance_mm;               // of any step from the commanded line, all axes together

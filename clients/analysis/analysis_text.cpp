@@ -17,6 +17,7 @@ namespace {
 constexpr std::size_t kBreaksShown = 5;  // per axis
 constexpr std::size_t kEventsShown = 10;
 constexpr std::size_t kProgramEventsShown = 20;
+constexpr std::size_t kChannelChangesShown = 20;
 
 std::int64_t total(const Analysis& analysis, std::int64_t (*of)(const AxisLog&)) {
     std::int64_t sum = 0;
@@ -178,6 +179,22 @@ std::string program_event_table(const Analysis& analysis) {
     return text;
 }
 
+std::string channel_table(const Analysis& analysis) {
+    const auto& changes = analysis.channel_changes;
+    if (changes.empty()) { return ""; }
+    const MachineConfig* const machine = analysis.config ? &*analysis.config : nullptr;
+    std::string text = fmt::format("\n{:>10}  {:<7} {}\n", "at, s", "motor", "input or output");
+    for (std::size_t i = 0; i < std::min(changes.size(), kChannelChangesShown); ++i) {
+        const double at_s = analysis.seconds_at(changes[i].at);
+        text += fmt::format("{:>10.3f}  {:<7} {}\n", at_s, changes[i].motor, change_text(changes[i], machine));
+    }
+    const std::uint64_t all = changes.size() + analysis.channel_changes_not_kept;
+    if (all > kChannelChangesShown) {
+        text += fmt::format("and {} more changes\n", grouped(static_cast<std::int64_t>(all - kChannelChangesShown)));
+    }
+    return text;
+}
+
 std::string skew_table(const Analysis& analysis) {
     if (analysis.step_skew.empty()) { return ""; }
     const char* const title = analysis.has_motors_as_axes() ? "step skew between axes, us" : "step skew of motors, us";
@@ -314,7 +331,8 @@ std::string summary(const Analysis& analysis) {
     std::string text =
         fmt::format("{}\nmachine {}: {}\n\n", analysis.log.string(), analysis.machine, in_a_line(analysis));
     text += findings_text(analysis) + "\n";
-    text += axis_table(analysis) + axis_figures_table(analysis) + job_table(analysis) + program_event_table(analysis);
+    text += axis_table(analysis) + axis_figures_table(analysis) + job_table(analysis) + program_event_table(analysis) +
+            channel_table(analysis);
     text += motor_skew_table(analysis) + skew_table(analysis);
     auto lines = notes(analysis);
     for (std::string& line : open_sentences(analysis.end)) { lines.push_back(std::move(line)); }

@@ -32,6 +32,9 @@ public:
     void on_event(const program_event_t& message, LogPlace place) override {
         pass(&LogListener::on_event, message, place);
     }
+    void on_channel(const channel_event_t& message, LogPlace place) override {
+        pass(&LogListener::on_channel, message, place);
+    }
     void on_program_part(const program_part_t& message, LogPlace place) override {
         pass(&LogListener::on_program_part, message, place);
     }

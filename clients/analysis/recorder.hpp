@@ -31,6 +31,7 @@ public:
     void on_run(std::size_t lane, const Run& run) override;
     void on_job(const RecordedJob& message, LogPlace place) override;
     void on_event(const program_event_t& message, const ProgramEvent& event) override;
+    void on_channel(const channel_event_t& message) override { channels_.take(message); }
     void on_damage(LogPlace place, const std::string& what) override;
     void on_late(const std::string& axis, const SharedLate& steps) override;
 
@@ -62,6 +63,7 @@ private:
     const AnalysisOptions& options_;
     EventLog events_;
     ProgramEventLog program_events_;
+    ChannelLog channels_;
     MoveMeter moves_{[this](std::size_t job, MoveMeter::Measured& measured) {
                          note_unknown(analysis_.jobs[job], measured.motors, measured.moves);
                          note_moves(analysis_.jobs[job], measured.moves);

@@ -176,6 +176,17 @@ void fill(const Analysis& analysis, const ProgramPlace& place,
     }
 }
 
+void fill(const Analysis& analysis, const ChannelChange& change, proto::ChannelChangeReport& report) {
+    report.set_tick(change.at.value);
+    report.set_at_s(analysis.seconds_at(change.at));
+    report.set_motor(change.motor);
+    report.set_kind(std::string(name_of(change.kind)));
+    report.set_channel(static_cast<std::uint32_t>(change.channel));
+    report.set_value(change.value);
+    const auto name = analysis.config ? name_of(change, *analysis.config) : std::nullopt;
+    if (name) { report.set_name(*name); }
+}
+
 void fill(const Analysis& analysis, const HappenedEvent& event, proto::ProgramEventReport& report) {
     report.set_tick(event.at.value);
     report.set_at_s(analysis.seconds_at(event.at));
@@ -265,6 +276,10 @@ proto::AnalysisReport to_report(const Analysis& analysis) {
     for (const Event& event : analysis.happened) { fill(analysis, event, *report.add_events()); }
     for (const HappenedEvent& event : analysis.program_events) { fill(analysis, event, *report.add_program_events()); }
     report.set_program_events_not_listed(analysis.program_events_not_kept);
+    for (const ChannelChange& change : analysis.channel_changes) {
+        fill(analysis, change, *report.add_channel_changes());
+    }
+    report.set_channel_changes_not_listed(analysis.channel_changes_not_kept);
     for (const Damage& damage : analysis.damages) { fill_unread(damage, *report.add_unread()); }
     for (std::string& note : notes(analysis)) { report.add_notes(std::move(note)); }
     return report;

@@ -85,6 +85,10 @@ void Sorter::on_mark(const record_mark_t& message, LogPlace /*place*/) {
     if (is_ours(message.machine)) { end_.take(message); }
 }
 
+void Sorter::on_channel(const channel_event_t& message, LogPlace /*place*/) {
+    if (is_ours(message.machine)) { listener_.on_channel(message); }
+}
+
 void Sorter::on_foreign(std::string_view channel) { ++foreign_[std::string(channel)]; }
 
 void Sorter::on_damage(LogPlace place, std::string what) { listener_.on_damage(place, what); }
