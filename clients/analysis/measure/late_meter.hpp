@@ -28,6 +28,7 @@ public:
     void on_event(const program_event_t& message, const ProgramEvent& event) override {
         next_.on_event(message, event);
     }
+    void on_channel(const channel_event_t& message) override { next_.on_channel(message); }
     void on_damage(LogPlace place, const std::string& what) override { next_.on_damage(place, what); }
 
     /// Call once, at the end of the log. Returns the pairs of axes that ran frames together.

@@ -27,7 +27,7 @@ public:
     virtual void on_job(const RecordedJob& message, LogPlace place) = 0;
     /// `event`: the decoded content of the message.
     virtual void on_event(const program_event_t& message, const ProgramEvent& event) = 0;
-    virtual void on_channel(const channel_event_t& /*message*/) {}
+    virtual void on_channel(const channel_event_t& message) = 0;
     /// A part of the log that cannot be read or decoded.
     virtual void on_damage(LogPlace place, const std::string& what) = 0;
     /// The lateness of the steps of a run. LateMeter sends it and passes on everything else.

@@ -26,6 +26,10 @@ void StageThread::on_event(const program_event_t& message, const ProgramEvent& e
     work_.add([this, message, event] { listener_.on_event(message, event); });
 }
 
+void StageThread::on_channel(const channel_event_t& message) {
+    work_.add([this, message] { listener_.on_channel(message); });
+}
+
 void StageThread::on_damage(LogPlace place, const std::string& what) {
     work_.add([this, place, what] { listener_.on_damage(place, what); });
 }

@@ -23,6 +23,7 @@ public:
     void on_run(std::size_t lane, const Run& run) override;
     void on_job(const RecordedJob& message, LogPlace place) override;
     void on_event(const program_event_t& message, const ProgramEvent& event) override;
+    void on_channel(const channel_event_t& message) override;
     void on_damage(LogPlace place, const std::string& what) override;
     void on_late(const std::string& axis, const SharedLate& steps) override;
 
