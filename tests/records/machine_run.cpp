@@ -45,6 +45,17 @@ MachineConfig small_mill() {
 
 MachineConfig small_plotter() { return machine_of(axis_text("X", 80, 200) + axis_text("Y", 80, 200)); }
 
+MachineConfig small_laser() {
+    MachineConfig machine = small_plotter();
+    machine.outputs = {{.name = "laser",
+                        .motor = "X",
+                        .use = OutputUse::Spindle,
+                        .pwm = PwmConfig{.hz = 5000, .full_scale = 1000, .follows_speed = true},
+                        .stays_at_interruption = false},
+                       {.name = "valve", .motor = "Y", .number = 1}};
+    return machine;
+}
+
 MachineConfig small_core_xy() {
     MachineConfig machine = small_mill();
     for (AxisConfig& axis : std::span(machine.axes).first(2)) {

@@ -53,6 +53,8 @@ inline constexpr std::string_view kEnding<job_t> = "_JOB";
 template <>
 inline constexpr std::string_view kEnding<program_event_t> = "_EVENTS";
 template <>
+inline constexpr std::string_view kEnding<channel_event_t> = "_CHANNELS";
+template <>
 inline constexpr std::string_view kEnding<program_part_t> = "_PROGRAM";
 template <>
 inline constexpr std::string_view kEnding<record_mark_t> = "_MARK";

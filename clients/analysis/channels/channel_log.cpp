@@ -27,8 +27,12 @@ std::string value_text(const ChannelChange& change) {
 }  // namespace
 
 void ChannelLog::take(const channel_event_t& message) {
+    if (!event_of(message) || !is_countable(message.tick) || !is_countable(message.ahead)) { return; }
+    streams_[message.axis].take(message, [this](const channel_event_t& next, Before) { follow(next); });
+}
+
+void ChannelLog::follow(const channel_event_t& message) {
     const auto event = event_of(message);
-    if (!event || !is_countable(message.tick) || !is_countable(message.ahead)) { return; }
     ChannelChange change{.at = {message.tick + message.ahead}, .motor = message.axis, .kind = event->kind};
     change.channel = event->channel;
     if (event->kind == Kind::Input) {
@@ -57,6 +61,9 @@ void ChannelLog::note(ChannelChange change) {
 }
 
 std::vector<ChannelChange> ChannelLog::finish() {
+    for (auto& [motor, stream] : streams_) {
+        stream.finish([this](const channel_event_t& next, Before) { follow(next); });
+    }
     std::ranges::stable_sort(changes_, {}, &ChannelChange::at);
     return std::move(changes_);
 }

@@ -11,6 +11,7 @@
 
 #include "core/hardware/output_change.hpp"
 #include "core/machine.hpp"
+#include "services/record/reading/channel_stream.hpp"
 
 namespace lockstep::analysis {
 
@@ -34,7 +35,13 @@ public:
     std::uint64_t not_kept() const { return not_kept_; }
 
 private:
+    using Stream = ChannelStream<channel_event_t>;
+    using Before = Stream::Before;
+
+    void follow(const channel_event_t& message);
     void note(ChannelChange change);
+
+    std::map<std::string, Stream> streams_;  // by motor
 
     std::map<std::string, std::uint16_t> levels_;  // of each device's digital outputs
     std::vector<ChannelChange> changes_;

@@ -30,9 +30,12 @@ void OutputCheck::lose() {
 }
 
 void OutputCheck::take(const Seen& seen) {
-    const bool is_another = last_ && last_->incarnation != seen.incarnation;
-    const bool is_gap = last_ && !is_another && (seen.sequence != last_->sequence + 1 || seen.lost != last_->lost);
-    if (last_ && !is_another && seen.sequence <= last_->sequence) { return; }  // a copy
+    stream_.take(seen, [this](const Seen& next, Before before) { follow(next, before); });
+}
+
+void OutputCheck::follow(const Seen& seen, Before before) {
+    const bool is_another = last_ && before == Before::OtherProcess;
+    const bool is_gap = last_ && !is_another && (before == Before::Gap || seen.lost != last_->lost);
     if (is_gap) {
         findings_.add_missing(fmt::format("{}: changes of its outputs before tick {} are not in the log",
                                           findings_.label_of(axis_), seen.event.tick.value));
@@ -144,6 +147,7 @@ void OutputCheck::differ(const Planned& planned, const std::string& text, std::o
 }
 
 void OutputCheck::finish(bool is_whole) {
+    stream_.finish([this](const Seen& next, Before before) { follow(next, before); });
     compare_passed();
     for (const Planned& planned : planned_) {
         if (is_whole) { compare(planned); }

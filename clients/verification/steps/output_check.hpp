@@ -11,6 +11,7 @@
 
 #include "clients/verification/findings.hpp"
 #include "core/hardware/output_change.hpp"
+#include "services/record/reading/channel_stream.hpp"
 #include "services/record/reading/run.hpp"
 
 namespace lockstep::verification {
@@ -19,7 +20,7 @@ class OutputCheck {
 public:
     OutputCheck(std::string axis, Findings& findings) : axis_(std::move(axis)), findings_(findings) {}
 
-    /// A change of an output on record. They come in the order of their numbers.
+    /// A change of an output on record.
     struct Seen {
         std::int64_t incarnation = 0;  // of the axis's process
         std::int64_t sequence = 0;
@@ -45,6 +46,7 @@ public:
     void finish(bool is_whole);
 
 private:
+    using Before = analysis::ChannelStream<Seen>::Before;
     static constexpr std::size_t kMostWaiting = 65'536;
 
     /// What is compared: the outputs after a change.
@@ -53,6 +55,7 @@ private:
         ChannelEvent event;
     };
     std::vector<Expected> expected_of(const Planned& planned) const;
+    void follow(const Seen& seen, Before before);
     void compare_passed();
     void compare(const Planned& planned);
     void differ(const Planned& planned, const std::string& text, std::optional<Tick> expected,
@@ -62,6 +65,7 @@ private:
 
     std::string axis_;
     Findings& findings_;
+    analysis::ChannelStream<Seen> stream_;
     std::deque<Seen> seen_;        // not compared yet
     std::deque<Planned> planned_;  // not compared yet
     std::optional<Seen> last_;

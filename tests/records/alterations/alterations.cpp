@@ -8,8 +8,8 @@ const std::vector<Alteration>& alterations() {
     static const std::vector<Alteration> all = [] {
         std::vector<Alteration> list;
         for (const auto& some : {step_alterations(), inserted_steps(), run_alterations(), job_alterations(),
-                                 program_alterations(), event_alterations(), mark_alterations(), sample_alterations(),
-                                 order_alterations(), machine_alterations()}) {
+                                 program_alterations(), event_alterations(), output_alterations(), mark_alterations(),
+                                 sample_alterations(), order_alterations(), machine_alterations()}) {
             list.insert(list.end(), some.begin(), some.end());
         }
         return list;
@@ -18,8 +18,8 @@ const std::vector<Alteration>& alterations() {
 }
 
 bool Base::fulfils(const Needs& needs) const {
-    return (has.events || !needs.events) && (has.overrides || !needs.overrides) && (has.clocks || !needs.clocks) &&
-           (has.parts || !needs.parts) && (has.restart || !needs.restart) &&
+    return (has.events || !needs.events) && (has.outputs || !needs.outputs) && (has.overrides || !needs.overrides) &&
+           (has.clocks || !needs.clocks) && (has.parts || !needs.parts) && (has.restart || !needs.restart) &&
            (has.shared_clock || !needs.shared_clock) && (has.whole_program || !needs.whole_program) &&
            (has.all_motions || !needs.all_motions);
 }

@@ -15,6 +15,7 @@ namespace lockstep::records {
 /// move.
 struct Needs {
     bool events = false;         // of the program
+    bool outputs = false;        // that the program switches
     bool overrides = false;      // and holds
     bool clocks = false;         // of each board
     bool parts = false;          // of a program that is sent in parts
@@ -42,6 +43,7 @@ std::vector<Alteration> run_alterations();
 std::vector<Alteration> job_alterations();
 std::vector<Alteration> program_alterations();
 std::vector<Alteration> event_alterations();
+std::vector<Alteration> output_alterations();
 std::vector<Alteration> mark_alterations();
 std::vector<Alteration> sample_alterations();  // positions and health
 std::vector<Alteration> order_alterations();

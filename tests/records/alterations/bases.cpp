@@ -81,6 +81,20 @@ Record gantry() {
     return run.finish();
 }
 
+/// A laser that follows the speed, and a valve, in a program with a hold.
+Record outputs() {
+    MachineRun run(small_laser());
+    run.home();
+    run.begin("G21 G90 F2400\nM4 S600\nG1 X30 Y8\nM62 P1\nX32 Y20\nS200\nM63 P1\nX5 Y5\nM62 P1\nX9\nM63 P1\nM5\n");
+    run.wait_ms(500);
+    run.hold();
+    run.resume();
+    run.to_rest();
+    run.move_own("G0 X14 Y9\n");
+    run.wait_ms(300);
+    return run.finish();
+}
+
 }  // namespace
 
 const std::vector<Base>& bases() {
@@ -92,6 +106,7 @@ const std::vector<Base>& bases() {
         {"sent_in_parts", parts, {.parts = true, .shared_clock = true}},
         {"core_xy", belts, {.shared_clock = true, .whole_program = true}},
         {"gantry", gantry, {.shared_clock = true, .whole_program = true}},
+        {"outputs", outputs, {.outputs = true}},
     };
     return all;
 }

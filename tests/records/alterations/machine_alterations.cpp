@@ -20,6 +20,7 @@ Message of_machine(Message message, const std::string& machine) {
     rename<run_t>(message, machine);
     rename<job_t>(message, machine);
     rename<program_event_t>(message, machine);
+    rename<channel_event_t>(message, machine);
     rename<program_part_t>(message, machine);
     rename<record_mark_t>(message, machine);
     rename<axis_position_t>(message, machine);

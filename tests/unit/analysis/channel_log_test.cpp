@@ -8,16 +8,17 @@ namespace {
 
 using ChannelKind = ChannelEvent::Kind;
 
-channel_event_t channel_message(const char* motor, std::int64_t tick, const char* kind) {
+channel_event_t channel_message(const char* motor, std::int64_t tick, const char* kind, std::int64_t sequence = 0) {
     channel_event_t message{};
+    message.sequence = sequence;
     message.axis = motor;
     message.tick = tick;
     message.kind = kind;
     return message;
 }
 
-channel_event_t digital(const char* motor, std::int64_t tick, std::int32_t levels) {
-    channel_event_t message = channel_message(motor, tick, "digital");
+channel_event_t digital(const char* motor, std::int64_t tick, std::int32_t levels, std::int64_t sequence = 0) {
+    channel_event_t message = channel_message(motor, tick, "digital", sequence);
     message.levels = levels;
     return message;
 }
@@ -27,7 +28,7 @@ TEST(ChannelLog, ListsEachOutputThatChangesInMachineTime) {
     channel_event_t late = digital("Y", 500, 0b101);
     late.ahead = 20;
     log.take(late);
-    log.take(digital("Y", 600, 0b100));
+    log.take(digital("Y", 600, 0b100, 1));
     channel_event_t laser = channel_message("X", 550, "analog");
     laser.value = kFullScale / 4;
     log.take(laser);
@@ -39,9 +40,23 @@ TEST(ChannelLog, ListsEachOutputThatChangesInMachineTime) {
     EXPECT_EQ(changes[3], (ChannelChange{{600}, "Y", ChannelKind::Digital, 0, 0}));
 }
 
+TEST(ChannelLog, ListsShuffledAndRepeatedMessagesAsTheyHappened) {
+    ChannelLog log;
+    for (const std::int64_t number : {2, 0, 2, 3, 1, 0}) {
+        log.take(digital("X", number, number % 2 == 0 ? 1 : 0, number));
+    }
+    const auto changes = log.finish();
+    ASSERT_EQ(changes.size(), 4U);
+    for (std::size_t k = 0; k < changes.size(); ++k) {
+        EXPECT_EQ(
+            changes[k],
+            (ChannelChange{{static_cast<std::int64_t>(k)}, "X", ChannelKind::Digital, 0, k % 2 == 0 ? 1.0 : 0.0}));
+    }
+}
+
 TEST(ChannelLog, KeepsABoundedNumberAndCountsTheRest) {
     ChannelLog log;
-    for (std::int64_t i = 0; i < 1200; ++i) { log.take(digital("X", i, i % 2 == 0 ? 1 : 0)); }
+    for (std::int64_t i = 0; i < 1200; ++i) { log.take(digital("X", i, i % 2 == 0 ? 1 : 0, i)); }
     EXPECT_EQ(log.not_kept(), 200U);
     EXPECT_EQ(log.finish().size(), ChannelLog::kChangesKept);
 }
