@@ -11,17 +11,17 @@
 namespace lockstep::analysis {
 namespace {
 
-using Kind = ChannelEvent::Kind;
+using ChannelKind = ChannelEvent::Kind;
 
-const char* kind_text(Kind kind) {
-    if (kind == Kind::Input) { return "input"; }
-    return kind == Kind::Analog ? "analog output" : "digital output";
+const char* kind_text(ChannelKind kind) {
+    if (kind == ChannelKind::Input) { return "input"; }
+    return kind == ChannelKind::Analog ? "analog output" : "digital output";
 }
 
 std::string value_text(const ChannelChange& change) {
-    if (change.kind == Kind::Analog) { return fmt::format("{:.4g} %", change.value * 100); }
+    if (change.kind == ChannelKind::Analog) { return fmt::format("{:.4g} %", change.value * 100); }
     const bool is_one = change.value > 0;
-    return change.kind == Kind::Input ? (is_one ? "closed" : "open") : (is_one ? "on" : "off");
+    return change.kind == ChannelKind::Input ? (is_one ? "closed" : "open") : (is_one ? "on" : "off");
 }
 
 }  // namespace
@@ -35,13 +35,13 @@ void ChannelLog::follow(const channel_event_t& message) {
     const auto event = event_of(message);
     ChannelChange change{.at = {message.tick + message.ahead}, .motor = message.axis, .kind = event->kind};
     change.channel = event->channel;
-    if (event->kind == Kind::Input) {
+    if (event->kind == ChannelKind::Input) {
         change.value = event->closed ? 1 : 0;
         note(change);
-    } else if (event->kind == Kind::Analog) {
+    } else if (event->kind == ChannelKind::Analog) {
         change.value = static_cast<double>(event->value) / static_cast<double>(kFullScale);
         note(change);
-    } else if (event->kind == Kind::Digital) {
+    } else if (event->kind == ChannelKind::Digital) {
         const auto changed = static_cast<unsigned>(std::exchange(levels_[message.axis], event->levels) ^ event->levels);
         for (std::size_t i = 0; i < kMostDigitalOutputs; ++i) {
             if ((changed >> i & 1U) == 0) { continue; }
@@ -72,12 +72,12 @@ std::optional<std::string> name_of(const ChannelChange& change, const MachineCon
     const auto is_it = [&](const auto& config) {
         return config.motor == change.motor && config.channel == change.channel;
     };
-    if (change.kind == Kind::Input) {
+    if (change.kind == ChannelKind::Input) {
         const auto input = std::ranges::find_if(machine.inputs, is_it);
         return input == machine.inputs.end() ? std::nullopt : std::optional(input->name);
     }
     const auto output = std::ranges::find_if(machine.outputs, [&](const OutputConfig& config) {
-        return is_it(config) && config.is_analog() == (change.kind == Kind::Analog);
+        return is_it(config) && config.is_analog() == (change.kind == ChannelKind::Analog);
     });
     return output == machine.outputs.end() ? std::nullopt : std::optional(output->name);
 }

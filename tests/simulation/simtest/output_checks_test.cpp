@@ -8,7 +8,7 @@
 namespace lockstep::simtest {
 namespace {
 
-using Kind = ProgramEvent::Kind;
+using Word = ProgramEvent::Kind;
 using ChannelKind = ChannelEvent::Kind;
 
 /// A laser burns along two moves, and a valve opens at the corner and closes at the end.
@@ -22,11 +22,11 @@ Scenario engraving(std::vector<Interrupt> interrupts = {}) {
          .stays_at_interruption = false},
         {.name = "valve", .motor = "Y", .number = 0},
     };
-    scenario.tasks[0].program.blocks = {{1, ProgramEvent{.kind = Kind::SpindleReverse, .value = 400}},
+    scenario.tasks[0].program.blocks = {{1, ProgramEvent{.kind = Word::SpindleReverse, .value = 400}},
                                         {2, ProgramMove{{18, 14}, 20}},
-                                        {3, ProgramEvent{.kind = Kind::OutputOn}},
+                                        {3, ProgramEvent{.kind = Word::OutputOn}},
                                         {4, ProgramMove{{18, 20}, 20}},
-                                        {5, ProgramEvent{.kind = Kind::OutputOff}}};
+                                        {5, ProgramEvent{.kind = Word::OutputOff}}};
     scenario.tasks[0].interrupts = std::move(interrupts);
     return scenario;
 }

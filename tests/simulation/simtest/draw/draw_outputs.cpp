@@ -6,7 +6,7 @@
 namespace lockstep::simtest {
 namespace {
 
-using Kind = ProgramEvent::Kind;
+using Word = ProgramEvent::Kind;
 
 constexpr double kFullScale_S = 1000;
 constexpr double kMost_S = 450;  // with an override of 200 % the power stays below full scale
@@ -38,9 +38,9 @@ public:
     /// Levels that do not depend on what was before, and then changes between the moves.
     std::vector<Block> between(const std::vector<Block>& blocks) {
         std::vector<Block> all;
-        add(all, {.kind = Kind::SpindleReverse, .value = power()});
-        add(all, {.kind = Kind::CoolantOff});
-        for (int n = 0; n < kDigital; ++n) { add(all, {.kind = Kind::OutputOff, .index = n}); }
+        add(all, {.kind = Word::SpindleReverse, .value = power()});
+        add(all, {.kind = Word::CoolantOff});
+        for (int n = 0; n < kDigital; ++n) { add(all, {.kind = Word::OutputOff, .index = n}); }
         const double share = draw_.any_of<double>({0.05, 0.3, 0.3, 0.9});
         for (const Block& block : blocks) {
             if (std::holds_alternative<ProgramEvent>(block.action)) { continue; }
@@ -55,13 +55,13 @@ private:
     ProgramEvent any() {
         const auto valve = static_cast<std::int32_t>(draw_.index(kDigital));
         switch (draw_.index(8)) {
-            case 0: return {.kind = Kind::SpindleStop};
-            case 1: return {.kind = Kind::SpindleReverse, .value = power()};
-            case 2: return {.kind = draw_.chance(0.5) ? Kind::FloodOn : Kind::CoolantOff};
+            case 0: return {.kind = Word::SpindleStop};
+            case 1: return {.kind = Word::SpindleReverse, .value = power()};
+            case 2: return {.kind = draw_.chance(0.5) ? Word::FloodOn : Word::CoolantOff};
             case 3:
-            case 4: return {.kind = Kind::OutputOn, .index = valve};
-            case 5: return {.kind = Kind::OutputOff, .index = valve};
-            default: return {.kind = Kind::SpindleSpeed, .value = power()};
+            case 4: return {.kind = Word::OutputOn, .index = valve};
+            case 5: return {.kind = Word::OutputOff, .index = valve};
+            default: return {.kind = Word::SpindleSpeed, .value = power()};
         }
     }
     static void add(std::vector<Block>& blocks, const ProgramEvent& event) { blocks.push_back({{}, event}); }
