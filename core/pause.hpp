@@ -25,7 +25,7 @@ enum class PauseReason : std::uint8_t {
 inline constexpr std::size_t kMaxPauseText = 127;  // bytes
 inline constexpr std::int32_t kMaxTool = 1'000'000;
 
-/// What an input must do: L1 to L4 of M66.
+/// How an input ends a wait: L1 to L4 of M66.
 enum class InputMode : std::uint8_t { Closes, Opens, IsClosed, IsOpen };
 
 constexpr std::string_view name_of(InputMode mode) {

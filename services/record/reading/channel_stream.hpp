@@ -17,7 +17,8 @@ public:
 
     enum class Before : std::uint8_t { Nothing, Gap, OtherProcess };
 
-    /// Calls visit(change, what is missing before it) for each change whose turn it is. Copies are left out.
+    /// Calls visit(change, before) for each change when its turn comes. `before`: what the log lacks before it. Copies
+    /// are left out.
     template <typename Visit>
     void take(const Change& change, Visit visit) {
         if (process_ != change.incarnation) {
