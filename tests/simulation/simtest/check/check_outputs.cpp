@@ -22,6 +22,11 @@ bool is_unknown(const Recording& recording, std::size_t motor, Tick from, Tick u
     });
 }
 
+bool has_words(const Course& course) {
+    const auto has_any = [](const Stretch& stretch) { return !stretch.events.empty(); };
+    return !course.last_events.empty() || std::ranges::any_of(course.stretches, has_any);
+}
+
 /// How far the known time of an event of a motor's device may be from the true one.
 Ticks error_at(const Recording& recording, std::size_t motor, Tick truth) {
     const Ticks own = estimates_clock(recording.machine, motor) ? recording.motors[motor].bound_at(truth) : Ticks{};
@@ -187,7 +192,7 @@ public:
         const Energy energy(recording_.motors[motor], output);
         for (std::size_t k = 0; k < recording_.jobs.size(); ++k) {
             const JobRecord& job = recording_.jobs[k];
-            if (job.homing || job.course.stretches.empty()) { continue; }
+            if (job.homing || !has_words(job.course)) { continue; }  // a jog leaves outputs as they are
             if (is_unknown(recording_, motor, job.began, job.ended)) { continue; }
             const AskedAlong asked(job.course, output);
             each_step(k, motor, [&](std::size_t axis, std::size_t step, Tick at, Ticks error, const Reached& places) {
