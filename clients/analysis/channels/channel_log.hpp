@@ -41,8 +41,7 @@ private:
     void follow(const channel_event_t& message);
     void note(ChannelChange change);
 
-    std::map<std::string, Stream> streams_;  // by motor
-
+    std::map<std::string, Stream> streams_;        // by motor
     std::map<std::string, std::uint16_t> levels_;  // of each device's digital outputs
     std::vector<ChannelChange> changes_;
     std::uint64_t not_kept_ = 0;

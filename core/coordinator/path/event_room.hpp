@@ -15,11 +15,10 @@ namespace lockstep {
 
 class EventRoom {
 public:
-    explicit EventRoom(const MachineConfig& machine)
-        : has_outputs_(!machine.outputs.empty()), touched_(machine.outputs), room_(output_room(machine.timing)) {}
+    explicit EventRoom(const MachineConfig& machine) : touched_(machine.outputs), room_(output_room(machine.timing)) {}
 
     /// No event changes an output.
-    bool none() const { return !has_outputs_; }
+    bool none() const { return touched_.none(); }
     /// `body`, `tail`: the moves that begin there. `is_last`: the path ends in the body.
     bool fits(const EventQueue& events, std::span<const MoveBegin> body, std::span<const MoveBegin> tail,
               bool is_last) {
@@ -40,7 +39,6 @@ private:
         return count;
     }
 
-    bool has_outputs_;
     TouchedOutputs touched_;
     OutputRoom room_;
     std::vector<FrameEvent> in_body_;

@@ -32,11 +32,14 @@ public:
     /// An event before the next move or rest.
     void add(const ProgramEvent& event) { touched_.add(event); }
 
+    /// The next move or rest has changes at its begin. Otherwise nothing limits it.
+    bool is_pending() const { return touched_.changes() > 0; }
+
     /// The greatest speed of the next move, in mm per tick: one that is as long as the next ones, goes their way, and
     /// has as many changes at its begin. `way_mm`: of each axis, at most `length_mm`. A move without length leaves the
     /// events to the next one.
     double next_move(double length_mm, std::span<const double> way_mm) {
-        if (touched_.changes() == 0 || is_left_out(length_mm)) { return std::numeric_limits<double>::infinity(); }
+        if (!is_pending() || is_left_out(length_mm)) { return std::numeric_limits<double>::infinity(); }
         double deceleration = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < way_mm.size(); ++i) {
             if (way_mm[i] == 0) { continue; }

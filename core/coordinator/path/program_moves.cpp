@@ -62,7 +62,8 @@ ProgramMoves::Read ProgramMoves::finish(LegEnd::Kind end, PathInput& path) {
     return {.ends = true};
 }
 
-void ProgramMoves::pass(const ProgramMove& move, std::uint32_t number, PathInput& path) {
+/// Sets the way of each axis, and returns the length in mm.
+double ProgramMoves::measure(const ProgramMove& move) {
     from_mm_.clear();
     for (const std::size_t axis : axes_) { from_mm_.push_back(at_[axis] / steps_per_mm_[axis]); }
     const double length = length_mm(move, from_mm_);
@@ -70,10 +71,17 @@ void ProgramMoves::pass(const ProgramMove& move, std::uint32_t number, PathInput
     for (std::size_t i = 0; i < axes_.size(); ++i) {
         const bool turns = move.arc && (i == move.arc->first || i == move.arc->second);
         way_mm_[axes_[i]] = turns ? length : std::abs(move.target_mm[i] - from_mm_[i]);
+    }
+    return length;
+}
+
+void ProgramMoves::pass(const ProgramMove& move, std::uint32_t number, PathInput& path) {
+    const double length = pace_.is_pending() ? measure(move) : 0;
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
         at_[axes_[i]] = move.target_mm[i] * steps_per_mm_[axes_[i]];
         to_[axes_[i]] = std::llround(at_[axes_[i]]);
     }
-    if (OutputPace::is_left_out(length) && move.mode == PathMode::ExactStop) {
+    if (pace_.is_pending() && OutputPace::is_left_out(length) && move.mode == PathMode::ExactStop) {
         return path.rest(pace_.next_rest(), number);
     }
     const MoveSettings settings{.feed_mm_per_tick = move.feed_for(tick_s_),

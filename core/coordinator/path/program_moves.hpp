@@ -42,6 +42,7 @@ public:
 
 private:
     bool begin_at_place(PathInput& path);
+    double measure(const ProgramMove& move);
     void pass(const ProgramMove& move, std::uint32_t number, PathInput& path);
     Read finish(LegEnd::Kind end, PathInput& path);
 
@@ -50,7 +51,7 @@ private:
     std::vector<std::size_t> axes_;  // the machine's axes that the program names
     double tick_s_ = 0;
     OutputPace pace_;
-    std::vector<double> from_mm_;  // of the move that is read, by axis of the program
+    std::vector<double> from_mm_;  // of the move that was measured, by axis of the program
     std::vector<double> way_mm_;   // of it, by axis of the machine; a circle goes all its length along both of its axes
     std::uint32_t next_ = 0;
     bool has_moved_ = false;  // a move of the leg was read

@@ -23,6 +23,8 @@ public:
         }
     }
 
+    /// There are no outputs.
+    bool none() const { return motors_.empty(); }
     void clear() {
         for (Motor& motor : motors_) {
             for (Output& output : motor.outputs) { output.is_touched = false; }
