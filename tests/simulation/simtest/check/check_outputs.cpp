@@ -125,18 +125,22 @@ public:
         }
         std::ranges::stable_sort(changes_, {}, &Change::at);
     }
-    /// Whether it had this level at some time from one tick to another.
-    bool was(bool is_on, Tick from, Tick until) const {
+    /// Whether it may have had this level at some time from one tick to another.
+    bool may_have_been(bool is_on, Tick from, Tick until) const { return had(is_on, from, until, is_on); }
+    /// Whether it is known to have had it.
+    bool was(bool is_on, Tick from, Tick until) const { return had(is_on, from, until, !is_on); }
+
+private:
+    bool had(bool is_on, Tick from, Tick until, bool if_unknown) const {
         std::optional<bool> now = false;
         for (const Change& change : changes_) {
-            if (change.at > from && now.value_or(is_on) == is_on) { return true; }
+            if (change.at > from && now.value_or(if_unknown) == is_on) { return true; }
             if (change.at > until) { return false; }
             now = change.is_on;
         }
-        return now.value_or(is_on) == is_on;
+        return now.value_or(if_unknown) == is_on;
     }
 
-private:
     struct Change {
         Tick at;
         std::optional<bool> is_on;  // nullopt: not known
@@ -224,8 +228,8 @@ private:
     }
 
     static bool has_level(const Levels& levels, const AskedAlong& asked, Tick at, Ticks error, const Reached& places) {
-        return (levels.was(true, at - error, at + error) && asked.may_be(true, places)) ||
-               (levels.was(false, at - error, at + error) && asked.may_be(false, places));
+        return (levels.may_have_been(true, at - error, at + error) && asked.may_be(true, places)) ||
+               (levels.may_have_been(false, at - error, at + error) && asked.may_be(false, places));
     }
     /// Its value is rounded to 2^-12 of full scale.
     static bool has_dose(const JobRecord& job, const Energy& energy, const AskedAlong& asked, Tick at, Ticks error,
