@@ -85,8 +85,10 @@ struct ProgramEvent {
         OutputOff,       // M63 M65; index
         AnalogOutput,    // M67 M68; index, value
         Tool,            // M6 M61; index: the tool in the spindle, 0: none
+        PulseSpacing,    // M69; index: the output, value: from each place to the next, mm. PulsePlaces follows
+        PulsePlaces,     // M69; index: how many, 0: no more; value: the first place, mm
     };
-    static constexpr std::size_t kKinds = 11;
+    static constexpr std::size_t kKinds = 13;
 
     Kind kind = Kind::SpindleStop;
     std::int32_t index = 0;

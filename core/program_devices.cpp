@@ -1,5 +1,7 @@
 #include "core/program_devices.hpp"
 
+#include <algorithm>
+
 #include "core/if_positive.hpp"
 
 namespace lockstep {
@@ -35,6 +37,11 @@ void ProgramDevices::apply(const ProgramEvent& event) {
             if (is_stored(event.index)) { analog[static_cast<std::size_t>(event.index)] = event.value; }
             return;
         case Kind::Tool: tool = if_positive(event.index); return;
+        case Kind::PulseSpacing: pulses = {.output = event.index, .spacing_mm = event.value}; return;
+        case Kind::PulsePlaces:
+            pulses.first_mm = event.value;
+            pulses.count = pulses.left = static_cast<std::uint32_t>(std::max(event.index, 0));
+            return;
     }
 }
 

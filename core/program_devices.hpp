@@ -10,6 +10,16 @@
 
 namespace lockstep {
 
+/// Pulses at places of the axis that has the output: M69.
+struct PulseOrder {
+    std::int32_t output = 0;
+    double first_mm = 0;
+    double spacing_mm = 0;    // signed
+    std::uint32_t count = 0;  // 0: none
+    std::uint32_t left = 0;   // of them, at the last rest
+    bool operator==(const PulseOrder&) const = default;
+};
+
 struct ProgramDevices {
     enum class Spindle : std::uint8_t { Stopped, Forward, Reverse };
 
@@ -20,6 +30,7 @@ struct ProgramDevices {
     std::optional<std::int32_t> tool;  // in the spindle; nullopt: none, or not known
     std::uint64_t outputs = 0;         // bit n: output n is on; outputs above 63 are not stored
     std::array<double, 16> analog{};   // of M67 and M68, by number; those above 15 are not stored
+    PulseOrder pulses;
     bool operator==(const ProgramDevices&) const = default;
 
     void apply(const ProgramEvent& event);

@@ -101,6 +101,7 @@ bool Channels::is_intact() const {
 void Channels::publish() {
     window_.store(kInputs, inputs_.closed());
     window_.store(kOutputs, outputs_.digital());
+    window_.store(kPulsesLeft, outputs_.pulses_left());
     window_.store(kOutputTail, ring_.taken());
     window_.store(kEventHead, events_.head());
     window_.store(kEventLost, events_.lost());

@@ -48,9 +48,8 @@ void OutputUnit::arrive(Tick tick, std::int64_t count) {
     if (compare_.pulses == 0 || count != compare_.next) { return; }
     pulse_ends_ = tick + compare_pulse_;
     compare_.next += compare_.every;
-    if (--compare_.pulses == 0) {
-        events_.put({.tick = tick, .kind = ChannelEvent::Kind::CompareEnds, .value = count});
-    }
+    pulses_left_ = --compare_.pulses;
+    if (pulses_left_ == 0) { events_.put({.tick = tick, .kind = ChannelEvent::Kind::CompareEnds, .value = count}); }
 }
 
 void OutputUnit::change(const SetDigital& digital, Tick now, std::int64_t count) {
@@ -72,7 +71,9 @@ void OutputUnit::change(const RampAnalog& analog, Tick now, std::int64_t) {
 void OutputUnit::change(const ComparePosition& compare, Tick now, std::int64_t count) {
     end_compare(now, count);
     compare_ = compare;
-    if (compare.pulses > 0) { events_.put({.tick = now, .kind = ChannelEvent::Kind::CompareBegins, .value = count}); }
+    pulses_left_ = compare.pulses;
+    if (compare.pulses == 0) { return; }
+    events_.put({.tick = now, .kind = ChannelEvent::Kind::CompareBegins, .value = count, .detail = compare.pulses});
 }
 
 void OutputUnit::end_compare(Tick now, std::int64_t count) {

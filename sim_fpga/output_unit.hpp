@@ -37,6 +37,8 @@ public:
 
     /// Output n is bit n, 1 while it is on.
     std::uint16_t digital() const;
+    /// Of the newest COMPARE: how many pulses were not made, so far or when it ended.
+    std::uint32_t pulses_left() const { return pulses_left_; }
     /// What the output shows after tick `now`, from 0 to kFullScale.
     std::int64_t analog(std::size_t channel, Tick now) const;
 
@@ -63,6 +65,7 @@ private:
     std::uint16_t compare_outputs_ = 0;
     Ticks compare_pulse_{1};
     ComparePosition compare_;
+    std::uint32_t pulses_left_ = 0;
     std::optional<Tick> pulse_ends_;
 };
 

@@ -22,6 +22,11 @@ std::string event_text(const ProgramEvent& event) {
         case Kind::AnalogOutput: return fmt::format("analog output {} to {}", event.index, number_text(event.value));
         case Kind::Tool:
             return event.index == 0 ? "no tool in the spindle" : fmt::format("tool {} in the spindle", event.index);
+        case Kind::PulseSpacing:
+            return fmt::format("pulses of output {} every {} mm", event.index, number_text(event.value));
+        case Kind::PulsePlaces:
+            return event.index == 0 ? "no more pulses"
+                                    : fmt::format("{} pulses from {} mm on", event.index, number_text(event.value));
     }
     return "unknown";
 }

@@ -261,7 +261,8 @@ AxisState AxisController::state(const AxisLoop& loop, Ticks clock_error) const {
             .unproved = condition_.position.unproved(),
             .switches = {device.limit_min, device.limit_max, device.home},
             .inputs = device.inputs,
-            .outputs = device.outputs};
+            .outputs = device.outputs,
+            .pulses_left = device.pulses_left};
 }
 
 }  // namespace lockstep

@@ -96,6 +96,7 @@ constexpr std::array kCodes{
     Code{'M', 660, Group::Output, "PELQ"},
     Code{'M', 670, Group::Output, "EQ"},
     Code{'M', 680, Group::Output, "EQ"},
+    Code{'M', 690, Group::Output, "PQRL"},
     Code{'M', 700, Group::StateKeeping, ""},
     Code{'M', 710, Group::StateKeeping, ""},
     Code{'M', 720, Group::StateKeeping, ""},

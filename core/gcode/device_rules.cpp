@@ -1,8 +1,11 @@
 // ProgramBuilder: handles words that move no axis.
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <utility>
 
 #include "core/gcode/program_builder.hpp"
+#include "core/gcode/run/context.hpp"
 #include "core/number_text.hpp"
 
 namespace lockstep::gcode {
@@ -89,7 +92,59 @@ void ProgramBuilder::change_tool(int tool) {
 void ProgramBuilder::end() {
     if (spindle_turns_) { append(ProgramEvent{.kind = Kind::SpindleStop}); }
     if (coolant_flows_) { append(ProgramEvent{.kind = Kind::CoolantOff}); }
-    spindle_turns_ = coolant_flows_ = false;
+    if (makes_pulses_) { append(ProgramEvent{.kind = Kind::PulsePlaces}); }
+    spindle_turns_ = coolant_flows_ = makes_pulses_ = false;
+}
+
+void ProgramBuilder::pulses(const Event& event) {
+    const auto output = std::ranges::find(setup_.pulses, event.index, &GcodePulses::number);
+    if (output != setup_.pulses.end()) {
+        return event.mode == 0 ? append_pulses(event, 0, 0) : pulses_at(*output, event);
+    }
+    const std::string name = "output " + std::to_string(event.index) + " with use: PLACES";
+    if (is_refused(setup_.unassigned.outputs, name.c_str(), "outputs")) { return; }
+    note(name, name + " is not configured: M69 is ignored");
+}
+
+/// Checks the places of an output that counts steps.
+void ProgramBuilder::pulses_at(const GcodePulses& output, const Event& event) {
+    const GcodeAxis& axis = setup_.axes[output.axis];
+    if (!places_[output.axis]) { return fail("M69 has no places of axis " + axis.name + ", which has no letter"); }
+    const std::size_t letter = *places_[output.axis];
+    const Offsets& offsets = interpreter_->state().offsets;
+    const bool is_of_plane = letter < 2;
+    if (is_of_plane && offsets.rotation != 0) {
+        return fail("M69 needs a coordinate system that is not turned, because Q is a place of axis " + axis.name);
+    }
+    const bool in_inches = interpreter_->state().modal.inches && !is_turning(letter);
+    const double unit_mm = in_inches ? Context::kMillimetresPerInch : 1;
+    Point place = interpreter_->state().program;
+    place[letter] = event.value * unit_mm;
+    const double first_mm = to_machine(offsets, place)[letter];
+    const double spacing_mm = event.spacing * unit_mm;
+    const double last_mm = first_mm + spacing_mm * (event.mode - 1);
+    (void)within_travel(output.axis, first_mm);
+    (void)within_travel(output.axis, last_mm);
+    const double steps = spacing_mm * output.steps_per_mm;
+    constexpr double kHair_steps = 1e-3;
+    if (std::abs(steps - std::round(steps)) > kHair_steps || std::round(steps) == 0) {
+        const auto as_written = [&](double whole) { return number_text(whole / output.steps_per_mm / unit_mm); };
+        return fail("R" + number_text(event.spacing) + " is " + number_text(steps) + " steps of axis " + axis.name +
+                    "; places are a whole number of steps apart, such as R" + as_written(std::ceil(steps)) + " or R" +
+                    as_written(std::floor(steps) == 0 ? -1 : std::floor(steps)));
+    }
+    if (std::abs(spacing_mm) < output.least_spacing_mm) {
+        return fail("at the greatest speed of axis " + axis.name + " places " + number_text(std::abs(spacing_mm)) +
+                    " mm apart come before the last pulse ends; R must be at least " +
+                    number_text(output.least_spacing_mm / unit_mm) + ", or make pulse_us of the output shorter");
+    }
+    append_pulses(event, first_mm, spacing_mm);
+}
+
+void ProgramBuilder::append_pulses(const Event& event, double first_mm, double spacing_mm) {
+    makes_pulses_ = event.mode > 0;
+    if (makes_pulses_) { append(ProgramEvent{.kind = Kind::PulseSpacing, .index = event.index, .value = spacing_mm}); }
+    append(ProgramEvent{.kind = Kind::PulsePlaces, .index = event.mode, .value = first_mm});
 }
 
 void ProgramBuilder::event(const Event& event) {
@@ -135,6 +190,7 @@ void ProgramBuilder::event(const Event& event) {
         case EventKind::OutputOff: return output(Kind::OutputOff);
         case EventKind::AnalogOutput: return output(Kind::AnalogOutput);
         case EventKind::InputWait: return wait_for_input(event);
+        case EventKind::Pulses: return pulses(event);
         case EventKind::SpeedOverride:  // also from M49, which has an effect on the feed
             if (event.value != 0 || interpreter_->block().code(Group::Override) != kSpindleOverrideWord) { return; }
             return note("M51", "M51 P0 has no effect: the machine has no spindle override");

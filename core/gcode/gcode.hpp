@@ -43,6 +43,14 @@ struct GcodeAxis {
     double start_mm = 0;  // where the axis stands when the program begins
 };
 
+/// An output that makes pulses at places of an axis.
+struct GcodePulses {
+    std::int32_t number = 0;      // P of M69
+    std::size_t axis = 0;         // in GcodeSetup::axes
+    double steps_per_mm = 0;      // of the motor whose device has the output, along the axis
+    double least_spacing_mm = 0;  // a pulse ends before the next one at the axis's greatest speed
+};
+
 struct GcodeSwitches {
     bool pause_at_m1 = false;        // optional stop
     bool skip_deletable = true;      // block delete: lines that begin with / are not run
@@ -56,6 +64,7 @@ struct GcodeSetup {
     UnassignedWords unassigned;
     AssignedWords assigned;
     std::vector<InputConfig> inputs;  // of the machine
+    std::vector<GcodePulses> pulses;
     gcode::KeptValues values;
     double chord_tolerance_mm = 0.001;  // of chords of curves
     bool curves_as_chords = false;      // for a planner that takes straight moves only

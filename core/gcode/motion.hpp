@@ -82,6 +82,7 @@ enum class EventKind : std::uint8_t {
     OutputOff,       // M63 M65: index
     AnalogOutput,    // M67 M68: index, value
     InputWait,       // M66: index, value: seconds
+    Pulses,          // M69: index, value: the first place, spacing, mode: how many
     FeedOverride,    // M48 to M51: value: 1 on, 0 off
     SpeedOverride,
     AdaptiveFeed,  // M52
@@ -97,8 +98,9 @@ struct Event {
     int index = 0;
     double value = 0;
     std::string text;
-    int mode = 0;            // InputWait: its L
+    int mode = 0;            // InputWait and Pulses: L
     bool is_analog = false;  // InputWait: E
+    double spacing = 0;      // Pulses: R; as the first place in the program's units
 };
 
 using Action = std::variant<Straight, Arc, Spline, Dwell, Event>;

@@ -73,6 +73,9 @@ private:
     void change_tool(int tool);
     void pause(PauseReason reason, int tool = 0);
     void wait_for_input(const Event& event);
+    void pulses(const Event& event);
+    void pulses_at(const GcodePulses& output, const Event& event);
+    void append_pulses(const Event& event, double first_mm, double spacing_mm);
     void remark(const std::string& text);
     /// Reports the word as an error if its rule refuses it.
     bool is_refused(WordRule rule, const char* what, const char* key);
@@ -102,6 +105,7 @@ private:
     std::map<int, std::string> tool_names_;  // by comments
     bool spindle_turns_ = false;
     bool coolant_flows_ = false;
+    bool makes_pulses_ = false;
     const Interpreter* interpreter_ = nullptr;
 };
 

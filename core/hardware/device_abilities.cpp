@@ -72,7 +72,9 @@ UsedOutputs used_outputs(const MachineConfig& machine, const MotorConfig& motor)
     return used;
 }
 
+/// Pulses at places end with the run.
 void turn_off(const OutputConfig& output, SafeOutputs& safe) {
+    if (output.makes_pulses()) { return; }
     if (output.is_analog()) {
         safe.analog_off |= static_cast<std::uint8_t>(output.bit());
     } else {
@@ -80,10 +82,14 @@ void turn_off(const OutputConfig& output, SafeOutputs& safe) {
     }
 }
 
-void add_output(const OutputConfig& output, DeviceSetup& setup) {
+void add_output(const OutputConfig& output, std::int64_t tick_ns, DeviceSetup& setup) {
     if (!output.stays_at_interruption) { turn_off(output, setup.at_cut); }
     if (!output.stays_at_silence) { turn_off(output, setup.at_silence); }
     if (output.inverted) { setup.outputs_inverted |= output.bit(); }
+    if (output.makes_pulses()) {
+        setup.compare_outputs |= output.bit();
+        setup.compare_pulse = Ticks{std::llround(output.pulse_us * 1000 / static_cast<double>(tick_ns))};
+    }
     if (output.pwm) {
         setup.pwm_period_ns[static_cast<std::size_t>(output.channel)] = std::llround(1e9 / output.pwm->hz);
     }
@@ -163,7 +169,7 @@ DeviceSetup setup_of(const MachineConfig& machine, const MotorConfig& motor) {
                       .enable_inverted = pins.enable_inverted,
                       .stop = inputs_with(machine, motor.name, InputUse::EmergencyStop)};
     for (const OutputConfig& output : machine.outputs) {
-        if (output.motor == motor.name) { add_output(output, setup); }
+        if (output.motor == motor.name) { add_output(output, machine.tick_ns, setup); }
     }
     const bool has_safe_outputs = setup.at_silence != SafeOutputs{};
     if (has_safe_outputs) { setup.silence = ticks(machine.output_silence_ms); }

@@ -34,6 +34,8 @@ inline AssignedWords assigned_words(std::span<const OutputConfig> outputs) {
                 } else {
                     words.digital |= std::uint64_t{1} << output.number;
                 }
+                break;
+            case OutputUse::Places: break;  // see PlaceOutput
         }
     }
     return words;

@@ -17,6 +17,7 @@ enum class OutputUse : std::uint8_t {
     SpindleReverse,  // M4 on, M3 and M5 off
     Mist,            // M7 on, M9 off
     Flood,           // M8 on, M9 off
+    Places,          // a pulse at each place of M69, by its number
 };
 
 /// The pulses of an analog output: they are longer for greater values.
@@ -32,9 +33,10 @@ struct OutputConfig {
     std::string motor;  // whose device has it
     int channel = 0;    // of the device's digital outputs, or of its analog ones
     OutputUse use = OutputUse::Number;
-    std::int32_t number = 0;       // Number
+    std::int32_t number = 0;       // Number, Places
     std::optional<PwmConfig> pwm;  // empty: a digital output
     bool inverted = false;         // it is on while its pin is low
+    double pulse_us = 0;           // Places: how long each pulse is
     // Whether it keeps its level. Otherwise it goes off, and on again when a program goes on.
     bool stays_at_interruption = true;  // when motion ends before its path does
     bool stays_at_fault = false;        // and after an emergency stop
@@ -42,10 +44,15 @@ struct OutputConfig {
     bool operator==(const OutputConfig&) const = default;
 
     bool is_analog() const { return pwm.has_value(); }
+    bool makes_pulses() const { return use == OutputUse::Places; }
+    /// It is digital, and on or off.
+    bool has_level() const { return !is_analog() && !makes_pulses(); }
     /// Of its channel, in words of the outputs of its kind.
     std::uint16_t bit() const { return static_cast<std::uint16_t>(1U << channel); }
     /// Whether it keeps its level when a job ends before its end.
-    bool stays_after(bool is_failure) const { return stays_at_interruption && (stays_at_fault || !is_failure); }
+    bool stays_after(bool is_failure) const {
+        return !makes_pulses() && stays_at_interruption && (stays_at_fault || !is_failure);
+    }
 };
 
 /// Those of a motor's device.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lockstep {
 namespace {
@@ -23,6 +24,7 @@ bool is_on(const OutputConfig& output, const ProgramDevices& devices) {
         case OutputUse::SpindleReverse: return devices.spindle == ProgramDevices::Spindle::Reverse;
         case OutputUse::Mist: return devices.mist;
         case OutputUse::Flood: return devices.flood;
+        case OutputUse::Places: return false;
     }
     return false;
 }
@@ -32,6 +34,7 @@ double share_of(const OutputConfig& output, const ProgramDevices& devices) {
 }
 
 bool is_active(const OutputConfig& output, const ProgramDevices& devices) {
+    if (output.makes_pulses()) { return devices.pulses.count > 0 && devices.pulses.output == output.number; }
     return output.is_analog() ? share_of(output, devices) > 0 : is_on(output, devices);
 }
 
@@ -47,9 +50,11 @@ bool is_switched_by(const OutputConfig& output, const ProgramEvent& event) {
         case Kind::MistOn: return output.use == OutputUse::Mist;
         case Kind::FloodOn: return output.use == OutputUse::Flood;
         case Kind::OutputOn:
-        case Kind::OutputOff: return is_of_number && !output.is_analog();
+        case Kind::OutputOff: return is_of_number && output.has_level();
         case Kind::AnalogOutput: return is_of_number && output.is_analog();
-        case Kind::Tool: return false;
+        case Kind::Tool:
+        case Kind::PulseSpacing: return false;
+        case Kind::PulsePlaces: return output.makes_pulses();
     }
     return false;
 }
@@ -57,6 +62,20 @@ bool is_switched_by(const OutputConfig& output, const ProgramEvent& event) {
 bool follows_speed(const OutputConfig& output, const ProgramDevices& devices) {
     return output.pwm->follows_speed && output.use == OutputUse::Spindle &&
            devices.spindle == ProgramDevices::Spindle::Reverse;
+}
+
+std::optional<ComparePosition> pulses_of(const OutputConfig& output, const ProgramDevices& devices,
+                                         double steps_per_mm) {
+    const PulseOrder& order = devices.pulses;
+    if (!is_active(output, devices) || order.left == 0 || order.left > order.count) { return std::nullopt; }
+    const double every = std::round(order.spacing_mm * steps_per_mm);
+    const double next = std::round(order.first_mm * steps_per_mm) + every * (order.count - order.left);
+    constexpr double kMostEvery = std::numeric_limits<std::int32_t>::max();
+    constexpr double kMostCount = 0x1p53;
+    const bool is_countable = every != 0 && std::abs(every) <= kMostEvery && std::abs(next) <= kMostCount;
+    if (!is_countable) { return std::nullopt; }
+    return ComparePosition{
+        .next = static_cast<std::int64_t>(next), .every = static_cast<std::int32_t>(every), .pulses = order.left};
 }
 
 std::int64_t analog_value(double share) {

@@ -126,8 +126,9 @@ struct AxisState {
     bool hears_owner = false;                   // it received its owner within silence_slots
     FaultCode unproved = FaultCode::None;       // why it did not know its position at its start; None: it knows it now
     Switches switches;
-    std::uint32_t inputs = 0;   // all closed inputs of its device; input n is bit n
-    std::uint16_t outputs = 0;  // all digital outputs of its device that are on; output n is bit n
+    std::uint32_t inputs = 0;       // all closed inputs of its device; input n is bit n
+    std::uint16_t outputs = 0;      // all digital outputs of its device that are on; output n is bit n
+    std::uint32_t pulses_left = 0;  // of the newest places at its device: so many were not made, so far
     bool operator==(const AxisState&) const = default;
 };
 

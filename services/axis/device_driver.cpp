@@ -267,6 +267,7 @@ DeviceStatus DeviceDriver::read_words() const {
         .encoder_count = signed_word(kEncoder),
         .inputs = static_cast<std::uint32_t>(window_.load(kInputs)),
         .outputs = static_cast<std::uint16_t>(window_.load(kOutputs)),
+        .pulses_left = static_cast<std::uint32_t>(window_.load(kPulsesLeft)),
         .enabled = has(kStatusEnabled),
         .bad_setup = has(kStatusBadSetup),
         .host_silent = has(kStatusHostSilent),

@@ -226,6 +226,7 @@ OutputUse read_use(proto::OutputUse use) {
         case proto::SPINDLE_REVERSE: return OutputUse::SpindleReverse;
         case proto::MIST: return OutputUse::Mist;
         case proto::FLOOD: return OutputUse::Flood;
+        case proto::PLACES: return OutputUse::Places;
         default: return OutputUse::Number;
     }
 }
@@ -255,8 +256,13 @@ OutputConfig read_output(const proto::Output& message, const std::string& place,
     reader.require(message.has_motor(), message.motor(), output.motor, place + ".motor");
     if (!proto::OutputUse_IsValid(message.use())) {
         reader.refuse(place + ".use",
-                      fmt::format("{}.use is {}; it must be NUMBER, SPINDLE, SPINDLE_REVERSE, MIST or FLOOD", place,
-                                  int{message.use()}));
+                      fmt::format("{}.use is {}; it must be NUMBER, SPINDLE, SPINDLE_REVERSE, MIST, FLOOD or PLACES",
+                                  place, int{message.use()}));
+    }
+    if (output.makes_pulses()) {
+        reader.require(message.has_pulse_us(), message.pulse_us(), output.pulse_us, place + ".pulse_us");
+    } else {
+        output.pulse_us = message.pulse_us();
     }
     if (message.has_pwm()) { output.pwm = read_pwm(message.pwm(), place + ".pwm", reader); }
     output.stays_at_interruption = read_level(message.has_at_interruption(), message.at_interruption(),

@@ -87,7 +87,8 @@ void write_plant(const PlantConfig& plant, proto::Plant& message) {
 }
 
 proto::OutputUse use_to_proto(OutputUse use) {
-    constexpr std::array kUses{proto::NUMBER, proto::SPINDLE, proto::SPINDLE_REVERSE, proto::MIST, proto::FLOOD};
+    constexpr std::array kUses{proto::NUMBER, proto::SPINDLE, proto::SPINDLE_REVERSE,
+                               proto::MIST,   proto::FLOOD,   proto::PLACES};
     return kUses[static_cast<std::size_t>(use)];
 }
 
@@ -103,6 +104,7 @@ void write_output(const OutputConfig& output, proto::Output& message) {
     message.set_at_interruption(level_to_proto(output.stays_at_interruption));
     message.set_at_fault(level_to_proto(output.stays_at_fault));
     message.set_at_silence(level_to_proto(output.stays_at_silence));
+    if (output.makes_pulses()) { message.set_pulse_us(output.pulse_us); }
     if (!output.pwm) { return; }
     message.mutable_pwm()->set_hz(output.pwm->hz);
     message.mutable_pwm()->set_full_scale(output.pwm->full_scale);

@@ -9,6 +9,7 @@
 
 #include "core/axis_unit.hpp"
 #include "core/coordinator/path/coordination.hpp"
+#include "core/kinematics/kinematics.hpp"
 #include "services/documents/program_document.hpp"
 #include "services/files/text_file.hpp"
 
@@ -52,6 +53,22 @@ double chord_tolerance(const MachineConfig& machine) {
     return 0.5 / finest;
 }
 
+std::vector<GcodePulses> pulses_of_programs(const MachineConfig& machine) {
+    std::vector<GcodePulses> pulses;
+    for (const OutputConfig& output : machine.outputs) {
+        const auto motor = output.makes_pulses() ? motor_named(machine, output.motor) : std::nullopt;
+        if (!motor) { continue; }
+        const Kinematics kinematics(machine);
+        const std::size_t axis = kinematics.motors()[*motor].axis;
+        const double pulse_s = output.pulse_us * 1e-6 + 1 / machine.ticks_per_second();
+        pulses.push_back({.number = output.number,
+                          .axis = axis,
+                          .steps_per_mm = 1 / kinematics.axis_mm(axis, *motor),
+                          .least_spacing_mm = pulse_s * machine.axes[axis].max_velocity_mm_s});
+    }
+    return pulses;
+}
+
 }  // namespace
 
 bool is_long_program(const std::filesystem::path& path) {
@@ -73,6 +90,7 @@ GcodeSetup gcode_setup(const MachineConfig& machine, const std::vector<double>& 
     setup.unassigned = machine.unassigned;
     setup.assigned = assigned_words(machine.outputs);
     setup.inputs = machine.inputs;
+    setup.pulses = pulses_of_programs(machine);
     setup.chord_tolerance_mm = chord_tolerance(machine);
     setup.curves_as_chords = coordination_of(machine).moves_straight;
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {

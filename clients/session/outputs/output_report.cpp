@@ -29,7 +29,7 @@ std::string digital_text(const proto::OutputStatus& output) {
 void ask(const OutputConfig& config, const ProgramDevices& asked, proto::OutputStatus& output) {
     if (config.is_analog()) {
         output.set_program_percent(share_of(config, asked) * 100);
-    } else {
+    } else if (config.has_level()) {
         output.set_program_on(is_on(config, asked));
     }
 }
@@ -44,7 +44,7 @@ void add_outputs(const MachineConfig& machine, const OutputsOn& on_of, const Pro
         output.set_motor(config.motor);
         if (asked != nullptr) { ask(config, *asked, output); }
         const auto motor = motor_named(machine, config.motor);
-        const auto on = motor && !config.is_analog() ? on_of(*motor) : std::nullopt;
+        const auto on = motor && config.has_level() ? on_of(*motor) : std::nullopt;
         if (on) { output.set_on((*on >> config.channel & 1) != 0); }
     }
 }

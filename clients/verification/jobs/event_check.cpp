@@ -209,9 +209,12 @@ void EventCheck::check_switched_off(JobOutcome outcome) {
     }
     for (const OutputConfig& output : outputs_) {
         const bool stays = output.stays_after(outcome == JobOutcome::Failed);
-        if (stays || output.use != OutputUse::Number) { continue; }
-        const Kind kind = output.is_analog() ? Kind::AnalogOutput : Kind::OutputOff;
-        if (!check_off(kind, output.number, is_active(output, devices_))) { return; }
+        if (stays || (output.use != OutputUse::Number && !output.makes_pulses())) { continue; }
+        const Kind kind = output.makes_pulses() ? Kind::PulsePlaces
+                          : output.is_analog()  ? Kind::AnalogOutput
+                                                : Kind::OutputOff;
+        const std::int32_t index = output.makes_pulses() ? 0 : output.number;
+        if (!check_off(kind, index, is_active(output, devices_))) { return; }
     }
     if (const program_event_t* more = next()) {
         (void)differ("the job's end switched more off than was on: " + text_of(*more), 0, {}, Tick{more->tick});

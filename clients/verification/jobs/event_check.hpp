@@ -29,7 +29,8 @@ public:
     /// Drops the events so far: their jobs began before the log.
     void forget_all() { waiting_.clear(); }
     /// The log begins later than the record, so the state of the devices is not known.
-    void begins_late() { knows_devices_ = false; }
+    void begins_late() { lose_devices(); }
+    void lose_devices() { knows_devices_ = false; }
 
     /// A job begins. `program`: null if it has no events.
     void begin(std::int64_t coordinator, std::int64_t job, const std::string& label,
@@ -52,6 +53,8 @@ public:
     /// As the events so far have left them, if they are known.
     const ProgramDevices& devices() const { return devices_; }
     bool knows_devices() const { return knows_devices_; }
+    /// The machine rests, and so many pulses of the newest places were not made.
+    void note_pulses(std::uint32_t left) { devices_.pulses.left = left; }
     /// Call once, at the end of a log that continues after the last motion.
     void finish();
 

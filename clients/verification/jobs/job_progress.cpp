@@ -7,6 +7,8 @@
 
 #include "clients/verification/jobs/record_text.hpp"
 #include "core/kinematics/motors.hpp"
+#include "core/outputs/output_levels.hpp"
+#include "core/protocol/names.hpp"
 #include "services/documents/machine_file.hpp"
 
 namespace lockstep::verification {
@@ -160,9 +162,16 @@ void JobProgress::begin_epoch(const RecordedJob& record) {
     }
     const MotorPositions at = start->at;
     const MachineConfig& machine = job_->replay->machine();
-    epoch_.emplace(
-        machine, EpochReplay(machine, epoch, std::move(*start), overrides, {record.start_tick}, events_.devices()), at);
+    ProgramDevices devices = events_.devices();
+    const bool is_aside = record.kind == name_of(JobKind::Jog) || record.kind == name_of(JobKind::Return);
+    if (is_aside) { devices.pulses = {}; }
+    epoch_.emplace(machine, EpochReplay(machine, epoch, std::move(*start), overrides, {record.start_tick}, devices),
+                   at);
     knows_outputs_ = events_.knows_devices();
+    pulses_.clear();
+    for (const OutputConfig& output : machine.outputs) {
+        if (output.makes_pulses()) { pulses_.try_emplace(output.motor); }
+    }
     labels_.emplace_back(epoch, job_->label);
     if (labels_.size() > kLabelsKept) { labels_.pop_front(); }
 }
@@ -244,9 +253,16 @@ void JobProgress::note_outputs(const AxisRun& of, std::size_t axis) {
                                  .ticks = run.tail ? total_ticks(frame->axes[axis].tail) : frame->ticks,
                                  .is_retimed = !run.commanded_ticks.empty(),
                                  .clock_error = run.clock_error,
-                                 .commanded = commanded(run, run.start)};
+                                 .commanded = commanded(run, run.start),
+                                 .pulses = {}};
     const auto take = [&](const auto& changes) { planned.changes.assign(changes.begin(), changes.end()); };
     run.tail ? take(track->tail) : take(track->body);
+    if (const auto pulses = pulses_.find(of.axis); pulses != pulses_.end()) {
+        if (of.is_behind_gap) { pulses->second.lose(); }
+        std::vector<OutputChange> made = planned.changes;
+        for (OutputChange& change : made) { change.at = planned.tick_of(change) - planned.begin; }
+        planned.pulses = pulses->second.events_of({run, std::move(made), run.tail || frame->last});
+    }
     on_outputs_(of.axis, std::move(planned));
 }
 
@@ -288,6 +304,16 @@ void JobProgress::check_epoch(bool lacks_events) {
     if (job_->is_in_pause) { return; }
     events_.check_motion(epoch_->replay().take_events(end.ran), lacks_events);
     events_.check_rest(lacks_events ? 0 : rests_before, job_->replay->moves_from());
+    if (end.ran > 0) { note_pulses(); }
+}
+
+/// How many are left decides what the next epoch begins with.
+void JobProgress::note_pulses() {
+    for (const OutputConfig& output : job_->replay->machine().outputs) {
+        if (!output.makes_pulses() || !is_active(output, events_.devices())) { continue; }
+        const auto& left = pulses_.at(output.motor).left();
+        left ? events_.note_pulses(*left) : events_.lose_devices();
+    }
 }
 
 void JobProgress::break_off(const Shortfall& shortfall) {

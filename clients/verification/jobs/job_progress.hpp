@@ -21,6 +21,7 @@
 #include "clients/verification/jobs/record_order.hpp"
 #include "clients/verification/steps/left_steps.hpp"
 #include "clients/verification/steps/output_check.hpp"
+#include "clients/verification/steps/pulse_check.hpp"
 #include "services/record/reading/program_parts.hpp"
 #include "services/record/reading/run.hpp"
 
@@ -95,6 +96,7 @@ private:
     void lose_epoch();
     void leave_job_plan(Epoch epoch);
     void check_epoch(bool lacks_events);
+    void note_pulses();
     void break_off(const Shortfall& shortfall);
     bool suspect(const Shortfall& shortfall);
     bool is_of_job(const RecordedJob& record) const;
@@ -109,7 +111,8 @@ private:
     std::optional<Job> job_;
     std::optional<Job> paused_;  // the job in whose pause job_ takes place
     std::optional<EpochCheck> epoch_;
-    bool knows_outputs_ = false;  // in the epoch
+    bool knows_outputs_ = false;                // in the epoch
+    std::map<std::string, PulseCheck> pulses_;  // in the epoch, of motors whose devices make pulses at places
     OnOutputs on_outputs_;
     std::deque<Epoch> lost_epochs_;                       // the newest whose plan is not known
     std::deque<std::pair<Epoch, std::string>> labels_;    // of the newest epochs

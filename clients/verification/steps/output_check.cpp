@@ -11,13 +11,20 @@ namespace {
 
 std::string text_of(const ChannelEvent& event) {
     if (event.kind == ChannelEvent::Kind::Digital) { return fmt::format("digital outputs {:#06b}", event.levels); }
+    if (event.kind == ChannelEvent::Kind::CompareBegins) {
+        return fmt::format("{} pulses at places begin at count {}", event.detail, event.value);
+    }
+    if (event.kind == ChannelEvent::Kind::CompareEnds) {
+        return fmt::format("the pulses at places end at count {}, {} of them not made", event.value, event.detail);
+    }
     const double scale = static_cast<double>(kFullScale);
     return fmt::format("analog output {} at {:.6f} with slope {:.3e}", event.channel,
                        static_cast<double>(event.value) / scale, static_cast<double>(event.detail) / scale);
 }
 
-bool is_of_output(const ChannelEvent& event) {
-    return event.kind == ChannelEvent::Kind::Digital || event.kind == ChannelEvent::Kind::Analog;
+bool is_of_output(const ChannelEvent& event) { return event.kind != ChannelEvent::Kind::Input; }
+bool is_of_pulses(const ChannelEvent& event) {
+    return event.kind == ChannelEvent::Kind::CompareBegins || event.kind == ChannelEvent::Kind::CompareEnds;
 }
 
 }  // namespace
@@ -62,16 +69,18 @@ void OutputCheck::compare_passed() {
     }
 }
 
+Tick OutputCheck::Planned::tick_of(const OutputChange& change) const {
+    if (!is_retimed) { return begin + change.at; }
+    const double rate = static_cast<double>((end - begin).value) / static_cast<double>(ticks.value);
+    return begin + Ticks{std::llround(rate * static_cast<double>(change.at.value))};
+}
+
 /// An event is expected only where a change has an effect: digital outputs that keep their levels make none.
 std::vector<OutputCheck::Expected> OutputCheck::expected_of(const Planned& planned) const {
     std::vector<Expected> expected;
-    const double rate =
-        static_cast<double>((planned.end - planned.begin).value) / static_cast<double>(planned.ticks.value);
     std::uint16_t levels = levels_.value_or(0);
     for (const OutputChange& change : planned.changes) {
-        const Ticks at =
-            planned.is_retimed ? Ticks{std::llround(rate * static_cast<double>(change.at.value))} : change.at;
-        const Tick tick = planned.begin + at;
+        const Tick tick = planned.tick_of(change);
         if (const auto* digital = std::get_if<SetDigital>(&change.what)) {
             const auto next = static_cast<std::uint16_t>((levels & ~digital->mask) | (digital->levels & digital->mask));
             if (std::exchange(levels, next) == next) { continue; }
@@ -113,7 +122,7 @@ void OutputCheck::compare(const Planned& planned) {
                               return std::holds_alternative<SetDigital>(change.what);
                           });
     const bool is_of_process = seen_.empty() || seen_.front().incarnation == planned.incarnation;
-    if (!is_of_process) { return; }
+    if (!is_of_process || !compare_pulses(planned)) { return; }
     for (const Expected& expected : expected_of(planned)) {
         const bool has_one = !seen_.empty() && seen_.front().event.tick <= planned.end;
         if (!has_one && !is_known && expected.event.kind == ChannelEvent::Kind::Digital) { continue; }
@@ -135,6 +144,36 @@ void OutputCheck::compare(const Planned& planned) {
         differ(planned, text_of(seen_.front().event) + ", which its frame does not ask for", {},
                seen_.front().event.tick);
     }
+}
+
+/// Takes the events of pulses out of those seen. Returns false if they are not as planned. A device with a clock of its
+/// own was told the places about when the plan says.
+bool OutputCheck::compare_pulses(const Planned& planned) {
+    std::vector<ChannelEvent> seen;
+    std::erase_if(seen_, [&](const Seen& one) {
+        const bool is_over = is_of_pulses(one.event) && one.event.tick <= planned.end;
+        if (is_over && one.event.tick > planned.begin) { seen.push_back(one.event); }
+        return is_over;
+    });
+    const auto& expected = planned.pulses;
+    if (!expected) { return true; }
+    for (std::size_t k = 0; k < std::max(seen.size(), expected->size()); ++k) {
+        const auto tick = [k](const auto& list) {
+            return k < list.size() ? std::optional(list[k].tick) : std::nullopt;
+        };
+        const auto text = [k](const auto& list) { return k < list.size() ? text_of(list[k]) : "nothing more"; };
+        const Ticks within = planned.is_retimed ? planned.clock_error + Ticks{2} : Ticks{};
+        const bool is_same = k < seen.size() && k < expected->size() && seen[k].kind == (*expected)[k].kind &&
+                             seen[k].detail == (*expected)[k].detail &&
+                             length_of(seen[k].tick - (*expected)[k].tick) <= within;
+        if (!is_same) {
+            differ(planned, text(seen) + "; the steps and the plan give: " + text(*expected), tick(*expected),
+                   tick(seen));
+            return false;
+        }
+        ++findings_.outputs;
+    }
+    return true;
 }
 
 void OutputCheck::differ(const Planned& planned, const std::string& text, std::optional<Tick> expected,

@@ -1,6 +1,6 @@
 // Compares the recorded changes of a device's outputs with those of the frames that it ran. Each must be at its tick,
-// with its level, or its value and slope, and there must be no other while a frame runs. Changes at rest are not
-// compared.
+// with its level, or its value and slope, and there must be no other while a frame runs. Pulses at places must be those
+// that the steps make. Changes at rest are not compared.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,10 @@ public:
         Ticks ticks;                        // of the plan
         bool is_retimed = false;            // the device has a clock of its own
         Ticks clock_error;
-        std::string commanded;  // the job and its frame
+        /// When the device made a change.
+        Tick tick_of(const OutputChange& change) const;
+        std::string commanded;                            // the job and its frame
+        std::optional<std::vector<ChannelEvent>> pulses;  // as its steps make them; nullopt: not known
     };
     void take(Planned planned);
 
@@ -60,6 +63,7 @@ private:
     void compare(const Planned& planned);
     void differ(const Planned& planned, const std::string& text, std::optional<Tick> expected,
                 std::optional<Tick> seen);
+    bool compare_pulses(const Planned& planned);
     bool is_same(const Expected& expected, const ChannelEvent& seen, const Planned& planned) const;
     void lose();
 

@@ -11,7 +11,7 @@ using nlohmann::json;
 
 /// null: no device reports it.
 json pin_json(const OutputConfig& output, const AxisState* state) {
-    if (output.is_analog() || state == nullptr) { return {}; }
+    if (!output.has_level() || state == nullptr) { return {}; }
     return (state->outputs >> output.channel & 1) != 0;
 }
 

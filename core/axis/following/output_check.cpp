@@ -21,7 +21,7 @@ bool is_in_order(const auto& changes, Ticks length) {
 
 OutputCheck::OutputCheck(std::size_t motor, const MachineConfig& machine) : room_(output_room(machine.timing)) {
     for (const OutputConfig& output : outputs_of(machine.outputs, motor_name(machine, motor))) {
-        (output.is_analog() ? analog_ : digital_) |= output.bit();
+        (output.is_analog() ? analog_ : output.makes_pulses() ? pulses_ : digital_) |= output.bit();
     }
 }
 
@@ -29,10 +29,12 @@ bool OutputCheck::is_possible(const OutputChange& change) const {
     if (const auto* digital = std::get_if<SetDigital>(&change.what)) {
         return (digital->mask & ~digital_) == 0 && (digital->levels & ~digital->mask) == 0;
     }
+    if (const auto* compare = std::get_if<ComparePosition>(&change.what)) {
+        return pulses_ != 0 && (compare->pulses == 0 || compare->every != 0);
+    }
     const auto* analog = std::get_if<RampAnalog>(&change.what);
-    if (analog == nullptr) { return false; }
-    return (analog_ >> analog->channel & 1) != 0 && analog->value >= 0 && analog->value <= kFullScale &&
-           analog->slope >= -kFullScale && analog->slope <= kFullScale;
+    return analog != nullptr && (analog_ >> analog->channel & 1) != 0 && analog->value >= 0 &&
+           analog->value <= kFullScale && analog->slope >= -kFullScale && analog->slope <= kFullScale;
 }
 
 FaultCode OutputCheck::check(const OutputTrack& track, Ticks body, Ticks tail) const {

@@ -24,6 +24,7 @@ private:
 
     std::uint16_t digital_ = 0;  // output n is bit n
     std::uint16_t analog_ = 0;
+    std::uint16_t pulses_ = 0;
     OutputRoom room_;
 };
 

@@ -50,7 +50,18 @@ struct AxisLoop {
         AxisTrack track = frame.track;
         track.from = condition.position.in_device(track.from);
         out.orders.emplace_back(device::LoadFrame{frame.number, frame.start, frame.last, track});
-        if (!frame.outputs.empty()) { out.orders.emplace_back(device::LoadOutputs{frame.number, frame.outputs}); }
+        if (frame.outputs.empty()) { return; }
+        OutputTrack outputs = frame.outputs;
+        for (OutputChange& change : outputs.body) { count_by_device(change); }
+        for (OutputChange& change : outputs.tail) { count_by_device(change); }
+        out.orders.emplace_back(device::LoadOutputs{frame.number, outputs});
+    }
+
+private:
+    void count_by_device(OutputChange& change) const {
+        if (auto* places = std::get_if<ComparePosition>(&change.what)) {
+            places->next += condition.position.zero_count();
+        }
     }
 };
 

@@ -23,6 +23,7 @@ std::optional<device::ChangeOutputs> RestOutputs::change(const Axis& axis) {
     for (const OutputConfig& output : outputs_) {
         const bool off = is_off(output, axis);
         if (!is_known && !off) { continue; }
+        if (output.makes_pulses()) { continue; }  // only while it follows frames
         if (!output.is_analog()) {
             wanted.digital.mask |= output.bit();
             if (!off && is_on(output, owner_->devices)) { wanted.digital.levels |= output.bit(); }

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "core/coordinator/path/program_frames.hpp"
+#include "core/kinematics/motors.hpp"
+#include "core/outputs/output_levels.hpp"
 
 namespace lockstep {
 namespace {
@@ -103,7 +105,19 @@ void PathRunner::begin_epoch(PathTask& task, const PathPlace& place, MotorPositi
         at.append(Position::steps(loop.axes.state(i)->position.count()));
     }
     task.has_moved = true;
-    runner_.begin(next_epoch(loop), place, at, overrides_, {events_.devices(), events_.from()});
+    SwitchedBy switched{events_.devices(), events_.from()};
+    const bool is_aside = task.job.kind == JobKind::Jog || task.job.kind == JobKind::Return;
+    if (is_aside) { switched.devices.pulses = {}; }
+    runner_.begin(next_epoch(loop), place, at, overrides_, switched);
+}
+
+/// The devices know how many pulses they made before they came to rest.
+void PathRunner::note_pulses(const LoopView& loop) {
+    for (const OutputConfig& output : loop.machine.outputs) {
+        if (!output.makes_pulses() || !is_active(output, events_.devices())) { continue; }
+        const auto motor = motor_named(loop.machine, output.motor);
+        if (motor && loop.axes.state(*motor)) { events_.note_pulses(loop.axes.state(*motor)->pulses_left); }
+    }
 }
 
 void PathRunner::note_start(const PathTask& task, const LoopView& loop, CoordinatorOutputs& out) {
@@ -150,6 +164,7 @@ void PathRunner::end_epoch(PathTask& task, const EpochEnd& end, const LoopView& 
         for (const PathEvent& event : runner_.source()->events_before(before)) {
             events_.pass(event, of(task), loop, out);
         }
+        if (end.has_pulses) { note_pulses(loop); }
     }
     task.progress.end_path(subticks(runner_.ticks_of(end.ran)));
 }

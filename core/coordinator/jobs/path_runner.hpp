@@ -75,6 +75,7 @@ private:
     void load_leg(const PathTask& task);
     void note_start(const PathTask& task, const LoopView& loop, CoordinatorOutputs& out);
     ProgramEvents::Of of(const PathTask& task) const { return {task.job.number, task.has_moved ? runner_.epoch() : 0}; }
+    void note_pulses(const LoopView& loop);
     Epoch next_epoch(const LoopView& loop);
     Subticks into_path(Tick now) const;
     double seconds_left(const PathPlace& place) const;

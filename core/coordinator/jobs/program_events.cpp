@@ -14,6 +14,7 @@ ProgramEvent::Kind end_of(const OutputConfig& output) {
         case OutputUse::SpindleReverse: return ProgramEvent::Kind::SpindleStop;
         case OutputUse::Mist:
         case OutputUse::Flood: return ProgramEvent::Kind::CoolantOff;
+        case OutputUse::Places: return ProgramEvent::Kind::PulsePlaces;
     }
     return ProgramEvent::Kind::SpindleStop;
 }
@@ -58,7 +59,7 @@ void ProgramEvents::switch_off_outputs(std::uint64_t job, JobOutcome outcome, co
                                        std::vector<PublishedEvent>& out) {
     for (const OutputConfig& output : loop.machine.outputs) {
         const bool goes_off = !output.stays_after(outcome == JobOutcome::Failed) && is_active(output, devices_);
-        if (goes_off) { end_by(end_of(output), output.number, job, loop, out); }
+        if (goes_off) { end_by(end_of(output), output.makes_pulses() ? 0 : output.number, job, loop, out); }
     }
 }
 

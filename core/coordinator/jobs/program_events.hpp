@@ -1,6 +1,7 @@
 // The program events that have happened. Each is published once, in order. Keeps the state of what they have switched.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "core/coordinator/path/event_queue.hpp"
@@ -30,6 +31,9 @@ public:
                             std::vector<PublishedEvent>& out);
     /// Takes the devices' state from the last owner.
     void inherit(const ProgramDevices& devices) { devices_ = devices; }
+
+    /// The machine rests, and its device has not made so many of the pulses.
+    void note_pulses(std::uint32_t left) { devices_.pulses.left = std::min(left, devices_.pulses.count); }
 
     const ProgramDevices& devices() const { return devices_; }
     /// Events before this block of the program have been published.

@@ -122,10 +122,21 @@ std::expected<void, TakeoverDoubt> check_place(const FrameRest& rest, const Move
     return {};
 }
 
+/// Devices may know places of M69, by words before a block, of which some pulses were made.
+bool may_have_pulses(const MachineState& last, const KnownProgram& program, std::uint32_t before) {
+    if (last.devices.pulses.left > 0) { return true; }
+    for (std::uint32_t k = last.events_from; k < before; ++k) {
+        const Block* const block = program.block(k);
+        const auto* event = block != nullptr ? std::get_if<ProgramEvent>(&block->action) : nullptr;
+        if (event != nullptr && event->kind == ProgramEvent::Kind::PulsePlaces && event->index > 0) { return true; }
+    }
+    return false;
+}
+
 }  // namespace
 
 std::string_view text_of(TakeoverDoubt doubt) {
-    constexpr std::array<std::string_view, 9> kTexts{
+    constexpr std::array<std::string_view, 10> kTexts{
         "a takeover stops the job; with --on-takeover continue it continues the job",
         "the job was held, paused or stopping, or it is not a program",
         "a hold or stop was commanded during the takeover",
@@ -134,7 +145,8 @@ std::string_view text_of(TakeoverDoubt doubt) {
         "an axis is missing, was restarted, is not homed or has a fault",
         "the axes did not all run the same frames",
         "the axes ran frames for which no message of the last owner was received",
-        "an axis is not where its frames end"};
+        "an axis is not where its frames end",
+        "the job makes pulses at places, and only its last owner knew how many are left"};
     return kTexts[static_cast<std::size_t>(doubt)];
 }
 
@@ -167,6 +179,7 @@ std::expected<JobRest, TakeoverDoubt> rest_of_job(const MachineState& last, cons
     if (block >= program.known() || !first || *first < program.first_kept()) {
         return Doubt(TakeoverDoubt::UnknownProgram);
     }
+    if (may_have_pulses(last, program, block)) { return Doubt(TakeoverDoubt::Pulses); }
     const Kinematics kinematics(machine);
     MotorPositions positions;
     for (const AxisView& motor : motors) { positions.append(motor.state->position); }

@@ -105,6 +105,20 @@ void EpochRunner::begin_outputs() {
         if (event.block >= switched_.block) { switched_.devices.apply(event.event); }
     }
     outputs_.begin(switched_.devices);
+    has_pulses_ = switched_.devices.pulses.left > 0;
+}
+
+/// Returns whether pulses are on their way if the machine rests after the frame that is being made.
+bool EpochRunner::note_pulses() {
+    const auto apply = [](std::span<const FrameEvent> events, bool before) {
+        for (const FrameEvent& due : events) {
+            const ProgramEvent& event = due.event.event;
+            if (event.kind == ProgramEvent::Kind::PulsePlaces) { before = event.index > 0; }
+        }
+        return before;
+    };
+    has_pulses_ = apply(source_->events(), has_pulses_);
+    return apply(source_->tail_events(), has_pulses_);
 }
 
 /// Returns null while too little of the program has been read. If that lasts too long, the machine rests after the
@@ -138,8 +152,12 @@ const Frame* EpochRunner::make_frame() {
 
 /// Notes where the tracks of a frame lead and where they rest.
 void EpochRunner::finish(const Frame& frame, const PathFrame& path) {
-    Made& made = made_.push_back(
-        {.end = made_ticks_, .places = path.places, .rest = path.rest, .positions = {}, .complete = path.last});
+    Made& made = made_.push_back({.end = made_ticks_,
+                                  .places = path.places,
+                                  .rest = path.rest,
+                                  .positions = {},
+                                  .complete = path.last,
+                                  .has_pulses = note_pulses()});
     for (std::size_t i = 0; i < at_.size(); ++i) {
         const AxisTrack& track = frame.axes[i];
         for (const Piece& piece : track.body) { at_[i] = at_[i] + piece.covered(); }
@@ -223,7 +241,12 @@ std::optional<EpochEnd> EpochRunner::evaluate(Slot now, std::span<const AxisView
     if (!ran || *ran > sent_ || *ran < oldest()) { end.kind = EpochEnd::Kind::FramesDiffer; }
     if (end.kind == EpochEnd::Kind::FramesDiffer) { return end; }
     const Made& last = made_frame(*ran);
-    end = {last.complete ? EpochEnd::Kind::Complete : EpochEnd::Kind::Interrupted, 0, *ran, last.rest, last.positions};
+    end = {last.complete ? EpochEnd::Kind::Complete : EpochEnd::Kind::Interrupted,
+           0,
+           *ran,
+           last.rest,
+           last.positions,
+           last.has_pulses};
     for (std::size_t i = 0; i < axes.size(); ++i) {
         if (axes[i].present(now, timing_) && axes[i].state->position != last.positions[i] && *ran > 0) {
             end.kind = EpochEnd::Kind::Misplaced;

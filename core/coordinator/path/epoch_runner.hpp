@@ -33,6 +33,7 @@ struct EpochEnd {
     FrameNumber ran = 0;
     PathPlace place;           // on the program
     MotorPositions positions;  // the exact ones
+    bool has_pulses = false;   // devices were told the places of the newest M69
 };
 
 /// The state of spindle, coolant and outputs by the events before a block of the program.
@@ -128,6 +129,7 @@ private:
         PathPlace rest;                    // where the machine rests if it is the last one run
         MotorPositions positions;
         bool complete = false;
+        bool has_pulses = false;  // if the machine rests after it
     };
     static constexpr std::size_t kMadeKept = kMaxRests;
 
@@ -138,6 +140,7 @@ private:
     void make_frames(Slot now);
     const Frame* make_frame();
     void begin_outputs();
+    bool note_pulses();
     void finish(const Frame& frame, const PathFrame& path);
     void try_overrides();
     const Made& made_frame(FrameNumber number) const { return made_[number - oldest()]; }
@@ -148,6 +151,7 @@ private:
     OwnedSource source_;
     SwitchedBy switched_;  // when the epoch began
     OutputPlanner outputs_;
+    bool has_pulses_ = false;  // the frames made so far say at which places
     Epoch epoch_ = 0;
     Begin begin_;
     std::optional<Tick> start_;

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/kinematics/motors.hpp"
+#include "core/kinematics/kinematics.hpp"
 #include "core/outputs/output_levels.hpp"
 
 namespace lockstep {
@@ -137,10 +137,14 @@ private:
 };
 
 OutputPlanner::OutputPlanner(const MachineConfig& machine) : room_(output_room(machine.timing)) {
-    const std::vector<std::string> names = motor_names(machine);
-    for (std::size_t m = 0; m < names.size(); ++m) {
-        Motor motor{
-            .number = static_cast<std::uint32_t>(m), .outputs = outputs_of(machine.outputs, names[m]), .ramps = {}};
+    if (machine.outputs.empty()) { return; }
+    const Kinematics kinematics(machine);
+    for (std::size_t m = 0; m < kinematics.motors().size(); ++m) {
+        const MotorConfig& config = kinematics.motors()[m];
+        Motor motor{.number = static_cast<std::uint32_t>(m),
+                    .steps_per_mm = config.moves_one_axis ? 1 / kinematics.axis_mm(config.axis, m) : 0,
+                    .outputs = outputs_of(machine.outputs, config.name),
+                    .ramps = {}};
         motor.ramps.resize(motor.outputs.size());
         if (!motor.outputs.empty()) { motors_.push_back(std::move(motor)); }
     }
@@ -190,9 +194,9 @@ void OutputPlanner::plan_part(const Part& part, Motor& motor, std::size_t room, 
         ramps = motor.ramps;
         list_digital(part, motor, listed);
         for (std::size_t k = 0; k < motor.outputs.size(); ++k) {
-            if (!motor.outputs[k].is_analog()) { continue; }
-            AnalogChanges analog(part, motor.outputs[k], ramps[k], listed);
-            analog.list(tolerance);
+            const OutputConfig& output = motor.outputs[k];
+            if (output.makes_pulses()) { list_pulses(part, motor, output, listed); }
+            if (output.is_analog()) { AnalogChanges(part, output, ramps[k], listed).list(tolerance); }
         }
         if (listed.size() <= room) { break; }
     }
@@ -206,11 +210,11 @@ void OutputPlanner::plan_part(const Part& part, Motor& motor, std::size_t room, 
 
 void OutputPlanner::list_digital(const Part& part, const Motor& motor, std::vector<OutputChange>& changes) const {
     std::uint16_t all = 0;
-    for (const OutputConfig& output : motor.outputs) { all |= output.is_analog() ? std::uint16_t{0} : output.bit(); }
+    for (const OutputConfig& output : motor.outputs) { all |= output.has_level() ? output.bit() : std::uint16_t{0}; }
     const auto levels_of = [&](const ProgramDevices& devices) {
         std::uint16_t levels = 0;
         for (const OutputConfig& output : motor.outputs) {
-            if (!output.is_analog() && is_on(output, devices)) { levels |= output.bit(); }
+            if (output.has_level() && is_on(output, devices)) { levels |= output.bit(); }
         }
         return levels;
     };
@@ -227,6 +231,27 @@ void OutputPlanner::list_digital(const Part& part, const Motor& motor, std::vect
         levels = next;
         is_stated = true;
     });
+}
+
+/// A word that gives the same places again begins them again.
+void OutputPlanner::list_pulses(const Part& part, const Motor& motor, const OutputConfig& output,
+                                std::vector<OutputChange>& changes) const {
+    ProgramDevices now = part.devices;
+    bool is_due = part.states_all && is_active(output, now);
+    Ticks at{1};
+    const auto list = [&] {
+        if (is_due) { changes.push_back({at, pulses_of(output, now, motor.steps_per_mm).value_or(ComparePosition{})}); }
+        is_due = false;
+    };
+    for (const FrameEvent& event : part.events) {
+        if (Part::tick_of(event) > at) { list(); }
+        at = Part::tick_of(event);
+        const bool was_active = is_active(output, now);
+        now.apply(event.event.event);
+        is_due = is_due || was_active != is_active(output, now) ||
+                 (is_active(output, now) && is_switched_by(output, event.event.event));
+    }
+    list();
 }
 
 }  // namespace lockstep

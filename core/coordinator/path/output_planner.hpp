@@ -43,6 +43,7 @@ private:
     };
     struct Motor {
         std::uint32_t number = 0;
+        double steps_per_mm = 0;  // along its axis, signed
         std::vector<OutputConfig> outputs;
         std::vector<Ramp> ramps;  // one for each of `outputs`
     };
@@ -52,6 +53,8 @@ private:
     template <typename Changes>
     void plan_part(const Part& part, Motor& motor, std::size_t room, Changes& changes) const;
     void list_digital(const Part& part, const Motor& motor, std::vector<OutputChange>& changes) const;
+    void list_pulses(const Part& part, const Motor& motor, const OutputConfig& output,
+                     std::vector<OutputChange>& changes) const;
 
     std::vector<Motor> motors_;
     OutputRoom room_;

@@ -44,7 +44,7 @@ public:
         return most;
     }
     /// The most changes in a body or tail that are not at events: an epoch's first frame states all levels, an output
-    /// that follows the speed may change its slope at the begin, and is off at rest.
+    /// that follows the speed may change its slope at the begin, and is off at rest. Pulses begin again with an epoch.
     std::size_t besides() const {
         std::size_t most = 0;
         for (const Motor& motor : motors_) { most = std::max(most, motor.besides()); }
@@ -60,18 +60,20 @@ private:
         std::vector<Output> outputs;
 
         std::size_t changes() const {
-            std::size_t analog = 0;
-            bool has_digital = false;
+            std::size_t others = 0;
+            bool has_level = false;
             for (const Output& output : outputs) {
                 if (!output.is_touched) { continue; }
-                analog += output.config.is_analog() ? 1 : 0;
-                has_digital = has_digital || !output.config.is_analog();
+                others += output.config.has_level() ? 0 : 1;
+                has_level = has_level || output.config.has_level();
             }
-            return analog + (has_digital ? 1 : 0);
+            return others + (has_level ? 1 : 0);
         }
         std::size_t besides() const {
             std::size_t count = 1;
-            for (const Output& output : outputs) { count += output.config.is_analog() ? 2 : 0; }
+            for (const Output& output : outputs) {
+                count += output.config.is_analog() ? 2 : output.config.makes_pulses() ? 1 : 0;
+            }
             return count;
         }
     };

@@ -56,6 +56,7 @@ enum class TakeoverDoubt : std::uint8_t {
     FramesDiffer,      // the axes did not run the same frames
     UnreceivedFrames,  // the axes ran frames for which no message of the owner was received
     Misplaced,         // an axis is not where its frames end
+    Pulses,            // only the owner knew how many pulses of M69 are left
 };
 std::string_view text_of(TakeoverDoubt doubt);
 

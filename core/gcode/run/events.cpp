@@ -82,6 +82,35 @@ Result wait_for_input(const Context& context) {
     return {};
 }
 
+Result pulses_at_places(const Context& context) {
+    const LineWords& block = context.block;
+    const auto index = output_index(context, 'P');
+    if (!index) { return std::unexpected(index.error()); }
+    const bool has_places = block.has('Q') || block.has('R') || block.has('L');
+    if (!has_places) {
+        context.event(EventKind::Pulses, *index);
+        return {};
+    }
+    if (!block.has('Q') || !block.has('R') || !block.has('L')) {
+        return context.refuse(Group::Output,
+                              " needs all of Q, the first place, R, the way from each to the next, and L, "
+                              "how many; without them it ends the pulses");
+    }
+    const int count = whole(block['L']).value_or(0);
+    if (count < 1 || count > kMaxEventIndex) {
+        return context.refuse(
+            'L', " is not a number of places; it must be a whole number from 1 to " + std::to_string(kMaxEventIndex));
+    }
+    if (block['R'] == 0) { return context.refuse('R', " puts all places into one; R must not be 0"); }
+    context.emit(Event{.kind = EventKind::Pulses,
+                       .index = *index,
+                       .value = block['Q'],
+                       .text = {},
+                       .mode = count,
+                       .spacing = block['R']});
+    return {};
+}
+
 }  // namespace
 
 std::string message_text(const Context& context, std::string_view text) {
@@ -134,6 +163,7 @@ Result outputs(Context& context) {
     if (code == LineWords::kNoCode) { return {}; }
     if (auto checked = context.refuse_compensated(Group::Output); !checked) { return checked; }
     if (code == 660) { return wait_for_input(context); }
+    if (code == 690) { return pulses_at_places(context); }
     if (code == 670 || code == 680) { return analog_output(context); }
     const auto index = output_index(context, 'P');
     if (!index) { return std::unexpected(index.error()); }

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t kMostOutputs = 64;
 constexpr double kMostFullScale = 1e6;
+constexpr double kMostPulse_us = 1e6;
 constexpr double kLeastPwmTicks = 4;
 constexpr double kMostSilence_ms = 3'600'000;
 
@@ -28,6 +29,9 @@ public:
         check_channel(output, at);
         check_use(output, at);
         if (output.pwm) { check_pwm(*output.pwm, output.use, at + "pwm."); }
+        if (output.makes_pulses()) { check_pulses(output, at); }
+        problems_.require(output.makes_pulses() || output.pulse_us == 0, at + "pulse_us",
+                          fmt::format("output {} is on or off; remove pulse_us, or use PLACES", output.name));
     }
     void check_silence() {
         const ProtocolTiming& timing = machine_.timing;
@@ -73,7 +77,7 @@ private:
                           fmt::format("output {} has pwm, and its pulses cannot be inverted; remove inverted, and "
                                       "invert them where they are used",
                                       output.name));
-        const bool has_number = output.use == OutputUse::Number;
+        const bool has_number = output.use == OutputUse::Number || output.makes_pulses();
         const std::int32_t most = output.is_analog() ? kMostAnalogNumbers : kMostDigitalNumbers;
         if (has_number) { problems_.require_range(at + "number", output.number, 0, most - 1); }
         const auto word = std::tuple(output.use, output.is_analog(), has_number ? output.number : 0);
@@ -91,8 +95,23 @@ private:
                           "follows_speed needs use: SPINDLE, because M4 begins it");
     }
 
+    void check_pulses(const OutputConfig& output, const std::string& at) {
+        const double tick_us = static_cast<double>(machine_.tick_ns) / 1000;
+        problems_.require_range(at + "pulse_us", output.pulse_us, tick_us, kMostPulse_us);
+        problems_.require(counters_.insert(output.motor).second, at + "use",
+                          fmt::format("the device of motor {} can make pulses at places of one output; use another "
+                                      "motor's device for {}",
+                                      output.motor, output.name));
+        const auto motor = motor_named(machine_, output.motor);
+        problems_.require(!motor || motors_of(machine_)[*motor].moves_one_axis, at + "motor",
+                          fmt::format("output {} makes pulses at places of an axis, and motor {} moves several; use a "
+                                      "motor that moves one axis alone",
+                                      output.name, output.motor));
+    }
+
     const MachineConfig& machine_;
     ProblemList problems_;
+    std::set<std::string> counters_;  // motors whose devices make pulses at places
     std::vector<std::string> names_;
     std::set<std::tuple<std::string, bool, int>> channels_;
     std::set<std::tuple<OutputUse, bool, std::int32_t>> words_;

@@ -16,8 +16,8 @@ namespace {
 std::int64_t bits(std::uint64_t value) { return static_cast<std::int64_t>(value); }
 
 constexpr std::array<std::string_view, ProgramEvent::kKinds> kEventKinds{
-    "spindle-stop", "spindle-forward", "spindle-reverse", "spindle-speed", "coolant-off", "mist-on",
-    "flood-on",     "output-on",       "output-off",      "analog-output", "tool"};
+    "spindle-stop", "spindle-forward", "spindle-reverse", "spindle-speed", "coolant-off",   "mist-on",     "flood-on",
+    "output-on",    "output-off",      "analog-output",   "tool",          "pulse-spacing", "pulse-places"};
 
 constexpr std::array<std::string_view, 5> kChannelKinds{"input", "digital", "analog", "compare-begins", "compare-ends"};
 

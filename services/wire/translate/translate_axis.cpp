@@ -54,7 +54,8 @@ lockstep_wire_AxisState to_wire(const AxisState& state) {
             .unproved = static_cast<std::uint16_t>(state.unproved),
             .switches = to_bits(state.switches),
             .inputs = state.inputs,
-            .outputs = state.outputs};
+            .outputs = state.outputs,
+            .pulses_left = state.pulses_left};
 }
 
 FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
@@ -96,7 +97,8 @@ FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
                                   .limit_max = (wire.switches & kLimitMaxBit) != 0,
                                   .home = (wire.switches & kHomeBit) != 0},
                      .inputs = wire.inputs,
-                     .outputs = wire.outputs};
+                     .outputs = wire.outputs,
+                     .pulses_left = wire.pulses_left};
 }
 
 lockstep_wire_AxisCommand to_wire(const AxisCommand& command) {

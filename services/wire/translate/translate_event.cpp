@@ -4,7 +4,7 @@
 
 namespace lockstep {
 
-static_assert(lockstep_wire_EVENT_TOOL == static_cast<int>(ProgramEvent::Kind::Tool));
+static_assert(lockstep_wire_EVENT_PULSE_PLACES == static_cast<int>(ProgramEvent::Kind::PulsePlaces));
 
 lockstep_wire_ProgramEvent to_wire(const PublishedEvent& event) {
     return {.term = event.term.number,
@@ -27,7 +27,7 @@ FromWire<PublishedEvent> from_wire(const lockstep_wire_ProgramEvent& wire) {
     check.far("tick", wire.tick);
     check.within<std::int32_t>("index", wire.index, 0, kMaxEventIndex);
     check.finite("value", wire.value);
-    const auto kind = check.choice("kind", wire.kind, ProgramEvent::Kind::Tool);
+    const auto kind = check.choice("kind", wire.kind, ProgramEvent::Kind::PulsePlaces);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
     return PublishedEvent{.term = {wire.term, wire.coordinator},
                           .sequence = wire.number,

@@ -77,6 +77,18 @@ void analog_to_wire(const ProgramDevices& devices, MachineStateMessage& message)
         ._maximum = size, ._length = size, ._buffer = message.analog_storage.data(), ._release = false};
 }
 
+PulseOrder pulses_from_wire(const lockstep_wire_MachineState& wire, Checks& check) {
+    check.finite("pulse_first_mm", wire.pulse_first_mm);
+    check.finite("pulse_spacing_mm", wire.pulse_spacing_mm);
+    check.within<std::uint32_t>("pulse_count", wire.pulse_count, 0, kMaxEventIndex);
+    check.within<std::uint32_t>("pulses_left", wire.pulses_left, 0, wire.pulse_count);
+    return {.output = wire.pulse_output,
+            .first_mm = wire.pulse_first_mm,
+            .spacing_mm = wire.pulse_spacing_mm,
+            .count = wire.pulse_count,
+            .left = wire.pulses_left};
+}
+
 ProgramDevices devices_from_wire(const lockstep_wire_MachineState& wire, Checks& check) {
     check.finite("spindle_rpm", wire.spindle_rpm);
     return {.spindle = check.choice("spindle", wire.spindle, ProgramDevices::Spindle::Reverse),
@@ -85,7 +97,8 @@ ProgramDevices devices_from_wire(const lockstep_wire_MachineState& wire, Checks&
             .flood = wire.flood,
             .tool = if_positive(wire.tool),
             .outputs = wire.outputs,
-            .analog = analog_from_wire(wire, check)};
+            .analog = analog_from_wire(wire, check),
+            .pulses = pulses_from_wire(wire, check)};
 }
 
 void check_numbers(const lockstep_wire_MachineState& wire, Checks& check) {
@@ -149,6 +162,11 @@ void to_wire(const MachineState& state, MachineStateMessage& message) {
             .tool = state.devices.tool.value_or(0),
             .outputs = state.devices.outputs,
             .analog_outputs = {},
+            .pulse_output = state.devices.pulses.output,
+            .pulse_first_mm = state.devices.pulses.first_mm,
+            .pulse_spacing_mm = state.devices.pulses.spacing_mm,
+            .pulse_count = state.devices.pulses.count,
+            .pulses_left = state.devices.pulses.left,
             .has_devices_after = state.devices_after.has_value(),
             .devices_after = state.devices_after.value_or(0),
             .has_writer = state.lease.has_value(),

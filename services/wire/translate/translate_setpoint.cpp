@@ -79,9 +79,15 @@ private:
         if (const auto* analog = std::get_if<RampAnalog>(&change.what)) {
             return append(analog->channel, analog->value, analog->slope);
         }
-        const auto* digital = std::get_if<SetDigital>(&change.what);
-        check(digital != nullptr, "frames carry levels and ramps");
-        append(lockstep_wire_DIGITAL_OUTPUTS, digital->levels + (std::int64_t{digital->mask} << 16), 0);
+        if (const auto* digital = std::get_if<SetDigital>(&change.what)) {
+            return append(lockstep_wire_DIGITAL_OUTPUTS, digital->levels + (std::int64_t{digital->mask} << 16), 0);
+        }
+        const auto& pulses = std::get<ComparePosition>(change.what);
+        append(lockstep_wire_PULSES_AT_PLACES, pulses.next, slope_of(pulses));
+    }
+    static std::int64_t slope_of(const ComparePosition& pulses) {
+        const auto every = static_cast<std::uint32_t>(pulses.every);
+        return static_cast<std::int64_t>(std::uint64_t{pulses.pulses} << 32 | every);
     }
     void append(std::uint8_t channel, std::int64_t value, std::int64_t slope) {
         storage_.output_channel.push_back(channel);
@@ -91,6 +97,19 @@ private:
 
     SetpointMessage::Storage& storage_;
 };
+
+void check_change(const lockstep_wire_Setpoint& wire, std::size_t at, Checks& check) {
+    const std::uint8_t channel = wire.output_channel._buffer[at];
+    const std::int64_t value = wire.output_value._buffer[at];
+    if (channel == lockstep_wire_PULSES_AT_PLACES) { return check.far("the place of a pulse", value); }
+    const bool is_digital = channel == lockstep_wire_DIGITAL_OUTPUTS;
+    const std::int64_t most = is_digital ? std::int64_t{1} << 32 : kFullScale;
+    check.within<std::size_t>("an output channel", channel, 0,
+                              is_digital ? lockstep_wire_DIGITAL_OUTPUTS : kMostAnalogOutputs - 1);
+    check.within<std::int64_t>("an output value", value, 0, is_digital ? most - 1 : most);
+    check.within<std::int64_t>("an output slope", wire.output_slope._buffer[at], is_digital ? 0 : -kFullScale,
+                               is_digital ? 0 : kFullScale);
+}
 
 /// Checks the counts of outputs, as check_shape does those of pieces.
 void check_outputs(const lockstep_wire_Setpoint& wire, Checks& check) {
@@ -116,21 +135,19 @@ void check_outputs(const lockstep_wire_Setpoint& wire, Checks& check) {
     for (const auto at : elements(wire.output_at)) {
         check.within<std::int64_t>("an output tick", at, 1, kMaxWireTicks);
     }
-    for (std::size_t i = 0; i < changes && check.passed(); ++i) {
-        const bool is_digital = wire.output_channel._buffer[i] == lockstep_wire_DIGITAL_OUTPUTS;
-        const std::int64_t most = is_digital ? std::int64_t{1} << 32 : kFullScale;
-        check.within<std::size_t>("an output channel", wire.output_channel._buffer[i], 0,
-                                  is_digital ? lockstep_wire_DIGITAL_OUTPUTS : kMostAnalogOutputs - 1);
-        check.within<std::int64_t>("an output value", wire.output_value._buffer[i], 0, is_digital ? most - 1 : most);
-        check.within<std::int64_t>("an output slope", wire.output_slope._buffer[i], is_digital ? 0 : -kFullScale,
-                                   is_digital ? 0 : kFullScale);
-    }
+    for (std::size_t i = 0; i < changes && check.passed(); ++i) { check_change(wire, i, check); }
 }
 
 OutputChange read_change(const lockstep_wire_Setpoint& wire, std::size_t at) {
     const Ticks tick{wire.output_at._buffer[at]};
     const std::uint8_t channel = wire.output_channel._buffer[at];
     const std::int64_t value = wire.output_value._buffer[at];
+    if (channel == lockstep_wire_PULSES_AT_PLACES) {
+        const auto slope = static_cast<std::uint64_t>(wire.output_slope._buffer[at]);
+        return {tick, ComparePosition{.next = value,
+                                      .every = static_cast<std::int32_t>(static_cast<std::uint32_t>(slope)),
+                                      .pulses = static_cast<std::uint32_t>(slope >> 32)}};
+    }
     if (channel != lockstep_wire_DIGITAL_OUTPUTS) {
         return {tick, RampAnalog{channel, value, wire.output_slope._buffer[at]}};
     }

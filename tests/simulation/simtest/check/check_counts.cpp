@@ -65,6 +65,7 @@ Violations check_all(const Recording& recording) {
     append(violations, check_jogs(recording));
     append(violations, check_owners(recording));
     if (violations.empty()) { append(violations, check_outputs(recording, followings)); }
+    if (violations.empty()) { append(violations, check_pulses(recording, followings)); }
     return violations;
 }
 

@@ -59,6 +59,9 @@ Violations check_owners(const Recording& recording);
 /// speed was. After a job that ended early, outputs are off that may not stay on.
 Violations check_outputs(const Recording& recording, const Followings& followings);
 
+/// A device makes a pulse at each place of M69 that its steps come to, and no other.
+Violations check_pulses(const Recording& recording, const Followings& followings);
+
 Violations check_all(const Recording& recording);
 
 }  // namespace lockstep::simtest

@@ -1,5 +1,8 @@
 #include "tests/simulation/simtest/draw/draw_outputs.hpp"
 
+#include <cmath>
+
+#include "core/kinematics/kinematics.hpp"
 #include "core/kinematics/motors.hpp"
 #include "tests/simulation/simtest/draw/draw.hpp"
 
@@ -69,6 +72,66 @@ private:
     Draw& draw_;
 };
 
+/// Pulses at places of an axis that a motor moves alone.
+class PulseDrawer {
+public:
+    PulseDrawer(Draw& draw, const MachineConfig& machine) : draw_(draw), motors_(motors_of(machine)) {
+        std::erase_if(motors_, [](const MotorConfig& motor) { return !motor.moves_one_axis; });
+        if (!motors_.empty()) { motor_ = motors_[draw.index(motors_.size())]; }
+    }
+    bool none() const { return motors_.empty(); }
+
+    OutputConfig output() const {
+        return {.name = "camera",
+                .motor = motor_.name,
+                .channel = kDigital + 1,
+                .use = OutputUse::Places,
+                .number = kDigital,
+                .pulse_us = 100};
+    }
+    std::vector<Block> between(const std::vector<Block>& blocks, const AxisConfig& axis, double steps_per_mm) {
+        std::vector<Block> all{{{}, ProgramEvent{.kind = Word::PulsePlaces}}};
+        const double share = draw_.any_of<double>({0.02, 0.1, 0.5});
+        for (const Block& block : blocks) {
+            if (!std::holds_alternative<ProgramEvent>(block.action) && draw_.chance(share)) {
+                add(all, axis, steps_per_mm);
+            }
+            all.push_back(block);
+        }
+        return all;
+    }
+    std::size_t axis() const { return motor_.axis; }
+
+private:
+    void add(std::vector<Block>& blocks, const AxisConfig& axis, double steps_per_mm) {
+        if (draw_.chance(0.1)) { return blocks.push_back({{}, ProgramEvent{.kind = Word::PulsePlaces}}); }
+        const double spacing_mm = (draw_.chance(0.5) ? 1 : -1) * std::round(draw_.magnitude(1, 1000)) / steps_per_mm;
+        const auto count = static_cast<std::int32_t>(draw_.magnitude(1, 300));
+        blocks.push_back({{}, ProgramEvent{Word::PulseSpacing, kDigital, spacing_mm}});
+        blocks.push_back(
+            {{}, ProgramEvent{Word::PulsePlaces, count, draw_.real(axis.position_min_mm, axis.position_max_mm)}});
+    }
+
+    Draw& draw_;
+    std::vector<MotorConfig> motors_;
+    MotorConfig motor_;
+};
+
+void give_pulses(std::uint64_t seed, Scenario& scenario) {
+    Draw draw(seed ^ 0x9015e5a791aceU);
+    PulseDrawer pulses(draw, scenario.machine);
+    if (pulses.none() || draw.chance(0.3)) { return; }
+    scenario.machine.outputs.push_back(pulses.output());
+    const Kinematics kinematics(scenario.machine);
+    const std::size_t motor = motor_named(scenario.machine, pulses.output().motor).value();
+    const double steps_per_mm = 1 / kinematics.axis_mm(pulses.axis(), motor);
+    for (Task& task : scenario.tasks) {
+        std::vector<Block>& blocks = task.program.blocks;
+        const AxisConfig& axis = scenario.machine.axes[pulses.axis()];
+        if (!blocks.empty()) { blocks = pulses.between(blocks, axis, steps_per_mm); }
+    }
+}
+
 }  // namespace
 
 void give_outputs(std::uint64_t seed, Scenario& scenario) {
@@ -79,6 +142,7 @@ void give_outputs(std::uint64_t seed, Scenario& scenario) {
         std::vector<Block>& blocks = task.program.blocks;
         if (!blocks.empty()) { blocks = EventDrawer(draw).between(blocks); }
     }
+    give_pulses(seed, scenario);
 }
 
 }  // namespace lockstep::simtest
