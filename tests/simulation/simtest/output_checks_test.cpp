@@ -106,6 +106,41 @@ TEST_F(OutputChecks, DetectALaserThatDoesNotSlowDownAtTheCorner) {
     EXPECT_TRUE(detected());
 }
 
+/// A camera takes pictures along the first move.
+class PulseChecks : public OutputChecks {
+protected:
+    PulseChecks() : OutputChecks(photographing()) {}
+    static Scenario photographing() {
+        Scenario scenario = engraving();
+        scenario.machine.outputs.push_back(
+            {.name = "camera", .motor = "X", .channel = 1, .use = OutputUse::Places, .number = 1, .pulse_us = 20});
+        auto& blocks = scenario.tasks[0].program.blocks;
+        blocks.insert(blocks.begin(),
+                      {{1, ProgramEvent{Word::PulseSpacing, 1, 0.5}}, {1, ProgramEvent{Word::PulsePlaces, 8, 12}}});
+        return scenario;
+    }
+    bool detected() const { return has(check_pulses(recording, follow_all(recording)), "pulses"); }
+};
+
+TEST_F(PulseChecks, DetectAPulseThatIsNotMade) {
+    EXPECT_FALSE(detected());
+    const auto ends = events(0, ChannelKind::CompareEnds);
+    ASSERT_EQ(ends.size(), 1U);
+    EXPECT_EQ(ends[0]->detail, 0);
+    ends[0]->detail = 1;
+    EXPECT_TRUE(detected());
+}
+
+TEST_F(PulseChecks, DetectPulsesThatNoWordAsksFor) {
+    for (ChannelEvent* event : events(0, ChannelKind::CompareBegins)) { ++event->detail; }
+    EXPECT_TRUE(detected());
+}
+
+TEST_F(PulseChecks, DetectAWordThatIsNotFollowed) {
+    for (const auto kind : {ChannelKind::CompareBegins, ChannelKind::CompareEnds}) { drop(0, events(0, kind)[0]); }
+    EXPECT_TRUE(detected());
+}
+
 class StoppedOutputChecks : public OutputChecks {
 protected:
     StoppedOutputChecks() : OutputChecks(engraving({{.kind = Interrupt::Kind::Stop, .after_s = 0.3, .wrong = {}}})) {}

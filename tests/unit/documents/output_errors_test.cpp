@@ -61,6 +61,13 @@ TEST(Outputs, ThatCannotBeAreRefusedWithPlaceAndRemedy) {
              Case{"output { name: \"a\" motor: \"X\" pwm { hz: 10 follows_speed: true } }\n", "needs use: SPINDLE"},
              Case{"output { name: \"a\" motor: \"X\" number: 64 }\n", "from 0 to 63"},
              Case{"output { name: \"a\" motor: \"X\" pwm { hz: 10 } inverted: true }\n", "cannot be inverted"},
+             Case{"output { name: \"a\" motor: \"X\" use: PLACES }\n", "pulse_us is missing"},
+             Case{"output { name: \"a\" motor: \"X\" use: PLACES pulse_us: 0.1 }\n", "pulse_us is 0.1"},
+             Case{"output { name: \"a\" motor: \"X\" pulse_us: 10 }\n", "remove pulse_us, or use PLACES"},
+             Case{"output { name: \"a\" motor: \"X\" use: PLACES pulse_us: 10 pwm { hz: 10 } }\n", "remove pwm"},
+             Case{"output { name: \"a\" motor: \"X\" use: PLACES pulse_us: 10 }\n"
+                  "output { name: \"b\" motor: \"X\" channel: 1 use: PLACES number: 1 pulse_us: 10 }\n",
+                  "can make pulses at places of one output"},
              Case{"output { motor: \"X\" }\n", "name is missing"},
              Case{"output { name: \"a\" motor: \"X\" }\noutput_silence_ms: 110\n", "for which a process may stall"},
          }) {

@@ -88,5 +88,63 @@ TEST_F(RecordedOutputs, AtAnotherTickOrWithAnotherValueOrSlopeAreFound) {
     EXPECT_EQ(altered(sequence, [](auto& event) { event.channel = 1; }).verdict(), Verdict::NotExact);
 }
 
+/// A camera takes pictures along X, with a hold on the way.
+class RecordedPulses : public RecordedOutputs {
+protected:
+    static void record_pulses() {
+        MachineConfig machine = test::example("laser");
+        machine.outputs.push_back(
+            {.name = "camera", .motor = "X", .channel = 3, .use = OutputUse::Places, .number = 3, .pulse_us = 20});
+        const std::vector<double> at = parked_mm(machine);
+        test::RecordedMachine recorded(machine, path());
+        recorded.home();
+        recorded.begin({.name = "pictures.gcode",
+                        .axes = {"X", "Y"},
+                        .start_mm = at,
+                        .blocks = {event(EventKind::PulseSpacing, 3, 0.5), event(EventKind::PulsePlaces, 41, at[0] + 5),
+                                   move(at[0] + 30, at[1] + 10), event(EventKind::PulseSpacing, 3, -1),
+                                   event(EventKind::PulsePlaces, 50, at[0] + 20), move(at[0], at[1])}});
+        recorded.advance_ms(400);
+        recorded.command(CommandKind::Hold);
+        ASSERT_TRUE(recorded.reaches(MachinePhase::Holding));
+        recorded.command(CommandKind::Resume);
+        ASSERT_TRUE(recorded.reaches(MachinePhase::Idle));
+        recorded.advance_ms(500);
+    }
+    static std::vector<channel_event_t> notes() {
+        std::vector<channel_event_t> found;
+        test::AlteredLog(path()).change<channel_event_t>("_X_CHANNELS", [&](channel_event_t& event) {
+            if (event.kind.starts_with("compare")) { found.push_back(event); }
+            return false;
+        });
+        return found;
+    }
+};
+
+TEST_F(RecordedPulses, AreThoseOfTheStepsAcrossAHold) {
+    record_pulses();
+    const Findings findings = verify_log(path()).value();
+    EXPECT_TRUE(findings.is_exact()) << to_text(findings);
+    const std::vector<channel_event_t> all = notes();
+    ASSERT_EQ(all.size(), 6U);
+    EXPECT_EQ(all[0].detail, 41);
+    EXPECT_EQ(all[1].detail, all[2].detail) << "those left at the hold are made behind it";
+    EXPECT_LT(all[1].detail, 41);
+    EXPECT_EQ(all[3].detail, 0);
+    EXPECT_EQ(all[4].detail, 50);
+    EXPECT_EQ(all[5].detail, 50 - 21) << "from 20 mm down to the end at 0";
+}
+
+TEST_F(RecordedPulses, ThatAreMissingOrAtAnotherTickAreFound) {
+    record_pulses();
+    const std::vector<channel_event_t> all = notes();
+    ASSERT_EQ(all.size(), 6U);
+    for (const std::size_t k : {1U, 3U}) {
+        EXPECT_EQ(altered(all[k].sequence, [](auto& event) { ++event.detail; }).verdict(), Verdict::NotExact);
+        EXPECT_EQ(altered(all[k].sequence, [](auto& event) { ++event.tick; }).verdict(), Verdict::NotExact);
+    }
+    EXPECT_EQ(altered(all[2].sequence, [](auto& event) { --event.detail; }).verdict(), Verdict::NotExact);
+}
+
 }  // namespace
 }  // namespace lockstep::verification
