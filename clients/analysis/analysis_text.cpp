@@ -27,6 +27,7 @@ std::int64_t total(const Analysis& analysis, std::int64_t (*of)(const AxisLog&))
 
 std::int64_t steps_of(const AxisLog& axis) { return axis.counts().steps; }
 std::int64_t missing_batches_of(const AxisLog& axis) { return axis.statistics().missing_batches(); }
+std::int64_t missing_changes_of(const AxisLog& axis) { return axis.missing_changes(); }
 
 /// Motors with steps that the log lacks.
 std::vector<std::string> axes_not_known(const Analysis& analysis) {
@@ -46,6 +47,10 @@ std::string missing_in_short(const Analysis& analysis) {
     if (at_end > 0) { return plural(at_end, "message") + " missing at the end"; }
     const auto names = axes_not_known(analysis);
     if (!names.empty()) { return "not all of " + in_words(names); }
+    const std::int64_t changes = total(analysis, missing_changes_of);
+    if (steps == 0 && batches == 0 && changes > 0) {
+        return plural(changes, "change") + " of inputs and outputs missing";
+    }
     if (steps == 0 && batches == 0) {
         return analysis.end.is_closed() ? "nothing missing" : "nothing missing as far as is known";
     }
@@ -274,6 +279,9 @@ std::string axis_notes(const AxisLog& axis) {
     }
     if (const std::int64_t figures = axis.missing_figures(); figures > 0) {
         text += fmt::format("{}: {} missing\n", axis.name(), plural(figures, "message") + " of figures");
+    }
+    if (const std::int64_t changes = axis.missing_changes(); changes > 0) {
+        text += fmt::format("{}: {} of inputs and outputs missing\n", axis.name(), plural(changes, "change"));
     }
     const StreamCounts& counts = axis.counts();
     const std::int64_t left_out = counts.duplicates + counts.late;

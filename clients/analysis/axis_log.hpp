@@ -66,6 +66,7 @@ public:
     void take_slack(Sample slack_ms) { slack_.add(slack_ms); }
     MessageNumbers& position_numbers() { return position_numbers_; }
     MessageNumbers& figure_numbers() { return figure_numbers_; }
+    MessageNumbers& change_numbers() { return change_numbers_; }
     /// Call once, at the end. Fails if a file was not written completely.
     std::expected<void, std::string> finish();
 
@@ -89,6 +90,7 @@ public:
     /// Missing messages between the first and the last in the log.
     std::int64_t missing_positions() const { return position_numbers_.missing_within(); }
     std::int64_t missing_figures() const { return figure_numbers_.missing_within(); }
+    std::int64_t missing_changes() const { return change_numbers_.missing_within(); }
     /// From the axis's own messages; nullopt if they do not contain it.
     std::optional<double> steps_per_mm() const { return steps_per_mm_; }
     /// The steps from the last recorded step to the last position message. If these agree, the largest distance of any
@@ -109,6 +111,7 @@ private:
     std::unique_ptr<CsvFile> position_csv_;
     MessageNumbers position_numbers_;
     MessageNumbers figure_numbers_;  // of health messages
+    MessageNumbers change_numbers_;  // of inputs and outputs
     std::int64_t positions_ = 0;
     std::int64_t following_error_ = 0;
     std::optional<double> commanded_acceleration_;

@@ -38,7 +38,7 @@ public:
     void on_program_part(const program_part_t& message, LogPlace place) override {
         pass(&LogListener::on_program_part, message, place);
     }
-    void on_mark(const record_mark_t& message, LogPlace place) override { pass(&LogListener::on_mark, message, place); }
+    void on_mark(const RecordedMark& message, LogPlace place) override { pass(&LogListener::on_mark, message, place); }
     void on_foreign(std::string_view channel) override { sorter_.on_foreign(channel); }
     void on_damage(LogPlace place, std::string what) override { sorter_.on_damage(place, std::move(what)); }
 

@@ -60,6 +60,7 @@ RecordState record_state(const Analysis& analysis) {
         note(process, axis->statistics().missing_batches(), "steps");
         note(process, axis->missing_positions(), "positions");
         note(process, axis->missing_figures(), "figures");
+        note(process, axis->missing_changes(), kChannelChanges);
     }
     note("coordinator", analysis.missing_job_events, "jobs");
     return state;

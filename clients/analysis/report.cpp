@@ -58,6 +58,7 @@ void fill(const Analysis& analysis, const AxisLog& axis, proto::AxisAnalysis& re
     report.set_missing_steps(found.missing_steps() + std::abs(axis.unrecorded_steps()));
     report.set_missing_positions(axis.missing_positions());
     report.set_missing_figures(axis.missing_figures());
+    report.set_missing_changes(axis.missing_changes());
     if (found.first()) { report.set_first_tick(found.first()->tick.value); }
     if (found.last()) { report.set_last_tick(found.last()->tick.value); }
     report.set_clock_error_us(analysis.microseconds(found.clock_error()));

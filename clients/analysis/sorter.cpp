@@ -81,12 +81,19 @@ void Sorter::on_program_part(const program_part_t& message, LogPlace /*place*/) 
     end_.saw(RecordKind::ProgramPart, message.machine, "", message.coordinator, message.sequence);
 }
 
-void Sorter::on_mark(const record_mark_t& message, LogPlace /*place*/) {
+void Sorter::on_mark(const RecordedMark& message, LogPlace /*place*/) {
     if (is_ours(message.machine)) { end_.take(message); }
 }
 
-void Sorter::on_channel(const channel_event_t& message, LogPlace /*place*/) {
-    if (is_ours(message.machine)) { listener_.on_channel(message); }
+void Sorter::on_channel(const channel_event_t& message, LogPlace place) {
+    Lane* of = lane(message.machine, message.axis, place);
+    if (of == nullptr) { return; }
+    if (!is_message_number(message.sequence)) {
+        return on_damage(place, "a change of an input or output with an impossible number");
+    }
+    end_.saw(RecordKind::Channels, message.machine, message.axis, message.incarnation, message.sequence);
+    of->log->change_numbers().add(message.incarnation, message.sequence);
+    listener_.on_channel(message);
 }
 
 void Sorter::on_foreign(std::string_view channel) { ++foreign_[std::string(channel)]; }

@@ -34,7 +34,7 @@ public:
     void on_event(const program_event_t& message, LogPlace place) override;
     void on_channel(const channel_event_t& message, LogPlace place) override;
     void on_program_part(const program_part_t& message, LogPlace place) override;
-    void on_mark(const record_mark_t& message, LogPlace place) override;
+    void on_mark(const RecordedMark& message, LogPlace place) override;
     void on_foreign(std::string_view channel) override;
     void on_damage(LogPlace place, std::string what) override;
 

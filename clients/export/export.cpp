@@ -38,7 +38,7 @@ public:
     void on_program_part(const program_part_t& message, LogPlace /*place*/) override {
         check_.saw(RecordKind::ProgramPart, message);
     }
-    void on_mark(const record_mark_t& message, LogPlace /*place*/) override { check_.take(message); }
+    void on_mark(const analysis::RecordedMark& message, LogPlace /*place*/) override { check_.take(message); }
     void on_foreign(std::string_view /*channel*/) override {}
     void on_damage(LogPlace /*place*/, std::string /*what*/) override { ++damages_; }
 

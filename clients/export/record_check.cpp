@@ -11,7 +11,7 @@ std::string name_of(RecordKind kind) {
         case RecordKind::Run: return "runs";
         case RecordKind::Position: return "positions";
         case RecordKind::Health: return "figures";
-        case RecordKind::Channels: return "changes of inputs and outputs";
+        case RecordKind::Channels: return analysis::kChannelChanges;
         case RecordKind::Job: return "jobs";
         default: return "programs";
     }

@@ -22,7 +22,7 @@ public:
             saw(kind, {message.machine, "", message.coordinator}, message.sequence);
         }
     }
-    void take(const record_mark_t& mark) { end_.take(mark); }
+    void take(const analysis::RecordedMark& mark) { end_.take(mark); }
     /// The text of the recorded machine's file, which names its motors; empty in most messages.
     void take_machine(const std::string& config);
     /// Call once, at the end.

@@ -173,7 +173,9 @@ private:
 
 bool Merged::lacks_messages() const {
     return missing_job_events != 0 || missing_program_parts != 0 || !end.missing.empty() || !absent_axes.empty() ||
-           std::ranges::any_of(axes, [](const AxisRecord& axis) { return axis.missing_messages() != 0; });
+           std::ranges::any_of(axes, [](const AxisRecord& axis) {
+               return axis.missing_messages() != 0 || axis.changes_lost_by_device != 0;
+           });
 }
 
 bool Merged::contradicts() const {

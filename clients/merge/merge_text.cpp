@@ -25,6 +25,15 @@ std::string line_of(const MissingRuns& missing) {
     return fmt::format("  {} missing: runs {} to {}\n", missing.axis, missing.numbers.from, missing.numbers.end - 1);
 }
 
+std::string line_of(const MissingChanges& missing) {
+    const auto seconds = [](std::int64_t us) { return static_cast<double>(us) * 1e-6; };
+    const std::string place = missing.from_us ? fmt::format("between {:.3f} s and {:.3f} s", seconds(*missing.from_us),
+                                                            seconds(missing.to_us))
+                                              : fmt::format("before {:.3f} s", seconds(missing.to_us));
+    return fmt::format("  {} missing: {} of inputs and outputs, {} of machine time\n", missing.axis,
+                       plural(missing.messages, "change"), place);
+}
+
 std::string line_of(const std::string& contradiction) { return "  contradiction: " + contradiction + "\n"; }
 
 std::string line_of(const std::string& whose, std::int64_t messages, const char* what) {
@@ -71,9 +80,14 @@ std::string axes_table(const Merged& merged) {
     for (const AxisRecord& axis : merged.axes) {
         text += fmt::format("{:<16} {:>14} {:>10} {:>20}\n", axis.axis, grouped(axis.steps), grouped(axis.runs),
                             grouped(axis.missing_messages()));
-        text += lines_of(axis.missing_steps) + lines_of(axis.missing_runs) + lines_of(axis.contradictions);
+        text += lines_of(axis.missing_steps) + lines_of(axis.missing_runs) + lines_of(axis.missing_changes) +
+                lines_of(axis.contradictions);
         text += line_of(axis.axis, axis.missing_positions, "positions") +
                 line_of(axis.axis, axis.missing_figures, "figures");
+        if (axis.changes_lost_by_device > 0) {
+            text += fmt::format("  {} missing: {} of inputs and outputs, which its device could not keep\n", axis.axis,
+                                plural(axis.changes_lost_by_device, "change"));
+        }
     }
     return text;
 }

@@ -1,6 +1,7 @@
 #include "clients/merge/message_id.hpp"
 
 #include "services/record/reading/log_step.hpp"
+#include "services/record/reading/recorded_mark.hpp"
 #include "services/wire/lcm/lcm_channels.hpp"
 #include "services/wire/lcm/lcm_decode.hpp"
 
@@ -35,6 +36,13 @@ Identified identify_as(const LogEvent& event) {
     return id;
 }
 
+Identified identify_mark(const LogEvent& event) {
+    const auto mark = analysis::decode_mark(event.data);
+    if (!mark) { return std::unexpected(mark.error() + " on " + std::string(event.channel)); }
+    if (!analysis::is_countable(mark->utime)) { return std::unexpected("a message with an impossible time"); }
+    return MessageId{.utime = mark->utime, .channel = std::string(event.channel), .number = {}};
+}
+
 }  // namespace
 
 std::expected<std::optional<MessageId>, std::string> identify(const LogEvent& event) {
@@ -47,7 +55,7 @@ std::expected<std::optional<MessageId>, std::string> identify(const LogEvent& ev
         case RecordKind::Job: return identify_as<job_t>(event);
         case RecordKind::Event: return identify_as<program_event_t>(event);
         case RecordKind::ProgramPart: return identify_as<program_part_t>(event);
-        case RecordKind::Mark: return identify_as<record_mark_t>(event);
+        case RecordKind::Mark: return identify_mark(event);
         case RecordKind::Loss: return identify_as<record_loss_t>(event);
         case RecordKind::Foreign: break;
     }

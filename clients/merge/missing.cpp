@@ -113,7 +113,7 @@ void MissingWatch::note_steps(const step_batch_t& message) {
 void MissingWatch::take(const MessageId& id, const std::vector<std::uint8_t>& data) {
     const RecordKind kind = kind_of(id.channel);
     if (kind == RecordKind::Mark) {
-        if (const auto mark = decode_lcm<record_mark_t>(data)) {
+        if (const auto mark = analysis::decode_mark(data)) {
             marks_.take(*mark);
             if (!mark->process.empty()) { marked_.emplace(mark->machine, mark->process); }
         }
@@ -121,6 +121,10 @@ void MissingWatch::take(const MessageId& id, const std::vector<std::uint8_t>& da
     if (kind == RecordKind::Job) { note_machine(data); }
     if (kind == RecordKind::Steps) {
         if (const auto message = decode_lcm<step_batch_t>(data)) { note_steps(*message); }
+    }
+    if (kind == RecordKind::Channels && id.number) {
+        const auto message = decode_lcm<channel_event_t>(data);
+        if (message) { channels_[whose(id)].take(message->sequence, message->utime, message->lost); }
     }
     if (!id.number) { return; }
     const auto [known, is_new] = processes_.try_emplace(whose(id));
@@ -167,6 +171,17 @@ void MissingWatch::note_missing_runs(const Whose& whose, AxisRecord& record) con
     }
 }
 
+void MissingWatch::note_missing_changes(const Whose& whose, AxisRecord& record) const {
+    const ChannelGaps& channels = channels_.at(whose);
+    record.changes_lost_by_device += channels.lost_by_device();
+    for (MissingChanges& gap : channels.gaps()) {
+        if (begins_late_ && !gap.from_us) { continue; }
+        record.missing_channel_messages += gap.messages;
+        gap.axis = record.axis;
+        if (record.missing_changes.size() < kListed) { record.missing_changes.push_back(std::move(gap)); }
+    }
+}
+
 std::vector<AxisRecord> MissingWatch::finish() {
     for (const auto& [whose, process] : processes_) {
         if (process.axis.empty()) { continue; }
@@ -175,6 +190,7 @@ std::vector<AxisRecord> MissingWatch::finish() {
             case RecordKind::Run: note_missing_runs(whose, record); break;
             case RecordKind::Position: record.missing_positions += seen_.at(whose).missing_within(); break;
             case RecordKind::Health: record.missing_figures += seen_.at(whose).missing_within(); break;
+            case RecordKind::Channels: note_missing_changes(whose, record); break;
             default: break;
         }
     }

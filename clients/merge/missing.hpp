@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "clients/merge/channel_gaps.hpp"
 #include "clients/merge/message_id.hpp"
 #include "services/record/reading/number_set.hpp"
 #include "services/record/reading/record_end.hpp"
@@ -45,16 +46,20 @@ struct AxisRecord {
     std::int64_t steps = 0;
     std::int64_t step_messages = 0;
     std::int64_t runs = 0;
-    std::vector<MissingSteps> missing_steps;  // the first kListed
-    std::vector<MissingRuns> missing_runs;    // the first kListed
-    std::vector<std::string> contradictions;  // messages of steps that contradict the others, the first kListed
+    std::vector<MissingSteps> missing_steps;      // the first kListed
+    std::vector<MissingRuns> missing_runs;        // the first kListed
+    std::vector<MissingChanges> missing_changes;  // of inputs and outputs, the first kListed
+    std::vector<std::string> contradictions;      // messages of steps that contradict the others, the first kListed
     std::int64_t missing_step_messages = 0;
     std::int64_t missing_run_messages = 0;
     std::int64_t missing_positions = 0;  // messages, between the first and the last: a log may begin later
     std::int64_t missing_figures = 0;
+    std::int64_t missing_channel_messages = 0;
+    std::int64_t changes_lost_by_device = 0;  // the device could not keep them until they were read
 
     std::int64_t missing_messages() const {
-        return missing_step_messages + missing_run_messages + missing_positions + missing_figures;
+        return missing_step_messages + missing_run_messages + missing_positions + missing_figures +
+               missing_channel_messages;
     }
 };
 
@@ -90,8 +95,10 @@ private:
     void note_steps(const step_batch_t& message);
     void note_machine(const std::vector<std::uint8_t>& data);
     void note_missing_runs(const Whose& whose, AxisRecord& record) const;
+    void note_missing_changes(const Whose& whose, AxisRecord& record) const;
 
     std::map<Whose, analysis::NumberSet> seen_;
+    std::map<Whose, ChannelGaps> channels_;
     std::map<std::pair<std::string, std::string>, std::unique_ptr<Axis>> axes_;  // by machine and name
     std::map<Whose, analysis::RecordingProcess> processes_;                      // the process that published them
     std::map<std::string, std::string> newest_config_;                           // the file of each machine

@@ -20,6 +20,12 @@ void fill(const MissingSteps& missing, proto::MissingStepsReport& report) {
     if (missing.to_tick) { report.set_to_tick(missing.to_tick->value); }
 }
 
+void fill(const MissingChanges& missing, proto::MissingChangesReport& report) {
+    report.set_messages(missing.messages);
+    if (missing.from_us) { report.set_from_us(*missing.from_us); }
+    report.set_to_us(missing.to_us);
+}
+
 void fill(const AxisRecord& axis, proto::AxisRecordReport& report) {
     report.set_machine(axis.machine);
     report.set_axis(axis.axis);
@@ -30,8 +36,11 @@ void fill(const AxisRecord& axis, proto::AxisRecordReport& report) {
     report.set_missing_runs(axis.missing_run_messages);
     report.set_missing_positions(axis.missing_positions);
     report.set_missing_figures(axis.missing_figures);
+    report.set_missing_channel_messages(axis.missing_channel_messages);
+    report.set_changes_lost_by_device(axis.changes_lost_by_device);
     for (const std::string& line : axis.contradictions) { report.add_contradictions(line); }
     for (const MissingSteps& missing : axis.missing_steps) { fill(missing, *report.add_missing_steps()); }
+    for (const MissingChanges& missing : axis.missing_changes) { fill(missing, *report.add_missing_changes()); }
     for (const MissingRuns& missing : axis.missing_runs) {
         proto::MissingRunsReport& runs = *report.add_missing_run_numbers();
         runs.set_first(missing.numbers.from);

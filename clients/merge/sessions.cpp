@@ -49,7 +49,7 @@ std::expected<Contents, std::string> contents_of(const fs::path& path) {
         if (kind_of((*event)->channel) == RecordKind::Job) { take_job(**event, contents); }
         if (kind_of((*event)->channel) == RecordKind::ProgramPart) { take_part(**event, contents); }
         if (kind_of((*event)->channel) != RecordKind::Mark) { continue; }
-        if (const auto mark = decode_lcm<record_mark_t>((*event)->data)) {
+        if (const auto mark = analysis::decode_mark((*event)->data)) {
             contents.processes.insert({mark->machine, mark->process, mark->incarnation});
         }
     }

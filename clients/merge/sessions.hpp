@@ -1,4 +1,4 @@
-// Finds logs of one session: logs with marks (record_mark_t) of the same process belong together. A directory may also
+// Finds logs of one session: logs with marks (record_mark2_t) of the same process belong together. A directory may also
 // contain the logs of all earlier sessions.
 #pragma once
 

@@ -39,7 +39,7 @@ public:
         check_.on_run(message, place);
     }
     void on_program_part(const program_part_t& message, LogPlace /*place*/) override { pass(message); }
-    void on_mark(const record_mark_t& message, LogPlace place) override { check_.on_mark(message, place); }
+    void on_mark(const analysis::RecordedMark& message, LogPlace place) override { check_.on_mark(message, place); }
     void on_foreign(std::string_view /*channel*/) override {}
     void on_damage(LogPlace place, std::string what) override { check_.on_damage(place, std::move(what)); }
 

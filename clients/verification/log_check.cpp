@@ -84,6 +84,7 @@ void LogCheck::on_channel(const channel_event_t& message, analysis::LogPlace pla
     const bool is_possible = event && analysis::is_countable(message.tick) &&
                              analysis::is_message_number(message.sequence) && message.lost >= 0;
     if (!is_possible) { return on_damage(place, "a change of an input or output with impossible numbers"); }
+    end_.saw(RecordKind::Channels, message.machine, message.axis, message.incarnation, message.sequence);
     of->outputs.take({message.incarnation, message.sequence, message.lost, *event});
 }
 
@@ -93,7 +94,7 @@ void LogCheck::on_program_part(const program_part_t& message, analysis::LogPlace
 }
 
 /// A process's mark about itself applies to the rest of the log.
-void LogCheck::on_mark(const record_mark_t& message, analysis::LogPlace place) {
+void LogCheck::on_mark(const analysis::RecordedMark& message, analysis::LogPlace place) {
     end_.take(message);
     if (Machine* of = machine(message.machine, place); of != nullptr && !message.process.empty()) {
         if (of->marked_axes.size() < kMaxAxes) { of->marked_axes.insert(message.process); }
@@ -107,9 +108,10 @@ void LogCheck::on_mark(const record_mark_t& message, analysis::LogPlace place) {
     Axis* of = axis(message.machine, message.process, place);
     if (of == nullptr) { return; }
     of->begin(message.utime, message.positions == 0);
-    of->last.announced_end = message.ended != 0;
+    of->last.announced_end = message.ended;
     of->runs.expect_from(message.incarnation, message.runs);
     of->check.expect_from(message.incarnation, message.steps);
+    if (message.channel_events) { of->outputs.expect_from(message.incarnation, *message.channel_events); }
 }
 
 /// Decides why the log lacks a coordinator's first messages: it begins later, or they are missing.
@@ -315,7 +317,7 @@ void LogCheck::Machine::finish(const std::string& name, const analysis::RecordEn
                           .ends_early = of->last.is_cut(),
                           .lacks_steps = is_damaged || end.lacks(RecordKind::Steps, name, axis),
                           .lacks_runs = is_damaged || end.lacks(RecordKind::Run, name, axis)});
-        of->outputs.finish(!is_damaged && !of->is_late && !of->last.is_cut());
+        of->outputs.finish(!is_damaged && !of->is_late && !of->last.is_cut() && !end.may_lack_changes(name, axis));
     }
 }
 

@@ -45,7 +45,7 @@ public:
     void on_health(const axis_health_t& message, analysis::LogPlace place) override;
     void on_channel(const channel_event_t& message, analysis::LogPlace place) override;
     void on_program_part(const program_part_t& message, analysis::LogPlace place) override;
-    void on_mark(const record_mark_t& message, analysis::LogPlace place) override;
+    void on_mark(const analysis::RecordedMark& message, analysis::LogPlace place) override;
     void on_foreign(std::string_view /*channel*/) override {}
     void on_damage(analysis::LogPlace place, std::string what) override;
 

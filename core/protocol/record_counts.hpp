@@ -11,6 +11,7 @@ struct RecordCounts {
     std::uint64_t runs = 0;
     std::uint64_t positions = 0;
     std::uint64_t figures = 0;
+    std::uint64_t channel_events = 0;
     std::uint64_t job_events = 0;
     std::uint64_t program_parts = 0;
     bool operator==(const RecordCounts&) const = default;

@@ -41,7 +41,7 @@ void AxisRecorder::batch_steps() {
 
 void AxisRecorder::publish_channel_events() {
     for (const ChannelEvent& event : channel_events_) {
-        to_lcm(ChannelRecord{.number = {incarnation_, channel_messages_++},
+        to_lcm(ChannelRecord{.number = {incarnation_, counts_.channel_events++},
                              .lost = lost_channel_events_,
                              .zero_count = zero_count_,
                              .clock = clock_,

@@ -65,7 +65,6 @@ private:
     run_t run_{};                               // the run published last
     std::vector<ChannelEvent> channel_events_;  // not yet published
     channel_event_t channel_event_{};           // the last one published
-    std::uint64_t channel_messages_ = 0;        // published so far
     std::uint64_t lost_channel_events_ = 0;
     std::uint64_t lost_captures_ = 0;
     /// Whether the device's position is known. It is unknown at first, since the device may have outlived another

@@ -6,9 +6,10 @@
 namespace lockstep {
 namespace {
 
-/// Ignores positions and figures, which are published at rest too.
-bool same_motion(const RecordCounts& a, const RecordCounts& b) {
-    return a.steps == b.steps && a.runs == b.runs && a.job_events == b.job_events && a.program_parts == b.program_parts;
+/// Ignores positions and figures, which are published all the time.
+bool same_events(const RecordCounts& a, const RecordCounts& b) {
+    return a.steps == b.steps && a.runs == b.runs && a.channel_events == b.channel_events &&
+           a.job_events == b.job_events && a.program_parts == b.program_parts;
 }
 
 }  // namespace
@@ -18,7 +19,7 @@ void RecordMarker::note(const std::string& process, Identity incarnation, const 
     const auto [found, is_new] = known_.try_emplace({process, incarnation});
     Known& known = found->second;
     if (is_new) { known = {mark_channel(machine_, process), counts, then, counts, then}; }
-    if (!same_motion(known.counts, counts)) { known.grown = then; }
+    if (!same_events(known.counts, counts)) { known.grown = then; }
     known.counts = counts;
     if (!is_new && !is_due(known, then)) { return; }
     known.marked = counts;
@@ -34,7 +35,7 @@ void RecordMarker::note_end(const std::string& process, Identity incarnation, co
 bool RecordMarker::is_due(const Known& known, Tick then) const {
     const bool has_settled = (then - known.grown).value * tick_ns_ >= kSettled_ns;
     return (then - known.marked_at).value * tick_ns_ >= kPeriod_ns ||
-           (has_settled && !same_motion(known.counts, known.marked));
+           (has_settled && !same_events(known.counts, known.marked));
 }
 
 void RecordMarker::mark(const std::string& channel, const std::string& process, Identity incarnation,

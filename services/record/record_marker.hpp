@@ -1,8 +1,8 @@
 // Writes into one process's record how many messages each process has published, including itself. So the logs of the
 // other processes show which messages a log lacks at its end, or that a log is missing.
 //
-// It writes a mark of a process when the process is new, every kPeriod_ns, when its counts of motion and jobs have not
-// grown for kSettled_ns, and at its end.
+// It writes a mark of a process when the process is new, every kPeriod_ns, when its counts of motion, changes of inputs
+// and outputs, and jobs have not grown for kSettled_ns, and at its end.
 #pragma once
 
 #include <map>
@@ -34,7 +34,7 @@ private:
     struct Known {
         std::string channel;
         RecordCounts counts;
-        Tick grown;  // when the counts of motion and jobs last grew
+        Tick grown;  // when the counts other than positions and figures last grew
         RecordCounts marked;
         Tick marked_at;
     };

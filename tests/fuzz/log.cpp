@@ -24,7 +24,7 @@ void decode_as(std::span<const std::uint8_t> data) {
 
 void decode(std::span<const std::uint8_t> data) {
     decode_as<axis_health_t, axis_position_t, channel_event_t, flight_event_t, flight_head_t, flight_note_t, job_t,
-              program_event_t, program_part_t, record_loss_t, record_mark_t, run_t, step_batch_t>(data);
+              program_event_t, program_part_t, record_loss_t, record_mark2_t, record_mark_t, run_t, step_batch_t>(data);
 }
 
 }  // namespace

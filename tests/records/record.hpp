@@ -57,7 +57,7 @@ inline constexpr std::string_view kEnding<channel_event_t> = "_CHANNELS";
 template <>
 inline constexpr std::string_view kEnding<program_part_t> = "_PROGRAM";
 template <>
-inline constexpr std::string_view kEnding<record_mark_t> = "_MARK";
+inline constexpr std::string_view kEnding<record_mark2_t> = "_MARK";
 template <>
 inline constexpr std::string_view kEnding<axis_position_t> = "_POSITION";
 template <>

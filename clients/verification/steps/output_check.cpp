@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/number_text.hpp"
+
 namespace lockstep::verification {
 namespace {
 
@@ -43,17 +45,42 @@ void OutputCheck::take(const Seen& seen) {
 void OutputCheck::follow(const Seen& seen, Before before) {
     const bool is_another = last_ && before == Before::OtherProcess;
     const bool is_gap = last_ && !is_another && (before == Before::Gap || seen.lost != last_->lost);
-    if (is_gap) {
-        findings_.add_missing(fmt::format("{}: changes of its outputs before tick {} are not in the log",
-                                          findings_.label_of(axis_), seen.event.tick.value));
-    }
+    const bool begins_late = before == Before::OtherProcess && seen.sequence > 0;
+    if (is_gap) { note_gap(seen, before); }
+    if (begins_late) { first_.try_emplace(seen.incarnation, seen); }
     if (is_another) { compare_passed(); }
-    if (is_gap || is_another) { lose(); }
+    if (is_gap || is_another || begins_late) { lose(); }
+    if (is_gap || begins_late) { unknown_until_ = seen.event.tick; }
     last_ = seen;
     if (!is_of_output(seen.event)) { return; }
     seen_.push_back(seen);
     compare_passed();
     if (seen_.size() > kMostWaiting) { lose(); }
+}
+
+void OutputCheck::note_gap(const Seen& seen, Before before) {
+    const std::int64_t tick = seen.event.tick.value;
+    if (before == Before::Gap) {
+        findings_.add_missing(fmt::format("{}: {} of inputs and outputs before tick {} not in the log",
+                                          findings_.label_of(axis_),
+                                          plural(seen.sequence - last_->sequence - 1, "change"), tick));
+    } else {
+        findings_.add_missing(
+            fmt::format("{}: its device could not keep all changes of inputs and outputs before "
+                        "tick {}: {} lost before it, {} before the change at tick {}",
+                        findings_.label_of(axis_), tick, seen.lost, last_->lost, last_->event.tick.value));
+    }
+}
+
+/// The first changes of a process are missing if a mark before them counts fewer.
+void OutputCheck::check_beginnings() {
+    for (const auto& [incarnation, first] : first_) {
+        const auto expected = expected_.find(incarnation);
+        if (expected == expected_.end() || first.sequence <= expected->second) { continue; }
+        findings_.add_missing(fmt::format("{}: {} of inputs and outputs before tick {} not in the log",
+                                          findings_.label_of(axis_),
+                                          plural(first.sequence - expected->second, "change"), first.event.tick.value));
+    }
 }
 
 void OutputCheck::take(Planned planned) {
@@ -73,6 +100,14 @@ Tick OutputCheck::Planned::tick_of(const OutputChange& change) const {
     if (!is_retimed) { return begin + change.at; }
     const double rate = static_cast<double>((end - begin).value) / static_cast<double>(ticks.value);
     return begin + Ticks{std::llround(rate * static_cast<double>(change.at.value))};
+}
+
+/// Changes that this frame asks for may be missing: none is compared.
+void OutputCheck::pass(const Planned& planned) {
+    for (; !seen_.empty() && seen_.front().event.tick <= planned.end; seen_.pop_front()) {
+        const ChannelEvent& event = seen_.front().event;
+        if (event.kind == ChannelEvent::Kind::Digital) { levels_ = event.levels; }
+    }
 }
 
 /// An event is expected only where a change has an effect: digital outputs that keep their levels make none.
@@ -113,6 +148,7 @@ bool OutputCheck::is_same(const Expected& expected, const ChannelEvent& seen, co
 
 void OutputCheck::compare(const Planned& planned) {
     if (!findings_.going()) { return; }
+    if (planned.begin < unknown_until_) { return pass(planned); }
     const auto note = [&](const ChannelEvent& event) {
         if (event.kind == ChannelEvent::Kind::Digital) { levels_ = event.levels; }
     };
@@ -188,6 +224,7 @@ void OutputCheck::differ(const Planned& planned, const std::string& text, std::o
 void OutputCheck::finish(bool is_whole) {
     stream_.finish([this](const Seen& next, Before before) { follow(next, before); });
     compare_passed();
+    check_beginnings();
     for (const Planned& planned : planned_) {
         if (is_whole) { compare(planned); }
     }

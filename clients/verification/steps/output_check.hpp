@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +46,8 @@ public:
     };
     void take(Planned planned);
 
+    /// Requires all changes of that process from this number on to be in the log.
+    void expect_from(std::int64_t incarnation, std::int64_t number) { expected_.try_emplace(incarnation, number); }
     /// Call once, at the end of the log. `is_whole`: the log lacks no messages.
     void finish(bool is_whole);
 
@@ -65,7 +68,10 @@ private:
                 std::optional<Tick> seen);
     bool compare_pulses(const Planned& planned);
     bool is_same(const Expected& expected, const ChannelEvent& seen, const Planned& planned) const;
+    void note_gap(const Seen& seen, Before before);
+    void check_beginnings();
     void lose();
+    void pass(const Planned& planned);
 
     std::string axis_;
     Findings& findings_;
@@ -73,7 +79,10 @@ private:
     std::deque<Seen> seen_;        // not compared yet
     std::deque<Planned> planned_;  // not compared yet
     std::optional<Seen> last_;
-    std::optional<std::uint16_t> levels_;  // after the events compared; nullopt: not known
+    std::map<std::int64_t, std::int64_t> expected_;  // by process: the first number that must be in the log
+    std::map<std::int64_t, Seen> first_;             // of each process, if it is not its number 0
+    std::optional<Tick> unknown_until_;              // changes before it are missing
+    std::optional<std::uint16_t> levels_;            // after the events compared; nullopt: not known
 };
 
 }  // namespace lockstep::verification

@@ -72,6 +72,13 @@ void deliver_job(const LogEvent& event, LogListener& listener, ProgramParts& pro
     listener.on_job(job, place);
 }
 
+void deliver_mark(const LogEvent& event, LogListener& listener) {
+    const LogPlace place{event.offset, event.bytes};
+    const auto mark = decode_mark(event.data);
+    if (!mark) { return listener.on_damage(place, mark.error() + " on " + std::string(event.channel)); }
+    listener.on_mark(*mark, place);
+}
+
 void deliver(const LogEvent& event, LogListener& listener, ProgramParts& programs, const std::filesystem::path& path) {
     switch (kind_of(event.channel)) {
         case RecordKind::Steps: return deliver<step_batch_t>(event, listener, &LogListener::on_steps);
@@ -82,7 +89,7 @@ void deliver(const LogEvent& event, LogListener& listener, ProgramParts& program
         case RecordKind::Job: return deliver_job(event, listener, programs, path);
         case RecordKind::Event: return deliver<program_event_t>(event, listener, &LogListener::on_event);
         case RecordKind::ProgramPart: return deliver_part(event, listener, programs);
-        case RecordKind::Mark: return deliver<record_mark_t>(event, listener, &LogListener::on_mark);
+        case RecordKind::Mark: return deliver_mark(event, listener);
         case RecordKind::Loss: return;  // concerns one log only; sequence numbers show which messages the record lacks
         case RecordKind::Foreign: return listener.on_foreign(event.channel);
     }

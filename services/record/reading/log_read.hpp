@@ -12,7 +12,6 @@
 #include <lockstep/channel_event_t.hpp>
 #include <lockstep/program_event_t.hpp>
 #include <lockstep/program_part_t.hpp>
-#include <lockstep/record_mark_t.hpp>
 #include <lockstep/run_t.hpp>
 #include <lockstep/step_batch_t.hpp>
 #include <string>
@@ -20,6 +19,7 @@
 
 #include "services/record/reading/damage.hpp"
 #include "services/record/reading/program_parts.hpp"
+#include "services/record/reading/recorded_mark.hpp"
 
 namespace lockstep::analysis {
 
@@ -38,7 +38,7 @@ public:
     virtual void on_event(const program_event_t& /*message*/, LogPlace /*place*/) {}
     /// For listeners that count messages. Jobs already have their programs (program_parts.hpp).
     virtual void on_program_part(const program_part_t& /*message*/, LogPlace /*place*/) {}
-    virtual void on_mark(const record_mark_t& /*message*/, LogPlace /*place*/) {}
+    virtual void on_mark(const RecordedMark& /*mark*/, LogPlace /*place*/) {}
     /// An event on a channel that is not Lockstep's.
     virtual void on_foreign(std::string_view channel) = 0;
     /// The content cannot be read or decoded.

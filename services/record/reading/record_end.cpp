@@ -12,9 +12,11 @@
 namespace lockstep::analysis {
 namespace {
 
-constexpr std::array<RecordKind, 6> kNumbered{RecordKind::Steps,  RecordKind::Run, RecordKind::Position,
-                                              RecordKind::Health, RecordKind::Job, RecordKind::ProgramPart};
-constexpr std::array<const char*, 6> kNames{"steps", "runs", "positions", "figures", "jobs", "programs"};
+constexpr std::array<RecordKind, 7> kNumbered{RecordKind::Steps,      RecordKind::Run,      RecordKind::Position,
+                                              RecordKind::Health,     RecordKind::Channels, RecordKind::Job,
+                                              RecordKind::ProgramPart};
+constexpr std::array<const char*, 7> kNames{"steps",         "runs", "positions", "figures",
+                                            kChannelChanges, "jobs", "programs"};
 
 std::size_t index_of(RecordKind kind) {
     return static_cast<std::size_t>(std::ranges::find(kNumbered, numbered_with(kind)) - kNumbered.begin());
@@ -33,13 +35,19 @@ std::string sentence(const MissingEnd& missing, const MotorLabels& labels) {
                        kNames.at(index_of(missing.kind)), from, end - 1, time_text(missing.published_us));
 }
 
-std::string names_of(const std::vector<OpenEnd>& ends, const MotorLabels& labels) {
+std::string names_of(const std::vector<RecordingProcess>& processes, const MotorLabels& labels) {
     constexpr std::size_t kMost = 8;
     std::string text;
-    for (std::size_t i = 0; i < std::min(ends.size(), kMost); ++i) {
-        text += (i == 0 ? "" : ", ") + name_of(ends[i].process, labels);
+    for (std::size_t i = 0; i < std::min(processes.size(), kMost); ++i) {
+        text += (i == 0 ? "" : ", ") + name_of(processes[i], labels);
     }
-    return text + (ends.size() > kMost ? fmt::format(" and {} more", ends.size() - kMost) : "");
+    return text + (processes.size() > kMost ? fmt::format(" and {} more", processes.size() - kMost) : "");
+}
+
+std::string names_of(const std::vector<OpenEnd>& ends, const MotorLabels& labels) {
+    std::vector<RecordingProcess> processes;
+    for (const OpenEnd& end : ends) { processes.push_back(end.process); }
+    return names_of(processes, labels);
 }
 
 }  // namespace
@@ -58,6 +66,15 @@ bool RecordEnd::lacks(RecordKind kind, const std::string& machine, const std::st
     return std::ranges::any_of(missing, [&](const MissingEnd& one) {
         return one.kind == kind && one.process.machine == machine && one.process.axis == axis;
     });
+}
+
+bool RecordEnd::may_lack_changes(const std::string& machine, const std::string& axis) const {
+    const auto is_it = [&](const RecordingProcess& process) {
+        return process.machine == machine && process.axis == axis;
+    };
+    const auto is_unmarked = [&](const OpenEnd& end) { return !end.known_us && is_it(end.process); };
+    return lacks(RecordKind::Channels, machine, axis) || std::ranges::any_of(channels_not_counted, is_it) ||
+           std::ranges::any_of(open, is_unmarked);
 }
 
 RecordEndCheck::Counted* RecordEndCheck::of(const std::string& machine, const std::string& axis,
@@ -85,14 +102,20 @@ void RecordEndCheck::saw(RecordKind kind, const std::string& machine, const std:
 
 namespace {
 
-std::array<std::int64_t, kNumbered.size()> counts_of(const record_mark_t& mark) {
-    return {mark.steps, mark.runs, mark.positions, mark.figures, mark.job_events, mark.program_parts};
+/// nullopt: the mark does not count these.
+using Count = std::optional<std::int64_t>;
+
+std::array<Count, kNumbered.size()> counts_of(const RecordedMark& mark) {
+    return {mark.steps,          mark.runs,       mark.positions,    mark.figures,
+            mark.channel_events, mark.job_events, mark.program_parts};
 }
+
+bool is_possible(Count count) { return !count || is_message_number(*count); }
 
 }  // namespace
 
-void RecordEndCheck::take(const record_mark_t& mark) {
-    if (!is_countable(mark.utime) || !std::ranges::all_of(counts_of(mark), is_message_number)) { return; }
+void RecordEndCheck::take(const RecordedMark& mark) {
+    if (!is_countable(mark.utime) || !std::ranges::all_of(counts_of(mark), is_possible)) { return; }
     Counted* counted = of(mark.machine, mark.process, mark.incarnation);
     if (counted == nullptr) { return; }
     first_us_ = first_us_.value_or(mark.utime);
@@ -107,19 +130,22 @@ void RecordEndCheck::take(const record_mark_t& mark) {
 }
 
 /// Whether the messages after this mark were published while this log was written.
-bool RecordEndCheck::is_of_this_log(const record_mark_t& mark) const {
+bool RecordEndCheck::is_of_this_log(const RecordedMark& mark) const {
     return mark.witness == mark.process || mark.utime >= *first_us_ + kNoted_us;
 }
 
-void RecordEndCheck::hold_to(const record_mark_t& mark, Counted& counted) {
+void RecordEndCheck::hold_to(const RecordedMark& mark, Counted& counted) {
     newest_us_ = std::max(newest_us_, mark.utime);
     counted.ended = counted.ended || mark.ended != 0;
     counted.marked_us = std::max(counted.marked_us.value_or(mark.utime), mark.utime);
     const auto counts = counts_of(mark);
+    counted.counts_channels = counted.counts_channels || mark.channel_events.has_value();
     for (std::size_t i = 0; i < kKinds; ++i) {
-        if (!counted.there[i] && (counts.at(i) == 0 || is_of_this_log(mark))) { counted.there[i] = counts.at(i); }
-        if (counts.at(i) <= counted.published[i]) { continue; }
-        counted.published[i] = counts.at(i);
+        const Count count = counts.at(i);
+        if (!count) { continue; }
+        if (!counted.there[i] && (*count == 0 || is_of_this_log(mark))) { counted.there[i] = count; }
+        if (*count <= counted.published[i]) { continue; }
+        counted.published[i] = *count;
         counted.published_us[i] = mark.utime;
     }
 }
@@ -127,7 +153,7 @@ void RecordEndCheck::hold_to(const record_mark_t& mark, Counted& counted) {
 RecordEnd RecordEndCheck::finish() {
     RecordEnd end;
     for (auto& [process, counted] : processes_) {
-        for (const record_mark_t& mark : counted.others) {
+        for (const RecordedMark& mark : counted.others) {
             if (mark.utime <= newest_us_ - kOnItsWay_us) { hold_to(mark, counted); }
         }
         counted.others.clear();
@@ -136,6 +162,8 @@ RecordEnd RecordEndCheck::finish() {
             end.missing.push_back(
                 {process, kNumbered.at(i), {*counted.there[i], counted.published[i]}, counted.published_us[i]});
         }
+        const bool is_marked_axis = counted.marked_us && !process.axis.empty();
+        if (is_marked_axis && !counted.counts_channels) { end.channels_not_counted.push_back(process); }
         if (!counted.ended) { end.open.push_back({process, counted.marked_us}); }
     }
     return end;
@@ -164,6 +192,12 @@ std::vector<std::string> open_sentences(const RecordEnd& end) {
             fmt::format("for {} it is not known whether the end is missing: no mark states how much was "
                         "published (an earlier version recorded the log, or the log was cut short)",
                         names_of(unmarked, end.labels)));
+    }
+    if (!end.channels_not_counted.empty()) {
+        lines.push_back(
+            fmt::format("for {} it is not known whether changes of inputs and outputs are missing at the end: no mark "
+                        "counts them (an earlier version recorded the log)",
+                        names_of(end.channels_not_counted, end.labels)));
     }
     return lines;
 }

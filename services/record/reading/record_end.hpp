@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <deque>
 #include <limits>
-#include <lockstep/record_mark_t.hpp>
 #include <map>
 #include <optional>
 #include <string>
@@ -15,6 +14,7 @@
 
 #include "services/record/reading/motor_labels.hpp"
 #include "services/record/reading/number_set.hpp"
+#include "services/record/reading/recorded_mark.hpp"
 #include "services/wire/lcm/lcm_channels.hpp"
 
 namespace lockstep::analysis {
@@ -22,6 +22,9 @@ namespace lockstep::analysis {
 /// The remedy if a log lacks messages. The log's writer may have missed messages that their sender has in its own log.
 inline constexpr const char* kWhereTheRestIs =
     "missing messages are in the processes' own logs: lockstep log merge combines them";
+
+/// The name of channel_event_t in sentences about missing messages.
+inline constexpr const char* kChannelChanges = "changes of inputs and outputs";
 
 /// `axis` is empty for a coordinator.
 struct RecordingProcess {
@@ -48,14 +51,17 @@ struct OpenEnd {
 struct RecordEnd {
     std::vector<MissingEnd> missing;
     std::vector<OpenEnd> open;
-    MotorLabels labels;  // for the sentences
+    std::vector<RecordingProcess> channels_not_counted;  // axes whose marks do not count channel_event_t
+    MotorLabels labels;                                  // for the sentences
 
     std::int64_t missing_messages() const;
     bool lacks_steps() const;
     /// Whether messages of this kind are missing at the end of an axis's record.
     bool lacks(RecordKind kind, const std::string& machine, const std::string& axis) const;
+    /// Whether changes of inputs and outputs are missing at the end of an axis's record, or may be.
+    bool may_lack_changes(const std::string& machine, const std::string& axis) const;
     /// Whether all published messages are known to be in the log.
-    bool is_closed() const { return missing.empty() && open.empty(); }
+    bool is_closed() const { return missing.empty() && open.empty() && channels_not_counted.empty(); }
 };
 
 class RecordEndCheck {
@@ -74,12 +80,12 @@ public:
     /// Notes that a message with this number was read.
     void saw(RecordKind kind, const std::string& machine, const std::string& axis, std::int64_t incarnation,
              std::int64_t sequence);
-    void take(const record_mark_t& mark);
+    void take(const RecordedMark& mark);
     /// Call once, at the end.
     RecordEnd finish();
 
 private:
-    static constexpr std::size_t kKinds = 6;
+    static constexpr std::size_t kKinds = 7;
     struct Counted {
         /// For each kind, one more than the highest number read. If none was read, the count in the first mark of this
         /// log, because earlier messages may have been published before the log began. nullopt without such a mark.
@@ -88,11 +94,12 @@ private:
         std::int64_t published[kKinds]{};  // highest count in a mark
         std::int64_t published_us[kKinds]{};
         std::optional<std::int64_t> marked_us;
-        std::deque<record_mark_t> others;  // marks about it by other processes, possibly too new to count
+        std::deque<RecordedMark> others;  // marks about it by other processes, possibly too new to count
         bool ended = false;
+        bool counts_channels = false;  // a mark about it does
     };
-    void hold_to(const record_mark_t& mark, Counted& counted);
-    bool is_of_this_log(const record_mark_t& mark) const;
+    void hold_to(const RecordedMark& mark, Counted& counted);
+    bool is_of_this_log(const RecordedMark& mark) const;
     Counted* of(const std::string& machine, const std::string& axis, std::int64_t incarnation);
 
     std::map<RecordingProcess, Counted> processes_;
@@ -105,7 +112,8 @@ private:
 /// A line for each process and kind, "axis X: 3 messages of steps missing at the end (numbers 5 to 7), published by
 /// machine time 12.345 s".
 std::vector<std::string> missing_sentences(const RecordEnd& end);
-/// Says until when the record is known to be complete, for processes without a recorded end; empty if there are none.
+/// Says until when the record is known to be complete, for processes without a recorded end, and what marks do not
+/// count; empty if there are none.
 std::vector<std::string> open_sentences(const RecordEnd& end);
 
 }  // namespace lockstep::analysis

@@ -18,6 +18,7 @@
 #include <lockstep/program_event_t.hpp>
 #include <lockstep/program_part_t.hpp>
 #include <lockstep/record_loss_t.hpp>
+#include <lockstep/record_mark2_t.hpp>
 #include <lockstep/record_mark_t.hpp>
 #include <lockstep/run_t.hpp>
 #include <lockstep/step_batch_t.hpp>
@@ -48,6 +49,8 @@ template <>
 inline constexpr std::string_view kLcmLayout<program_part_t> = "8s888844n1";
 template <>
 inline constexpr std::string_view kLcmLayout<record_loss_t> = "8ss88";
+template <>
+inline constexpr std::string_view kLcmLayout<record_mark2_t> = "8sss818888888";
 template <>
 inline constexpr std::string_view kLcmLayout<record_mark_t> = "8sss81888888";
 template <>

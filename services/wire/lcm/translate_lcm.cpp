@@ -158,8 +158,8 @@ void to_lcm(const RunRecord& record, std::int64_t tick_ns, run_t& out) {
     out.stop_count = record.cut_at_steps.value_or(end.count());
 }
 
-record_mark_t to_lcm(const RecordMark& mark, Tick then, std::int64_t tick_ns) {
-    record_mark_t out{};
+record_mark2_t to_lcm(const RecordMark& mark, Tick then, std::int64_t tick_ns) {
+    record_mark2_t out{};
     out.utime = utime_of(then, tick_ns);
     out.machine = mark.machine;
     out.witness = mark.witness;
@@ -170,6 +170,7 @@ record_mark_t to_lcm(const RecordMark& mark, Tick then, std::int64_t tick_ns) {
     out.runs = bits(mark.counts.runs);
     out.positions = bits(mark.counts.positions);
     out.figures = bits(mark.counts.figures);
+    out.channel_events = bits(mark.counts.channel_events);
     out.job_events = bits(mark.counts.job_events);
     out.program_parts = bits(mark.counts.program_parts);
     return out;

@@ -13,7 +13,7 @@
 #include <lockstep/channel_event_t.hpp>
 #include <lockstep/job_t.hpp>
 #include <lockstep/program_event_t.hpp>
-#include <lockstep/record_mark_t.hpp>
+#include <lockstep/record_mark2_t.hpp>
 #include <lockstep/run_t.hpp>
 
 #include "core/clock/clock_view.hpp"
@@ -90,7 +90,7 @@ struct RecordMark {
     bool ended = false;
 };
 
-record_mark_t to_lcm(const RecordMark& mark, Tick then, std::int64_t tick_ns);
+record_mark2_t to_lcm(const RecordMark& mark, Tick then, std::int64_t tick_ns);
 
 /// An event of a job: it began, continues in a new epoch, got new overrides, or ended. The fields are those of job_t.
 struct JobRecord {

@@ -47,6 +47,7 @@ lockstep_wire_AxisHealth to_wire(const AxisHealth& health) {
             .run_messages = health.published.runs,
             .position_messages = health.published.positions,
             .figure_messages = health.published.figures,
+            .channel_messages = health.published.channel_events,
             .reopened = health.process.reopened,
             .lost_log_lines = health.process.lost_log_lines};
 }
@@ -80,7 +81,8 @@ FromWire<AxisHealth> from_wire(const lockstep_wire_AxisHealth& wire) {
         .published = {.steps = wire.step_messages,
                       .runs = wire.run_messages,
                       .positions = wire.position_messages,
-                      .figures = wire.figure_messages},
+                      .figures = wire.figure_messages,
+                      .channel_events = wire.channel_messages},
         .process = {.reopened = wire.reopened, .lost_log_lines = wire.lost_log_lines},
     };
     if (!check.passed()) { return std::unexpected(check.refusal()); }

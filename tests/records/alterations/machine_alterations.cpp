@@ -22,7 +22,7 @@ Message of_machine(Message message, const std::string& machine) {
     rename<program_event_t>(message, machine);
     rename<channel_event_t>(message, machine);
     rename<program_part_t>(message, machine);
-    rename<record_mark_t>(message, machine);
+    rename<record_mark2_t>(message, machine);
     rename<axis_position_t>(message, machine);
     rename<axis_health_t>(message, machine);
     const std::size_t at = message.channel.find("_MILL_");
@@ -46,7 +46,7 @@ bool add_second_machine(Record& record, bool is_at_the_end) {
 /// The axis is as if it had never been there.
 bool erase_axis(Record& record, const std::string& axis, bool with_marks) {
     return std::erase_if(record, [&](const Message& message) {
-               const auto mark = decoded<record_mark_t>(message);
+               const auto mark = decoded<record_mark2_t>(message);
                if (mark) { return with_marks && (mark->process == axis || mark->witness == axis); }
                return message.channel.find("_" + axis + "_") != std::string::npos;
            }) > 0;

@@ -6,13 +6,35 @@ namespace lockstep::records {
 namespace {
 
 constexpr Expected kOtherOutput{kSaysBad, kSaysBad, kSaysGood | kSaysUnknown | kSaysBad, kReplayedAlike};
-constexpr Expected kOutputLost{kSaysUnknown, kSaysUnknown | kSaysBad, kSaysGood | kSaysUnknown, kReplayedAlike};
+constexpr Expected kOutputLost{kSaysUnknown, kSaysUnknown, kSaysUnknown, kReplayedAlike};
 constexpr Needs kOutputs{.outputs = true};
+
+std::vector<std::size_t> changes(const Record& record, const std::string& kind) {
+    return places_of<channel_event_t>(record, [&](const channel_event_t& event) { return event.kind == kind; });
+}
 
 /// The third change of an analog output, or of digital ones.
 std::optional<std::size_t> change_place(const Record& record, const std::string& kind) {
-    const auto places = places_of<channel_event_t>(record, [&](const channel_event_t& e) { return e.kind == kind; });
+    const auto places = changes(record, kind);
     return places.size() < 4 ? std::nullopt : std::optional(places[2]);
+}
+
+/// The device overwrote the change before its process read it: the messages have no gap.
+bool lose_in_device(Record& record, std::optional<std::size_t> place) {
+    if (!place) { return false; }
+    const auto lost = decoded<channel_event_t>(record[*place]).value();
+    change_each<channel_event_t>(record, [&](channel_event_t& event) {
+        if (event.incarnation != lost.incarnation || event.sequence <= lost.sequence) { return false; }
+        ++event.lost;
+        --event.sequence;
+        return true;
+    });
+    change_each<record_mark2_t>(record, [&](record_mark2_t& mark) {
+        if (mark.incarnation != lost.incarnation || mark.channel_events <= lost.sequence) { return false; }
+        --mark.channel_events;
+        return true;
+    });
+    return erase_at(record, place);
 }
 
 struct OutputAlteration {
@@ -39,8 +61,20 @@ std::vector<Alteration> output_alterations() {
                        [=](Record& r) { return change_at<channel_event_t>(r, change_place(r, one.kind), one.change); },
                        kOtherOutput, kNoMotion, kOutputs});
     }
-    all.push_back({"laser_change_dropped", [](Record& r) { return erase_at(r, change_place(r, "analog")); },
-                   kOutputLost, kNoMotion, kOutputs});
+    const auto lose = [&](const char* name, std::function<bool(Record&)> alter) {
+        all.push_back({name, std::move(alter), kOutputLost, kNoMotion, kOutputs});
+    };
+    lose("laser_change_dropped", [](Record& r) { return erase_at(r, change_place(r, "analog")); });
+    lose("first_laser_change_dropped", [](Record& r) { return erase_at(r, changes(r, "analog").front()); });
+    lose("last_laser_change_dropped", [](Record& r) { return erase_at(r, changes(r, "analog").back()); });
+    lose("last_valve_change_dropped", [](Record& r) { return erase_at(r, changes(r, "digital").back()); });
+    for (const char* motor : {"X", "Y"}) {
+        lose(*motor == 'X' ? "laser_changes_all_dropped" : "valve_changes_all_dropped",
+             [motor = std::string(motor)](Record& r) {
+                 return leave_out<channel_event_t>(r, [&](const auto& event) { return event.axis == motor; }) > 0;
+             });
+    }
+    lose("laser_change_lost_by_its_device", [](Record& r) { return lose_in_device(r, change_place(r, "analog")); });
     all.push_back({"laser_change_twice",
                    [](Record& r) { return repeat_at(r, change_place(r, "analog")); },
                    {kSaysGood, kSaysGood, kSaysGood, kReplayedAlike},

@@ -21,8 +21,8 @@ void renumber(Record& record, const Type& from) {
 }
 
 void count_one_more(Record& record, std::int64_t incarnation, std::int64_t utime,
-                    std::int64_t record_mark_t::*counted) {
-    change_each<record_mark_t>(record, [&](record_mark_t& mark) {
+                    std::int64_t record_mark2_t::*counted) {
+    change_each<record_mark2_t>(record, [&](record_mark2_t& mark) {
         const bool is_later = mark.incarnation == incarnation && mark.utime >= utime;
         mark.*counted += is_later ? 1 : 0;
         return is_later;
@@ -30,7 +30,7 @@ void count_one_more(Record& record, std::int64_t incarnation, std::int64_t utime
 }
 
 template <typename Type>
-void insert(Record& record, std::size_t behind, Type message, std::int64_t record_mark_t::*counted) {
+void insert(Record& record, std::size_t behind, Type message, std::int64_t record_mark2_t::*counted) {
     const std::int64_t utime = record[behind].utime;
     ++message.sequence;
     renumber(record, message);
@@ -71,11 +71,11 @@ bool repeat_at(Record& record, std::optional<std::size_t> place) {
 }
 
 void insert_steps(Record& record, std::size_t behind, step_batch_t message) {
-    insert(record, behind, std::move(message), &record_mark_t::steps);
+    insert(record, behind, std::move(message), &record_mark2_t::steps);
 }
 
 void insert_run(Record& record, std::size_t behind, run_t message) {
-    insert(record, behind, std::move(message), &record_mark_t::runs);
+    insert(record, behind, std::move(message), &record_mark2_t::runs);
 }
 
 }  // namespace lockstep::records

@@ -53,9 +53,19 @@ std::vector<std::filesystem::path> own_logs(const Record& record, bool is_rotate
 
 Record merged_own_logs() { return merged(own_logs(three_jobs(), false)); }
 
+/// Two jobs with a laser and a valve.
+Record laser_jobs() {
+    MachineRun run(small_laser());
+    run.home();
+    for (int k = 0; k < 2; ++k) {
+        run.run("G21 G90 F2400\nM4 S600\nG1 X30 Y8\nM62 P1\nX32 Y20\nS200\nM63 P1\nX5 Y5\nM5\n");
+        run.wait_ms(1200);
+    }
+    return run.finish();
+}
+
 /// The first third of each process's log is gone.
-Record merged_rotated_logs() {
-    const Record record = three_jobs();
+Record merged_rotated_logs(const Record& record) {
     std::vector<std::filesystem::path> logs = own_logs(record, false);
     return merged({logs[1], logs[3], logs[5]});
 }
@@ -168,7 +178,11 @@ std::vector<RecordKind> file_of_log_kinds() {
     std::vector<RecordKind> kinds{
         {"several_jobs", three_jobs},
         {"own_logs_merged", merged_own_logs},
-        {"rotated_logs_merged", merged_rotated_logs, late},
+        {"rotated_logs_merged", [] { return merged_rotated_logs(three_jobs()); }, late},
+        {"laser_jobs", laser_jobs},
+        {"own_logs_of_a_laser_merged", [] { return merged(own_logs(laser_jobs(), false)); }},
+        {"rotated_logs_of_a_laser_merged", [] { return merged_rotated_logs(laser_jobs()); }, late},
+        {"extract_of_a_laser_job", [] { return extract(laser_jobs(), 3); }, extracted},
         {"extract_of_the_first_job", [] { return extract(three_jobs(), 2); }, extracted},
         {"extract_of_the_second_job", [] { return extract(three_jobs(), 3); }, extracted},
         {"extract_of_the_last_job", [] { return extract(three_jobs(), 4); }, extracted},

@@ -38,6 +38,34 @@ Record killed_in_motion(std::size_t process, std::int64_t into_ms, std::int64_t 
     return run.finish();
 }
 
+const char* const kBurn = "G21 G90 F2400\nM4 S600\nG1 X30 Y8\nM62 P1\nX9 Y9\nM63 P1\nM5\n";
+
+/// The motor of a laser is killed at rest. The next process numbers its changes from 0.
+Record laser_motor_restarted() {
+    MachineRun run(small_laser());
+    run.home();
+    run.run(kBurn);
+    run.wait_ms(1500);
+    run.restart(0, 400);
+    run.wait_ms(2500);
+    run.reset();
+    run.home();
+    run.run(kBurn);
+    run.wait_ms(300);
+    return run.finish();
+}
+
+/// The motor of a laser is killed while the laser burns.
+Record laser_motor_killed() {
+    MachineRun run(small_laser());
+    run.home();
+    run.begin(kBurn);
+    run.wait_ms(555);
+    run.restart(0, 10'000);
+    run.wait_ms(2500);
+    return run.finish();
+}
+
 Record taken_over(OnTakeover on_takeover) {
     VirtualOptions options = options_of(small_plotter());
     options.coordinators = 2;
@@ -63,6 +91,8 @@ std::vector<RecordKind> process_kinds() {
         {"axis_killed_in_motion", [] { return killed_in_motion(1, 555, 10'000); }, kEndedInMotion},
         {"axis_killed_and_restarted_in_motion", [] { return killed_in_motion(1, 760, 400); }, kEndedInMotion},
         {"coordinator_killed_in_motion", [] { return killed_in_motion(2, 555, 10'000); }, kEndedInMotion},
+        {"laser_motor_restarted_at_rest", laser_motor_restarted, at_rest},
+        {"laser_motor_killed_in_motion", laser_motor_killed, kEndedInMotion},
         {"takeover_that_stops", [] { return taken_over(OnTakeover::Stop); }, kEndedInMotion},
         {"takeover_that_continues", [] { return taken_over(OnTakeover::Continue); }, kContinued},
     };

@@ -138,7 +138,7 @@ TEST_F(Merge, NamesMotorsOnceTheMachineIsKnown) {
         job.event = "begun";
         job.config = config;
         writer.write_message(job_channel("mill"), job.utime, job);
-        record_mark_t mark{};
+        record_mark2_t mark{};
         mark.machine = "mill";
         mark.process = mark.witness = "Y2";
         mark.utime = 4'000'000;

@@ -48,7 +48,8 @@ TEST(Messages, OfAMachineThatNobodyFilledInSayNothing) {
     EXPECT_EQ(machine.events_from, 0u);
     EXPECT_EQ(machine.lost_records, 0u);
     const RecordCounts& record = machine.published;
-    EXPECT_EQ(record.steps + record.runs + record.positions + record.figures + record.job_events + record.program_parts,
+    EXPECT_EQ(record.steps + record.runs + record.positions + record.figures + record.channel_events +
+                  record.job_events + record.program_parts,
               0u);
     EXPECT_EQ(machine.process.reopened + machine.process.lost_log_lines, 0u);
 }

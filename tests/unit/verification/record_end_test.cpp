@@ -51,7 +51,7 @@ protected:
         return logs;
     }
     static std::string writer_of(const AlteredLog::Event& event) {
-        if (event.channel.ends_with("_MARK")) { return decode_lcm<record_mark_t>(event.data).value().witness; }
+        if (event.channel.ends_with("_MARK")) { return decode_lcm<record_mark2_t>(event.data).value().witness; }
         for (const std::string axis : {"X", "Y"}) {
             if (event.channel.find("_" + axis + "_") != std::string::npos) { return axis; }
         }
@@ -190,7 +190,7 @@ TEST_F(RecordEnd, OfALogWithoutMarksCannotBeKnown) {
 
 TEST_F(RecordEnd, ALossRecordedAtALogsEndIsFound) {
     const auto marked_last = [](const AlteredLog::Event& event, const std::string& process) {
-        return event.channel.ends_with("_MARK") && decode_lcm<record_mark_t>(event.data).value().process == process;
+        return event.channel.ends_with("_MARK") && decode_lcm<record_mark2_t>(event.data).value().process == process;
     };
     auto logs = own_logs();
     for (auto& [process, log] : logs) {  // all disks are full: each log has room only for its own last mark
