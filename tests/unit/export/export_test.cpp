@@ -11,7 +11,9 @@
 #include <fstream>
 #include <limits>
 #include <lockstep/axis_position_t.hpp>
+#include <lockstep/channel_event_t.hpp>
 #include <lockstep/job_t.hpp>
+#include <lockstep/record_mark2_t.hpp>
 #include <random>
 #include <sstream>
 
@@ -137,6 +139,27 @@ TEST_F(Export, NamesAMotorOfMissingMessages) {
     ASSERT_TRUE(writer.flush());
     (void)table();
     EXPECT_EQ(exported.record.missing, (std::vector<std::string>{"motor Y2: 2 messages of positions"}));
+}
+
+TEST_F(Export, ReportsChangesOfOutputsMissingAtTheEnd) {
+    auto writer = LogWriter::open(log).value();
+    channel_event_t event{};
+    event.machine = "mill";
+    event.axis = "X";
+    event.kind = "digital";
+    writer.write_message("LOCKSTEP_MILL_X_CHANNELS", 0, event);
+    record_mark2_t mark{};
+    mark.utime = 9'000'000;
+    mark.machine = "mill";
+    mark.witness = mark.process = "X";
+    mark.ended = 1;
+    mark.channel_events = 3;
+    writer.write_message("LOCKSTEP_MILL_X_MARK", mark.utime, mark);
+    ASSERT_TRUE(writer.flush());
+    (void)table();
+    ASSERT_EQ(exported.record.missing.size(), 1U);
+    EXPECT_THAT(exported.record.missing[0],
+                StartsWith("axis X: 2 messages of changes of inputs and outputs missing at the end"));
 }
 
 TEST_F(Export, ReportsMissingMessagesOfTheRecord) {

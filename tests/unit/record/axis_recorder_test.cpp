@@ -15,8 +15,10 @@ class Batches : public RecordSink {
 public:
     void write(const std::string& channel, std::int64_t, std::span<const std::uint8_t> bytes) override {
         if (channel.ends_with("_STEPS")) { batches.push_back(decode_lcm<step_batch_t>(bytes).value()); }
+        if (channel.ends_with("_MARK")) { marks.push_back(decode_lcm<record_mark2_t>(bytes).value()); }
     }
     std::vector<step_batch_t> batches;
+    std::vector<record_mark2_t> marks;
 };
 
 AxisOutputs outputs_at(std::int64_t position_steps, std::int64_t tick) {
@@ -79,6 +81,17 @@ TEST_F(TheRecord, BeginsInMachineCoordinatesWithAnAxisThatIsHomedFromTheStart) {
     recorder.finish();
     ASSERT_EQ(sink.batches.size(), 1U);
     EXPECT_EQ(sink.batches[0].position_before, 400);
+}
+
+TEST_F(TheRecord, CountsChangesOfOutputsInItsMarksAndInItsLastOne) {
+    recorder.channel({.tick = Tick{80}, .kind = ChannelEvent::Kind::Digital, .levels = 1});
+    recorder.loop(outputs_at(0, 100), 0, 0);
+    EXPECT_EQ(recorder.published().channel_events, 1U);
+    recorder.channel({.tick = Tick{190}, .kind = ChannelEvent::Kind::Digital, .levels = 0});
+    recorder.finish();
+    ASSERT_FALSE(sink.marks.empty());
+    EXPECT_EQ(sink.marks.back().channel_events, 2);
+    EXPECT_EQ(sink.marks.back().ended, 1);
 }
 
 TEST_F(TheRecord, CountsTheStepsThatWereLeftForItAndThoseMadeMeanwhile) {
