@@ -6,6 +6,7 @@
 
 #include "clients/scenario/model/expectation_text.hpp"
 #include "clients/scenario/model/final_place.hpp"
+#include "clients/scenario/model/output_course.hpp"
 #include "clients/scenario/model/problems.hpp"
 #include "clients/scenario/model/scenario_text.hpp"
 #include "clients/session/reports.hpp"
@@ -25,6 +26,7 @@ public:
 
     std::vector<Check> checks() {
         for (const AwaitedRest& rest : observed_.rests) { check_rest(rest); }
+        for (const AwaitedOutput& output : observed_.outputs) { check_output(output); }
         for (const auto& end : expect_.final()) { check_final(end); }
         if (expect_.has_path_within_mm()) { check_path(); }
         if (expect_.has_interruptions()) { check_interruptions(); }
@@ -52,6 +54,11 @@ private:
         const double frames =
             static_cast<double>((*at - rest.at).value) / static_cast<double>(machine_.frame_ticks().value);
         add(asked, "after " + fixed(frames, 2) + " frames", place_at(*at), frames <= rest.within_frames);
+    }
+
+    void check_output(const AwaitedOutput& output) {
+        const FoundOutput found = output_after(output.asked, machine_, evidence_.record, output.at);
+        add(output.act + ": " + text_of(output.asked), found.text, place_at(found.at), found.held);
     }
 
     /// The directory of the incident files within the kept files.
@@ -156,8 +163,9 @@ private:
         if (!report.complete()) {
             found = "missing:";
             for (const auto& axis : report.axes()) {
-                found += fmt::format(" {} {} of steps, {} of runs;", axis.axis(), axis.missing_step_messages(),
-                                     axis.missing_runs());
+                found += fmt::format(" {} {} of steps, {} of runs, {} of changes;", axis.axis(),
+                                     axis.missing_step_messages(), axis.missing_runs(),
+                                     axis.missing_channel_messages() + axis.changes_lost_by_device());
             }
             found += fmt::format(" {} of jobs", report.missing_job_events());
         }

@@ -11,7 +11,8 @@ namespace lockstep::scenario {
 /// The file with all logs merged. --keep keeps it among the others.
 inline constexpr const char* kWholeLog = "whole.lcm";
 
-/// Returns one check for each expectation and for each awaited rest: the expectation, the result, and its source.
+/// Returns one check for each expectation, awaited rest and awaited output: the expectation, the result, and its
+/// source.
 std::vector<Check> evaluate(const Scenario& scenario, const Observations& observed, const Evidence& evidence);
 
 }  // namespace lockstep::scenario

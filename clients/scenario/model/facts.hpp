@@ -33,11 +33,19 @@ struct AwaitedRest {
     std::vector<std::string> axes;  // axes with running processes
 };
 
+/// An act after which an output must go off, or keep its level.
+struct AwaitedOutput {
+    std::string act;  // as text
+    Tick at;          // machine time
+    proto::Scenario::OutputAfter asked;
+};
+
 /// The observations while the scenario ran.
 struct Observations {
     std::vector<Check> checks;  // of steps, of acts, of processes
     std::vector<proto::ScenarioHappening> events;
     std::vector<AwaitedRest> rests;
+    std::vector<AwaitedOutput> outputs;
     proto::StatusReport status;  // at the end
     std::string broken;          // why the scenario did not run to its end; empty if it did
 };

@@ -8,6 +8,7 @@
 
 #include "clients/verification/steps/run_stream.hpp"
 #include "services/record/reading/log_read.hpp"
+#include "services/wire/lcm/translate_lcm.hpp"
 
 namespace lockstep::scenario {
 namespace {
@@ -25,6 +26,12 @@ public:
         if (rests && !was_at_rest_[message.axis]) { spans.push_back({{message.tick}, {message.tick}}); }
         if (rests) { spans.back().to = {message.tick}; }
         was_at_rest_[message.axis] = rests;
+        Tick& last = facts.last_position[message.axis];
+        last = std::max(last, Tick{message.tick});
+    }
+    void on_channel(const channel_event_t& message, LogPlace /*place*/) override {
+        const auto event = event_of(message);
+        if (event) { facts.channels[message.axis].push_back({Tick{message.tick + message.ahead}, *event}); }
     }
     void on_run(const run_t& message, LogPlace /*place*/) override {
         if (auto run = analysis::to_run(message)) { runs_of(message.axis).take(std::move(*run)); }
@@ -37,6 +44,7 @@ public:
     /// Call once, at the end of the log.
     void finish() {
         for (auto& [axis, runs] : runs_) { runs->finish(); }
+        for (auto& [axis, changes] : facts.channels) { std::ranges::stable_sort(changes, {}, &NotedChange::at); }
     }
 
 private:

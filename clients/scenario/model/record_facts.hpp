@@ -1,5 +1,5 @@
-// Facts of the record that only scenarios evaluate: when axes were at rest, and with which frame each axis ended an
-// epoch.
+// Facts of the record that only scenarios evaluate: when axes were at rest, with which frame each axis ended an epoch,
+// and what changed at the pins of devices.
 #pragma once
 
 #include <expected>
@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/hardware/output_change.hpp"
 #include "core/protocol/messages.hpp"
 
 namespace lockstep::scenario {
@@ -25,9 +26,17 @@ struct EpochEnd {
     bool operator==(const EpochEnd&) const = default;
 };
 
+/// A change of an input or output, with its time by the device's clock in machine time.
+struct NotedChange {
+    Tick at;
+    ChannelEvent event;
+};
+
 struct RecordFacts {
-    std::map<std::string, std::vector<RestSpan>> rests;       // of each axis, in the order of time
-    std::map<Epoch, std::map<std::string, EpochEnd>> epochs;  // the end of each axis that ran the epoch
+    std::map<std::string, std::vector<RestSpan>> rests;        // of each axis, in the order of time
+    std::map<Epoch, std::map<std::string, EpochEnd>> epochs;   // the end of each axis that ran the epoch
+    std::map<std::string, std::vector<NotedChange>> channels;  // of each motor's device, in the order of time
+    std::map<std::string, Tick> last_position;                 // of each motor: when it last reported one
 
     /// Returns the first time at or after `since` at which all of these axes were at rest, or nullopt if none is on
     /// record.

@@ -6,6 +6,7 @@
 #include "clients/scenario/model/act_rules.hpp"
 #include "clients/scenario/model/expectation_rules.hpp"
 #include "clients/scenario/model/name_rules.hpp"
+#include "clients/scenario/model/output_rules.hpp"
 #include "clients/scenario/model/problems.hpp"
 #include "clients/session/move_program.hpp"
 
@@ -163,6 +164,7 @@ private:
             problems_.require_range(path, "rests_within_frames", during.rests_within_frames(), 1, kMostFrames);
         }
         if (during.has_act()) { check_act(during.act(), path + ".act", asked_, processes_, problems_); }
+        check_outputs(during, path, scenario_, problems_);
     }
 
     const Scenario& scenario_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "clients/scenario/model/expectation_text.hpp"
+#include "clients/scenario/model/output_course.hpp"
 #include "clients/scenario/model/problems.hpp"
 
 namespace lockstep::scenario {
@@ -120,6 +121,7 @@ void add_step(const Asked::Step& step, std::string& text) {
         if (during.has_rests_within_frames()) {
             text += fmt::format("; at rest within {} frames", during.rests_within_frames());
         }
+        for (const auto& output : during.output()) { text += "; " + text_of(output); }
         text += "\n";
     }
 }

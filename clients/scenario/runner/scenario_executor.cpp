@@ -221,6 +221,9 @@ void ScenarioExecutor::inject_due(EventSchedule& schedule, nanoseconds begun) {
         note(text_of(*during), at);
         const auto done = acts_.execute(during->act());
         add_check(text_of(*during), done ? "done at " + fixed(at_s(at), 3) + " s" : done.error(), done.has_value());
+        for (const auto& output : during->output()) {
+            observed_.outputs.push_back({text_of(during->act()), at, output});
+        }
         if (!during->has_rests_within_frames()) { continue; }
         AwaitedRest rest{text_of(during->act()), at, during->rests_within_frames(), {}};
         for (const std::string& motor : motor_names(scenario_.machine)) {
