@@ -100,6 +100,7 @@ struct Analysis {
     std::uint64_t program_events_not_kept = 0;
     std::vector<ChannelChange> channel_changes;  // of inputs and outputs, the first of the log, in the order of time
     std::uint64_t channel_changes_not_kept = 0;
+    std::vector<ChannelCourse> channel_courses;              // of each input and output that changed, by motors
     double tolerance_mm = 0;                                 // of joined moves, the greatest of any program
     std::vector<PairSkew> step_skew;                         // between motors that ran frames together
     std::optional<double> largest_distance_mm;               // of any step from the commanded line, all axes together

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "clients/analysis/analysis_text.hpp"
+#include "clients/analysis/channel_curves.hpp"
 #include "clients/analysis/curves.hpp"
 #include "clients/analysis/moves/deviation.hpp"
 #include "clients/drawing/motion_figures.hpp"
@@ -23,6 +24,21 @@ drawing::Figure with_events(const Analysis& analysis, drawing::Figure figure) {
     return figure;
 }
 
+drawing::Chart row_of(const ChannelCurve& channel, const drawing::Figure& figure) {
+    drawing::Chart chart;
+    chart.title = channel.curve.axis;
+    chart.y_label = channel.levels ? "" : "% of full scale";
+    if (channel.levels) { chart.names = {channel.levels->begin(), channel.levels->end()}; }
+    chart.series.push_back({.label = "",
+                            .x = channel.curve.time_s,
+                            .y = channel.curve.value,
+                            .stroke = {.colour = drawing::palette::series(figure.rows.size())},
+                            .filled = true});
+    chart.spans = channel.curve.missing;
+    chart.moments = {.x = channel.asked_s, .label = "words of programs that switch the output", .words = channel.asked};
+    return chart;
+}
+
 }  // namespace
 
 drawing::Figure speed_figure(const Analysis& analysis) {
@@ -33,6 +49,16 @@ drawing::Figure speed_figure(const Analysis& analysis) {
 drawing::Figure position_figure(const Analysis& analysis) {
     return with_events(analysis, drawing::position_figure(title(analysis, "position of each " + part(analysis)),
                                                           in_a_line(analysis), position_curves(analysis)));
+}
+
+drawing::Figure outputs_figure(const Analysis& analysis) {
+    drawing::Figure figure;
+    figure.title = title(analysis, "inputs and outputs");
+    figure.subtitle = "a curve begins with the first change on record · " + in_a_line(analysis);
+    figure.x_label = "time, s";
+    figure.span_label = "not known: changes missing from the log";
+    for (const ChannelCurve& channel : channel_curves(analysis)) { figure.rows.push_back(row_of(channel, figure)); }
+    return figure;
 }
 
 drawing::Figure path_figure(const Analysis& analysis, const std::optional<PlanePaths>& plane) {
@@ -58,7 +84,8 @@ std::expected<void, std::string> write_figures(const Analysis& analysis, const s
           std::pair{"xy.svg", path_figure(analysis, plane)}}) {
         if (auto written = write_text_file(directory / name, drawing::to_svg(figure)); !written) { return written; }
     }
-    return {};
+    if (analysis.channel_courses.empty()) { return {}; }
+    return write_text_file(directory / "outputs.svg", drawing::to_svg(outputs_figure(analysis)));
 }
 
 }  // namespace lockstep::analysis

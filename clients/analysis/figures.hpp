@@ -1,4 +1,5 @@
-// The figures of an analysis: `speed.svg`, `position.svg` and `xy.svg`.
+// The figures of an analysis: `speed.svg`, `position.svg` and `xy.svg`, and `outputs.svg` if an input or output
+// changed.
 #pragma once
 
 #include <expected>
@@ -15,10 +16,12 @@ namespace lockstep::analysis {
 /// Time counts from the log's first step. Lengths are in steps if an axis's steps per mm are not known.
 drawing::Figure speed_figure(const Analysis& analysis);
 drawing::Figure position_figure(const Analysis& analysis);
+/// Levels as bars, values as curves, and the words of programs that switch them.
+drawing::Figure outputs_figure(const Analysis& analysis);
 /// The path in the X-Y plane, or the positions over time if there is no such plane.
 drawing::Figure path_figure(const Analysis& analysis, const std::optional<PlanePaths>& plane);
 
-/// Writes all three. The error names the file.
+/// Writes all of them. The error names the file.
 std::expected<void, std::string> write_figures(const Analysis& analysis, const std::optional<PlanePaths>& plane,
                                                const std::filesystem::path& directory);
 

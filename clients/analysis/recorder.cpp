@@ -266,7 +266,9 @@ Analysis Recorder::finish(Sorter& sorter) {
     analysis_.program_events = std::move(program_events_.events());
     std::ranges::stable_sort(analysis_.program_events, {}, &HappenedEvent::at);
     analysis_.program_events_not_kept = program_events_.not_kept();
-    analysis_.channel_changes = channels_.finish();
+    channels_.finish(newest_);
+    analysis_.channel_changes = std::move(channels_.changes());
+    analysis_.channel_courses = channels_.courses();
     analysis_.channel_changes_not_kept = channels_.not_kept();
     analysis_.steps_of_no_job = moves_.steps_of_no_job();
     analysis_.stepped_ways = moves_.plane().ways();

@@ -14,6 +14,7 @@ using Lines = std::vector<std::vector<Point>>;
 
 constexpr double kPathTolerance = 0.2;  // pixels
 constexpr double kSpanOpacity = 0.16;
+constexpr double kFillOpacity = 0.25;
 
 const Stroke kGridStroke{.colour = std::string(palette::kGrid), .width = 1};
 const Stroke kFrameStroke{.colour = std::string(palette::kFrame), .width = 1};
@@ -43,10 +44,21 @@ std::vector<Point> decimated(const std::vector<Point>& line) {
     return decimate_path(rising ? decimate_columns(line) : line, kPathTolerance);
 }
 
+/// Fills from the lines to `ground`.
+void fill(Svg& svg, Lines lines, double ground, std::string_view colour) {
+    for (auto& line : lines) {
+        const Point first = line.front();
+        line.push_back({line.back().x, ground});
+        line.push_back({first.x, ground});
+    }
+    svg.area(lines, colour, kFillOpacity);
+}
+
 void draw_series(Svg& svg, const Series& series, const Panel& panel) {
     Lines lines = unbroken(series, panel);
     if (lines.empty()) { return; }
     for (auto& line : lines) { line = decimated(line); }
+    if (series.filled) { fill(svg, lines, panel.up(0), series.stroke.colour); }
     svg.path(lines, series.stroke);
 }
 
@@ -83,6 +95,21 @@ void draw_moments(Svg& svg, const Chart& chart, const Panel& panel) {
         if (moment < panel.x.low || moment > panel.x.high || x < last + 1) { continue; }
         svg.line({x, panel.box.y}, {x, panel.box.bottom()}, kMomentStroke);
         last = x;
+    }
+}
+
+/// Writes the words that end before the next one begins.
+void draw_words(Svg& svg, const Chart& chart, const Panel& panel) {
+    TextStyle style = kLabelText;
+    style.size = 10;
+    style.halo = true;
+    double free_from = panel.box.x;
+    for (std::size_t i = 0; i < std::min(chart.moments.x.size(), chart.moments.words.size()); ++i) {
+        const double x = panel.across(chart.moments.x[i]) + 3;
+        const double end = x + text_width(chart.moments.words[i], style);
+        if (x < free_from || end > panel.box.right()) { continue; }
+        svg.text({x, panel.box.y + 10}, chart.moments.words[i], style);
+        free_from = end + 4;
     }
 }
 
@@ -139,6 +166,7 @@ void draw_row(Svg& svg, const Chart& chart, const Panel& panel, bool with_x_labe
     draw_moments(svg, chart, panel);
     for (const Series& series : chart.series) { draw_series(svg, series, panel); }
     draw_levels(svg, chart, panel);
+    draw_words(svg, chart, panel);
     draw_marks(svg, chart, panel);
 }
 

@@ -25,6 +25,7 @@ struct Series {
     std::vector<double> x;
     std::vector<double> y;
     Stroke stroke;
+    bool filled = false;  // down to 0, which is then in the chart's range
 };
 
 /// A named level across a chart, such as a limit. It is drawn if it is within the chart's range, and does not
@@ -50,14 +51,16 @@ struct Mark {
 
 /// A thin line across a chart at each x within its range.
 struct Moments {
-    std::vector<double> x;  // rising
-    std::string label;      // in the legend; empty: not in the legend
+    std::vector<double> x;           // rising
+    std::string label;               // in the legend; empty: not in the legend
+    std::vector<std::string> words;  // beside the lines where there is room; empty: none
 };
 
 struct Chart {
     std::string title;    // at its upper left: "X"
     std::string y_label;  // beside it, with the unit: "speed, mm/s"
     std::vector<Series> series;
+    std::vector<std::string> names;  // of the values 0, 1, ... in place of numbers, if the chart has only these
     std::vector<Level> levels;
     std::vector<Span> spans;
     std::vector<Mark> marks;

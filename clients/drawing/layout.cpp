@@ -56,8 +56,10 @@ Range y_range(const Chart& chart) {
     Extent extent;
     for (const Series& series : chart.series) {
         for (const double y : series.y) { extent.add(y); }
+        if (series.filled) { extent.add(0); }
     }
-    return extent.range(0.06);
+    if (!chart.names.empty()) { extent.add(static_cast<double>(chart.names.size() - 1)); }
+    return extent.range(chart.names.empty() ? 0.06 : 0.2);
 }
 
 double row_height(std::size_t rows) { return rows <= 1 ? 400 : (rows <= 3 ? 190 : 130); }
@@ -115,6 +117,15 @@ void equalise(Panel& panel) {
     panel.y = widened(panel.y, panel.box.height);
 }
 
+std::vector<AxisTick> y_ticks(const Chart& chart, const Panel& panel, bool equal_aspect) {
+    if (chart.names.empty()) {
+        return round_ticks(panel.y, wanted_ticks(panel.box.height, equal_aspect ? kEqualTicks : 42));
+    }
+    std::vector<AxisTick> named;
+    for (std::size_t i = 0; i < chart.names.size(); ++i) { named.push_back({static_cast<double>(i), chart.names[i]}); }
+    return named;
+}
+
 std::vector<Panel> size_panels(const Figure& figure) {
     std::vector<Panel> panels;
     const Range x = x_range(figure, figure.equal_aspect ? 0.05 : 0);
@@ -122,7 +133,7 @@ std::vector<Panel> size_panels(const Figure& figure) {
         Panel panel{
             .box = {0, 0, kWidth - kAxisRoom - kMargin, row_height(figure.rows.size())}, .x = x, .y = y_range(chart)};
         if (figure.equal_aspect) { equalise(panel); }
-        panel.y_ticks = round_ticks(panel.y, wanted_ticks(panel.box.height, figure.equal_aspect ? kEqualTicks : 42));
+        panel.y_ticks = y_ticks(chart, panel, figure.equal_aspect);
         panels.push_back(std::move(panel));
     }
     return panels;

@@ -111,6 +111,19 @@ void Svg::line(Point from, Point to, const Stroke& style) {
 void Svg::path(const std::vector<std::vector<Point>>& lines, const Stroke& style) {
     out_ += "<path fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\"";
     stroke(style);
+    points(lines);
+    out_ += "/>\n";
+}
+
+void Svg::area(const std::vector<std::vector<Point>>& shapes, std::string_view fill, double opacity) {
+    out_ += "<path";
+    attribute("fill", fill);
+    attribute("fill-opacity", opacity);
+    points(shapes);
+    out_ += "/>\n";
+}
+
+void Svg::points(const std::vector<std::vector<Point>>& lines) {
     out_ += " d=\"";
     for (const auto& points : lines) {
         for (std::size_t i = 0; i < points.size(); ++i) {
@@ -121,7 +134,7 @@ void Svg::path(const std::vector<std::vector<Point>>& lines, const Stroke& style
         }
         if (points.size() == 1) { out_ += "h0"; }  // draws a single point as a round dot
     }
-    out_ += "\"/>\n";
+    out_ += '"';
 }
 
 void Svg::dot(Point at, double radius, std::string_view colour) {

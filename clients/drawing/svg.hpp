@@ -48,6 +48,8 @@ public:
     void line(Point from, Point to, const Stroke& stroke);
     /// Each inner vector is one unbroken line.
     void path(const std::vector<std::vector<Point>>& lines, const Stroke& stroke);
+    /// Filled shapes.
+    void area(const std::vector<std::vector<Point>>& shapes, std::string_view fill, double opacity);
     void dot(Point at, double radius, std::string_view colour);
     void text(Point at, std::string_view content, const TextStyle& style);
 
@@ -56,6 +58,7 @@ public:
 
 private:
     void stroke(const Stroke& stroke);
+    void points(const std::vector<std::vector<Point>>& lines);
     void attribute(std::string_view name, double value);
     void attribute(std::string_view name, std::string_view value);
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "clients/analysis/channel_curves.hpp"
 #include "clients/analysis/curves.hpp"
 #include "clients/analysis/plane_path.hpp"
 #include "clients/drawing/chart_number.hpp"
@@ -58,6 +59,26 @@ std::string row_of(const Kind& kind, const drawing::AxisCurve& curve, std::size_
         numbers(limits), joined(missing), numbers(curve.time_s), numbers(curve.value));
 }
 
+std::string words_of(const ChannelCurve& channel) {
+    std::vector<std::string> words;
+    for (std::size_t i = 0; i < channel.asked.size(); ++i) {
+        words.push_back(fmt::format(R"({{"at_s":{},"what":{}}})", channel.asked_s[i], text(channel.asked[i])));
+    }
+    return joined(words);
+}
+
+std::string row_of(const ChannelCurve& channel, std::size_t colour) {
+    const drawing::AxisCurve& curve = channel.curve;
+    std::vector<std::string> missing;
+    for (const drawing::Span& span : curve.missing) { missing.push_back(numbers({span.from, span.to})); }
+    const std::string levels = channel.levels ? json(*channel.levels).dump() : "null";
+    return fmt::format(
+        R"({{"kind":"outputs","name":{},"what":{},"unit":{},"colour":{},"limits":[],"missing":{},"filled":true,)"
+        R"("levels":{},"words":{},"x":{},"y":{}}})",
+        text(curve.axis), text(channel.levels ? "" : "% of full scale"), text(curve.unit), colour, joined(missing),
+        levels, words_of(channel), numbers(curve.time_s), numbers(curve.value));
+}
+
 std::string rows(const Analysis& analysis) {
     std::vector<std::string> list;
     for (const Kind& kind : kinds(analysis)) {
@@ -65,6 +86,8 @@ std::string rows(const Analysis& analysis) {
             if (!kind.curves[i].time_s.empty()) { list.push_back(row_of(kind, kind.curves[i], i)); }
         }
     }
+    const auto channels = channel_curves(analysis);
+    for (std::size_t i = 0; i < channels.size(); ++i) { list.push_back(row_of(channels[i], i)); }
     return joined(list);
 }
 
@@ -102,9 +125,8 @@ json step_times(const Analysis& analysis) {
 }  // namespace
 
 std::string page_charts(const Analysis& analysis) {
-    const double lasts = analysis.first_tick() ? analysis.seconds(*analysis.last_tick() - *analysis.first_tick()) : 0;
-    return fmt::format(R"({{"whole":{},"rows":{},"path":{},"step_times":{}}})", numbers({0, lasts}), rows(analysis),
-                       path(analysis), step_times(analysis).dump());
+    return fmt::format(R"({{"whole":{},"rows":{},"path":{},"step_times":{}}})", numbers({0, shown_seconds(analysis)}),
+                       rows(analysis), path(analysis), step_times(analysis).dump());
 }
 
 }  // namespace lockstep::analysis

@@ -31,4 +31,23 @@ std::string event_text(const ProgramEvent& event) {
     return "unknown";
 }
 
+std::string event_words(const ProgramEvent& event) {
+    using Kind = ProgramEvent::Kind;
+    const std::string value = number_text(event.value);
+    switch (event.kind) {
+        case Kind::SpindleStop: return "M5";
+        case Kind::SpindleForward: return "M3 S" + value;
+        case Kind::SpindleReverse: return "M4 S" + value;
+        case Kind::SpindleSpeed: return "S" + value;
+        case Kind::CoolantOff: return "M9";
+        case Kind::MistOn: return "M7";
+        case Kind::FloodOn: return "M8";
+        case Kind::OutputOn: return fmt::format("M62 P{}", event.index);
+        case Kind::OutputOff: return fmt::format("M63 P{}", event.index);
+        case Kind::AnalogOutput: return fmt::format("M67 E{} Q{}", event.index, value);
+        case Kind::Tool: return fmt::format("T{}", event.index);
+    }
+    return "unknown";
+}
+
 }  // namespace lockstep

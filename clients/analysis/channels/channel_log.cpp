@@ -28,28 +28,60 @@ std::string value_text(const ChannelChange& change) {
 
 void ChannelLog::take(const channel_event_t& message) {
     if (!event_of(message) || !is_countable(message.tick) || !is_countable(message.ahead)) { return; }
-    streams_[message.axis].take(message, [this](const channel_event_t& next, Before) { follow(next); });
+    devices_[message.axis].stream.take(message,
+                                       [this](const channel_event_t& next, Before before) { follow(next, before); });
 }
 
-void ChannelLog::follow(const channel_event_t& message) {
+void ChannelLog::follow(const channel_event_t& message, Before before) {
     const auto event = event_of(message);
+    Device& device = devices_[message.axis];
+    const bool lost_some = device.lost && *device.lost != message.lost;
+    if (before != Before::Nothing || lost_some) { lose(device); }
+    device.lost = message.lost;
     ChannelChange change{.at = {message.tick + message.ahead}, .motor = message.axis, .kind = event->kind};
+    device.newest = std::max(device.newest, change.at);
     change.channel = event->channel;
     if (event->kind == ChannelKind::Input) {
         change.value = event->closed ? 1 : 0;
+        course_of(device, change).change({change.at, change.value, 0});
         note(change);
     } else if (event->kind == ChannelKind::Analog) {
-        change.value = static_cast<double>(event->value) / static_cast<double>(kFullScale);
+        constexpr auto kScale = static_cast<double>(kFullScale);
+        change.value = static_cast<double>(event->value) / kScale;
+        course_of(device, change).change({change.at, change.value, static_cast<double>(event->detail) / kScale});
         note(change);
     } else if (event->kind == ChannelKind::Digital) {
-        const auto changed = static_cast<unsigned>(std::exchange(levels_[message.axis], event->levels) ^ event->levels);
-        for (std::size_t i = 0; i < kMostDigitalOutputs; ++i) {
-            if ((changed >> i & 1U) == 0) { continue; }
-            change.channel = static_cast<int>(i);
-            change.value = (event->levels >> i & 1) != 0 ? 1 : 0;
-            note(change);
-        }
+        follow_levels(device, change, event->levels);
     }
+}
+
+/// A message has the levels of all outputs, so that after a gap those of all are known again.
+void ChannelLog::follow_levels(Device& device, const ChannelChange& change, std::uint16_t levels) {
+    const auto changed = static_cast<unsigned>(std::exchange(device.levels, levels) ^ levels);
+    if (!device.levels_from) { device.levels_from = change.at; }
+    for (std::size_t i = 0; i < kMostDigitalOutputs; ++i) {
+        ChannelChange of = change;
+        of.channel = static_cast<int>(i);
+        of.value = (levels >> i & 1) != 0 ? 1 : 0;
+        const bool has_changed = (changed >> i & 1U) != 0;
+        const bool is_new = !device.courses.contains({of.kind, of.channel});
+        const bool was_known = has_changed && is_new && *device.levels_from < of.at;
+        if (was_known) { course_of(device, of).change({*device.levels_from, 1 - of.value, 0}); }
+        if (has_changed || !is_new) { course_of(device, of).change({of.at, of.value, 0}); }
+        if (has_changed) { note(of); }
+    }
+}
+
+/// The log has all of the device's changes until the newest one.
+void ChannelLog::lose(Device& device) {
+    for (auto& [channel, course] : device.courses) { course.lose(device.newest); }
+    device.levels_from.reset();
+}
+
+ChannelCourse& ChannelLog::course_of(Device& device, const ChannelChange& change) {
+    return device.courses
+        .try_emplace({change.kind, change.channel}, ChannelCourse(change.motor, change.kind, change.channel))
+        .first->second;
 }
 
 void ChannelLog::note(ChannelChange change) {
@@ -60,12 +92,20 @@ void ChannelLog::note(ChannelChange change) {
     changes_.push_back(std::move(change));
 }
 
-std::vector<ChannelChange> ChannelLog::finish() {
-    for (auto& [motor, stream] : streams_) {
-        stream.finish([this](const channel_event_t& next, Before) { follow(next); });
+void ChannelLog::finish(Tick end) {
+    for (auto& [motor, device] : devices_) {
+        device.stream.finish([this](const channel_event_t& next, Before before) { follow(next, before); });
+        for (auto& [channel, course] : device.courses) { course.finish(end); }
     }
     std::ranges::stable_sort(changes_, {}, &ChannelChange::at);
-    return std::move(changes_);
+}
+
+std::vector<ChannelCourse> ChannelLog::courses() {
+    std::vector<ChannelCourse> all;
+    for (auto& [motor, device] : devices_) {
+        for (auto& [channel, course] : device.courses) { all.push_back(std::move(course)); }
+    }
+    return all;
 }
 
 std::optional<std::string> name_of(const ChannelChange& change, const MachineConfig& machine) {
@@ -82,10 +122,13 @@ std::optional<std::string> name_of(const ChannelChange& change, const MachineCon
     return output == machine.outputs.end() ? std::nullopt : std::optional(output->name);
 }
 
-std::string change_text(const ChannelChange& change, const MachineConfig* machine) {
+std::string channel_text(const ChannelChange& change, const MachineConfig* machine) {
     const auto name = machine != nullptr ? name_of(change, *machine) : std::nullopt;
-    const std::string channel = fmt::format("{} {}", kind_text(change.kind), change.channel);
-    return name.value_or(channel) + " " + value_text(change);
+    return name.value_or(fmt::format("{} {}", kind_text(change.kind), change.channel));
+}
+
+std::string change_text(const ChannelChange& change, const MachineConfig* machine) {
+    return channel_text(change, machine) + " " + value_text(change);
 }
 
 }  // namespace lockstep::analysis

@@ -53,12 +53,28 @@ function marksPlugin(row, events, programEvents) {
     u.ctx.stroke();
     u.ctx.setLineDash([]);
   };
+  // Words at lines, where they end before the next one begins.
+  const label = (u, labels) => {
+    let free = u.bbox.left;
+    u.ctx.textAlign = "left";
+    u.ctx.textBaseline = "alphabetic";
+    u.ctx.font = `${10 * devicePixelRatio}px sans-serif`;
+    u.ctx.fillStyle = css("--ink");
+    for (const { at_s, what } of labels) {
+      const left = u.valToPos(at_s, "x", true) + 3 * devicePixelRatio;
+      const right = left + u.ctx.measureText(what).width;
+      if (left < free || right > u.bbox.left + u.bbox.width) { continue; }
+      u.ctx.fillText(what, left, u.bbox.top + 10 * devicePixelRatio);
+      free = right + 4 * devicePixelRatio;
+    }
+  };
   return { hooks: { draw: (u) => {
     u.ctx.save();
     (row.missing ?? []).forEach((stretch) => shade(u, stretch));
     (row.limits ?? []).forEach((y) => limit(u, y));
     programEvents.forEach((event) => vertical(u, event.at_s, css("--soft")));
     events.forEach((event) => vertical(u, event.at_s, css("--alarm")));
+    label(u, row.words ?? []);
     u.ctx.restore();
   } } };
 }
@@ -84,14 +100,18 @@ function timeChart(host, row, last, events, programEvents = []) {
     const room = 0.06 * (max - min) || 1;
     return [min - room, max + room];
   };
+  const named = row.levels ? { splits: () => [0, 1], values: () => row.levels } : {};
+  const yRange = row.levels ? () => [-0.2, 1.3] : () => pad(shownExtent([row.x, row.y], shown));
   let shown = whole;  // uPlot asks for the range of x first
   const chart = new uPlot({
     width: width(), padding: [10, 12, 0, 0], height: last ? 200 : 170, cursor: { sync: { key: joined.key, setSeries: false }, drag: { x: true, y: false } },
     scales: { x: { time: false, min: whole[0], max: whole[1], range: (u, min, max) => (shown = [min ?? whole[0], max ?? whole[1]]) },
-      y: { range: () => pad(shownExtent([row.x, row.y], shown)) } },
-    axes: [{ ...axisStyle(last ? "time, s" : undefined), size: last ? 46 : 26 }, axisStyle(row.unit)],
+      y: { range: yRange } },
+    axes: [{ ...axisStyle(last ? "time, s" : undefined), size: last ? 46 : 26 }, { ...axisStyle(row.unit), ...named }],
     series: [{ label: "s", value: (u, value) => value?.toFixed(4) },
-      { label: row.name, stroke: colours[row.colour % colours.length], width: 1.3, points: { show: false }, spanGaps: false }],
+      { label: row.name, stroke: colours[row.colour % colours.length], width: 1.3, points: { show: false }, spanGaps: false,
+        ...(row.filled && { fill: `${colours[row.colour % colours.length]}40`, fillTo: 0 }),
+        ...(row.levels && { value: (u, value) => row.levels[value] ?? "" }) }],
     plugins: [marksPlugin(row, events, programEvents)],
     hooks: { setScale: [follow] },
   }, [row.x, row.y], host);

@@ -231,7 +231,7 @@ function overTime() {
   const buttons = make("p");
   const holder = make("div");
   const part = section("Over time", make("p", { className: "soft" },
-    "Drag to zoom, double-click to see all again. Dashed lines: limits. Shaded: steps missing in the log. Red: faults and stops. Grey: events of programs."), buttons, holder);
+    "Drag to zoom, double-click to see all again. Dashed lines: limits. Shaded: steps or changes missing in the log. Red: faults and stops. Grey: events of programs. A curve of an input or output begins with the first change on record."), buttons, holder);
   part.id = "time";
   const kinds = [...new Set(charts.rows.map((row) => row.kind))];
   const draw = (kind) => {
@@ -243,7 +243,7 @@ function overTime() {
     rows.forEach((row, i) => {
       const figure = make("figure", {}, make("figcaption", {}, make("b", {}, row.name), ` ${row.what}`));
       holder.append(figure);
-      timeChart(figure, row, i + 1 === rows.length, report.events, report.program_events);
+      timeChart(figure, row, i + 1 === rows.length, report.events, row.words ?? report.program_events);
     });
     zoomTo(...zoom);
     [...buttons.children].forEach((button) => button.setAttribute("aria-pressed", button.textContent === kind));

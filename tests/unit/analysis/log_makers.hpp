@@ -41,7 +41,8 @@ inline MachineConfig two_axes() {
 
 class LogMaker {
 public:
-    explicit LogMaker(const std::filesystem::path& path) : writer_(LogWriter::open(path).value()) {}
+    explicit LogMaker(const std::filesystem::path& path, MachineConfig machine = two_axes())
+        : writer_(LogWriter::open(path).value()), machine_(std::move(machine)) {}
     ~LogMaker() { EXPECT_TRUE(writer_.flush()); }
 
     void steps(const std::string& axis, std::int64_t sequence, std::int64_t before,
@@ -64,13 +65,12 @@ public:
     }
 
     void position(std::uint32_t axis, std::int64_t tick, std::int64_t steps) {
-        const MachineConfig machine = two_axes();
         AxisState state;
         state.axis = axis;
         state.tick = Tick{tick};
         state.position = Position::steps(steps);
-        writer_.write_message(channels_of("mill", machine.axes[axis].name).position, tick,
-                              to_lcm(machine, state, {7, positions_[axis]++}));
+        writer_.write_message(channels_of("mill", machine_.axes[axis].name).position, tick,
+                              to_lcm(machine_, state, {7, positions_[axis]++}));
     }
 
     void job(const std::string& event, std::int64_t tick, const Program& program, std::string outcome = "",
@@ -82,7 +82,7 @@ public:
                          .event = event,
                          .outcome = std::move(outcome)};
         record.start = Tick{tick};
-        record.config = machine_text(two_axes());
+        record.config = machine_text(machine_);
         record.program = program_text(program);
         writer_.write_message(job_channel("mill"), tick, to_lcm(record, Tick{tick}, 1000));
     }
@@ -92,6 +92,16 @@ public:
         if (event.job == 0) { event.job = 3; }
         const EventRecord record{.machine = "mill", .number = {.sequence = job_events_++}, .event = event};
         writer_.write_message(event_channel("mill"), event.tick.value, to_lcm(record, event.tick, 1000));
+    }
+
+    /// Writes the change of a channel of an axis's device with this number.
+    void channel(const std::string& axis, std::int64_t number, const ChannelEvent& event) {
+        channel_event_t message{};
+        message.machine = "mill";
+        message.axis = axis;
+        to_lcm(ChannelRecord{.number = {7, static_cast<std::uint64_t>(number)}, .event = event}, machine_.tick_ns,
+               message);
+        writer_.write_message(channels_of("mill", axis).channels, event.tick.value, message);
     }
 
     /// Skips the numbers of the next `count` positions of each axis and job events: the log lacks them.
@@ -104,6 +114,7 @@ public:
 
 private:
     LogWriter writer_;
+    MachineConfig machine_;
     std::array<std::uint64_t, 2> positions_{};  // numbers of positions used so far, by axis
     std::uint64_t job_events_ = 0;
 };

@@ -72,6 +72,25 @@ TEST(Figure, DrawsMomentsWithinItsRangeOncePerPixel) {
     EXPECT_EQ(lines({-1, 0.2, 0.2, 0.2001, 5}), before + 2);
 }
 
+TEST(Figure, WritesTheWordsOfMomentsWhereThereIsRoom) {
+    Chart row{.series = {ramp("", 1000)}};
+    row.moments = {.x = {0.2, 0.2001, 0.5}, .label = "", .words = {"M3 S100", "S200", "M5"}};
+    const std::string svg = to_svg({.rows = {row}});
+    EXPECT_EQ(count(svg, "M3 S100"), 1U);
+    EXPECT_EQ(count(svg, "S200"), 0U);
+    EXPECT_EQ(count(svg, "M5<"), 1U);
+}
+
+TEST(Figure, FillsLevelsDownToZeroAndNamesThem) {
+    Chart row{.series = {Series{.x = {0, 1, 1, 2}, .y = {1, 1, 1, 1}, .filled = true}}, .names = {"off", "on"}};
+    const Figure figure{.rows = {row}};
+    EXPECT_LT(arrange(figure).panels.at(0).y.low, 0);
+    const std::string svg = to_svg(figure);
+    EXPECT_EQ(xml_problem(svg), std::nullopt);
+    EXPECT_EQ(count(svg, "fill-opacity"), 1U);
+    EXPECT_EQ(count(svg, ">off<") + count(svg, ">on<"), 2U);
+}
+
 TEST(Figure, HasEqualScalesInBothDirections) {
     for (const double height : {1.0, 30.0, 900.0}) {
         const Figure figure{.rows = {Chart{.series = {Series{.x = {0, 120}, .y = {0, height}}}}}, .equal_aspect = true};

@@ -36,6 +36,17 @@ TEST(EventText, NamesEachKindInPlainWords) {
     EXPECT_EQ(event_text({.kind = Kind::Tool}), "no tool in the spindle");
 }
 
+TEST(EventWords, AreThoseOfAProgram) {
+    EXPECT_EQ(event_words({.kind = Kind::SpindleStop}), "M5");
+    EXPECT_EQ(event_words({.kind = Kind::SpindleForward, .value = 12'000}), "M3 S12000");
+    EXPECT_EQ(event_words({.kind = Kind::SpindleReverse, .value = 0.5}), "M4 S0.5");
+    EXPECT_EQ(event_words({.kind = Kind::SpindleSpeed, .value = 800}), "S800");
+    EXPECT_EQ(event_words({.kind = Kind::CoolantOff}), "M9");
+    EXPECT_EQ(event_words({.kind = Kind::OutputOn, .index = 3}), "M62 P3");
+    EXPECT_EQ(event_words({.kind = Kind::AnalogOutput, .index = 1, .value = -2.5}), "M67 E1 Q-2.5");
+    EXPECT_EQ(event_words({.kind = Kind::Tool}), "T0");
+}
+
 TEST(EventLines, AreOneForEachEventOfTheJob) {
     EventLines lines(5);
     EXPECT_THAT(lines.of(std::vector{flood_on(1, 12), flood_on(2, {})}), ElementsAre("line 12: flood on", "flood on"));
