@@ -12,10 +12,11 @@ std::vector<std::string> MachineConfig::axis_names() const {
 
 bool MachineConfig::estimates_clocks() const {
     if (timing.time_source == TimeSource::Network) { return true; }
-    return std::ranges::any_of(axes, [](const AxisConfig& axis) {
-        const auto has_own = [](const MotorBlock& motor) { return motor.device.has_own_clock(); };
-        return axis.motors.empty() ? axis.device.has_own_clock() : std::ranges::any_of(axis.motors, has_own);
-    });
+    const auto is_on_own_clock = [](const BoardConfig& board) { return board.device.has_own_clock(); };
+    return std::ranges::any_of(boards, is_on_own_clock) || std::ranges::any_of(axes, [](const AxisConfig& axis) {
+               const auto has_own = [](const MotorBlock& motor) { return motor.device.has_own_clock(); };
+               return axis.motors.empty() ? axis.device.has_own_clock() : std::ranges::any_of(axis.motors, has_own);
+           });
 }
 
 }  // namespace lockstep

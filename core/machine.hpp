@@ -90,6 +90,14 @@ struct AxisConfig {
     std::optional<double> max_skew_mm;  // by how much its motors may differ while they square; several motors only
 };
 
+/// A device without a motor: only outputs and inputs. Its process takes part in every frame as a motor's does.
+struct BoardConfig {
+    std::string name;
+    std::string host;  // on which it runs; empty: any host
+    DeviceName device;
+    bool operator==(const BoardConfig&) const = default;
+};
+
 /// A share of an axis in the place of a motor.
 struct AxisShare {
     std::string axis;
@@ -216,6 +224,7 @@ struct MachineConfig {
     std::string subroutine_directory;  // searched after the program's own; empty: only that
     std::optional<WebConfig> web;      // none: `lockstep up` starts no page
     std::vector<AxisConfig> axes;
+    std::vector<BoardConfig> boards;
     KinematicsConfig kinematics;
     std::vector<OutputConfig> outputs;
     double output_silence_ms = 500;  // how long a process may be silent until the outputs of its device go off

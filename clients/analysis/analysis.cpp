@@ -51,6 +51,11 @@ const MotorConfig* Analysis::motor_config(const std::string& name) const {
     return found == motors().end() ? nullptr : &*found;
 }
 
+bool Analysis::is_board(const std::string& name) const {
+    const MotorConfig* const configured = motor_config(name);
+    return configured != nullptr && configured->is_board();
+}
+
 const AxisConfig* Analysis::axis_config(const std::string& name) const {
     if (!config) { return nullptr; }
     const auto found = std::ranges::find(config->axes, name, &AxisConfig::name);
@@ -65,7 +70,7 @@ std::string Analysis::label_of(const std::string& motor) const {
 
 std::string_view Analysis::unit_of(const std::string& motor) const {
     const MotorConfig* configured = motor_config(motor);
-    return lockstep::unit_of(configured ? config->axes[configured->axis].name : motor);
+    return lockstep::unit_of(configured && configured->axis ? config->axes[*configured->axis].name : motor);
 }
 
 std::optional<double> Analysis::steps_per_mm(const AxisLog& axis) const {

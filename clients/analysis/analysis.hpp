@@ -113,6 +113,8 @@ struct Analysis {
     std::span<const MotorConfig> motors() const;
     /// Null if the configuration is not known, or lacks the motor.
     const MotorConfig* motor_config(const std::string& name) const;
+    /// A device without a motor.
+    bool is_board(const std::string& name) const;
     /// Null if the configuration is not known, or lacks the axis.
     const AxisConfig* axis_config(const std::string& name) const;
     /// "axis X", "motor Y2"

@@ -97,7 +97,9 @@ std::string axis_table(const Analysis& analysis) {
     std::string text = fmt::format("{:<10} {:>5} {:>13} {:>10} {:>10} {:>9} {:>7} {:>9} {:>7} {:>9} {:>8}\n",
                                    analysis.has_motors_as_axes() ? "axis" : "motor", "unit", "steps", "start", "end",
                                    "peak /s", "limit", "most /s²", "limit", "in 10 ms", "missing");
-    for (const auto& axis : analysis.axes) { text += axis_row(analysis, *axis); }
+    for (const auto& axis : analysis.axes) {
+        if (!analysis.is_board(axis->name())) { text += axis_row(analysis, *axis); }
+    }
     return text +
            "most /s²: of the frames on record; in 10 ms: measured from steps, with jumps of up to start_velocity in "
            "it\n";
@@ -306,12 +308,15 @@ std::string log_notes(const Analysis& analysis) {
 }  // namespace
 
 std::string in_a_line(const Analysis& analysis) {
-    const auto recorded = static_cast<std::int64_t>(analysis.axes.size());
+    const std::int64_t boards =
+        std::ranges::count_if(analysis.axes, [&](const auto& log) { return analysis.is_board(log->name()); });
+    const std::int64_t recorded = std::ssize(analysis.axes) - boards;
     std::string parts = recorded == 1 ? "1 axis" : grouped(recorded) + " axes";
     if (!analysis.has_motors_as_axes()) {
         const std::size_t axes = analysis.kinematics->axes();
         parts = fmt::format("{}, {}", axes == 1 ? "1 axis" : fmt::format("{} axes", axes), plural(recorded, "motor"));
     }
+    if (boards > 0) { parts += ", " + plural(boards, "board"); }
     return fmt::format("{} · {} · {:.3g} s · {}", parts, plural(total(analysis, steps_of), "step"), seconds(analysis),
                        missing_in_short(analysis));
 }

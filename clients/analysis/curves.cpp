@@ -121,6 +121,7 @@ std::vector<drawing::AxisCurve> curves(const Analysis& analysis,
                                        drawing::AxisCurve (*of)(const Analysis&, const AxisLog&)) {
     std::vector<drawing::AxisCurve> all;
     for (const auto& axis : analysis.axes) {
+        if (analysis.is_board(axis->name()) && of != slack_curve) { continue; }  // it does not move
         drawing::AxisCurve curve = of(analysis, *axis);
         if (!analysis.has_motors_as_axes()) { curve.axis = analysis.label_of(curve.axis); }
         all.push_back(std::move(curve));

@@ -28,7 +28,7 @@ void fill_gaps(const AxisLog& axis, proto::AxisAnalysis& report) {
 
 void fill_lengths(const Analysis& analysis, const AxisLog& axis, proto::AxisAnalysis& report) {
     const auto steps_per_mm = analysis.steps_per_mm(axis);
-    if (!steps_per_mm) { return; }
+    if (!steps_per_mm || analysis.is_board(axis.name())) { return; }
     const AxisStatistics& found = axis.statistics();
     const double ticks_per_s = 1e9 / static_cast<double>(analysis.tick_ns());
     report.set_peak_velocity_mm_s(found.peak_steps_per_tick() * ticks_per_s / *steps_per_mm);
@@ -50,9 +50,10 @@ void fill(const Analysis& analysis, const AxisLog& axis, proto::AxisAnalysis& re
     report.set_name(axis.name());
     if (analysis.steps_per_mm(axis)) { report.set_unit(std::string(analysis.unit_of(axis.name()))); }
     const MotorConfig* config = analysis.motor_config(axis.name());
-    if (config != nullptr && !analysis.has_motors_as_axes()) {
-        report.set_axis(analysis.config->axes[config->axis].name);
+    if (config != nullptr && config->axis && !analysis.has_motors_as_axes()) {
+        report.set_axis(analysis.config->axes[*config->axis].name);
     }
+    report.set_board(analysis.is_board(axis.name()));
     report.set_steps(found.steps());
     report.set_batches(axis.counts().batches);
     report.set_missing_steps(found.missing_steps() + std::abs(axis.unrecorded_steps()));

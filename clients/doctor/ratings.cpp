@@ -156,7 +156,8 @@ Finding rate_clock(TimeSource source, const ClockFacts& facts) {
 Finding rate_device(const MotorConfig& axis, const std::expected<void, std::string>& answer) {
     if (answer) { return {Rating::Good, "device of " + axis.name, axis.device.text(), ""}; }
     return {Rating::Bad, "device of " + axis.name, axis.device.text() + ": " + answer.error(),
-            "power it up, or correct `device` of axis " + axis.name + " in the machine's file"};
+            "power it up, or correct `device` of " + std::string(axis.is_board() ? "board " : "axis ") + axis.name +
+                " in the machine's file"};
 }
 
 Finding rate_directory(const std::string& what, const std::string& path, const std::string& not_writable) {

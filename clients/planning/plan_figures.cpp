@@ -37,7 +37,7 @@ PlanDrawing::PlanDrawing(const MachineConfig& machine)
       ticks_per_s_(machine.ticks_per_second()),
       x_(place_of(machine, "X", 0)),
       y_(place_of(machine, "Y", 1)) {
-    for (const MotorConfig& motor : kinematics_.motors()) {
+    for (const MotorConfig& motor : kinematics_.moving_motors()) {
         motors_.push_back({motor.name, motor.steps_per_mm, motor.max_velocity_mm_s, {}});
     }
 }

@@ -78,7 +78,7 @@ AxisCounts parked_counts(const MachineConfig& machine) {
 /// by frames, so that a program that cannot run is not reported as correct.
 bool may_get_stuck(const MachineConfig& machine) {
     constexpr double kTicks = 8;
-    return std::ranges::any_of(motors_of(machine), [&](const MotorConfig& motor) {
+    return std::ranges::any_of(moving_motors_of(machine), [&](const MotorConfig& motor) {
         const double change_mm_s = std::max(motor.max_accel_mm_s2, motor.max_decel_mm_s2) / machine.ticks_per_second();
         return motor.start_velocity_mm_s < kTicks * change_mm_s;
     });

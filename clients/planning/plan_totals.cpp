@@ -16,12 +16,12 @@ void raise(double& peak, double value) { peak = std::max(peak, value); }
 }  // namespace
 
 PlanTotals::PlanTotals(const MachineConfig& machine, const AxisCounts& start)
-    : machine_(machine), motors_(motors_of(machine)) {
+    : machine_(machine), motors_(moving_motors_of(machine)) {
     const MotorCounts at = Kinematics(machine).motors_at(start);
     for (std::size_t m = 0; m < motors_.size(); ++m) {
         const double mm = to_mm(motors_[m], static_cast<double>(at[m]));
         axes_.push_back(
-            {.axis = machine.axes[motors_[m].axis].name, .name = motors_[m].name, .min_mm = mm, .max_mm = mm});
+            {.axis = machine.axes[*motors_[m].axis].name, .name = motors_[m].name, .min_mm = mm, .max_mm = mm});
         now_.push_back({.count = at[m], .speed = 0});
     }
 }

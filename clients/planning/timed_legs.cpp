@@ -13,7 +13,7 @@ Ticks rounded_up(double ticks) { return {static_cast<std::int64_t>(std::ceil(tic
 
 std::vector<std::int64_t> motors_at(const MachineConfig& machine, const AxisCounts& axes) {
     const MotorCounts motors = Kinematics(machine).motors_at(axes);
-    return {motors.steps.begin(), motors.steps.end()};
+    return {motors.steps.begin(), motors.steps.begin() + moving_motor_count(machine)};
 }
 
 class LegTimer {
@@ -80,10 +80,10 @@ PlannedTotals time_legs(const MachineConfig& machine, const std::shared_ptr<cons
         first = end.block + 1;
     }
     totals.duration = timer.duration();
-    const std::vector<MotorConfig> motors = motors_of(machine);
+    const std::vector<MotorConfig> motors = moving_motors_of(machine);
     for (std::size_t m = 0; m < motors.size(); ++m) {
         totals.axes.push_back(
-            plan_of(machine.axes[motors[m].axis].name, motors[m], timer.load().axes()[m], machine.ticks_per_second()));
+            plan_of(machine.axes[*motors[m].axis].name, motors[m], timer.load().axes()[m], machine.ticks_per_second()));
     }
     return totals;
 }

@@ -71,7 +71,7 @@ proto::FaultReport motor_fault(FaultCode fault, const Kinematics& kinematics, st
     const std::string& name = kinematics.motors()[motor].name;
     if (kinematics.is_named_as_axis(motor)) { return fault_report(fault, name); }
     proto::FaultReport report = fault_report(fault, "");
-    report.set_motor(name);
+    kinematics.motors()[motor].is_board() ? report.set_board(name) : report.set_motor(name);
     return report;
 }
 
@@ -100,6 +100,7 @@ std::optional<proto::DevicesReport> devices_report(const ProgramDevices& devices
 }
 
 std::string fault_place(const proto::FaultReport& fault) {
+    if (fault.has_board()) { return "board " + fault.board() + ": "; }
     if (fault.has_motor()) { return "motor " + fault.motor() + ": "; }
     return fault.has_axis() ? "axis " + fault.axis() + ": " : "";
 }
@@ -203,12 +204,31 @@ void add_motors(const Session& session, proto::StatusReport& report) {
     const Kinematics& kinematics = session.kinematics();
     for (std::size_t m = 0; m < kinematics.motors().size(); ++m) {
         const MotorConfig& config = kinematics.motors()[m];
-        if (kinematics.own_motor(config.axis) == m) { continue; }
+        if (config.is_board() || kinematics.own_motor(*config.axis) == m) { continue; }
         const auto& motor = session.motor(m);
         proto::AxisStatus& row = *report.add_motors();
         row = axis_status({config.name, config.steps_per_mm, session.config().ticks_per_second()},
                           motor ? &motor->state : nullptr, motor ? motor->state.velocity.steps_per_tick() : 0);
-        row.set_axis(session.config().axes[config.axis].name);
+        row.set_axis(session.config().axes[*config.axis].name);
+        row.set_present(session.motor_present(m));
+        name_faults(session, axis_bit(m), row);
+        add_health(session, m, row);
+    }
+}
+
+void add_boards(const Session& session, proto::StatusReport& report) {
+    const std::vector<MotorConfig>& motors = session.kinematics().motors();
+    for (std::size_t m = moving_motor_count(session.config()); m < motors.size(); ++m) {
+        const auto& board = session.motor(m);
+        proto::AxisStatus& row = *report.add_boards();
+        row = axis_status({motors[m].name, motors[m].steps_per_mm, session.config().ticks_per_second()},
+                          board ? &board->state : nullptr, 0);
+        row.clear_position_mm();
+        row.clear_position_steps();
+        row.clear_velocity_mm_s();
+        row.clear_homed();
+        row.clear_following_error_steps();
+        row.set_board(true);
         row.set_present(session.motor_present(m));
         name_faults(session, axis_bit(m), row);
         add_health(session, m, row);
@@ -233,6 +253,7 @@ proto::StatusReport status_report(const Session& session) {
     report.set_unsaved_values(session.values_unsaved_since().has_value());
     add_axes(session, report);
     add_motors(session, report);
+    add_boards(session, report);
     const auto closed_of = [&](std::size_t motor) {
         return session.motor(motor) ? std::optional(session.motor(motor)->state.inputs) : std::nullopt;
     };
@@ -253,6 +274,7 @@ proto::FinalPosition place_of(const AxisConfig& axis, std::int64_t count) {
 }
 
 std::string label_of(const proto::AxisStatus& row) {
+    if (row.board()) { return row.name(); }
     if (!row.has_axis()) { return axis_label(row.name()); }
     return is_rotary(row.axis()) ? row.name() + " (deg)" : row.name();
 }
@@ -261,20 +283,23 @@ std::vector<const proto::AxisStatus*> rows_of(const proto::StatusReport& status)
     std::vector<const proto::AxisStatus*> rows;
     for (const proto::AxisStatus& axis : status.axes()) { rows.push_back(&axis); }
     for (const proto::AxisStatus& motor : status.motors()) { rows.push_back(&motor); }
+    for (const proto::AxisStatus& board : status.boards()) { rows.push_back(&board); }
     return rows;
 }
 
 std::vector<const proto::AxisStatus*> process_rows(const proto::StatusReport& status) {
     std::vector<const proto::AxisStatus*> rows = rows_of(status);
     std::erase_if(rows, [&](const proto::AxisStatus* row) {
-        return !row->has_axis() && std::ranges::any_of(status.motors(), [&](const proto::AxisStatus& motor) {
-            return motor.axis() == row->name();
-        });
+        return !row->has_axis() && !row->board() &&
+               std::ranges::any_of(status.motors(),
+                                   [&](const proto::AxisStatus& motor) { return motor.axis() == row->name(); });
     });
     return rows;
 }
 
-std::string process_label(const proto::AxisStatus& row) { return (row.has_axis() ? "motor " : "axis ") + row.name(); }
+std::string process_label(const proto::AxisStatus& row) {
+    return (row.board() ? "board " : row.has_axis() ? "motor " : "axis ") + row.name();
+}
 
 void add_incidents(const MachineConfig& machine, proto::StatusReport& report) {
     const auto files = incident_files(incident_directory(machine));

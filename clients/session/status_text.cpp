@@ -42,6 +42,7 @@ std::string row(const std::string& name, const std::string& position, const std:
 }
 
 std::string axis_row(const proto::AxisStatus& axis) {
+    if (axis.board()) { return row(axis.name(), "board", "", axis.present() ? axis.state() : "not received", ""); }
     if (!axis.has_position_mm()) { return row(label_of(axis), "-", "-", "not received", "-"); }
     return row(label_of(axis), fixed(axis.position_mm(), 4), fixed(axis.velocity_mm_s(), 3),
                axis.present() ? axis.state() : "not received", axis.homed() ? "yes" : "no");
@@ -66,9 +67,8 @@ std::string unproved_lines(const proto::StatusReport& status) {
             continue;
         }
         const proto::FaultReport& why = axis->unproved();
-        text += wrapped(axis->name() + " is not homed, " + why.name() + ": " + why.cause() + "; " + why.remedy(), 80,
-                        "  ") +
-                "\n";
+        const std::string what = axis->board() ? "board " + axis->name() + ", " : axis->name() + " is not homed, ";
+        text += wrapped(what + why.name() + ": " + why.cause() + "; " + why.remedy(), 80, "  ") + "\n";
     }
     return text;
 }
@@ -205,6 +205,7 @@ std::string progress_text(const proto::StatusReport& status) {
 std::string homing_text(const proto::StatusReport& status) {
     std::string text;
     for (const proto::AxisStatus* const axis : rows_of(status)) {
+        if (axis->board()) { continue; }
         const std::string state = axis->homed()     ? "homed at " + fixed(axis->position_mm(), 3)
                                   : axis->present() ? axis->state()
                                                     : "not received";
@@ -216,7 +217,7 @@ std::string homing_text(const proto::StatusReport& status) {
 std::string unhomed_text(const proto::StatusReport& status) {
     std::string names;
     for (const proto::AxisStatus* const axis : rows_of(status)) {
-        if (!axis->homed()) { names += (names.empty() ? "" : ", ") + axis->name(); }
+        if (!axis->board() && !axis->homed()) { names += (names.empty() ? "" : ", ") + axis->name(); }
     }
     return names.empty() ? names : "not homed: " + names + "; home: lockstep home";
 }

@@ -15,7 +15,9 @@ AxisController::AxisController(std::size_t axis, const MachineConfig& machine, I
       config_hash_(config_hash),
       slot_(machine.slot_ticks()),
       stop_inputs_(inputs_with(machine, motor_name(machine, axis), InputUse::EmergencyStop)),
-      condition_{.phases = {}, .position = {scale_of(machine, axis), std::move(kept)}, .orders = {}},
+      condition_{.phases = {},
+                 .position = {scale_of(machine, axis), std::move(kept), motors_of(machine)[axis].is_board()},
+                 .orders = {}},
       owner_(machine.timing),
       following_(axis, machine),
       own_(axis, machine, begin_steps),
@@ -42,7 +44,7 @@ void AxisController::look(const AxisInputs& inputs, AxisLoop& loop) {
     if (device_.appear()) { find_device(inputs, loop); }
     device_.see(inputs.device, is_resting());
     if (!is_resting() && device_.is_in_newest_run()) { observe_run(loop); }
-    if (phase() == AxisPhase::Stop && is_resting()) { condition_.phases.happen(AxisEvent::Released); }
+    if (phase() == AxisPhase::Stop && is_resting()) { release(); }
     check_stop_inputs(loop);
     check_encoder(loop);
     if (inputs.device_failed && condition_.phases.fault() != FaultCode::DeviceFault) {
@@ -50,6 +52,12 @@ void AxisController::look(const AxisInputs& inputs, AxisLoop& loop) {
         following_.veto(loop);
         loop.fail(FaultCode::DeviceFault);
     }
+}
+
+/// An axis has to be homed again. The place of a board is known.
+void AxisController::release() {
+    condition_.phases.happen(AxisEvent::Released);
+    if (condition_.position.is_board()) { condition_.phases.happen(AxisEvent::PositionKept); }
 }
 
 /// Takes a device that was found. Runs that it made before do not count as runs of this process.

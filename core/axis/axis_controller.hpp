@@ -37,6 +37,7 @@ public:
 private:
     // These process the device's actions since the last loop.
     void look(const AxisInputs& inputs, AxisLoop& loop);
+    void release();
     void find_device(const AxisInputs& inputs, AxisLoop& loop);
     void lose_device(AxisLoop& loop);
     void observe_run(AxisLoop& loop);

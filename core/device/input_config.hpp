@@ -1,4 +1,5 @@
-// An input of the machine: a pin of a motor's device that is wired to something other than the motor's own switches.
+// An input of the machine: a pin of a motor's device, or a board's, that is wired to something other than the motor's
+// own switches.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +30,8 @@ inline constexpr int kSwitchInputs = 3;
 
 struct InputConfig {
     std::string name;
-    std::string motor;  // whose device has the pin
+    std::string motor;      // whose device has the pin
+    bool at_board = false;  // the motor is a board
     int channel = kSwitchInputs;
     InputUse use = InputUse::Program;
     bool active_low = false;    // closed while the pin is low

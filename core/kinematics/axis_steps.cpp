@@ -14,7 +14,7 @@ void set_steps_of_axes(MachineConfig& machine) {
     std::vector<double> finest(machine.axes.size(), 0.0);
     std::vector<bool> is_simple(machine.axes.size(), true);
     const std::vector<MotorConfig> motors = motors_of(machine);
-    for (std::size_t m = 0; m < motors.size(); ++m) {
+    for (std::size_t m = 0; m < map.motors(); ++m) {
         for (std::size_t i = 0; i < machine.axes.size(); ++i) {
             const double share = map.factor(m, i);
             if (share == 0) { continue; }

@@ -32,15 +32,23 @@ Kinematics::Kinematics(const MachineConfig& machine)
 }
 
 MotorCounts Kinematics::motors_at(const AxisCounts& axes) const {
-    if (is_direct_) { return {axes}; }
     MotorCounts motors;
-    for (std::size_t m = 0; m < motors_.size(); ++m) { motors.steps.append(std::llround(map_.place(m, axes))); }
+    if (is_direct_) {
+        motors.steps = axes;
+    } else {
+        for (std::size_t m = 0; m < map_.motors(); ++m) { motors.steps.append(std::llround(map_.place(m, axes))); }
+    }
+    for (std::size_t board = map_.motors(); board < motors_.size(); ++board) { motors.steps.append(0); }
     return motors;
 }
 
 AxisCounts Kinematics::axes_at(const MotorCounts& motors) const {
-    if (is_direct_) { return motors.steps; }
     AxisCounts axes;
+    if (is_direct_) {
+        axes = motors.steps;
+        while (axes.size() > map_.axes()) { axes.pop_back(); }
+        return axes;
+    }
     for (std::size_t i = 0; i < inverse_.motors(); ++i) {
         const double steps = map_.axis_by_joints(i, [&](std::size_t j) { return inverse_.place(j, motors.steps); });
         const std::int64_t nearest = std::llround(std::clamp(steps, -kMostSteps, kMostSteps));
@@ -51,7 +59,7 @@ AxisCounts Kinematics::axes_at(const MotorCounts& motors) const {
 
 /// Its motors follow no other axis.
 bool Kinematics::moves_alone(std::size_t axis) const {
-    for (std::size_t m = 0; m < motors_.size(); ++m) {
+    for (std::size_t m = 0; m < map_.motors(); ++m) {
         if (map_.shares().factor(m, axis) != 0 && map_.shares().only_axis_of(m) != axis) { return false; }
     }
     return true;
@@ -61,7 +69,7 @@ bool Kinematics::moves_alone(std::size_t axis) const {
 /// all of them.
 std::int64_t Kinematics::place_of_all(std::size_t axis, std::int64_t mean, const MotorCounts& motors) const {
     const auto is_of_all = [&](std::int64_t place) {
-        for (std::size_t m = 0; m < motors_.size(); ++m) {
+        for (std::size_t m = 0; m < map_.motors(); ++m) {
             const double share = map_.shares().factor(m, axis);
             if (share != 0 && std::llround(share * static_cast<double>(place)) != motors[m]) { return false; }
         }
@@ -77,7 +85,7 @@ std::int64_t Kinematics::place_of_all(std::size_t axis, std::int64_t mean, const
 
 /// The steps of its motors are its own.
 bool Kinematics::rests_on_its_steps(std::size_t axis) const {
-    for (std::size_t m = 0; m < motors_.size(); ++m) {
+    for (std::size_t m = 0; m < map_.motors(); ++m) {
         const double share = std::abs(map_.shares().factor(m, axis));
         if (share != 0 && share != 1) { return false; }
     }
@@ -93,7 +101,7 @@ double Kinematics::axis_steps(std::size_t axis, std::span<const Position> motors
     if (is_direct_) { return motors[axis].as_steps(); }
     return map_.axis_by_joints(axis, [&](std::size_t joint) {
         double sum = 0;
-        for (std::size_t m = 0; m < motors_.size(); ++m) { sum += inverse_.factor(joint, m) * motors[m].as_steps(); }
+        for (std::size_t m = 0; m < map_.motors(); ++m) { sum += inverse_.factor(joint, m) * motors[m].as_steps(); }
         return sum;
     });
 }
@@ -102,7 +110,7 @@ double Kinematics::axis_speed(std::size_t axis, std::span<const Position> motors
                               std::span<const double> speeds) const {
     const auto speed = [&](const LinearMap& axes) {
         double sum = 0;
-        for (std::size_t m = 0; m < motors_.size(); ++m) { sum += axes.factor(axis, m) * speeds[m]; }
+        for (std::size_t m = 0; m < map_.motors(); ++m) { sum += axes.factor(axis, m) * speeds[m]; }
         return sum;
     };
     if (map_.is_linear()) { return speed(inverse_); }
@@ -133,7 +141,7 @@ double Kinematics::step_mm_of(std::size_t axis, const MachineConfig& machine) co
 std::optional<MotorAstray> Kinematics::astray(const MotorCounts& motors) const {
     if (is_direct_) { return std::nullopt; }
     const MotorCounts placed = motors_at(axes_at(motors));
-    for (std::size_t m = 0; m < motors_.size(); ++m) {
+    for (std::size_t m = 0; m < map_.motors(); ++m) {
         const std::int64_t off = motors[m] - placed[m];
         if (off != 0) { return MotorAstray{m, to_mm(motors_[m], static_cast<double>(off))}; }
     }
@@ -142,7 +150,7 @@ std::optional<MotorAstray> Kinematics::astray(const MotorCounts& motors) const {
 
 AxisSet Kinematics::motors_of_axes(AxisSet axes) const {
     AxisSet motors = 0;
-    for (std::size_t m = 0; m < motors_.size(); ++m) {
+    for (std::size_t m = 0; m < map_.motors(); ++m) {
         for (std::size_t i = 0; i < map_.axes(); ++i) {
             if (has_axis(axes, i) && map_.shares().factor(m, i) != 0) { motors |= axis_bit(m); }
         }
@@ -152,6 +160,7 @@ AxisSet Kinematics::motors_of_axes(AxisSet axes) const {
 
 AxisSet Kinematics::axes_of_motor(std::size_t motor) const {
     AxisSet axes = 0;
+    if (motors_[motor].is_board()) { return axes; }
     for (std::size_t i = 0; i < map_.axes(); ++i) { axes |= map_.shares().factor(motor, i) != 0 ? axis_bit(i) : 0; }
     return axes;
 }
@@ -166,7 +175,7 @@ std::vector<std::string> Kinematics::names_of_axes(AxisSet axes) const {
 
 std::optional<std::size_t> Kinematics::find_own_motor(std::size_t axis) const {
     std::optional<std::size_t> own;
-    for (std::size_t m = 0; m < motors_.size(); ++m) {
+    for (std::size_t m = 0; m < map_.motors(); ++m) {
         if (map_.shares().factor(m, axis) == 0) { continue; }
         if (own || map_.shares().factor(m, axis) != 1 || map_.shares().only_axis_of(m) != axis) { return std::nullopt; }
         own = m;
@@ -177,7 +186,7 @@ std::optional<std::size_t> Kinematics::find_own_motor(std::size_t axis) const {
 std::string Kinematics::needs_frames(std::size_t axis) const {
     const AxisSet motors = motors_of_axes(axis_bit(axis));
     std::string names;
-    for (std::size_t m = 0; m < motors_.size(); ++m) {
+    for (std::size_t m = 0; m < map_.motors(); ++m) {
         if (has_axis(motors, m)) { names += (names.empty() ? "" : ", ") + motors_[m].name; }
     }
     return "axis " + axis_names_[axis] + " moves only on a path, because its motors must move together: " + names;
@@ -185,11 +194,12 @@ std::string Kinematics::needs_frames(std::size_t axis) const {
 
 bool Kinematics::is_named_as_axis(std::size_t motor) const {
     const MotorConfig& config = motors_[motor];
-    return own_motor(config.axis) == motor && config.name == axis_names_[config.axis];
+    return config.axis && own_motor(*config.axis) == motor && config.name == axis_names_[*config.axis];
 }
 
 std::string Kinematics::label(std::size_t motor) const {
-    return (is_named_as_axis(motor) ? "axis " : "motor ") + motors_[motor].name;
+    const char* const kind = motors_[motor].is_board() ? "board " : is_named_as_axis(motor) ? "axis " : "motor ";
+    return kind + motors_[motor].name;
 }
 
 }  // namespace lockstep

@@ -24,9 +24,11 @@ public:
     /// `machine` as in motors_of.
     explicit Kinematics(const MachineConfig& machine);
 
+    /// With the boards, which move nothing.
     const std::vector<MotorConfig>& motors() const { return motors_; }
+    std::span<const MotorConfig> moving_motors() const { return std::span(motors_).first(map_.motors()); }
     std::size_t axes() const { return map_.axes(); }
-    /// Each axis is moved by a motor of its own, with the axis's number, limits and steps.
+    /// Each axis is moved by a motor of its own, with the axis's number, limits and steps; boards follow.
     bool is_direct() const { return is_direct_; }
 
     /// Where the motors rest while the axes rest on whole steps: each within half a step of its place.
@@ -62,7 +64,7 @@ public:
     std::string needs_frames(std::size_t axis) const;
     /// Whether messages to people name a motor as an axis: it is the axis's own and has its name.
     bool is_named_as_axis(std::size_t motor) const;
-    /// How messages to people name a motor: `axis Y`, otherwise `motor Y2`.
+    /// How messages to people name a motor: `axis Y`, otherwise `motor Y2`, or `board IO`.
     std::string label(std::size_t motor) const;
 
 private:
@@ -73,7 +75,7 @@ private:
     std::int64_t place_of_all(std::size_t axis, std::int64_t mean, const MotorCounts& motors) const;
     double step_mm_of(std::size_t axis, const MachineConfig& machine) const;
 
-    std::vector<MotorConfig> motors_;
+    std::vector<MotorConfig> motors_;  // the moving ones, and behind them the boards
     std::vector<std::string> axis_names_;
     std::vector<std::optional<std::size_t>> own_motors_;  // of each axis
     std::vector<double> steps_mm_;                        // of each axis

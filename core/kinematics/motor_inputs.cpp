@@ -17,7 +17,9 @@ std::uint32_t inputs_with(const MachineConfig& machine, std::string_view motor, 
     return inputs;
 }
 
-std::string label_of(const InputConfig& input) { return "input " + input.name + " of motor " + input.motor; }
+std::string label_of(const InputConfig& input) {
+    return "input " + input.name + (input.at_board ? " of board " : " of motor ") + input.motor;
+}
 
 std::string labels_of(const MachineConfig& machine, std::string_view motor, InputUse use) {
     std::string text;

@@ -14,7 +14,7 @@ namespace lockstep {
 /// The inputs of the motor's device that have this use; input n is bit n.
 std::uint32_t inputs_with(const MachineConfig& machine, std::string_view motor, InputUse use);
 
-/// For texts: "input stop of motor X".
+/// For texts: "input stop of motor X", or "input door of board IO".
 std::string label_of(const InputConfig& input);
 
 /// The same for all inputs of the motor with this use: "input stop of motor X or input gate of motor X".

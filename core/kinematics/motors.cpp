@@ -13,23 +13,31 @@ std::size_t axis_named(const MachineConfig& machine, const std::string& name) {
     return static_cast<std::size_t>(std::ranges::find(machine.axes, name, &AxisConfig::name) - machine.axes.begin());
 }
 
-/// Where a motor stands in the configuration; `block` is null if it is the axis's only one.
+/// Where a motor stands in the configuration: in an axis, with a block of its own or without, or as a board.
 struct MotorPlace {
-    const AxisConfig& axis;
+    const AxisConfig* axis = nullptr;
     const MotorBlock* block = nullptr;
+    const BoardConfig* board = nullptr;
+
+    const std::string& name() const {
+        return board != nullptr ? board->name : block != nullptr ? block->name : axis->name;
+    }
+    const DeviceName& device() const {
+        return board != nullptr ? board->device : block != nullptr ? block->device : axis->device;
+    }
 };
 
 MotorPlace place_of(const MachineConfig& machine, std::size_t motor) {
     for (const AxisConfig& axis : machine.axes) {
         const std::size_t count = std::max<std::size_t>(axis.motors.size(), 1);
-        if (motor < count) { return {axis, axis.motors.empty() ? nullptr : &axis.motors[motor]}; }
+        if (motor < count) { return {&axis, axis.motors.empty() ? nullptr : &axis.motors[motor], nullptr}; }
         motor -= count;
     }
-    check(false, "the machine has the motor");
-    std::unreachable();
+    check(motor < machine.boards.size(), "the machine has the motor");
+    return {nullptr, nullptr, &machine.boards[motor]};
 }
 
-/// Calls visit(place of its axis, its axis, its block or null) for each motor, in order.
+/// Calls visit(place of its axis, its axis, its block or null) for each moving motor, in order.
 template <typename Visit>
 void each_motor(const MachineConfig& machine, Visit visit) {
     for (std::size_t a = 0; a < machine.axes.size(); ++a) {
@@ -37,10 +45,6 @@ void each_motor(const MachineConfig& machine, Visit visit) {
         if (axis.motors.empty()) { visit(a, axis, nullptr); }
         for (const MotorBlock& block : axis.motors) { visit(a, axis, &block); }
     }
-}
-
-const std::string& name_of(const AxisConfig& axis, const MotorBlock* block) {
-    return block == nullptr ? axis.name : block->name;
 }
 
 MotorConfig motor_of_axis(const AxisConfig& axis, std::size_t place) {
@@ -65,6 +69,25 @@ MotorConfig motor_of_block(const AxisConfig& axis, std::size_t place, const Moto
     motor.homing.switch_position_mm += block.switch_offset_mm;
     motor.plant = block.plant.value_or(axis.plant);
     motor.pins = block.pins.value_or(axis.pins);
+    return motor;
+}
+
+/// It has no travel, so its process refuses a frame with a step. The other limits only have to be above 0. The
+/// simulated switches stay open.
+MotorConfig motor_of_board(const BoardConfig& board) {
+    MotorConfig motor{.name = board.name,
+                      .axis = std::nullopt,
+                      .moves_one_axis = false,
+                      .host = board.host,
+                      .device = board.device,
+                      .steps_per_mm = 1,
+                      .start_velocity_mm_s = 1,
+                      .max_velocity_mm_s = 1,
+                      .max_accel_mm_s2 = 10,
+                      .max_decel_mm_s2 = 10};
+    motor.homing.in_place = true;
+    motor.homing.switch_position_mm = -1;
+    motor.plant = {.travel_margin_mm = 2, .max_torque_accel_mm_s2 = 10, .max_jump_mm_s = 1};
     return motor;
 }
 
@@ -107,7 +130,7 @@ void set_limits(MotorConfig& motor, const MachineConfig& machine, const MotorBlo
 /// switch, and its park is where the park of each axis places it.
 void scale(MotorConfig& motor, bool has_own_plant, const MachineConfig& machine, std::span<const double> shares) {
     if (motor.moves_one_axis) {
-        const double share = shares[motor.axis];
+        const double share = shares[*motor.axis];
         const double size = std::abs(share);
         HomingConfig& homing = motor.homing;
         homing.toward_min = homing.toward_min == (share > 0);
@@ -181,49 +204,51 @@ void set_share(LinearMap& map, std::size_t motor, const MachineConfig& machine, 
 
 }  // namespace
 
-std::size_t motor_count(const MachineConfig& machine) {
+std::size_t moving_motor_count(const MachineConfig& machine) {
     std::size_t count = 0;
     for (const AxisConfig& axis : machine.axes) { count += std::max<std::size_t>(axis.motors.size(), 1); }
     return count;
 }
 
+std::size_t motor_count(const MachineConfig& machine) { return moving_motor_count(machine) + machine.boards.size(); }
+
 std::vector<std::string> motor_names(const MachineConfig& machine) {
     std::vector<std::string> names;
-    each_motor(machine, [&](std::size_t, const AxisConfig& axis, const MotorBlock* block) {
-        names.push_back(name_of(axis, block));
-    });
+    for (std::size_t m = 0; m < motor_count(machine); ++m) { names.push_back(motor_name(machine, m)); }
+    return names;
+}
+
+std::vector<std::string> moving_motor_names(const MachineConfig& machine) {
+    std::vector<std::string> names = motor_names(machine);
+    names.resize(moving_motor_count(machine));
     return names;
 }
 
 const std::string& motor_name(const MachineConfig& machine, std::size_t motor) {
-    const auto [axis, block] = place_of(machine, motor);
-    return name_of(axis, block);
+    return place_of(machine, motor).name();
 }
 
 bool estimates_clock(const MachineConfig& machine, std::size_t motor) {
-    const auto [axis, block] = place_of(machine, motor);
-    const DeviceName& device = block == nullptr ? axis.device : block->device;
-    return machine.timing.time_source == TimeSource::Network || device.has_own_clock();
+    return machine.timing.time_source == TimeSource::Network || place_of(machine, motor).device().has_own_clock();
 }
 
 double motor_steps_per_mm(const MachineConfig& machine, std::size_t motor) {
-    const auto [axis, block] = place_of(machine, motor);
-    return block == nullptr ? axis.steps_per_mm : block->steps_per_mm.value_or(axis.steps_per_mm);
+    const MotorPlace place = place_of(machine, motor);
+    if (place.board != nullptr) { return motor_of_board(*place.board).steps_per_mm; }
+    return place.block == nullptr ? place.axis->steps_per_mm
+                                  : place.block->steps_per_mm.value_or(place.axis->steps_per_mm);
 }
 
 std::optional<std::size_t> motor_named(const MachineConfig& machine, std::string_view name) {
-    std::optional<std::size_t> found;
-    std::size_t motor = 0;
-    each_motor(machine, [&](std::size_t, const AxisConfig& axis, const MotorBlock* block) {
-        if (!found && name_of(axis, block) == name) { found = motor; }
-        ++motor;
-    });
-    return found;
+    for (std::size_t m = 0; m < motor_count(machine); ++m) {
+        if (motor_name(machine, m) == name) { return m; }
+    }
+    return std::nullopt;
 }
 
 LinearMap motor_map_of(const MachineConfig& machine) {
     const KinematicsConfig& kinematics = machine.kinematics;
-    LinearMap map(motor_count(machine), machine.axes.size());
+    LinearMap map(moving_motor_count(machine), machine.axes.size());
     std::size_t motor = 0;
     each_motor(machine, [&](std::size_t a, const AxisConfig& axis, const MotorBlock*) {
         map.factor(motor, a) = 1;
@@ -238,7 +263,7 @@ LinearMap motor_map_of(const MachineConfig& machine) {
     });
     for (const MotorRow& row : kinematics.matrix) {
         const auto found = motor_named(machine, row.motor);
-        if (!found) { continue; }
+        if (!found || *found >= map.motors()) { continue; }
         for (std::size_t i = 0; i < map.axes(); ++i) { map.factor(*found, i) = 0; }
         for (const AxisShare& share : row.of) { set_share(map, *found, machine, share.axis, share.factor); }
     }
@@ -273,7 +298,10 @@ std::optional<MachineDelta> delta_of(const MachineConfig& machine) {
         .axes = {axis_named(machine, config->x), axis_named(machine, config->y), axis_named(machine, config->z)}};
     for (std::size_t k = 0; k < towers.size(); ++k) {
         const auto motor = motor_named(machine, config->towers[k].motor);
-        if (!motor || delta.axes[k] >= machine.axes.size() || !(towers[k].rod_mm > 0)) { return std::nullopt; }
+        if (!motor || *motor >= moving_motor_count(machine) || delta.axes[k] >= machine.axes.size() ||
+            !(towers[k].rod_mm > 0)) {
+            return std::nullopt;
+        }
         delta.motors[k] = *motor;
         delta.motor_steps_per_mm[k] = motor_steps_per_mm(machine, *motor);
         delta.axis_steps_per_mm[k] = machine.axes[delta.axes[k]].steps_per_mm;
@@ -286,7 +314,7 @@ DeltaMap::Reach reach_of(const MachineConfig& machine, const MachineDelta& delta
                            tool_at(machine, delta, [](const AxisConfig& a) { return a.position_max_mm; }));
 }
 
-std::vector<MotorConfig> motors_of(const MachineConfig& machine) {
+std::vector<MotorConfig> moving_motors_of(const MachineConfig& machine) {
     const LinearMap map = motor_map_of(machine);
     const auto delta = delta_of(machine);
     std::vector<MotorConfig> motors;
@@ -300,6 +328,12 @@ std::vector<MotorConfig> motors_of(const MachineConfig& machine) {
         if (tower) { set_carriage(motor, block, machine, *delta, *tower); }
         motors.push_back(std::move(motor));
     });
+    return motors;
+}
+
+std::vector<MotorConfig> motors_of(const MachineConfig& machine) {
+    std::vector<MotorConfig> motors = moving_motors_of(machine);
+    for (const BoardConfig& board : machine.boards) { motors.push_back(motor_of_board(board)); }
     return motors;
 }
 

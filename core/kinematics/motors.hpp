@@ -1,4 +1,4 @@
-// The motors of a machine: each is moved by one device and served by one process.
+// The motors of a machine, and its boards: each has one device and is served by one process.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,12 @@
 namespace lockstep {
 
 /// A motor, with everything that its process and its device need. Its mm are those of its own way: of a belt, not of
-/// the axis, where these differ.
+/// the axis, where these differ. A board is a motor that has no axis and always rests at 0.
 struct MotorConfig {
     std::string name;
-    std::size_t axis = 0;        // in whose configuration it stands
-    bool moves_one_axis = true;  // its place is that of this axis; false: it also follows other axes
-    std::string host;            // on which it runs; empty: any host
+    std::optional<std::size_t> axis;  // in whose configuration it stands; none: it is a board
+    bool moves_one_axis = true;       // its place is that of this axis; false: it also follows other axes
+    std::string host;                 // on which it runs; empty: any host
     DeviceName device;
     double steps_per_mm = 0;
     double start_velocity_mm_s = 0;
@@ -32,12 +32,16 @@ struct MotorConfig {
     HomingConfig homing;
     PlantConfig plant;
     PinsConfig pins;
+
+    bool is_board() const { return !axis; }
 };
 
-/// The motors in the order of the axes in whose configuration they stand. A limit that a motor has not of its own is
-/// what the axes' limits demand of it at most, and its travel is what the axes' travels do. `machine` must be one that
-/// machine_from_text (services/documents) has accepted.
+/// The motors in the order of the axes in whose configuration they stand, and behind them the boards. A limit that a
+/// motor has not of its own is what the axes' limits demand of it at most, and its travel is what the axes' travels do.
+/// `machine` must be one that machine_from_text (services/documents) has accepted.
 std::vector<MotorConfig> motors_of(const MachineConfig& machine);
+std::vector<MotorConfig> moving_motors_of(const MachineConfig& machine);  // without the boards
+/// These numbers and names are those of motors_of: with the boards.
 std::size_t motor_count(const MachineConfig& machine);
 std::vector<std::string> motor_names(const MachineConfig& machine);
 const std::string& motor_name(const MachineConfig& machine, std::size_t motor);
@@ -47,10 +51,14 @@ double motor_steps_per_mm(const MachineConfig& machine, std::size_t motor);
 /// The number of the motor with this name; nullopt if there is none.
 std::optional<std::size_t> motor_named(const MachineConfig& machine, std::string_view name);
 
-/// The places of the motors in mm by those of the axes in mm (or degrees). For the carriages of a delta the greatest
-/// slopes within the travel.
+/// Without the boards, so each other motor moves.
+std::size_t moving_motor_count(const MachineConfig& machine);
+std::vector<std::string> moving_motor_names(const MachineConfig& machine);
+
+/// The places of the moving motors in mm by those of the axes in mm (or degrees). For the carriages of a delta the
+/// greatest slopes within the travel.
 LinearMap motor_map_of(const MachineConfig& machine);
-/// The places of the motors in steps by those of the axes in steps.
+/// The places of the moving motors in steps by those of the axes in steps.
 MotorMap step_map_of(const MachineConfig& machine);
 /// The machine's delta. nullopt if it has none, or if its axes, towers or motors are not three each.
 std::optional<MachineDelta> delta_of(const MachineConfig& machine);

@@ -30,8 +30,9 @@ struct PwmConfig {
 
 struct OutputConfig {
     std::string name;
-    std::string motor;  // whose device has it
-    int channel = 0;    // of the device's digital outputs, or of its analog ones
+    std::string motor;      // whose device has it
+    bool at_board = false;  // the motor is a board
+    int channel = 0;        // of the device's digital outputs, or of its analog ones
     OutputUse use = OutputUse::Number;
     std::int32_t number = 0;       // Number, Places
     std::optional<PwmConfig> pwm;  // empty: a digital output

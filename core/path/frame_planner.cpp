@@ -183,6 +183,7 @@ void FramePlanner::brake() {
                   FaultCode::None,
               "a tail keeps the limits");
     }
+    rest_boards(frame);
     held_tail_.shift(frame.ticks);
     note_tail(frame, held_tail_);
     ++braked_;
@@ -191,7 +192,7 @@ void FramePlanner::brake() {
 
 std::optional<FitFailure> FramePlanner::fit_body(PathFrame& frame, Cursor& next) {
     auto points = at_.points;
-    frame.axes.resize(setup_.motors());
+    frame.axes.resize(setup_.motors() + setup_.boards);
     for (std::size_t i = 0; i < setup_.motors(); ++i) {
         frame.axes[i].from = points[i].position;
         frame.axes[i].body.clear();
@@ -203,9 +204,21 @@ std::optional<FitFailure> FramePlanner::fit_body(PathFrame& frame, Cursor& next)
         for (const Piece& piece : fit_.pieces(i)) { frame.axes[i].body.append(piece); }
         if (frame.last && !may_rest(points[i], setup_.limits[i])) { return FitFailure{frame.ticks}; }
     }
+    rest_boards(frame);
     next = frame.last ? Cursor{.interval = window_.end()} : cursor_at(path_, frame.ticks, false);
     next.points = points;
     return std::nullopt;
+}
+
+/// Boards rest as long as the motors move, because their outputs change meanwhile.
+void FramePlanner::rest_boards(PathFrame& frame) const {
+    const AxisTrack& motor = frame.axes.front();
+    for (std::size_t i = setup_.motors(); i < frame.axes.size(); ++i) {
+        AxisTrack& board = frame.axes[i];
+        board = {};
+        for (const Piece& piece : motor.body) { board.body.append({piece.ticks, {}, {}}); }
+        for (const Piece& piece : motor.tail) { board.tail.append({piece.ticks, {}, {}}); }
+    }
 }
 
 /// A straight interval can be left anywhere. A curved one is finished as planned, because the limits are those of its
@@ -266,6 +279,7 @@ bool FramePlanner::fit_tail(PathFrame& frame, const Cursor& from) {
         for (const Piece& piece : fit_.pieces(i)) { frame.axes[i].tail.append(piece); }
         if (!may_rest(points[i], setup_.limits[i])) { return false; }
     }
+    rest_boards(frame);
     return true;
 }
 

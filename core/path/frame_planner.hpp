@@ -99,6 +99,7 @@ private:
     Ticks end_of_frame() const;
     std::optional<FitFailure> fit_body(PathFrame& frame, Cursor& next);
     bool fit_tail(PathFrame& frame, const Cursor& from);
+    void rest_boards(PathFrame& frame) const;
     void trace_tail(const Cursor& from);
     Cursor cursor_at(const TimedPath& path, Ticks t, bool is_braking) const;
     void slow_down(const FitFailure& failure, Ticks ticks, int attempt);

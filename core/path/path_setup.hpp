@@ -22,6 +22,7 @@ struct PathSetup {
     std::size_t body_pieces = kMaxBodyPieces;  // for which a frame has room, for each motor
     bool has_outputs = false;                  // frames list the moves that begin in their tails
     bool tells_speeds = false;                 // frames list the speeds along the path
+    std::size_t boards = 0;                    // behind the motors in frames; they rest
     MotorMap motor_map;                        // steps of the motors by those of the axes; empty: each axis is a motor
     /// Steps of each axis: if all axes deviate by so much, no motor deviates by more than a step. Empty: 1.
     std::vector<double> motor_step;
@@ -88,7 +89,9 @@ inline PathSetup path_setup_of(const MachineConfig& machine) {
     PathSetup setup{.limits = frame_limits_of(machine),
                     .steps_per_mm = {},
                     .frame_ticks = machine.frame_ticks(),
-                    .body_pieces = static_cast<std::size_t>(body_pieces(machine.timing))};
+                    .body_pieces = static_cast<std::size_t>(body_pieces(machine.timing)),
+                    .boards = machine.boards.size()};
+    setup.limits.resize(moving_motor_count(machine));
     if (const MotorMap map = step_map_of(machine); !map.is_identity()) {
         setup.use_map(map, axis_frame_limits_of(machine));
     }

@@ -143,9 +143,8 @@ private:
         const bool proved = second_.proves(state.identity, state.stamp, slot);
         if (!rival_.must_leave(state.identity, proved, own_now())) { return; }
         const std::string host = network_.host_of_rival();
-        end_reason_ =
-            fmt::format("axis {} is already run by another process{}; end one of them: lockstep down, on its host",
-                        own_name(), (host.empty() ? "" : " on host " + host));
+        end_reason_ = fmt::format("{} is already run by another process{}; end one of them: lockstep down, on its host",
+                                  own_label(), (host.empty() ? "" : " on host " + host));
     }
 
     /// CLOCK_MONOTONIC in ticks. It is independent of the machine's time source and of injected clock errors.
@@ -212,12 +211,13 @@ private:
     void end_if_coordinator_clock_restarted() {
         if (!node_.must_restart()) { return; }
         end_reason_ = fmt::format(
-            "the coordinator's clock went back by {} s; its host may have restarted. Restart axis {}, so that it uses "
+            "the coordinator's clock went back by {} s; its host may have restarted. Restart {}, so that it uses "
             "the new time",
-            node_.clock_error().value * setup_.machine.tick_ns / 1'000'000'000, own_name());
+            node_.clock_error().value * setup_.machine.tick_ns / 1'000'000'000, own_label());
     }
 
     const std::string& own_name() const { return motor_name(setup_.machine, setup_.axis); }
+    std::string own_label() const { return Kinematics(setup_.machine).label(setup_.axis); }
 
     AxisNode::Setup setup_;
     std::string device_;  // its name
@@ -298,8 +298,8 @@ int serve_axis(const AxisServiceOptions& options) {
     if (device->has_own_clock() && !estimates_clock(machine, *axis)) {
         return end_with_bad_input("--fpga " + options.fpga +
                                   ": such a device has a clock of its own, for which the frames must leave room; set "
-                                  "it in the machine's file, as `device` of axis " +
-                                  config.name + ", so that the coordinator knows");
+                                  "it in the machine's file, as `device` of " +
+                                  Kinematics(machine).label(*axis) + ", so that the coordinator knows");
     }
     if (auto log = open_log({"axis", config.name, options.log_file, true}); !log) {
         return end_with_bad_input(log.error());

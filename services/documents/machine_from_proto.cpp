@@ -6,6 +6,7 @@
 #include "core/kinematics/axis_steps.hpp"
 #include "core/kinematics/motors.hpp"
 #include "services/documents/machine_proto.hpp"
+#include "services/documents/proto_reader.hpp"
 #include "services/documents/rules/axis_ranges.hpp"
 
 namespace lockstep {
@@ -18,24 +19,6 @@ constexpr double kDefaultPulloffShare = 0.1;  // of the travel, if that is less
 constexpr double kDefaultTravelMargin_mm = 2;
 constexpr const char* kMethodNames = "RANADE, SPIELAUER, LAI, LAM and CARRICA";
 constexpr double kDefaultPlantReserve = 1.5;  // the motor's capability over the axis's limits
-
-/// Reads keys into the configuration; notes required keys that are missing.
-class Reader {
-public:
-    explicit Reader(std::vector<Problem>& missing, std::optional<std::size_t> axis = {})
-        : missing_(missing), axis_(axis) {}
-
-    template <typename T>
-    void require(bool present, const T& value, T& place, const std::string& key) {
-        if (!present) { missing_.push_back({{axis_, key}, key + " is missing; it has no default"}); }
-        place = value;
-    }
-    void refuse(const std::string& key, const std::string& why) { missing_.push_back({{axis_, key}, why}); }
-
-private:
-    std::vector<Problem>& missing_;
-    std::optional<std::size_t> axis_;
-};
 
 TimeSource read_time_source(proto::TimeSource source) {
     switch (source) {
@@ -93,7 +76,7 @@ RecordConfig read_record(const proto::Record& message) {
 }
 
 /// A security block without content must not mean that security is off.
-SecurityConfig read_security(const proto::Machine& message, Reader reader) {
+SecurityConfig read_security(const proto::Machine& message, ProtoReader reader) {
     SecurityConfig security;
     if (!message.has_security()) { return security; }
     reader.require(!message.security().directory().empty(), message.security().directory(), security.directory,
@@ -105,7 +88,7 @@ RealTimeConfig read_real_time(const proto::RealTime& message) {
     return {.priority = message.priority(), .cpus = {message.cpus().begin(), message.cpus().end()}};
 }
 
-WordRule read_rule(bool is_given, proto::WordRule rule, WordRule preset, const std::string& key, Reader& reader) {
+WordRule read_rule(bool is_given, proto::WordRule rule, WordRule preset, const std::string& key, ProtoReader& reader) {
     if (!is_given) { return preset; }
     if (!proto::WordRule_IsValid(rule)) {
         reader.refuse(key, fmt::format("{} is {}; it must be REFUSE or IGNORE", key, int{rule}));
@@ -113,7 +96,7 @@ WordRule read_rule(bool is_given, proto::WordRule rule, WordRule preset, const s
     return rule == proto::IGNORE ? WordRule::Ignore : WordRule::Refuse;
 }
 
-ToolChange read_tool_change(const proto::Unassigned& message, ToolChange preset, Reader& reader) {
+ToolChange read_tool_change(const proto::Unassigned& message, ToolChange preset, ProtoReader& reader) {
     if (!message.has_tool_change()) { return preset; }
     if (!proto::ToolChange_IsValid(message.tool_change())) {
         const std::string key = "unassigned.tool_change";
@@ -122,7 +105,7 @@ ToolChange read_tool_change(const proto::Unassigned& message, ToolChange preset,
     return message.tool_change() == proto::GO_ON ? ToolChange::GoOn : ToolChange::Pause;
 }
 
-UnassignedWords read_unassigned(const proto::Unassigned& message, Reader reader) {
+UnassignedWords read_unassigned(const proto::Unassigned& message, ProtoReader reader) {
     const UnassignedWords preset;
     return {
         .spindle = read_rule(message.has_spindle(), message.spindle(), preset.spindle, "unassigned.spindle", reader),
@@ -220,66 +203,6 @@ PinsConfig read_pins(const proto::Pins& message) {
             .enable_inverted = message.enable_inverted()};
 }
 
-OutputUse read_use(proto::OutputUse use) {
-    switch (use) {
-        case proto::SPINDLE: return OutputUse::Spindle;
-        case proto::SPINDLE_REVERSE: return OutputUse::SpindleReverse;
-        case proto::MIST: return OutputUse::Mist;
-        case proto::FLOOD: return OutputUse::Flood;
-        case proto::PLACES: return OutputUse::Places;
-        default: return OutputUse::Number;
-    }
-}
-
-/// Whether the output keeps its level.
-bool read_level(bool is_given, proto::OutputLevel level, bool preset, const std::string& key, Reader& reader) {
-    if (!is_given) { return preset; }
-    if (!proto::OutputLevel_IsValid(level)) {
-        reader.refuse(key, fmt::format("{} is {}; it must be KEEP or OFF", key, int{level}));
-    }
-    return level == proto::KEEP;
-}
-
-PwmConfig read_pwm(const proto::Pwm& message, const std::string& place, Reader& reader) {
-    PwmConfig pwm{.full_scale = message.has_full_scale() ? message.full_scale() : PwmConfig{}.full_scale,
-                  .follows_speed = message.follows_speed()};
-    reader.require(message.has_hz(), message.hz(), pwm.hz, place + ".hz");
-    return pwm;
-}
-
-OutputConfig read_output(const proto::Output& message, const std::string& place, Reader& reader) {
-    OutputConfig output{.channel = message.channel(),
-                        .use = read_use(message.use()),
-                        .number = message.number(),
-                        .inverted = message.inverted()};
-    reader.require(message.has_name(), message.name(), output.name, place + ".name");
-    reader.require(message.has_motor(), message.motor(), output.motor, place + ".motor");
-    if (!proto::OutputUse_IsValid(message.use())) {
-        reader.refuse(place + ".use",
-                      fmt::format("{}.use is {}; it must be NUMBER, SPINDLE, SPINDLE_REVERSE, MIST, FLOOD or PLACES",
-                                  place, int{message.use()}));
-    }
-    if (output.makes_pulses()) {
-        reader.require(message.has_pulse_us(), message.pulse_us(), output.pulse_us, place + ".pulse_us");
-    } else {
-        output.pulse_us = message.pulse_us();
-    }
-    if (message.has_pwm()) { output.pwm = read_pwm(message.pwm(), place + ".pwm", reader); }
-    output.stays_at_interruption = read_level(message.has_at_interruption(), message.at_interruption(),
-                                              output.stays_at_interruption, place + ".at_interruption", reader);
-    output.stays_at_fault =
-        read_level(message.has_at_fault(), message.at_fault(), output.stays_at_fault, place + ".at_fault", reader);
-    output.stays_at_silence = read_level(message.has_at_silence(), message.at_silence(), output.stays_at_silence,
-                                         place + ".at_silence", reader);
-    return output;
-}
-
-/// Long enough for any stall that the machine bears.
-double usual_silence_ms(const ProtocolTiming& timing) {
-    const double stall_ms = static_cast<double>(timing.slot_us) / 1000 * (timing.stall_slots + 1);
-    return std::max(MachineConfig{}.output_silence_ms, 5 * stall_ms);
-}
-
 StepMethod read_method(proto::Method method) {
     switch (method) {
         case proto::SPIELAUER: return StepMethod::Spielauer;
@@ -294,15 +217,8 @@ std::string method_name(proto::Method method) {
     return proto::Method_IsValid(method) ? proto::Method_Name(method) : std::to_string(method);
 }
 
-DeviceName read_device(const std::string& text, const std::string& key, Reader& reader) {
-    if (text.empty()) { return {}; }
-    auto device = read_device_name(text);
-    if (device) { return std::move(*device); }
-    reader.refuse(key, fmt::format("{} is \"{}\"; it must be {}, such as uio:/dev/uio0", key, text, kDeviceNames));
-    return {};
-}
-
-MotorBlock read_motor(const proto::Motor& message, const AxisConfig& axis, const std::string& place, Reader& reader) {
+MotorBlock read_motor(const proto::Motor& message, const AxisConfig& axis, const std::string& place,
+                      ProtoReader& reader) {
     const auto given = [](bool is_given, double value) { return is_given ? std::optional(value) : std::nullopt; };
     MotorBlock motor;
     reader.require(message.has_name(), message.name(), motor.name, place + ".name");
@@ -319,7 +235,7 @@ MotorBlock read_motor(const proto::Motor& message, const AxisConfig& axis, const
     return motor;
 }
 
-void read_motors(const proto::Axis& message, AxisConfig& axis, Reader& reader) {
+void read_motors(const proto::Axis& message, AxisConfig& axis, ProtoReader& reader) {
     bool all_have_steps = message.motor_size() > 0;
     for (int k = 0; k < message.motor_size(); ++k) {
         axis.motors.push_back(read_motor(message.motor(k), axis, fmt::format("motor[{}]", k), reader));
@@ -334,7 +250,7 @@ void read_motors(const proto::Axis& message, AxisConfig& axis, Reader& reader) {
     if (needs_skew) { reader.require(message.has_max_skew_mm(), message.max_skew_mm(), skew, "max_skew_mm"); }
 }
 
-DeltaConfig read_delta(const proto::Delta& message, Reader& reader) {
+DeltaConfig read_delta(const proto::Delta& message, ProtoReader& reader) {
     DeltaConfig delta;
     reader.require(message.has_x(), message.x(), delta.x, "kinematics.delta.x");
     reader.require(message.has_y(), message.y(), delta.y, "kinematics.delta.y");
@@ -351,7 +267,7 @@ DeltaConfig read_delta(const proto::Delta& message, Reader& reader) {
     return delta;
 }
 
-KinematicsConfig read_kinematics(const proto::Machine& message, Reader reader) {
+KinematicsConfig read_kinematics(const proto::Machine& message, ProtoReader reader) {
     KinematicsConfig kinematics;
     if (message.kinematics().has_core_xy()) {
         const proto::CoreXy& core = message.kinematics().core_xy();
@@ -382,31 +298,7 @@ KinematicsConfig read_kinematics(const proto::Machine& message, Reader reader) {
     return kinematics;
 }
 
-InputUse read_use(proto::InputUse use) {
-    switch (use) {
-        case proto::DOOR: return InputUse::Door;
-        case proto::PROGRAM: return InputUse::Program;
-        default: return InputUse::EmergencyStop;
-    }
-}
-
-InputConfig read_input(const proto::Input& message, const std::string& place, Reader reader) {
-    InputConfig input;
-    reader.require(message.has_name(), message.name(), input.name, place + ".name");
-    reader.require(message.has_motor(), message.motor(), input.motor, place + ".motor");
-    reader.require(message.has_channel(), message.channel(), input.channel, place + ".channel");
-    reader.require(message.has_use(), read_use(message.use()), input.use, place + ".use");
-    if (!proto::InputUse_IsValid(message.use())) {
-        reader.refuse(place + ".use", fmt::format("{}.use is {}; it must be EMERGENCY_STOP, DOOR or PROGRAM", place,
-                                                  int{message.use()}));
-    }
-    input.active_low = message.active_low();
-    if (message.has_debounce_ms()) { input.debounce_ms = message.debounce_ms(); }
-    if (message.has_number()) { input.number = message.number(); }
-    return input;
-}
-
-AxisConfig read_axis(const proto::Axis& message, Reader reader) {
+AxisConfig read_axis(const proto::Axis& message, ProtoReader reader) {
     AxisConfig axis;
     reader.require(message.has_name(), message.name(), axis.name, "name");
     axis.steps_per_mm = message.steps_per_mm();
@@ -437,23 +329,23 @@ AxisConfig read_axis(const proto::Axis& message, Reader reader) {
 
 MachineDraft machine_from_proto(const proto::Machine& message) {
     MachineDraft draft;
-    Reader(draft.missing).require(message.has_name(), message.name(), draft.machine.name, "name");
+    ProtoReader(draft.missing).require(message.has_name(), message.name(), draft.machine.name, "name");
     draft.machine.tick_ns = message.has_tick_ns() ? message.tick_ns() : draft.machine.tick_ns;
     draft.machine.timing = read_timing(message.timing());
     if (!proto::TimeSource_IsValid(message.timing().time_source())) {
-        Reader(draft.missing)
+        ProtoReader(draft.missing)
             .refuse("timing.time_source", fmt::format("timing.time_source is {}; it must be SHARED, NETWORK or PTP",
                                                       int{message.timing().time_source()}));
     }
     draft.machine.network = read_network(message.network());
-    draft.machine.security = read_security(message, Reader(draft.missing));
+    draft.machine.security = read_security(message, ProtoReader(draft.missing));
     draft.machine.record = read_record(message.record());
     draft.machine.position_directory = message.position_directory();
     draft.machine.coordinator_host = message.coordinator_host();
     draft.machine.real_time = read_real_time(message.real_time());
-    draft.machine.unassigned = read_unassigned(message.unassigned(), Reader(draft.missing));
+    draft.machine.unassigned = read_unassigned(message.unassigned(), ProtoReader(draft.missing));
     if (!proto::UnattendedJob_IsValid(message.unattended_job())) {
-        Reader(draft.missing)
+        ProtoReader(draft.missing)
             .refuse("unattended_job",
                     fmt::format("unattended_job is {}; it must be RUN_ON or BE_HELD", int{message.unattended_job()}));
     }
@@ -464,24 +356,15 @@ MachineDraft machine_from_proto(const proto::Machine& message) {
     draft.machine.coordination = read_method(message.coordination());
     const bool coordinates = message.coordination() == proto::RANADE || message.coordination() == proto::LAI;
     if (!coordinates) {
-        Reader(draft.missing)
+        ProtoReader(draft.missing)
             .refuse("coordination", "coordination is " + method_name(message.coordination()) +
                                         "; only RANADE and LAI can move several axes together");
     }
     for (const proto::Axis& axis : message.axis()) {
-        draft.machine.axes.push_back(read_axis(axis, Reader(draft.missing, draft.machine.axes.size())));
+        draft.machine.axes.push_back(read_axis(axis, ProtoReader(draft.missing, draft.machine.axes.size())));
     }
-    Reader of_outputs(draft.missing);
-    for (int k = 0; k < message.output_size(); ++k) {
-        draft.machine.outputs.push_back(read_output(message.output(k), fmt::format("output[{}]", k), of_outputs));
-    }
-    draft.machine.output_silence_ms =
-        message.has_output_silence_ms() ? message.output_silence_ms() : usual_silence_ms(draft.machine.timing);
-    draft.machine.kinematics = read_kinematics(message, Reader(draft.missing));
-    for (const proto::Input& input : message.input()) {
-        const std::string place = fmt::format("input[{}]", draft.machine.inputs.size());
-        draft.machine.inputs.push_back(read_input(input, place, Reader(draft.missing)));
-    }
+    draft.machine.kinematics = read_kinematics(message, ProtoReader(draft.missing));
+    read_devices(message, draft);
     set_steps_of_axes(draft.machine);
     draft.machine.network.processes = motor_count(draft.machine) + 1;  // the coordinator
     return draft;

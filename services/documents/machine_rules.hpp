@@ -32,6 +32,9 @@ std::vector<Problem> axis_problems(const MachineConfig& machine, std::size_t axi
 /// Checks the motor blocks of one axis.
 std::vector<Problem> motor_problems(const MachineConfig& machine, std::size_t axis);
 
+/// Checks the boards and their names, after all axes and motors were found sound.
+std::vector<Problem> board_problems(const MachineConfig& machine);
+
 /// Checks which motors move which axes, after all axes and motors were found sound.
 std::vector<Problem> kinematics_problems(const MachineConfig& machine);
 

@@ -96,7 +96,7 @@ proto::OutputLevel level_to_proto(bool stays) { return stays ? proto::KEEP : pro
 
 void write_output(const OutputConfig& output, proto::Output& message) {
     message.set_name(output.name);
-    message.set_motor(output.motor);
+    output.at_board ? message.set_board(output.motor) : message.set_motor(output.motor);
     message.set_channel(output.channel);
     message.set_use(use_to_proto(output.use));
     message.set_number(output.number);
@@ -177,10 +177,16 @@ void write_kinematics(const KinematicsConfig& kinematics, proto::Machine& messag
     }
 }
 
+void write_board(const BoardConfig& board, proto::Board& message) {
+    message.set_name(board.name);
+    if (!board.host.empty()) { message.set_host(board.host); }
+    message.set_device(board.device.text());
+}
+
 void write_input(const InputConfig& input, proto::Input& message) {
     constexpr std::array kUses{proto::EMERGENCY_STOP, proto::DOOR, proto::PROGRAM};
     message.set_name(input.name);
-    message.set_motor(input.motor);
+    input.at_board ? message.set_board(input.motor) : message.set_motor(input.motor);
     message.set_channel(input.channel);
     message.set_use(kUses[static_cast<std::size_t>(input.use)]);
     message.set_active_low(input.active_low);
@@ -230,6 +236,7 @@ proto::Machine machine_to_proto(const MachineConfig& machine) {
     if (machine.web) { write_web(*machine.web, *message.mutable_web()); }
     message.set_coordination(method_to_proto(machine.coordination));
     for (const AxisConfig& axis : machine.axes) { write_axis(axis, *message.add_axis()); }
+    for (const BoardConfig& board : machine.boards) { write_board(board, *message.add_board()); }
     write_kinematics(machine.kinematics, message);
     for (const OutputConfig& output : machine.outputs) { write_output(output, *message.add_output()); }
     if (!machine.outputs.empty()) { message.set_output_silence_ms(machine.output_silence_ms); }

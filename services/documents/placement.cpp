@@ -20,6 +20,8 @@ std::string names_of(const MachineConfig& machine, const std::vector<std::size_t
     return names;
 }
 
+const char* kind_of(const MachineConfig& machine) { return machine.boards.empty() ? "axis" : "axis or board"; }
+
 std::string places_of(const MachineConfig& machine) {
     std::string places;
     for (const MotorConfig& axis : motors_of(machine)) {
@@ -65,7 +67,9 @@ std::expected<std::size_t, std::string> axis_to_run(const MachineConfig& machine
         if (named.empty() ? here : axis.name == named) { fit.push_back(i); }
     }
     if (fit.size() == 1) { return fit.front(); }
-    if (!named.empty()) { return std::unexpected(fmt::format("has no axis {}; it has:{}", named, places_of(machine))); }
+    if (!named.empty()) {
+        return std::unexpected(fmt::format("has no {} {}; it has:{}", kind_of(machine), named, places_of(machine)));
+    }
     if (fit.empty()) {
         return std::unexpected(
             fmt::format("places no axis on this host, {}; it has:{}; name one with --axis, or set its host in the file",

@@ -59,7 +59,7 @@ std::vector<GcodePulses> pulses_of_programs(const MachineConfig& machine) {
         const auto motor = output.makes_pulses() ? motor_named(machine, output.motor) : std::nullopt;
         if (!motor) { continue; }
         const Kinematics kinematics(machine);
-        const std::size_t axis = kinematics.motors()[*motor].axis;
+        const std::size_t axis = kinematics.motors()[*motor].axis.value();
         const double pulse_s = output.pulse_us * 1e-6 + 1 / machine.ticks_per_second();
         pulses.push_back({.number = output.number,
                           .axis = axis,

@@ -40,6 +40,7 @@ std::expected<AskedPath, std::string> AskedPath::of(const MachineConfig& machine
     const AxisCounts start = start_counts(machine, head);
     asked.places_ = AxisPlaces(machine);
     asked.starts_ = asked.places_.kinematics()->motors_at(start);
+    while (asked.starts_.size() > moving_motor_count(machine)) { asked.starts_.steps.pop_back(); }  // the boards
     asked.strokes_.resize(asked.motors());
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         asked.rest_mm_.push_back(to_mm(machine.axes[i], static_cast<double>(start[i])));

@@ -5,7 +5,7 @@ namespace lockstep::analysis {
 AxisPlaces::AxisPlaces(const MachineConfig& machine)
     : kinematics_(std::make_shared<const Kinematics>(machine)), is_direct_(kinematics_->is_direct()) {
     for (const AxisConfig& axis : machine.axes) { mm_per_step_.push_back(1 / axis.steps_per_mm); }
-    motors_.resize(kinematics_->motors().size());
+    motors_.resize(kinematics_->moving_motors().size());
     for (std::size_t motor = 0; motor < motors_.size(); ++motor) {
         const AxisSet moved = kinematics_->axes_of_motor(motor);
         moved_.emplace_back();

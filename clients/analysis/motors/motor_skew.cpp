@@ -15,7 +15,9 @@ std::optional<double> MotorSkew::largest_mm() const { return std::max({in_homing
 
 std::vector<MotorSkew> axes_with_skew(const Kinematics& kinematics) {
     std::vector<std::size_t> motors(kinematics.axes());
-    for (const MotorConfig& motor : kinematics.motors()) { motors[motor.axis] += motor.moves_one_axis ? 1 : 0; }
+    for (const MotorConfig& motor : kinematics.motors()) {
+        if (motor.moves_one_axis) { ++motors[*motor.axis]; }
+    }
     std::vector<MotorSkew> skews;
     for (std::size_t axis = 0; axis < motors.size(); ++axis) {
         if (motors[axis] > 1) { skews.push_back({.axis = axis}); }
@@ -32,7 +34,7 @@ MotorSkewMeter::MotorSkewMeter(const Kinematics& kinematics, bool is_homing, std
         const auto skew = std::ranges::find(skews_, config.axis, &MotorSkew::axis);
         if (skew == skews_.end() || !config.moves_one_axis) { continue; }
         motor.of = static_cast<std::size_t>(skew - skews_.begin());
-        motor.axis_mm_per_step = kinematics.axis_mm(config.axis, m);
+        motor.axis_mm_per_step = kinematics.axis_mm(*config.axis, m);
         if (is_homing) { motor.count = 0; }
         if (!is_homing && m < starts.size()) { motor.count = starts[m]; }
     }

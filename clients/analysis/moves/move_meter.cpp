@@ -35,7 +35,7 @@ void MoveMeter::begin(std::size_t number, Tick from, const MachineConfig& machin
     const Kinematics kinematics(machine);
     MotorSkewMeter skew(kinematics, is_homing, moves.asked().starts().steps);
     Job job{.number = number,
-            .measured = {motor_names(machine), std::move(moves), std::move(skew)},
+            .measured = {moving_motor_names(machine), std::move(moves), std::move(skew)},
             .motor_of_lane = {},
             .is_direct = kinematics.is_direct(),
             .plane = std::move(plane)};

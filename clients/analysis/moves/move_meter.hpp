@@ -25,7 +25,7 @@ public:
 
     /// What was measured of a job.
     struct Measured {
-        std::vector<std::string> motors;  // of its machine
+        std::vector<std::string> motors;  // of its machine, without the boards
         JobMoves moves;
         MotorSkewMeter skew;
     };

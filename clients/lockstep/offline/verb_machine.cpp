@@ -27,6 +27,11 @@ std::string axis_line(const AxisConfig& axis) {
                        (axis.host.empty() ? "" : ", host " + axis.host));
 }
 
+std::string board_line(const BoardConfig& board) {
+    return fmt::format("  {}  board, device {}{}", board.name, board.device.text(),
+                       (board.host.empty() ? "" : ", host " + board.host));
+}
+
 ExitCode check(const CheckOptions& options) {
     Output output(options.json);
     const auto machine = choose_machine(options.file);
@@ -35,6 +40,7 @@ ExitCode check(const CheckOptions& options) {
     output.print(
         fmt::format("{}: ok: machine '{}', axes: {}", machine->file.string(), config.name, config.axes.size()));
     for (const AxisConfig& axis : config.axes) { output.print(axis_line(axis)); }
+    for (const BoardConfig& board : config.boards) { output.print(board_line(board)); }
     output.report(machine_to_proto(config), machine_warnings(config));
     return kExitDone;
 }

@@ -68,9 +68,9 @@ std::string axis_row(const proto::AxisStatus& axis, const SlackScale& scale, Ink
     const std::string name = fmt::format("{:<10}", cut(label_of(axis), 10));
     if (!axis.present()) { return name + painted("   not received", kBad, ink); }
     const std::string state = fmt::format("{:<10}", axis.state());
-    const std::string place = axis.homed() ? fixed(axis.position_mm(), 4) : "not homed";
-    std::string row = name + padded(place, 12) + padded(fixed(axis.velocity_mm_s(), 2), 9) + "  " +
-                      painted(state, colour_of(axis), ink);
+    const std::string place = axis.board() ? "board" : axis.homed() ? fixed(axis.position_mm(), 4) : "not homed";
+    const std::string speed = axis.board() ? "" : fixed(axis.velocity_mm_s(), 2);
+    std::string row = name + padded(place, 12) + padded(speed, 9) + "  " + painted(state, colour_of(axis), ink);
     if (!axis.has_health()) { return row; }
     return row + " " + slack_bar(axis.health(), scale, ink) + padded(lateness(axis.health()), 8) +
            padded(fixed(axis.health().loop_p99_us(), 0), 8);
@@ -78,6 +78,7 @@ std::string axis_row(const proto::AxisStatus& axis, const SlackScale& scale, Ink
 
 std::string place_text(const proto::AxisStatus& axis) {
     if (!axis.present()) { return "not received"; }
+    if (axis.board()) { return axis.state(); }
     return axis.homed() ? fixed(axis.position_mm(), 3) + " " +
                               std::string(unit_of(axis.has_axis() ? axis.axis() : axis.name())) + " " + axis.state()
                         : "not homed";

@@ -162,7 +162,7 @@ function axes() {
     { head: "steps missing in the log", of: (axis) => Number(axis.missing_steps), show: count, grade: (axis) => (Number(axis.missing_steps) ? "unknown" : "") },
     ...timeErrorColumns,
   ];
-  section(hasMotors ? "Motors" : "Axes", table(columns, report.axes));
+  section(hasMotors ? "Motors" : "Axes", table(columns, report.axes.filter((axis) => !axis.board)));
   axisMotion();
   motorSkew();
   if (report.step_skew_between_axes.length === 0) { return; }

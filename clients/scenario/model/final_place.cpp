@@ -27,7 +27,7 @@ std::expected<FinalPlace, std::string> final_place(const proto::AnalysisReport& 
     }
     MotorCounts counts;
     Tick last;
-    for (const MotorConfig& motor : kinematics.motors()) {
+    for (const MotorConfig& motor : kinematics.moving_motors()) {
         const proto::AxisAnalysis* const found = analysis_of(analysis, motor.name);
         if (found == nullptr) { return std::unexpected("motor " + motor.name + " is not recorded"); }
         counts.steps.append(to_steps(motor, found->position_end_mm()));

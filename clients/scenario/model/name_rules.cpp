@@ -12,7 +12,9 @@ void require_axis(Problems& problems, const MachineConfig& machine, const std::s
 }
 
 const char* word_for_motors(const MachineConfig& machine) {
-    return motor_names(machine) == machine.axis_names() ? "axis" : "motor";
+    const bool are_axes = moving_motor_names(machine) == machine.axis_names();
+    if (!machine.boards.empty()) { return are_axes ? "axis or board" : "motor or board"; }
+    return are_axes ? "axis" : "motor";
 }
 
 void require_motor(Problems& problems, const MachineConfig& machine, const std::string& path, const std::string& name) {

@@ -105,6 +105,7 @@ MachineConfig isolated(MachineConfig machine, Asked::Place place) {
     machine.record = {};
     machine.position_directory.clear();
     machine.coordinator_host.clear();
+    for (BoardConfig& board : machine.boards) { board = {.name = board.name, .host = {}, .device = {}}; }
     for (AxisConfig& axis : machine.axes) {
         axis.host.clear();
         axis.device = {};

@@ -20,7 +20,7 @@ void add_inputs(const MachineConfig& machine, const ClosedInputs& closed_of, pro
         const InputConfig& config = machine.inputs[i];
         proto::InputStatus& input = *report.add_inputs();
         input.set_name(config.name);
-        input.set_motor(config.motor);
+        config.at_board ? input.set_board(config.motor) : input.set_motor(config.motor);
         input.set_use(std::string(name_of(config.use)));
         if (config.number) { input.set_number(static_cast<std::uint32_t>(*config.number)); }
         if (!closed_of(places.motor(i))) { continue; }
@@ -41,6 +41,9 @@ std::string closed_inputs_text(const proto::StatusReport& status) {
     return text;
 }
 
-std::string label_of(const proto::InputStatus& input) { return "input " + input.name() + " of motor " + input.motor(); }
+std::string label_of(const proto::InputStatus& input) {
+    const std::string owner = input.has_board() ? "board " + input.board() : "motor " + input.motor();
+    return "input " + input.name() + " of " + owner;
+}
 
 }  // namespace lockstep

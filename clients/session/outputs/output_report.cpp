@@ -41,7 +41,7 @@ void add_outputs(const MachineConfig& machine, const OutputsOn& on_of, const Pro
     for (const OutputConfig& config : machine.outputs) {
         proto::OutputStatus& output = *report.add_outputs();
         output.set_name(config.name);
-        output.set_motor(config.motor);
+        config.at_board ? output.set_board(config.motor) : output.set_motor(config.motor);
         if (asked != nullptr) { ask(config, *asked, output); }
         const auto motor = motor_named(machine, config.motor);
         const auto on = motor && config.has_level() ? on_of(*motor) : std::nullopt;

@@ -208,8 +208,9 @@ std::vector<MotorSnapshot> MachineLoop::taken_motors() const {
     std::vector<MotorSnapshot> motors;
     for (std::size_t m = 0; m < kinematics.motors().size(); ++m) {
         const MotorConfig& config = kinematics.motors()[m];
-        if (kinematics.own_motor(config.axis) == m) { continue; }
+        if (config.axis && kinematics.own_motor(*config.axis) == m) { continue; }
         MotorSnapshot motor{.name = config.name,
+                            .is_board = config.is_board(),
                             .axes = kinematics.names_of_axes(kinematics.axes_of_motor(m)),
                             .steps_per_mm = config.steps_per_mm,
                             .seen = {.is_present = session_.motor_present(m), .state = {}, .health = healths_[m]}};

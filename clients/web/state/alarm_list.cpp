@@ -28,6 +28,7 @@ json own_alarm(const char* code, const FaultPlace& place, const std::string& cau
             {"code", code},
             {"axis", name_or_null(place.axis)},
             {"motor", name_or_null(place.motor)},
+            {"board", name_or_null(place.board)},
             {"cause", cause},
             {"remedy", remedy},
             {"severity", "warning"}};
@@ -36,16 +37,15 @@ json own_alarm(const char* code, const FaultPlace& place, const std::string& cau
 /// `motor`: by its number in the machine.
 FaultPlace place_of(std::size_t motor, const Snapshot& snapshot, const MachineConfig& machine) {
     const MotorConfig config = motors_of(machine)[motor];
-    if (std::ranges::find(snapshot.motors, config.name, &MotorSnapshot::name) != snapshot.motors.end()) {
-        return {.axis = {}, .motor = config.name};
-    }
-    return {.axis = machine.axes[config.axis].name, .motor = {}};
+    const auto apart = std::ranges::find(snapshot.motors, config.name, &MotorSnapshot::name);
+    if (apart != snapshot.motors.end()) { return place_of(*apart); }
+    return {.axis = machine.axes[*config.axis].name, .motor = {}};
 }
 
 void add_once(json& alarms, json alarm) {
     const auto is_same = [&](const json& one) {
         return one["number"] == alarm["number"] && one["code"] == alarm["code"] && one["axis"] == alarm["axis"] &&
-               one["motor"] == alarm["motor"];
+               one["motor"] == alarm["motor"] && one["board"] == alarm["board"];
     };
     if (std::ranges::none_of(alarms, is_same)) { alarms.push_back(std::move(alarm)); }
 }
@@ -106,21 +106,26 @@ double slack_deadline_ms(const ProtocolTiming& timing) {
     return static_cast<double>(timing.check_slots()) * static_cast<double>(timing.slot_us) * 1e-3;
 }
 
+FaultPlace place_of(const MotorSnapshot& motor) {
+    if (motor.is_board) { return {.axis = {}, .motor = {}, .board = motor.name}; }
+    return {.axis = {}, .motor = motor.name};
+}
+
 std::vector<Served> served_of(const Snapshot& snapshot, const MachineConfig& machine) {
     std::vector<Served> served;
     for (std::size_t i = 0; i < snapshot.axes.size(); ++i) {
         if (!snapshot.axes[i].is_process) { continue; }
         served.push_back({{.axis = machine.axes[i].name, .motor = {}}, snapshot.axes[i]});
     }
-    for (const MotorSnapshot& motor : snapshot.motors) {
-        served.push_back({{.axis = {}, .motor = motor.name}, motor.seen});
-    }
+    for (const MotorSnapshot& motor : snapshot.motors) { served.push_back({place_of(motor), motor.seen}); }
     return served;
 }
 
 const AxisState* state_of(const std::string& motor, const std::vector<Served>& all) {
     // The process that serves the motor has the motor's name, or its axis's, which is the same then.
-    const auto serves = [&](const Served& one) { return one.place.motor == motor || one.place.axis == motor; };
+    const auto serves = [&](const Served& one) {
+        return one.place.motor == motor || one.place.axis == motor || one.place.board == motor;
+    };
     const auto served = std::ranges::find_if(all, serves);
     return served == all.end() || !served->seen.state ? nullptr : &served->seen.state->value;
 }
@@ -131,6 +136,7 @@ json fault_json(FaultCode fault, const FaultPlace& place) {
             {"code", name_of(fault)},
             {"axis", name_or_null(place.axis)},
             {"motor", name_or_null(place.motor)},
+            {"board", name_or_null(place.board)},
             {"cause", text == nullptr ? "unknown" : text->cause},
             {"remedy", text == nullptr ? "see the logs" : remedy_text(*text, words_to_fill_in)}};
 }
@@ -141,9 +147,9 @@ json alarm_list(const Snapshot& snapshot, const MachineConfig& machine) {
     const std::vector<Served> all = served_of(snapshot, machine);
     for (const Served& served : all) {
         if (snapshot.is_silent || served.seen.is_present) { continue; }
+        const char* const kind = !served.place.board.empty() ? "board" : !served.place.motor.empty() ? "motor" : "axis";
         alarms.push_back(own_alarm("axis-not-received", served.place,
-                                   served.place.motor.empty() ? "no messages are received from the axis"
-                                                              : "no messages are received from the motor",
+                                   fmt::format("no messages are received from the {}", kind),
                                    "check that its process runs: lockstep status"));
     }
     if (snapshot.apart) {

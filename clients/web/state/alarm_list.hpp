@@ -18,14 +18,16 @@ inline constexpr double kStepLateness_us = 2;
 /// How long before its start an axis must hold a setpoint; a later one is not run.
 double slack_deadline_ms(const ProtocolTiming& timing);
 
-/// The part of the machine that has a fault or an alarm: an axis, or a motor that is not the only one of an axis. Both
-/// are empty for the whole machine.
+/// The part of the machine that has a fault or an alarm: an axis, a motor that is not the only one of an axis, or a
+/// board. All are empty for the whole machine.
 struct FaultPlace {
     std::string axis;
     std::string motor;
+    std::string board = {};
 };
+FaultPlace place_of(const MotorSnapshot& motor);
 
-/// A process serves an axis with a motor of its own, or a motor.
+/// A process serves an axis with a motor of its own, a motor, or a board.
 struct Served {
     FaultPlace place;
     const AxisSnapshot& seen;

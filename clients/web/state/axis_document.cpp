@@ -129,6 +129,17 @@ json axis_json(const Snapshot& snapshot, std::size_t i, const MachineConfig& mac
                       machine);
 }
 
+/// What a board has of an axis: no position, no speed and no switches.
+json board_json(const Snapshot& snapshot, const MotorSnapshot& board, const MachineConfig& machine) {
+    const FaultPlace place = place_of(board);
+    const json all = board.seen.state ? shown_json(snapshot, {board.seen, 1, place, place}, machine) : never_received();
+    json shown;
+    for (const char* key : {"present", "age_ms", "state", "clock_error_us", "fault", "unproved", "health"}) {
+        shown[key] = all[key];
+    }
+    return shown;
+}
+
 }  // namespace
 
 std::int64_t age_ms(nanoseconds time, nanoseconds now) {
@@ -151,12 +162,21 @@ json axes_document(const Snapshot& snapshot, const MachineConfig& machine) {
 json motors_document(const Snapshot& snapshot, const MachineConfig& machine) {
     json motors = json::object();
     for (const MotorSnapshot& motor : snapshot.motors) {
-        const FaultPlace place{.axis = {}, .motor = motor.name};
+        if (motor.is_board) { continue; }
+        const FaultPlace place = place_of(motor);
         motors[motor.name] = motor.seen.state
                                  ? shown_json(snapshot, {motor.seen, motor.steps_per_mm, place, place}, machine)
                                  : never_received();
     }
     return motors;
+}
+
+json boards_document(const Snapshot& snapshot, const MachineConfig& machine) {
+    json boards = json::object();
+    for (const MotorSnapshot& motor : snapshot.motors) {
+        if (motor.is_board) { boards[motor.name] = board_json(snapshot, motor, machine); }
+    }
+    return boards;
 }
 
 }  // namespace lockstep::web

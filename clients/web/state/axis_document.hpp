@@ -13,6 +13,7 @@ nlohmann::json axes_document(const Snapshot& snapshot, const MachineConfig& mach
 
 /// Returns the states of the motors that are not the only ones of an axis, by their names, as the same schema.
 nlohmann::json motors_document(const Snapshot& snapshot, const MachineConfig& machine);
+nlohmann::json boards_document(const Snapshot& snapshot, const MachineConfig& machine);
 
 /// The age, rounded down to 100 ms, so that it seldom changes while messages come.
 std::int64_t age_ms(nanoseconds time, nanoseconds now);

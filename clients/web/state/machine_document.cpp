@@ -35,21 +35,35 @@ json motors_json(const MachineConfig& machine) {
     json motors = json::array();
     for (std::size_t m = 0; m < kinematics.motors().size(); ++m) {
         const MotorConfig& motor = kinematics.motors()[m];
-        if (kinematics.own_motor(motor.axis) == m) { continue; }
+        if (motor.is_board() || kinematics.own_motor(*motor.axis) == m) { continue; }
         motors.push_back({{"name", motor.name},
                           {"axes", kinematics.names_of_axes(kinematics.axes_of_motor(m))},
-                          {"unit", unit_of(machine.axes[motor.axis].name)},
+                          {"unit", unit_of(machine.axes[*motor.axis].name)},
                           {"steps_per_unit", motor.steps_per_mm},
                           {"host", motor.host.empty() ? json() : json(motor.host)}});
     }
     return motors;
 }
 
+json boards_json(const MachineConfig& machine) {
+    json boards = json::array();
+    for (const BoardConfig& board : machine.boards) {
+        boards.push_back({{"name", board.name}, {"host", board.host.empty() ? json() : json(board.host)}});
+    }
+    return boards;
+}
+
+/// Whose device has an input or an output.
+json owner_json(const auto& channel, bool of_board) {
+    return channel.at_board == of_board ? json(channel.motor) : json();
+}
+
 json inputs_json(const MachineConfig& machine) {
     json inputs = json::array();
     for (const InputConfig& input : machine.inputs) {
         inputs.push_back({{"name", input.name},
-                          {"motor", input.motor},
+                          {"motor", owner_json(input, false)},
+                          {"board", owner_json(input, true)},
                           {"use", name_of(input.use)},
                           {"number", input.number ? json(*input.number) : json()}});
     }
@@ -59,8 +73,10 @@ json inputs_json(const MachineConfig& machine) {
 json outputs_json(const MachineConfig& machine) {
     json outputs = json::array();
     for (const OutputConfig& output : machine.outputs) {
-        outputs.push_back(
-            {{"name", output.name}, {"motor", output.motor}, {"kind", output.is_analog() ? "analog" : "digital"}});
+        outputs.push_back({{"name", output.name},
+                           {"motor", owner_json(output, false)},
+                           {"board", owner_json(output, true)},
+                           {"kind", output.is_analog() ? "analog" : "digital"}});
     }
     return outputs;
 }
@@ -96,6 +112,7 @@ json machine_document(const MachineConfig& machine, const std::string& version) 
             {"version", version},
             {"axes", axes},
             {"motors", motors_json(machine)},
+            {"boards", boards_json(machine)},
             {"inputs", inputs_json(machine)},
             {"outputs", outputs_json(machine)},
             {"features", json::array()},

@@ -31,9 +31,10 @@ struct AxisSnapshot {
     std::optional<Seen<AxisHealth>> health;
 };
 
-/// A motor that is not the only one of an axis.
+/// A motor that is not the only one of an axis, or a board.
 struct MotorSnapshot {
     std::string name;
+    bool is_board = false;
     std::vector<std::string> axes;  // that it moves
     double steps_per_mm = 1;
     AxisSnapshot seen;

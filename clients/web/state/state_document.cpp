@@ -152,6 +152,7 @@ json state_document(const Snapshot& snapshot, const MachineConfig& machine, cons
             {"alarms", alarm_list(snapshot, machine)},
             {"axes", axes_document(snapshot, machine)},
             {"motors", motors_document(snapshot, machine)},
+            {"boards", boards_document(snapshot, machine)},
             {"inputs", inputs_document(snapshot, machine)},
             {"outputs", outputs_document(snapshot, machine)},
             {"offsets", offsets_json(snapshot, machine, modes)},

@@ -3,6 +3,10 @@
 namespace lockstep {
 
 FaultCode AxisPosition::claim(const DeviceStatus& device, bool device_failed) {
+    if (is_board_) {
+        set_zero(device.position.count(), device);
+        return unproved_ = FaultCode::None;
+    }
     unproved_ = !kept_ ? kept_.error() : device_failed ? FaultCode::DeviceFault : doubt_of(*kept_, scale_, device);
     if (unproved_ != FaultCode::None) { return unproved_; }
     zero_count_ = kept_->zero_count;
@@ -30,7 +34,7 @@ void AxisPosition::lose_device() {
 }
 
 std::optional<KeptPosition> AxisPosition::keep(const DeviceView& device) {
-    if (!homed_ || !device.has_ended() || kept_run_ == device.newest_run()) { return std::nullopt; }
+    if (is_board_ || !homed_ || !device.has_ended() || kept_run_ == device.newest_run()) { return std::nullopt; }
     kept_run_ = device.newest_run();
     const DeviceStatus& status = device.status();
     kept_ = KeptPosition{scale_, status.power_up, kept_run_, status.position, zero_count_, encoder_zero_};

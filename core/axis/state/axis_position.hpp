@@ -13,9 +13,11 @@ namespace lockstep {
 
 class AxisPosition {
 public:
-    /// `kept`: the position that the previous process kept.
-    AxisPosition(PositionScale scale, KeptOrNot kept) : scale_(std::move(scale)), kept_(std::move(kept)) {}
+    /// `kept`: the position that the previous process kept. A board always rests at 0, so its place is always known.
+    AxisPosition(PositionScale scale, KeptOrNot kept, bool is_board = false)
+        : scale_(std::move(scale)), kept_(std::move(kept)), is_board_(is_board) {}
 
+    bool is_board() const { return is_board_; }
     bool homed() const { return homed_; }
     /// Why the kept position did not home the axis; None once it was homed.
     FaultCode unproved() const { return unproved_; }
@@ -27,14 +29,14 @@ public:
     FaultCode claim(const DeviceStatus& device, bool device_failed);
     void begin_homing();
     void set_zero(std::int64_t zero_count, const DeviceStatus& device);
-    void lose() { homed_ = false; }
+    void lose() { homed_ = is_board_ && homed_; }
     void lose_device();
 
     Position in_machine(Position device) const { return device - Displacement::steps(zero_count_); }
     Position in_device(Position machine) const { return machine + Displacement::steps(zero_count_); }
-    /// Encoder minus count since the homing, in steps.
+    /// Encoder minus count since the homing, in steps. A board has no encoder.
     std::int64_t following_error(const DeviceStatus& device) const {
-        return device.encoder_count - device.position.count() - encoder_zero_;
+        return is_board_ ? 0 : device.encoder_count - device.position.count() - encoder_zero_;
     }
 
     /// Call it at rest without a fault. Returns the position to keep, once after each run that leaves the axis homed.
@@ -43,6 +45,7 @@ public:
 private:
     PositionScale scale_;
     KeptOrNot kept_;  // the newest kept position, used when a device is found
+    bool is_board_ = false;
     bool homed_ = false;
     FaultCode unproved_ = FaultCode::DeviceMissing;
     std::int64_t zero_count_ = 0;

@@ -11,11 +11,12 @@ SkewWatch::SkewWatch(const MachineConfig& machine, const Kinematics& kinematics)
     const std::vector<MotorConfig>& motors = kinematics.motors();
     for (std::size_t m = 0; m < motors.size(); ++m) {
         const MotorConfig& motor = motors[m];
-        const AxisConfig& axis = machine.axes[motor.axis];
-        if (axis.motors.size() < 2 || !motor.moves_one_axis) { continue; }
+        if (!motor.moves_one_axis) { continue; }
+        const AxisConfig& axis = machine.axes[*motor.axis];
+        if (axis.motors.size() < 2) { continue; }
         if (motors_.empty()) { motors_.resize(motors.size()); }
-        motors_[m] = {.axis = motor.axis,
-                      .axis_mm_per_step = kinematics.axis_mm(motor.axis, m),
+        motors_[m] = {.axis = *motor.axis,
+                      .axis_mm_per_step = kinematics.axis_mm(*motor.axis, m),
                       .steps_per_slot = motor.max_velocity_mm_s * motor.steps_per_mm *
                                         static_cast<double>(machine.timing.slot_us) * 1e-6,
                       .most_mm = axis.max_skew_mm,

@@ -142,7 +142,7 @@ OutputPlanner::OutputPlanner(const MachineConfig& machine) : room_(output_room(m
     for (std::size_t m = 0; m < kinematics.motors().size(); ++m) {
         const MotorConfig& config = kinematics.motors()[m];
         Motor motor{.number = static_cast<std::uint32_t>(m),
-                    .steps_per_mm = config.moves_one_axis ? 1 / kinematics.axis_mm(config.axis, m) : 0,
+                    .steps_per_mm = config.moves_one_axis ? 1 / kinematics.axis_mm(*config.axis, m) : 0,
                     .outputs = outputs_of(machine.outputs, config.name),
                     .ramps = {}};
         motor.ramps.resize(motor.outputs.size());

@@ -197,15 +197,12 @@ Quadratic RowPieces::half(std::size_t number) const {
 
 MotorPositions motors_at_rest(const PathSetup& setup, std::span<const Position> at) {
     MotorPositions motors;
-    if (!setup.has_map()) {
-        for (const Position& position : at) { motors.append(position); }
-        return motors;
-    }
     AxisVector axes;
     for (const Position& position : at) { axes.append(position.as_steps()); }
     for (std::size_t m = 0; m < setup.motors(); ++m) {
-        motors.append(Position::steps(std::llround(setup.motor_map.place(m, axes))));
+        motors.append(setup.has_map() ? Position::steps(std::llround(setup.motor_map.place(m, axes))) : at[m]);
     }
+    for (std::size_t board = 0; board < setup.boards; ++board) { motors.append(Position{}); }
     return motors;
 }
 

@@ -8,6 +8,7 @@
 #include "services/documents/machine_rules.hpp"
 #include "services/documents/names.hpp"
 #include "services/documents/problem_list.hpp"
+#include "services/documents/rules/owner_rules.hpp"
 
 namespace lockstep {
 namespace {
@@ -39,10 +40,8 @@ private:
         check_name(input, before, at + "name");
         problems_.require_range(at + "debounce_ms", input.debounce_ms, 0, kMaxDebounce_ms);
         check_number(input, before, at + "number");
+        check_owner(machine_, {input.motor, input.at_board}, at, problems_);
         const auto motor = std::ranges::find(motors_, input.motor, &MotorConfig::name);
-        problems_.require(motor != motors_.end(), at + "motor",
-                          fmt::format("{}motor is \"{}\"; it must be one of the machine's motors: {}", at, input.motor,
-                                      fmt::join(motor_names(machine_), ", ")));
         if (motor != motors_.end()) { check_channel(input, *motor, before, at + "channel"); }
     }
 
@@ -56,8 +55,8 @@ private:
         problems_.require(std::ranges::none_of(machine_.axes, is_same) && std::ranges::none_of(motors_, is_same) &&
                               std::ranges::none_of(before, is_same),
                           key,
-                          fmt::format("{} names an axis, a motor or another input already; give this input another "
-                                      "name",
+                          fmt::format("{} names an axis, a motor, a board or another input already; give this input "
+                                      "another name",
                                       input.name));
     }
 
@@ -77,16 +76,18 @@ private:
 
     void check_channel(const InputConfig& input, const MotorConfig& motor, Inputs before, const std::string& key) {
         const int last = last_channel(motor);
+        const DeviceOwner owner{input.motor, input.at_board};
         problems_.require(
             input.channel >= kSwitchInputs && input.channel <= last, key,
-            fmt::format("{} is {}; it must be from {} to {}: inputs 0, 1 and 2 have the switches of motor {}, and "
-                        "its device has {} at most",
-                        key, input.channel, kSwitchInputs, last, motor.name, last + 1));
+            fmt::format("{} is {}; it must be from {} to {}: inputs 0, 1 and 2 have the switches of {}, and its device "
+                        "has {} at most",
+                        key, input.channel, kSwitchInputs, last, motor.is_board() ? "a motor" : owner.text(),
+                        last + 1));
         const auto other = std::ranges::find_if(
             before, [&](const InputConfig& one) { return one.motor == input.motor && one.channel == input.channel; });
         problems_.require(other == before.end(), key,
-                          fmt::format("{} is {}, which input {} of motor {} has already; choose another", key,
-                                      input.channel, other == before.end() ? "" : other->name, input.motor));
+                          fmt::format("{} is {}, which input {} of {} has already; choose another", key, input.channel,
+                                      other == before.end() ? "" : other->name, owner.text()));
     }
 
     const MachineConfig& machine_;

@@ -102,7 +102,7 @@ void check_pair(const MachineConfig& machine, const std::string& key, std::array
 }
 
 void check_matrix(const MachineConfig& machine, ProblemList& problems) {
-    const std::vector<std::string> motors = motor_names(machine);
+    const std::vector<std::string> motors = moving_motor_names(machine);
     std::set<std::string> seen;
     for (std::size_t r = 0; r < machine.kinematics.matrix.size(); ++r) {
         const MotorRow& row = machine.kinematics.matrix[r];
@@ -201,7 +201,7 @@ std::vector<Problem> kinematics_problems(const MachineConfig& machine) {
         check_pair(machine, at, {"x", "y"}, {skew.x, skew.y}, problems);
         problems.require_range(at + ".mm_per_m", skew.mm_per_m, -kMaxSkew_mm_per_m, kMaxSkew_mm_per_m);
     }
-    const std::size_t rows = motor_count(machine) + machine.axes.size();
+    const std::size_t rows = moving_motor_count(machine) + machine.axes.size();
     const MotorMap map = step_map_of(machine);
     const bool is_direct = motor_map_of(machine).is_identity() && map.is_identity();
     problems.require(is_direct || rows <= kMaxAxes, "",
@@ -215,7 +215,8 @@ std::vector<Problem> kinematics_problems(const MachineConfig& machine) {
                      "different places of the axes give the same places of the motors; each axis needs a motor that "
                      "the others do not move alike");
     for (const MotorConfig& motor : motors_of(machine)) {
-        check_speeds(machine.axes[motor.axis], motor, problems);
+        if (motor.is_board()) { continue; }
+        check_speeds(machine.axes[*motor.axis], motor, problems);
         if (!is_direct) { check_demand(machine, motor, problems); }
     }
     return problems.take();

@@ -5,10 +5,10 @@
 #include <tuple>
 
 #include "core/hardware/output_change.hpp"
-#include "core/kinematics/motors.hpp"
 #include "services/documents/machine_rules.hpp"
 #include "services/documents/names.hpp"
 #include "services/documents/problem_list.hpp"
+#include "services/documents/rules/owner_rules.hpp"
 
 namespace lockstep {
 namespace {
@@ -57,15 +57,13 @@ private:
     }
 
     void check_channel(const OutputConfig& output, const std::string& at) {
-        problems_.require(
-            motor_named(machine_, output.motor).has_value(), at + "motor",
-            fmt::format("output {} is at motor \"{}\", which the machine does not have; its motors are {}", output.name,
-                        output.motor, fmt::join(motor_names(machine_), ", ")));
+        const DeviceOwner owner{output.motor, output.at_board};
+        check_owner(machine_, owner, at, problems_);
         const std::size_t most = output.is_analog() ? kMostAnalogOutputs : kMostDigitalOutputs;
         problems_.require_range(at + "channel", output.channel, 0, static_cast<double>(most) - 1);
         problems_.require(channels_.emplace(output.motor, output.is_analog(), output.channel).second, at + "channel",
-                          fmt::format("{} output {} of motor {} is given twice; use another channel",
-                                      output.is_analog() ? "analog" : "digital", output.channel, output.motor));
+                          fmt::format("{} output {} of {} is given twice; use another channel",
+                                      output.is_analog() ? "analog" : "digital", output.channel, owner.text()));
     }
 
     void check_use(const OutputConfig& output, const std::string& at) {
@@ -104,9 +102,10 @@ private:
                                       output.motor, output.name));
         const auto motor = motor_named(machine_, output.motor);
         problems_.require(!motor || motors_of(machine_)[*motor].moves_one_axis, at + "motor",
-                          fmt::format("output {} makes pulses at places of an axis, and motor {} moves several; use a "
-                                      "motor that moves one axis alone",
-                                      output.name, output.motor));
+                          fmt::format("output {} makes pulses at places of an axis, and {} {}; use a motor that moves one "
+                                      "axis alone",
+                                      output.name, DeviceOwner{output.motor, output.at_board}.text(),
+                                      output.at_board ? "makes no steps" : "moves several"));
     }
 
     const MachineConfig& machine_;

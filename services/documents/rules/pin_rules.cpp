@@ -22,8 +22,8 @@ std::string place_of(const AxisConfig& axis, const std::string& motor) {
 
 /// Between two steps at the greatest speed there is room for the pulse and for a change of direction.
 void check_room(const MachineConfig& machine, const MotorConfig& motor, std::vector<Problem>& found) {
-    const AxisConfig& axis = machine.axes[motor.axis];
-    ProblemList problems(motor.axis, "axis " + axis.name + ": ");
+    const AxisConfig& axis = machine.axes[*motor.axis];
+    ProblemList problems(*motor.axis, "axis " + axis.name + ": ");
     const std::string at = place_of(axis, motor.name);
     const double between_us = 1e6 / (motor.max_velocity_mm_s * motor.steps_per_mm);
     const std::string room = fmt::format("motor {} makes steps {} us apart at max_velocity_mm_s {}", motor.name,
@@ -55,7 +55,9 @@ void check_pin_ranges(const PinsConfig& pins, const std::string& at, ProblemList
 
 std::vector<Problem> pin_problems(const MachineConfig& machine) {
     std::vector<Problem> found;
-    for (const MotorConfig& motor : motors_of(machine)) { check_room(machine, motor, found); }
+    for (const MotorConfig& motor : motors_of(machine)) {
+        if (!motor.is_board()) { check_room(machine, motor, found); }
+    }
     return found;
 }
 

@@ -10,7 +10,7 @@ const axis = (name, max, max_velocity) => ({
 });
 
 export const MACHINE = {
-  name: "mill", version: "1", axes: [axis("X", 200, 150), axis("Y", 200, 150), axis("Z", 60, 25)], motors: [], inputs: [], outputs: [], features: [], faults: {},
+  name: "mill", version: "1", axes: [axis("X", 200, 150), axis("Y", 200, 150), axis("Z", 60, 25)], motors: [], boards: [], inputs: [], outputs: [], features: [], faults: {},
   coordinate_systems: ["G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"], slack_deadline_ms: 8, step_lateness_limit_us: 20,
   limits: { program_bytes: 50_000_000, body_bytes: 65536, jog_renew_ms: 40, jog_life_ms: 120, override_min_percent: 10, override_max_percent: 200, path_points: 1_000_000 },
 };
@@ -59,7 +59,7 @@ export class StandInMachine {
   endsJogs = false;
   state = {
     machine: "mill", mode: "Idle", link: { age_ms: 0, standby: false, config_differs: false }, job: null, program: null, hold: null, pause: null,
-    override: { feed_percent: 100, rapid_percent: 100 }, alarms: [], axes: { X: axisState(5), Y: axisState(5), Z: axisState(58) }, motors: {}, inputs: {}, outputs: {},
+    override: { feed_percent: 100, rapid_percent: 100 }, alarms: [], axes: { X: axisState(5), Y: axisState(5), Z: axisState(58) }, motors: {}, boards: {}, inputs: {}, outputs: {},
     offsets: { revision: 1, active: "G54", systems: Object.fromEntries(MACHINE.coordinate_systems.map((s) => [s, { origin: {}, rotation_deg: 0 }])), g92: null },
     tools: { 1: { pocket: 1, offset: { Z: 42.5 }, diameter: 6 }, 2: { pocket: 2, offset: { Z: 38.1 }, diameter: 3 } }, 
     devices: { spindle: { direction: "stopped", rpm: 0 }, mist: false, flood: false, tool: null, outputs: [] }, writer: null,

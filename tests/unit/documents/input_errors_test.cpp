@@ -29,15 +29,15 @@ const std::string kStop = R"(name: "stop" motor: "X" channel: 3 use: EMERGENCY_S
 TEST(Inputs, WrongValuesAreRefusedWithPlaceValueAndRemedy) {
     const std::pair<std::string, std::string> mistakes[] = {
         {with_inputs({R"(motor: "X" channel: 3 use: DOOR)"}), "m:11:1: error: input[0].name is missing"},
-        {with_inputs({R"(name: "a" channel: 3 use: DOOR)"}), "input[0].motor is missing"},
+        {with_inputs({R"(name: "a" channel: 3 use: DOOR)"}), "input[0].motor and input[0].board are missing"},
         {with_inputs({R"(name: "a" motor: "X" use: DOOR)"}), "input[0].channel is missing"},
         {with_inputs({R"(name: "a" motor: "X" channel: 3)"}), "input[0].use is missing"},
         {with_inputs({R"(name: "4" motor: "X" channel: 3 use: DOOR)"}),
          "the input's name is \"4\"; it must be a letter"},
         {with_inputs({R"(name: "x" motor: "X" channel: 3 use: DOOR)"}),
-         "x names an axis, a motor or another input already; give this input another name"},
+         "x names an axis, a motor, a board or another input already; give this input another name"},
         {with_inputs({kStop, R"(name: "Stop" motor: "X" channel: 4 use: DOOR)"}),
-         "m:12:9: error: Stop names an axis, a motor or another input already"},
+         "m:12:9: error: Stop names an axis, a motor, a board or another input already"},
         {with_inputs({R"(name: "a" motor: "Y" channel: 3 use: DOOR)"}),
          "input[0].motor is \"Y\"; it must be one of the machine's motors: X"},
         {with_inputs({R"(name: "a" motor: "X" channel: 2 use: DOOR)"}),

@@ -49,7 +49,7 @@ TEST(Outputs, ThatCannotBeAreRefusedWithPlaceAndRemedy) {
     for (const Case& one : {
              Case{"output { name: \"a\" motor: \"X\" }\noutput { name: \"A\" motor: \"X\" channel: 1 number: 1 }\n",
                   "m:12"},
-             Case{"output { name: \"a\" motor: \"Z\" }\n", "its motors are X"},
+             Case{"output { name: \"a\" motor: \"Z\" }\n", "it must be one of the machine's motors: X"},
              Case{"output { name: \"a\" motor: \"X\" channel: 16 }\n", "from 0 to 15"},
              Case{"output { name: \"a\" motor: \"X\" }\noutput { name: \"b\" motor: \"X\" number: 1 }\n",
                   "digital output 0 of motor X is given twice"},

@@ -124,6 +124,28 @@ TEST(StatusText, NamesTheMotorOfAFaultOnce) {
     EXPECT_EQ(text.find("limit-hit"), text.rfind("limit-hit"));
 }
 
+proto::StatusReport running_with_board() {
+    proto::StatusReport status = running();
+    proto::AxisStatus& board = *status.add_boards();
+    board.set_name("IO");
+    board.set_board(true);
+    board.set_present(true);
+    board.set_state("Standby");
+    return status;
+}
+
+TEST(StatusText, ShowsABoardWithoutPositionAndHoming) {
+    proto::StatusReport status = running_with_board();
+    MachineConfig machine = two_axes();
+    machine.boards = {{.name = "IO"}};
+    *status.mutable_fault() = motor_fault(FaultCode::DeviceLost, Kinematics(machine), 2);
+    const std::string text = status_text(status);
+    EXPECT_THAT(text, HasSubstr("IO                        board                  Standby"));
+    EXPECT_THAT(text, HasSubstr("fault: board IO: device-lost"));
+    EXPECT_EQ(unhomed_text(status).find("IO"), std::string::npos);
+    EXPECT_EQ(process_label(*process_rows(status).back()), "board IO");
+}
+
 TEST(StatusRows, OfProcessesAreThoseOfMotorsAndOfAxesWithAMotorOfTheirOwn) {
     proto::StatusReport status = running();
     status.add_motors()->set_name("Y1");

@@ -23,7 +23,9 @@ TEST(InputsDocument, NamesTheInputsOfTheFile) {
     EXPECT_EQ(machine_document(two_axes(), "1")["inputs"], Json::array());
     const Json inputs = machine_document(with_inputs(), "1")["inputs"];
     ASSERT_EQ(inputs.size(), 2u);
-    EXPECT_EQ(inputs[0], (Json{{"name", "stop"}, {"motor", "Y"}, {"use", "emergency-stop"}, {"number", nullptr}}));
+    EXPECT_EQ(
+        inputs[0],
+        (Json{{"name", "stop"}, {"motor", "Y"}, {"board", nullptr}, {"use", "emergency-stop"}, {"number", nullptr}}));
     EXPECT_EQ(inputs[1]["number"], 2);
 }
 

@@ -1,6 +1,8 @@
-// The page gets the motors of a machine on which an axis has several motors or a motor moves several axes.
+// The page gets the motors of a machine on which an axis has several motors or a motor moves several axes, and the
+// boards.
 #include <gtest/gtest.h>
 
+#include "clients/web/state/alarm_list.hpp"
 #include "clients/web/state/axis_document.hpp"
 #include "clients/web/state/machine_document.hpp"
 #include "clients/web/state/state_document.hpp"
@@ -110,6 +112,50 @@ TEST(MotorsDocument, MeasuresTheSkewOfStepsAgainstTheOtherMotors) {
     snapshot.motors[1].seen.health = with_lateness(0, 5);
     EXPECT_EQ(of_gantry(snapshot)["motors"]["Y1"]["health"]["skew_us"], 7.0);
     EXPECT_TRUE(of_gantry(snapshot)["axes"]["Y"]["health"].is_null());
+}
+
+MachineConfig with_board() {
+    MachineConfig machine = two_axes();
+    machine.boards = {{.name = "IO", .host = "shed", .device = {}}};
+    machine.outputs = {{.name = "air", .motor = "IO", .at_board = true, .channel = 2, .use = OutputUse::Flood}};
+    return machine;
+}
+
+Snapshot with_board_at_rest() {
+    Snapshot snapshot = snapshot_at_rest();
+    snapshot.motors.push_back({.name = "IO", .is_board = true, .axes = {}, .seen = snapshot.axes[1]});
+    snapshot.motors.back().seen.is_process = true;
+    return snapshot;
+}
+
+TEST(BoardsDocument, NamesTheBoardsAndTheirOutputs) {
+    const Json document = machine_document(with_board(), "1");
+    EXPECT_EQ(document["boards"], Json::array({{{"name", "IO"}, {"host", "shed"}}}));
+    EXPECT_EQ(document["motors"], Json::array());
+    EXPECT_EQ(document["outputs"][0]["board"], "IO");
+    EXPECT_EQ(document["outputs"][0]["motor"], nullptr);
+}
+
+TEST(BoardsDocument, HasStateAndFaultAndNoPosition) {
+    Snapshot snapshot = with_board_at_rest();
+    snapshot.motors[0].seen.state->value.fault = FaultCode::DeviceLost;
+    snapshot.motors[0].seen.state->value.outputs = 1U << 2;
+    const Json state = state_document(snapshot, with_board(), nullptr, {}, 1);
+    EXPECT_EQ(state["motors"], Json::object());
+    EXPECT_EQ(state["boards"]["IO"]["state"], "Standby");
+    EXPECT_EQ(state["boards"]["IO"]["fault"]["board"], "IO");
+    EXPECT_FALSE(state["boards"]["IO"].contains("position"));
+    EXPECT_EQ(state["outputs"]["air"]["on"], true);
+}
+
+TEST(BoardsDocument, NamesABoardThatIsNotReceived) {
+    Snapshot snapshot = with_board_at_rest();
+    snapshot.is_silent = false;
+    snapshot.motors[0].seen.is_present = false;
+    const Json alarms = alarm_list(snapshot, with_board());
+    ASSERT_EQ(alarms.size(), 1U);
+    EXPECT_EQ(alarms[0]["board"], "IO");
+    EXPECT_EQ(alarms[0]["cause"], "no messages are received from the board");
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ TEST(OutputsDocument, NamesTheOutputsOfTheFile) {
     EXPECT_EQ(machine_document(two_axes(), "1")["outputs"], Json::array());
     const Json outputs = machine_document(with_outputs(), "1")["outputs"];
     ASSERT_EQ(outputs.size(), 2u);
-    EXPECT_EQ(outputs[0], (Json{{"name", "laser"}, {"motor", "X"}, {"kind", "analog"}}));
+    EXPECT_EQ(outputs[0], (Json{{"name", "laser"}, {"motor", "X"}, {"board", nullptr}, {"kind", "analog"}}));
     EXPECT_EQ(outputs[1]["kind"], "digital");
 }
 

@@ -169,10 +169,16 @@ describe("alarms", () => {
 
 describe("what a fault is about", () => {
   test("is one axis, several motors, or the machine", () => {
-    expect(placeText(["X"], [], en)).toBe("Axis X");
-    expect(placeText([], ["Y2"], en)).toBe("Motor Y2");
-    expect(placeText(["X", "Z"], ["Y1", "Y2"], en)).toBe("Axes X, Z, Motors Y1, Y2");
-    expect(placeText([], [], en)).toBe("");
+    const none = { axes: [], motors: [], boards: [] };
+    expect(placeText({ ...none, axes: ["X"] }, en)).toBe("Axis X");
+    expect(placeText({ ...none, motors: ["Y2"] }, en)).toBe("Motor Y2");
+    expect(placeText({ axes: ["X", "Z"], motors: ["Y1", "Y2"], boards: ["IO"] }, en)).toBe("Axes X, Z, Motors Y1, Y2, Board IO");
+    expect(placeText(none, en)).toBe("");
+  });
+
+  test("is not the machine where a board has it", () => {
+    const lost = { severity: "fault", number: 120, code: "device-lost", cause: "c", remedy: "r" } as const;
+    expect(groupedAlarms([{ ...lost, board: "IO" }]).map(({ axes, motors, boards }) => [axes, motors, boards])).toEqual([[[], [], ["IO"]]]);
   });
 
   test("is not the machine where a motor has it", () => {

@@ -19,8 +19,9 @@ std::int64_t draw_push(Draw& draw, const MotorConfig& motor, const std::optional
 VirtualFault draw_of(Draw& draw, const MachineConfig& machine, FaultKind kind, double lasts_slots) {
     VirtualFault fault{.kind = kind, .process = draw.index(motor_count(machine)), .lasts = {1}};
     if (kind == FaultKind::Push) {
+        fault.process %= moving_motor_count(machine);  // a board has no slide
         const MotorConfig motor = motors_of(machine)[fault.process];
-        fault.push_steps = draw_push(draw, motor, machine.axes[motor.axis].max_skew_mm);
+        fault.push_steps = draw_push(draw, motor, machine.axes[*motor.axis].max_skew_mm);
     }
     if (kind != FaultKind::Stick) { return fault; }
     fault.contact = draw.chance(0.5) ? &PlantInputs::limit_min : &PlantInputs::limit_max;

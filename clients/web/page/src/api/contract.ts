@@ -43,6 +43,7 @@ export interface Fault {
   code: string;
   axis?: Maybe<string>;
   motor?: Maybe<string>;
+  board?: Maybe<string>;
   cause: string;
   remedy: string;
 }
@@ -52,6 +53,7 @@ export interface Alarm {
   code: string;
   axis?: Maybe<string>;
   motor?: Maybe<string>;
+  board?: Maybe<string>;
   cause: string;
   remedy: string;
   severity: "fault" | "warning";
@@ -81,16 +83,23 @@ export interface MachineMotor {
   host?: Maybe<string>;
 }
 
+export interface MachineBoard {
+  name: string;
+  host?: Maybe<string>;
+}
+
 export interface MachineInput {
   name: string;
-  motor: string;
+  motor?: Maybe<string>;
+  board?: Maybe<string>;
   use: "emergency-stop" | "door" | "program";
   number?: Maybe<number>;
 }
 
 export interface MachineOutput {
   name: string;
-  motor: string;
+  motor?: Maybe<string>;
+  board?: Maybe<string>;
   kind: "digital" | "analog";
 }
 
@@ -109,6 +118,7 @@ export interface Machine {
   version: string;
   axes: MachineAxis[];
   motors: MachineMotor[];
+  boards: MachineBoard[];
   inputs: MachineInput[];
   outputs: MachineOutput[];
   features: string[];
@@ -167,6 +177,7 @@ export interface State {
   alarms: Alarm[];
   axes: Record<string, AxisState>;
   motors: Record<string, AxisState>;
+  boards: Record<string, BoardState>;
   inputs: Record<string, boolean>;
   outputs: Record<string, OutputState>;
   offsets?: Maybe<Offsets>;
@@ -194,18 +205,6 @@ export interface Writer {
 
 export type AxisPhase = "Initialize" | "Standby" | "Accelerate" | "Cruise" | "Decelerate" | "Stop" | "Fault";
 
-export interface Health {
-  age_ms: number;
-  slack_ms?: Maybe<Spread>;
-  lateness_us?: Maybe<Spread>;
-  skew_us?: Maybe<number>;
-  setpoint_age_ms?: Maybe<number>;
-  loop_p99_us: number;
-  loop_max_us: number;
-  least_free_segments: number;
-  refused: number;
-}
-
 export interface AxisState {
   present: boolean;
   age_ms?: Maybe<number>;
@@ -221,6 +220,28 @@ export interface AxisState {
   unproved?: Maybe<Fault>;
   switches?: Maybe<("limit_min" | "limit_max" | "home")[]>;
   health?: Maybe<Health>;
+}
+
+export interface BoardState {
+  present: boolean;
+  age_ms?: Maybe<number>;
+  state?: Maybe<AxisPhase>;
+  clock_error_us?: Maybe<number>;
+  fault?: Maybe<Fault>;
+  unproved?: Maybe<Fault>;
+  health?: Maybe<Health>;
+}
+
+export interface Health {
+  age_ms: number;
+  slack_ms?: Maybe<Spread>;
+  lateness_us?: Maybe<Spread>;
+  skew_us?: Maybe<number>;
+  setpoint_age_ms?: Maybe<number>;
+  loop_p99_us: number;
+  loop_max_us: number;
+  least_free_segments: number;
+  refused: number;
 }
 
 export interface Spread {

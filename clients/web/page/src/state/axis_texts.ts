@@ -14,7 +14,7 @@ export function phaseLook({ present, state }: Pick<AxisState, "present" | "state
 }
 
 /** Empty if nothing is wrong. */
-export function troubleText(state: AxisState, { axes, alarms }: Pick<Texts, "axes" | "alarms">): string {
+export function troubleText(state: Pick<AxisState, "fault" | "unproved" | "homed" | "following_error_steps">, { axes, alarms }: Pick<Texts, "axes" | "alarms">): string {
   const { fault, unproved, homed, following_error_steps } = state;
   const motor = fault?.motor ? `${fill(alarms.motor, { motor: fault.motor })}: ` : "";
   return [

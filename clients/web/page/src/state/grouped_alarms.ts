@@ -1,14 +1,13 @@
-// Alarms as a person counts them: the same fault of several axes or motors is one.
+// Alarms as a person counts them: the same fault of several axes, motors or boards is one.
 import type { Alarm } from "../api/contract";
+import type { FaultyParts } from "./place_text";
 
-export interface AlarmGroup {
+/** All lists are empty for an alarm of the whole machine. */
+export interface AlarmGroup extends FaultyParts {
   readonly alarm: Alarm;
-  /** Both are empty for an alarm of the whole machine. */
-  readonly axes: readonly string[];
-  readonly motors: readonly string[];
 }
 
-/** Groups are in the order of their first alarms. A fault of the machine includes the same fault of its axes and motors. */
+/** Groups are in the order of their first alarms. A fault of the machine includes the same fault of its parts. */
 export function groupedAlarms(alarms: readonly Alarm[]): AlarmGroup[] {
   const groups = new Map<string, Alarm[]>();
   for (const alarm of alarms) {
@@ -17,8 +16,8 @@ export function groupedAlarms(alarms: readonly Alarm[]): AlarmGroup[] {
     groups.set(key, [...(groups.get(key) ?? []), alarm]);
   }
   return [...groups.values()].map((same) => {
-    const isOfMachine = same.some(({ axis, motor }) => !axis && !motor);
+    const isOfMachine = same.some(({ axis, motor, board }) => !axis && !motor && !board);
     const names = (of: (alarm: Alarm) => string | null | undefined) => (isOfMachine ? [] : same.flatMap((alarm) => of(alarm) || []));
-    return { alarm: same[0]!, axes: names(({ axis }) => axis), motors: names(({ motor }) => motor) };
+    return { alarm: same[0]!, axes: names(({ axis }) => axis), motors: names(({ motor }) => motor), boards: names(({ board }) => board) };
   });
 }

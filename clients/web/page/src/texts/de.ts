@@ -45,7 +45,7 @@ export const de: Texts = {
     "run-rest": "lockstep run FILE --from-line LINE",
   },
   alarms: {
-    title: "Meldungen", fault: "Fehler", warning: "Warnung", axis: "Achse {axis}", axes: "Achsen {axes}", motor: "Motor {motor}", motors: "Motoren {motors}", ended: "Der letzte Auftrag endete vorzeitig",
+    title: "Meldungen", fault: "Fehler", warning: "Warnung", axis: "Achse {axis}", axes: "Achsen {axes}", motor: "Motor {motor}", motors: "Motoren {motors}", board: "Platine {board}", boards: "Platinen {boards}", ended: "Der letzte Auftrag endete vorzeitig",
   },
   axes: {
     title: "Achsen", machine: "Maschine", work: "Werkstück {system}", coordinates: "Koordinaten", homed: "Referenziert",
@@ -57,6 +57,7 @@ export const de: Texts = {
       clock: "Größter möglicher Fehler der Maschinenzeit dieser Achse, µs",
     },
   },
+  boards: { title: "Platinen", has: "Ausgänge und Eingänge" },
   motors: {
     title: "Motoren", moves: "bewegt {axes}", closed: "Geschlossen: {switches}",
     switches: { limit_min: "Endschalter am unteren Ende", limit_max: "Endschalter am oberen Ende", home: "Referenzschalter" },

@@ -44,7 +44,7 @@ export const en = {
     incident: "lockstep analyze --incident", "run-rest": "lockstep run FILE --from-line LINE",
   },
   alarms: {
-    title: "Alarms", fault: "Fault", warning: "Warning", axis: "Axis {axis}", axes: "Axes {axes}", motor: "Motor {motor}", motors: "Motors {motors}", ended: "The last job ended early",
+    title: "Alarms", fault: "Fault", warning: "Warning", axis: "Axis {axis}", axes: "Axes {axes}", motor: "Motor {motor}", motors: "Motors {motors}", board: "Board {board}", boards: "Boards {boards}", ended: "The last job ended early",
   },
   axes: {
     title: "Axes", machine: "Machine", work: "Work {system}", coordinates: "Coordinates", homed: "Homed",
@@ -56,6 +56,7 @@ export const en = {
       clock: "Largest possible error of the axis's machine time, µs",
     },
   },
+  boards: { title: "Boards", has: "outputs and inputs" },
   motors: {
     title: "Motors", moves: "moves {axes}", closed: "Closed: {switches}",
     switches: { limit_min: "limit switch at the lower end", limit_max: "limit switch at the upper end", home: "home switch" },

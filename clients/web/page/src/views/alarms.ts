@@ -4,7 +4,7 @@ import { h, icon, show } from "../dom/element";
 import { ICONS } from "../dom/icons";
 import { groupedAlarms } from "../state/grouped_alarms";
 import { pageRemedy } from "../state/page_remedy";
-import { placeText } from "../state/place_text";
+import { placeText, type FaultyParts } from "../state/place_text";
 import { t } from "../texts";
 import type { Model, View } from "./view";
 
@@ -13,6 +13,10 @@ function item(fault: Fault, place: string, kind: string, className: string): HTM
   return h("li", { class: `alarm ${className}` }, icon(className === "fault" ? ICONS.emergency : ICONS.warning),
     h("div", {}, h("strong", {}, `${kind} – ${heading}`), h("p", {}, fault.cause),
       fault.remedy === "" ? undefined : h("p", { class: "remedy" }, pageRemedy(fault.remedy, t))));
+}
+
+function partsOf({ axis, motor, board }: Fault): FaultyParts {
+  return { axes: axis ? [axis] : [], motors: motor ? [motor] : [], boards: board ? [board] : [] };
 }
 
 export class Alarms implements View {
@@ -27,9 +31,9 @@ export class Alarms implements View {
     if (now === this.shown) return;
     this.shown = now;
     this.list.replaceChildren(
-      ...groupedAlarms(alarms).map(({ alarm, axes, motors }) =>
-        item(alarm, placeText(axes, motors, t), alarm.severity === "fault" ? t.alarms.fault : t.alarms.warning, alarm.severity)),
-      ...(ended ? [item(ended, placeText(ended.axis ? [ended.axis] : [], ended.motor ? [ended.motor] : [], t), t.alarms.ended, "warning")] : []));
+      ...groupedAlarms(alarms).map(({ alarm, ...parts }) =>
+        item(alarm, placeText(parts, t), alarm.severity === "fault" ? t.alarms.fault : t.alarms.warning, alarm.severity)),
+      ...(ended ? [item(ended, placeText(partsOf(ended), t), t.alarms.ended, "warning")] : []));
     show(this.element, this.list.children.length > 0);
   }
 }

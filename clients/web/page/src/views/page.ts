@@ -13,6 +13,7 @@ import { JogPad } from "./jog_pad";
 import { keysDialog } from "./keys_dialog";
 import { LinkBanner } from "./link_banner";
 import { MdiTab } from "./mdi_tab";
+import { Boards } from "./axes/boards";
 import { Motors } from "./axes/motors";
 import { Notices } from "./notices";
 import { OffsetsTab } from "./offsets_tab";
@@ -47,7 +48,7 @@ export class Page {
     const header = new Header(() => keys.showModal(), () => void leave(report), safety.element);
     const [banner, writer, alarms] = [new LinkBanner(), new WriterBanner(this.give), new Alarms()];
     const [axes, motors, jog] = [new Axes(machine, this.give), new Motors(machine), new JogPad(machine, stream, report)];
-    const [inputs, outputs] = [new Inputs(machine), new Outputs(machine)];
+    const [boards, inputs, outputs] = [new Boards(machine), new Inputs(machine), new Outputs(machine)];
     const [path, strip] = [new PathView(machine), new Strip(machine)];
     const [job, devices, overrides] = [new JobCard(this.give), new DevicesRow(), new Overrides(machine, this.give)];
     const [program, mdi] = [new ProgramTab(machine, report), new MdiTab(this.give)];
@@ -57,12 +58,12 @@ export class Page {
       { id: "offsets", title: t.offsets.title, content: offsets.element }, { id: "tools", title: t.tools.title, content: tools.element },
       { id: "reports", title: t.reports.title, content: reports.element },
     ]);
-    this.views = [header, safety, banner, writer, pause, alarms, axes, motors, inputs, outputs, jog, path, strip, job, devices, overrides, program, mdi, offsets, tools, reports];
+    this.views = [header, safety, banner, writer, pause, alarms, axes, motors, boards, inputs, outputs, jog, path, strip, job, devices, overrides, program, mdi, offsets, tools, reports];
     place.replaceChildren(
       h("a", { class: "skip", href: "#main" }, t.page.skip), header.element,
       h("main", { id: "main", tabindex: -1 },
         h("div", { class: "top" }, banner.element, writer.element, pause.element, alarms.element),
-        h("div", { class: "left" }, axes.element, jog.element, motors.element, inputs.element, outputs.element),
+        h("div", { class: "left" }, axes.element, jog.element, motors.element, boards.element, inputs.element, outputs.element),
         h("div", { class: "middle" }, path.element, strip.element),
         h("div", { class: "right" }, h("div", { class: "job-area" }, job.element, devices.element, overrides.element), tabs.element)),
       notices.element, keys, pause.dialog);

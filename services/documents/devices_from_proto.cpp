@@ -1,0 +1,144 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "services/documents/proto_reader.hpp"
+
+namespace lockstep {
+namespace {
+
+OutputUse read_use(proto::OutputUse use) {
+    switch (use) {
+        case proto::SPINDLE: return OutputUse::Spindle;
+        case proto::SPINDLE_REVERSE: return OutputUse::SpindleReverse;
+        case proto::MIST: return OutputUse::Mist;
+        case proto::FLOOD: return OutputUse::Flood;
+        case proto::PLACES: return OutputUse::Places;
+        default: return OutputUse::Number;
+    }
+}
+
+/// Whether the output keeps its level.
+bool read_level(bool is_given, proto::OutputLevel level, bool preset, const std::string& key, ProtoReader& reader) {
+    if (!is_given) { return preset; }
+    if (!proto::OutputLevel_IsValid(level)) {
+        reader.refuse(key, fmt::format("{} is {}; it must be KEEP or OFF", key, int{level}));
+    }
+    return level == proto::KEEP;
+}
+
+PwmConfig read_pwm(const proto::Pwm& message, const std::string& place, ProtoReader& reader) {
+    PwmConfig pwm{.full_scale = message.has_full_scale() ? message.full_scale() : PwmConfig{}.full_scale,
+                  .follows_speed = message.follows_speed()};
+    reader.require(message.has_hz(), message.hz(), pwm.hz, place + ".hz");
+    return pwm;
+}
+
+/// Which device has an output or an input: that of a motor, or a board.
+template <typename Message, typename Config>
+void read_owner(const Message& message, const std::string& place, Config& config, ProtoReader& reader) {
+    config.at_board = message.has_board();
+    config.motor = message.has_board() ? message.board() : message.motor();
+    if (message.has_board() && message.has_motor()) {
+        reader.refuse(place + ".board",
+                      fmt::format("{0}.motor is \"{1}\" and {0}.board is \"{2}\"; keep the one whose device has it",
+                                  place, message.motor(), message.board()));
+    }
+    if (message.has_board() || message.has_motor()) { return; }
+    reader.refuse(
+        place + ".motor",
+        fmt::format("{0}.motor and {0}.board are missing; name the motor whose device has it, or the board", place));
+}
+
+OutputConfig read_output(const proto::Output& message, const std::string& place, ProtoReader& reader) {
+    OutputConfig output{.channel = message.channel(),
+                        .use = read_use(message.use()),
+                        .number = message.number(),
+                        .inverted = message.inverted()};
+    reader.require(message.has_name(), message.name(), output.name, place + ".name");
+    read_owner(message, place, output, reader);
+    if (!proto::OutputUse_IsValid(message.use())) {
+        reader.refuse(place + ".use",
+                      fmt::format("{}.use is {}; it must be NUMBER, SPINDLE, SPINDLE_REVERSE, MIST, FLOOD or PLACES", place,
+                                  int{message.use()}));
+    }
+    if (output.makes_pulses()) {
+        reader.require(message.has_pulse_us(), message.pulse_us(), output.pulse_us, place + ".pulse_us");
+    } else {
+        output.pulse_us = message.pulse_us();
+    }
+    if (message.has_pwm()) { output.pwm = read_pwm(message.pwm(), place + ".pwm", reader); }
+    output.stays_at_interruption = read_level(message.has_at_interruption(), message.at_interruption(),
+                                              output.stays_at_interruption, place + ".at_interruption", reader);
+    output.stays_at_fault =
+        read_level(message.has_at_fault(), message.at_fault(), output.stays_at_fault, place + ".at_fault", reader);
+    output.stays_at_silence = read_level(message.has_at_silence(), message.at_silence(), output.stays_at_silence,
+                                         place + ".at_silence", reader);
+    return output;
+}
+
+/// Long enough for any stall that the machine bears.
+double usual_silence_ms(const ProtocolTiming& timing) {
+    const double stall_ms = static_cast<double>(timing.slot_us) / 1000 * (timing.stall_slots + 1);
+    return std::max(MachineConfig{}.output_silence_ms, 5 * stall_ms);
+}
+
+InputUse read_use(proto::InputUse use) {
+    switch (use) {
+        case proto::DOOR: return InputUse::Door;
+        case proto::PROGRAM: return InputUse::Program;
+        default: return InputUse::EmergencyStop;
+    }
+}
+
+InputConfig read_input(const proto::Input& message, const std::string& place, ProtoReader reader) {
+    InputConfig input;
+    reader.require(message.has_name(), message.name(), input.name, place + ".name");
+    read_owner(message, place, input, reader);
+    reader.require(message.has_channel(), message.channel(), input.channel, place + ".channel");
+    reader.require(message.has_use(), read_use(message.use()), input.use, place + ".use");
+    if (!proto::InputUse_IsValid(message.use())) {
+        reader.refuse(place + ".use", fmt::format("{}.use is {}; it must be EMERGENCY_STOP, DOOR or PROGRAM", place,
+                                                  int{message.use()}));
+    }
+    input.active_low = message.active_low();
+    if (message.has_debounce_ms()) { input.debounce_ms = message.debounce_ms(); }
+    if (message.has_number()) { input.number = message.number(); }
+    return input;
+}
+
+BoardConfig read_board(const proto::Board& message, const std::string& place, ProtoReader reader) {
+    BoardConfig board{.name = {}, .host = message.host(), .device = {}};
+    reader.require(message.has_name(), message.name(), board.name, place + ".name");
+    board.device = read_device(message.device(), place + ".device", reader);
+    return board;
+}
+
+}  // namespace
+
+DeviceName read_device(const std::string& text, const std::string& key, ProtoReader& reader) {
+    if (text.empty()) { return {}; }
+    auto device = read_device_name(text);
+    if (device) { return std::move(*device); }
+    reader.refuse(key, fmt::format("{} is \"{}\"; it must be {}, such as uio:/dev/uio0", key, text, kDeviceNames));
+    return {};
+}
+
+void read_devices(const proto::Machine& message, MachineDraft& draft) {
+    for (int k = 0; k < message.board_size(); ++k) {
+        draft.machine.boards.push_back(
+            read_board(message.board(k), fmt::format("board[{}]", k), ProtoReader(draft.missing)));
+    }
+    ProtoReader of_outputs(draft.missing);
+    for (int k = 0; k < message.output_size(); ++k) {
+        draft.machine.outputs.push_back(read_output(message.output(k), fmt::format("output[{}]", k), of_outputs));
+    }
+    draft.machine.output_silence_ms =
+        message.has_output_silence_ms() ? message.output_silence_ms() : usual_silence_ms(draft.machine.timing);
+    for (const proto::Input& input : message.input()) {
+        const std::string place = fmt::format("input[{}]", draft.machine.inputs.size());
+        draft.machine.inputs.push_back(read_input(input, place, ProtoReader(draft.missing)));
+    }
+}
+
+}  // namespace lockstep
