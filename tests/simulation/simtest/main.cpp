@@ -91,6 +91,8 @@ int main(int argc, char** argv) {
                     "machines with an emergency stop and a door at inputs of devices");
     parser.add_flag("--outputs", options.machine.outputs,
                     "machines with outputs that programs switch, one of them in proportion to the speed");
+    parser.add_flag("--boards", options.machine.boards,
+                    "machines with a board: a device without a motor, for some of the outputs and inputs");
     parser.add_flag("--jogs", options.machine.jogs, "axes are also jogged, between programs");
     parser
         .add_option("--faults", options.faults,

@@ -7,8 +7,10 @@ namespace lockstep::simtest {
 namespace {
 
 InputConfig draw_input(Draw& draw, const MachineConfig& machine, const char* name, int channel, InputUse use) {
+    const std::size_t motor = draw.index(motor_count(machine));
     return {.name = name,
-            .motor = motor_name(machine, draw.index(motor_count(machine))),
+            .motor = motor_name(machine, motor),
+            .at_board = motor >= moving_motor_count(machine),
             .channel = channel,
             .use = use,
             .active_low = draw.chance(0.5),

@@ -100,7 +100,7 @@ public:
         }
         return all;
     }
-    std::size_t axis() const { return motor_.axis; }
+    std::size_t axis() const { return motor_.axis.value(); }
 
 private:
     void add(std::vector<Block>& blocks, const AxisConfig& axis, double steps_per_mm) {
@@ -132,12 +132,26 @@ void give_pulses(std::uint64_t seed, Scenario& scenario) {
     }
 }
 
+/// A board has at least one output.
+void move_to_board(std::uint64_t seed, MachineConfig& machine) {
+    if (machine.boards.empty()) { return; }
+    Draw draw(seed ^ 0x0b0a2d050b0a2d05U);
+    const std::string& board = machine.boards.front().name;
+    const std::size_t always = draw.index(machine.outputs.size());
+    for (std::size_t k = 0; k < machine.outputs.size(); ++k) {
+        OutputConfig& output = machine.outputs[k];
+        if (k == always || draw.chance(0.5)) { output.motor = board; }
+        output.at_board = output.motor == board;
+    }
+}
+
 }  // namespace
 
 void give_outputs(std::uint64_t seed, Scenario& scenario) {
     if (scenario.machine.coordination == StepMethod::Lai) { return; }
     Draw draw(seed ^ 0x0b7b5e70b7b5e700U);
     scenario.machine.outputs = draw_outputs(draw, scenario.machine);
+    move_to_board(seed, scenario.machine);
     for (Task& task : scenario.tasks) {
         std::vector<Block>& blocks = task.program.blocks;
         if (!blocks.empty()) { blocks = EventDrawer(draw).between(blocks); }

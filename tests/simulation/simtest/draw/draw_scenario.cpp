@@ -271,6 +271,9 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     } else if (kind.motors) {
         scenario.machine = with_motors(seed, std::move(scenario.machine));
     }
+    if (kind.boards && scenario.machine.coordination != StepMethod::Lai) {
+        scenario.machine.boards.push_back({.name = "IO", .host = "", .device = {}});
+    }
     scenario.network = draw_network(draw, faults, scenario.machine.slot_ticks());
     if (faults.clock) {
         give_clocks(draw, scenario);

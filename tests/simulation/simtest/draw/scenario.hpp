@@ -76,6 +76,7 @@ struct MachineKind {
     bool jogs = false;                // axes are jogged between programs (draw_jogs.hpp)
     bool inputs = false;              // with an emergency stop and a door (draw_inputs.hpp)
     bool outputs = false;             // programs switch outputs (draw_outputs.hpp)
+    bool boards = false;              // with a device without a motor
 };
 
 /// A command that the machine must refuse, and the reason. The machine must continue as if it had not been given.

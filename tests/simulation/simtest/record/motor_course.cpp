@@ -148,10 +148,22 @@ private:
     const MachineConfig& machine_;
 };
 
+/// Boards rest at 0. Their places are behind those of the axes.
+Course with_boards(Course axes, std::size_t motors) {
+    axes.from.resize(motors);
+    axes.to.resize(motors);
+    for (Stretch& stretch : axes.stretches) {
+        stretch.to.resize(motors);
+        stretch.fastest.resize(motors);
+        if (!stretch.moved.empty()) { stretch.moved.resize(motors); }
+    }
+    return axes;
+}
+
 }  // namespace
 
 Course course_of_motors(Course axes, const MotorShares& map, const MachineConfig& machine, const Counts& from) {
-    if (map.is_direct()) { return axes; }
+    if (map.is_direct()) { return with_boards(std::move(axes), map.motors()); }
     return CourseMap(map, machine).of(std::move(axes), from);
 }
 

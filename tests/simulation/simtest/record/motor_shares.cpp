@@ -79,6 +79,15 @@ MotorShares::MotorShares(const MachineConfig& machine)
         if (machine.axes[i].motors.empty()) { add(machine, i, nullptr); }
         for (const MotorBlock& block : machine.axes[i].motors) { add(machine, i, &block); }
     }
+    for (std::size_t k = 0; k < machine.boards.size(); ++k) { add_board(); }
+}
+
+/// No axis moves it. Its limits have no effect.
+void MotorShares::add_board() {
+    towers_.emplace_back();
+    shares_.emplace_back(axis_steps_per_mm_.size(), 0.0);
+    steps_per_mm_.push_back(1);
+    limits_.push_back({1, 1, 1, 1});
 }
 
 void MotorShares::add(const MachineConfig& machine, std::size_t axis, const MotorBlock* block) {

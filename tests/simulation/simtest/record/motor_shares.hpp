@@ -23,8 +23,9 @@ class MotorShares {
 public:
     explicit MotorShares(const MachineConfig& machine);
 
+    /// With the boards.
     std::size_t motors() const { return shares_.size(); }
-    /// Each axis is a motor.
+    /// Each axis is a motor. Boards follow.
     bool is_direct() const { return is_direct_; }
     /// A motor follows curves while the axes move in lines.
     bool is_curved(std::size_t motor) const { return towers_[motor].has_value(); }
@@ -51,6 +52,7 @@ public:
 
 private:
     void add(const MachineConfig& machine, std::size_t axis, const MotorBlock* block);
+    void add_board();
     Carriages::Tool tool(const Places& axes) const;
     double steps_of_carriages(std::size_t coordinate, const Carriages::Tool& at) const;
 
