@@ -59,8 +59,8 @@ OutputConfig read_output(const proto::Output& message, const std::string& place,
     read_owner(message, place, output, reader);
     if (!proto::OutputUse_IsValid(message.use())) {
         reader.refuse(place + ".use",
-                      fmt::format("{}.use is {}; it must be NUMBER, SPINDLE, SPINDLE_REVERSE, MIST, FLOOD or PLACES", place,
-                                  int{message.use()}));
+                      fmt::format("{}.use is {}; it must be NUMBER, SPINDLE, SPINDLE_REVERSE, MIST, FLOOD or PLACES",
+                                  place, int{message.use()}));
     }
     if (output.makes_pulses()) {
         reader.require(message.has_pulse_us(), message.pulse_us(), output.pulse_us, place + ".pulse_us");

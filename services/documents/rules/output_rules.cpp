@@ -101,11 +101,12 @@ private:
                                       "motor's device for {}",
                                       output.motor, output.name));
         const auto motor = motor_named(machine_, output.motor);
-        problems_.require(!motor || motors_of(machine_)[*motor].moves_one_axis, at + "motor",
-                          fmt::format("output {} makes pulses at places of an axis, and {} {}; use a motor that moves one "
-                                      "axis alone",
-                                      output.name, DeviceOwner{output.motor, output.at_board}.text(),
-                                      output.at_board ? "makes no steps" : "moves several"));
+        problems_.require(
+            !motor || motors_of(machine_)[*motor].moves_one_axis, at + "motor",
+            fmt::format("output {} makes pulses at places of an axis, and {} {}; use a motor that moves one "
+                        "axis alone",
+                        output.name, DeviceOwner{output.motor, output.at_board}.text(),
+                        output.at_board ? "makes no steps" : "moves several"));
     }
 
     const MachineConfig& machine_;
