@@ -46,6 +46,8 @@ std::string event_words(const ProgramEvent& event) {
         case Kind::OutputOff: return fmt::format("M63 P{}", event.index);
         case Kind::AnalogOutput: return fmt::format("M67 E{} Q{}", event.index, value);
         case Kind::Tool: return fmt::format("T{}", event.index);
+        case Kind::PulseSpacing: return fmt::format("M69 P{} R{}", event.index, value);
+        case Kind::PulsePlaces: return event.index == 0 ? "M69" : fmt::format("M69 Q{} L{}", value, event.index);
     }
     return "unknown";
 }
