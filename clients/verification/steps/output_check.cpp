@@ -61,7 +61,7 @@ void OutputCheck::follow(const Seen& seen, Before before) {
 void OutputCheck::note_gap(const Seen& seen, Before before) {
     const std::int64_t tick = seen.event.tick.value;
     if (before == Before::Gap) {
-        findings_.add_missing(fmt::format("{}: {} of inputs and outputs before tick {} not in the log",
+        findings_.add_missing(fmt::format("{}: {} of inputs and outputs missing before tick {}",
                                           findings_.label_of(axis_),
                                           plural(seen.sequence - last_->sequence - 1, "change"), tick));
     } else {
@@ -77,7 +77,7 @@ void OutputCheck::check_beginnings() {
     for (const auto& [incarnation, first] : first_) {
         const auto expected = expected_.find(incarnation);
         if (expected == expected_.end() || first.sequence <= expected->second) { continue; }
-        findings_.add_missing(fmt::format("{}: {} of inputs and outputs before tick {} not in the log",
+        findings_.add_missing(fmt::format("{}: {} of inputs and outputs missing before tick {}",
                                           findings_.label_of(axis_),
                                           plural(first.sequence - expected->second, "change"), first.event.tick.value));
     }
