@@ -32,6 +32,7 @@ DeviceName& device_of(MachineConfig& machine, std::size_t motor) {
         if (axis.motors.empty()) { devices.push_back(&axis.device); }
         for (MotorBlock& block : axis.motors) { devices.push_back(&block.device); }
     }
+    for (BoardConfig& board : machine.boards) { devices.push_back(&board.device); }
     return *devices[motor];
 }
 
