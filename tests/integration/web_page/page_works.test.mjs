@@ -301,7 +301,7 @@ describe("motors", () => {
     await motor(page, "Y2").and(page.locator('[data-fresh="live"]')).waitFor();
     assert.equal(await page.locator('.axis[data-axis="Y"] .figure:visible').count(), 1); // its age; the rest is of its motors
     Object.assign(machine.state.motors.Y2, { position: 7.5, switches: ["limit_max"], following_error_steps: 3, state: "Fault" });
-    const fault = { number: 103, code: "limit-hit", axis: null, motor: "Y2", cause: "a limit switch closed", remedy: "then: {reset}, {home}" };
+    const fault = { number: 103, code: "limit-hit", axis: null, motor: "Y2", board: null, cause: "a limit switch closed", remedy: "then: {reset}, {home}" };
     machine.state.motors.Y2.fault = fault;
     machine.state.axes.Y.fault = fault;
     machine.state.alarms = [{ ...fault, severity: "fault" }];
@@ -310,6 +310,26 @@ describe("motors", () => {
     await page.locator('.axis[data-axis="Y"] .trouble', { hasText: "Motor Y2: limit-hit" }).waitFor();
     assert.match(await motor(page, "Y2").textContent(), /moves Y.*7\.500 mm.*Fault.*limit-hit: a limit switch closed · Following error: 3 steps/);
     assert.equal(await motor(page, "Y1").locator(".trouble:visible").count(), 0);
+  });
+});
+
+describe("boards", () => {
+  test("are not shown where the machine has none", async () => {
+    const page = await enter();
+    assert.equal(await page.locator(".boards:visible").count(), 0);
+  });
+
+  test("are shown with their state and fault, and without a place", async () => {
+    machine.haveABoard();
+    const page = await enter();
+    const board = page.locator('[data-board="IO"]');
+    await board.and(page.locator('[data-fresh="live"]')).waitFor();
+    assert.doesNotMatch(await board.textContent(), / mm/);
+    const fault = { number: 135, code: "device-lost", axis: null, motor: null, board: "IO", cause: "the device is gone", remedy: "then: {reset}" };
+    Object.assign(machine.state.boards.IO, { state: "Fault", fault });
+    machine.state.alarms = [{ ...fault, severity: "fault" }];
+    await page.locator(".alarm", { hasText: "Board IO: device-lost (135)" }).waitFor();
+    await board.locator(".trouble", { hasText: "device-lost: the device is gone" }).waitFor();
   });
 });
 

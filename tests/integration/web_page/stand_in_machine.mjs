@@ -1,7 +1,7 @@
 // Follows commands like a machine behind lockstep-web, without a real one: for pictures, and for paths of any length.
 
 const FAULTS = {
-  emergency: { number: 118, code: "emergency-stopped", axis: null, motor: null, cause: "an emergency stop was commanded", remedy: "make sure that the machine is safe; an axis that was stopped in motion must be homed again; then: {reset}, {home}" },
+  emergency: { number: 118, code: "emergency-stopped", axis: null, motor: null, board: null, cause: "an emergency stop was commanded", remedy: "make sure that the machine is safe; an axis that was stopped in motion must be homed again; then: {reset}, {home}" },
 };
 
 const axis = (name, max, max_velocity) => ({
@@ -74,16 +74,23 @@ export class StandInMachine {
     this.state.axes.Y.health = null;
   }
 
+  /** IO is a device without a motor. Call it before the page is opened. */
+  haveABoard() {
+    this.description = { ...this.description, boards: [{ name: "IO", host: null }] };
+    const { present, age_ms, state, clock_error_us, fault, unproved, health } = axisState(0);
+    this.state.boards = { IO: { present, age_ms, state, clock_error_us, fault, unproved, health } };
+  }
+
   /** All are open. Call it before the page is opened. */
   haveInputs() {
-    const inputs = [{ name: "stop", motor: "X", use: "emergency-stop", number: null }, { name: "door", motor: "Y", use: "door", number: null }, { name: "tool", motor: "Z", use: "program", number: 3 }];
+    const inputs = [{ name: "stop", motor: "X", board: null, use: "emergency-stop", number: null }, { name: "door", motor: "Y", board: null, use: "door", number: null }, { name: "tool", motor: "Z", board: null, use: "program", number: 3 }];
     this.description = { ...this.description, inputs };
     this.state.inputs = Object.fromEntries(inputs.map(({ name }) => [name, false]));
   }
 
   /** All are off, as the program asks. Call it before the page is opened. */
   haveOutputs() {
-    const outputs = [{ name: "laser", motor: "X", kind: "analog" }, { name: "air", motor: "Y", kind: "digital" }];
+    const outputs = [{ name: "laser", motor: "X", board: null, kind: "analog" }, { name: "air", motor: "Y", board: null, kind: "digital" }];
     this.description = { ...this.description, outputs };
     this.state.outputs = { laser: { on: null, asked: 0 }, air: { on: false, asked: 0 } };
   }
