@@ -53,7 +53,7 @@ void fill(const Analysis& analysis, const AxisLog& axis, proto::AxisAnalysis& re
     if (config != nullptr && config->axis && !analysis.has_motors_as_axes()) {
         report.set_axis(analysis.config->axes[*config->axis].name);
     }
-    report.set_board(analysis.is_board(axis.name()));
+    if (analysis.is_board(axis.name())) { report.set_board(true); }
     report.set_steps(found.steps());
     report.set_batches(axis.counts().batches);
     report.set_missing_steps(found.missing_steps() + std::abs(axis.unrecorded_steps()));
