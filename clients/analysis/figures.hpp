@@ -1,5 +1,5 @@
-// The figures of an analysis: `speed.svg`, `position.svg` and `xy.svg`, and `outputs.svg` if an input or output
-// changed.
+// The figures of an analysis: `speed.svg`, `position.svg` and `xy.svg`, `outputs.svg` if an input or output changed,
+// and `power.svg` if there is a power map.
 #pragma once
 
 #include <expected>

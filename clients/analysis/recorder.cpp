@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "clients/analysis/plane_path.hpp"
+#include "clients/analysis/power/asked_power.hpp"
 #include "core/kinematics/motors.hpp"
+#include "core/outputs/output_levels.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/record/reading/job_of.hpp"
 #include "services/record/reading/run.hpp"
@@ -88,6 +90,11 @@ void Recorder::on_event(const program_event_t& message, const ProgramEvent& even
     program_events_.take(message, event);
 }
 
+void Recorder::on_channel(const channel_event_t& message) {
+    channels_.take(message);
+    if (power_) { power_->meter.take(message); }
+}
+
 void Recorder::on_damage(LogPlace place, const std::string& what) { note_damage(analysis_.damages, place, what); }
 
 /// Axes may be jogged in the pause of a job, and return in it. Returns the number of that job's log.
@@ -135,6 +142,8 @@ void Recorder::begin_job(const RecordedJob& message, JobLog& record, LogPlace pl
     }
     if (options_.keeps_curves() && program && record.is_on_a_line() && !message.has_program_of(latest_program_)) {
         keep_asked_way(*program);
+        begin_power();
+        if (power_) { add_asked_power(*program, power_->output, power_->asked); }
         latest_program_ = message;
     }
     moves_.begin(number_of(record), analysis_.tick_at(message.utime), *analysis_.config,
@@ -146,6 +155,35 @@ void Recorder::on_late(const std::string& axis, const SharedLate& steps) {
     const auto lane = std::ranges::find(lanes_, axis, &Lane::axis);
     if (lane == lanes_.end()) { return; }
     for (const EquallyLate& group : steps->groups) { lane->late.add(group, options_.keeps_curves()); }
+}
+
+void Recorder::begin_power() {
+    if (power_ || !analysis_.has_motors_as_axes()) { return; }
+    const MachineConfig& machine = *analysis_.config;
+    const AxisConfig* x = analysis_.axis_config("X");
+    const AxisConfig* y = analysis_.axis_config("Y");
+    const auto output = std::ranges::find_if(machine.outputs, &OutputConfig::is_analog);
+    if (x == nullptr || y == nullptr || output == machine.outputs.end()) { return; }
+    const double step_mm = 1 / std::min(x->steps_per_mm, y->steps_per_mm);
+    PowerMeter meter(PowerTrack(output->motor, output->channel), step_mm, machine.tick_ns);
+    PowerGrid asked(meter.made().cell_mm());
+    power_.emplace(*output, std::move(meter), std::move(asked));
+    moves_.set_on_place([this](Tick tick, drawing::Point place_mm) { power_->meter.at(tick, place_mm); });
+}
+
+PowerMap Recorder::finish_power() {
+    power_->meter.finish();
+    std::vector<PlacedWord> words;
+    for (const HappenedEvent& event : analysis_.program_events) {
+        if (event.at_rest || !is_switched_by(power_->output, event.event)) { continue; }
+        const auto mm = [&](const char* axis) {
+            const auto found = std::ranges::find(event.place, axis, &ProgramPlace::value_type::first);
+            return found == event.place.end() ? std::nullopt : std::optional(found->second);
+        };
+        if (mm("X") && mm("Y")) { words.push_back({event.at, {*mm("X"), *mm("Y")}}); }
+    }
+    return power_map(power_->output.name, std::move(power_->asked), power_->meter.made(), words,
+                     power_->meter.changes());
 }
 
 bool Recorder::is_during(Tick tick, const JobLog& job) const {
@@ -266,6 +304,7 @@ Analysis Recorder::finish(Sorter& sorter) {
     analysis_.program_events = std::move(program_events_.events());
     std::ranges::stable_sort(analysis_.program_events, {}, &HappenedEvent::at);
     analysis_.program_events_not_kept = program_events_.not_kept();
+    if (power_) { analysis_.power_map = finish_power(); }
     channels_.finish(newest_);
     analysis_.channel_changes = std::move(channels_.changes());
     analysis_.channel_courses = channels_.courses();

@@ -13,6 +13,8 @@
 #include "clients/analysis/measure/step_merge.hpp"
 #include "clients/analysis/motors/axis_meter.hpp"
 #include "clients/analysis/moves/move_meter.hpp"
+#include "clients/analysis/power/power_map.hpp"
+#include "clients/analysis/power/power_meter.hpp"
 #include "clients/analysis/sorter.hpp"
 #include "services/record/reading/program_events.hpp"
 
@@ -31,7 +33,7 @@ public:
     void on_run(std::size_t lane, const Run& run) override;
     void on_job(const RecordedJob& message, LogPlace place) override;
     void on_event(const program_event_t& message, const ProgramEvent& event) override;
-    void on_channel(const channel_event_t& message) override { channels_.take(message); }
+    void on_channel(const channel_event_t& message) override;
     void on_damage(LogPlace place, const std::string& what) override;
     void on_late(const std::string& axis, const SharedLate& steps) override;
 
@@ -70,6 +72,16 @@ private:
                          note_skew(measured.skew);
                      },
                      options_.keeps_curves()};
+    /// Of the first analog output of a machine with axes X and Y.
+    struct PowerLog {
+        OutputConfig output;
+        PowerMeter meter;
+        PowerGrid asked;
+    };
+    void begin_power();
+    PowerMap finish_power();
+
+    std::optional<PowerLog> power_;
     std::optional<AxisMeter> axes_;  // unless the motors are the axes
     std::string config_text_;        // of the configuration that was read last
     struct WaitingLate {

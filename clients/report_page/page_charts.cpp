@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "clients/analysis/channel_curves.hpp"
@@ -110,6 +112,41 @@ std::string class_text(const Analysis& analysis, std::size_t number) {
                                                  : fmt::format("{:g} - {:g}", low, high);
 }
 
+/// Pairs of a number and how many of it follow each other.
+json run_lengths(const std::vector<int>& numbers) {
+    json list = json::array();
+    for (auto from = numbers.begin(); from != numbers.end();) {
+        const auto to = std::find_if(from, numbers.end(), [&](int number) { return number != *from; });
+        list.push_back(*from);
+        list.push_back(to - from);
+        from = to;
+    }
+    return list;
+}
+
+json power(const Analysis& analysis) {
+    if (!analysis.power_map) { return nullptr; }
+    constexpr int kLevels = 100;
+    const PowerMap& map = *analysis.power_map;
+    const auto picture = [&](const PowerGrid& grid, PowerShades::Quantity quantity) {
+        return run_lengths(shades(map, grid, quantity, kLevels).numbers);
+    };
+    json maps = json::array();
+    for (const auto& [quantity, name, unit] :
+         {std::tuple{PowerShades::Quantity::Power, "power", std::string("100 %: full scale")},
+          std::tuple{PowerShades::Quantity::Energy, "energy for each mm",
+                     fmt::format("100 %: {:.3g} ms of full power", 1e3 * map.most_energy)}}) {
+        maps.push_back({{"name", name},
+                        {"unit", unit},
+                        {"asked", picture(map.asked, quantity)},
+                        {"made", picture(map.made, quantity)}});
+    }
+    const CellBounds& bounds = map.asked.bounds();
+    return {{"output", map.output},    {"summary", map.summary()},      {"cell_mm", map.asked.cell_mm()},
+            {"left", bounds.left},     {"bottom", bounds.bottom},       {"width", bounds.width},
+            {"height", bounds.height}, {"unknown", map.unknown_mm > 0}, {"maps", maps}};
+}
+
 json step_times(const Analysis& analysis) {
     json classes = json::array();
     for (std::size_t i = 0; i < TickHistogram::kClasses; ++i) { classes.push_back(class_text(analysis, i)); }
@@ -125,8 +162,9 @@ json step_times(const Analysis& analysis) {
 }  // namespace
 
 std::string page_charts(const Analysis& analysis) {
-    return fmt::format(R"({{"whole":{},"rows":{},"path":{},"step_times":{}}})", numbers({0, shown_seconds(analysis)}),
-                       rows(analysis), path(analysis), step_times(analysis).dump());
+    return fmt::format(R"({{"whole":{},"rows":{},"path":{},"power":{},"step_times":{}}})",
+                       numbers({0, shown_seconds(analysis)}), rows(analysis), path(analysis), power(analysis).dump(),
+                       step_times(analysis).dump());
 }
 
 }  // namespace lockstep::analysis

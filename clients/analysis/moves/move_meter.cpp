@@ -39,6 +39,12 @@ void MoveMeter::begin(std::size_t number, Tick from, const MachineConfig& machin
             .motor_of_lane = {},
             .is_direct = kinematics.is_direct(),
             .plane = std::move(plane)};
+    const auto& starts = job.measured.moves.asked().starts().steps;
+    job.counts.assign(starts.begin(), starts.end());
+    for (const AxisConfig& axis : machine.axes) {
+        if (axis.name == "X") { job.steps_per_mm[0] = axis.steps_per_mm; }
+        if (axis.name == "Y") { job.steps_per_mm[1] = axis.steps_per_mm; }
+    }
     for (const std::string& lane : lanes_) { job.motor_of_lane.push_back(job.motor(lane)); }
     jobs_.push_back(std::move(job));
 }
@@ -99,8 +105,29 @@ void MoveMeter::trace(Job* job, const MergedSteps& steps, Tick until) {
     const bool of_a_job = job != nullptr && job->measured.moves.is_on_a_line();
     if (of_a_job && !std::exchange(plane_is_of_jobs_, true)) { plane_ = {}; }
     if (of_a_job != plane_is_of_jobs_) { return; }
+    if (of_a_job && on_place_ && job->is_direct) { pass_places(*job, steps, until); }
     if (job == nullptr || job->is_direct) { return trace_lanes(steps, until); }
     if (job->plane) { trace_by_map(*job, steps, until); }
+}
+
+/// Before a motor's first step in the job, it is where the program begins.
+void MoveMeter::pass_places(Job& job, const MergedSteps& steps, Tick until) const {
+    const auto x = job.motor("X");
+    const auto y = job.motor("Y");
+    if (!x || !y) { return; }
+    for (std::size_t i = 0; i < steps.lanes().size(); ++i) {
+        const MergedSteps::Lane& lane = steps.lanes()[i];
+        if (job.motor_of_lane[i] && !lane.steps.empty()) { job.counts[*job.motor_of_lane[i]] = lane.count; }
+    }
+    for (const MergedStep& step : steps.before(until)) {
+        const auto& motor = job.motor_of_lane[step.lane()];
+        if (!motor) { continue; }
+        job.counts[*motor] += step.direction();
+        const double half = 0.5 * step.direction();
+        on_place_(steps.tick_of(step),
+                  {(static_cast<double>(job.counts[*x]) - (motor == x ? half : 0)) / job.steps_per_mm[0],
+                   (static_cast<double>(job.counts[*y]) - (motor == y ? half : 0)) / job.steps_per_mm[1]});
+    }
 }
 
 /// Of a machine whose motors X and Y are its axes.

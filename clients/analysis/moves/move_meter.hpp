@@ -1,6 +1,7 @@
 // Finds the job that each step belongs to, and measures the job's moves.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -18,6 +19,10 @@
 
 namespace lockstep::analysis {
 
+/// Gets the places of axes X and Y, in mm, at each tick at which one of them makes a step, in jobs with a program.
+/// Between counts, a place is halfway.
+using OnPlace = std::function<void(Tick tick, drawing::Point place_mm)>;
+
 class MoveMeter {
 public:
     /// How many jobs may be open. Messages of the next job may come before the last steps of the previous one.
@@ -34,6 +39,8 @@ public:
     /// `keeps_plane`: plane() is wanted.
     MoveMeter(OnJob on_job, bool keeps_plane) : on_job_(std::move(on_job)), keeps_plane_(keeps_plane) {}
 
+    /// Only for machines with axes X and Y whose motors are the axes.
+    void set_on_place(OnPlace on_place) { on_place_ = std::move(on_place); }
     /// Sets the name of a lane's motor.
     void name_lane(std::size_t lane, const std::string& motor);
     /// Begins a job. All steps from `from` on belong to it, until the next job begins, or one goes on.
@@ -67,8 +74,10 @@ private:
         std::size_t number = 0;
         Measured measured;
         std::vector<std::optional<std::size_t>> motor_of_lane;
-        bool is_direct = true;             // its machine's motors are its axes; otherwise:
-        std::optional<MappedPlane> plane;  // with a program in the plane
+        bool is_direct = true;                 // its machine's motors are its axes; otherwise `plane` is used
+        std::vector<std::int64_t> counts;      // of the motors, after the places that were passed on
+        std::array<double, 2> steps_per_mm{};  // of X and Y
+        std::optional<MappedPlane> plane;      // with a program in the plane
 
         std::optional<std::size_t> motor(const std::string& name) const;
     };
@@ -87,12 +96,14 @@ private:
     bool joins_plane(const MergedSteps& steps) const;
     static std::optional<MappedPlane> mapped_plane(const MachineConfig& machine, const JobMoves& moves);
     void trace(Job* job, const MergedSteps& steps, Tick until);
+    void pass_places(Job& job, const MergedSteps& steps, Tick until) const;
     void trace_lanes(const MergedSteps& steps, Tick until);
     void trace_by_map(Job& job, const MergedSteps& steps, Tick until);
     void end_first();
 
     OnJob on_job_;
     bool keeps_plane_;
+    OnPlace on_place_;
     std::vector<std::string> lanes_;                    // the motor of each
     std::vector<std::optional<std::size_t>> in_plane_;  // axis of PlaneTrace, 0 or 1, of each lane
     std::vector<std::int64_t> traced_counts_;           // of a mapped plane, in whichever job

@@ -135,7 +135,7 @@ void add_analyze(Verb command) {
     verb.add_option("--html", options->html, "the report page to write; default: LOG.html beside the log");
     verb.add_flag("--no-html", options->no_html, "write no report page; with --json only --html writes one");
     verb.add_option("--svg", options->svg_dir,
-                    "draw speed.svg, position.svg, xy.svg, and outputs.svg into this directory");
+                    "draw speed.svg, position.svg, xy.svg, and with outputs outputs.svg and power.svg");
     verb.add_option("--csv", options->csv_dir, "write every step and position of each axis into this directory");
     add_json(verb, options->json);
     verb.add_flag("--no-color", options->no_colour, "use no colours, also on a terminal");

@@ -189,6 +189,37 @@ function pathChart(host, path) {
   addEventListener("resize", () => chart.setSize(size()));
 }
 
+// A picture of a power map's cells, from the top: [number, how often, number, how often, ...]. -2: not known, -1: no
+// path, 0: path without power, 1 to 100: percent. What is not known is hatched.
+function powerPicture(host, map, lengths, label) {
+  const zoom = Math.max(1, Math.floor(Math.min(host.clientWidth || 800, 1200) / 2.1 / map.width));
+  const canvas = make("canvas");
+  canvas.width = map.width * zoom;
+  canvas.height = map.height * zoom;
+  canvas.style.cssText = "max-width:100%;image-rendering:pixelated;background:#fff;border:1px solid var(--grid)";
+  canvas.setAttribute("role", "img");
+  canvas.setAttribute("aria-label", label);
+  const context = canvas.getContext("2d");
+  const paint = (number, column, row, count) => {
+    context.fillStyle = number === -2 ? "#c8323c44" : number === 0 ? "#dfe6ec" : `rgba(27,39,51,${number / 100})`;
+    context.fillRect(column * zoom, row * zoom, count * zoom, zoom);
+    if (number !== -2) { return; }
+    context.fillStyle = "#c8323c";
+    for (let x = 0; x < count * zoom; x++) { context.fillRect(column * zoom + x, row * zoom + (zoom - 1 - (x % zoom)), 1, 1); }
+  };
+  let at = 0;
+  for (let i = 0; i < lengths.length; i += 2) {
+    for (let left = lengths[i + 1]; left > 0;) {
+      const column = at % map.width;
+      const count = Math.min(left, map.width - column);
+      if (lengths[i] !== -1) { paint(lengths[i], column, Math.floor(at / map.width), count); }
+      at += count;
+      left -= count;
+    }
+  }
+  host.append(make("figure", {}, make("figcaption", {}, make("b", {}, label)), canvas));
+}
+
 // The distribution of step time errors: a bar for each class, its length the logarithm of the number of steps.
 function barChart(host, axes) {
   const most = Math.log10(1 + Math.max(1, ...axes.flatMap((axis) => axis.counts)));

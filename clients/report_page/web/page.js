@@ -261,6 +261,26 @@ function path() {
   pathChart(figure, charts.path);
 }
 
+function power() {
+  const map = charts.power;
+  if (map === null) { return; }
+  const range = (first, count) => `${(first * map.cell_mm).toFixed(2)} to ${((first + count) * map.cell_mm).toFixed(2)} mm`;
+  const words = `At each place: what the program's words ask for, and what the recorded steps and changes of the output made. The darker, the more; pale: path without power${map.unknown ? "; hatched: not known, because changes are missing in the log" : ""}. X ${range(map.left, map.width)}, Y ${range(map.bottom, map.height)}.`;
+  const buttons = make("p");
+  const pictures = make("div", { className: "pictures" });
+  const unit = make("p", { className: "soft" });
+  section(`Power of ${map.output}`, make("p", { className: "soft" }, words), make("p", {}, map.summary), buttons, unit, pictures);
+  const draw = (of) => {
+    pictures.replaceChildren();
+    unit.textContent = of.unit;
+    powerPicture(pictures, map, of.asked, `asked for: ${of.name}`);
+    powerPicture(pictures, map, of.made, `made: ${of.name}`);
+    [...buttons.children].forEach((button) => button.setAttribute("aria-pressed", button.textContent === of.name));
+  };
+  map.maps.forEach((of) => buttons.append(make("button", { type: "button", onclick: () => draw(of) }, of.name)));
+  draw(map.maps[0]);
+}
+
 function stepTimes() {
   if (charts.step_times.length === 0) { return; }
   const isExact = charts.step_times.every((axis) => axis.counts.every((number, i) => i === 0 || number === 0));
@@ -275,6 +295,7 @@ moves();
 axes();
 overTime();
 path();
+power();
 stepTimes();
 record();
 document.documentElement.dataset.drawn = "yes";
