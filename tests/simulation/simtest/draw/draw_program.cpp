@@ -149,9 +149,10 @@ private:
         move.tolerance_mm = mode_ == PathMode::Blend ? tolerance_mm_ : 0;
         move.is_feed_fixed = is_feed_fixed_;
     }
+    static constexpr std::size_t kWithoutPlaces = static_cast<std::size_t>(ProgramEvent::Kind::PulseSpacing);
     void events(std::optional<std::int32_t> line) {
         for (std::int64_t n = draw_.whole(1, 3); n > 0; --n) {
-            ProgramEvent event{.kind = static_cast<ProgramEvent::Kind>(draw_.index(ProgramEvent::kKinds))};
+            ProgramEvent event{.kind = static_cast<ProgramEvent::Kind>(draw_.index(kWithoutPlaces))};
             event.index = static_cast<std::int32_t>(draw_.index(5));
             program_.blocks.push_back({line, event});
         }
