@@ -69,6 +69,18 @@ void ProgramBuilder::wait_for_input(const Event& event) {
                  .wait = InputWait{event.index, mode, event.value}});
 }
 
+/// Before a move with a feed the spindle comes to its speed.
+void ProgramBuilder::await_speed(const decltype(lockstep::Block::action)& next) {
+    const auto* move = std::get_if<ProgramMove>(&next);
+    if (!awaits_speed_ || move == nullptr || move->rapid) { return; }
+    awaits_speed_ = false;
+    const GcodeSpinUp& spin_up = *setup_.spin_up;
+    if (!spin_up.input) { return append(lockstep::Dwell{spin_up.seconds}); }
+    append(Pause{.reason = PauseReason::Input,
+                 .text = "until the spindle has its speed, at most " + number_text(spin_up.seconds) + " s",
+                 .wait = InputWait{*spin_up.input, InputMode::IsClosed, spin_up.seconds}});
+}
+
 /// Lists of tools at the beginning of a program name each tool in a comment: (T2 6 mm end mill).
 void ProgramBuilder::remark(const std::string& text) {
     remark_ = pause_text(text);
@@ -92,8 +104,8 @@ void ProgramBuilder::change_tool(int tool) {
 void ProgramBuilder::end() {
     if (spindle_turns_) { append(ProgramEvent{.kind = Kind::SpindleStop}); }
     if (coolant_flows_) { append(ProgramEvent{.kind = Kind::CoolantOff}); }
-    if (makes_pulses_) { append(ProgramEvent{.kind = Kind::PulsePlaces}); }
-    spindle_turns_ = coolant_flows_ = makes_pulses_ = false;
+    if (!setup_.pulses.empty()) { append(ProgramEvent{.kind = Kind::PulsePlaces}); }
+    spindle_turns_ = coolant_flows_ = awaits_speed_ = false;
 }
 
 void ProgramBuilder::pulses(const Event& event) {
@@ -142,8 +154,7 @@ void ProgramBuilder::pulses_at(const GcodePulses& output, const Event& event) {
 }
 
 void ProgramBuilder::append_pulses(const Event& event, double first_mm, double spacing_mm) {
-    makes_pulses_ = event.mode > 0;
-    if (makes_pulses_) { append(ProgramEvent{.kind = Kind::PulseSpacing, .index = event.index, .value = spacing_mm}); }
+    if (event.mode > 0) { append(ProgramEvent{.kind = Kind::PulseSpacing, .index = event.index, .value = spacing_mm}); }
     append(ProgramEvent{.kind = Kind::PulsePlaces, .index = event.mode, .value = first_mm});
 }
 
@@ -153,6 +164,7 @@ void ProgramBuilder::event(const Event& event) {
     const AssignedWords& assigned = setup_.assigned;
     const auto spindle = [&](Kind kind) {
         spindle_turns_ = true;
+        awaits_speed_ = setup_.spin_up.has_value();
         if (assigned.spindle) { return append(ProgramEvent{.kind = kind, .value = speed}); }
         device_event(rules.spindle, "the spindle", "spindle", {.kind = kind, .value = speed});
     };
@@ -182,7 +194,9 @@ void ProgramBuilder::event(const Event& event) {
             return;
         case EventKind::SpindleForward: return spindle(Kind::SpindleForward);
         case EventKind::SpindleReverse: return spindle(Kind::SpindleReverse);
-        case EventKind::SpindleStop: spindle_turns_ = false; return append(ProgramEvent{.kind = Kind::SpindleStop});
+        case EventKind::SpindleStop:
+            spindle_turns_ = awaits_speed_ = false;
+            return append(ProgramEvent{.kind = Kind::SpindleStop});
         case EventKind::Mist: return coolant(Kind::MistOn);
         case EventKind::Flood: return coolant(Kind::FloodOn);
         case EventKind::CoolantOff: coolant_flows_ = false; return append(ProgramEvent{.kind = Kind::CoolantOff});

@@ -51,6 +51,12 @@ struct GcodePulses {
     double least_spacing_mm = 0;  // a pulse ends before the next one at the axis's greatest speed
 };
 
+/// How long the spindle may take, before a feed, after it was switched on or got another speed.
+struct GcodeSpinUp {
+    std::optional<int> input;  // the number of the input that is closed at speed; nullopt: it always takes so long
+    double seconds = 0;
+};
+
 struct GcodeSwitches {
     bool pause_at_m1 = false;        // optional stop
     bool skip_deletable = true;      // block delete: lines that begin with / are not run
@@ -65,6 +71,7 @@ struct GcodeSetup {
     AssignedWords assigned;
     std::vector<InputConfig> inputs;  // of the machine
     std::vector<GcodePulses> pulses;
+    std::optional<GcodeSpinUp> spin_up;
     gcode::KeptValues values;
     double chord_tolerance_mm = 0.001;  // of chords of curves
     bool curves_as_chords = false;      // for a planner that takes straight moves only

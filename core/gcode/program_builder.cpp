@@ -242,6 +242,7 @@ double ProgramBuilder::feed_along_path(const ProgramMove& move) const {
 }
 
 void ProgramBuilder::append(decltype(lockstep::Block::action) action) {
+    await_speed(action);
     events_together_ = std::holds_alternative<ProgramEvent>(action) ? events_together_ + 1 : 0;
     if (events_together_ == kMaxEventsTogether + 1) {
         fail("the program has more than " + std::to_string(kMaxEventsTogether) +

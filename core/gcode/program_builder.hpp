@@ -35,9 +35,10 @@ public:
     explicit ProgramBuilder(const GcodeSetup& setup);
 
     /// Sets the devices' state before the first action. The program's end also switches off devices that are on then.
-    /// `message`: the last message before, for the next pause.
-    void begin(const Modal& modal, std::string message = {}) {
+    /// `message`: the last message before, for the next pause. `awaits_speed`: as awaits_speed() before.
+    void begin(const Modal& modal, std::string message = {}, bool awaits_speed = false) {
         message_ = std::move(message);
+        awaits_speed_ = awaits_speed;
         spindle_turns_ = modal.spindle != Turning::Stopped;
         coolant_flows_ = modal.mist || modal.flood;
     }
@@ -56,6 +57,8 @@ public:
 
     /// The last message since the last pause.
     const std::string& message() const { return message_; }
+    /// The spindle was switched on or got another speed, and no move with a feed has come since.
+    bool awaits_speed() const { return awaits_speed_; }
 
     GcodeReading reading() && { return {std::move(program_), std::move(notes_), {}}; }
 
@@ -83,6 +86,7 @@ private:
     void device_event(WordRule rule, const char* what, const char* key, const ProgramEvent& event);
     void note(const std::string& kind, const std::string& text);
     void note_message(const std::string& text);
+    void await_speed(const decltype(lockstep::Block::action)& next);
     void append(decltype(lockstep::Block::action) action);
     void fail(std::size_t axis, const std::string& message);
     void fail(const std::string& message);
@@ -105,7 +109,7 @@ private:
     std::map<int, std::string> tool_names_;  // by comments
     bool spindle_turns_ = false;
     bool coolant_flows_ = false;
-    bool makes_pulses_ = false;
+    bool awaits_speed_ = false;
     const Interpreter* interpreter_ = nullptr;
 };
 

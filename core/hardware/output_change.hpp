@@ -70,8 +70,7 @@ struct ChannelEvent {
     bool closed = false;       // Input
     std::uint16_t levels = 0;  // Digital: of all outputs, from now on
     std::int64_t value = 0;    // Input and Compare: the count at this tick. Analog: the value
-    std::int64_t detail =
-        0;  // Input: the phase. Analog: the slope. CompareBegins: pulses to make. CompareEnds: not made
+    std::int64_t detail = 0;   // Input: the phase. Analog: the slope. Compare: pulses to make, or not made
     bool operator==(const ChannelEvent&) const = default;
 };
 

@@ -38,6 +38,8 @@ struct OutputConfig {
     std::optional<PwmConfig> pwm;  // empty: a digital output
     bool inverted = false;         // it is on while its pin is low
     double pulse_us = 0;           // Places: how long each pulse is
+    std::string at_speed;          // Spindle: the input that is closed while it has its speed; empty: there is none
+    double spin_up_s = 0;          // Spindle: how long that takes, with at_speed at most; 0: a feed does not wait
     // Whether it keeps its level. Otherwise it goes off, and on again when a program goes on.
     bool stays_at_interruption = true;  // when motion ends before its path does
     bool stays_at_fault = false;        // and after an emergency stop

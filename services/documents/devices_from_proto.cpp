@@ -67,6 +67,9 @@ OutputConfig read_output(const proto::Output& message, const std::string& place,
     } else {
         output.pulse_us = message.pulse_us();
     }
+    constexpr double kUsualWait_s = 30;
+    output.at_speed = message.at_speed();
+    output.spin_up_s = message.has_spin_up_s() ? message.spin_up_s() : message.has_at_speed() ? kUsualWait_s : 0;
     if (message.has_pwm()) { output.pwm = read_pwm(message.pwm(), place + ".pwm", reader); }
     output.stays_at_interruption = read_level(message.has_at_interruption(), message.at_interruption(),
                                               output.stays_at_interruption, place + ".at_interruption", reader);

@@ -105,6 +105,8 @@ void write_output(const OutputConfig& output, proto::Output& message) {
     message.set_at_fault(level_to_proto(output.stays_at_fault));
     message.set_at_silence(level_to_proto(output.stays_at_silence));
     if (output.makes_pulses()) { message.set_pulse_us(output.pulse_us); }
+    if (!output.at_speed.empty()) { message.set_at_speed(output.at_speed); }
+    if (output.spin_up_s != 0) { message.set_spin_up_s(output.spin_up_s); }
     if (!output.pwm) { return; }
     message.mutable_pwm()->set_hz(output.pwm->hz);
     message.mutable_pwm()->set_full_scale(output.pwm->full_scale);

@@ -53,6 +53,15 @@ double chord_tolerance(const MachineConfig& machine) {
     return 0.5 / finest;
 }
 
+std::optional<GcodeSpinUp> spin_up_of(const MachineConfig& machine) {
+    const auto takes_time = [](const OutputConfig& output) { return output.spin_up_s > 0; };
+    const auto spindle = std::ranges::find_if(machine.outputs, takes_time);
+    if (spindle == machine.outputs.end()) { return std::nullopt; }
+    const auto input = std::ranges::find(machine.inputs, spindle->at_speed, &InputConfig::name);
+    return GcodeSpinUp{.input = input == machine.inputs.end() ? std::nullopt : input->number,
+                       .seconds = spindle->spin_up_s};
+}
+
 std::vector<GcodePulses> pulses_of_programs(const MachineConfig& machine) {
     std::vector<GcodePulses> pulses;
     for (const OutputConfig& output : machine.outputs) {
@@ -91,6 +100,7 @@ GcodeSetup gcode_setup(const MachineConfig& machine, const std::vector<double>& 
     setup.assigned = assigned_words(machine.outputs);
     setup.inputs = machine.inputs;
     setup.pulses = pulses_of_programs(machine);
+    setup.spin_up = spin_up_of(machine);
     setup.chord_tolerance_mm = chord_tolerance(machine);
     setup.curves_as_chords = coordination_of(machine).moves_straight;
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {

@@ -25,11 +25,11 @@ GcodeError needs_lines(const std::string& what) {
 class Reading {
 public:
     /// `message`: the last one before, for the next pause.
-    Reading(const GcodeSetup& setup, gcode::Memory before, const std::string& message)
+    Reading(const GcodeSetup& setup, gcode::Memory before, const std::string& message, bool awaits_speed)
         : builder_(setup),
           interpreter_(gcode::interpreter_setup(setup), std::move(before),
                        [this](const gcode::Action& action, int line) { take(action, line); }) {
-        builder_.begin(interpreter_.state().modal, message);
+        builder_.begin(interpreter_.state().modal, message, awaits_speed);
     }
 
     std::expected<SessionLine, GcodeError> read(std::string_view line) {
@@ -49,6 +49,7 @@ public:
                            .changes_values = false,
                            .ends_program = ends_program_,
                            .message = builder_.message(),
+                           .awaits_speed = builder_.awaits_speed(),
                            .after = interpreter_.memory()};
     }
 
@@ -74,6 +75,7 @@ GcodeSession::GcodeSession(GcodeSetup setup, const MachineConfig& machine, int f
 void GcodeSession::reset() {
     memory_ = {};
     message_.clear();
+    awaits_speed_ = false;
     place_mm_.reset();
     values_.reset();
     end_program();
@@ -125,7 +127,7 @@ std::expected<SessionLine, GcodeError> GcodeSession::read(std::string_view line,
     GcodeSetup setup = setup_;
     for (std::size_t i = 0; i < setup.axes.size(); ++i) { setup.axes[i].start_mm = from_mm[i]; }
     const gcode::KeptValues values = gcode::kept_values(before.state, park_);
-    auto read = Reading(setup, std::move(before), message_).read(line);
+    auto read = Reading(setup, std::move(before), message_, awaits_speed_).read(line);
     if (!read) { return read; }
     read->place_mm = end_of(read->blocks, from_mm);
     gcode::KeptValues after = gcode::kept_values(read->after.state, park_);
@@ -137,6 +139,7 @@ std::expected<SessionLine, GcodeError> GcodeSession::read(std::string_view line,
 void GcodeSession::commit(SessionLine& line) {
     memory_ = std::move(line.after);
     message_ = line.message;
+    awaits_speed_ = line.awaits_speed;
     place_mm_ = line.place_mm;
     values_ = line.values;
     if (line.ends_program) { end_program(); }

@@ -37,6 +37,7 @@ struct SessionLine {
     bool changes_values = false;
     bool ends_program = false;  // M2, M30
     std::string message;        // for commit(): for the next pause
+    bool awaits_speed = false;  // for commit(): a feed waits for the spindle
     gcode::Memory after;        // for commit()
 };
 
@@ -71,6 +72,7 @@ private:
     gcode::Point park_;
     gcode::Memory memory_;
     std::string message_;                          // the last one since the last pause
+    bool awaits_speed_ = false;                    // the next feed waits for the spindle
     std::optional<std::vector<double>> place_mm_;  // exact, where the last line ends
     std::optional<gcode::KeptValues> values_;      // that memory_ contains
 };

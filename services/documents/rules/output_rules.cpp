@@ -16,6 +16,8 @@ namespace {
 constexpr std::size_t kMostOutputs = 64;
 constexpr double kMostFullScale = 1e6;
 constexpr double kMostPulse_us = 1e6;
+constexpr double kLeastWait_s = 0.001;
+constexpr double kMostSpinUp_s = 3600;
 constexpr double kLeastPwmTicks = 4;
 constexpr double kMostSilence_ms = 3'600'000;
 
@@ -30,6 +32,7 @@ public:
         check_use(output, at);
         if (output.pwm) { check_pwm(*output.pwm, output.use, at + "pwm."); }
         if (output.makes_pulses()) { check_pulses(output, at); }
+        check_spin_up(output, at);
         problems_.require(output.makes_pulses() || output.pulse_us == 0, at + "pulse_us",
                           fmt::format("output {} is on or off; remove pulse_us, or use PLACES", output.name));
     }
@@ -91,6 +94,23 @@ private:
                                       number_text(kMostFullScale)));
         problems_.require(!pwm.follows_speed || use == OutputUse::Spindle, at + "follows_speed",
                           "follows_speed needs use: SPINDLE, because M4 begins it");
+    }
+
+    /// A feed can wait for an input that programs read.
+    void check_spin_up(const OutputConfig& output, const std::string& at) {
+        const bool has_speed = output.use == OutputUse::Spindle && !(output.pwm && output.pwm->follows_speed);
+        problems_.require(
+            has_speed || (output.at_speed.empty() && output.spin_up_s == 0), at + "spin_up_s",
+            fmt::format("output {} is no spindle that comes to a speed; remove spin_up_s and at_speed", output.name));
+        problems_.require_range(at + "spin_up_s", output.spin_up_s, output.at_speed.empty() ? 0 : kLeastWait_s,
+                                kMostSpinUp_s);
+        const auto is_it = [&](const InputConfig& input) {
+            return input.name == output.at_speed && input.use == InputUse::Program && input.number;
+        };
+        problems_.require(output.at_speed.empty() || std::ranges::any_of(machine_.inputs, is_it), at + "at_speed",
+                          fmt::format("at_speed is \"{}\"; it must be the name of an input with use: PROGRAM and a "
+                                      "number",
+                                      output.at_speed));
     }
 
     void check_pulses(const OutputConfig& output, const std::string& at) {

@@ -68,6 +68,12 @@ TEST(Outputs, ThatCannotBeAreRefusedWithPlaceAndRemedy) {
              Case{"output { name: \"a\" motor: \"X\" use: PLACES pulse_us: 10 }\n"
                   "output { name: \"b\" motor: \"X\" channel: 1 use: PLACES number: 1 pulse_us: 10 }\n",
                   "can make pulses at places of one output"},
+             Case{"output { name: \"a\" motor: \"X\" spin_up_s: 1 }\n", "is no spindle that comes to a speed"},
+             Case{"output { name: \"a\" motor: \"X\" use: SPINDLE spin_up_s: 3601 }\n", "spin_up_s is 3601"},
+             Case{"output { name: \"a\" motor: \"X\" use: SPINDLE at_speed: \"ready\" }\n",
+                  "at_speed is \"ready\"; it must be the name of an input"},
+             Case{"output { name: \"a\" motor: \"X\" use: SPINDLE pwm { hz: 10 follows_speed: true } spin_up_s: 1 }\n",
+                  "is no spindle that comes to a speed"},
              Case{"output { motor: \"X\" }\n", "name is missing"},
              Case{"output { name: \"a\" motor: \"X\" }\noutput_silence_ms: 110\n", "for which a process may stall"},
          }) {
