@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "services/record/reading/message_numbers.hpp"
@@ -15,11 +16,20 @@ using ChannelKind = ChannelEvent::Kind;
 
 const char* kind_text(ChannelKind kind) {
     if (kind == ChannelKind::Input) { return "input"; }
-    return kind == ChannelKind::Analog ? "analog output" : "digital output";
+    if (kind == ChannelKind::Analog) { return "analog output"; }
+    return kind == ChannelKind::Digital ? "digital output" : "pulses at places, output";
 }
+
+bool is_of_pulses(ChannelKind kind) { return kind == ChannelKind::CompareBegins || kind == ChannelKind::CompareEnds; }
 
 std::string value_text(const ChannelChange& change) {
     if (change.kind == ChannelKind::Analog) { return fmt::format("{:.4g} %", change.value * 100); }
+    if (change.kind == ChannelKind::CompareBegins) {
+        return fmt::format("begins, {:.0f} pulses to make", change.value);
+    }
+    if (change.kind == ChannelKind::CompareEnds) {
+        return change.value == 0 ? "has made all pulses" : fmt::format("ends, {:.0f} pulses not made", change.value);
+    }
     const bool is_one = change.value > 0;
     return change.kind == ChannelKind::Input ? (is_one ? "closed" : "open") : (is_one ? "on" : "off");
 }
@@ -52,6 +62,9 @@ void ChannelLog::follow(const channel_event_t& message, Before before) {
         note(change);
     } else if (event->kind == ChannelKind::Digital) {
         follow_levels(device, change, event->levels);
+    } else {
+        change.value = static_cast<double>(event->detail);
+        note(change);
     }
 }
 
@@ -114,7 +127,19 @@ std::optional<std::string> name_of(const ChannelChange& change, const MachineCon
     };
     if (change.kind == ChannelKind::Input) {
         const auto input = std::ranges::find_if(machine.inputs, is_it);
-        return input == machine.inputs.end() ? std::nullopt : std::optional(input->name);
+        if (input != machine.inputs.end()) { return input->name; }
+        constexpr std::array kSwitches{"lower limit switch", "upper limit switch", "home switch"};
+        static_assert(kSwitches.size() == kSwitchInputs);
+        return change.channel < kSwitchInputs
+                   ? std::optional<std::string>(kSwitches[static_cast<std::size_t>(change.channel)])
+                   : std::nullopt;
+    }
+    if (is_of_pulses(change.kind)) {  // a device has one such output
+        const auto is_its = [&](const OutputConfig& config) {
+            return config.makes_pulses() && config.motor == change.motor;
+        };
+        const auto output = std::ranges::find_if(machine.outputs, is_its);
+        return output == machine.outputs.end() ? std::nullopt : std::optional(output->name);
     }
     const auto output = std::ranges::find_if(machine.outputs, [&](const OutputConfig& config) {
         return is_it(config) && config.is_analog() == (change.kind == ChannelKind::Analog);

@@ -22,7 +22,7 @@ struct ChannelChange {
     std::string motor;  // whose device has the channel
     ChannelEvent::Kind kind = ChannelEvent::Kind::Input;
     int channel = 0;
-    double value = 0;  // Input: 1 closed; Digital: 1 on; Analog: share of full scale
+    double value = 0;  // Input: 1 closed; Digital: 1 on; Analog: share of full scale; Compare: pulses to make, not made
     bool operator==(const ChannelChange&) const = default;
 };
 
