@@ -129,7 +129,7 @@ json axis_json(const Snapshot& snapshot, std::size_t i, const MachineConfig& mac
                       machine);
 }
 
-/// What a board has of an axis: no position, no speed and no switches.
+/// A board is shown like an axis, but without position, speed and switches.
 json board_json(const Snapshot& snapshot, const MotorSnapshot& board, const MachineConfig& machine) {
     const FaultPlace place = place_of(board);
     const json all = board.seen.state ? shown_json(snapshot, {board.seen, 1, place, place}, machine) : never_received();
