@@ -24,15 +24,6 @@ bool is_shown(const Analysis& analysis, const ChannelCourse& course) {
     return !analysis.config || name_of(channel_of(course), *analysis.config);
 }
 
-const OutputConfig* output_of(const Analysis& analysis, const ChannelCourse& course) {
-    if (!analysis.config || course.kind() == ChannelKind::Input) { return nullptr; }
-    const auto found = std::ranges::find_if(analysis.config->outputs, [&](const OutputConfig& output) {
-        return output.motor == course.motor() && output.channel == course.channel() &&
-               output.is_analog() == (course.kind() == ChannelKind::Analog);
-    });
-    return found == analysis.config->outputs.end() ? nullptr : &*found;
-}
-
 std::optional<std::array<std::string, 2>> levels_of(ChannelKind kind) {
     if (kind == ChannelKind::Analog) { return std::nullopt; }
     if (kind == ChannelKind::Input) { return std::array<std::string, 2>{"open", "closed"}; }
@@ -100,7 +91,8 @@ ChannelCurve curve_of(const Analysis& analysis, const ChannelCourse& course, dou
     }
     clip(points, end);
     add_points(points, out.curve);
-    if (const OutputConfig* output = output_of(analysis, course)) { note_asked(analysis, *output, out); }
+    const OutputConfig* output = analysis.config ? output_of(channel_of(course), *analysis.config) : nullptr;
+    if (output != nullptr) { note_asked(analysis, *output, out); }
     return out;
 }
 

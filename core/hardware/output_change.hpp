@@ -72,6 +72,8 @@ struct ChannelEvent {
     std::int64_t value = 0;    // Input and Compare: the count at this tick. Analog: the value
     std::int64_t detail = 0;   // Input: the phase. Analog: the slope. Compare: pulses to make, or not made
     bool operator==(const ChannelEvent&) const = default;
+
+    static constexpr bool is_of_pulses(Kind kind) { return kind == Kind::CompareBegins || kind == Kind::CompareEnds; }
 };
 
 }  // namespace lockstep

@@ -35,7 +35,7 @@ inline AssignedWords assigned_words(std::span<const OutputConfig> outputs) {
                     words.digital |= std::uint64_t{1} << output.number;
                 }
                 break;
-            case OutputUse::Places: break;  // see PlaceOutput
+            case OutputUse::Places: break;  // M69 asks for more: GcodePulses
         }
     }
     return words;

@@ -38,6 +38,20 @@ bool is_active(const OutputConfig& output, const ProgramDevices& devices) {
     return output.is_analog() ? share_of(output, devices) > 0 : is_on(output, devices);
 }
 
+ProgramEvent end_of(const OutputConfig& output) {
+    using Kind = ProgramEvent::Kind;
+    const auto word = [&](Kind kind) { return ProgramEvent{.kind = kind, .index = output.number}; };
+    switch (output.use) {
+        case OutputUse::Number: return word(output.is_analog() ? Kind::AnalogOutput : Kind::OutputOff);
+        case OutputUse::Spindle:
+        case OutputUse::SpindleReverse: return word(Kind::SpindleStop);
+        case OutputUse::Mist:
+        case OutputUse::Flood: return word(Kind::CoolantOff);
+        case OutputUse::Places: return {.kind = Kind::PulsePlaces};
+    }
+    return {};
+}
+
 bool is_switched_by(const OutputConfig& output, const ProgramEvent& event) {
     using Kind = ProgramEvent::Kind;
     const bool is_of_number = output.use == OutputUse::Number && output.number == event.index;

@@ -19,6 +19,9 @@ double share_of(const OutputConfig& output, const ProgramDevices& devices);
 /// Whether a digital output is on, the value of an analog one is above 0, or one with Places waits for them.
 bool is_active(const OutputConfig& output, const ProgramDevices& devices);
 
+/// The word that ends what an output does: M5, M9, M63, M67 with 0, or M69 without places.
+ProgramEvent end_of(const OutputConfig& output);
+
 /// Whether an event can change an output.
 bool is_switched_by(const OutputConfig& output, const ProgramEvent& event);
 

@@ -64,10 +64,11 @@ std::optional<GcodeSpinUp> spin_up_of(const MachineConfig& machine) {
 
 std::vector<GcodePulses> pulses_of_programs(const MachineConfig& machine) {
     std::vector<GcodePulses> pulses;
+    if (std::ranges::none_of(machine.outputs, &OutputConfig::makes_pulses)) { return pulses; }
+    const Kinematics kinematics(machine);
     for (const OutputConfig& output : machine.outputs) {
         const auto motor = output.makes_pulses() ? motor_named(machine, output.motor) : std::nullopt;
         if (!motor) { continue; }
-        const Kinematics kinematics(machine);
         const std::size_t axis = kinematics.motors()[*motor].axis.value();
         const double pulse_s = output.pulse_us * 1e-6 + 1 / machine.ticks_per_second();
         pulses.push_back({.number = output.number,

@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-#include "services/record/reading/message_numbers.hpp"
+#include "services/record/reading/log_step.hpp"
 #include "services/wire/lcm/translate_lcm.hpp"
 
 namespace lockstep::analysis {
@@ -19,8 +19,6 @@ const char* kind_text(ChannelKind kind) {
     if (kind == ChannelKind::Analog) { return "analog output"; }
     return kind == ChannelKind::Digital ? "digital output" : "pulses at places, output";
 }
-
-bool is_of_pulses(ChannelKind kind) { return kind == ChannelKind::CompareBegins || kind == ChannelKind::CompareEnds; }
 
 std::string value_text(const ChannelChange& change) {
     if (change.kind == ChannelKind::Analog) { return fmt::format("{:.4g} %", change.value * 100); }
@@ -121,12 +119,22 @@ std::vector<ChannelCourse> ChannelLog::courses() {
     return all;
 }
 
+/// A device has one output that makes pulses; their events have no channel.
+const OutputConfig* output_of(const ChannelChange& change, const MachineConfig& machine) {
+    if (change.kind == ChannelKind::Input) { return nullptr; }
+    const auto output = std::ranges::find_if(machine.outputs, [&](const OutputConfig& config) {
+        if (config.motor != change.motor) { return false; }
+        if (ChannelEvent::is_of_pulses(change.kind)) { return config.makes_pulses(); }
+        return config.channel == change.channel && config.is_analog() == (change.kind == ChannelKind::Analog);
+    });
+    return output == machine.outputs.end() ? nullptr : &*output;
+}
+
 std::optional<std::string> name_of(const ChannelChange& change, const MachineConfig& machine) {
-    const auto is_it = [&](const auto& config) {
-        return config.motor == change.motor && config.channel == change.channel;
-    };
     if (change.kind == ChannelKind::Input) {
-        const auto input = std::ranges::find_if(machine.inputs, is_it);
+        const auto input = std::ranges::find_if(machine.inputs, [&](const InputConfig& config) {
+            return config.motor == change.motor && config.channel == change.channel;
+        });
         if (input != machine.inputs.end()) { return input->name; }
         constexpr std::array kSwitches{"lower limit switch", "upper limit switch", "home switch"};
         static_assert(kSwitches.size() == kSwitchInputs);
@@ -134,17 +142,8 @@ std::optional<std::string> name_of(const ChannelChange& change, const MachineCon
                    ? std::optional<std::string>(kSwitches[static_cast<std::size_t>(change.channel)])
                    : std::nullopt;
     }
-    if (is_of_pulses(change.kind)) {  // a device has one such output
-        const auto is_its = [&](const OutputConfig& config) {
-            return config.makes_pulses() && config.motor == change.motor;
-        };
-        const auto output = std::ranges::find_if(machine.outputs, is_its);
-        return output == machine.outputs.end() ? std::nullopt : std::optional(output->name);
-    }
-    const auto output = std::ranges::find_if(machine.outputs, [&](const OutputConfig& config) {
-        return is_it(config) && config.is_analog() == (change.kind == ChannelKind::Analog);
-    });
-    return output == machine.outputs.end() ? std::nullopt : std::optional(output->name);
+    const OutputConfig* const output = output_of(change, machine);
+    return output == nullptr ? std::nullopt : std::optional(output->name);
 }
 
 std::string channel_text(const ChannelChange& change, const MachineConfig* machine) {

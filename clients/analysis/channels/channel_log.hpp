@@ -65,6 +65,9 @@ private:
     std::uint64_t not_kept_ = 0;
 };
 
+/// The output in the machine's file; null for an input, or if the file does not name it.
+const OutputConfig* output_of(const ChannelChange& change, const MachineConfig& machine);
+
 /// The name of its input or output in the machine's file; nullopt if the file does not name it.
 std::optional<std::string> name_of(const ChannelChange& change, const MachineConfig& machine);
 

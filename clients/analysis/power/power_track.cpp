@@ -1,6 +1,6 @@
 #include "clients/analysis/power/power_track.hpp"
 
-#include "services/record/reading/message_numbers.hpp"
+#include "services/record/reading/log_step.hpp"
 #include "services/wire/lcm/translate_lcm.hpp"
 
 namespace lockstep::analysis {

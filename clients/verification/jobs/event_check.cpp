@@ -208,13 +208,10 @@ void EventCheck::check_switched_off(JobOutcome outcome) {
         return;
     }
     for (const OutputConfig& output : outputs_) {
-        const bool stays = output.stays_after(outcome == JobOutcome::Failed);
-        if (stays || (output.use != OutputUse::Number && !output.makes_pulses())) { continue; }
-        const Kind kind = output.makes_pulses() ? Kind::PulsePlaces
-                          : output.is_analog()  ? Kind::AnalogOutput
-                                                : Kind::OutputOff;
-        const std::int32_t index = output.makes_pulses() ? 0 : output.number;
-        if (!check_off(kind, index, is_active(output, devices_))) { return; }
+        const ProgramEvent end = end_of(output);
+        const bool is_off_already = end.kind == Kind::SpindleStop || end.kind == Kind::CoolantOff;
+        if (is_off_already || output.stays_after(outcome == JobOutcome::Failed)) { continue; }
+        if (!check_off(end.kind, end.index, is_active(output, devices_))) { return; }
     }
     if (const program_event_t* more = next()) {
         (void)differ("the job's end switched more off than was on: " + text_of(*more), 0, {}, Tick{more->tick});

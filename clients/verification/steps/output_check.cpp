@@ -25,9 +25,6 @@ std::string text_of(const ChannelEvent& event) {
 }
 
 bool is_of_output(const ChannelEvent& event) { return event.kind != ChannelEvent::Kind::Input; }
-bool is_of_pulses(const ChannelEvent& event) {
-    return event.kind == ChannelEvent::Kind::CompareBegins || event.kind == ChannelEvent::Kind::CompareEnds;
-}
 
 }  // namespace
 
@@ -187,7 +184,7 @@ void OutputCheck::compare(const Planned& planned) {
 bool OutputCheck::compare_pulses(const Planned& planned) {
     std::vector<ChannelEvent> seen;
     std::erase_if(seen_, [&](const Seen& one) {
-        const bool is_over = is_of_pulses(one.event) && one.event.tick <= planned.end;
+        const bool is_over = ChannelEvent::is_of_pulses(one.event.kind) && one.event.tick <= planned.end;
         if (is_over && one.event.tick > planned.begin) { seen.push_back(one.event); }
         return is_over;
     });

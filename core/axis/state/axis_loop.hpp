@@ -2,6 +2,8 @@
 // outputs.
 #pragma once
 
+#include <variant>
+
 #include "core/axis/device/device_view.hpp"
 #include "core/axis/device/held_frames.hpp"
 #include "core/axis/state/axis_io.hpp"
@@ -51,10 +53,10 @@ struct AxisLoop {
         track.from = condition.position.in_device(track.from);
         out.orders.emplace_back(device::LoadFrame{frame.number, frame.start, frame.last, track});
         if (frame.outputs.empty()) { return; }
-        OutputTrack outputs = frame.outputs;
+        out.orders.emplace_back(device::LoadOutputs{frame.number, frame.outputs});
+        OutputTrack& outputs = std::get<device::LoadOutputs>(out.orders.back()).track;
         for (OutputChange& change : outputs.body) { count_by_device(change); }
         for (OutputChange& change : outputs.tail) { count_by_device(change); }
-        out.orders.emplace_back(device::LoadOutputs{frame.number, outputs});
     }
 
 private:

@@ -3,23 +3,6 @@
 #include "core/outputs/output_levels.hpp"
 
 namespace lockstep {
-namespace {
-
-/// The word that switches an output off.
-ProgramEvent::Kind end_of(const OutputConfig& output) {
-    switch (output.use) {
-        case OutputUse::Number:
-            return output.is_analog() ? ProgramEvent::Kind::AnalogOutput : ProgramEvent::Kind::OutputOff;
-        case OutputUse::Spindle:
-        case OutputUse::SpindleReverse: return ProgramEvent::Kind::SpindleStop;
-        case OutputUse::Mist:
-        case OutputUse::Flood: return ProgramEvent::Kind::CoolantOff;
-        case OutputUse::Places: return ProgramEvent::Kind::PulsePlaces;
-    }
-    return ProgramEvent::Kind::SpindleStop;
-}
-
-}  // namespace
 
 void ProgramEvents::publish(PublishedEvent event, const LoopView& loop, std::vector<PublishedEvent>& out) {
     event.term = loop.term;
@@ -50,8 +33,8 @@ void ProgramEvents::pass(const PathEvent& event, const Of& of, const LoopView& l
 
 void ProgramEvents::switch_off(std::uint64_t job, JobOutcome outcome, const LoopView& loop,
                                std::vector<PublishedEvent>& out) {
-    if (devices_.spindle != ProgramDevices::Spindle::Stopped) { end_by(Kind::SpindleStop, 0, job, loop, out); }
-    if (devices_.mist || devices_.flood) { end_by(Kind::CoolantOff, 0, job, loop, out); }
+    if (devices_.spindle != ProgramDevices::Spindle::Stopped) { end_by({.kind = Kind::SpindleStop}, job, loop, out); }
+    if (devices_.mist || devices_.flood) { end_by({.kind = Kind::CoolantOff}, job, loop, out); }
     switch_off_outputs(job, outcome, loop, out);
 }
 
@@ -59,18 +42,13 @@ void ProgramEvents::switch_off_outputs(std::uint64_t job, JobOutcome outcome, co
                                        std::vector<PublishedEvent>& out) {
     for (const OutputConfig& output : loop.machine.outputs) {
         const bool goes_off = !output.stays_after(outcome == JobOutcome::Failed) && is_active(output, devices_);
-        if (goes_off) { end_by(end_of(output), output.makes_pulses() ? 0 : output.number, job, loop, out); }
+        if (goes_off) { end_by(end_of(output), job, loop, out); }
     }
 }
 
-void ProgramEvents::end_by(Kind kind, std::int32_t index, std::uint64_t job, const LoopView& loop,
+void ProgramEvents::end_by(const ProgramEvent& end, std::uint64_t job, const LoopView& loop,
                            std::vector<PublishedEvent>& out) {
-    publish({.job = job,
-             .tick = loop.now,
-             .at_rest = true,
-             .is_of_program = false,
-             .event = {.kind = kind, .index = index}},
-            loop, out);
+    publish({.job = job, .tick = loop.now, .at_rest = true, .is_of_program = false, .event = end}, loop, out);
 }
 
 }  // namespace lockstep

@@ -42,8 +42,7 @@ public:
 private:
     using Kind = ProgramEvent::Kind;
 
-    void end_by(Kind kind, std::int32_t index, std::uint64_t job, const LoopView& loop,
-                std::vector<PublishedEvent>& out);
+    void end_by(const ProgramEvent& end, std::uint64_t job, const LoopView& loop, std::vector<PublishedEvent>& out);
     void publish(PublishedEvent event, const LoopView& loop, std::vector<PublishedEvent>& out);
     void publish(const PathEvent& event, PublishedEvent place, const LoopView& loop, std::vector<PublishedEvent>& out);
 

@@ -105,20 +105,6 @@ void EpochRunner::begin_outputs() {
         if (event.block >= switched_.block) { switched_.devices.apply(event.event); }
     }
     outputs_.begin(switched_.devices);
-    has_pulses_ = switched_.devices.pulses.left > 0;
-}
-
-/// Returns whether pulses are on their way if the machine rests after the frame that is being made.
-bool EpochRunner::note_pulses() {
-    const auto apply = [](std::span<const FrameEvent> events, bool before) {
-        for (const FrameEvent& due : events) {
-            const ProgramEvent& event = due.event.event;
-            if (event.kind == ProgramEvent::Kind::PulsePlaces) { before = event.index > 0; }
-        }
-        return before;
-    };
-    has_pulses_ = apply(source_->events(), has_pulses_);
-    return apply(source_->tail_events(), has_pulses_);
 }
 
 /// Returns null while too little of the program has been read. If that lasts too long, the machine rests after the
@@ -157,7 +143,7 @@ void EpochRunner::finish(const Frame& frame, const PathFrame& path) {
                                   .rest = path.rest,
                                   .positions = {},
                                   .complete = path.last,
-                                  .has_pulses = note_pulses()});
+                                  .has_pulses = outputs_.has_pulses()});
     for (std::size_t i = 0; i < at_.size(); ++i) {
         const AxisTrack& track = frame.axes[i];
         for (const Piece& piece : track.body) { at_[i] = at_[i] + piece.covered(); }

@@ -140,7 +140,6 @@ private:
     void make_frames(Slot now);
     const Frame* make_frame();
     void begin_outputs();
-    bool note_pulses();
     void finish(const Frame& frame, const PathFrame& path);
     void try_overrides();
     const Made& made_frame(FrameNumber number) const { return made_[number - oldest()]; }
@@ -151,7 +150,6 @@ private:
     OwnedSource source_;
     SwitchedBy switched_;  // when the epoch began
     OutputPlanner outputs_;
-    bool has_pulses_ = false;  // the frames made so far say at which places
     Epoch epoch_ = 0;
     Begin begin_;
     std::optional<Tick> start_;

@@ -171,6 +171,9 @@ void OutputPlanner::plan(const PathFrame& frame, const Events& events, std::vect
               .devices = devices_,
               .states_all = false,
               .ends_at_rest = true};
+    ProgramDevices at_rest = devices_;
+    for (const FrameEvent& event : events.tail) { at_rest.apply(event.event.event); }
+    has_pulses_ = at_rest.pulses.left > 0;
     for (const AxisTrack& track : frame.axes) { tail.ticks = std::max(tail.ticks, total_ticks(track.tail)); }
     for (std::size_t k = 0; k < motors_.size(); ++k) {
         Motor& motor = motors_[k];

@@ -33,6 +33,8 @@ public:
     };
     /// Sets `outputs` to the changes in the next frame of the epoch, for each motor whose device has outputs.
     void plan(const PathFrame& frame, const Events& events, std::vector<MotorOutputs>& outputs);
+    /// Devices wait for places if the machine rests after that frame.
+    bool has_pulses() const { return has_pulses_; }
 
 private:
     /// The motion of an analog output.
@@ -60,6 +62,7 @@ private:
     OutputRoom room_;
     ProgramDevices devices_;  // where the next frame begins
     bool is_first_ = true;
+    bool has_pulses_ = false;
 };
 
 }  // namespace lockstep

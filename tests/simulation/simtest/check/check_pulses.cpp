@@ -177,9 +177,7 @@ std::vector<ChannelEvent> notes_in(const MotorRecord& motor, const JobRecord& jo
     std::vector<ChannelEvent> notes;
     for (const ChannelEvent& event : motor.channels) {
         const Tick at = motor.truth({event.tick, 1});
-        const bool is_of_pulses =
-            event.kind == ChannelEvent::Kind::CompareBegins || event.kind == ChannelEvent::Kind::CompareEnds;
-        if (is_of_pulses && at >= job.began && at <= job.ended) { notes.push_back(event); }
+        if (ChannelEvent::is_of_pulses(event.kind) && at >= job.began && at <= job.ended) { notes.push_back(event); }
     }
     return notes;
 }
