@@ -6,7 +6,9 @@
 namespace lockstep {
 
 RestOutputs::RestOutputs(std::size_t motor, const MachineConfig& machine)
-    : outputs_(outputs_of(machine.outputs, motor_name(machine, motor))) {}
+    : outputs_(outputs_of(machine.outputs, motor_name(machine, motor))) {
+    std::erase_if(outputs_, &OutputConfig::makes_pulses);  // they are made only while it follows frames
+}
 
 /// An output that goes off at an interruption is on again when the motion goes on, and not before.
 bool RestOutputs::is_off(const OutputConfig& output, const Axis& axis) const {
@@ -23,7 +25,6 @@ std::optional<device::ChangeOutputs> RestOutputs::change(const Axis& axis) {
     for (const OutputConfig& output : outputs_) {
         const bool off = is_off(output, axis);
         if (!is_known && !off) { continue; }
-        if (output.makes_pulses()) { continue; }  // only while it follows frames
         if (!output.is_analog()) {
             wanted.digital.mask |= output.bit();
             if (!off && is_on(output, owner_->devices)) { wanted.digital.levels |= output.bit(); }
