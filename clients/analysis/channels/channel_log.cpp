@@ -135,18 +135,18 @@ std::optional<std::string> name_of(const ChannelChange& change, const MachineCon
         const auto input = std::ranges::find_if(machine.inputs, [&](const InputConfig& config) {
             return config.motor == change.motor && config.channel == change.channel;
         });
-        if (input != machine.inputs.end()) { return input->name; }
-        constexpr std::array kSwitches{"lower limit switch", "upper limit switch", "home switch"};
-        static_assert(kSwitches.size() == kSwitchInputs);
-        return change.channel < kSwitchInputs
-                   ? std::optional<std::string>(kSwitches[static_cast<std::size_t>(change.channel)])
-                   : std::nullopt;
+        return input == machine.inputs.end() ? std::nullopt : std::optional(input->name);
     }
     const OutputConfig* const output = output_of(change, machine);
     return output == nullptr ? std::nullopt : std::optional(output->name);
 }
 
 std::string channel_text(const ChannelChange& change, const MachineConfig* machine) {
+    constexpr std::array kSwitches{"lower limit switch", "upper limit switch", "home switch"};
+    static_assert(kSwitches.size() == kSwitchInputs);
+    if (change.kind == ChannelKind::Input && change.channel < kSwitchInputs) {
+        return kSwitches[static_cast<std::size_t>(change.channel)];
+    }
     const auto name = machine != nullptr ? name_of(change, *machine) : std::nullopt;
     return name.value_or(fmt::format("{} {}", kind_text(change.kind), change.channel));
 }

@@ -74,7 +74,7 @@ std::optional<std::string> name_of(const ChannelChange& change, const MachineCon
 /// "door closed", "air on", "laser 30 %", "input 2 open"; `machine`: nullptr if it is not known.
 std::string change_text(const ChannelChange& change, const MachineConfig* machine);
 
-/// "laser", "digital output 2"
+/// "laser", "home switch", "digital output 2"
 std::string channel_text(const ChannelChange& change, const MachineConfig* machine);
 
 }  // namespace lockstep::analysis

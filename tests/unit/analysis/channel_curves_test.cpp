@@ -53,6 +53,7 @@ struct ChannelCurves : testing::Test {
                 {.tick = {120'000}, .kind = ChannelEvent::Kind::Digital, .levels = 0},
                 {.tick = {150'000}, .kind = ChannelEvent::Kind::Analog, .value = share(0.5)},
                 {.tick = {200'000}, .kind = ChannelEvent::Kind::Digital, .levels = 1},
+                {.tick = {220'000}, .kind = ChannelEvent::Kind::Input, .channel = 2, .closed = true},
                 {.tick = {250'000}, .kind = ChannelEvent::Kind::Analog}};
             for (std::int64_t i = 0; i < std::ssize(events); ++i) {
                 if (i != missing) { maker.channel("X", i, events[static_cast<std::size_t>(i)]); }
@@ -65,7 +66,7 @@ struct ChannelCurves : testing::Test {
     }
 };
 
-TEST_F(ChannelCurves, ShowEachNamedOutputWithTheWordsThatSwitchIt) {
+TEST_F(ChannelCurves, ShowEachOutputThatTheMachinesFileNamesWithTheWordsThatSwitchIt) {
     const auto curves = channel_curves(analysis_without(-1));
     ASSERT_EQ(curves.size(), 2U);
     EXPECT_EQ(curves[0].curve.axis, "air");

@@ -147,7 +147,8 @@ TEST(ChannelChange, HasTheNameOfTheMachinesFile) {
     EXPECT_EQ(change_text({{}, "X", ChannelKind::Analog, 0, 0.3}, &machine), "laser 30 %");
     EXPECT_EQ(change_text({{}, "X", ChannelKind::Digital, 0, 1}, &machine), "air on");
     EXPECT_EQ(change_text({{}, "Y", ChannelKind::Digital, 0, 0}, &machine), "digital output 0 off");
-    EXPECT_EQ(change_text({{}, "X", ChannelKind::Input, 2, 0}, nullptr), "input 2 open");
+    EXPECT_EQ(change_text({{}, "X", ChannelKind::Input, 2, 0}, &machine), "home switch open");
+    EXPECT_EQ(change_text({{}, "X", ChannelKind::Input, 3, 0}, nullptr), "input 3 open");
 }
 
 }  // namespace
