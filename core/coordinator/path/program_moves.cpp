@@ -77,13 +77,12 @@ double ProgramMoves::measure(const ProgramMove& move) {
 
 void ProgramMoves::pass(const ProgramMove& move, std::uint32_t number, PathInput& path) {
     const double length = pace_.is_pending() ? measure(move) : 0;
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
-        at_[axes_[i]] = move.target_mm[i] * steps_per_mm_[axes_[i]];
-        to_[axes_[i]] = std::llround(at_[axes_[i]]);
-    }
+    for (std::size_t i = 0; i < axes_.size(); ++i) { at_[axes_[i]] = move.target_mm[i] * steps_per_mm_[axes_[i]]; }
     if (pace_.is_pending() && OutputPace::is_left_out(length) && move.mode == PathMode::ExactStop) {
         return path.rest(pace_.next_rest(), number);
     }
+    for (const std::size_t axis : axes_) { to_[axis] = std::llround(at_[axis]); }
+    to_ = within_travel(to_, limits_);
     const MoveSettings settings{.feed_mm_per_tick = move.feed_for(tick_s_),
                                 .mode = move.mode,
                                 .tolerance_mm = move.tolerance_mm,

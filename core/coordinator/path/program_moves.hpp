@@ -16,7 +16,7 @@ namespace lockstep {
 class ProgramMoves {
 public:
     explicit ProgramMoves(const MachineConfig& machine)
-        : tick_s_(static_cast<double>(machine.tick_ns) * 1e-9), pace_(machine) {
+        : limits_(axis_frame_limits_of(machine)), tick_s_(static_cast<double>(machine.tick_ns) * 1e-9), pace_(machine) {
         for (const AxisConfig& axis : machine.axes) { steps_per_mm_.push_back(axis.steps_per_mm); }
     }
 
@@ -48,6 +48,7 @@ private:
 
     std::shared_ptr<const ProgramBlocks> program_;
     std::vector<double> steps_per_mm_;
+    std::vector<AxisLimits> limits_;
     std::vector<std::size_t> axes_;  // the machine's axes that the program names
     double tick_s_ = 0;
     OutputPace pace_;
@@ -58,8 +59,8 @@ private:
     bool is_starved_ = false;
     LegEnd::Kind end_ = LegEnd::Kind::Program;
     Pause pause_;    // of end_
-    AxisCounts to_;  // where the last block read leads to, whole steps
-    AxisVector at_;  // the same place, exactly
+    AxisCounts to_;  // where the path ends so far, on whole steps
+    AxisVector at_;  // where the last block read leads to
 };
 
 }  // namespace lockstep

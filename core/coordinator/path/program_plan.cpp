@@ -39,6 +39,11 @@ void end(Leg& leg, std::uint32_t before, const AxisCounts& at) {
 
 }  // namespace
 
+AxisCounts within_travel(AxisCounts to, std::span<const AxisLimits> axes) {
+    for (std::size_t i = 0; i < to.size(); ++i) { to[i] = std::clamp(to[i], axes[i].min_steps, axes[i].max_steps); }
+    return to;
+}
+
 Ticks ticks_of(const Dwell& dwell, double tick_s) {
     return {static_cast<std::int64_t>(std::ceil(std::min(dwell.seconds, kMaxDwell_s) / tick_s))};
 }
@@ -71,11 +76,10 @@ std::expected<AxisCounts, PlanError> ProgramPlanner::target(const ProgramMove& m
         const AxisConfig& axis = machine_.axes[axes[i]];
         const double mm = move.target_mm[i];
         if (!(std::abs(mm * axis.steps_per_mm) < kMaxSteps)) { return std::unexpected(too_far(axis, mm, line)); }
-        const std::int64_t steps = to_steps(axis, mm);
-        to[axes[i]] = std::clamp(steps, limits_[axes[i]].min_steps, limits_[axes[i]].max_steps);
-        if (!is_within_travel(axes[i], steps)) { return std::unexpected(outside_travel(axis, mm, line)); }
+        to[axes[i]] = to_steps(axis, mm);
+        if (!is_within_travel(axes[i], to[axes[i]])) { return std::unexpected(outside_travel(axis, mm, line)); }
     }
-    return to;
+    return within_travel(to, limits_);
 }
 
 bool ProgramPlanner::is_within_travel(std::size_t axis, std::int64_t steps) const {

@@ -206,4 +206,13 @@ MotorPositions motors_at_rest(const PathSetup& setup, std::span<const Position> 
     return motors;
 }
 
+bool are_motors_on_steps(const PathSetup& setup, const AxisVector& at) {
+    if (!setup.has_map()) { return true; }
+    for (std::size_t m = 0; m < setup.motors(); ++m) {
+        const double steps = setup.motor_map.place(m, at);
+        if (steps != std::round(steps)) { return false; }
+    }
+    return true;
+}
+
 }  // namespace lockstep

@@ -34,5 +34,7 @@ private:
 
 /// Where the motors rest if the axes rest at `at`.
 MotorPositions motors_at_rest(const PathSetup& setup, std::span<const Position> at);
+/// Each motor is on a whole step while the axes are at `at`, which is on whole steps of theirs.
+bool are_motors_on_steps(const PathSetup& setup, const AxisVector& at);
 
 }  // namespace lockstep

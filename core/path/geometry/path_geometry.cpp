@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/path/geometry/motor_rows.hpp"
 #include "core/path/geometry/travel_end.hpp"
 
 namespace lockstep {
@@ -66,14 +67,16 @@ void PathGeometry::finish() {
     ready_ = trail_.end();
 }
 
-/// Moves the end of the last piece to whole steps, by half a step at most.
+/// Moves the end of the last piece to whole steps, by half a step at most. A piece that moves no axis then may still
+/// lead the motors to their whole steps.
 void PathGeometry::come_to_rest() {
     AxisVector end = at_;
     for (double& steps : end) { steps = std::round(steps); }
     joiner_.finish(end, trail_);
     at_ = end;
     if (trail_.end() == ready_) { return; }
-    move_end(end) ? trail_.rest_at_end() : trail_.pop_back();
+    const bool is_at_rest = trail_.back().begins_at_rest || are_motors_on_steps(setup_, end);
+    move_end(end) || !is_at_rest ? trail_.rest_at_end() : trail_.pop_back();
 }
 
 /// Moves the end of the last piece. Returns false if the piece begins at this place.

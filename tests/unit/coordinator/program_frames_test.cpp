@@ -296,6 +296,33 @@ TEST_F(LaiFramesTest, AreTheSameWhenResumedTwiceAtOnePlace) {
     }
 }
 
+/// The belts rest on whole steps, so an axis may rest a little beyond its travel. The next leg begins where the belts
+/// are.
+TEST(FramesOfBelts, LeadAnAxisBackThatRestedBeyondItsTravelAndSaySo) {
+    constexpr std::int64_t kEnd = 500 * 1280;
+    const MachineConfig machine = two_long_belts();
+    const auto program = std::make_shared<const Program>(
+        Program{.name = "x", .axes = {"X"}, .start_mm = {0}, .blocks = {{1, ProgramMove{{10}, 50, false}}}});
+    const ProgramPlanner planner(machine);
+    const Kinematics kinematics(machine);
+    const Leg leg = planner.plan(*program, {0, kEnd + 8}).value()[0];
+    OwnedSource source = planner.frames(program, leg);
+    const MotorPositions at = positions_of(kinematics.motors_at(leg.from).steps);
+    source->resume({0, {}}, {at.begin(), at.size()}, {});
+    MotorCounts end;
+    for (source->read_ahead(); !source->is_done(); source->read_ahead()) {
+        end.steps.clear();
+        for (const AxisTrack& track : (*source->next().value()).axes) {
+            Position rest = track.from;
+            for (const Piece& piece : track.body) { rest = rest + piece.covered(); }
+            end.steps.append(rest.count());
+        }
+    }
+    EXPECT_EQ(source->end().to, (AxisCounts{12'800, kEnd}));
+    EXPECT_EQ(leg.to, source->end().to);
+    EXPECT_EQ(kinematics.motors_at(source->end().to), end);
+}
+
 class LaiFramesBehindADwell : public Frames {
 protected:
     LaiFramesBehindADwell() : Frames(program(), lai()) {}

@@ -3,6 +3,7 @@
 
 #include "core/path/path_planner.hpp"
 #include "tests/property/path/path_run.hpp"
+#include "tests/unit/coordinator/long_axes.hpp"
 
 namespace lockstep {
 namespace {
@@ -46,6 +47,20 @@ TEST(PathRests, CarriesMovesOfOneStepThatEachEndAtRest) {
     planner.begin(std::vector<Position>(3));
     for (std::uint32_t k = 1; k <= kMany; ++k) { planner.line({{0.0125 * k, 0, 0}}, kExactStop, k); }
     EXPECT_EQ(finish(planner, setup), kMany);
+}
+
+/// The last move rounds to no step of an axis, but the belts are between two steps where it begins.
+TEST(PathRests, LeadMotorsToWholeStepsEvenIfNoAxisMovesAnyMore) {
+    const PathSetup setup = path_setup_of(two_long_belts());
+    constexpr MoveSettings kBlend{.feed_mm_per_tick = 100e-6, .mode = PathMode::Blend, .tolerance_mm = 0};
+    const double turn_mm = 10 + 3.0 / 1280;
+    PathPlanner planner(setup);
+    planner.begin(std::vector<Position>(2));
+    planner.line({{turn_mm, 0}}, kBlend, 1);
+    planner.line({{turn_mm - 0.3 / 1280, 0}}, kBlend, 2);
+    planner.rest(Ticks{1}, 3);
+    planner.line({{20, 0}}, kBlend, 4);
+    EXPECT_EQ(finish(planner, setup), 1600);
 }
 
 }  // namespace

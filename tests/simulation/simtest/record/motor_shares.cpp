@@ -163,12 +163,16 @@ double MotorShares::step_of(std::size_t axis) const {
     return most;
 }
 
+bool MotorShares::moves_only(std::size_t motor, std::size_t axis) const {
+    const auto axes = std::ranges::count_if(shares_[motor], [](double share) { return share != 0; });
+    return axes == 1 && shares_[motor][axis] != 0;
+}
+
 bool MotorShares::is_own(std::size_t axis) const {
     std::size_t movers = 0;
-    for (const std::vector<double>& shares : shares_) {
-        if (shares[axis] == 0) { continue; }
-        const auto others = std::ranges::count_if(shares, [](double share) { return share != 0; });
-        if (others > 1 || shares[axis] != 1) { return false; }
+    for (std::size_t m = 0; m < shares_.size(); ++m) {
+        if (shares_[m][axis] == 0) { continue; }
+        if (!moves_only(m, axis) || shares_[m][axis] != 1) { return false; }
         ++movers;
     }
     return movers == 1;

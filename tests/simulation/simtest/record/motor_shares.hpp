@@ -32,6 +32,8 @@ public:
     /// An axis is moved by one motor, which moves no other axis and has the axis's steps.
     bool is_own(std::size_t axis) const;
     bool any_is_curved() const { return !carriages_.none(); }
+    /// A motor moves this axis and no other one.
+    bool moves_only(std::size_t motor, std::size_t axis) const;
     /// Steps of a motor for each step of an axis; of a motor that is curved, the most within the travel.
     double share(std::size_t motor, std::size_t axis) const { return shares_[motor][axis]; }
     /// The same at a place of the axes, in steps.

@@ -24,6 +24,7 @@ private:
     const Reply* answer() const;
     bool needs_path(const JogPress& press) const;
     bool is_at_end(const JogAxis& jog) const;
+    bool has_astray_motors() const;
     bool has_course() const { return session_.presses.size() == 1 && needs_path(session_.presses.front()); }
     double stop_seconds() const;
     double reaction_seconds() const;
