@@ -64,6 +64,7 @@ struct MotorBlock {
     std::optional<double> max_accel_mm_s2;
     std::optional<double> max_decel_mm_s2;
     double switch_offset_mm = 0;  // its switch closes so far behind the axis's switch_position_mm
+    std::optional<double> max_following_error_mm;
     std::optional<PlantConfig> plant;
     std::optional<PinsConfig> pins;
 };
@@ -81,8 +82,9 @@ struct AxisConfig {
     double position_min_mm = 0;
     double position_max_mm = 0;
     StepMethod method = StepMethod::Ranade;
-    std::optional<double> unhomed_jog_mm_s;  // greatest speed of a jog while unhomed; none: no such jog
-    std::optional<double> safe_height_mm;    // where it is clear of the work; none: not known
+    std::optional<double> unhomed_jog_mm_s;        // greatest speed of a jog while unhomed; none: no such jog
+    std::optional<double> safe_height_mm;          // where it is clear of the work; none: not known
+    std::optional<double> max_following_error_mm;  // by which an encoder may differ from the count; none: 3 steps
     HomingConfig homing;
     PlantConfig plant;
     PinsConfig pins;

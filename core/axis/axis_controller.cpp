@@ -15,9 +15,7 @@ AxisController::AxisController(std::size_t axis, const MachineConfig& machine, I
       config_hash_(config_hash),
       slot_(machine.slot_ticks()),
       stop_inputs_(inputs_with(machine, motor_name(machine, axis), InputUse::EmergencyStop)),
-      condition_{.phases = {},
-                 .position = {scale_of(machine, axis), std::move(kept), motors_of(machine)[axis].is_board()},
-                 .orders = {}},
+      condition_{.phases = {}, .position = {machine, axis, std::move(kept)}, .orders = {}},
       owner_(machine.timing),
       following_(axis, machine),
       own_(axis, machine, begin_steps),
@@ -143,10 +141,10 @@ void AxisController::check_stop_inputs(AxisLoop& loop) {
 /// Compares encoder and count, also in a Fault that leaves the position known, because the slide may be pushed before
 /// the reset.
 void AxisController::check_encoder(AxisLoop& loop) {
+    if (!condition_.position.has_lost_steps(device_.status())) { return; }
     const std::int64_t error = condition_.position.following_error(device_.status());
-    if (std::abs(error) <= kMaxFollowingError || !homed()) { return; }
     condition_.position.lose();
-    loop.fail(FaultCode::FollowingError);
+    loop.fail(FaultCode::FollowingError, static_cast<std::uint64_t>(std::abs(error)));
 }
 
 void AxisController::receive(const AxisInputs& inputs, AxisLoop& loop) {

@@ -55,6 +55,7 @@ MotorConfig motor_of_axis(const AxisConfig& axis, std::size_t place) {
             .steps_per_mm = axis.steps_per_mm,
             .method = axis.method,
             .unhomed_jog_mm_s = axis.unhomed_jog_mm_s,
+            .max_following_error_mm = axis.max_following_error_mm,
             .homing = axis.homing,
             .plant = axis.plant,
             .pins = axis.pins};
@@ -69,6 +70,7 @@ MotorConfig motor_of_block(const AxisConfig& axis, std::size_t place, const Moto
     motor.homing.switch_position_mm += block.switch_offset_mm;
     motor.plant = block.plant.value_or(axis.plant);
     motor.pins = block.pins.value_or(axis.pins);
+    if (block.max_following_error_mm) { motor.max_following_error_mm = block.max_following_error_mm; }
     return motor;
 }
 

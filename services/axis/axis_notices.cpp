@@ -1,5 +1,7 @@
 #include "services/axis/axis_notices.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <string>
 
@@ -16,6 +18,10 @@ std::string remedy(FaultCode fault) {
 std::string_view stage_name(std::uint64_t stage) {
     constexpr std::array<std::string_view, 6> kNames{"ended", "search", "pull off", "latch", "park", "release"};
     return stage < kNames.size() ? kNames[stage] : "unknown";
+}
+
+std::string what_of(const AxisNotice& fault) {
+    return fault.fault == FaultCode::FollowingError ? fmt::format("{} steps differ: ", fault.number) : "";
 }
 
 }  // namespace
@@ -35,7 +41,7 @@ void log_notice(const AxisNotice& notice) {
         case Kind::Vetoed: return log_info("frame {} and those after it are vetoed", notice.number);
         case Kind::HomingStage: return log_info("homing: {}", stage_name(notice.number));
         case Kind::Homed: return log_info("homed and parked");
-        case Kind::Fault: return log_event(spdlog::level::err, notice.fault, remedy(notice.fault));
+        case Kind::Fault: return log_event(spdlog::level::err, notice.fault, what_of(notice) + remedy(notice.fault));
         case Kind::Reset: return log_info("reset");
         case Kind::CommandRefused:
             return log_event(spdlog::level::warn, notice.fault, "command refused: " + remedy(notice.fault));

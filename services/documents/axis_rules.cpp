@@ -13,6 +13,7 @@
 #include "services/documents/names.hpp"
 #include "services/documents/problem_list.hpp"
 #include "services/documents/rules/axis_ranges.hpp"
+#include "services/documents/rules/following_error_rule.hpp"
 #include "services/documents/rules/pin_rules.hpp"
 
 namespace lockstep {
@@ -43,6 +44,10 @@ public:
         check_plant();
         check_pin_ranges(axis_.pins, "pins.", problems_);
         if (has_own_motor()) { check_method(); }
+        if (has_own_motor()) {
+            check_following_error("max_following_error_mm", axis_.max_following_error_mm, axis_.steps_per_mm,
+                                  problems_);
+        }
         check_place();
         check_motors();
         return problems_.take();

@@ -230,6 +230,7 @@ MotorBlock read_motor(const proto::Motor& message, const AxisConfig& axis, const
     motor.max_accel_mm_s2 = given(message.has_max_accel_mm_s2(), message.max_accel_mm_s2());
     motor.max_decel_mm_s2 = message.has_max_decel_mm_s2() ? message.max_decel_mm_s2() : motor.max_accel_mm_s2;
     motor.switch_offset_mm = message.switch_offset_mm();
+    motor.max_following_error_mm = given(message.has_max_following_error_mm(), message.max_following_error_mm());
     if (message.has_plant()) { motor.plant = read_plant(message.plant(), axis); }
     if (message.has_pins()) { motor.pins = read_pins(message.pins()); }
     return motor;
@@ -316,6 +317,7 @@ AxisConfig read_axis(const proto::Axis& message, ProtoReader reader) {
     axis.method = read_method(message.method());
     if (message.has_unhomed_jog_mm_s()) { axis.unhomed_jog_mm_s = message.unhomed_jog_mm_s(); }
     if (message.has_safe_height_mm()) { axis.safe_height_mm = message.safe_height_mm(); }
+    if (message.has_max_following_error_mm()) { axis.max_following_error_mm = message.max_following_error_mm(); }
     axis.host = message.host();
     axis.device = read_device(message.device(), "device", reader);
     axis.homing = read_homing(message.homing(), axis, message.motor_size() > 1);

@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "core/kinematics/motors.hpp"
+#include "core/number_text.hpp"
 
 namespace lockstep {
 
@@ -11,14 +12,21 @@ PositionScale scale_of(const MachineConfig& machine, std::size_t axis) {
     return {machine.name, config.name, config.steps_per_mm, config.homing.switch_position_mm, config.homing.toward_min};
 }
 
-FaultCode doubt_of(const KeptPosition& kept, const PositionScale& scale, const DeviceStatus& device) {
+std::int64_t most_following_error(const MotorConfig& motor) {
+    constexpr std::int64_t kUsual = 3;
+    if (!motor.max_following_error_mm) { return kUsual; }
+    return static_cast<std::int64_t>(*motor.max_following_error_mm * motor.steps_per_mm * (1 + kTextRounding));
+}
+
+FaultCode doubt_of(const KeptPosition& kept, const PositionScale& scale, const DeviceStatus& device,
+                   std::int64_t most_pushed) {
     if (kept.scale.machine != scale.machine || kept.scale.axis != scale.axis) { return FaultCode::PositionForeign; }
     if (kept.scale != scale) { return FaultCode::PositionRescaled; }
     if (kept.power_up != device.power_up) { return FaultCode::DevicePoweredUp; }
     const bool rests = device.finished && !device.moving && device.run_asked == device.run;
     if (!rests || kept.run != device.run || kept.position != device.position) { return FaultCode::DeviceHasRun; }
     const std::int64_t pushed = device.encoder_count - device.position.count() - kept.encoder_zero;
-    return std::abs(pushed) > kMaxFollowingError ? FaultCode::PositionPushed : FaultCode::None;
+    return std::abs(pushed) > most_pushed ? FaultCode::PositionPushed : FaultCode::None;
 }
 
 }  // namespace lockstep

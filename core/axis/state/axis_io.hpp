@@ -71,7 +71,7 @@ struct AxisNotice {
     };
     Kind kind = Kind::Fault;
     FaultCode fault = FaultCode::None;
-    std::uint64_t number = 0;          // a term, an epoch, a frame or a stage, by kind
+    std::uint64_t number = 0;          // a term, epoch, frame or stage; steps lost of a FollowingError
     std::optional<FailedCheck> check;  // Vetoed: the check that failed
 };
 

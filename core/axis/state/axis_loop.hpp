@@ -34,11 +34,11 @@ struct AxisLoop {
     bool publishes() const { return next_state == slot; }
     void notice(const AxisNotice& notice) { out.notices.push_back(notice); }
 
-    /// Reports a fault. The open order fails, too.
-    void fail(FaultCode fault) {
+    /// Reports a fault. The open order fails, too. `number`: of AxisNotice.
+    void fail(FaultCode fault, std::uint64_t number = 0) {
         condition.phases.fail(fault);
         condition.orders.end(fault);
-        notice({AxisNotice::Kind::Fault, fault, 0});
+        notice({AxisNotice::Kind::Fault, fault, number});
     }
     void refuse(const AxisCommand& order, FaultCode why) {
         notice({AxisNotice::Kind::CommandRefused, why, order.sequence});

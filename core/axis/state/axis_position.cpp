@@ -1,13 +1,26 @@
 #include "core/axis/state/axis_position.hpp"
 
+#include <utility>
+
+#include "core/kinematics/motors.hpp"
+
 namespace lockstep {
+
+AxisPosition::AxisPosition(const MachineConfig& machine, std::size_t motor, KeptOrNot kept)
+    : scale_(scale_of(machine, motor)), kept_(std::move(kept)) {
+    const MotorConfig config = motors_of(machine)[motor];
+    is_board_ = config.is_board();
+    most_following_error_ = most_following_error(config);
+}
 
 FaultCode AxisPosition::claim(const DeviceStatus& device, bool device_failed) {
     if (is_board_) {
         set_zero(device.position.count(), device);
         return unproved_ = FaultCode::None;
     }
-    unproved_ = !kept_ ? kept_.error() : device_failed ? FaultCode::DeviceFault : doubt_of(*kept_, scale_, device);
+    unproved_ = !kept_          ? kept_.error()
+                : device_failed ? FaultCode::DeviceFault
+                                : doubt_of(*kept_, scale_, device, most_following_error_);
     if (unproved_ != FaultCode::None) { return unproved_; }
     zero_count_ = kept_->zero_count;
     encoder_zero_ = kept_->encoder_zero;

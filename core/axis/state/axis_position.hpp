@@ -2,7 +2,9 @@
 // process.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
 
 #include "core/axis/device/device_view.hpp"
@@ -14,8 +16,7 @@ namespace lockstep {
 class AxisPosition {
 public:
     /// `kept`: the position that the previous process kept. A board always rests at 0, so its place is always known.
-    AxisPosition(PositionScale scale, KeptOrNot kept, bool is_board = false)
-        : scale_(std::move(scale)), kept_(std::move(kept)), is_board_(is_board) {}
+    AxisPosition(const MachineConfig& machine, std::size_t motor, KeptOrNot kept);
 
     bool is_board() const { return is_board_; }
     bool homed() const { return homed_; }
@@ -38,6 +39,10 @@ public:
     std::int64_t following_error(const DeviceStatus& device) const {
         return is_board_ ? 0 : device.encoder_count - device.position.count() - encoder_zero_;
     }
+    /// So many steps differ that they count as lost.
+    bool has_lost_steps(const DeviceStatus& device) const {
+        return homed_ && std::abs(following_error(device)) > most_following_error_;
+    }
 
     /// Call it at rest without a fault. Returns the position to keep, once after each run that leaves the axis homed.
     std::optional<KeptPosition> keep(const DeviceView& device);
@@ -46,6 +51,7 @@ private:
     PositionScale scale_;
     KeptOrNot kept_;  // the newest kept position, used when a device is found
     bool is_board_ = false;
+    std::int64_t most_following_error_ = 0;
     bool homed_ = false;
     FaultCode unproved_ = FaultCode::DeviceMissing;
     std::int64_t zero_count_ = 0;

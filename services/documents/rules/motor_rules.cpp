@@ -13,6 +13,7 @@
 #include "services/documents/problem_list.hpp"
 #include "services/documents/rules/axis_ranges.hpp"
 #include "services/documents/rules/delta_rules.hpp"
+#include "services/documents/rules/following_error_rule.hpp"
 #include "services/documents/rules/pin_rules.hpp"
 
 namespace lockstep {
@@ -66,6 +67,10 @@ private:
         speed(at + "max_velocity_mm_s", motor.max_velocity_mm_s);
         accel(at + "max_accel_mm_s2", motor.max_accel_mm_s2);
         accel(at + "max_decel_mm_s2", motor.max_decel_mm_s2);
+        const bool has_own = motor.max_following_error_mm.has_value();
+        check_following_error(has_own ? at + "max_following_error_mm" : "max_following_error_mm",
+                              has_own ? motor.max_following_error_mm : axis_.max_following_error_mm,
+                              motor.steps_per_mm.value_or(0), problems_);
         if (motor.pins) { check_pin_ranges(*motor.pins, at + "pins.", problems_); }
         const bool is_carriage = is_on_tower(machine_, motor.name);
         const double most = is_carriage ? kMaxSwitchOffset_mm : axis_.max_skew_mm.value_or(0);

@@ -43,7 +43,7 @@ protected:
 
     Tick now{100'000};
     AxisCondition condition{
-        .phases = {}, .position = {scale_of(machine(), 0), std::unexpected(FaultCode::PositionNotKept)}, .orders = {}};
+        .phases = {}, .position = {machine(), 0, std::unexpected(FaultCode::PositionNotKept)}, .orders = {}};
     DeviceView device;
     AxisOutputs out;
 };

@@ -33,6 +33,23 @@ TEST_F(StandingAxis, CountsLostStepsFromTheHomingOn) {
     EXPECT_EQ(position.following_error(status), -2);
 }
 
+TEST_F(StandingAxis, HasLostStepsBeyondTheLimitOfItsMotor) {
+    MachineConfig machine = this->machine();
+    const auto has_lost = [&](std::int64_t steps) {
+        AxisPosition homed(machine, 0, std::unexpected(FaultCode::PositionNotKept));
+        homed.set_zero(0, at_rest());
+        DeviceStatus status = at_rest();
+        status.encoder_count += steps;
+        return homed.has_lost_steps(status);
+    };
+    EXPECT_FALSE(has_lost(-3));
+    EXPECT_TRUE(has_lost(-4));
+    machine.axes[0].max_following_error_mm = 10 / machine.axes[0].steps_per_mm;
+    EXPECT_FALSE(has_lost(10));
+    EXPECT_TRUE(has_lost(11));
+    EXPECT_TRUE(has_lost(-11));
+}
+
 TEST_F(StandingAxis, IsKeptOnceAfterEachRun) {
     (void)device.begin_run();
     show(at_rest());
@@ -54,7 +71,7 @@ TEST_F(StandingAxis, KeptByTheProcessBeforeHomesTheAxis) {
     DeviceStatus status = at_rest();
     status.encoder_count = 7;
     position.set_zero(40, status);
-    AxisPosition next(scale_of(machine(), 0), *position.keep(device));
+    AxisPosition next(machine(), 0, *position.keep(device));
     EXPECT_EQ(next.claim(status, true), FaultCode::DeviceFault);
     EXPECT_EQ(next.claim(status, false), FaultCode::None);
     EXPECT_TRUE(next.homed());

@@ -17,7 +17,7 @@ protected:
         machine.boards = {{.name = "IO", .host = "", .device = {}}};
         return machine;
     }
-    AxisPosition position{scale_of(with_board(), 2), std::unexpected(FaultCode::PositionNotKept), true};
+    AxisPosition position{with_board(), 2, std::unexpected(FaultCode::PositionNotKept)};
 };
 
 TEST_F(BoardParts, StandAt0WheneverTheirDeviceIsFound) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/kinematics/motors.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -15,7 +17,8 @@ MachineConfig mill() {
 /// X, homed, has ended run 7 at the device's count 1200 and rests there.
 class Claim : public testing::Test {
 protected:
-    FaultCode doubt() const { return doubt_of(kept, scale_of(machine, 0), device); }
+    FaultCode doubt() const { return doubt_of(kept, scale_of(machine, 0), device, most()); }
+    std::int64_t most() const { return most_following_error(motors_of(machine)[0]); }
 
     MachineConfig machine = mill();
     DeviceStatus device{.position = Position::steps(1200),
@@ -35,7 +38,7 @@ protected:
 TEST_F(Claim, IsProvedByADeviceThatHasRunNothingSince) { EXPECT_EQ(doubt(), FaultCode::None); }
 
 TEST_F(Claim, OfAnotherMachineOrAxisIsForeign) {
-    EXPECT_EQ(doubt_of(kept, scale_of(machine, 1), device), FaultCode::PositionForeign);
+    EXPECT_EQ(doubt_of(kept, scale_of(machine, 1), device, most()), FaultCode::PositionForeign);
     machine.name = "lathe";
     EXPECT_EQ(doubt(), FaultCode::PositionForeign);
 }
@@ -82,12 +85,14 @@ TEST_F(Claim, AsksForEveryBitOfThePosition) {
 }
 
 TEST_F(Claim, OfAnAxisThatWasPushedIsRefused) {
-    device.encoder_count += kMaxFollowingError;
+    device.encoder_count += 3;
     EXPECT_EQ(doubt(), FaultCode::None);
     device.encoder_count += 1;
     EXPECT_EQ(doubt(), FaultCode::PositionPushed);
-    device.encoder_count = 1195 - kMaxFollowingError - 1;
+    device.encoder_count = 1195 - 4;
     EXPECT_EQ(doubt(), FaultCode::PositionPushed);
+    machine.axes[0].max_following_error_mm = 0.05;
+    EXPECT_EQ(doubt(), FaultCode::None) << "4 steps of 1/80 mm";
 }
 
 }  // namespace

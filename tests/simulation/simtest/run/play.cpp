@@ -18,7 +18,8 @@ void check_slides(Bench& bench, const Counts& at) {
         if (motor.homing.in_place && was_pushed) { continue; }
         const double mm = static_cast<double>(at[i]) / motor.steps_per_mm;
         const double is = bench.vm().device(i).plant().position_mm();
-        const std::int64_t most = motor.homing.in_place ? kMaxFollowingError : 2;  // as exactly as it was put there
+        const std::int64_t most =
+            motor.homing.in_place ? most_following_error(motor) : 2;  // as exactly as it was put there
         if (std::abs(is - mm) * motor.steps_per_mm > static_cast<double>(most)) {
             bench.object("place",
                          motor.name + " stands at " + std::to_string(is) + " mm instead of " + std::to_string(mm));

@@ -117,7 +117,7 @@ void put_to_park(Bench& bench) {
         if (!motor.homing.in_place) { continue; }
         const double off_mm = motor.homing.park_mm - bench.vm().device(m).plant().position_mm();
         const std::int64_t steps = std::llround(off_mm * motor.steps_per_mm);
-        if (std::abs(steps) <= kMaxFollowingError) { continue; }  // a homed motor would not notice
+        if (std::abs(steps) <= most_following_error(motor)) { continue; }  // a homed motor would not notice
         bench.move_by_hand(m, steps);
         moves = true;
     }
