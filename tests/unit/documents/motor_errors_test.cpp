@@ -146,5 +146,20 @@ TEST(Motors, OfOneAxisParkBesideTheirSwitches) {
     EXPECT_EQ(pair->axes[1].homing.park_mm, pair->axes[1].homing.pulloff_mm);
 }
 
+TEST(FollowingErrors, OfMotorsAreTheirOwnOrThatOfTheirAxis) {
+    const auto read = parse_machine(
+        machine("steps_per_mm: 80 max_following_error_mm: 0.5",
+                "steps_per_mm: 80 max_skew_mm: 3 max_following_error_mm: 1 motor { name: \"Y1\" } motor { name: "
+                "\"Y2\" max_following_error_mm: 2 }"));
+    ASSERT_TRUE(read) << to_text("m", read.error());
+    const std::vector<MotorConfig> motors = motors_of(*read);
+    EXPECT_EQ(motors[0].max_following_error_mm, 0.5);
+    EXPECT_EQ(motors[1].max_following_error_mm, 1);
+    EXPECT_EQ(motors[2].max_following_error_mm, 2);
+    const auto again = parse_machine(machine_text(*read));
+    ASSERT_TRUE(again) << to_text("m", again.error());
+    EXPECT_EQ(config_hash(*again), config_hash(*read));
+}
+
 }  // namespace
 }  // namespace lockstep
