@@ -102,7 +102,8 @@ private:
             object(i, track.start, "frame " + text(track.frame) + " ran at another time than it was sent for");
         }
         const bool asked = std::ranges::any_of(recording_.emergencies, [&](const Emergency& e) {
-            return track.commanded <= e.rests && track.commanded + track.commanded_ticks >= e.asked;
+            const Tick end = track.commanded + track.commanded_ticks + track.clock_error;  // by its own clock at most
+            return track.commanded - track.clock_error <= e.rests && end >= e.asked;
         });
         const bool stopped = may_be_stopped(recording_, i, track.commanded, track.commanded + track.commanded_ticks);
         if (track.cut && !asked && !stopped) { object(i, track.start, "a frame was cut short"); }
