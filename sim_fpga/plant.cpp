@@ -73,6 +73,7 @@ double Plant::position_mm() const { return start_mm_ + static_cast<double>(slide
 
 Plant plant_of(const MachineConfig& machine, const MotorConfig& motor) {
     Plant plant(motor, machine.tick_ns);
+    if (motor.is_board()) { plant.remove_switches(); }
     for (const InputConfig& input : machine.inputs) {
         if (input.motor == motor.name) { set_input(plant, input, false); }
     }

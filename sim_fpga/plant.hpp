@@ -60,6 +60,9 @@ public:
         stuck_open_.*contact = reads == false;
     }
 
+    /// The pins of the switches are free: this is no motor's plant.
+    void remove_switches() { has_switches_ = false; }
+
     /// The true position of the slide, in whole steps since power-up.
     std::int64_t encoder() const { return slide_; }
     double position_mm() const;
@@ -67,7 +70,9 @@ public:
         const PlantInputs closed{.limit_min = slide_ <= limit_min_at_,
                                  .limit_max = slide_ >= limit_max_at_,
                                  .home = home_toward_min_ ? slide_ <= home_at_ : slide_ >= home_at_};
-        const auto read = [&](PlantContact one) { return (closed.*one || stuck_closed_.*one) && !(stuck_open_.*one); };
+        const auto read = [&](PlantContact one) {
+            return has_switches_ && (closed.*one || stuck_closed_.*one) && !(stuck_open_.*one);
+        };
         return {read(&PlantInputs::limit_min), read(&PlantInputs::limit_max), read(&PlantInputs::home)};
     }
     /// The levels of the device's input pins; pin n is bit n. The switches are at 0, 1 and 2, and high when closed.
@@ -92,6 +97,7 @@ private:
     std::int64_t limit_max_at_;  // closed at and above
     std::int64_t home_at_;       // closed at and beyond
     bool home_toward_min_;
+    bool has_switches_ = true;
     PlantInputs stuck_closed_;
     PlantInputs stuck_open_;
     struct Probe {

@@ -25,7 +25,7 @@ constexpr std::string_view name_of(InputUse use) {
     return "program";
 }
 
-/// Inputs 0, 1 and 2 of each device have the switches of its motor: the limit switches and the home switch.
+/// Inputs 0, 1 and 2 of a motor's device have its switches: the limit switches and the home switch. A board has none.
 inline constexpr int kSwitchInputs = 3;
 
 struct InputConfig {

@@ -168,6 +168,7 @@ DeviceSetup setup_of(const MachineConfig& machine, const MotorConfig& motor) {
                       .direction_inverted = pins.direction_inverted,
                       .enable_inverted = pins.enable_inverted,
                       .stop = inputs_with(machine, motor.name, InputUse::EmergencyStop)};
+    if (motor.is_board()) { setup.limit_min = setup.limit_max = setup.home = 0; }
     for (const OutputConfig& output : machine.outputs) {
         if (output.motor == motor.name) { add_output(output, machine.tick_ns, setup); }
     }

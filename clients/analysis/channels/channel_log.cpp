@@ -32,6 +32,11 @@ std::string value_text(const ChannelChange& change) {
     return change.kind == ChannelKind::Input ? (is_one ? "closed" : "open") : (is_one ? "on" : "off");
 }
 
+bool is_of_board(const ChannelChange& change, const MachineConfig* machine) {
+    const auto is_it = [&](const BoardConfig& board) { return board.name == change.motor; };
+    return machine != nullptr && std::ranges::any_of(machine->boards, is_it);
+}
+
 }  // namespace
 
 void ChannelLog::take(const channel_event_t& message) {
@@ -144,11 +149,10 @@ std::optional<std::string> name_of(const ChannelChange& change, const MachineCon
 std::string channel_text(const ChannelChange& change, const MachineConfig* machine) {
     constexpr std::array kSwitches{"lower limit switch", "upper limit switch", "home switch"};
     static_assert(kSwitches.size() == kSwitchInputs);
-    if (change.kind == ChannelKind::Input && change.channel < kSwitchInputs) {
-        return kSwitches[static_cast<std::size_t>(change.channel)];
-    }
-    const auto name = machine != nullptr ? name_of(change, *machine) : std::nullopt;
-    return name.value_or(fmt::format("{} {}", kind_text(change.kind), change.channel));
+    if (const auto name = machine != nullptr ? name_of(change, *machine) : std::nullopt) { return *name; }
+    const bool is_switch = change.kind == ChannelKind::Input && change.channel < kSwitchInputs;
+    if (is_switch && !is_of_board(change, machine)) { return kSwitches[static_cast<std::size_t>(change.channel)]; }
+    return fmt::format("{} {}", kind_text(change.kind), change.channel);
 }
 
 std::string change_text(const ChannelChange& change, const MachineConfig* machine) {

@@ -75,14 +75,14 @@ private:
     }
 
     void check_channel(const InputConfig& input, const MotorConfig& motor, Inputs before, const std::string& key) {
+        const int first = motor.is_board() ? 0 : kSwitchInputs;
         const int last = last_channel(motor);
         const DeviceOwner owner{input.motor, input.at_board};
-        problems_.require(
-            input.channel >= kSwitchInputs && input.channel <= last, key,
-            fmt::format("{} is {}; it must be from {} to {}: inputs 0, 1 and 2 have the switches of {}, and its device "
-                        "has {} at most",
-                        key, input.channel, kSwitchInputs, last, motor.is_board() ? "a motor" : owner.text(),
-                        last + 1));
+        const std::string switches =
+            motor.is_board() ? "" : fmt::format("inputs 0, 1 and 2 have the switches of {}, and ", owner.text());
+        problems_.require(input.channel >= first && input.channel <= last, key,
+                          fmt::format("{} is {}; it must be from {} to {}: {}its device has {} at most", key,
+                                      input.channel, first, last, switches, last + 1));
         const auto other = std::ranges::find_if(
             before, [&](const InputConfig& one) { return one.motor == input.motor && one.channel == input.channel; });
         problems_.require(other == before.end(), key,

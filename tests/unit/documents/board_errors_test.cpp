@@ -58,9 +58,8 @@ TEST(Boards, WrongValuesAreRefusedWithPlaceValueAndRemedy) {
         {with_blocks({kIo, kAir, R"(output { name: "a" board: "IO" })"}),
          "digital output 0 of board IO is given twice"},
         {with_blocks({kIo, kAir, R"(output { name: "a" board: "IO" channel: 16 })"}), "from 0 to 15"},
-        {with_blocks({kIo, R"(input { name: "a" board: "IO" channel: 2 use: DOOR })"}),
-         "input[0].channel is 2; it must be from 3 to 7: inputs 0, 1 and 2 have the switches of a motor, and its "
-         "device has 8 at most"},
+        {with_blocks({kIo, R"(input { name: "a" board: "IO" channel: 8 use: DOOR })"}),
+         "input[0].channel is 8; it must be from 0 to 7: its device has 8 at most"},
         {with_blocks({kIo, R"(input { name: "io" board: "IO" channel: 3 use: DOOR })"}),
          "io names an axis, a motor, a board or another input already"},
         {with_blocks({kIo, R"(input { name: "a" board: "IO" channel: 3 use: DOOR })",
@@ -90,6 +89,17 @@ TEST(Boards, ThatAreWrittenAreReadAgain) {
     EXPECT_EQ(again->outputs, read->outputs);
     EXPECT_EQ(again->inputs, read->inputs);
     EXPECT_EQ(config_hash(*again), config_hash(*read));
+}
+
+TEST(Boards, HaveNoSwitchesSoThatInputs0To2AreAsTheOthers) {
+    const auto read = parse_machine(with_blocks({kIo, R"(input { name: "a" board: "IO" channel: 0 use: DOOR })",
+                                                 R"(input { name: "b" board: "IO" channel: 2 use: EMERGENCY_STOP })"}));
+    ASSERT_TRUE(read) << to_text("m", read.error());
+    const auto motors = motors_of(*read);
+    const DeviceSetup setup = setup_of(*read, motors.back());
+    EXPECT_EQ(setup.limit_min | setup.limit_max | setup.home, 0U);
+    EXPECT_EQ(setup.stop, 1U << 2);
+    EXPECT_EQ(setup_of(*read, motors.front()).home, 1U << 2);
 }
 
 TEST(Boards, AreAPartOfTheConfigurationsHash) {

@@ -19,8 +19,8 @@ constexpr double kNear_mm = 0.2;  // the test looks every few milliseconds
 MachineConfig with_board(MachineConfig machine = small_machine()) {
     machine.boards = {{.name = "IO", .host = "", .device = {}}};
     machine.outputs = {{.name = "air", .motor = "IO", .at_board = true, .channel = 4, .number = 3}};
-    machine.inputs = {{.name = "stop", .motor = "IO", .at_board = true, .channel = 3, .use = InputUse::EmergencyStop},
-                      {.name = "door", .motor = "IO", .at_board = true, .channel = 5, .use = InputUse::Door}};
+    machine.inputs = {{.name = "stop", .motor = "IO", .at_board = true, .channel = 1, .use = InputUse::EmergencyStop},
+                      {.name = "door", .motor = "IO", .at_board = true, .channel = 2, .use = InputUse::Door}};
     return machine;
 }
 
