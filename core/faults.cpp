@@ -76,6 +76,15 @@ std::string remedy_text(const FaultText& fault, RemedyWords words) {
     return text;
 }
 
+FaultText for_board(FaultText fault) {
+    if (is_emergency_stop(fault.code)) { return fault; }
+    Remedies& remedies = fault.remedies;
+    const auto end = remedies.steps.begin() + static_cast<std::ptrdiff_t>(remedies.count);
+    remedies.count =
+        static_cast<std::size_t>(std::remove(remedies.steps.begin(), end, Remedy::Home) - remedies.steps.begin());
+    return fault;
+}
+
 const FaultText* find_fault(FaultCode code) {
     const auto* found =
         std::find_if(kFaults.begin(), kFaults.end(), [&](const FaultText& f) { return f.code == code; });

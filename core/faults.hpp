@@ -175,6 +175,10 @@ std::string words_to_fill_in(Remedy remedy);
 /// Text for a person: what to check by hand, then the actions.
 std::string remedy_text(const FaultText& fault, RemedyWords words = plain_words);
 
+/// The fault of a board. A board is never homed, and the axes come to rest on their path and keep their positions. So
+/// it has no remedy Home, unless it is an emergency stop, which may stop them in motion.
+FaultText for_board(FaultText fault);
+
 /// False for None, and for faults of the whole machine, which belong to no single axis.
 constexpr bool is_of_an_axis(FaultCode code) {
     return code != FaultCode::None && code != FaultCode::EmergencyStopped && code != FaultCode::FrameLate &&

@@ -49,6 +49,14 @@ struct ChangeWords {
     std::uint64_t value = 0;
     std::uint64_t slope = 0;
 };
+/// The word and the field in it that show an analog output.
+constexpr std::size_t kAnalogInWord = 4;
+constexpr std::size_t analog_word(std::size_t channel) { return kAnalogLower + channel / kAnalogInWord * 8; }
+constexpr RegisterField analog_field(std::size_t channel) {
+    return {static_cast<unsigned>(channel % kAnalogInWord) * 16, 16};
+}
+static_assert(analog_word(7) == kAnalogUpper && analog_field(7).low == kAnalogUpperOutput7.low);
+
 ChangeWords words_of(const SetDigital& change) { return {ChangeKind::Digital, 0, word_of(change), 0}; }
 ChangeWords words_of(const RampAnalog& change) {
     return {ChangeKind::Analog, change.channel, signed_word(change.value), signed_word(change.slope)};
@@ -167,6 +175,22 @@ std::optional<OutputChange> load_change(const RegisterWindow& window, std::size_
             return change;
     }
     return std::nullopt;
+}
+
+void store_analog(RegisterWindow& window, const AnalogLevels& levels) {
+    for (std::size_t n = 0; n < levels.size(); n += kAnalogInWord) {
+        std::uint64_t word = 0;
+        for (std::size_t i = n; i < n + kAnalogInWord; ++i) { word |= analog_field(i).word(levels[i]); }
+        window.store(analog_word(n), word);
+    }
+}
+
+AnalogLevels load_analog(const RegisterWindow& window) {
+    AnalogLevels levels;
+    for (std::size_t n = 0; n < levels.size(); ++n) {
+        levels[n] = static_cast<std::uint16_t>(analog_field(n).of(window.load(analog_word(n))));
+    }
+    return levels;
 }
 
 void store_event(RegisterWindow& window, std::size_t at, const ChannelEvent& event) {

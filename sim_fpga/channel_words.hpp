@@ -33,6 +33,10 @@ bool is_of_tail(const RegisterWindow& window, std::size_t at);
 /// Returns nullopt if the entry is of an unknown kind.
 std::optional<OutputChange> load_change(const RegisterWindow& window, std::size_t at);
 
+/// What the analog outputs show now.
+void store_analog(RegisterWindow& window, const AnalogLevels& levels);
+AnalogLevels load_analog(const RegisterWindow& window);
+
 void store_event(RegisterWindow& window, std::size_t at, const ChannelEvent& event);
 /// Returns nullopt if the entry is of an unknown kind.
 std::optional<ChannelEvent> load_event(const RegisterWindow& window, std::size_t at);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "sim_fpga/channel_words.hpp"
+
 namespace lockstep {
 
 using namespace registers;
@@ -98,10 +100,11 @@ bool Channels::is_intact() const {
     return events <= abilities_.event_entries && changes <= abilities_.output_entries;
 }
 
-void Channels::publish() {
+void Channels::publish(Tick now) {
     window_.store(kInputs, inputs_.closed());
     window_.store(kOutputs, outputs_.digital());
     window_.store(kPulsesLeft, outputs_.pulses_left());
+    store_analog(window_, outputs_.analog(now));
     window_.store(kOutputTail, ring_.taken());
     window_.store(kEventHead, events_.head());
     window_.store(kEventLost, events_.lost());

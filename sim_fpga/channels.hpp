@@ -56,7 +56,7 @@ public:
     bool is_host_silent() const { return host_.is_silent(); }
     const OutputUnit& outputs() const { return outputs_; }
     bool is_intact() const;
-    void publish();
+    void publish(Tick now);
 
 private:
     void look(std::uint32_t pins, const DevicePlace& at);

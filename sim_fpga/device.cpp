@@ -318,7 +318,7 @@ void SimulatedDevice::publish() {
     window_.store(kCaptureSum, capture_.sum());
     window_.store(kCaptureSums, capture_.sums());
     window_.store(kSetup, setup_taken_);
-    channels_.publish();
+    channels_.publish(engine_.now());
     window_.store(kSequence, ++sequence_);
 }
 

@@ -97,4 +97,10 @@ std::uint16_t OutputUnit::digital() const {
 
 std::int64_t OutputUnit::analog(std::size_t channel, Tick now) const { return ramps_[channel].at(now); }
 
+AnalogLevels OutputUnit::analog(Tick now) const {
+    AnalogLevels levels;
+    for (std::size_t n = 0; n < levels.size(); ++n) { levels[n] = analog_level(analog(n, now)); }
+    return levels;
+}
+
 }  // namespace lockstep

@@ -41,6 +41,7 @@ public:
     std::uint32_t pulses_left() const { return pulses_left_; }
     /// What the output shows after tick `now`, from 0 to kFullScale.
     std::int64_t analog(std::size_t channel, Tick now) const;
+    AnalogLevels analog(Tick now) const;
 
 private:
     /// A value that changes by its slope with each tick, and stays at 0 or full scale when it gets there.

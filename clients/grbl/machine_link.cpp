@@ -207,6 +207,9 @@ MachineView MachineLink::view() {
     view.closed_inputs = letters_of_inputs(session_.config(), [this](std::size_t motor) {
         return session_.motor(motor) ? session_.motor(motor)->state.inputs : 0;
     });
+    view.accessories = letters_of_outputs(session_.config(), view.devices, [this](std::size_t motor) {
+        return session_.motor(motor) ? &session_.motor(motor)->state : nullptr;
+    });
     view.is_received = is_received;
     if (const auto way = way_back(session_)) { view.way_back = text_of_way(*way); }
     if (const auto values = session_.newest_values()) { values_ = values->values; }

@@ -71,7 +71,12 @@ proto::FaultReport motor_fault(FaultCode fault, const Kinematics& kinematics, st
     const std::string& name = kinematics.motors()[motor].name;
     if (kinematics.is_named_as_axis(motor)) { return fault_report(fault, name); }
     proto::FaultReport report = fault_report(fault, "");
-    kinematics.motors()[motor].is_board() ? report.set_board(name) : report.set_motor(name);
+    if (!kinematics.motors()[motor].is_board()) {
+        report.set_motor(name);
+        return report;
+    }
+    report.set_board(name);
+    if (const FaultText* text = find_fault(fault)) { report.set_remedy(remedy_text(for_board(*text), shell_words)); }
     return report;
 }
 
@@ -153,6 +158,7 @@ std::optional<proto::PauseReport> pause_report(const Session& session) {
     if (pause.why.reason == PauseReason::ToolChange) { report.set_tool(pause.why.tool); }
     report.set_message(pause.why.text);
     report.set_text(text_of(pause.why));
+    if (pause.why.reason == PauseReason::Input) { report.set_wait_left_s(pause.wait_left_s); }
     const auto& axes = session.config().axes;
     for (std::size_t i = 0; i < std::min(axes.size(), pause.place.size()); ++i) {
         *report.add_place() = place_of(axes[i], pause.place[i]);
@@ -258,10 +264,10 @@ proto::StatusReport status_report(const Session& session) {
         return session.motor(motor) ? std::optional(session.motor(motor)->state.inputs) : std::nullopt;
     };
     add_inputs(machine, closed_of, report);
-    const auto on_of = [&](std::size_t motor) {
-        return session.motor(motor) ? std::optional(session.motor(motor)->state.outputs) : std::nullopt;
+    const auto state_of = [&](std::size_t motor) {
+        return session.motor(motor) ? &session.motor(motor)->state : nullptr;
     };
-    add_outputs(machine, on_of, session.state() ? &session.state()->state.devices : nullptr, report);
+    add_outputs(machine, state_of, session.state() ? &session.state()->state : nullptr, report);
     return report;
 }
 

@@ -99,7 +99,7 @@ std::string process_lines(const proto::StatusReport& status) {
 std::string pause_lines(const proto::StatusReport& status) {
     if (!status.has_pause()) { return ""; }
     const proto::PauseReport& pause = status.pause();
-    std::string text = wrapped("paused: " + pause.text(), 80, "  ") + "\n";
+    std::string text = wrapped("paused: " + paused_text(pause), 80, "  ") + "\n";
     if (pause.has_way_back()) { text += wrapped("axes were moved; way back: " + pause.way_back(), 80, "  ") + "\n"; }
     return text + "in the pause: lockstep jog, lockstep touch; continue: lockstep resume; end the job: lockstep stop\n";
 }
@@ -173,6 +173,11 @@ std::string overrides_text(const proto::StatusReport& status) {
     const bool as_programmed = status.feed_override_percent() == 100 && status.rapid_override_percent() == 100;
     if (!status.has_feed_override_percent() || as_programmed) { return ""; }
     return fmt::format("feed {} %, rapid {} %", status.feed_override_percent(), status.rapid_override_percent());
+}
+
+std::string paused_text(const proto::PauseReport& pause) {
+    if (!pause.has_wait_left_s()) { return pause.text(); }
+    return fmt::format("{} ({:.1f} s left)", pause.text(), pause.wait_left_s());
 }
 
 std::string devices_text(const proto::StatusReport& status) {

@@ -18,6 +18,8 @@ std::string writer_text(const proto::StatusReport& status);
 std::string overrides_text(const proto::StatusReport& status);
 /// "spindle forward 12000 rpm, flood, tool 3, outputs 0 2"; empty if the status has no devices.
 std::string devices_text(const proto::StatusReport& status);
+/// "change to tool 2: 6 mm end mill", "waits for an input: until clamp is closed (6.2 s left)"
+std::string paused_text(const proto::PauseReport& pause);
 /// One line: "[######              ]  30 %  line 12  4.2 s left".
 std::string progress_bar(const proto::StatusReport& status);
 /// One line without the bar: "Running: 30 %, line 12, 4.2 s left".

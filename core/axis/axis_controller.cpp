@@ -268,7 +268,8 @@ AxisState AxisController::state(const AxisLoop& loop, Ticks clock_error) const {
             .switches = {device.limit_min, device.limit_max, device.home},
             .inputs = device.inputs,
             .outputs = device.outputs,
-            .pulses_left = device.pulses_left};
+            .pulses_left = device.pulses_left,
+            .analog = device.analog};
 }
 
 }  // namespace lockstep

@@ -65,6 +65,8 @@ std::optional<AxisState> axis_state_of(std::size_t axis, const Kinematics& kinem
             state->switches = {};
             state->inputs = {};  // those of its motors, which are different devices
             state->outputs = {};
+            state->pulses_left = {};
+            state->analog = {};
         }
         if (has_axis(own, m)) { state->switches = any_of(state->switches, motor.switches); }
         if (state->fault == FaultCode::None && motor.fault != FaultCode::None) {

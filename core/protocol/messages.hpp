@@ -129,6 +129,7 @@ struct AxisState {
     std::uint32_t inputs = 0;       // all closed inputs of its device; input n is bit n
     std::uint16_t outputs = 0;      // all digital outputs of its device that are on; output n is bit n
     std::uint32_t pulses_left = 0;  // of the newest places at its device: so many were not made, so far
+    AnalogLevels analog{};          // what the analog outputs of its device show
     bool operator==(const AxisState&) const = default;
 };
 
@@ -214,6 +215,7 @@ struct FrameRest {
 struct MachinePause {
     Pause why;
     StaticVector<std::int64_t, kMaxAxes> place;  // of each axis of the machine, in steps: where the job goes on
+    double wait_left_s = 0;                      // Input: until the wait times out
     bool operator==(const MachinePause&) const = default;
 };
 

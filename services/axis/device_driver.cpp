@@ -268,6 +268,7 @@ DeviceStatus DeviceDriver::read_words() const {
         .inputs = static_cast<std::uint32_t>(window_.load(kInputs)),
         .outputs = static_cast<std::uint16_t>(window_.load(kOutputs)),
         .pulses_left = static_cast<std::uint32_t>(window_.load(kPulsesLeft)),
+        .analog = load_analog(window_),
         .enabled = has(kStatusEnabled),
         .bad_setup = has(kStatusBadSetup),
         .host_silent = has(kStatusHostSilent),

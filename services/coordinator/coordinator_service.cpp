@@ -194,6 +194,11 @@ private:
         return std::string(text.cause) + ": " + labels_of(machine_, motor, InputUse::EmergencyStop);
     }
 
+    std::string remedy_of(const CoordinatorNotice& fault, const FaultText& text) const {
+        const bool is_of_board = is_of_an_axis(fault.fault) && fault.number >= moving_motor_count(machine_);
+        return remedy_text(is_of_board ? for_board(text) : text);
+    }
+
     void log_notice(const CoordinatorNotice& notice) const {
         using Kind = CoordinatorNotice::Kind;
         switch (notice.kind) {
@@ -243,9 +248,10 @@ private:
                     notice.number);
             case Kind::Fault: {
                 const FaultText* text = find_fault(notice.fault);
-                return log_event(spdlog::level::err, notice.fault,
-                                 label_of(notice.number) + ": " +
-                                     (text == nullptr ? "" : cause_of(notice, *text) + "; " + remedy_text(*text)));
+                return log_event(
+                    spdlog::level::err, notice.fault,
+                    label_of(notice.number) + ": " +
+                        (text == nullptr ? "" : cause_of(notice, *text) + "; " + remedy_of(notice, *text)));
             }
         }
     }

@@ -71,7 +71,8 @@ void Grbl::see(const MachineView& view) {
         const FaultText* text = find_fault(view.fault);
         if (text != nullptr) {
             const std::string place = view.fault_place.empty() ? "" : view.fault_place + ": ";
-            say_message(fmt::format("{}{}: {}; {}", place, text->name, text->cause, remedy_text(*text, sender_words)));
+            const FaultText fault = view.is_fault_of_board ? for_board(*text) : *text;
+            say_message(fmt::format("{}{}: {}; {}", place, fault.name, fault.cause, remedy_text(fault, sender_words)));
         }
         modes_.is_unlocked = false;
         lines_.reset();

@@ -4,6 +4,8 @@
 
 #include "core/kinematics/kinematics.hpp"
 #include "core/kinematics/motor_inputs.hpp"
+#include "core/kinematics/motors.hpp"
+#include "core/outputs/reported_outputs.hpp"
 
 namespace lockstep::grbl {
 
@@ -14,7 +16,9 @@ MachineView view_of(const MachineConfig& machine, const MachineState& state, con
     view.phase = state.phase;
     view.fault = state.fault;
     if (state.fault != FaultCode::None && state.fault_axis && *state.fault_axis < motor_count(machine)) {
-        view.fault_place = Kinematics(machine).label(*state.fault_axis);
+        const Kinematics kinematics(machine);
+        view.fault_place = kinematics.label(*state.fault_axis);
+        view.is_fault_of_board = kinematics.motors()[*state.fault_axis].is_board();
     }
     view.line = state.line;
     view.overrides = state.overrides;
@@ -45,6 +49,28 @@ std::string letters_of_inputs(const MachineConfig& machine,
     std::string letters;
     if (inputs.closed(InputUse::Door, closed_of)) { letters += 'D'; }
     if (inputs.closed(InputUse::EmergencyStop, closed_of)) { letters += 'E'; }
+    return letters;
+}
+
+std::string letters_of_outputs(const MachineConfig& machine, const ProgramDevices& asked,
+                               const std::function<const AxisState*(std::size_t motor)>& state_of) {
+    const auto is_on = [&](OutputUse use, bool is_asked) {
+        bool has_output = false;
+        for (const OutputConfig& output : machine.outputs) {
+            if (output.use != use) { continue; }
+            has_output = true;
+            const auto motor = motor_named(machine, output.motor);
+            const AxisState* const device = motor ? state_of(*motor) : nullptr;
+            if (device != nullptr && reports_active(output, *device)) { return true; }
+        }
+        return !has_output && is_asked;
+    };
+    const bool turns = is_on(OutputUse::Spindle, asked.spindle != ProgramDevices::Spindle::Stopped);
+    const bool is_reverse = is_on(OutputUse::SpindleReverse, asked.spindle == ProgramDevices::Spindle::Reverse);
+    std::string letters;
+    if (turns) { letters += is_reverse ? 'C' : 'S'; }
+    if (is_on(OutputUse::Flood, asked.flood)) { letters += 'F'; }
+    if (is_on(OutputUse::Mist, asked.mist)) { letters += 'M'; }
     return letters;
 }
 

@@ -28,7 +28,8 @@ struct MachineView {
     bool is_received = false;  // the coordinator and every axis are received; else the other fields are meaningless
     MachinePhase phase = MachinePhase::Waiting;
     FaultCode fault = FaultCode::None;
-    std::string fault_place;           // whose fault it is: "axis X", "motor Y2"; empty: no single motor's
+    std::string fault_place;  // whose fault it is: "axis X", "motor Y2"; empty: no single motor's
+    bool is_fault_of_board = false;
     std::vector<AxisPlace> axes;       // in the configuration's order
     double feed_mm_min = 0;            // of all axes together, now
     std::string closed_inputs;         // D: a door is open; E: an emergency stop is closed
@@ -36,6 +37,7 @@ struct MachineView {
     std::optional<std::int32_t> line;  // of the program in motion, or the N word of the sender's line
     Overrides overrides;
     ProgramDevices devices;
+    std::string accessories;  // S, C: the spindle turns, forward or reverse; F: flood; M: mist
     gcode::KeptValues values;
     std::optional<Pause> pause;  // the job waits for a person
     std::string way_back;        // to the place of the pause; empty if the axes are there
@@ -56,5 +58,10 @@ MachineView view_of(const MachineConfig& machine, const MachineState& state, con
 /// the closed inputs of a motor's device, by the motor's number; 0 if it was not received.
 std::string letters_of_inputs(const MachineConfig& machine,
                               const std::function<std::uint32_t(std::size_t motor)>& closed_of);
+
+/// The letters of `A`: of the outputs that devices report as on. What no output switches is as the program asks.
+/// `state_of`: of a motor, by its number; nullptr if it was not received.
+std::string letters_of_outputs(const MachineConfig& machine, const ProgramDevices& asked,
+                               const std::function<const AxisState*(std::size_t motor)>& state_of);
 
 }  // namespace lockstep::grbl

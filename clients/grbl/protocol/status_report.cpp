@@ -62,16 +62,6 @@ bool is_in_program(State state) { return state == State::Run || state == State::
 
 int reports_until(const Cadence& cadence, State state) { return (is_busy(state) ? cadence.busy : cadence.idle) - 1; }
 
-/// The letters of the field A; empty if all devices are off.
-std::string accessories_of(const ProgramDevices& devices) {
-    std::string letters;
-    if (devices.spindle == ProgramDevices::Spindle::Forward) { letters += 'S'; }
-    if (devices.spindle == ProgramDevices::Spindle::Reverse) { letters += 'C'; }
-    if (devices.flood) { letters += 'F'; }
-    if (devices.mist) { letters += 'M'; }
-    return letters;
-}
-
 }  // namespace
 
 State state_of(const MachineView& view, const Modes& modes) {
@@ -111,7 +101,7 @@ std::string StatusReport::text(const MachineView& view, State state, const std::
             number(view.devices.spindle_rpm, 0);
     const std::string closed = view.closed_switches + view.closed_inputs;
     if (!closed.empty()) { text += "|Pn:" + closed; }
-    const std::string accessories = accessories_of(view.devices);
+    const std::string& accessories = view.accessories;
     if (offset_mm != offset_mm_) { offsets_due_ = 0; }
     if (view.overrides.feed_percent != overrides_.feed_percent ||
         view.overrides.rapid_percent != overrides_.rapid_percent || accessories != accessories_) {

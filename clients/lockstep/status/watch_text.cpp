@@ -87,7 +87,7 @@ std::string place_text(const proto::AxisStatus& axis) {
 std::string title_row() { return "axis       position mm     mm/s  state      setpoint slack    ms late us loop us"; }
 
 std::string job_row(const proto::StatusReport& status, Ink ink) {
-    if (status.has_pause()) { return painted(cut("paused: " + status.pause().text(), kColumns), kWarning, ink); }
+    if (status.has_pause()) { return painted(cut("paused: " + paused_text(status.pause()), kColumns), kWarning, ink); }
     if (!status.has_progress()) { return painted("no job in motion", kFaint, ink); }
     return progress_bar(status);
 }
@@ -145,7 +145,7 @@ std::string watch_line(const proto::StatusReport& status, const SlackScale& scal
         const auto& health = axis->health();
         if (health.has_setpoint_slack_ms()) { text += " slack " + fixed(health.setpoint_slack_ms().min(), 0) + " ms"; }
     }
-    if (status.has_pause()) { text += "; paused: " + status.pause().text(); }
+    if (status.has_pause()) { text += "; paused: " + paused_text(status.pause()); }
     if (status.has_devices()) { text += "; " + devices_text(status); }
     if (const std::string closed = closed_inputs_text(status); !closed.empty()) {
         text += "; closed inputs: " + closed;

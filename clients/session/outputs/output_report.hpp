@@ -1,27 +1,25 @@
-// The machine's outputs in the status: the levels of their pins, and what programs ask for.
+// The machine's outputs in the status: what their devices report, and what programs ask for.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <functional>
-#include <optional>
 #include <string>
 
 #include "core/machine.hpp"
-#include "core/program_devices.hpp"
+#include "core/protocol/messages.hpp"
 #include "idl/proto/report.pb.h"
 
 namespace lockstep {
 
-/// The digital outputs of a motor's device that are on, by the motor's number; nullopt if it was never received.
-using OutputsOn = std::function<std::optional<std::uint16_t>(std::size_t motor)>;
+/// The newest state of a motor, by its number; nullptr if it was never received.
+using StateOfMotor = std::function<const AxisState*(std::size_t motor)>;
 
-/// Adds the outputs in the order of the machine's file. `asked`: what the words of programs ask for; nullptr if it is
-/// not known. A device does not report the values of its analog outputs.
-void add_outputs(const MachineConfig& machine, const OutputsOn& on_of, const ProgramDevices* asked,
+/// Adds the outputs in the order of the machine's file. `state`: of the coordinator; nullptr if it was never received.
+void add_outputs(const MachineConfig& machine, const StateOfMotor& state_of, const MachineState* state,
                  proto::StatusReport& report);
 
-/// "air on, marker off (program: on), laser 30 % (program)": those that are on, and those where the pin and the program
-/// differ.
+/// "air on, marker off (program: on), laser 12 % (program: 30 %), camera 7 of 100 pulses left": those that are on, and
+/// those where the device and the program differ.
 std::string outputs_text(const proto::StatusReport& status);
 
 }  // namespace lockstep

@@ -131,14 +131,15 @@ const AxisState* state_of(const std::string& motor, const std::vector<Served>& a
 }
 
 json fault_json(FaultCode fault, const FaultPlace& place) {
-    const FaultText* text = find_fault(fault);
+    const FaultText* const text = find_fault(fault);
+    const auto remedy = [&] { return remedy_text(place.board.empty() ? *text : for_board(*text), words_to_fill_in); };
     return {{"number", static_cast<int>(fault)},
             {"code", name_of(fault)},
             {"axis", name_or_null(place.axis)},
             {"motor", name_or_null(place.motor)},
             {"board", name_or_null(place.board)},
             {"cause", text == nullptr ? "unknown" : text->cause},
-            {"remedy", text == nullptr ? "see the logs" : remedy_text(*text, words_to_fill_in)}};
+            {"remedy", text == nullptr ? "see the logs" : remedy()}};
 }
 
 json alarm_list(const Snapshot& snapshot, const MachineConfig& machine) {

@@ -70,13 +70,18 @@ json inputs_json(const MachineConfig& machine) {
     return inputs;
 }
 
+const char* kind_of(const OutputConfig& output) {
+    if (output.makes_pulses()) { return "pulses"; }
+    return output.is_analog() ? "analog" : "digital";
+}
+
 json outputs_json(const MachineConfig& machine) {
     json outputs = json::array();
     for (const OutputConfig& output : machine.outputs) {
         outputs.push_back({{"name", output.name},
                            {"motor", owner_json(output, false)},
                            {"board", owner_json(output, true)},
-                           {"kind", output.is_analog() ? "analog" : "digital"}});
+                           {"kind", kind_of(output)}});
     }
     return outputs;
 }

@@ -40,9 +40,11 @@ json pause_document(const Snapshot& snapshot, const MachineConfig& machine) {
     if (!snapshot.machine || !snapshot.machine->value.pause) { return {}; }
     const MachinePause& pause = *snapshot.machine->value.pause;
     const bool has_tool = pause.why.reason == PauseReason::ToolChange;
+    const bool waits = pause.why.reason == PauseReason::Input;
     return {{"reason", name_of(pause.why.reason)},
             {"tool", has_tool ? json(pause.why.tool) : json()},
             {"message", pause.why.text},
+            {"wait_left_s", waits ? json(rounded(pause.wait_left_s, 1)) : json()},
             {"way", way_json(snapshot, pause, machine)}};
 }
 

@@ -37,6 +37,7 @@ struct DeviceStatus {
     std::uint32_t inputs = 0;         // the inputs that are closed; input n is bit n
     std::uint16_t outputs = 0;        // the digital outputs that are on
     std::uint32_t pulses_left = 0;    // of the newest places: so many were not made, so far or when they ended
+    AnalogLevels analog{};            // what its analog outputs show
     bool enabled = false;             // the motor is enabled
     bool bad_setup = false;           // the device does not take the setup that it was given
     bool host_silent = false;         // the device heard no beat for the time of its setup

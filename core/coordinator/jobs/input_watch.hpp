@@ -1,6 +1,7 @@
 // The wait of a program for an input, from the rest at its place on.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -17,6 +18,8 @@ public:
     InputWatch(InputMode mode, Slot since, Tick until) : mode_(mode), since_(since), until_(until) {}
 
     Slot since() const { return since_; }
+    /// How long until it times out.
+    Ticks left(Tick now) const { return std::max(until_ - now, Ticks{}); }
     /// Call it once a slot. `is_closed`: the input's newest level; nullopt: none is known yet.
     Result look(std::optional<bool> is_closed, Tick now) {
         const std::optional<bool> before = was_closed_;

@@ -108,11 +108,13 @@ bool are_orders_done(const CoordinatorLoop& loop) {
 }
 
 /// Reuses the memory of the last state's pause.
-void report_pause(const activity::Paused* pause, MachineState& state) {
+void report_pause(const activity::Paused* pause, MachineState& state, const LoopView& loop) {
     if (pause == nullptr) { return state.pause.reset(); }
     if (!state.pause) { state.pause.emplace(); }
     state.pause->why = pause->why;
     state.pause->place = pause->task.from;
+    const Ticks left = pause->watch ? pause->watch->left(loop.now) : Ticks{};
+    state.pause->wait_left_s = static_cast<double>(left.value) / loop.machine.ticks_per_second();
 }
 
 void report_on_path(const activity::OnPath& moving, const PathRunner& path, MachineState& state, const LoopView& loop) {
@@ -191,7 +193,7 @@ void report_job(const JobLifecycle& jobs, MachineState& state, const LoopView& l
     state.job_fault = count.fault();
     jobs.path().report_epoch(state);
     const auto* const paused = activity.as<activity::Paused>();
-    report_pause(paused != nullptr ? paused : activity.pause(), state);
+    report_pause(paused != nullptr ? paused : activity.pause(), state, loop);
     if (const MachineState* const inherited = activity.inherited()) {
         state.line = inherited->line;
         state.progress = inherited->progress;

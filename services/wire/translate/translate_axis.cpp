@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "core/if_positive.hpp"
 #include "services/wire/translate/checks.hpp"
 #include "services/wire/translate/translate.hpp"
@@ -19,6 +21,15 @@ std::uint16_t to_bits(const Switches& switches) {
                                       (switches.limit_max ? kLimitMaxBit : 0) | (switches.home ? kHomeBit : 0));
 }
 
+AnalogLevels analog_of(const lockstep_wire_AxisState& wire, Checks& check) {
+    AnalogLevels levels;
+    std::ranges::copy(wire.analog, levels.begin());
+    for (const std::uint16_t level : levels) {
+        check.within<std::uint16_t>("the level of an analog output", level, 0, kFullAnalogLevel);
+    }
+    return levels;
+}
+
 }  // namespace
 
 // The enumerations on the wire have the same order as those in core.
@@ -26,36 +37,39 @@ static_assert(lockstep_wire_AXIS_FAULT == static_cast<int>(AxisPhase::Fault));
 static_assert(lockstep_wire_AXIS_APPROACH == static_cast<int>(AxisCommandKind::Approach));
 
 lockstep_wire_AxisState to_wire(const AxisState& state) {
-    return {.axis = state.axis,
-            .identity = state.identity,
-            .stamp = state.stamp,
-            .epoch = state.epoch,
-            .held = state.held,
-            .has_veto = state.veto.has_value(),
-            .veto = state.veto.value_or(0),
-            .ran = state.ran,
-            .at_rest = state.at_rest,
-            .homed = state.homed,
-            .phase = static_cast<lockstep_wire_AxisPhase>(state.phase),
-            .fault = static_cast<std::uint16_t>(state.fault),
-            .position_count = state.position.count(),
-            .position_phase = state.position.phase(),
-            .velocity = state.velocity.raw,
-            .tick = state.tick.value,
-            .following_error_steps = state.following_error_steps,
-            .command_done = state.command_done,
-            .command_fault = static_cast<std::uint16_t>(state.command_fault),
-            .config_hash = state.config_hash,
-            .refused_frames = state.refused_frames,
-            .clock_error_ticks = state.clock_error.value,
-            .term = state.term.number,
-            .coordinator = state.term.coordinator,
-            .hears_owner = state.hears_owner,
-            .unproved = static_cast<std::uint16_t>(state.unproved),
-            .switches = to_bits(state.switches),
-            .inputs = state.inputs,
-            .outputs = state.outputs,
-            .pulses_left = state.pulses_left};
+    lockstep_wire_AxisState wire = {.axis = state.axis,
+                                    .identity = state.identity,
+                                    .stamp = state.stamp,
+                                    .epoch = state.epoch,
+                                    .held = state.held,
+                                    .has_veto = state.veto.has_value(),
+                                    .veto = state.veto.value_or(0),
+                                    .ran = state.ran,
+                                    .at_rest = state.at_rest,
+                                    .homed = state.homed,
+                                    .phase = static_cast<lockstep_wire_AxisPhase>(state.phase),
+                                    .fault = static_cast<std::uint16_t>(state.fault),
+                                    .position_count = state.position.count(),
+                                    .position_phase = state.position.phase(),
+                                    .velocity = state.velocity.raw,
+                                    .tick = state.tick.value,
+                                    .following_error_steps = state.following_error_steps,
+                                    .command_done = state.command_done,
+                                    .command_fault = static_cast<std::uint16_t>(state.command_fault),
+                                    .config_hash = state.config_hash,
+                                    .refused_frames = state.refused_frames,
+                                    .clock_error_ticks = state.clock_error.value,
+                                    .term = state.term.number,
+                                    .coordinator = state.term.coordinator,
+                                    .hears_owner = state.hears_owner,
+                                    .unproved = static_cast<std::uint16_t>(state.unproved),
+                                    .switches = to_bits(state.switches),
+                                    .inputs = state.inputs,
+                                    .outputs = state.outputs,
+                                    .pulses_left = state.pulses_left,
+                                    .analog = {}};
+    std::ranges::copy(state.analog, wire.analog);
+    return wire;
 }
 
 FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
@@ -69,6 +83,7 @@ FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
     check.within<std::uint64_t>("command_done", wire.command_done, 0, kMostOrders);
     check.within<std::int64_t>("clock_error_ticks", wire.clock_error_ticks, 0, kLongestClockError);
     const AxisPhase phase = check.choice("phase", wire.phase, AxisPhase::Fault);
+    const AnalogLevels analog = analog_of(wire, check);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
     return AxisState{.identity = wire.identity,
                      .axis = wire.axis,
@@ -98,7 +113,8 @@ FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
                                   .home = (wire.switches & kHomeBit) != 0},
                      .inputs = wire.inputs,
                      .outputs = wire.outputs,
-                     .pulses_left = wire.pulses_left};
+                     .pulses_left = wire.pulses_left,
+                     .analog = analog};
 }
 
 lockstep_wire_AxisCommand to_wire(const AxisCommand& command) {

@@ -38,6 +38,7 @@ std::span<const std::int64_t> places_of(const lockstep_wire_MachineState& wire) 
 void pause_to_wire(const MachinePause& pause, MachineStateMessage& message) {
     message.pause_reason = static_cast<lockstep_wire_PauseReason>(pause.why.reason);
     message.pause_tool = pause.why.tool;
+    message.pause_wait_left_s = pause.wait_left_s;
     write_text(pause.why.text, message.pause_text);
     message.place_storage.assign(pause.place.begin(), pause.place.end());
     const auto size = static_cast<std::uint32_t>(message.place_storage.size());
@@ -54,6 +55,7 @@ void pause_from_wire(const lockstep_wire_MachineState& wire, std::optional<Machi
     pause.why.reason = reason;
     pause.why.tool = wire.pause_tool;
     pause.why.text = text;
+    pause.wait_left_s = wire.pause_wait_left_s;
     pause.place.clear();
     for (const std::int64_t steps : places_of(wire)) { pause.place.append(steps); }
 }
@@ -111,6 +113,7 @@ void check_numbers(const lockstep_wire_MachineState& wire, Checks& check) {
     check.within<int>("rapid_percent", wire.rapid_percent, Overrides::kLeast, Overrides::kMost);
     check.far("writer_since", wire.writer_since);
     check.within<std::int32_t>("pause_tool", wire.pause_tool, 0, kMaxTool);
+    check.finite("pause_wait_left_s", wire.pause_wait_left_s);
     check.within<std::size_t>("the number of places", wire.pause_place._length, 0, kMaxAxes);
     check.within<std::size_t>("the number of rests", wire.rests._length, 0, lockstep_wire_MAX_RESTS);
     if (!check.passed()) { return; }
@@ -179,6 +182,7 @@ void to_wire(const MachineState& state, MachineStateMessage& message) {
             .pause_tool = 0,
             .pause_text = {},
             .pause_place = {},
+            .pause_wait_left_s = 0,
             .is_run = state.job_kind == JobKind::Run,
             .program = state.program.value_or(0),
             .events_from = state.events_from,

@@ -362,10 +362,10 @@ describe("outputs", () => {
     const page = await enter();
     const chip = (look, hasText) => page.locator(`.outputs .chip[data-look="${look}"]`, { hasText });
     await chip("good", "air: off").waitFor();
-    machine.state.outputs = { laser: { on: null, asked: 0.3 }, air: { on: true, asked: 1 } };
-    await chip("busy", "laser: 30.0 % (program)").waitFor();
+    machine.state.outputs = { laser: { on: null, value: 0.1, pulses: null, asked: 0.3 }, air: { on: true, value: null, pulses: null, asked: 1 } };
+    await chip("busy", "laser: 10.0 % (program: 30.0 %)").waitFor();
     await chip("busy", "air: on").waitFor();
-    machine.state.outputs = { laser: { on: null, asked: 0 }, air: { on: false, asked: 1 } };
+    machine.state.outputs = { laser: { on: null, value: 0, pulses: null, asked: 0 }, air: { on: false, value: null, pulses: null, asked: 1 } };
     await chip("warning", "air: off (program: on)").waitFor();
   });
 });

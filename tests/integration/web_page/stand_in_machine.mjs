@@ -92,7 +92,7 @@ export class StandInMachine {
   haveOutputs() {
     const outputs = [{ name: "laser", motor: "X", board: null, kind: "analog" }, { name: "air", motor: "Y", board: null, kind: "digital" }];
     this.description = { ...this.description, outputs };
-    this.state.outputs = { laser: { on: null, asked: 0 }, air: { on: false, asked: 0 } };
+    this.state.outputs = { laser: { on: null, value: 0, pulses: null, asked: 0 }, air: { on: false, value: null, pulses: null, asked: 0 } };
   }
 
   load(name, segments) {

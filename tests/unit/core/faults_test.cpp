@@ -27,6 +27,15 @@ TEST(Faults, ARemedyIsInTheWordsOfTheClient) {
               "find out why the axis reached the switch; then: {reset}, {home}");
 }
 
+TEST(Faults, OfABoardAreNotRemediedByHomingWhichABoardCannot) {
+    EXPECT_EQ(remedy_text(for_board(*find_fault(FaultCode::AxisLost)), words_to_fill_in),
+              "see the axis's log, and start its lockstep-axis if it is not running; then: {reset}");
+    EXPECT_EQ(remedy_text(for_board(*find_fault(FaultCode::EmergencyStopInput)), words_to_fill_in),
+              remedy_text(*find_fault(FaultCode::EmergencyStopInput), words_to_fill_in))
+        << "axes may have been stopped in motion";
+    EXPECT_EQ(remedy_text(for_board(*find_fault(FaultCode::Busy))), remedy_text(*find_fault(FaultCode::Busy)));
+}
+
 TEST(Faults, ATextForTheUsersOfEveryClientNamesNoCommandOfTheShell) {
     for (int number = 100; number < 200; ++number) {
         const FaultText* text = find_fault(static_cast<FaultCode>(number));

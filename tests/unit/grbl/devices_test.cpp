@@ -29,6 +29,7 @@ protected:
     /// Passes a state of the machine with these devices to the protocol.
     void turn(const ProgramDevices& devices) {
         view.devices = devices;
+        view.accessories = letters_of_outputs(mill(), devices, [](std::size_t) { return nullptr; });
         grbl.see(view);
     }
 };
@@ -76,6 +77,27 @@ TEST_F(Devices, AreInTheStatusBesideTheOverrides) {
     EXPECT_THAT(status(), HasSubstr("|FS:0,800|Ov:100,100,100|A:C>"));
     turn({.tool = 3, .outputs = 1});
     EXPECT_THAT(status(), HasSubstr("|FS:0,0|Ov:100,100,100>")) << "without A all is off";
+}
+
+TEST_F(Devices, WithOutputsAreShownAsTheirDevicesReportThem) {
+    MachineConfig machine = mill();
+    machine.outputs = {
+        {.name = "laser", .motor = "X", .channel = 1, .use = OutputUse::Spindle, .pwm = PwmConfig{5000, 1000}},
+        {.name = "reverse", .motor = "X", .channel = 0, .use = OutputUse::SpindleReverse},
+        {.name = "air", .motor = "X", .channel = 2, .use = OutputUse::Flood}};
+    AxisState x;
+    const auto letters = [&](const ProgramDevices& asked) {
+        return letters_of_outputs(machine, asked, [&](std::size_t motor) { return motor == 0 ? &x : nullptr; });
+    };
+    EXPECT_EQ(letters({.spindle = Spindle::Forward, .spindle_rpm = 1, .flood = true}), "") << "held, or faulted";
+    EXPECT_EQ(letters({.mist = true}), "M") << "no output of the machine is switched by M7";
+    x.analog[1] = 1;
+    x.outputs = 1U << 2;
+    EXPECT_EQ(letters({}), "SF");
+    x.outputs = 1;
+    EXPECT_EQ(letters({}), "C");
+    machine.outputs[1].use = OutputUse::Number;
+    EXPECT_EQ(letters({.spindle = Spindle::Reverse, .spindle_rpm = 1}), "C") << "the laser alone shows no direction";
 }
 
 TEST_F(Devices, AreSwitchedOffByAReset) {

@@ -55,5 +55,13 @@ TEST(MachineFault, NamesTheInputOfAnEmergencyStop) {
     EXPECT_THAT(fault->remedy(), HasSubstr("release the emergency stop"));
 }
 
+TEST(InputReport, SaysHowLongAJobMayStillWaitForAnInput) {
+    proto::StatusReport status;
+    status.mutable_pause()->set_text("waits for an input: until clamp is closed");
+    EXPECT_THAT(status_text(status), HasSubstr("paused: waits for an input: until clamp is closed\n"));
+    status.mutable_pause()->set_wait_left_s(6.24);
+    EXPECT_THAT(status_text(status), HasSubstr("paused: waits for an input: until clamp is closed (6.2 s left)\n"));
+}
+
 }  // namespace
 }  // namespace lockstep

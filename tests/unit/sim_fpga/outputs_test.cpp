@@ -1,4 +1,5 @@
 // Outputs change at the ticks of their frames, with what is run of them, and fall to a safe state by themselves.
+#include "sim_fpga/channel_words.hpp"
 #include "tests/unit/sim_fpga/device_bench.hpp"
 
 namespace lockstep {
@@ -81,6 +82,25 @@ TEST(Outputs, OfAVetoedFrameDoNotChangeAndThoseOfTheTailDo) {
     const std::vector<ChannelEvent> expected{digital(kStart + Ticks{1}, kLaser, 0),
                                              digital(kStart + kBody + kTail, 0, 11)};
     EXPECT_EQ(bench.events(), expected);
+}
+
+TEST(Outputs, ThatAreAnalogAreReportedAsTheyAreAtTheTickOfTheStatus) {
+    OutputBench bench;
+    bench.load(last_frame(1), {{ramp(1, 0, kFullScale / 1024), {Ticks{1000}, RampAnalog{1, kFullScale, 0}}}, {}});
+    bench.order(device::Arm{1});
+    EXPECT_EQ(bench.at(kStart).analog, AnalogLevels{});
+    EXPECT_EQ(bench.at(kStart + Ticks{1 + 512}).analog[0], kFullAnalogLevel / 2);
+    EXPECT_EQ(bench.at(kStart + Ticks{1000}).analog[1], kFullAnalogLevel);
+    EXPECT_EQ(bench.at(kMuchLater).analog, (AnalogLevels{kFullAnalogLevel, kFullAnalogLevel}));
+}
+
+TEST(Outputs, ThatAreAnalogAreReportedInTheirOwnBits) {
+    RegisterWindow window = RegisterWindow::in_process();
+    const AnalogLevels levels{1, 2, 3, kFullAnalogLevel, 5, 6, 7, kFullAnalogLevel};
+    store_analog(window, levels);
+    EXPECT_EQ(load_analog(window), levels);
+    EXPECT_EQ(window.load(registers::kAnalogLower), 0x8000'0003'0002'0001U);
+    EXPECT_EQ(window.load(registers::kAnalogUpper), 0x8000'0007'0006'0005U);
 }
 
 TEST(Outputs, AFrameThatIsRunLeavesOutTheTailsOfThoseBefore) {

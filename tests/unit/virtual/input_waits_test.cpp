@@ -20,7 +20,7 @@ MachineConfig machine_with_clamp() {
 
 class InputWaits : public Rig {
 protected:
-    InputWaits() : Rig({.machine = machine_with_clamp()}) {}
+    explicit InputWaits(const VirtualOptions& options = {.machine = machine_with_clamp()}) : Rig(options) {}
 
     void wait_for(InputMode mode, double seconds) {
         home();
@@ -102,6 +102,18 @@ TEST_F(InputWaits, ThatTimeOutPauseAndWaitAgainAfterAResume) {
     expect_goes_on();
 }
 
+TEST_F(InputWaits, SayHowLongUntilTheyTimeOut) {
+    wait_for(InputMode::IsClosed, 5);
+    const double before = vm.state()->pause->wait_left_s;
+    EXPECT_GT(before, 4);
+    EXPECT_LE(before, 5);
+    wait(1);
+    EXPECT_NEAR(vm.state()->pause->wait_left_s, before - 1, 0.02);
+    ASSERT_EQ(ask(CommandKind::Hold).status, ReplyStatus::Accepted);
+    wait(0.1);
+    EXPECT_EQ(vm.state()->pause->wait_left_s, 0) << "a held job does not wait for the input";
+}
+
 TEST_F(InputWaits, ThatAreHeldDoNotGoOnBeforeAResume) {
     wait_for(InputMode::IsClosed, 5);
     ASSERT_EQ(ask(CommandKind::Hold).status, ReplyStatus::Accepted);
@@ -144,6 +156,34 @@ TEST_F(InputWaits, AreEndedByAnEmergencyStop) {
     wait(0.5);
     EXPECT_EQ(vm.state()->phase, MachinePhase::Fault);
     EXPECT_EQ(counts(), (std::vector<std::int64_t>{1000, 1000}));
+}
+
+/// Two coordinators; the one that takes over continues jobs in motion.
+class InputWaitsWithStandby : public InputWaits {
+protected:
+    InputWaitsWithStandby()
+        : InputWaits({.machine = machine_with_clamp(), .on_takeover = OnTakeover::Continue, .coordinators = 2}) {}
+
+    void lose_owner() {
+        const std::size_t owner = vm.owner().value();
+        vm.schedule({.kind = VirtualFault::Kind::Crash, .process = owner, .at = vm.now(), .lasts = Ticks{100'000'000}});
+        const auto is_over = [&] { return vm.owner() && *vm.owner() != owner; };
+        ASSERT_TRUE(vm.advance_until(is_over, Ticks{5'000'000})) << describe();
+    }
+};
+
+TEST_F(InputWaitsWithStandby, EndWithATakeoverAndTheInputMovesNothingMore) {
+    wait_for(InputMode::IsClosed, 5);
+    lose_owner();
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
+    EXPECT_EQ(vm.state()->outcome, JobOutcome::Stopped) << "the standby continues only what was in motion";
+    EXPECT_FALSE(vm.state()->pause);
+    set(kClamp, true);
+    wait(1);
+    EXPECT_EQ(counts(), (std::vector<std::int64_t>{1000, 1000}));
+    Program rest = program_of({{20, 5}}, 40, {10, 10});
+    ASSERT_EQ(run(rest).status, ReplyStatus::Accepted) << "without homing";
+    expect_goes_on();
 }
 
 TEST_F(InputWaits, AllowNoJogBecauseTheJobMayGoOnAtAnyTime) {

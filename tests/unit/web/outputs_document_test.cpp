@@ -27,21 +27,42 @@ TEST(OutputsDocument, NamesTheOutputsOfTheFile) {
     EXPECT_EQ(outputs[1]["kind"], "digital");
 }
 
-TEST(OutputsDocument, HasThePinOfADigitalOutputAndWhatTheProgramAsksFor) {
+Json digital(const Json& on, int asked) {
+    return {{"on", on}, {"value", nullptr}, {"pulses", nullptr}, {"asked", asked}};
+}
+Json analog(const Json& value, double asked) {
+    return {{"on", nullptr}, {"value", value}, {"pulses", nullptr}, {"asked", asked}};
+}
+
+TEST(OutputsDocument, HasWhatTheDeviceReportsAndWhatTheProgramAsksFor) {
     Snapshot snapshot = snapshot_at_rest();
     snapshot.machine->value.devices = {.spindle = ProgramDevices::Spindle::Forward, .spindle_rpm = 250, .flood = true};
     EXPECT_EQ(state_document(snapshot, with_outputs(), nullptr, {}, 1)["outputs"],
-              (Json{{"laser", {{"on", nullptr}, {"asked", 0.25}}}, {"air", {{"on", false}, {"asked", 1}}}}));
+              (Json{{"laser", analog(0.0, 0.25)}, {"air", digital(false, 1)}}));
+    snapshot.axes[0].state->value.analog[0] = kFullAnalogLevel / 4 + 1;
     snapshot.axes[1].state->value.outputs = 1U << 2;
-    EXPECT_EQ(outputs_document(snapshot, with_outputs())["air"], (Json{{"on", true}, {"asked", 1}}));
+    EXPECT_EQ(outputs_document(snapshot, with_outputs())["laser"], analog(0.25, 0.25)) << "as exactly as it can report";
+    EXPECT_EQ(outputs_document(snapshot, with_outputs())["air"], digital(true, 1));
 }
 
-TEST(OutputsDocument, SaysThatAPinIsNotKnownAndIsEmptyWithoutACoordinator) {
+TEST(OutputsDocument, SaysThatAnOutputIsNotKnownAndIsEmptyWithoutACoordinator) {
     Snapshot snapshot = snapshot_at_rest();
+    snapshot.axes[0].state.reset();
     snapshot.axes[1].state.reset();
-    EXPECT_EQ(outputs_document(snapshot, with_outputs())["air"], (Json{{"on", nullptr}, {"asked", 0}}));
+    EXPECT_EQ(outputs_document(snapshot, with_outputs())["laser"], analog(nullptr, 0));
+    EXPECT_EQ(outputs_document(snapshot, with_outputs())["air"], digital(nullptr, 0));
     snapshot.machine.reset();
     EXPECT_EQ(outputs_document(snapshot, with_outputs()), Json::object());
+}
+
+TEST(OutputsDocument, CountsThePulsesThatAreLeft) {
+    MachineConfig machine = two_axes();
+    machine.outputs = {{.name = "camera", .motor = "X", .use = OutputUse::Places, .pulse_us = 10}};
+    EXPECT_EQ(machine_document(machine, "1")["outputs"][0]["kind"], "pulses");
+    Snapshot snapshot = snapshot_at_rest();
+    EXPECT_EQ(outputs_document(snapshot, machine)["camera"]["pulses"], nullptr);
+    snapshot.machine->value.devices.pulses = {.spacing_mm = 1, .count = 100, .left = 40};
+    EXPECT_EQ(outputs_document(snapshot, machine)["camera"]["pulses"], (Json{{"left", 40}, {"of", 100}}));
 }
 
 }  // namespace

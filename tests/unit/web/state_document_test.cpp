@@ -79,13 +79,19 @@ TEST(StateDocument, SaysWhyTheJobWaitsAndTheWayBackToItsPlace) {
     Snapshot snapshot = snapshot_at_rest();
     EXPECT_TRUE(document(snapshot)["pause"].is_null());
     snapshot.machine->value.pause = MachinePause{{PauseReason::ToolChange, 2, "6 mm end mill"}, {0, 0}};
-    EXPECT_EQ(document(snapshot)["pause"],
-              (Json{{"reason", "tool-change"}, {"tool", 2}, {"message", "6 mm end mill"}, {"way", Json::array()}}));
+    EXPECT_EQ(document(snapshot)["pause"], (Json{{"reason", "tool-change"},
+                                                 {"tool", 2},
+                                                 {"message", "6 mm end mill"},
+                                                 {"wait_left_s", nullptr},
+                                                 {"way", Json::array()}}));
     snapshot.axes[0].state->value.position = Position::steps(800);
     EXPECT_EQ(document(snapshot)["pause"]["way"], (Json::array({{{"X", 0.0}}})));
     snapshot.machine->value.pause->why = {};
     EXPECT_EQ(document(snapshot)["pause"]["reason"], "program-stop");
     EXPECT_TRUE(document(snapshot)["pause"]["tool"].is_null());
+    snapshot.machine->value.pause->why.reason = PauseReason::Input;
+    snapshot.machine->value.pause->wait_left_s = 6.24;
+    EXPECT_EQ(document(snapshot)["pause"]["wait_left_s"], 6.2);
 }
 
 TEST(StateDocument, NamesTheWriter) {

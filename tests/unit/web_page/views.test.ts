@@ -48,6 +48,10 @@ describe("a pause", () => {
     expect(pauseText({ reason: "program-stop", message: "turn it over", way: [] }, en)).toBe("Program stop: turn it over");
   });
 
+  test("says how long the wait for an input may still last", () => {
+    expect(pauseText({ reason: "input", message: "until clamp is closed", wait_left_s: 6.2, way: [] }, en)).toBe("Waits for an input: until clamp is closed (7 s left)");
+  });
+
   test("lists the moves back to its place", () => {
     expect(wayTexts(change, en)).toEqual(["Z to 20.000", "X to 30.000, Y to 5.500", "Z to −1.500"].map((text) => text.replace("−", fixed(-1, 0)[0]!)));
   });
@@ -205,16 +209,31 @@ describe("the inputs", () => {
 });
 
 describe("outputs", () => {
-  const machine: MachineOutput[] = [{ name: "laser", motor: "X", kind: "analog" }, { name: "air", motor: "Y", kind: "digital" }];
+  const machine: MachineOutput[] = [{ name: "laser", motor: "X", kind: "analog" }, { name: "air", motor: "Y", kind: "digital" }, { name: "camera", motor: "Y", kind: "pulses" }];
+  const digital = (on: boolean | null, asked: number) => ({ on, value: null, pulses: null, asked });
+  const analog = (value: number | null, asked: number) => outputTexts(machine, { laser: { on: null, value, pulses: null, asked } }, en)[0];
 
-  test("have the levels of their pins, and of an analog one what the program asks for", () => {
-    expect(outputTexts(machine, { laser: { on: null, asked: 0.305 }, air: { on: true, asked: 1 } }, en)).toEqual([
-      { text: "laser: 30.5 % (program)", look: "busy" }, { text: "air: on", look: "busy" },
-    ]);
+  test("have the levels and values that their devices report", () => {
+    expect(analog(0.305, 0.305)).toEqual({ text: "laser: 30.5 %", look: "busy" });
+    expect(analog(0, 0)).toEqual({ text: "laser: 0.0 %", look: "good" });
+    expect(outputTexts(machine, { air: digital(true, 1) }, en)).toEqual([{ text: "air: on", look: "busy" }]);
+  });
+
+  test("that are analog say what the program asks for where it differs, a warning where it asks for none", () => {
+    expect(analog(0.1, 0.3)).toEqual({ text: "laser: 10.0 % (program: 30.0 %)", look: "busy" });
+    expect(analog(0.1, 0)).toEqual({ text: "laser: 10.0 % (program: 0.0 %)", look: "warning" });
+    expect(analog(null, 0.3)).toEqual({ text: "laser: 30.0 % (program)", look: "busy" });
+  });
+
+  test("with pulses at places say how many are left", () => {
+    const camera = (pulses: { left: number; of: number } | null) => outputTexts(machine, { camera: { on: null, value: null, pulses, asked: 0 } }, en);
+    expect(camera({ left: 7, of: 100 })).toEqual([{ text: "camera: 7 of 100 pulses left", look: "busy" }]);
+    expect(camera({ left: 0, of: 100 })).toEqual([{ text: "camera: no pulses left", look: "good" }]);
+    expect(camera(null)).toEqual([{ text: "camera: no pulses left", look: "good" }]);
   });
 
   test("say where the pin and the program differ, and that a pin is not known", () => {
-    const text = (on: boolean | null) => outputTexts(machine, { air: { on, asked: 1 } }, en);
+    const text = (on: boolean | null) => outputTexts(machine, { air: digital(on, 1) }, en);
     expect(text(false)).toEqual([{ text: "air: off (program: on)", look: "warning" }]);
     expect(text(null)).toEqual([{ text: "air: not known (program: on)", look: "busy" }]);
   });

@@ -44,7 +44,9 @@ AxisState RandomMessages::axis_state() {
             .unproved = fault(),
             .switches = {coin(), coin(), coin()},
             .inputs = static_cast<std::uint32_t>(bits()),
-            .outputs = static_cast<std::uint16_t>(bits())};
+            .outputs = static_cast<std::uint16_t>(bits()),
+            .pulses_left = static_cast<std::uint32_t>(bits()),
+            .analog = analog_levels()};
 }
 
 AxisHealth RandomMessages::axis_health() {
@@ -154,6 +156,7 @@ MachinePause RandomMessages::pause() {
                                .text = std::string(index(kMaxPauseText + 1), 'p')},
                        .place = {}};
     for (std::size_t i = index(kMaxAxes + 1); i > 0; --i) { pause.place.append(far()); }
+    pause.wait_left_s = static_cast<double>(index(1000));
     return pause;
 }
 

@@ -43,6 +43,11 @@ private:
     std::int64_t rate() { return between(-INT64_MAX, INT64_MAX); }
     FaultCode fault() { return static_cast<FaultCode>(bits()); }
     Term term() { return {bits(), bits()}; }
+    AnalogLevels analog_levels() {
+        AnalogLevels levels;
+        for (std::uint16_t& level : levels) { level = static_cast<std::uint16_t>(index(kFullAnalogLevel + 1)); }
+        return levels;
+    }
     Extremes extremes() { return {bits(), {far()}, {far()}}; }
     bool coin() { return bits() % 2 == 1; }
     Position position() { return Position::from_count(far(), bits()); }

@@ -19,7 +19,7 @@ using testing::HasSubstr;
 constexpr int kProcesses = 33;  // 32 axes and the coordinator
 constexpr int kMachines = 32;
 constexpr double kSlots_s = 100;                                           // of 10 ms
-constexpr double kStateBytes = 330;                                        // as the document states
+constexpr double kStateBytes = 350;                                        // as the document states
 constexpr double kStepBytes = sizeof(std::int32_t) + sizeof(std::int8_t);  // step_batch_t: delta_ticks, direction
 
 std::string document() {

@@ -100,7 +100,7 @@ export interface MachineOutput {
   name: string;
   motor?: Maybe<string>;
   board?: Maybe<string>;
-  kind: "digital" | "analog";
+  kind: "digital" | "analog" | "pulses";
 }
 
 export interface Limits {
@@ -150,11 +150,19 @@ export interface Pause {
   reason: "program-stop" | "optional-stop" | "tool-change" | "pallet-change" | "hold" | "input" | "input-timeout";
   tool?: Maybe<number>;
   message: string;
+  wait_left_s?: Maybe<number>;
   way: Record<string, number>[];
+}
+
+export interface PulsesState {
+  left: number;
+  of: number;
 }
 
 export interface OutputState {
   on?: Maybe<boolean>;
+  value?: Maybe<number>;
+  pulses?: Maybe<PulsesState>;
   asked: number;
 }
 

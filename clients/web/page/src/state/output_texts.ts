@@ -9,10 +9,23 @@ export interface OutputText {
   look: "good" | "busy" | "warning";
 }
 
-/** Of an analog output only what the program asks for is known. */
-function outputText({ name, kind }: MachineOutput, { on, asked }: OutputState, { outputs }: Pick<Texts, "outputs">): OutputText {
+/** In a ramp, or with power by speed, the value differs from what the program asks for at the feed: this is no warning. */
+function analogText(name: string, { value, asked }: OutputState, { outputs }: Pick<Texts, "outputs">): OutputText {
+  const percent = (share: number) => fixed(share * 100, 1);
+  if (value === null || value === undefined) return { text: fill(outputs.analogAsked, { name, asked: percent(asked) }), look: asked > 0 ? "busy" : "good" };
+  const text = value === asked ? outputs.analog : outputs.analogDiffers;
+  const look = value === 0 && asked === 0 ? "good" : asked === 0 ? "warning" : "busy";
+  return { text: fill(text, { name, percent: percent(value), asked: percent(asked) }), look };
+}
+
+function outputText({ name, kind }: MachineOutput, state: OutputState, { outputs }: Pick<Texts, "outputs">): OutputText {
+  if (kind === "analog") return analogText(name, state, { outputs });
+  const { on, asked, pulses } = state;
+  if (kind === "pulses") {
+    const left = pulses?.left ?? 0;
+    return { text: left > 0 ? fill(outputs.pulses, { name, left, of: pulses?.of ?? left }) : fill(outputs.noPulses, { name }), look: left > 0 ? "busy" : "good" };
+  }
   const busy = asked > 0 ? "busy" : "good";
-  if (kind === "analog") return { text: fill(outputs.analog, { name, percent: fixed(asked * 100, 1) }), look: busy };
   const level = (is: boolean) => is ? outputs.on : outputs.off;
   if (on === null || on === undefined) return { text: fill(outputs.unknown, { name, asked: level(asked > 0) }), look: busy };
   if (on !== asked > 0) return { text: fill(outputs.differs, { name, level: level(on), asked: level(asked > 0) }), look: "warning" };

@@ -9,9 +9,11 @@ function reasonText({ reason, tool }: Pause, { pause }: Texts): string {
   return tool ? fill(pause.tool, { tool }) : pause.noTool;
 }
 
-/** "Change to tool 2: 6 mm end mill" */
+/** "Change to tool 2: 6 mm end mill", "Waits for an input: until clamp is closed (7 s left)" */
 export function pauseText(of: Pause, texts: Texts): string {
-  return of.message === "" ? reasonText(of, texts) : `${reasonText(of, texts)}: ${of.message}`;
+  const text = of.message === "" ? reasonText(of, texts) : `${reasonText(of, texts)}: ${of.message}`;
+  if (of.wait_left_s === null || of.wait_left_s === undefined) return text;
+  return fill(texts.pause.waitLeft, { text, seconds: Math.ceil(of.wait_left_s) });
 }
 
 /** One text for each move: "X to 30.000, Y to 5.000" */

@@ -85,7 +85,8 @@ export const de: Texts = {
   },
   outputs: {
     title: "Ausgänge", on: "ein", off: "aus", same: "{name}: {level}", differs: "{name}: {level} (Programm: {asked})",
-    unknown: "{name}: nicht bekannt (Programm: {asked})", analog: "{name}: {percent} % (Programm)",
+    unknown: "{name}: nicht bekannt (Programm: {asked})", analogAsked: "{name}: {asked} % (Programm)", analog: "{name}: {percent} %",
+    analogDiffers: "{name}: {percent} % (Programm: {asked} %)", pulses: "{name}: noch {left} von {of} Pulsen", noPulses: "{name}: keine Pulse mehr",
   },
   devices: {
     title: "Vom Programm befohlen", forward: "Spindel rechts {rpm} 1/min", reverse: "Spindel links {rpm} 1/min", mist: "Nebel", flood: "Kühlmittel",
@@ -96,6 +97,7 @@ export const de: Texts = {
       "program-stop": "Programmhalt", "optional-stop": "Wahlweiser Halt", "tool-change": "Werkzeug wechseln", "pallet-change": "Palette wechseln", hold: "Angehalten",
       input: "Wartet auf einen Eingang", "input-timeout": "Der Eingang blieb aus, Weiter wartet erneut",
     },
+    waitLeft: "{text} (noch {seconds} s)",
     tool: "Wechsle zu Werkzeug {tool}", noTool: "Nimm das Werkzeug heraus", move: "{axis} nach {to}", title: "Zurückfahren und weiter",
     hint: "Der Auftrag wartet. Achsen dürfen von Hand gefahren und genullt werden; dann Weiter.",
     away: "Achsen wurden bewegt. Weiter zeigt erst den Weg zurück zum Ort der Pause, dann fährt die Maschine dorthin.",

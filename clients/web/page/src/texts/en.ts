@@ -84,7 +84,8 @@ export const en = {
   },
   outputs: {
     title: "Outputs", on: "on", off: "off", same: "{name}: {level}", differs: "{name}: {level} (program: {asked})",
-    unknown: "{name}: not known (program: {asked})", analog: "{name}: {percent} % (program)",
+    unknown: "{name}: not known (program: {asked})", analogAsked: "{name}: {asked} % (program)", analog: "{name}: {percent} %",
+    analogDiffers: "{name}: {percent} % (program: {asked} %)", pulses: "{name}: {left} of {of} pulses left", noPulses: "{name}: no pulses left",
   },
   devices: {
     title: "Commanded by the program", forward: "Spindle forward {rpm} rpm", reverse: "Spindle reverse {rpm} rpm", mist: "Mist", flood: "Flood",
@@ -95,6 +96,7 @@ export const en = {
       "program-stop": "Program stop", "optional-stop": "Optional stop", "tool-change": "Change the tool", "pallet-change": "Change the pallet", hold: "Held",
       input: "Waits for an input", "input-timeout": "The wait for an input timed out, Resume waits again",
     },
+    waitLeft: "{text} ({seconds} s left)",
     tool: "Change to tool {tool}", noTool: "Take out the tool", move: "{axis} to {to}", title: "Return and resume",
     hint: "The job waits. Axes may be jogged and touched off; then resume.",
     away: "Axes were moved. Resume first shows the way back to the place of the pause, then the machine returns there.",
