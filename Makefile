@@ -1,4 +1,5 @@
-# make demo | make check | make test | make build | make live | make package: each first does what it needs, and can be run again.
+# make demo | make check | make test | make test-long | make build | make live | make package: each first does what it
+# needs, and can be run again.
 # ARCH=arm64 builds for boards of 64-bit ARM on another machine.
 HERE := $(shell dpkg --print-architecture)
 ARCH  = $(HERE)
@@ -24,7 +25,7 @@ LIVE    = all
 TEST    = tests/integration/package/emulated_machine $(BUILD) build
 endif
 
-.PHONY: configured build live check test demo bench package clean
+.PHONY: configured build live check test test-long demo bench package clean
 
 # $(call configure,DIRECTORY,OPTIONS): prints nothing unless it fails.
 configure = cmake -S . -B $(1) -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON $(2) >$(1).configure.log 2>&1 || \
@@ -56,6 +57,11 @@ check:
 
 test: live
 	@$(TEST)
+
+# The random machines and programs that make test leaves out.
+test-long: configured
+	@cmake --build $(BUILD) -j $(JOBS) --target long_tests
+	@ctest --test-dir $(BUILD) -C Long -L long --output-on-failure --timeout 3600 -j $(JOBS)
 
 demo:
 	@echo "== packages: a compiler, Cyclone DDS, LCM, Protobuf; none of those that only tests need"

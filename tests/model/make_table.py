@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes the numbers of states stored into the tables of tests/model/README.md.
 
-usage: ctest --test-dir build -L model && tests/model/make_table.py build
+usage: ctest --test-dir build -C Long -L 'model|long' -R ^model && tests/model/make_table.py build
 
 With cmake -DLOCKSTEP_LONG_MODEL=ON the tests include the longest searches. The numbers of searches that are not in the
 log stay as they are.

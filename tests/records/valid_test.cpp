@@ -1,6 +1,7 @@
 // Every valid record is exact and good, as far as it is complete, and the tools agree.
 #include <gtest/gtest.h>
 
+#include "tests/random_seeds.hpp"
 #include "tests/records/kept_verdicts.hpp"
 #include "tests/records/kinds/kinds.hpp"
 #include "tests/records/random_program.hpp"
@@ -46,9 +47,9 @@ TEST_P(RandomLines, OfASlowAxisAreExactAndGood) {
     expect_judged(judge(recorded_program(slow_axis_machine(), gcode)), kValid);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomLines, testing::Range(std::uint64_t{1}, std::uint64_t{41}));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomLines, seeds_from(1, 40));
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomProgram, testing::Range(std::uint64_t{1}, std::uint64_t{301}));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomProgram, seeds_from(1, 300));
 
 }  // namespace
 }  // namespace lockstep::records

@@ -1,6 +1,7 @@
 // A machine file that is accepted describes a machine that works. A refusal says what to change.
 //
-// LOCKSTEP_MACHINES=N draws N machines per test instead of kMachines, and LOCKSTEP_FIRST_MACHINE=N begins at seed N.
+// LOCKSTEP_MACHINES=N draws N machines per test instead of kMachines or a part of them, and LOCKSTEP_FIRST_MACHINE=N
+// begins at seed N.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include "services/documents/rules/machine_warnings.hpp"
 #include "tests/property/machines/machine_trial.hpp"
 #include "tests/property/machines/random_machine.hpp"
+#include "tests/random_seeds.hpp"
 
 namespace lockstep {
 namespace {
@@ -44,7 +46,7 @@ bool is_of_use(const std::string& message, const std::set<std::string>& keys) {
 class RandomMachineFiles : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(RandomMachineFiles, AreRefusedWithARemedyOrHomeAndRunJobsExactly) {
-    const std::uint64_t count = number_of("LOCKSTEP_MACHINES", kMachines);
+    const std::uint64_t count = number_of("LOCKSTEP_MACHINES", random_cases(kMachines));
     const std::uint64_t first = number_of("LOCKSTEP_FIRST_MACHINE", 1) + GetParam() * count;
     std::uint64_t tried = 0;
     for (std::uint64_t seed = first; seed < first + count; ++seed) {

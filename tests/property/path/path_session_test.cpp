@@ -1,5 +1,6 @@
 // The properties of a path that is interrupted, resumed and turned to other overrides at any frame.
 #include "tests/property/path/path_session.hpp"
+#include "tests/random_seeds.hpp"
 
 namespace lockstep {
 namespace {
@@ -91,8 +92,8 @@ TEST_P(RandomSession, IsResumedByAnotherPlannerInTheSameWay) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomSession, testing::Range<std::uint64_t>(1, 41));
-INSTANTIATE_TEST_SUITE_P(Arcs, RandomSession, testing::Range(kFirstWithArcs, kFirstWithArcs + 20));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomSession, seeds_from(1, 40));
+INSTANTIATE_TEST_SUITE_P(Arcs, RandomSession, seeds_from(kFirstWithArcs, 20));
 // In these cases speeds meet that differ only by rounding, and overrides change where the known path ends.
 INSTANTIATE_TEST_SUITE_P(Rounded, RandomSession, testing::Values<std::uint64_t>(561, 597));
 

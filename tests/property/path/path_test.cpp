@@ -1,5 +1,6 @@
 // Every planned path keeps the limits of the axes, follows the program within a step, and ends exactly.
 #include "tests/property/path/random_path.hpp"
+#include "tests/random_seeds.hpp"
 
 namespace lockstep {
 namespace {
@@ -65,8 +66,8 @@ TEST_P(RandomPath, HasTailsThatEndOnThePath) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomPath, testing::Range<std::uint64_t>(1, 25));
-INSTANTIATE_TEST_SUITE_P(Spirals, RandomPath, testing::Range(kFirstWithSpirals, kFirstWithSpirals + 5));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomPath, seeds_from(1, 24));
+INSTANTIATE_TEST_SUITE_P(Spirals, RandomPath, seeds_from(kFirstWithSpirals, 5));
 /// One axis. Its shortest moves there and back are joined to a piece in which it does not move.
 INSTANTIATE_TEST_SUITE_P(ThereAndBack, RandomPath, testing::Values(61));
 

@@ -1,6 +1,7 @@
 // A path that is timed without frames has the time and the figures of its frames.
 #include "core/path/timing/path_timer.hpp"
 #include "tests/property/path/random_path.hpp"
+#include "tests/random_seeds.hpp"
 
 namespace lockstep {
 namespace {
@@ -121,8 +122,8 @@ TEST_P(TimedPathOfProgram, HasThePeaksOfItsFrames) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Lines, TimedPathOfProgram, testing::Range<std::uint64_t>(0, 30));
-INSTANTIATE_TEST_SUITE_P(Arcs, TimedPathOfProgram, testing::Range<std::uint64_t>(kFirstWithArcs, kFirstWithArcs + 30));
+INSTANTIATE_TEST_SUITE_P(Lines, TimedPathOfProgram, seeds_from(0, 30));
+INSTANTIATE_TEST_SUITE_P(Arcs, TimedPathOfProgram, seeds_from(kFirstWithArcs, 30));
 
 /// Long moves in all directions, without joints of small angles: all figures agree.
 TEST(PathTimer, HasTheAccelerationOfTheFramesOfLongMoves) {

@@ -6,6 +6,7 @@
 
 #include "clients/verification/verification.hpp"
 #include "core/coordinator/path/lai_path.hpp"
+#include "tests/random_seeds.hpp"
 #include "tests/unit/verification/recorded_machine.hpp"
 
 namespace lockstep::verification {
@@ -63,7 +64,7 @@ TEST_P(Storm, StillExactWithLaisPlanner) {
     ASSERT_TRUE(suits_lai_path(machine).has_value());
     expect_exact(machine);
 }
-INSTANTIATE_TEST_SUITE_P(Seeds, Storm, testing::Range(std::uint64_t{1}, std::uint64_t{41}));
+INSTANTIATE_TEST_SUITE_P(Seeds, Storm, seeds_from(1, 40));
 
 }  // namespace
 }  // namespace lockstep::verification

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "core/motion/limit_watch.hpp"
+#include "tests/random_seeds.hpp"
 #include "tests/unit/virtual/jogger.hpp"
 #include "tests/unit/virtual/rig.hpp"
 
@@ -328,7 +329,7 @@ TEST_P(RandomJogs, LeaveTheAxesAtRestWithinTravelAndEveryStepWithinLimits) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomJogs, testing::Range(1u, 21u));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomJogs, testing::Range(1u, 1u + static_cast<unsigned>(random_cases(20))));
 
 }  // namespace
 }  // namespace lockstep
