@@ -1,6 +1,7 @@
-# short_fuzz(NAME RUNS NUMBER SOURCES ... SEEDS ... [LIBS ...]) adds a test that gives tests/fuzz/NAME.cpp the texts that
+# short_fuzz(NAME [LONG] RUNS NUMBER SOURCES ... SEEDS ... [LIBS ...]) adds a test that gives tests/fuzz/NAME.cpp the texts that
 # libFuzzer makes of the seeds. The number of texts and the random seed are fixed, so every run is the same. Only these sources
-# are built with clang and its sanitizers. tests/fuzz/run searches for longer.
+# are built with clang and its sanitizers. LONG: only make test-long builds and runs it. tests/fuzz/run searches for
+# longer.
 find_program(FUZZ_CLANG clang++-19)
 if(NOT FUZZ_CLANG)
   message(STATUS "clang++-19 is not installed: short fuzzing is left out; deploy/install-dependencies installs it")
@@ -10,7 +11,7 @@ function(short_fuzz target)
   if(NOT FUZZ_CLANG)
     return()
   endif()
-  cmake_parse_arguments(ARG "" "RUNS" "SOURCES;SEEDS;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "LONG" "RUNS" "SOURCES;SEEDS;LIBS" ${ARGN})
   list(TRANSFORM ARG_LIBS PREPEND -l)
   set(sanitize -fsanitize=address,undefined -fno-sanitize-recover=all)
   set(program ${CMAKE_CURRENT_BINARY_DIR}/fuzz_${target})
@@ -24,9 +25,20 @@ function(short_fuzz target)
             -fsanitize=fuzzer-no-link -MD -MF ${program}.d -c ${all} -o ${program}.o)
   add_custom_command(OUTPUT ${program} DEPENDS ${program}.o
     COMMAND ${FUZZ_CLANG} ${sanitize} -fsanitize=fuzzer ${program}.o -lfmt ${ARG_LIBS} -o ${program})
-  add_custom_target(short_fuzz_${target} ALL DEPENDS ${program})
+  set(always ALL)
+  if(ARG_LONG)
+    set(always)
+    set_property(GLOBAL APPEND PROPERTY RANDOM_TESTS short_fuzz_${target})
+  endif()
+  add_custom_target(short_fuzz_${target} ${always} DEPENDS ${program})
   list(JOIN ARG_SEEDS "," seeds)
-  add_test(NAME fuzz.${target} COMMAND ${program} -seed_inputs=${seeds} -seed=1 -runs=${ARG_RUNS} -max_len=4096 -timeout=60
+  set(label fuzz)
+  set(only_long)
+  if(ARG_LONG)
+    set(label long)
+    set(only_long CONFIGURATIONS Long)
+  endif()
+  add_test(NAME fuzz.${target} ${only_long} COMMAND ${program} -seed_inputs=${seeds} -seed=1 -runs=${ARG_RUNS} -max_len=4096 -timeout=60
            WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
-  set_tests_properties(fuzz.${target} PROPERTIES LABELS fuzz COST ${LONG_COST})
+  set_tests_properties(fuzz.${target} PROPERTIES LABELS ${label} COST ${LONG_COST})
 endfunction()
