@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Changes the designs of sim_fpga/rtl one place at a time. The co-simulation must fail for each mutant.
 
-Usage: run.py RTL_FOLDER BUILD    Prints each mutant that no test detects; exits 1 if there is one.
+Usage: run.py RTL_FOLDER BUILD [--long]    Prints each mutant that no test detects; exits 1 if there is one.
+       --long    those of LONG_MUTANTS
 
 A mutant's library has the name of the one that the test program is linked with, so LD_PRELOAD replaces that.
 """
@@ -56,6 +57,30 @@ MUTANTS = [
     ("add_only_engine_1", "ranade/add_only_engine.v", "present[motor] <= !bank;", ""),
     ("add_only_engine_3", "ranade/add_only_engine.v", "run2 && slot2 != HOST", "slot2 != HOST"),
     ("add_only_engine_6", "ranade/add_only_engine.v", "!sum[LIMB] && b[LIMB-1]", "b[LIMB-1]"),
+    ("axis_device", "axis/axis_sequencer.v", "armed >= number && run_request", "run_request"),
+    ("axis_device", "axis/axis_sequencer.v", "is_vetoed = veto <= number", "is_vetoed = veto < number"),
+    ("axis_device", "axis/axis_sequencer.v", "!follows && tail_left != 0", "!follows && is_next && tail_left != 0"),
+]
+
+LONG_MUTANTS = [
+    ("axis_device", "axis/axis_sequencer.v", "armed >= number && run_request == run", "armed >= number"),
+    ("axis_device", "axis/axis_sequencer.v", "is_here = frame_start == now && ", "is_here = "),
+    ("axis_device", "axis/axis_sequencer.v", "is_same_phase || (motion == WAITING && rests)", "is_same_phase || rests"),
+    ("axis_device", "axis/axis_sequencer.v", "engine_step && !is_blocked;\n    assign", "engine_step;\n    assign"),
+    ("axis_device", "axis/axis_sequencer.v", "(ends && into_limit);", "1'b0;"),
+    ("axis_device", "axis/axis_sequencer.v", "enabled_for >= enable_ticks", "enabled_for > enable_ticks"),
+    ("axis_device", "axis/axis_sequencer.v", "(is_stopped ? BY_INPUT : 16'd0);", "16'd0;"),
+    ("axis_device", "axis/axis_sequencer.v", "start_setup = state == SETUP && setup_is_new && !in_motion",
+     "start_setup = state == SETUP && setup_is_new"),
+    ("axis_device", "axis/axis_frame_scanner.v", "is_whole = {47'd0, pieces} < loaded", "is_whole = 1"),
+    ("axis_device", "axis/axis_frame_scanner.v", "is_well <= is_piece;", "is_well <= 1;"),
+    ("axis_device", "axis/axis_frame_scanner.v", "(is_of_run ? drop_own : drop_others)", "(!is_of_run && drop_others)"),
+    ("axis_device", "axis/axis_engine.v", "travel) left <= left - 1'b1", "travel && !step) left <= left - 1'b1"),
+    ("axis_device", "axis/axis_engine.v", "accelerate) overflow <= is_same_sign &&", "accelerate) overflow <="),
+    ("axis_device", "axis/axis_inputs.v", "now - since_word >= debounce_word", "now - since_word > debounce_word"),
+    ("axis_device", "axis/axis_capture.v", "sums <= sums + sum;", "sums <= sum;"),
+    ("axis_device", "axis/axis_host_watch.v", "ticks >= patience", "ticks > patience"),
+    ("axis_device", "axis/axis_setup.v", "refused = state == CHECK && asked && !is_possible", "refused = 1'b0"),
 ]
 
 
@@ -68,6 +93,7 @@ def verilated(build, library):
 def mutated(rtl, work, file, there, instead):
     folder = work / "rtl"
     shutil.copytree(rtl, folder)
+    shutil.copy(rtl.parent / "registers.vh", work)
     source = (folder / file).read_text()
     if source.count(there) != 1:
         sys.exit(f"{file} has `{there}` {source.count(there)} times, not once")
@@ -95,10 +121,11 @@ def detected(rtl, build, mutant):
 
 
 def main():
-    rtl, build = (pathlib.Path(argument).resolve() for argument in sys.argv[1:])
+    rtl, build = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+    mutants = LONG_MUTANTS if "--long" in sys.argv else MUTANTS
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        found = list(pool.map(lambda mutant: detected(rtl, build, mutant), MUTANTS))
-    for (_, file, there, instead), was_detected in zip(MUTANTS, found):
+        found = list(pool.map(lambda mutant: detected(rtl, build, mutant), mutants))
+    for (_, file, there, instead), was_detected in zip(mutants, found):
         if not was_detected:
             print(f"{file}: no test notices `{instead}` in place of `{there}`")
     print(f"{sum(found)} of {len(found)} mutants are detected")

@@ -1,0 +1,161 @@
+// The device of one motor behind its register map (sim_fpga/REGISTERS.md). It makes every step in the same tick as
+// sim_fpga/device.hpp, and shows the same registers after each tick.
+//
+// The map is memory: a write takes one clock, and a word that is read comes two clocks after its address. Inputs, ticks
+// and accesses belong to one clock. There are no outputs, events or encoder yet.
+//
+// Entries of the segment ring stay taken until their frame has ended, because the pieces are run from the ring. So
+// SEGMENT_TAIL moves when a frame ends, not when it begins.
+module axis_device #(
+    parameter TICK_NS = 1000,
+    parameter TIME_UNIT_PS = 20833, // the clock's period
+    parameter TIME_BITS = 16,   // of a pulse time in TIME_UNIT_PS
+    parameter LEAST_STEP_TICKS = 2,
+    parameter INPUTS = 8,
+    parameter SEGMENT_BITS = 8, // 2 to the power of it is SEGMENT_ENTRIES
+    parameter CAPTURE_BITS = 8, // and CAPTURE_ENTRIES
+    parameter SETTLE_CLOCKS = 8 // axis_sequencer.v
+) (
+    input clk,
+    input tick,                 // for one clock: another tick
+    output busy,                // it is being executed
+    input [63:0] first_tick,    // TICK and POWER_UP at power-up
+    input [63:0] power_up,
+    // The host.
+    input write,
+    input [19:3] write_address,
+    input [63:0] write_data,
+    input [19:3] read_address,
+    output reg [63:0] read_data,
+    input hold,                 // the device's words stay as they are
+    // The motor.
+    input [INPUTS-1:0] pins,
+    output step,                // for one clock
+    output forward,
+    output enabled,
+    // How the pins show that, as in the setup.
+    output [TIME_BITS-1:0] step_width,
+    output [TIME_BITS-1:0] direction_setup,
+    output [TIME_BITS-1:0] direction_hold,
+    output [2:0] inverted
+);
+    // verilator lint_off UNUSED
+    `include "registers.vh"
+    // verilator lint_on UNUSED
+
+    wire [63:0] run_request, armed, veto, stop, segment_head, capture_tail, beat, setup_request;
+    wire [63:0] setup_word, host_word;
+    wire [32:0] trigger;
+    wire [6:0] setup_address;
+    wire enable;
+    axis_host_words host_words (.clk(clk), .write(write), .write_address(write_address), .write_data(write_data),
+        .read_address({read_address[13], read_address[8:3]}), .read_word(host_word),
+        .setup_address(setup_address), .setup_word(setup_word),
+        .run_request(run_request), .trigger(trigger), .armed(armed), .veto(veto), .stop(stop),
+        .segment_head(segment_head), .capture_tail(capture_tail), .beat(beat), .enable(enable),
+        .setup_request(setup_request));
+
+    wire start_setup, setup_busy, setup_taken, setup_refused, invert_inputs, set_debounce, disables_at_silence;
+    wire [31:0] enable_ticks, debounce_ticks, silence_ticks;
+    wire [INPUTS-1:0] inputs_inverted, next_inputs_inverted, limit_min, limit_max, home, stop_inputs;
+    wire [4:0] debounce_input;
+    axis_setup #(.INPUTS(INPUTS), .TIME_BITS(TIME_BITS)) setup_words (.clk(clk),
+        .start(start_setup), .busy(setup_busy), .taken(setup_taken), .refused(setup_refused), .address(setup_address),
+        .word(setup_word), .step_width(step_width), .direction_setup(direction_setup),
+        .direction_hold(direction_hold), .enable_ticks(enable_ticks),
+        .inverted(inverted), .inputs_inverted(inputs_inverted), .invert_inputs(invert_inputs),
+        .next_inputs_inverted(next_inputs_inverted), .limit_min(limit_min), .limit_max(limit_max), .home(home),
+        .stop(stop_inputs), .set_debounce(set_debounce), .debounce_input(debounce_input),
+        .debounce_ticks(debounce_ticks), .disables_at_silence(disables_at_silence), .silence_ticks(silence_ticks));
+
+    wire [63:0] now, count, run, frame, trigger_count, segment_tail, setup, phase, velocity;
+    wire ticks, look, inputs_busy, look_at_host, judge_host, is_host_silent, accelerate, travel;
+    wire [INPUTS-1:0] closed;
+    axis_inputs #(.INPUTS(INPUTS)) inputs (.clk(clk), .pins(pins), .inverted(inputs_inverted), .invert(invert_inputs),
+        .next_inverted(next_inputs_inverted), .set_debounce(set_debounce), .debounce_input(debounce_input),
+        .debounce_ticks(debounce_ticks), .now(now[31:0]), .look(look), .busy(inputs_busy), .closed(closed));
+    axis_host_watch host_watch (.clk(clk), .begins(setup_taken), .look(look_at_host), .beat(beat), .tick(ticks),
+        .judge(judge_host), .patience(silence_ticks), .is_silent(is_host_silent));
+
+    wire fetch, drop_own, drop_others, take, frame_settled, frame_valid, frame_good, frame_is_last, frame_is_of_run;
+    wire [SEGMENT_BITS+1:0] fetch_address, scan_address;
+    wire [63:0] piece_word, frame_at, frame_start, frame_phase;
+    wire [31:0] frame_number, frame_count;
+    wire [15:0] frame_body_pieces, frame_tail_pieces;
+    wire is_segment_write = write && write_address[19:17] == LOCKSTEP_SEGMENT_RING[19:17];
+    axis_ring_memory #(.ENTRY_BITS(SEGMENT_BITS)) segments (.clk(clk), .write(is_segment_write),
+        .write_address(write_address[SEGMENT_BITS+4:3]), .write_data(write_data),
+        .read_address(fetch ? fetch_address : scan_address), .word(piece_word));
+    axis_frame_scanner #(.ENTRY_BITS(SEGMENT_BITS)) scanner (.clk(clk), .head(segment_head), .run(run[23:0]),
+        .drop_own(drop_own), .drop_others(drop_others), .take(take), .pause(fetch), .address(scan_address),
+        .word(piece_word), .settled(frame_settled), .valid(frame_valid), .good(frame_good), .taken(frame_at),
+        .is_last(frame_is_last), .is_of_run(frame_is_of_run), .number(frame_number), .start(frame_start),
+        .count(frame_count), .body_pieces(frame_body_pieces), .tail_pieces(frame_tail_pieces), .phase(frame_phase));
+
+    wire load_ticks, load_velocity, load_acceleration, halt, rebase, idle, overflow, engine_step, engine_backward;
+    wire [63:0] rebase_phase;
+    axis_engine engine (.clk(clk), .word(piece_word), .load_ticks(load_ticks), .load_velocity(load_velocity),
+        .load_acceleration(load_acceleration), .accelerate(accelerate), .travel(travel), .halt(halt),
+        .rebase(rebase), .rebase_phase(rebase_phase), .phase(phase), .velocity(velocity), .idle(idle),
+        .overflow(overflow), .step(engine_step), .backward(engine_backward));
+
+    wire capture_full, publish, publish_busy;
+    wire [63:0] capture_head, capture_lost, capture_sum, capture_sums, capture_word;
+    wire [15:0] status;
+    axis_sequencer #(.INPUTS(INPUTS), .ENTRY_BITS(SEGMENT_BITS), .SETTLE_CLOCKS(SETTLE_CLOCKS)) sequencer (.clk(clk),
+        .tick(tick), .busy(busy), .ticks(ticks), .first_tick(first_tick), .run_request(run_request),
+        .trigger_request(trigger), .armed(armed), .veto(veto), .stop(stop), .enable(enable),
+        .setup_request(setup_request), .start_setup(start_setup), .setup_busy(setup_busy), .setup_taken(setup_taken),
+        .setup_refused(setup_refused), .enable_ticks(enable_ticks), .limit_min(limit_min), .limit_max(limit_max),
+        .home(home), .stop_inputs(stop_inputs), .disables_at_silence(disables_at_silence), .look(look),
+        .inputs_busy(inputs_busy), .closed(closed), .look_at_host(look_at_host), .judge_host(judge_host),
+        .is_host_silent(is_host_silent), .drop_own(drop_own), .drop_others(drop_others), .take(take),
+        .frame_settled(frame_settled), .frame_valid(frame_valid), .frame_good(frame_good), .frame_at(frame_at),
+        .frame_is_last(frame_is_last), .frame_is_of_run(frame_is_of_run), .frame_number(frame_number),
+        .frame_start(frame_start), .frame_count(frame_count), .frame_body_pieces(frame_body_pieces),
+        .frame_tail_pieces(frame_tail_pieces), .frame_phase(frame_phase), .fetch(fetch),
+        .fetch_address(fetch_address), .load_ticks(load_ticks), .load_velocity(load_velocity),
+        .load_acceleration(load_acceleration), .accelerate(accelerate), .travel(travel), .halt(halt),
+        .rebase(rebase), .rebase_phase(rebase_phase), .phase(phase), .idle(idle), .overflow(overflow),
+        .engine_step(engine_step), .engine_backward(engine_backward), .step(step), .forward(forward),
+        .capture_full(capture_full), .publish(publish), .publish_busy(publish_busy), .now(now), .status(status),
+        .count(count), .run(run), .frame(frame), .trigger_count(trigger_count), .segment_tail(segment_tail),
+        .setup(setup), .enabled(enabled));
+    axis_capture #(.ENTRY_BITS(CAPTURE_BITS)) capture (.clk(clk), .step(step), .forward(forward), .now(now[62:0]),
+        .tail(capture_tail), .read_entry(read_address[CAPTURE_BITS+2:3]), .read_word(capture_word),
+        .full(capture_full), .head(capture_head), .lost(capture_lost), .sum(capture_sum), .sums(capture_sums));
+
+    wire [63:0] mirror_word;
+    wire is_published;
+    axis_mirror mirror (.clk(clk), .publish(publish), .hold(hold), .busy(publish_busy),
+        .read_word_number(read_address[7:3]), .read_word(mirror_word), .is_published(is_published), .now(now),
+        .status(status), .count(count), .phase(phase), .velocity(velocity), .run(run), .frame(frame),
+        .trigger_count(trigger_count), .segment_tail(segment_tail), .capture_head(capture_head),
+        .capture_lost(capture_lost), .capture_sum(capture_sum), .capture_sums(capture_sums), .setup(setup),
+        .inputs({{(32 - INPUTS){1'b0}}, closed}));
+
+    // What the host reads.
+    reg [19:3] address;         // a clock later, with the memories' words
+    reg [63:0] constant;
+    always @* case ({address, 3'd0})
+        LOCKSTEP_MAGIC: constant = is_published ? LOCKSTEP_MAGIC_VALUE : 64'd0;
+        LOCKSTEP_VERSION: constant = LOCKSTEP_VERSION_VALUE;
+        LOCKSTEP_MAP_CHECKSUM: constant = LOCKSTEP_MAP_CHECKSUM_VALUE;
+        LOCKSTEP_TICK_NS: constant = TICK_NS;
+        LOCKSTEP_POWER_UP: constant = power_up;
+        LOCKSTEP_SEGMENT_ENTRIES: constant = 64'd1 << SEGMENT_BITS;
+        LOCKSTEP_CAPTURE_ENTRIES: constant = 64'd1 << CAPTURE_BITS;
+        LOCKSTEP_LEAST_STEP_TICKS: constant = LEAST_STEP_TICKS;
+        LOCKSTEP_TIME_UNIT_PS: constant = TIME_UNIT_PS;
+        LOCKSTEP_LONGEST_TIME: constant = (64'd1 << TIME_BITS) - 1'b1;
+        LOCKSTEP_INPUT_CHANNELS: constant = INPUTS;
+        LOCKSTEP_FEATURES: constant = 64'd1 << LOCKSTEP_FEATURES_ENABLE_BIT;
+        default: constant = 0;
+    endcase
+    wire is_device_word = address[19:9] == 0 && address[8];
+    wire is_host_word = address[19:14] == 0 && address[13] != address[12];
+    always @(posedge clk) begin
+        address <= read_address;
+        read_data <= address[19] ? capture_word : is_host_word ? host_word : is_device_word ? mirror_word : constant;
+    end
+endmodule

@@ -1,0 +1,316 @@
+// Runs the frames of one motor: what begins at which tick, and what ends it. It is SimulatedDevice of
+// sim_fpga/device.hpp, where the rules are.
+//
+// The work of a tick: the host's orders, then the inputs and the decisions of the present tick, then the tick itself,
+// then the inputs and the decisions after it, then the registers for the host. `busy` lasts as long as this work. It
+// takes no more clocks than SETTLE_CLOCKS and 60, except when a setup is taken, which is at rest. A tick that comes
+// meanwhile waits.
+module axis_sequencer #(
+    parameter INPUTS = 8,
+    parameter ENTRY_BITS = 8,   // of the segment ring
+    parameter SETTLE_CLOCKS = 8 // how long a decision waits for axis_frame_scanner.v; then there is no good frame
+) (
+    input clk,
+    input tick,                 // for one clock
+    output busy,
+    output ticks,               // for one clock: the tick is executed
+    input [63:0] first_tick,    // TICK at power-up
+    // The host's words.
+    input [63:0] run_request,
+    input [32:0] trigger_request,
+    input [63:0] armed,
+    input [63:0] veto,
+    input [63:0] stop,
+    input enable,
+    input [63:0] setup_request,
+    // The setup.
+    output start_setup,
+    input setup_busy,
+    input setup_taken,
+    input setup_refused,
+    input [31:0] enable_ticks,
+    input [INPUTS-1:0] limit_min,
+    input [INPUTS-1:0] limit_max,
+    input [INPUTS-1:0] home,
+    input [INPUTS-1:0] stop_inputs,
+    input disables_at_silence,
+    // The inputs and the host's beat.
+    output look,
+    input inputs_busy,
+    input [INPUTS-1:0] closed,
+    output look_at_host,
+    output judge_host,
+    input is_host_silent,
+    // The next frame.
+    output drop_own,
+    output drop_others,
+    output take,
+    input frame_settled,
+    input frame_valid,
+    input frame_good,
+    input [63:0] frame_at,
+    input frame_is_last,
+    input frame_is_of_run,
+    input [31:0] frame_number,
+    input [63:0] frame_start,
+    input [31:0] frame_count,
+    input [15:0] frame_body_pieces,
+    input [15:0] frame_tail_pieces,
+    input [63:0] frame_phase,
+    // The pieces, and the engine that runs them.
+    output fetch,               // the ring's memory is the sequencer's
+    output [ENTRY_BITS+1:0] fetch_address,
+    output load_ticks,
+    output load_velocity,
+    output load_acceleration,
+    output accelerate,
+    output travel,
+    output halt,
+    output rebase,
+    output [63:0] rebase_phase,
+    input [63:0] phase,
+    input idle,
+    input overflow,
+    input engine_step,
+    input engine_backward,
+    // The steps.
+    output step,                // for one clock
+    output forward,
+    input capture_full,
+    // The registers.
+    output publish,             // for one clock
+    input publish_busy,
+    output reg [63:0] now,
+    output [15:0] status,
+    output reg [63:0] count,
+    output reg [63:0] run,
+    output reg [63:0] frame,
+    output reg [63:0] trigger_count,
+    output [63:0] segment_tail,
+    output reg [63:0] setup,
+    output enabled              // the motor is
+);
+    localparam AT_REST = 0, WAITING = 1, BODY = 2, TAIL = 3;
+    localparam POWER_UP = 0, IDLE = 1, SETUP = 2, TAKE_SETUP = 3, ENABLE = 4, RUN = 5, CEASE = 6, LOOK = 7, TEND = 8,
+        TENDED = 9, DECIDE = 10, SETTLE = 11, ACT = 12, FETCH = 13, ACCELERATE = 14, TRAVEL = 15, PUBLISH = 16,
+        PUBLISHED = 17;
+    // The bits of STATUS that a new run clears.
+    localparam [15:0] FINISHED = 1 << 1, ENDED_IN_TAIL = 1 << 2, BY_LIMIT = 1 << 6, BY_TRIGGER = 1 << 7,
+        BY_HOST = 1 << 8, BAD_SEGMENT = 1 << 9, OVERFLOWS = 1 << 10, BY_INPUT = 1 << 13;
+    localparam [8:0] MOST_WAITED = SETTLE_CLOCKS;
+    localparam [63:0] REST_PHASE = 64'h8000000000000000;
+
+    reg [4:0] state;
+    reg [7:0] owed;             // ticks that have come and are not executed
+    reg is_after;               // the tick of this work has been executed
+    reg [1:0] motion;
+    reg [8:0] waited;
+    reg [32:0] trigger;
+    reg [15:0] run_bits;
+    reg is_last;
+    reg [15:0] body_left, tail_left; // pieces, with the present one
+    reg [ENTRY_BITS-1:0] piece; // the present one in the ring
+    reg [63:0] frame_begin;     // where the present frame begins in the ring
+    reg [1:0] fetched;
+    reg [63:0] refused;         // the number of a setup that was refused
+    reg is_enabled;
+    reg [31:0] enabled_for;
+    reg stepped, stepped_backward, into_limit; // in this tick
+
+    wire in_motion = motion == BODY || motion == TAIL;
+    wire setup_is_new = setup_request != setup && setup_request != refused;
+    wire run_is_new = run_request != 0 && run_request != run;
+    wire is_stop_asked = stop != 0 && stop == run_request;
+    wire may_enable = enable && !(is_host_silent && disables_at_silence);
+    wire may_move = setup != 0 && is_enabled && enabled_for >= enable_ticks;
+
+    // The next frame: 1 while the run waits for it.
+    wire [63:0] number = frame + 1'b1;
+    wire is_vetoed = veto <= number;
+    wire may_run = !is_vetoed && armed >= number && run_request == run && may_move;
+    wire is_number = frame_number == number[31:0];
+    wire is_here = frame_start == now && frame_count == count[31:0];
+    wire rests = frame_phase == REST_PHASE || frame_phase == REST_PHASE - 1'b1;
+    wire is_same_phase = frame_phase == phase;
+    wire joins = is_number && is_here && (is_same_phase || (motion == WAITING && rests));
+    wire is_good = frame_good && frame_valid;
+
+    wire [INPUTS-1:0] of_trigger = trigger[INPUTS-1:0] & closed;
+    wire is_triggered = trigger[31:0] != 0 && (of_trigger != 0) != trigger[32];
+    wire is_stopped = (closed & stop_inputs) != 0;
+    wire at_min = (closed & limit_min) != 0, at_max = (closed & limit_max) != 0;
+    wire is_blocked = engine_backward ? at_min : at_max;
+    wire at_limit = into_limit || (stepped && (stepped_backward ? at_min : at_max));
+
+    // What the state ACT does. At a body's end the next frame begins, or the tail, or the run is over.
+    wire begins_run = motion == WAITING && frame_valid && !is_vetoed && $signed(frame_start) <= $signed(now) && may_run;
+    wire starts = begins_run && joins && is_good;
+    wire is_piece_over = state == ACT && in_motion && idle;
+    wire is_body_over = is_piece_over && motion == BODY && body_left == 1;
+    wire is_next = is_body_over && !is_last && frame_valid && frame_is_of_run && is_number && may_run;
+    wire follows = is_next && joins && is_good;
+    wire begins_tail = is_body_over && !is_last && !follows && tail_left != 0;
+    wire goes_on = is_piece_over && (motion == BODY ? body_left != 1 : tail_left != 1);
+    wire begins_frame = (state == ACT && starts && !is_stopped && !is_triggered) || follows;
+
+    // Why the run ends in this clock.
+    reg ends;
+    reg [15:0] reason;
+    always @* begin
+        ends = 0;
+        reason = 0;
+        case (state)
+            ENABLE, TENDED: begin
+                ends = in_motion && is_enabled && !may_enable && (state == ENABLE || is_host_silent);
+                reason = BY_HOST;
+            end
+            CEASE: begin
+                ends = motion != AT_REST && is_stop_asked;
+                reason = BY_HOST;
+            end
+            TEND: begin
+                reason = (at_limit ? BY_LIMIT : 16'd0) | (is_triggered ? BY_TRIGGER : 16'd0) |
+                    (is_stopped ? BY_INPUT : 16'd0);
+                ends = in_motion && !inputs_busy && reason != 0;
+            end
+            TRAVEL: begin
+                ends = in_motion && overflow;
+                reason = BAD_SEGMENT;
+            end
+            ACT: if (motion == WAITING) begin
+                ends = frame_valid && (is_vetoed || (begins_run && !begins_frame));
+                reason = is_vetoed ? 16'd0 : !starts ? BAD_SEGMENT : is_stopped ? BY_INPUT : BY_TRIGGER;
+            end else begin
+                ends = is_piece_over && !goes_on && !follows && !begins_tail;
+                reason = is_next ? BAD_SEGMENT : 16'd0;
+            end
+            default: ;
+        endcase
+    end
+
+    assign busy = state != IDLE || owed != 0;
+    assign start_setup = state == SETUP && setup_is_new && !in_motion;
+    assign look = state == LOOK;
+    assign look_at_host = state == ENABLE;
+    assign judge_host = state == LOOK;
+    assign drop_own = state == SETTLE && motion == AT_REST;
+    assign drop_others = state == SETTLE && motion == WAITING;
+    assign take = state == ACT && (starts || follows);
+    assign rebase = (state == ACT && begins_run && joins) || (ends && into_limit);
+    assign rebase_phase = ends && into_limit ? REST_PHASE : frame_phase;
+    assign halt = ends;
+    assign fetch = state == FETCH;
+    assign fetch_address = {piece, fetched};
+    assign load_ticks = fetch && fetched == 1;
+    assign load_velocity = fetch && fetched == 2;
+    assign load_acceleration = fetch && fetched == 3;
+    assign accelerate = state == ACCELERATE && in_motion;
+    assign travel = state == TRAVEL && in_motion && !overflow;
+    assign step = travel && engine_step && !is_blocked;
+    assign forward = !engine_backward;
+    assign publish = state == PUBLISH;
+    assign ticks = state == TRAVEL;
+    assign enabled = is_enabled;
+    assign segment_tail = in_motion ? frame_begin : frame_at;
+
+    wire bad_setup = refused != 0 && setup_request == refused;
+    assign status = run_bits | {1'b0, bad_setup, 1'b0, is_host_silent, is_enabled, 5'd0, (closed & home) != 0, at_max,
+        at_min, motion == TAIL, 1'b0, in_motion};
+
+    initial begin
+        state = POWER_UP;
+        {owed, is_after, motion, waited, trigger, run_bits, is_last, body_left, tail_left, piece, frame_begin} = 0;
+        {fetched, refused, is_enabled, enabled_for, stepped, stepped_backward, into_limit} = 0;
+        {now, count, run, frame, trigger_count, setup} = 0;
+    end
+
+    // The order of work.
+    always @(posedge clk) begin
+        owed <= owed + {7'd0, tick} - {7'd0, state == IDLE && owed != 0};
+        waited <= state == SETTLE ? waited + 1'b1 : 9'd0;
+        fetched <= fetch ? fetched + 1'b1 : 2'd0;
+        case (state)
+            POWER_UP: begin
+                now <= first_tick;
+                state <= PUBLISH;
+            end
+            IDLE: begin
+                is_after <= 0;
+                if (owed != 0) state <= SETUP;
+            end
+            SETUP: state <= start_setup ? TAKE_SETUP : ENABLE;
+            TAKE_SETUP: if (!setup_busy) state <= ENABLE;
+            ENABLE: state <= RUN;
+            RUN: state <= CEASE;
+            CEASE: state <= LOOK;
+            LOOK: state <= TEND;
+            TEND: if (!inputs_busy) state <= TENDED;
+            TENDED: state <= DECIDE;
+            DECIDE: state <= SETTLE;
+            SETTLE: if (frame_settled || waited == MOST_WAITED) state <= ACT;
+            ACT: state <= begins_frame || begins_tail || goes_on ? FETCH : is_after ? PUBLISH : ACCELERATE;
+            FETCH: if (fetched == 3) state <= is_after ? PUBLISH : ACCELERATE;
+            ACCELERATE: begin
+                now <= now + 1'b1;
+                state <= TRAVEL;
+            end
+            TRAVEL: begin
+                is_after <= 1;
+                state <= LOOK;
+            end
+            PUBLISH: state <= PUBLISHED;
+            PUBLISHED: if (!publish_busy) state <= IDLE;
+            default: state <= IDLE;
+        endcase
+    end
+
+    // The setup and the motor's enable.
+    always @(posedge clk) begin
+        if (setup_taken) setup <= setup_request;
+        if (setup_refused) refused <= setup_request;
+        if (state == ENABLE || (state == TENDED && is_host_silent)) is_enabled <= may_enable;
+        if (!is_enabled) enabled_for <= 0;
+        else if (state == TRAVEL && enabled_for != 32'hffffffff) enabled_for <= enabled_for + 1'b1;
+    end
+
+    // The run, its frames and its pieces.
+    always @(posedge clk) begin
+        if (ends) begin
+            motion <= AT_REST;
+            run_bits <= run_bits | FINISHED | reason | (motion == TAIL ? ENDED_IN_TAIL : 16'd0);
+            if (reason[7]) trigger_count <= count;
+        end else if (run_is_new && ((state == RUN && !in_motion) || (state == DECIDE && motion == AT_REST))) begin
+            motion <= WAITING;
+            run <= run_request;
+            trigger <= trigger_request;
+            run_bits <= 0;
+            frame <= 0;
+        end else if (begins_frame) begin
+            motion <= BODY;
+            frame <= number;
+            is_last <= frame_is_last;
+            body_left <= frame_body_pieces;
+            tail_left <= frame_tail_pieces;
+            frame_begin <= frame_at;
+            piece <= frame_at[ENTRY_BITS-1:0] + 1'b1;
+        end else if (begins_tail || goes_on) begin
+            piece <= piece + 1'b1;
+            if (begins_tail) motion <= TAIL;
+            else if (motion == BODY) body_left <= body_left - 1'b1;
+            else tail_left <= tail_left - 1'b1;
+            if (begins_tail && is_next) run_bits <= run_bits | BAD_SEGMENT;
+        end else if (step && capture_full) begin
+            run_bits <= run_bits | OVERFLOWS;
+        end
+    end
+
+    // The steps.
+    always @(posedge clk) begin
+        if (travel) begin
+            stepped <= engine_step && !is_blocked;
+            stepped_backward <= engine_backward;
+            into_limit <= engine_step && is_blocked;
+        end else if (state == TENDED) {stepped, into_limit} <= 0;
+        if (step) count <= engine_backward ? count - 1'b1 : count + 1'b1;
+    end
+endmodule

@@ -1,0 +1,95 @@
+// sim_fpga/rtl/axis/axis_device.v beside sim_fpga/device.hpp: both get the same words from a host that draws them, and
+// must show the same words after every tick.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstdlib>
+
+#include "tests/rtl/axis/bench.hpp"
+#include "tests/rtl/axis/drawn_host.hpp"
+
+namespace lockstep::rtl {
+namespace {
+
+/// What a run of the bench went through.
+class Coverage {
+public:
+    void note(const Bench& bench) {
+        const std::uint64_t status = bench.load(registers::kStatus);
+        for (unsigned bit = 0; bit < kBits; ++bit) { bits_[bit] += static_cast<int>((status & ~status_) >> bit & 1); }
+        status_ = status;
+        const std::uint64_t frame = bench.load(registers::kFrame);
+        joins_ += frame == frame_ + 1 && frame > 1 ? 1 : 0;
+        frame_ = frame;
+    }
+    /// How many ticks set this bit of STATUS.
+    int of(std::uint64_t bit) const { return bits_[static_cast<std::size_t>(std::countr_zero(bit))]; }
+    /// How many frames began at the end of another one's body.
+    int joins() const { return joins_; }
+
+private:
+    static constexpr unsigned kBits = 16;
+    std::array<int, kBits> bits_{};
+    std::uint64_t status_ = 0;
+    std::uint64_t frame_ = 0;
+    int joins_ = 0;
+};
+
+std::int64_t wanted_pieces() {
+    const char* asked = std::getenv("LOCKSTEP_RTL_PIECES");
+    return asked != nullptr ? std::atoll(asked) : 30'000;
+}
+
+TEST(AxisHardware, ShowsTheWordsOfTheSimulatedDeviceAfterEveryTickForAnyHost) {
+    Bench bench(Tick{1'000'000});
+    DrawnHost host(bench, 4);
+    Coverage covered;
+    while (host.pieces() < wanted_pieces() && !HasFailure()) {
+        host.act();
+        bench.tick();
+        covered.note(bench);
+    }
+    using namespace registers;
+    EXPECT_GT(bench.load(kCaptureHead), 2'000) << "steps";
+    EXPECT_GT(bench.load(kCaptureLost), 10) << "steps";
+    EXPECT_GT(covered.joins(), 500);
+    for (const std::uint64_t bit :
+         {kStatusFinished, kStatusInTail, kStatusLimitMin, kStatusLimitMax, kStatusHome, kStatusStoppedByLimit,
+          kStatusStoppedByTrigger, kStatusStoppedByHost, kStatusBadSegment, kStatusCaptureOverflow, kStatusEnabled,
+          kStatusHostSilent, kStatusStoppedByInput, kStatusBadSetup}) {
+        EXPECT_GT(covered.of(bit), 5) << "bit " << std::countr_zero(bit);
+    }
+}
+
+/// The simulated device refuses such a frame when it should begin.
+TEST(AxisHardware, EndsTheRunInTheTickInWhichTheVelocityLeaves64Bits) {
+    using namespace registers;
+    VerilogDevice device(Tick{0});
+    device.write(kSetupRequest, 1);
+    device.write(kEnable, 1);
+    device.write(kVeto, ~std::uint64_t{0});
+    const std::size_t header = kSegments.entry(0);
+    const std::size_t piece = kSegments.entry(1);
+    device.write(header + kSegmentRingHeaderTag, kSegmentRingHeaderTagIsHeader | kSegmentRingHeaderTagLastFrame |
+                                                     kSegmentRingHeaderTagRun.word(1) |
+                                                     kSegmentRingHeaderTagFrame.word(1));
+    device.write(header + kSegmentRingHeaderStart, 2);
+    device.write(header + kSegmentRingHeaderCounts, kSegmentRingHeaderCountsBody.word(1));
+    device.write(header + kSegmentRingHeaderPhase, kRestPhase);
+    device.write(piece + kSegmentRingPieceTag, kSegmentRingPieceTagTicks.word(100));
+    device.write(piece + kSegmentRingPieceVelocity, 0);
+    device.write(piece + kSegmentRingPieceAcceleration, std::uint64_t{1} << 61);
+    device.write(kSegmentHead, 2);
+    device.write(kArmed, 1);
+    device.write(kRunRequest, 1);
+    int steps = 0;
+    for (int tick = 0; tick < 20; ++tick) { steps += device.tick(0, 0); }
+    EXPECT_EQ(steps, 1);  // 1/8 + 2/8 + 3/8 of a step, and 4/8 would be the next
+    EXPECT_EQ(device.read(kStatus), kStatusFinished | kStatusBadSegment | kStatusEnabled);
+    EXPECT_EQ(device.read(kVelocity), 0);
+}
+
+}  // namespace
+}  // namespace lockstep::rtl

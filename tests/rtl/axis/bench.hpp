@@ -1,0 +1,182 @@
+// The device in Verilog and the simulated device, with one host: each word that it writes goes to both. After each tick
+// both must show the same.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <iterator>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "Vaxis_device.h"
+#include "core/hardware/device_abilities.hpp"
+#include "sim_fpga/device.hpp"
+#include "sim_fpga/register_ring.hpp"
+#include "tests/rtl/clocked.hpp"
+
+namespace lockstep::rtl {
+
+/// The same in tests/rtl/axis/CMakeLists.txt.
+inline constexpr DeviceAbilities kAbilities{.segment_entries = 64,
+                                            .capture_entries = 256,
+                                            .time_unit_ps = 1000,
+                                            .longest_time = 65'535,
+                                            .inputs = 8,
+                                            .digital_outputs = 0,
+                                            .analog_outputs = 0,
+                                            .output_entries = 0,
+                                            .event_entries = 0,
+                                            .has_encoder = false,
+                                            .can_compare = false};
+inline constexpr RegisterRing kSegments(registers::kSegmentRing, kAbilities.segment_entries,
+                                        registers::kSegmentRingEntryBytes);
+inline constexpr RegisterRing kCaptures(registers::kCaptureRing, kAbilities.capture_entries,
+                                        registers::kCaptureRingEntryBytes);
+
+/// The device in Verilog. `tick` and the accesses of the host take turns.
+class VerilogDevice {
+public:
+    explicit VerilogDevice(Tick now) {
+        auto& pins = hardware_.pins;
+        pins.first_tick = static_cast<std::uint64_t>(now.value);
+        pins.power_up = pins.write = pins.hold = pins.tick = pins.pins = 0;
+        settle();
+    }
+
+    void write(std::size_t offset, std::uint64_t value) {
+        auto& pins = hardware_.pins;
+        pins.write = 1;
+        pins.write_address = static_cast<std::uint32_t>(offset / sizeof value);
+        pins.write_data = value;
+        hardware_.clock();
+        pins.write = 0;
+    }
+    std::uint64_t read(std::size_t offset) {
+        hardware_.pins.read_address = static_cast<std::uint32_t>(offset / sizeof(std::uint64_t));
+        hardware_.clock();
+        hardware_.clock();
+        return hardware_.pins.read_data;
+    }
+
+    /// Executes a tick. The levels of the pins change with the step that it makes, if it makes one. Returns the step.
+    int tick(std::uint32_t before, std::uint32_t after) {
+        auto& pins = hardware_.pins;
+        pins.pins = static_cast<std::uint8_t>(before);
+        pins.tick = 1;
+        hardware_.clock();
+        pins.tick = 0;
+        step_ = 0;
+        settle([&] { pins.pins = static_cast<std::uint8_t>(after); });
+        return step_;
+    }
+
+private:
+    template <typename OnStep>
+    void settle(OnStep&& on_step) {
+        auto& pins = hardware_.pins;
+        int clocks = 1;
+        for (pins.eval(); pins.busy != 0; ++clocks) {
+            ASSERT_LT(clocks, 2'000) << "a tick does not end";
+            if (pins.step != 0) {
+                step_ += pins.forward != 0 ? 1 : -1;
+                hardware_.clock();
+                on_step();
+                pins.eval();
+            } else {
+                hardware_.clock();
+            }
+        }
+    }
+    void settle() {
+        settle([] {});
+    }
+
+    Clocked<Vaxis_device> hardware_;
+    int step_ = 0;
+};
+
+/// Both devices.
+class Bench {
+public:
+    explicit Bench(Tick now)
+        : window_(RegisterWindow::in_process()),
+          simulated_(window_, plant(), 1000, now, 0, kAbilities),
+          verilog_(now) {}
+
+    void store(std::size_t offset, std::uint64_t value) {
+        window_.store(offset, value);
+        verilog_.write(offset, value);
+    }
+    /// What the simulated device shows, and so both.
+    std::uint64_t load(std::size_t offset) const { return window_.load(offset); }
+    Plant& plant_of_device() { return simulated_.plant(); }
+    Tick now() const { return simulated_.now(); }
+    VerilogDevice& verilog() { return verilog_; }
+
+    /// Notes where the host put a frame: in Verilog its entries stay taken until it ends.
+    void note_frame(std::uint64_t entry) { headers_.insert(entry); }
+
+    /// Executes a tick in both, and compares them.
+    void tick() {
+        const std::uint32_t before = simulated_.plant().pins();
+        const auto count = static_cast<std::int64_t>(load(registers::kCount));
+        simulated_.advance(now() + Ticks{1});
+        const int step = verilog_.tick(before, simulated_.plant().pins());
+        EXPECT_EQ(step, static_cast<std::int64_t>(load(registers::kCount)) - count) << where();
+        for (const auto& [name, offset] : kEachTick) { compare(name, offset, load(offset)); }
+        if (now().value % 8 == 0) { compare_rest(); }
+    }
+    /// Compares the words that no tick changes without changing one of the others.
+    void compare_rest() {
+        for (const auto& [name, offset] : kRest) { compare(name, offset, load(offset)); }
+        compare("SEGMENT_TAIL", registers::kSegmentTail, segment_tail());
+    }
+
+private:
+    using Name = std::pair<const char*, std::size_t>;
+    static constexpr std::array<Name, 7> kEachTick{{{"TICK", registers::kTick},
+                                                    {"STATUS", registers::kStatus},
+                                                    {"COUNT", registers::kCount},
+                                                    {"PHASE", registers::kPhase},
+                                                    {"VELOCITY", registers::kVelocity},
+                                                    {"RUN", registers::kRun},
+                                                    {"FRAME", registers::kFrame}}};
+    static constexpr std::array<Name, 7> kRest{{{"TRIGGER_COUNT", registers::kTriggerCount},
+                                                {"CAPTURE_HEAD", registers::kCaptureHead},
+                                                {"CAPTURE_LOST", registers::kCaptureLost},
+                                                {"CAPTURE_SUM", registers::kCaptureSum},
+                                                {"CAPTURE_SUMS", registers::kCaptureSums},
+                                                {"SETUP", registers::kSetup},
+                                                {"INPUTS", registers::kInputs}}};
+
+    /// A plant whose switches are far away.
+    static Plant plant() {
+        MotorConfig motor;
+        motor.steps_per_mm = 100;
+        motor.position_min_mm = -1e9;
+        motor.position_max_mm = 1e9;
+        motor.homing.switch_position_mm = -1e9;
+        motor.homing.toward_min = true;
+        return Plant(motor, 1000);
+    }
+    std::string where() const { return "at tick " + std::to_string(now().value); }
+    void compare(const char* name, std::size_t offset, std::uint64_t expected) {
+        ASSERT_EQ(verilog_.read(offset), expected) << name << ' ' << where();
+    }
+    /// In motion the last header before SEGMENT_TAIL is that of the present frame.
+    std::uint64_t segment_tail() const {
+        const std::uint64_t tail = load(registers::kSegmentTail);
+        const bool is_moving = (load(registers::kStatus) & registers::kStatusMoving) != 0;
+        return is_moving ? *std::prev(headers_.lower_bound(tail)) : tail;
+    }
+
+    RegisterWindow window_;
+    SimulatedDevice simulated_;
+    VerilogDevice verilog_;
+    std::set<std::uint64_t> headers_;
+};
+
+}  // namespace lockstep::rtl
