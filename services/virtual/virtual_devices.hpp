@@ -24,6 +24,8 @@ public:
 
     SimulatedDevice& operator[](std::size_t axis) { return *devices_[axis].simulated; }
     const SimulatedDevice& operator[](std::size_t axis) const { return *devices_[axis].simulated; }
+    /// Its registers, as the host and the device see them.
+    const RegisterWindow& registers(std::size_t axis) const { return devices_[axis].window; }
 
     /// Opens the device for its axis. Errors: no process holds its registers, or they are not those of a device.
     std::expected<std::unique_ptr<DevicePort>, std::string> open(std::size_t axis);

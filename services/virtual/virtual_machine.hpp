@@ -113,6 +113,7 @@ public:
     /// A person closes or opens an input of the machine, by its number in the machine's file.
     void set_input(std::size_t input, bool closed) { devices_.set_input(input, closed, now_); }
     const SimulatedDevice& device(std::size_t i) const { return devices_[i]; }
+    const RegisterWindow& registers(std::size_t i) const { return devices_.registers(i); }
     const AlterationCounts& alterations() const { return post_.alterations(); }
 
 private:

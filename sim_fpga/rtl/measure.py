@@ -68,7 +68,7 @@ def yosys(script, work):
 
 def synthesized(design, work):
     """The netlist of one copy."""
-    return yosys(f"read_verilog {design.sources()}; {design.chosen()} synth_ice40 -top {design.top};",
+    return yosys(f"read_verilog -I{HERE.parent} {design.sources()}; {design.chosen()} synth_ice40 -top {design.top};",
                  work)["modules"][design.top]
 
 
@@ -107,7 +107,7 @@ def megahertz(design, module, copies, work):
     """The highest clock in each part."""
     wrapper, netlist = work / "few_pins.v", work / "placed.json"
     wrapper.write_text(with_few_pins(design, module, copies))
-    subprocess.run(["yosys", "-q", "-p", f"read_verilog {design.sources()} {wrapper}; {design.chosen()} "
+    subprocess.run(["yosys", "-q", "-p", f"read_verilog -I{HERE.parent} {design.sources()} {wrapper}; {design.chosen()} "
                     f"synth_ice40 -top few_pins -json {netlist}"], check=True)
     return [placed(netlist, options) for options in PARTS.values()]
 

@@ -32,7 +32,6 @@ module axis_frame_scanner #(
     output reg [63:0] phase
 );
     localparam LOOK = 0, HEADER = 1, CHECK = 2, KNOWN = 3;
-    localparam [63:0] ENTRIES = 64'd1 << ENTRY_BITS;
     reg [1:0] state;
     reg [15:0] at;              // the word of the header, or the piece
     reg asked;                  // the memory shows it
@@ -40,9 +39,10 @@ module axis_frame_scanner #(
     reg [23:0] tag_run;
 
     wire [63:0] loaded = head - taken;
-    wire is_loaded = loaded != 0 && loaded <= ENTRIES;
+    wire is_most = loaded[63:ENTRY_BITS] == 1 && loaded[ENTRY_BITS-1:0] == 0; // the ring is full
+    wire is_loaded = loaded != 0 && (is_most || loaded[63:ENTRY_BITS] == 0);
     wire [16:0] pieces = {1'b0, body_pieces} + {1'b0, tail_pieces};
-    wire is_whole = {47'd0, pieces} < loaded;
+    wire is_whole = loaded[63:17] != 0 || pieces < loaded[16:0];
     wire is_found = state == CHECK || state == KNOWN;
     wire is_possible = body_pieces != 0 && pieces <= MOST_PIECES;
     wire drops = is_found && is_loaded && (is_of_run ? drop_own : drop_others);

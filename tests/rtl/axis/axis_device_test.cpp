@@ -66,7 +66,7 @@ TEST(AxisHardware, ShowsTheWordsOfTheSimulatedDeviceAfterEveryTickForAnyHost) {
 /// The simulated device refuses such a frame when it should begin.
 TEST(AxisHardware, EndsTheRunInTheTickInWhichTheVelocityLeaves64Bits) {
     using namespace registers;
-    VerilogDevice device(Tick{0});
+    VerilogDevice<Vaxis_device> device(Tick{0});
     device.write(kSetupRequest, 1);
     device.write(kEnable, 1);
     device.write(kVeto, ~std::uint64_t{0});
@@ -85,7 +85,9 @@ TEST(AxisHardware, EndsTheRunInTheTickInWhichTheVelocityLeaves64Bits) {
     device.write(kArmed, 1);
     device.write(kRunRequest, 1);
     int steps = 0;
-    for (int tick = 0; tick < 20; ++tick) { steps += device.tick(0, 0); }
+    for (int tick = 0; tick < 20; ++tick) {
+        steps += device.tick(0, [](int) { return 0U; });
+    }
     EXPECT_EQ(steps, 1);  // 1/8 + 2/8 + 3/8 of a step, and 4/8 would be the next
     EXPECT_EQ(device.read(kStatus), kStatusFinished | kStatusBadSegment | kStatusEnabled);
     EXPECT_EQ(device.read(kVelocity), 0);

@@ -15,7 +15,7 @@
 #include "core/hardware/device_abilities.hpp"
 #include "sim_fpga/device.hpp"
 #include "sim_fpga/register_ring.hpp"
-#include "tests/rtl/clocked.hpp"
+#include "tests/rtl/axis/verilog_device.hpp"
 
 namespace lockstep::rtl {
 
@@ -36,68 +36,6 @@ inline constexpr RegisterRing kSegments(registers::kSegmentRing, kAbilities.segm
 inline constexpr RegisterRing kCaptures(registers::kCaptureRing, kAbilities.capture_entries,
                                         registers::kCaptureRingEntryBytes);
 
-/// The device in Verilog. `tick` and the accesses of the host take turns.
-class VerilogDevice {
-public:
-    explicit VerilogDevice(Tick now) {
-        auto& pins = hardware_.pins;
-        pins.first_tick = static_cast<std::uint64_t>(now.value);
-        pins.power_up = pins.write = pins.hold = pins.tick = pins.pins = 0;
-        settle();
-    }
-
-    void write(std::size_t offset, std::uint64_t value) {
-        auto& pins = hardware_.pins;
-        pins.write = 1;
-        pins.write_address = static_cast<std::uint32_t>(offset / sizeof value);
-        pins.write_data = value;
-        hardware_.clock();
-        pins.write = 0;
-    }
-    std::uint64_t read(std::size_t offset) {
-        hardware_.pins.read_address = static_cast<std::uint32_t>(offset / sizeof(std::uint64_t));
-        hardware_.clock();
-        hardware_.clock();
-        return hardware_.pins.read_data;
-    }
-
-    /// Executes a tick. The levels of the pins change with the step that it makes, if it makes one. Returns the step.
-    int tick(std::uint32_t before, std::uint32_t after) {
-        auto& pins = hardware_.pins;
-        pins.pins = static_cast<std::uint8_t>(before);
-        pins.tick = 1;
-        hardware_.clock();
-        pins.tick = 0;
-        step_ = 0;
-        settle([&] { pins.pins = static_cast<std::uint8_t>(after); });
-        return step_;
-    }
-
-private:
-    template <typename OnStep>
-    void settle(OnStep&& on_step) {
-        auto& pins = hardware_.pins;
-        int clocks = 1;
-        for (pins.eval(); pins.busy != 0; ++clocks) {
-            ASSERT_LT(clocks, 2'000) << "a tick does not end";
-            if (pins.step != 0) {
-                step_ += pins.forward != 0 ? 1 : -1;
-                hardware_.clock();
-                on_step();
-                pins.eval();
-            } else {
-                hardware_.clock();
-            }
-        }
-    }
-    void settle() {
-        settle([] {});
-    }
-
-    Clocked<Vaxis_device> hardware_;
-    int step_ = 0;
-};
-
 /// Both devices.
 class Bench {
 public:
@@ -114,7 +52,7 @@ public:
     std::uint64_t load(std::size_t offset) const { return window_.load(offset); }
     Plant& plant_of_device() { return simulated_.plant(); }
     Tick now() const { return simulated_.now(); }
-    VerilogDevice& verilog() { return verilog_; }
+    VerilogDevice<Vaxis_device>& verilog() { return verilog_; }
 
     /// Notes where the host put a frame: in Verilog its entries stay taken until it ends.
     void note_frame(std::uint64_t entry) { headers_.insert(entry); }
@@ -124,7 +62,7 @@ public:
         const std::uint32_t before = simulated_.plant().pins();
         const auto count = static_cast<std::int64_t>(load(registers::kCount));
         simulated_.advance(now() + Ticks{1});
-        const int step = verilog_.tick(before, simulated_.plant().pins());
+        const int step = verilog_.tick(before, [this](int) { return simulated_.plant().pins(); });
         EXPECT_EQ(step, static_cast<std::int64_t>(load(registers::kCount)) - count) << where();
         for (const auto& [name, offset] : kEachTick) { compare(name, offset, load(offset)); }
         if (now().value % 8 == 0) { compare_rest(); }
@@ -175,7 +113,7 @@ private:
 
     RegisterWindow window_;
     SimulatedDevice simulated_;
-    VerilogDevice verilog_;
+    VerilogDevice<Vaxis_device> verilog_;
     std::set<std::uint64_t> headers_;
 };
 
