@@ -2,7 +2,7 @@
 // sim_fpga/device.hpp, and shows the same registers after each tick.
 //
 // The map is memory: a write takes one clock, and a word that is read comes two clocks after its address. Inputs, ticks
-// and accesses belong to one clock. There are no outputs, events or encoder yet.
+// and accesses belong to one clock. There are no outputs and no encoder yet.
 //
 // Entries of the segment ring stay taken until their frame has ended, because the pieces are run from the ring. So
 // SEGMENT_TAIL moves when a frame ends, not when it begins.
@@ -14,6 +14,7 @@ module axis_device #(
     parameter INPUTS = 8,
     parameter SEGMENT_BITS = 8, // 2 to the power of it is SEGMENT_ENTRIES
     parameter CAPTURE_BITS = 8, // and CAPTURE_ENTRIES
+    parameter EVENT_BITS = 4,   // and EVENT_ENTRIES
     parameter SETTLE_CLOCKS = 8 // axis_sequencer.v
 ) (
     input clk,
@@ -43,7 +44,8 @@ module axis_device #(
     `include "registers.vh"
     // verilator lint_on UNUSED
 
-    wire [63:0] run_request, armed, veto, stop, segment_head, capture_tail, beat, setup_request;
+    wire [63:0] run_request, armed, veto, stop, segment_head, capture_tail, event_tail, beat;
+    wire [63:0] setup_request;
     wire [63:0] setup_word, host_word;
     wire [32:0] trigger;
     wire [6:0] setup_address;
@@ -52,7 +54,7 @@ module axis_device #(
         .read_address({read_address[13], read_address[8:3]}), .read_word(host_word),
         .setup_address(setup_address), .setup_word(setup_word),
         .run_request(run_request), .trigger(trigger), .armed(armed), .veto(veto), .stop(stop),
-        .segment_head(segment_head), .capture_tail(capture_tail), .beat(beat), .enable(enable),
+        .segment_head(segment_head), .capture_tail(capture_tail), .event_tail(event_tail), .beat(beat), .enable(enable),
         .setup_request(setup_request));
 
     wire start_setup, setup_busy, setup_taken, setup_refused, invert_inputs, set_debounce, disables_at_silence;
@@ -71,9 +73,17 @@ module axis_device #(
     wire [63:0] now, count, run, frame, trigger_count, segment_tail, setup, phase, velocity;
     wire ticks, look, inputs_busy, look_at_host, judge_host, is_host_silent, accelerate, travel;
     wire [INPUTS-1:0] closed;
+    wire input_changes, changed_closed, events_busy;
+    wire [4:0] changed_input;
+    wire [63:0] event_head, event_lost, event_word;
     axis_inputs #(.INPUTS(INPUTS)) inputs (.clk(clk), .pins(pins), .inverted(inputs_inverted), .invert(invert_inputs),
         .next_inverted(next_inputs_inverted), .set_debounce(set_debounce), .debounce_input(debounce_input),
-        .debounce_ticks(debounce_ticks), .now(now[31:0]), .look(look), .busy(inputs_busy), .closed(closed));
+        .debounce_ticks(debounce_ticks), .now(now[31:0]), .look(look), .busy(inputs_busy), .closed(closed),
+        .changes(input_changes), .changed_input(changed_input), .changed_closed(changed_closed),
+        .wait_for_event(events_busy));
+    axis_events #(.ENTRY_BITS(EVENT_BITS)) events (.clk(clk), .put(input_changes), .channel(changed_input),
+        .closed(changed_closed), .now(now), .count(count), .phase(phase), .busy(events_busy), .tail(event_tail),
+        .read_address(read_address[EVENT_BITS+4:3]), .read_word(event_word), .head(event_head), .lost(event_lost));
     axis_host_watch host_watch (.clk(clk), .begins(setup_taken), .look(look_at_host), .beat(beat), .tick(ticks),
         .judge(judge_host), .patience(silence_ticks), .is_silent(is_host_silent));
 
@@ -132,7 +142,7 @@ module axis_device #(
         .status(status), .count(count), .phase(phase), .velocity(velocity), .run(run), .frame(frame),
         .trigger_count(trigger_count), .segment_tail(segment_tail), .capture_head(capture_head),
         .capture_lost(capture_lost), .capture_sum(capture_sum), .capture_sums(capture_sums), .setup(setup),
-        .inputs({{(32 - INPUTS){1'b0}}, closed}));
+        .inputs({{(32 - INPUTS){1'b0}}, closed}), .event_head(event_head), .event_lost(event_lost));
 
     // What the host reads.
     reg [19:3] address;         // a clock later, with the memories' words
@@ -149,13 +159,16 @@ module axis_device #(
         LOCKSTEP_TIME_UNIT_PS: constant = TIME_UNIT_PS;
         LOCKSTEP_LONGEST_TIME: constant = (64'd1 << TIME_BITS) - 1'b1;
         LOCKSTEP_INPUT_CHANNELS: constant = INPUTS;
+        LOCKSTEP_EVENT_ENTRIES: constant = 64'd1 << EVENT_BITS;
         LOCKSTEP_FEATURES: constant = 64'd1 << LOCKSTEP_FEATURES_ENABLE_BIT;
         default: constant = 0;
     endcase
+    wire is_event = address[19:16] == LOCKSTEP_EVENT_RING[19:16];
     wire is_device_word = address[19:9] == 0 && address[8];
     wire is_host_word = address[19:14] == 0 && address[13] != address[12];
     always @(posedge clk) begin
         address <= read_address;
-        read_data <= address[19] ? capture_word : is_host_word ? host_word : is_device_word ? mirror_word : constant;
+        read_data <= address[19] ? capture_word : is_event ? event_word : is_host_word ? host_word :
+            is_device_word ? mirror_word : constant;
     end
 endmodule

@@ -16,7 +16,7 @@ module axis_engine (
     output [63:0] velocity,     // 0 at rest
     output idle,                // there is no piece, or it has ended
     output reg overflow,        // after `accelerate`: the velocity left 64 bits
-    output step,                // with `travel`: the tick makes a step
+    output reg step,            // for the clock after `travel`: the tick makes a step
     output backward             // its direction
 );
     reg [63:0] speed, acceleration;
@@ -27,7 +27,6 @@ module axis_engine (
     assign idle = left == 0;
     assign velocity = idle ? 64'd0 : speed;
     assign backward = speed[63];
-    assign step = further[64] != backward;
 
     initial begin
         phase = 64'h8000000000000000;
@@ -35,12 +34,14 @@ module axis_engine (
         acceleration = 0;
         left = 0;
         overflow = 0;
+        step = 0;
     end
     always @(posedge clk) begin
         if (load_velocity) speed <= word;
         else if (accelerate) speed <= faster;
         if (load_acceleration) acceleration <= word;
         if (accelerate) overflow <= is_same_sign && faster[63] != speed[63];
+        step <= travel && further[64] != backward;
         if (rebase) phase <= rebase_phase;
         else if (travel) phase <= further[63:0];
         if (halt) left <= 0;

@@ -38,7 +38,7 @@ module axis_frame_scanner #(
     reg is_header, is_last_frame, is_well;
     reg [23:0] tag_run;
 
-    wire [63:0] loaded = head - taken;
+    reg [63:0] loaded;          // entries in the ring, a clock later
     wire is_most = loaded[63:ENTRY_BITS] == 1 && loaded[ENTRY_BITS-1:0] == 0; // the ring is full
     wire is_loaded = loaded != 0 && (is_most || loaded[63:ENTRY_BITS] == 0);
     wire [16:0] pieces = {1'b0, body_pieces} + {1'b0, tail_pieces};
@@ -55,19 +55,24 @@ module axis_frame_scanner #(
     assign is_last = is_last_frame;
     assign valid = is_found && is_loaded;
     assign good = state == KNOWN && is_well;
-    assign settled = !drops && ((state == LOOK && !is_loaded) || (is_found && !is_loaded) || state == KNOWN || waits);
+    wire is_empty = !is_loaded && (is_found || (state == LOOK && at != 0));
+    assign settled = !drops && (is_empty || state == KNOWN || waits);
 
     initial begin
-        {state, at, asked, is_header, is_last_frame, is_well, tag_run, taken} = 0;
+        {state, at, asked, loaded, is_header, is_last_frame, is_well, tag_run, taken} = 0;
         {number, start, count, body_pieces, tail_pieces, phase} = 0;
     end
     always @(posedge clk) begin
+        loaded <= head - taken;
         asked <= !asked && !pause;
         case (state)
             LOOK: begin
-                at <= 0;
+                at <= 1;
                 asked <= 0;
-                if (is_loaded) state <= HEADER;
+                if (at != 0 && is_loaded) begin
+                    at <= 0;
+                    state <= HEADER;
+                end
             end
             HEADER: if (asked) begin
                 at <= at + 1'b1;
@@ -94,9 +99,11 @@ module axis_frame_scanner #(
         endcase
         if (take) begin
             taken <= taken + 1'b1 + {47'd0, pieces};
+            at <= 0;
             state <= LOOK;
         end else if (drops) begin
             taken <= !is_header ? taken + 1'b1 : is_whole ? taken + 1'b1 + {47'd0, pieces} : head;
+            at <= 0;
             state <= LOOK;
         end
     end

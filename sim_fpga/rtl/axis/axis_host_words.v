@@ -16,6 +16,7 @@ module axis_host_words (
     output reg [63:0] stop,
     output reg [63:0] segment_head,
     output reg [63:0] capture_tail,
+    output reg [63:0] event_tail,
     output reg [63:0] beat,
     output reg enable,
     output reg [63:0] setup_request
@@ -30,7 +31,8 @@ module axis_host_words (
     integer i;
     initial begin
         for (i = 0; i < 128; i = i + 1) words[i] = 0;
-        {run_request, trigger, armed, veto, stop, segment_head, capture_tail, beat, enable, setup_request} = 0;
+        {run_request, trigger, armed, veto, stop, segment_head, capture_tail, event_tail, beat} = 0;
+        {enable, setup_request} = 0;
     end
     always @(posedge clk) begin
         if (write && is_host_word) words[{write_address[13], write_address[8:3]}] <= write_data;
@@ -45,6 +47,7 @@ module axis_host_words (
         LOCKSTEP_STOP: stop <= write_data;
         LOCKSTEP_SEGMENT_HEAD: segment_head <= write_data;
         LOCKSTEP_CAPTURE_TAIL: capture_tail <= write_data;
+        LOCKSTEP_EVENT_TAIL: event_tail <= write_data;
         LOCKSTEP_BEAT: beat <= write_data;
         LOCKSTEP_ENABLE: enable <= write_data != 0;
         LOCKSTEP_SETUP_REQUEST: setup_request <= write_data;

@@ -1,5 +1,6 @@
 // The inputs: each follows its pin once the pin has kept its level for its DEBOUNCE. It is sim_fpga/input_filter.hpp,
-// one input after the other: two clocks for each if one differs from its pin, else one clock for all.
+// one input after the other: two clocks for each if one differs from its pin, else one clock for all. A change takes as
+// long as its event.
 module axis_inputs #(
     parameter INPUTS = 8
 ) (
@@ -14,7 +15,12 @@ module axis_inputs #(
     input [31:0] now,
     input look,                 // for one clock: look at the pins
     output busy,                // from the clock after `look` on
-    output reg [INPUTS-1:0] closed
+    output reg [INPUTS-1:0] closed, // changes when a look ends
+    // A change, for one clock; the next one comes when `wait_for_event` is low.
+    output changes,
+    output [4:0] changed_input,
+    output changed_closed,
+    input wait_for_event
 );
     reg [31:0] debounce[0:31], since[0:31]; // `since`: of the pending ones, when the pin changed
     reg [31:0] debounce_word, since_word;
@@ -23,18 +29,23 @@ module axis_inputs #(
     reg [INPUTS-1:0] changed;
     reg [4:0] at;
     reg asked, scans;           // the memory shows the words of `at`; a look goes on
+    reg notes;                  // what goes on is no look: it notes the inputs that are in `changed`
     wire [INPUTS-1:0] differs = pins ^ inverted ^ closed;
     wire [INPUTS-1:0] one = {{(INPUTS - 1){1'b0}}, 1'b1} << at;
     wire is_pending = (pending & one) != 0;
     wire is_different = (different & one) != 0;
-    wire is_due = is_different && (is_pending ? now - since_word >= debounce_word : debounce_word == 0);
+    wire is_due = !notes && is_different && (is_pending ? now - since_word >= debounce_word : debounce_word == 0);
     wire [INPUTS-1:0] due = is_due ? one : {INPUTS{1'b0}};
     wire is_last = {27'd0, at} == INPUTS - 1;
-    assign busy = scans;
+    wire is_changed = notes && (changed & one) != 0;
+    assign busy = scans || wait_for_event;
+    assign changes = scans && asked && (is_due || is_changed);
+    assign changed_input = at;
+    assign changed_closed = ((closed & one) != 0) == is_changed;
 
     integer i;
     initial begin
-        {closed, pending, different, changed, at, asked, scans} = 0;
+        {closed, pending, different, changed, at, asked, scans, notes} = 0;
         for (i = 0; i < 32; i = i + 1) begin
             debounce[i] = 0;
             since[i] = 0;
@@ -44,10 +55,10 @@ module axis_inputs #(
         debounce_word <= debounce[at];
         since_word <= since[at];
         if (set_debounce) debounce[debounce_input] <= debounce_ticks;
-        if (scans && asked && is_different && !is_pending) since[at] <= now;
+        if (scans && asked && !notes && is_different && !is_pending) since[at] <= now;
     end
     always @(posedge clk) begin
-        asked <= scans && !asked;
+        asked <= scans && !asked && !wait_for_event;
         if (look && (differs != 0 || pending != 0)) begin
             scans <= 1;
             different <= differs;
@@ -55,13 +66,18 @@ module axis_inputs #(
             at <= 0;
         end else if (scans && asked) begin
             at <= at + 1'b1;
-            changed <= changed | due;
-            if (is_last) begin
-                scans <= 0;
+            if (!notes) changed <= changed | due;
+            if (is_last) {scans, notes} <= 0;
+            if (is_last && !notes) begin
                 closed <= closed ^ changed ^ due;
                 pending <= different & ~changed & ~due;
             end
         end
-        if (invert) closed <= closed ^ inverted ^ next_inverted;
+        if (invert) begin
+            closed <= closed ^ inverted ^ next_inverted;
+            changed <= inverted ^ next_inverted;
+            {scans, notes} <= 2'b11;
+            at <= 0;
+        end
     end
 endmodule

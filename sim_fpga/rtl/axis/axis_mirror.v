@@ -23,7 +23,9 @@ module axis_mirror (
     input [63:0] capture_sum,
     input [63:0] capture_sums,
     input [63:0] setup,
-    input [31:0] inputs
+    input [31:0] inputs,
+    input [63:0] event_head,
+    input [63:0] event_lost
 );
     localparam LAST = 21;       // the word at 0x01A8
     (* no_rw_check *) reg [63:0] words[0:31];
@@ -49,7 +51,9 @@ module axis_mirror (
         14: word = capture_sums;
         15: word = setup;
         16: word = {32'd0, inputs};
-        default: word = 0;      // of outputs and events: there are none
+        19: word = event_head;
+        20: word = event_lost;
+        default: word = 0;      // of outputs: there are none
     endcase
 
     integer i;

@@ -71,7 +71,7 @@ module axis_sequencer #(
     input [63:0] phase,
     input idle,
     input overflow,
-    input engine_step,
+    input engine_step,          // a clock after `travel`
     input engine_backward,
     // The steps.
     output step,                // for one clock
@@ -92,8 +92,8 @@ module axis_sequencer #(
 );
     localparam AT_REST = 0, WAITING = 1, BODY = 2, TAIL = 3;
     localparam POWER_UP = 0, IDLE = 1, SETUP = 2, TAKE_SETUP = 3, ENABLE = 4, RUN = 5, CEASE = 6, LOOK = 7, TEND = 8,
-        TENDED = 9, DECIDE = 10, SETTLE = 11, ACT = 12, FETCH = 13, ACCELERATE = 14, TRAVEL = 15, PUBLISH = 16,
-        PUBLISHED = 17;
+        TENDED = 9, DECIDE = 10, SETTLE = 11, ACT = 12, FETCH = 13, ACCELERATE = 14, TRAVEL = 15, STEP = 16,
+        PUBLISH = 17, PUBLISHED = 18;
     // The bits of STATUS that a new run clears.
     localparam [15:0] FINISHED = 1 << 1, ENDED_IN_TAIL = 1 << 2, BY_LIMIT = 1 << 6, BY_TRIGGER = 1 << 7,
         BY_HOST = 1 << 8, BAD_SEGMENT = 1 << 9, OVERFLOWS = 1 << 10, BY_INPUT = 1 << 13;
@@ -124,14 +124,23 @@ module axis_sequencer #(
     wire may_enable = enable && !(is_host_silent && disables_at_silence);
     wire may_move = setup != 0 && is_enabled && enabled_for >= enable_ticks;
 
-    // The next frame: 1 while the run waits for it.
-    wire [63:0] number = frame + 1'b1;
-    wire is_vetoed = veto <= number;
-    wire may_run = !is_vetoed && armed >= number && run_request == run && may_move;
-    wire is_number = frame_number == number[31:0];
-    wire is_here = frame_start == now && frame_count == count[31:0];
-    wire rests = frame_phase == REST_PHASE || frame_phase == REST_PHASE - 1'b1;
-    wire is_same_phase = frame_phase == phase;
+    // The next frame: 1 while the run waits for it. What SETTLE compares in its last clock, ACT decides about.
+    reg [63:0] number;
+    reg is_vetoed, is_armed, is_of_request, is_number, is_past, is_now, is_place, rests, is_same_phase;
+    always @(posedge clk) begin
+        number <= frame + 1'b1;
+        is_vetoed <= veto <= number;
+        is_armed <= armed >= number;
+        is_of_request <= run_request == run;
+        is_number <= frame_number == number[31:0];
+        is_past <= $signed(frame_start) <= $signed(now);
+        is_now <= frame_start == now;
+        is_place <= frame_count == count[31:0];
+        rests <= frame_phase == REST_PHASE || frame_phase == REST_PHASE - 1'b1;
+        is_same_phase <= frame_phase == phase;
+    end
+    wire may_run = !is_vetoed && is_armed && is_of_request && may_move;
+    wire is_here = is_now && is_place;
     wire joins = is_number && is_here && (is_same_phase || (motion == WAITING && rests));
     wire is_good = frame_good && frame_valid;
 
@@ -143,7 +152,7 @@ module axis_sequencer #(
     wire at_limit = into_limit || (stepped && (stepped_backward ? at_min : at_max));
 
     // What the state ACT does. At a body's end the next frame begins, or the tail, or the run is over.
-    wire begins_run = motion == WAITING && frame_valid && !is_vetoed && $signed(frame_start) <= $signed(now) && may_run;
+    wire begins_run = motion == WAITING && frame_valid && !is_vetoed && is_past && may_run;
     wire starts = begins_run && joins && is_good;
     wire is_piece_over = state == ACT && in_motion && idle;
     wire is_body_over = is_piece_over && motion == BODY && body_left == 1;
@@ -206,7 +215,7 @@ module axis_sequencer #(
     assign load_acceleration = fetch && fetched == 3;
     assign accelerate = state == ACCELERATE && in_motion;
     assign travel = state == TRAVEL && in_motion && !overflow;
-    assign step = travel && engine_step && !is_blocked;
+    assign step = state == STEP && engine_step && !is_blocked;
     assign forward = !engine_backward;
     assign publish = state == PUBLISH;
     assign ticks = state == TRAVEL;
@@ -221,6 +230,7 @@ module axis_sequencer #(
         state = POWER_UP;
         {owed, is_after, motion, waited, trigger, run_bits, is_last, body_left, tail_left, piece, frame_begin} = 0;
         {fetched, refused, is_enabled, enabled_for, stepped, stepped_backward, into_limit} = 0;
+        {number, is_vetoed, is_armed, is_of_request, is_number, is_past, is_now, is_place, rests, is_same_phase} = 0;
         {now, count, run, frame, trigger_count, setup} = 0;
     end
 
@@ -247,7 +257,7 @@ module axis_sequencer #(
             TEND: if (!inputs_busy) state <= TENDED;
             TENDED: state <= DECIDE;
             DECIDE: state <= SETTLE;
-            SETTLE: if (frame_settled || waited == MOST_WAITED) state <= ACT;
+            SETTLE: if ((frame_settled && waited != 0) || waited == MOST_WAITED) state <= ACT;
             ACT: state <= begins_frame || begins_tail || goes_on ? FETCH : is_after ? PUBLISH : ACCELERATE;
             FETCH: if (fetched == 3) state <= is_after ? PUBLISH : ACCELERATE;
             ACCELERATE: begin
@@ -256,8 +266,9 @@ module axis_sequencer #(
             end
             TRAVEL: begin
                 is_after <= 1;
-                state <= LOOK;
+                state <= STEP;
             end
+            STEP: state <= LOOK;
             PUBLISH: state <= PUBLISHED;
             PUBLISHED: if (!publish_busy) state <= IDLE;
             default: state <= IDLE;
@@ -306,11 +317,14 @@ module axis_sequencer #(
 
     // The steps.
     always @(posedge clk) begin
-        if (travel) begin
+        if (state == STEP) begin
             stepped <= engine_step && !is_blocked;
             stepped_backward <= engine_backward;
             into_limit <= engine_step && is_blocked;
         end else if (state == TENDED) {stepped, into_limit} <= 0;
         if (step) count <= engine_backward ? count - 1'b1 : count + 1'b1;
     end
+`ifdef PROOF
+`include "axis_sequencer_properties.vh"
+`endif
 endmodule

@@ -28,11 +28,12 @@ inline constexpr DeviceAbilities kAbilities{.segment_entries = 64,
                                             .digital_outputs = 0,
                                             .analog_outputs = 0,
                                             .output_entries = 0,
-                                            .event_entries = 0,
+                                            .event_entries = 32,
                                             .has_encoder = false,
                                             .can_compare = false};
 inline constexpr RegisterRing kSegments(registers::kSegmentRing, kAbilities.segment_entries,
                                         registers::kSegmentRingEntryBytes);
+inline constexpr RegisterRing kEvents(registers::kEventRing, kAbilities.event_entries, registers::kEventRingEntryBytes);
 inline constexpr RegisterRing kCaptures(registers::kCaptureRing, kAbilities.capture_entries,
                                         registers::kCaptureRingEntryBytes);
 
@@ -82,13 +83,15 @@ private:
                                                     {"VELOCITY", registers::kVelocity},
                                                     {"RUN", registers::kRun},
                                                     {"FRAME", registers::kFrame}}};
-    static constexpr std::array<Name, 7> kRest{{{"TRIGGER_COUNT", registers::kTriggerCount},
+    static constexpr std::array<Name, 9> kRest{{{"TRIGGER_COUNT", registers::kTriggerCount},
                                                 {"CAPTURE_HEAD", registers::kCaptureHead},
                                                 {"CAPTURE_LOST", registers::kCaptureLost},
                                                 {"CAPTURE_SUM", registers::kCaptureSum},
                                                 {"CAPTURE_SUMS", registers::kCaptureSums},
                                                 {"SETUP", registers::kSetup},
-                                                {"INPUTS", registers::kInputs}}};
+                                                {"INPUTS", registers::kInputs},
+                                                {"EVENT_HEAD", registers::kEventHead},
+                                                {"EVENT_LOST", registers::kEventLost}}};
 
     /// A plant whose switches are far away.
     static Plant plant() {

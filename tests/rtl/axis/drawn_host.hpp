@@ -124,7 +124,7 @@ private:
         bench_.store(registers::kArmed, armed_);
     }
 
-    /// Reads the steps of the capture ring, which must be the same.
+    /// Reads the new steps and events, which must be the same.
     void drain() {
         using namespace registers;
         const std::uint64_t head = bench_.load(kCaptureHead);
@@ -133,6 +133,12 @@ private:
             ASSERT_EQ(bench_.verilog().read(at), bench_.load(at)) << "captured step " << captured_;
         }
         bench_.store(kCaptureTail, captured_);
+        for (const std::uint64_t end = bench_.load(kEventHead); noted_ != end; ++noted_) {
+            for (std::size_t at = kEvents.entry(noted_); at < kEvents.entry(noted_) + kEventRingEntryBytes; at += 8) {
+                ASSERT_EQ(bench_.verilog().read(at), bench_.load(at)) << "event " << noted_ << ", word at " << at;
+            }
+        }
+        bench_.store(kEventTail, noted_);
     }
 
     void beat() {
@@ -179,6 +185,7 @@ private:
     std::uint64_t armed_ = 0;
     std::uint64_t head_ = 0;
     std::uint64_t captured_ = 0;
+    std::uint64_t noted_ = 0;
     std::uint64_t beat_ = 0;
     std::uint64_t setup_ = 0;
     std::uint32_t pins_ = 0;
