@@ -1,0 +1,84 @@
+// The words of a motor's register window, in the memory that a board has for them.
+//
+// They are at the same addresses as in the map (sim_fpga/registers.json). Between its areas there is no memory: words
+// there read 0. One processor serves the host and executes the ticks, so words need no order of memory.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "sim_fpga/firmware/device/abilities.hpp"
+#include "sim_fpga/registers.hpp"
+
+namespace lockstep::firmware {
+
+inline constexpr std::size_t kWordBytes = 8;
+
+/// A part of the window with words on the board.
+struct WindowArea {
+    std::size_t begin;
+    std::size_t bytes;
+    bool is_of_host;  // the host writes it, otherwise the device
+};
+
+inline constexpr WindowArea kWindowAreas[] = {
+    {0, registers::kPulsesLeft + kWordBytes, false},
+    {registers::kRunRequest, registers::kCompareTicks + kWordBytes - registers::kRunRequest, true},
+    {registers::kAnalogTable, kMostAnalog* registers::kAnalogTableEntryBytes, true},
+    {registers::kInputTable, kMostInputs* registers::kInputTableEntryBytes, true},
+    {registers::kSegmentRing, kSegmentRoom* registers::kSegmentRingEntryBytes, true},
+    {registers::kOutputRing, kOutputRoom* registers::kOutputRingEntryBytes, true},
+    {registers::kEventRing, kEventRoom* registers::kEventRingEntryBytes, false},
+    {registers::kCaptureRing, kCaptureRoom* registers::kCaptureRingEntryBytes, false},
+};
+
+constexpr std::size_t words_on_board() {
+    std::size_t words = 0;
+    for (const WindowArea& area : kWindowAreas) { words += area.bytes / kWordBytes; }
+    return words;
+}
+
+class Words {
+public:
+    /// offset: in bytes, a multiple of 8.
+    std::uint64_t load(std::size_t offset) const { return words_[index(offset)]; }
+    void store(std::size_t offset, std::uint64_t value) {
+        if (const std::size_t at = index(offset); at != kNowhere) { words_[at] = value; }
+    }
+    void store(std::size_t offset, std::int64_t value) { store(offset, static_cast<std::uint64_t>(value)); }
+
+    /// Whether there is such a word and the host writes it.
+    static constexpr bool is_of_host(std::size_t offset) {
+        for (const WindowArea& area : kWindowAreas) {
+            if (offset - area.begin < area.bytes) { return area.is_of_host && offset % kWordBytes == 0; }
+        }
+        return false;
+    }
+
+private:
+    static constexpr std::size_t kNowhere = words_on_board();
+
+    /// Known when it is compiled, if the offset is.
+    static constexpr std::size_t index(std::size_t offset) {
+        std::size_t before = 0;
+        for (const WindowArea& area : kWindowAreas) {
+            if (offset - area.begin < area.bytes) { return before + (offset - area.begin) / kWordBytes; }
+            before += area.bytes / kWordBytes;
+        }
+        return kNowhere;
+    }
+
+    std::uint64_t words_[kNowhere + 1]{};  // the last one stays 0
+};
+
+/// A ring's place in the window. Entries are numbered from power-up on, and their number is a power of two.
+struct Ring {
+    std::size_t offset;
+    std::size_t entries;
+    std::size_t entry_bytes;
+    constexpr std::size_t entry(std::uint64_t index) const {
+        return offset + (static_cast<std::size_t>(index) & (entries - 1)) * entry_bytes;
+    }
+};
+
+}  // namespace lockstep::firmware

@@ -1,0 +1,64 @@
+// The simulated device and the firmware's, each with its own plant, behind the same words of the host.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "sim_fpga/device.hpp"
+#include "sim_fpga/firmware/device/device.hpp"
+
+namespace lockstep::testing {
+
+inline constexpr std::int64_t kTwinTick_ns = 1000;
+
+/// A firmware's port to a plant.
+class PlantPort final : public firmware::Port {
+public:
+    explicit PlantPort(Plant plant) : plant_(std::move(plant)) {}
+    std::uint32_t pins() const override { return plant_.pins(); }
+    void step(std::int64_t tick, int direction) override {
+        plant_.step({Tick{tick}, static_cast<std::int8_t>(direction)});
+    }
+    std::int64_t encoder() const override { return plant_.encoder(); }
+    Plant& plant() { return plant_; }
+
+private:
+    Plant plant_;
+};
+
+class TwinDevices {
+public:
+    TwinDevices(const MotorConfig& motor, const firmware::Abilities& abilities, Tick now);
+
+    std::uint64_t load(std::size_t offset) const { return window_.load(offset); }
+    void store(std::size_t offset, std::uint64_t value) {
+        window_.store(offset, value);
+        firmware_->words().store(offset, value);
+    }
+    void advance(Tick until) {
+        simulated_->advance(until);
+        firmware_->advance(until.value);
+    }
+    /// Does the same to both plants.
+    template <typename Change>
+    void disturb(Change&& change) {
+        change(simulated_->plant());
+        change(port_.plant());
+    }
+
+    /// The first word that differs, with its values; nullopt if there is none.
+    std::optional<std::string> difference() const;
+
+private:
+    std::optional<std::string> difference_in(std::size_t begin, std::size_t end) const;
+
+    RegisterWindow window_ = RegisterWindow::in_process();
+    PlantPort port_;
+    std::unique_ptr<SimulatedDevice> simulated_;
+    std::unique_ptr<firmware::Device> firmware_;
+    Tick now_;
+};
+
+}  // namespace lockstep::testing
