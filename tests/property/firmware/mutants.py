@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Changes the firmware's device one place at a time. The comparison with the simulated device must fail for each mutant.
+"""Changes the firmware's device and link one place at a time. The property tests must fail for each mutant.
 
 Usage: mutants.py ROOT BUILD    Prints each mutant that the test does not detect; exits 1 if there is one.
 
@@ -13,29 +13,38 @@ import subprocess
 import sys
 import tempfile
 
-DEVICE = pathlib.Path("sim_fpga/firmware/device")
+FIRMWARE = pathlib.Path("sim_fpga/firmware")
 TIMEOUT_S = 120  # on a busy machine
+
+# The tests that concern a folder.
+TESTS = {"device": "FirmwareDevice.*:FirmwareEngine.*", "link": "FirmwareLink.*:LinkedBoard.*"}
 
 # (file, what is there once, what the mutant has instead)
 MUTANTS = [
-    ("add_ticks.cpp", "axis->phase < axis->velocity", "axis->phase <= axis->velocity"),
-    ("engine.cpp", "carries ^ backward", "carries"),
-    ("engine.cpp", "axis_ = before;\n        return execute_across_rest(ticks);", "return {carries, 0};"),
-    ("engine.hpp", "            execute(n);\n", ""),
-    ("wide.hpp", "(low < one.low ? 1 : 0)", "0"),
-    ("segment_queue.cpp", "header.pieces() >= loaded()", "header.pieces() > loaded()"),
-    ("device.cpp", "next.is_frame(number) && may_run(number)", "next.is_frame(number)"),
-    ("device.cpp", "words_.load(kVeto) <= frame", "words_.load(kVeto) < frame"),
-    ("device.cpp", "frame.from(engine_.place().count) == engine_.place()", "true"),
-    ("device.cpp", "direction < 0 ? setup().limit_min : setup().limit_max", "setup().limit_max"),
-    ("device.cpp", "from.phase == kForwardPhase || from.phase == kBackwardPhase", "from.phase == kForwardPhase"),
-    ("device.cpp", "        into_limit_ = true;\n", ""),
-    ("device.cpp", "channels_.begin_tail(moment());", ""),
-    ("output_queue.cpp", "list.changes[list.size - 1].at <= change.at", "list.changes[list.size - 1].at < change.at"),
-    ("outputs.cpp", "tick + compare_ticks_", "tick + compare_ticks_ + 1"),
-    ("host_watch.hpp", "heard_ = now;\n        is_silent_ = false;\n    }\n    /// The", "is_silent_ = false;\n    }\n    /// The"),
-    ("inputs.cpp", "if ((pending_ & bit) == 0) { since_[n] = now; }", "since_[n] = now;"),
-    ("capture.hpp", "sums_ += sum_;", "sums_ += word;"),
+    ("device/add_ticks.cpp", "axis->phase < axis->velocity", "axis->phase <= axis->velocity"),
+    ("device/engine.cpp", "carries ^ backward", "carries"),
+    ("device/engine.cpp", "axis_ = before;\n        return execute_across_rest(ticks);", "return {carries, 0};"),
+    ("device/engine.hpp", "            execute(n);\n", ""),
+    ("device/wide.hpp", "(low < one.low ? 1 : 0)", "0"),
+    ("device/segment_queue.cpp", "header.pieces() >= loaded()", "header.pieces() > loaded()"),
+    ("device/device.cpp", "next.is_frame(number) && may_run(number)", "next.is_frame(number)"),
+    ("device/device.cpp", "words_.load(kVeto) <= frame", "words_.load(kVeto) < frame"),
+    ("device/device.cpp", "frame.from(engine_.place().count) == engine_.place()", "true"),
+    ("device/device.cpp", "direction < 0 ? setup().limit_min : setup().limit_max", "setup().limit_max"),
+    ("device/device.cpp", "from.phase == kForwardPhase || from.phase == kBackwardPhase", "from.phase == kForwardPhase"),
+    ("device/device.cpp", "        into_limit_ = true;\n", ""),
+    ("device/device.cpp", "channels_.begin_tail(moment());", ""),
+    ("device/output_queue.cpp", "list.changes[list.size - 1].at <= change.at", "list.changes[list.size - 1].at < change.at"),
+    ("device/outputs.cpp", "tick + compare_ticks_", "tick + compare_ticks_ + 1"),
+    ("device/host_watch.hpp", "heard_ = now;\n        is_silent_ = false;\n    }\n    /// The", "is_silent_ = false;\n    }\n    /// The"),
+    ("device/inputs.cpp", "if ((pending_ & bit) == 0) { since_[n] = now; }", "since_[n] = now;"),
+    ("device/capture.hpp", "sums_ += sum_;", "sums_ += word;"),
+    ("link/link.cpp", "    if (number != expected_) { return; }\n", ""),
+    ("link/link.cpp", "now_us - progress_us_ >= kRepeat_us", "false"),
+    ("link/link.cpp", "header.from != peer_", "peer_ == 0"),
+    ("link/frame.cpp", "crc == crc32(message_.bytes, end)", "true"),
+    ("link/frame.cpp", "    is_full_run_ = true;\n", ""),
+    ("link/board_words.cpp", "    if (!fill_ring(words, kStepsRing, motor, seen(kCaptureHead), steps_, items)) { return true; }\n", ""),
 ]
 
 
@@ -43,18 +52,19 @@ def detected(root, build, mutant):
     file, there, instead = mutant
     with tempfile.TemporaryDirectory() as folder:
         work = pathlib.Path(folder)
-        shutil.copytree(root / DEVICE, work / DEVICE)
-        source = (work / DEVICE / file).read_text()
+        shutil.copytree(root / FIRMWARE, work / FIRMWARE)
+        source = (work / FIRMWARE / file).read_text()
         if source.count(there) != 1:
             sys.exit(f"{file} has `{there}` {source.count(there)} times, not once")
-        (work / DEVICE / file).write_text(source.replace(there, instead))
+        (work / FIRMWARE / file).write_text(source.replace(there, instead))
+        sources = sorted((work / FIRMWARE / "device").glob("*.cpp")) + sorted((work / FIRMWARE / "link").glob("*.cpp"))
         whole = work / "whole.cpp"
-        whole.write_text("".join(f'#include "{path}"\n' for path in sorted((work / DEVICE).glob("*.cpp"))))
+        whole.write_text("".join(f'#include "{path}"\n' for path in sources))
         library = work / "liblockstep_firmware.so"
         subprocess.run(["c++", "-std=c++20", "-O0", "-w", "-shared", "-fPIC", f"-I{work}", f"-I{root}", f"-I{build}",
                         whole, "-o", library], check=True)
         program = build / "bin" / "property_firmware"
-        run = subprocess.run([program, "--gtest_fail_fast"],
+        run = subprocess.run([program, "--gtest_fail_fast", f"--gtest_filter={TESTS[file.split('/')[0]]}"],
                              env={**os.environ, "LD_PRELOAD": str(library)}, capture_output=True, timeout=TIMEOUT_S,
                              check=False)
         return run.returncode == 1  # a test failed

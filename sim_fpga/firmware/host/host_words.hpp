@@ -1,0 +1,63 @@
+// The host's end: it keeps a register window for each motor of a board, as if the device wrote it, and sends what the
+// host writes there.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "sim_fpga/firmware/link/link.hpp"
+#include "sim_fpga/register_window.hpp"
+
+namespace lockstep::firmware {
+
+/// What the board has of the words that the host writes for one motor.
+class MotorOrders {
+public:
+    explicit MotorOrders(RegisterWindow window) : window_(std::move(window)) {}
+
+    /// The board has powered up, which resets the words of both sides.
+    void begin();
+    void fill(unsigned motor, ItemWriter& items);
+    void take(std::size_t offset, std::uint64_t value);
+    /// Shows the registers that were taken: their SEQUENCE is odd until then.
+    void end();
+
+private:
+    struct Ring;
+
+    /// Returns false if there was no room, or a run began meanwhile: then nothing may follow.
+    bool fill_orders(unsigned motor, ItemWriter& items);
+    void fill_setup(unsigned motor, ItemWriter& items);
+    void fill_ring(const Ring& ring, unsigned motor, std::uint64_t head, std::uint64_t& sent, ItemWriter& items);
+    /// Returns false if there is no room.
+    bool put_changed(unsigned motor, std::size_t offset, std::uint64_t value, ItemWriter& items);
+
+    RegisterWindow window_;
+    std::vector<std::uint64_t> sent_ = std::vector<std::uint64_t>(kWords);
+    std::uint64_t segments_ = 0;  // entries of the segment ring that were sent
+    std::uint64_t changes_ = 0;   // entries of the output ring that were sent
+    std::uint64_t sequence_ = 0;
+
+    static constexpr std::size_t kFirst = registers::kRunRequest;
+    static constexpr std::size_t kWords =
+        (registers::kInputTable + 32 * registers::kInputTableEntryBytes - kFirst) / sizeof(std::uint64_t);
+};
+
+class HostWords final : public LinkWords {
+public:
+    /// A window for each motor, of zeros.
+    explicit HostWords(std::vector<RegisterWindow> windows);
+
+    void begin() override;
+    void fill(ItemWriter& items) override;
+    void take(unsigned motor, std::size_t offset, std::uint64_t value) override;
+    void end() override;
+
+private:
+    std::vector<MotorOrders> motors_;
+    std::size_t turn_ = 0;
+};
+
+}  // namespace lockstep::firmware

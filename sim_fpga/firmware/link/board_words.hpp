@@ -1,0 +1,61 @@
+// The board's end: it sends what its devices publish, and takes what the host writes.
+//
+// For each motor in turn it takes a consistent look at the registers, sends the steps and events up to this look, and
+// then its words that have changed, in one message.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "sim_fpga/firmware/device/words.hpp"
+#include "sim_fpga/firmware/link/link.hpp"
+
+namespace lockstep::firmware {
+
+/// What the host has of one motor's words.
+class MotorLook {
+public:
+    void begin();
+    /// Puts words. Returns false if there is nothing more to send of this look.
+    bool fill(const Words& words, unsigned motor, ItemWriter& items);
+
+private:
+    static constexpr std::size_t kFirst = registers::kSequence;
+    static constexpr std::size_t kWords = (registers::kPulsesLeft - kFirst) / kWordBytes + 1;
+
+    void look(const Words& words);
+    bool fill_constants(const Words& words, unsigned motor, ItemWriter& items);
+    bool fill_ring(const Words& words, const Ring& ring, unsigned motor, std::uint64_t head, std::uint64_t& sent,
+                   ItemWriter& items) const;
+    void fill_registers(unsigned motor, ItemWriter& items);
+    std::uint64_t seen(std::size_t offset) const { return seen_[(offset - kFirst) / kWordBytes]; }
+
+    std::uint64_t seen_[kWords]{};
+    std::uint64_t sent_[kWords]{};
+    std::uint64_t steps_ = 0;   // entries of the capture ring that were sent
+    std::uint64_t events_ = 0;  // entries of the event ring that were sent
+    bool is_known_ = false;     // the host has the words that never change
+    bool is_whole_ = false;     // the host has all registers of some look
+    bool is_looking_ = false;   // this look is not yet sent
+};
+
+class BoardWords final : public LinkWords {
+public:
+    static constexpr std::size_t kMostMotors = 4;
+
+    /// words: of each motor. They must outlive this object.
+    BoardWords(Words* const* words, std::size_t motors) : words_(words), motors_(motors) {}
+
+    void begin() override;
+    void fill(ItemWriter& items) override;
+    void take(unsigned motor, std::size_t offset, std::uint64_t value) override;
+    void end() override {}
+
+private:
+    Words* const* words_;
+    std::size_t motors_;
+    MotorLook looks_[kMostMotors];
+    std::size_t turn_ = 0;
+};
+
+}  // namespace lockstep::firmware

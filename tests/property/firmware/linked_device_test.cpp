@@ -1,0 +1,124 @@
+// A driver that works on a board's windows moves its motors as if the devices were in the process's memory.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <vector>
+
+#include "core/step/tick_engine.hpp"
+#include "services/axis/device_driver.hpp"
+#include "sim_fpga/firmware/device/device.hpp"
+#include "sim_fpga/firmware/host/host_words.hpp"
+#include "sim_fpga/firmware/link/board_words.hpp"
+#include "tests/property/firmware/poor_line.hpp"
+#include "tests/property/firmware/twin_devices.hpp"
+
+namespace lockstep::testing {
+namespace {
+
+constexpr std::size_t kMotors = 2;
+
+MotorConfig long_motor() {
+    MotorConfig motor;
+    motor.name = "X";
+    motor.steps_per_mm = 80;
+    motor.position_min_mm = -1e6;
+    motor.position_max_mm = 1e6;
+    motor.homing.switch_position_mm = -1e6;
+    motor.plant = {.max_torque_accel_mm_s2 = 1e9, .max_jump_mm_s = 1e7};
+    return motor;
+}
+
+/// A host with a window for each motor, a board with the motors' devices, and a line between. A tick is a microsecond.
+class LinkedBoard {
+public:
+    LinkedBoard(LineFaults faults, std::uint64_t seed) : there_(faults, seed), back_(faults, ~seed) {}
+
+    void run(std::uint32_t until_us) {
+        for (; now_us_ < until_us; now_us_ += 32) {
+            there_.advance(host_, board_, now_us_);
+            back_.advance(board_, host_, now_us_);
+            for (firmware::Device& device : devices_) { device.advance(now_us_); }
+        }
+    }
+    DeviceDriver driver(std::size_t motor) { return DeviceDriver::attach(windows_[motor], kTwinTick_ns).value(); }
+
+private:
+    static constexpr firmware::Abilities kAbilities{.inputs = 3, .has_encoder = true, .can_enable = true};
+
+    std::array<PlantPort, kMotors> ports_{PlantPort(Plant(long_motor(), kTwinTick_ns)),
+                                          PlantPort(Plant(long_motor(), kTwinTick_ns))};
+    std::array<firmware::Device, kMotors> devices_{firmware::Device(ports_[0], kAbilities, 0),
+                                                   firmware::Device(ports_[1], kAbilities, 0)};
+    std::array<firmware::Words*, kMotors> words_{&devices_[0].words(), &devices_[1].words()};
+    std::vector<RegisterWindow> windows_{RegisterWindow::in_process(), RegisterWindow::in_process()};
+    firmware::BoardWords board_words_{words_.data(), kMotors};
+    firmware::HostWords host_words_{windows_};
+    firmware::Link board_{board_words_, 2};
+    firmware::Link host_{host_words_, 1};
+    PoorLine there_;
+    PoorLine back_;
+    std::uint32_t now_us_ = 0;
+};
+
+/// Frames there and back, and the steps of them.
+struct Course {
+    std::vector<device::LoadFrame> frames;
+    std::vector<StepEdge> steps;
+};
+
+Course course(std::uint64_t seed, Tick start) {
+    std::mt19937_64 random(seed);
+    Course result;
+    Position at = rest_position(0, false);
+    for (FrameNumber number = 1; number <= 8; ++number) {
+        device::LoadFrame frame{number, start, number == 8, {at, {}, {}}};
+        for (int pieces = 0; pieces < 6; ++pieces) {
+            const auto speed = static_cast<std::int64_t>(random() >> 8) * (number <= 4 ? 1 : -1);
+            const Piece piece{Ticks{500 + static_cast<std::int64_t>(random() % 4000)}, {speed}, {}};
+            tick_by_tick({start, at, piece}, [&](StepEdge step) { result.steps.push_back(step); });
+            (void)frame.track.body.push_back(piece);
+            start += piece.ticks;
+            at = at + piece.covered();
+        }
+        result.frames.push_back(frame);
+    }
+    return result;
+}
+
+void order(DeviceDriver& driver, const Course& course) {
+    ASSERT_TRUE(driver.apply(device::BeginRun{1}));
+    for (const device::LoadFrame& frame : course.frames) { ASSERT_TRUE(driver.apply(frame)); }
+    ASSERT_TRUE(driver.apply(device::Arm{course.frames.size()}));
+}
+
+void expect_motion_over(LineFaults faults, std::uint64_t seed) {
+    constexpr std::uint32_t kStart_us = 4'000'000;
+    LinkedBoard board(faults, seed);
+    board.run(1'000'000);
+    std::vector<DeviceDriver> drivers{board.driver(0), board.driver(1)};
+    const std::vector<Course> courses{course(seed, Tick{kStart_us}), course(seed + 100, Tick{kStart_us})};
+    std::vector<std::vector<StepEdge>> made(kMotors);
+    for (std::size_t n = 0; n < kMotors; ++n) {
+        ASSERT_TRUE(drivers[n].set_up({}));
+        order(drivers[n], courses[n]);
+    }
+    for (std::uint32_t until_us = 1'000'000; until_us <= 6'000'000; until_us += 2000) {
+        board.run(until_us);
+        for (std::size_t n = 0; n < kMotors; ++n) {
+            ASSERT_TRUE(drivers[n].drain_capture([&](StepEdge step) { made[n].push_back(step); }));
+        }
+    }
+    for (std::size_t n = 0; n < kMotors; ++n) {
+        const auto status = drivers[n].read();
+        ASSERT_TRUE(status);
+        EXPECT_TRUE(status->finished && !status->bad_segment && !status->in_tail);
+        EXPECT_TRUE(made[n] == courses[n].steps) << made[n].size() << " steps, not " << courses[n].steps.size();
+    }
+}
+
+TEST(LinkedBoard, MakesTheStepsOfItsDrivers) { expect_motion_over({}, 1); }
+
+TEST(LinkedBoard, MakesTheSameStepsOverAPoorLine) { expect_motion_over({.damaged = 1, .lost = 1, .late = 5}, 2); }
+
+}  // namespace
+}  // namespace lockstep::testing
