@@ -38,11 +38,20 @@ void Device::store_abilities() {
 }
 
 void Device::advance(std::int64_t until) {
+    take_orders();
+    execute(until);
+    publish();
+}
+
+void Device::take_orders() {
     take_setup();
     take_enable();
     channels_.take_orders(moment());
     take_run();
     if (phase_ != Phase::AtRest && is_stop_asked()) { finish(kStatusStoppedByHost); }
+}
+
+void Device::execute(std::int64_t until) {
     tend();
     for (std::int64_t next = decide(until); engine_.now() < until; next = decide(until)) {
         const std::int64_t due = next_due(next);
@@ -53,7 +62,6 @@ void Device::advance(std::int64_t until) {
         }
         tend();
     }
-    publish();
 }
 
 /// A setup changes what inputs and pulses mean, so it is taken at rest only.

@@ -25,8 +25,12 @@ public:
 
     Words& words() { return words_; }
 
-    /// Executes all ticks up to and including `until`, then publishes its state. The host's words take effect at calls.
+    /// Takes the host's words, executes all ticks up to and including `until`, and publishes its state.
     void advance(std::int64_t until);
+    /// The parts of advance(), for a board that executes ticks more often than it exchanges words with the host.
+    void take_orders();
+    void execute(std::int64_t until);
+    void publish();
 
     std::int64_t now() const { return engine_.now(); }
     bool is_enabled() const { return enabled_.is_set; }
@@ -66,7 +70,6 @@ private:
     std::uint64_t reason_to_cease() const;
     Moment moment() const;
     std::uint64_t status_word() const;
-    void publish();
 
     Port& port_;
     Abilities abilities_;

@@ -95,7 +95,7 @@ void MotorOrders::take(std::size_t offset, std::uint64_t value) {
     window_.store(offset, value);
 }
 
-void MotorOrders::end() {
+void MotorOrders::show() {
     if (sequence_ != 0) { window_.store(kSequence, sequence_); }
 }
 
@@ -120,8 +120,8 @@ void HostWords::take(unsigned motor, std::size_t offset, std::uint64_t value) {
     if (motor < motors_.size()) { motors_[motor].take(offset, value); }
 }
 
-void HostWords::end() {
-    for (MotorOrders& motor : motors_) { motor.end(); }
+void HostWords::close() {
+    for (MotorOrders& motor : motors_) { motor.show(); }
 }
 
 }  // namespace lockstep::firmware

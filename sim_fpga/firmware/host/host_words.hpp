@@ -22,7 +22,7 @@ public:
     void fill(unsigned motor, ItemWriter& items);
     void take(std::size_t offset, std::uint64_t value);
     /// Shows the registers that were taken: their SEQUENCE is odd until then.
-    void end();
+    void show();
 
 private:
     struct Ring;
@@ -53,7 +53,8 @@ public:
     void begin() override;
     void fill(ItemWriter& items) override;
     void take(unsigned motor, std::size_t offset, std::uint64_t value) override;
-    void end() override;
+    void open() override {}
+    void close() override;
 
 private:
     std::vector<MotorOrders> motors_;

@@ -16,7 +16,6 @@ void MotorLook::begin() { is_known_ = is_whole_ = is_looking_ = false; }
 
 bool MotorLook::fill(const Words& words, unsigned motor, ItemWriter& items) {
     if (!is_known_) { return fill_constants(words, motor, items); }
-    if (!is_looking_) { look(words); }
     if (!fill_ring(words, kStepsRing, motor, seen(kCaptureHead), steps_, items)) { return true; }
     if (!fill_ring(words, kEventsRing, motor, seen(kEventHead), events_, items)) { return true; }
     if (!items.has_room_for_run(kWords)) { return true; }
@@ -69,12 +68,23 @@ void BoardWords::begin() {
 }
 
 void BoardWords::fill(ItemWriter& items) {
+    if (looks_[turn_].needs_look()) {
+        exchange_.enter();
+        exchange_.publish(turn_);
+        looks_[turn_].look(*words_[turn_]);
+        exchange_.leave();
+    }
     if (looks_[turn_].fill(*words_[turn_], static_cast<unsigned>(turn_), items)) { return; }
     turn_ = turn_ + 1 < motors_ ? turn_ + 1 : 0;
 }
 
 void BoardWords::take(unsigned motor, std::size_t offset, std::uint64_t value) {
     if (motor < motors_ && Words::is_of_host(offset)) { words_[motor]->store(offset, value); }
+}
+
+void BoardWords::close() {
+    exchange_.take_orders();
+    exchange_.leave();
 }
 
 }  // namespace lockstep::firmware

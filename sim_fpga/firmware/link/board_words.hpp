@@ -16,6 +16,9 @@ namespace lockstep::firmware {
 class MotorLook {
 public:
     void begin();
+    /// Whether the next words to send are those of a new look.
+    bool needs_look() const { return is_known_ && !is_looking_; }
+    void look(const Words& words);
     /// Puts words. Returns false if there is nothing more to send of this look.
     bool fill(const Words& words, unsigned motor, ItemWriter& items);
 
@@ -23,7 +26,6 @@ private:
     static constexpr std::size_t kFirst = registers::kSequence;
     static constexpr std::size_t kWords = (registers::kPulsesLeft - kFirst) / kWordBytes + 1;
 
-    void look(const Words& words);
     bool fill_constants(const Words& words, unsigned motor, ItemWriter& items);
     bool fill_ring(const Words& words, const Ring& ring, unsigned motor, std::uint64_t head, std::uint64_t& sent,
                    ItemWriter& items) const;
@@ -39,21 +41,38 @@ private:
     bool is_looking_ = false;   // this look is not yet sent
 };
 
+/// Keeps the execution of ticks out while words are exchanged with the devices, and has the devices follow.
+class Exchange {
+public:
+    /// Ticks are not executed until leave().
+    virtual void enter() = 0;
+    virtual void leave() = 0;
+    /// Within enter() and leave(): the devices take the host's words; a device publishes its words.
+    virtual void take_orders() = 0;
+    virtual void publish(std::size_t motor) = 0;
+
+protected:
+    ~Exchange() = default;
+};
+
 class BoardWords final : public LinkWords {
 public:
     static constexpr std::size_t kMostMotors = 4;
 
-    /// words: of each motor. They must outlive this object.
-    BoardWords(Words* const* words, std::size_t motors) : words_(words), motors_(motors) {}
+    /// words: of each motor. All must outlive this object.
+    BoardWords(Words* const* words, std::size_t motors, Exchange& exchange)
+        : words_(words), motors_(motors), exchange_(exchange) {}
 
     void begin() override;
     void fill(ItemWriter& items) override;
     void take(unsigned motor, std::size_t offset, std::uint64_t value) override;
-    void end() override {}
+    void open() override { exchange_.enter(); }
+    void close() override;
 
 private:
     Words* const* words_;
     std::size_t motors_;
+    Exchange& exchange_;
     MotorLook looks_[kMostMotors];
     std::size_t turn_ = 0;
 };

@@ -60,10 +60,11 @@ void Link::take_words(const Message& message, std::uint16_t number) {
     owes_answer_ = true;
     if (number != expected_) { return; }
     ++expected_;
+    words_.open();
     for_each_word(message, [this](unsigned motor, std::size_t offset, std::uint64_t value) {
         words_.take(motor, offset, value);
     });
-    words_.end();
+    words_.close();
 }
 
 bool Link::next_frame(std::uint32_t now_us, Frame& frame) {

@@ -23,10 +23,12 @@ public:
     virtual void begin() = 0;
     /// Puts words that the other end does not have, as many as fit, or none.
     virtual void fill(ItemWriter& items) = 0;
+    /// The words of a message follow. They take effect together.
+    virtual void open() = 0;
     /// A word of the other side.
     virtual void take(unsigned motor, std::size_t offset, std::uint64_t value) = 0;
-    /// All words of a message have been taken.
-    virtual void end() = 0;
+    /// All words of the message have been taken.
+    virtual void close() = 0;
 
 protected:
     ~LinkWords() = default;

@@ -32,7 +32,8 @@ public:
     void take(unsigned motor, std::size_t offset, std::uint64_t value) override {
         taken.push_back({motor, offset, value});
     }
-    void end() override {}
+    void open() override {}
+    void close() override {}
 
     std::vector<Write> writes;
     std::vector<Write> taken;

@@ -1,7 +1,8 @@
 // A driver that works on a board's windows moves its motors as if the devices were in the process's memory.
 #include <gtest/gtest.h>
 
-#include <memory>
+#include <array>
+#include <random>
 #include <vector>
 
 #include "core/step/tick_engine.hpp"
@@ -29,7 +30,7 @@ MotorConfig long_motor() {
 }
 
 /// A host with a window for each motor, a board with the motors' devices, and a line between. A tick is a microsecond.
-class LinkedBoard {
+class LinkedBoard final : firmware::Exchange {
 public:
     LinkedBoard(LineFaults faults, std::uint64_t seed) : there_(faults, seed), back_(faults, ~seed) {}
 
@@ -37,12 +38,19 @@ public:
         for (; now_us_ < until_us; now_us_ += 32) {
             there_.advance(host_, board_, now_us_);
             back_.advance(board_, host_, now_us_);
-            for (firmware::Device& device : devices_) { device.advance(now_us_); }
+            for (firmware::Device& device : devices_) { device.execute(now_us_); }
         }
     }
     DeviceDriver driver(std::size_t motor) { return DeviceDriver::attach(windows_[motor], kTwinTick_ns).value(); }
 
 private:
+    void enter() override {}
+    void leave() override {}
+    void take_orders() override {
+        for (firmware::Device& device : devices_) { device.take_orders(); }
+    }
+    void publish(std::size_t motor) override { devices_[motor].publish(); }
+
     static constexpr firmware::Abilities kAbilities{.inputs = 3, .has_encoder = true, .can_enable = true};
 
     std::array<PlantPort, kMotors> ports_{PlantPort(Plant(long_motor(), kTwinTick_ns)),
@@ -51,7 +59,7 @@ private:
                                                    firmware::Device(ports_[1], kAbilities, 0)};
     std::array<firmware::Words*, kMotors> words_{&devices_[0].words(), &devices_[1].words()};
     std::vector<RegisterWindow> windows_{RegisterWindow::in_process(), RegisterWindow::in_process()};
-    firmware::BoardWords board_words_{words_.data(), kMotors};
+    firmware::BoardWords board_words_{words_.data(), kMotors, *this};
     firmware::HostWords host_words_{windows_};
     firmware::Link board_{board_words_, 2};
     firmware::Link host_{host_words_, 1};

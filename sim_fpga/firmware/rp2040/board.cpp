@@ -1,0 +1,70 @@
+#include "sim_fpga/firmware/rp2040/board.hpp"
+
+#include "sim_fpga/firmware/rp2040/chip.hpp"
+
+namespace lockstep::firmware {
+namespace {
+
+/// Pulses of 400 ns, a direction 600 ns before and 400 ns behind an edge: all times up to 400 ns are kept.
+constexpr Abilities abilities_of(std::uint32_t power_up, std::size_t motor) {
+    return {.tick_ns = 1000,
+            .power_up = std::uint64_t{power_up} << 8 | motor,
+            .least_step_ticks = 4,
+            .time_unit_ps = 1000,
+            .longest_time = 400,
+            .inputs = 3,
+            .digital_outputs = 0,
+            .analog_outputs = 0,
+            .has_encoder = false,
+            .can_enable = true,
+            .can_compare = false};
+}
+
+}  // namespace
+
+Board::Board(std::uint32_t power_up)
+    : pins_{MotorPins(0), MotorPins(1), MotorPins(2)},
+      devices_{{pins_[0], abilities_of(power_up, 0), 0},
+               {pins_[1], abilities_of(power_up, 1), 0},
+               {pins_[2], abilities_of(power_up, 2), 0}},
+      words_{&devices_[0].words(), &devices_[1].words(), &devices_[2].words()},
+      board_words_(words_, kMotors, *this),
+      link_(board_words_, power_up) {}
+
+/// If a machine has run dry, the motors are no longer together: the board stops, and the host misses it.
+void Board::render() {
+    if (have_run_dry()) { __builtin_trap(); }
+    while (have_room_for_block()) { render_block(); }
+}
+
+void Board::render_block() {
+    for (std::size_t motor = 0; motor < kMotors; ++motor) {
+        pins_[motor].begin_block(now_);
+        pins_[motor].look();
+        devices_[motor].execute(now_ + kRenderTicks);
+    }
+    for (const MotorPins& pins : pins_) { pins.queue_block(); }
+    now_ += kRenderTicks;
+}
+
+void Board::serve_link() {
+    const auto now_us = static_cast<std::uint32_t>(chip::at(chip::timer::kNow));
+    std::uint8_t byte = 0;
+    while (receive(byte)) { link_.take(byte, now_us); }
+    if (transmission_.is_done() && link_.next_frame(now_us, transmission_.frame())) { transmission_.begin(); }
+    transmission_.advance();
+}
+
+void Board::enter() { asm volatile("cpsid i" ::: "memory"); }
+
+void Board::leave() { asm volatile("cpsie i" ::: "memory"); }
+
+void Board::take_orders() {
+    for (std::size_t motor = 0; motor < kMotors; ++motor) {
+        devices_[motor].take_orders();
+        pins_[motor].show_enabled(devices_[motor].is_enabled());
+        pins_[motor].invert(devices_[motor].channels().setup().inverted);
+    }
+}
+
+}  // namespace lockstep::firmware

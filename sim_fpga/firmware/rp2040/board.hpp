@@ -1,0 +1,41 @@
+// A board with its motors: an interrupt executes their ticks ahead of the pins, and the rest of the time is for the
+// link.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "sim_fpga/firmware/device/device.hpp"
+#include "sim_fpga/firmware/link/board_words.hpp"
+#include "sim_fpga/firmware/rp2040/step_pins.hpp"
+#include "sim_fpga/firmware/rp2040/uart.hpp"
+
+namespace lockstep::firmware {
+
+class Board final : public Exchange {
+public:
+    explicit Board(std::uint32_t power_up);
+
+    /// Executes ticks of all motors while their queues have room. Called by the interrupt.
+    void render();
+    /// Takes bytes of the host and sends frames to it.
+    void serve_link();
+
+    void enter() override;
+    void leave() override;
+    void take_orders() override;
+    void publish(std::size_t motor) override { devices_[motor].publish(); }
+
+private:
+    void render_block();
+
+    MotorPins pins_[kMotors];
+    Device devices_[kMotors];
+    Words* words_[kMotors];
+    BoardWords board_words_;
+    Link link_;
+    Transmission transmission_;
+    std::int64_t now_ = 0;  // the last tick that was executed
+};
+
+}  // namespace lockstep::firmware

@@ -1,0 +1,64 @@
+// Step and direction pins, timed by the chip's programmable machines: one for each motor.
+//
+// A machine takes two bits a tick: the direction, then whether there is a step. A tick is 1 us: the direction changes
+// at its beginning, the pulse begins 600 ns later and lasts 400 ns.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "sim_fpga/firmware/device/port.hpp"
+
+namespace lockstep::firmware {
+
+inline constexpr std::size_t kMotors = 3;
+
+/// Ticks are executed in blocks. A machine's queue has room for two.
+inline constexpr std::uint32_t kRenderTicks = 64;
+inline constexpr std::uint32_t kTicksPerWord = 16;
+inline constexpr std::uint32_t kWordsPerBlock = kRenderTicks / kTicksPerWord;
+
+// Pins of motor n.
+inline constexpr unsigned kUartTransmitPin = 0, kUartReceivePin = 1;
+constexpr unsigned step_pin(std::size_t motor) { return static_cast<unsigned>(2 + motor); }
+constexpr unsigned direction_pin(std::size_t motor) { return static_cast<unsigned>(6 + motor); }
+constexpr unsigned enable_pin(std::size_t motor) { return static_cast<unsigned>(10 + motor); }
+/// The first of three: limit switches below and above, home switch.
+constexpr unsigned first_input_pin(std::size_t motor) { return static_cast<unsigned>(13 + 3 * motor); }
+
+/// A motor's pins. Its steps of a block are collected, and then queued.
+class MotorPins final : public Port {
+public:
+    explicit MotorPins(std::size_t motor) : motor_(motor) {}
+
+    /// Begins the block behind tick `now`.
+    void begin_block(std::int64_t now);
+    /// Reads the input pins: they have these levels until the next call.
+    void look();
+    void queue_block() const;
+    void show_enabled(bool is_enabled) const;
+    /// inverted: as in the word INVERTED.
+    void invert(std::uint64_t inverted) const;
+
+    std::uint32_t pins() const override { return pins_; }
+    void step(std::int64_t tick, int direction) override;
+    std::int64_t encoder() const override { return 0; }
+
+private:
+    std::size_t motor_;
+    std::uint32_t pins_ = 0;
+    std::int64_t block_ = 0;   // the tick before the block
+    bool is_forward_ = false;  // the level of the direction pin
+    std::uint32_t words_[kWordsPerBlock]{};
+};
+
+/// Loads the machines and connects all pins. The machines wait.
+void connect_step_pins();
+/// Begins the first tick of all motors at the same instant.
+void start_step_pins();
+/// Whether there is room for a block of each motor.
+bool have_room_for_block();
+/// Whether a machine ever had no word for a tick: the motors have then lost their common time.
+bool have_run_dry();
+
+}  // namespace lockstep::firmware

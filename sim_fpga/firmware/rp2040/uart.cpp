@@ -1,0 +1,56 @@
+#include "sim_fpga/firmware/rp2040/uart.hpp"
+
+#include "sim_fpga/firmware/rp2040/chip.hpp"
+#include "sim_fpga/firmware/rp2040/step_pins.hpp"
+
+namespace lockstep::firmware {
+
+using namespace chip;
+
+namespace {
+
+constexpr unsigned kInterrupt = 20;
+constexpr std::uint32_t kRoom = 1024;
+
+// Written by the interrupt alone, and by receive() alone.
+volatile std::uint8_t received[kRoom];
+volatile std::uint32_t received_head;
+std::uint32_t received_tail;
+
+}  // namespace
+
+void start_uart() {
+    at(uart0::kWholeDivider) = 7;  // 125 MHz / 16 / 7.8125
+    at(uart0::kFraction) = 52;
+    at(uart0::kLine) = 0x70;      // 8 bits, queues
+    at(uart0::kControl) = 0x301;  // both directions
+    at(uart0::kInterrupts) = uart0::kReceive | uart0::kReceiveTimeout;
+    at(io::control(kUartTransmitPin)) = io::kUart;
+    at(io::control(kUartReceivePin)) = io::kUart;
+    at(nvic::priority(kInterrupt)) = nvic::priority_bits(kInterrupt, 3);  // below the execution of ticks
+    at(nvic::kEnable) = bit(kInterrupt);
+}
+
+/// What finds no room is lost, as on the line.
+extern "C" void on_uart() {
+    while ((at(uart0::kFlags) & uart0::kReceiveEmpty) == 0) {
+        const auto byte = static_cast<std::uint8_t>(at(uart0::kDataByte));
+        received[received_head % kRoom] = byte;
+        received_head = received_head + 1;
+    }
+    at(uart0::kClear) = uart0::kReceive | uart0::kReceiveTimeout;
+}
+
+bool receive(std::uint8_t& byte) {
+    if (received_head == received_tail) { return false; }
+    byte = received[received_tail++ % kRoom];
+    return true;
+}
+
+void Transmission::advance() {
+    while (!is_done() && (at(uart0::kFlags) & uart0::kTransmitFull) == 0) {
+        at(uart0::kDataByte) = frame_.bytes[next_++];
+    }
+}
+
+}  // namespace lockstep::firmware
