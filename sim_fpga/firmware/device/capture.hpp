@@ -22,7 +22,7 @@ public:
             ++lost_;
             return false;
         }
-        words_.store(kRing.entry(head_++), word);
+        words_.store_within(registers::kCaptureRing, kRing.entry(head_++), word);
         return true;
     }
     void publish() {

@@ -38,6 +38,7 @@ void Device::store_abilities() {
 }
 
 void Device::advance(std::int64_t until) {
+    prepare_setup();
     take_orders();
     execute(until);
     publish();
@@ -64,17 +65,24 @@ void Device::execute(std::int64_t until) {
     }
 }
 
+void Device::prepare_setup() {
+    const std::uint64_t asked = words_.load(kSetupRequest);
+    if (is_in_motion() || asked == setup_taken_ || asked == setup_refused_) { return; }
+    prepared_ = load_setup(words_);
+    is_prepared_possible_ = is_within(abilities_, prepared_);
+    setup_prepared_ = asked;
+}
+
 /// A setup changes what inputs and pulses mean, so it is taken at rest only.
 void Device::take_setup() {
     const std::uint64_t asked = words_.load(kSetupRequest);
-    if (is_in_motion() || asked == setup_taken_ || asked == setup_refused_) { return; }
-    const Setup setup = load_setup(words_);
-    if (!is_within(abilities_, setup)) {
+    if (is_in_motion() || asked == setup_taken_ || asked != setup_prepared_) { return; }
+    if (!is_prepared_possible_) {
         setup_refused_ = asked;
         return;
     }
     setup_taken_ = asked;
-    channels_.set(setup, moment());
+    channels_.set(prepared_, moment());
 }
 
 void Device::take_enable() {

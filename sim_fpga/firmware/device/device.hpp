@@ -29,6 +29,8 @@ public:
     void advance(std::int64_t until);
     /// The parts of advance(), for a board that executes ticks more often than it exchanges words with the host.
     void take_orders();
+    /// Reads a setup that take_orders() will take. It takes long, and needs no other word of the device.
+    void prepare_setup();
     void execute(std::int64_t until);
     void publish();
 
@@ -92,9 +94,12 @@ private:
     int stepped_ = 0;          // the direction of a step after which pulses paused; 0: none
     bool into_limit_ = false;  // a pulse was suppressed at a limit switch
 
-    std::uint64_t setup_taken_ = 0;    // its number
-    std::uint64_t setup_refused_ = 0;  // the number of one that is beyond the abilities
-    Due enabled_;                      // since when
+    Setup prepared_;
+    bool is_prepared_possible_ = false;
+    std::uint64_t setup_prepared_ = 0;  // its number
+    std::uint64_t setup_taken_ = 0;     // its number
+    std::uint64_t setup_refused_ = 0;   // the number of one that is beyond the abilities
+    Due enabled_;                       // since when
     std::uint64_t sequence_ = 0;
 };
 

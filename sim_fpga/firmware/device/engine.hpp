@@ -91,12 +91,14 @@ private:
     bool run_block(std::uint32_t ticks, OnStep&& on_step) {
         const Accumulators before = axis_;
         const Block block = execute(ticks);
-        for (std::uint32_t n = 1; n <= ticks && block.steps != 0; ++n) {
-            const std::uint32_t bit = std::uint32_t{1} << (ticks - n);
-            if ((block.steps & bit) == 0) { continue; }
-            const int direction = (block.backward & bit) != 0 ? -1 : 1;
-            count_ += direction;
-            if (!on_step(now_ + n, direction)) {
+        const std::uint32_t unused = kBlockTicks - ticks;
+        std::uint32_t steps = block.steps << unused;  // the next tick is the highest bit
+        for (std::uint32_t n = 1; steps != 0; ++n, steps <<= 1) {
+            for (; steps >> (kBlockTicks - 8) == 0; n += 8) { steps <<= 8; }
+            for (; steps >> (kBlockTicks - 1) == 0; ++n) { steps <<= 1; }
+            const bool is_backward = (block.backward >> (ticks - n) & 1) != 0;
+            count_ += is_backward ? -1 : 1;
+            if (!on_step(now_ + n, is_backward ? -1 : 1)) {
                 stop_after(n, ticks, before);
                 return false;
             }

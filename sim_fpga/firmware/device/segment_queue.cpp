@@ -19,10 +19,10 @@ Place FrameHeader::from(std::int64_t near_count) const {
 bool SegmentQueue::front(FrameHeader& header) const {
     if (loaded() == 0 || loaded() > kSegmentRoom) { return false; }
     const std::size_t at = kSegments.entry(tail_);
-    header = {.tag = words_.load(at + kSegmentRingHeaderTag),
-              .start = static_cast<std::int64_t>(words_.load(at + kSegmentRingHeaderStart)),
-              .counts = words_.load(at + kSegmentRingHeaderCounts),
-              .phase = words_.load(at + kSegmentRingHeaderPhase)};
+    header = {.tag = words_.load_within(kSegmentRing, at + kSegmentRingHeaderTag),
+              .start = static_cast<std::int64_t>(words_.load_within(kSegmentRing, at + kSegmentRingHeaderStart)),
+              .counts = words_.load_within(kSegmentRing, at + kSegmentRingHeaderCounts),
+              .phase = words_.load_within(kSegmentRing, at + kSegmentRingHeaderPhase)};
     return true;
 }
 
@@ -62,10 +62,10 @@ bool SegmentQueue::is_whole(const FrameHeader& header) const {
 
 bool SegmentQueue::read_piece(std::uint64_t index, Piece& piece) const {
     const std::size_t at = kSegments.entry(index);
-    const std::uint64_t tag = words_.load(at + kSegmentRingPieceTag);
+    const std::uint64_t tag = words_.load_within(kSegmentRing, at + kSegmentRingPieceTag);
     piece = {.ticks = static_cast<std::int64_t>(kSegmentRingPieceTagTicks.of(tag)),
-             .velocity = words_.load(at + kSegmentRingPieceVelocity),
-             .acceleration = words_.load(at + kSegmentRingPieceAcceleration)};
+             .velocity = words_.load_within(kSegmentRing, at + kSegmentRingPieceVelocity),
+             .acceleration = words_.load_within(kSegmentRing, at + kSegmentRingPieceAcceleration)};
     return (tag & kSegmentRingHeaderTagIsHeader) == 0 && is_executable(piece);
 }
 

@@ -45,6 +45,13 @@ public:
     void store(std::size_t offset, std::uint64_t value) {
         if (const std::size_t at = index(offset); at != kNowhere) { words_[at] = value; }
     }
+    /// In the area that begins at `area`, which is known when this is compiled: takes a fraction of the time.
+    std::uint64_t load_within(std::size_t area, std::size_t offset) const {
+        return words_[index(area) + (offset - area) / kWordBytes];
+    }
+    void store_within(std::size_t area, std::size_t offset, std::uint64_t value) {
+        words_[index(area) + (offset - area) / kWordBytes] = value;
+    }
     void store(std::size_t offset, std::int64_t value) { store(offset, static_cast<std::uint64_t>(value)); }
 
     /// Whether there is such a word and the host writes it.

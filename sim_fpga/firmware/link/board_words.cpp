@@ -78,11 +78,20 @@ void BoardWords::fill(ItemWriter& items) {
     turn_ = turn_ + 1 < motors_ ? turn_ + 1 : 0;
 }
 
+/// Entries of rings are not read before their head has moved, and words of a setup not before prepare_orders().
 void BoardWords::take(unsigned motor, std::size_t offset, std::uint64_t value) {
-    if (motor < motors_ && Words::is_of_host(offset)) { words_[motor]->store(offset, value); }
+    if (motor >= motors_ || !Words::is_of_host(offset)) { return; }
+    if (offset >= kRunRequest && offset < kDirectRequest) {
+        order_[orders_++] = {motor, offset, value};
+    } else {
+        words_[motor]->store(offset, value);
+    }
 }
 
 void BoardWords::close() {
+    exchange_.prepare_orders();
+    exchange_.enter();
+    for (std::size_t n = 0; n < orders_; ++n) { words_[order_[n].motor]->store(order_[n].offset, order_[n].value); }
     exchange_.take_orders();
     exchange_.leave();
 }

@@ -47,6 +47,8 @@ public:
     /// Ticks are not executed until leave().
     virtual void enter() = 0;
     virtual void leave() = 0;
+    /// Before enter(): what takes long of take_orders(), and reads no word that changes within.
+    virtual void prepare_orders() = 0;
     /// Within enter() and leave(): the devices take the host's words; a device publishes its words.
     virtual void take_orders() = 0;
     virtual void publish(std::size_t motor) = 0;
@@ -66,13 +68,23 @@ public:
     void begin() override;
     void fill(ItemWriter& items) override;
     void take(unsigned motor, std::size_t offset, std::uint64_t value) override;
-    void open() override { exchange_.enter(); }
+    void open() override { orders_ = 0; }
     void close() override;
 
 private:
     Words* const* words_;
     std::size_t motors_;
     Exchange& exchange_;
+    /// Words that the execution of ticks reads. Those of a message take effect together.
+    struct Order {
+        unsigned motor;
+        std::size_t offset;
+        std::uint64_t value;
+    };
+    static constexpr std::size_t kMostOrders = kMostMessageBytes / kWordBytes;
+
+    Order order_[kMostOrders];
+    std::size_t orders_ = 0;
     MotorLook looks_[kMostMotors];
     std::size_t turn_ = 0;
 };

@@ -9,7 +9,7 @@ namespace {
 constexpr Abilities abilities_of(std::uint32_t power_up, std::size_t motor) {
     return {.tick_ns = 1000,
             .power_up = std::uint64_t{power_up} << 8 | motor,
-            .least_step_ticks = 4,
+            .least_step_ticks = 16,
             .time_unit_ps = 1000,
             .longest_time = 400,
             .inputs = 3,
@@ -31,9 +31,7 @@ Board::Board(std::uint32_t power_up)
       board_words_(words_, kMotors, *this),
       link_(board_words_, power_up) {}
 
-/// If a machine has run dry, the motors are no longer together: the board stops, and the host misses it.
 void Board::render() {
-    if (have_run_dry()) { __builtin_trap(); }
     while (have_room_for_block()) { render_block(); }
 }
 
@@ -44,20 +42,30 @@ void Board::render_block() {
         devices_[motor].execute(now_ + kRenderTicks);
     }
     for (const MotorPins& pins : pins_) { pins.queue_block(); }
+    finish_block();
     now_ += kRenderTicks;
 }
 
-void Board::serve_link() {
+bool Board::serve_link() {
     const auto now_us = static_cast<std::uint32_t>(chip::at(chip::timer::kNow));
     std::uint8_t byte = 0;
-    while (receive(byte)) { link_.take(byte, now_us); }
-    if (transmission_.is_done() && link_.next_frame(now_us, transmission_.frame())) { transmission_.begin(); }
+    bool is_busy = false;
+    for (; receive(byte); is_busy = true) { link_.take(byte, now_us); }
+    if (transmission_.is_done() && link_.next_frame(now_us, transmission_.frame())) {
+        transmission_.begin();
+        is_busy = true;
+    }
     transmission_.advance();
+    return is_busy;
 }
 
 void Board::enter() { asm volatile("cpsid i" ::: "memory"); }
 
 void Board::leave() { asm volatile("cpsie i" ::: "memory"); }
+
+void Board::prepare_orders() {
+    for (Device& device : devices_) { device.prepare_setup(); }
+}
 
 void Board::take_orders() {
     for (std::size_t motor = 0; motor < kMotors; ++motor) {

@@ -16,13 +16,14 @@ class Board final : public Exchange {
 public:
     explicit Board(std::uint32_t power_up);
 
-    /// Executes ticks of all motors while their queues have room. Called by the interrupt.
+    /// Executes ticks of all motors while blocks may wait. Called by the interrupt.
     void render();
-    /// Takes bytes of the host and sends frames to it.
-    void serve_link();
+    /// Takes bytes of the host and sends frames to it. Returns false if there was nothing to do.
+    bool serve_link();
 
     void enter() override;
     void leave() override;
+    void prepare_orders() override;
     void take_orders() override;
     void publish(std::size_t motor) override { devices_[motor].publish(); }
 

@@ -48,8 +48,8 @@ inline constexpr std::uint32_t kReceiveEmpty = bit(4), kTransmitFull = bit(5);
 inline constexpr std::uint32_t kReceive = bit(4), kReceiveTimeout = bit(6);
 }  // namespace uart0
 namespace timer {
-inline constexpr std::uint32_t kAlarm0 = 0x4005'4010, kNow = 0x4005'4028, kRaised = 0x4005'4034,
-                               kInterrupts = 0x4005'4038;
+constexpr std::uint32_t alarm(unsigned n) { return 0x4005'4010 + 4 * n; }
+inline constexpr std::uint32_t kNow = 0x4005'4028, kRaised = 0x4005'4034, kInterrupts = 0x4005'4038;
 }  // namespace timer
 namespace watchdog {
 inline constexpr std::uint32_t kTick = 0x4005'802C;

@@ -10,8 +10,11 @@ namespace {
 
 using namespace chip;
 
-constexpr unsigned kRenderInterrupt = 0;
-constexpr std::uint32_t kRenderPeriod_us = 16;
+// Alarm n of the timer is interrupt n. The pins come first, then the line's bytes (uart.cpp), then the ticks.
+constexpr unsigned kFeedAlarm = 0;
+constexpr unsigned kRenderAlarm = 1;
+constexpr std::uint32_t kFeedPeriod_us = 32;
+constexpr std::uint32_t kRenderPeriod_us = 64;
 
 alignas(Board) unsigned char board_memory[sizeof(Board)];
 Board& board() { return *reinterpret_cast<Board*>(board_memory); }
@@ -23,24 +26,39 @@ std::uint32_t random_word() {
     return word | 1;
 }
 
-void set_alarm() { at(timer::kAlarm0) = at(timer::kNow) + kRenderPeriod_us; }
+void repeat(unsigned alarm, std::uint32_t period_us) {
+    at(timer::kRaised) = bit(alarm);
+    at(timer::alarm(alarm)) = at(timer::kNow) + period_us;
+}
 
-void start_rendering() {
+void start_alarm(unsigned alarm, std::uint32_t priority) {
+    at(set_bits(timer::kInterrupts)) = bit(alarm);
+    at(nvic::priority(alarm)) = at(nvic::priority(alarm)) | nvic::priority_bits(alarm, priority);
+    repeat(alarm, 1);
+    at(nvic::kEnable) = bit(alarm);
+}
+
+void start_motors() {
     board().render();
+    feed_machines();
     board().enter();
     start_step_pins();
-    at(timer::kInterrupts) = 1;
-    set_alarm();
-    at(nvic::priority(kRenderInterrupt)) = nvic::priority_bits(kRenderInterrupt, 0);
-    at(nvic::kEnable) = bit(kRenderInterrupt);
+    start_alarm(kFeedAlarm, 0);
+    start_alarm(kRenderAlarm, 2);
     board().leave();
 }
 
 }  // namespace
 
+/// If a machine has run dry, the motors are no longer together: the board stops, and the host misses it.
+extern "C" void on_feed_time() {
+    repeat(kFeedAlarm, kFeedPeriod_us);
+    if (have_run_dry()) { __builtin_trap(); }
+    feed_machines();
+}
+
 extern "C" void on_render_time() {
-    at(timer::kRaised) = 1;
-    set_alarm();
+    repeat(kRenderAlarm, kRenderPeriod_us);
     board().render();
 }
 
@@ -48,9 +66,11 @@ extern "C" int main() {
     start_clocks();
     connect_step_pins();
     new (board_memory) Board(random_word());
-    start_rendering();
+    start_motors();
     start_uart();
-    for (;;) { board().serve_link(); }
+    for (;;) {
+        if (!board().serve_link()) { asm volatile("wfi"); }  // the render's alarm ends it, at the latest
+    }
 }
 
 }  // namespace lockstep::firmware

@@ -5,7 +5,7 @@
 
   .section .flash_vectors, "a"
   .word stack_end
-  .word load + 1
+  .word load
 
   .section .load, "ax"
   .thumb_func
@@ -18,27 +18,28 @@ copy:
   stm r1!, {r3}
   cmp r1, r2
   blo copy
-  ldr r0, =start + 1
+  ldr r0, =start
   bx r0
   .ltorg
 
   .section .vectors, "a"
   .word stack_end
-  .word start + 1
-  .word stopped + 1          @ not maskable
-  .word stopped + 1          @ hard fault
+  .word start
+  .word stopped          @ not maskable
+  .word stopped          @ hard fault
   .fill 7, 4, 0
-  .word stopped + 1          @ supervisor call
+  .word stopped          @ supervisor call
   .fill 2, 4, 0
-  .word stopped + 1          @ pending supervisor call
-  .word stopped + 1          @ system tick
-  .word on_render_time + 1   @ interrupt 0: alarm 0 of the timer
-  .rept 19
-  .word stopped + 1
+  .word stopped          @ pending supervisor call
+  .word stopped          @ system tick
+  .word on_feed_time         @ interrupts 0 and 1: alarms of the timer
+  .word on_render_time
+  .rept 18
+  .word stopped
   .endr
-  .word on_uart + 1          @ interrupt 20: UART 0
+  .word on_uart          @ interrupt 20: UART 0
   .rept 11
-  .word stopped + 1
+  .word stopped
   .endr
 
   .section .text.start, "ax"

@@ -10,7 +10,8 @@ using namespace chip;
 namespace {
 
 constexpr std::uint32_t kAllMachines = (1U << kMotors) - 1;
-constexpr std::uint32_t kQueueWords = 8;
+constexpr std::uint32_t kMachineWords = 8;
+constexpr std::uint32_t kWaitingWords = kWaitingBlocks * kWordsPerBlock;
 constexpr std::uint32_t kEachDirectionBit = 0xAAAA'AAAA;
 
 /// Instructions of a machine. Each shows the step pin's level for 1 + `delay` of its cycles.
@@ -33,6 +34,14 @@ constexpr std::uint32_t kProgram[] = {
     timed(jump(0), 0, 9),            // 4: 400 ns
 };
 constexpr std::uint32_t kDividerOf125MHz = 5;
+
+// Words that wait. The execution of ticks alone writes them and `queued_words`, feed_machines() alone `fed_words`.
+std::uint32_t waiting[kMotors][kWaitingWords];
+volatile std::uint32_t queued_words;
+volatile std::uint32_t fed_words;
+
+/// The machines take words together, and the last one is fed last.
+bool machines_have_room() { return (at(pio0::kLevels) >> 8 * (kMotors - 1) & 15) < kMachineWords; }
 
 void load_program() {
     unsigned n = 0;
@@ -80,7 +89,8 @@ void MotorPins::step(std::int64_t tick, int direction) {
 }
 
 void MotorPins::queue_block() const {
-    for (const std::uint32_t word : words_) { at(pio0::transmit(static_cast<unsigned>(motor_))) = word; }
+    std::uint32_t at = queued_words;
+    for (const std::uint32_t word : words_) { waiting[motor_][at++ % kWaitingWords] = word; }
 }
 
 void MotorPins::show_enabled(bool is_enabled) const {
@@ -105,10 +115,18 @@ void start_step_pins() {
     at(pio0::kControl) = kAllMachines << 8 | kAllMachines << 4 | kAllMachines;
 }
 
-/// The machines take words together, and the last one's queue was filled last.
-bool have_room_for_block() {
-    const std::uint32_t waiting = at(pio0::kLevels) >> 8 * (kMotors - 1) & 15;
-    return waiting <= kQueueWords - kWordsPerBlock;
+bool have_room_for_block() { return queued_words - fed_words <= kWaitingWords - kWordsPerBlock; }
+
+void finish_block() { queued_words = queued_words + kWordsPerBlock; }
+
+void feed_machines() {
+    while (fed_words != queued_words && machines_have_room()) {
+        const std::uint32_t word = fed_words % kWaitingWords;
+        for (std::size_t motor = 0; motor < kMotors; ++motor) {
+            at(pio0::transmit(static_cast<unsigned>(motor))) = waiting[motor][word];
+        }
+        fed_words = fed_words + 1;
+    }
 }
 
 bool have_run_dry() { return (at(pio0::kDebug) >> 24 & kAllMachines) != 0; }

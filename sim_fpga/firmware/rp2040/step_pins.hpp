@@ -13,10 +13,12 @@ namespace lockstep::firmware {
 
 inline constexpr std::size_t kMotors = 3;
 
-/// Ticks are executed in blocks. A machine's queue has room for two.
-inline constexpr std::uint32_t kRenderTicks = 64;
+// Ticks are executed in blocks, some of which wait in memory for the machines, which themselves have room for 128
+// ticks. So what the host or a switch asks for comes to the pins up to 640 ticks later.
+inline constexpr std::uint32_t kRenderTicks = 128;
 inline constexpr std::uint32_t kTicksPerWord = 16;
 inline constexpr std::uint32_t kWordsPerBlock = kRenderTicks / kTicksPerWord;
+inline constexpr std::uint32_t kWaitingBlocks = 4;
 
 // Pins of motor n.
 inline constexpr unsigned kUartTransmitPin = 0, kUartReceivePin = 1;
@@ -35,6 +37,7 @@ public:
     void begin_block(std::int64_t now);
     /// Reads the input pins: they have these levels until the next call.
     void look();
+    /// Puts the block's words behind those that wait. finish_block() follows for all motors.
     void queue_block() const;
     void show_enabled(bool is_enabled) const;
     /// inverted: as in the word INVERTED.
@@ -56,8 +59,12 @@ private:
 void connect_step_pins();
 /// Begins the first tick of all motors at the same instant.
 void start_step_pins();
-/// Whether there is room for a block of each motor.
+/// Whether another block may wait.
 bool have_room_for_block();
+/// All motors have queued a block.
+void finish_block();
+/// Gives words that wait to the machines, as many as they take. Called at least every 64 us.
+void feed_machines();
 /// Whether a machine ever had no word for a tick: the motors have then lost their common time.
 bool have_run_dry();
 

@@ -27,7 +27,7 @@ void start_uart() {
     at(uart0::kInterrupts) = uart0::kReceive | uart0::kReceiveTimeout;
     at(io::control(kUartTransmitPin)) = io::kUart;
     at(io::control(kUartReceivePin)) = io::kUart;
-    at(nvic::priority(kInterrupt)) = nvic::priority_bits(kInterrupt, 3);  // below the execution of ticks
+    at(nvic::priority(kInterrupt)) = nvic::priority_bits(kInterrupt, 1);
     at(nvic::kEnable) = bit(kInterrupt);
 }
 

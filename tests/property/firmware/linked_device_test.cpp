@@ -46,6 +46,9 @@ public:
 private:
     void enter() override {}
     void leave() override {}
+    void prepare_orders() override {
+        for (firmware::Device& device : devices_) { device.prepare_setup(); }
+    }
     void take_orders() override {
         for (firmware::Device& device : devices_) { device.take_orders(); }
     }

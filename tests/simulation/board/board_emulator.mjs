@@ -1,0 +1,204 @@
+// A Raspberry Pi Pico that runs a firmware in virtual time, for another process at the other end of its line.
+//
+// Usage: node board_emulator.mjs FIRMWARE.uf2
+//
+// Request, on standard input, little-endian: the microsecond until which to run (u32), how many bytes arrive at the board
+// from now on (u32), these bytes. Answer: how many bytes the board has sent (u32), how many edges its pins had (u32), the
+// bytes, the edges: processor cycle (f64), pin (u8), level (u8). An end of input ends the process. The start of the
+// machines that time the pins is an edge of pin 255.
+//
+// The package rp2040js runs the chip's programmable machines (PIO) from a JavaScript timer, without dividers. Here they
+// run in step with the processor. It also lets a UART send without end; here a byte takes its time.
+import fs from 'node:fs';
+import { FIFO, GPIOPinState, RP2040 } from 'rp2040js';
+
+const MHZ = 125;
+const NS_PER_CYCLE = 1000 / MHZ;
+const BYTE_CYCLES = 10 * MHZ; // 1 MBd, with a start and a stop bit
+const UART_QUEUE = 32;
+const TRANSMIT_FULL = 1 << 5;
+const START = 255;
+const WATCHED_PINS = [2, 3, 4, 6, 7, 8, 10, 11, 12];
+const STACK_OF_BOOT_ROM = 0x20041f00;
+const SECOND_STAGE = 0x10000000;
+
+/** A machine of the PIO, and the cycle of its next instruction. */
+class ClockedMachine {
+  constructor(machine) {
+    this.machine = machine;
+    this.due = Infinity;
+  }
+
+  followEnabled(now) {
+    if (this.machine.enabled === (this.due !== Infinity)) return;
+    this.due = this.machine.enabled ? now : Infinity;
+  }
+
+  step() {
+    const before = this.machine.cycles;
+    this.machine.step();
+    this.due += this.machine.clockDivInt * Math.max(1, this.machine.cycles - before);
+  }
+}
+
+class Board {
+  now = 0; // processor cycles since power-up
+  sent = [];
+  edges = [];
+  #arriving = [];
+  #nextArrival = Infinity;
+  #leaving = 0; // the cycle at which the UART's queue is empty
+  #nextDue = Infinity; // the cycle of the next instruction of a machine
+  #edgeTime = null; // of the PIO instruction in progress
+
+  constructor(uf2) {
+    this.chip = new RP2040();
+    const fail = (part, text) => { throw new Error(`${part}: ${text}`); };
+    this.chip.logger = { debug() {}, info() {}, warn: fail, error: fail };
+    this.chip.onBreak = () => { throw new Error(`the firmware stopped at ${this.now / MHZ} us`); };
+    this.#load(uf2);
+    this.#makeRandomBits();
+    this.#clockMachines();
+    this.#connectUart();
+    this.#watchPins();
+    this.chip.core.SP = STACK_OF_BOOT_ROM;
+    this.chip.core.PC = SECOND_STAGE;
+  }
+
+  #load(uf2) {
+    for (let at = 0; at < uf2.length; at += 512) {
+      const address = uf2.readUInt32LE(at + 12);
+      this.chip.flash.set(uf2.subarray(at + 32, at + 32 + uf2.readUInt32LE(at + 16)), address - SECOND_STAGE);
+    }
+  }
+
+  /** The ring oscillator's, which the package does not have: the same in each run. */
+  #makeRandomBits() {
+    let drawn = 0;
+    this.chip.peripherals[0x40060].readUint32 = () => Math.imul(++drawn, 0x9e3779b1) >>> 31;
+  }
+
+  #clockMachines() {
+    const pio = this.chip.pio[0];
+    pio.run = () => {};
+    this.machines = pio.machines.map((machine) => new ClockedMachine(machine));
+    for (const machine of pio.machines) {
+      machine.clkDivRestart = () => {}; // a divider begins with its machine
+      machine.txFIFO = new FIFO(8); // the firmware joins both queues of a machine
+    }
+    const write = pio.writeUint32.bind(pio);
+    pio.writeUint32 = (offset, value) => {
+      write(offset, value);
+      if (offset !== 0) return;
+      for (const one of this.machines) one.followEnabled(this.now);
+      this.edges.push([this.now, START, 1]);
+      this.#nextDue = this.#nextInstruction();
+    };
+  }
+
+  #connectUart() {
+    const uart = this.chip.uart[0];
+    uart.onByte = (byte) => {
+      this.sent.push(byte);
+      this.#leaving = Math.max(this.#leaving, this.now) + BYTE_CYCLES;
+    };
+    const read = uart.readUint32.bind(uart);
+    const isFull = () => this.#leaving - this.now > UART_QUEUE * BYTE_CYCLES;
+    uart.readUint32 = (offset) => (offset === 0x18 && isFull() ? read(offset) | TRANSMIT_FULL : read(offset));
+  }
+
+  #watchPins() {
+    for (const pin of WATCHED_PINS) {
+      let level = 0;
+      this.chip.gpio[pin].addListener((state) => {
+        const now = state === GPIOPinState.High ? 1 : 0;
+        if (now !== level) this.edges.push([this.#edgeTime ?? this.now, pin, now]);
+        level = now;
+      });
+    }
+  }
+
+  receive(bytes) {
+    if (this.#arriving.length === 0 && bytes.length > 0) this.#nextArrival = this.now + BYTE_CYCLES;
+    this.#arriving.push(...bytes);
+  }
+
+  run(untilUs) {
+    const { chip } = this;
+    const until = untilUs * MHZ;
+    while (this.now < until) {
+      const cycles = chip.core.waiting ? this.#cyclesToWake(until) : chip.core.executeInstruction();
+      this.now += cycles;
+      chip.clock.tick(cycles * NS_PER_CYCLE);
+      if (this.#nextDue < this.now) this.#runMachines();
+      if (this.#nextArrival <= this.now) this.#arrive();
+    }
+  }
+
+  #nextInstruction() {
+    let next = Infinity;
+    for (const one of this.machines) if (one.due < next) next = one.due;
+    return next;
+  }
+
+  #cyclesToWake(until) {
+    const alarm = Math.ceil(this.chip.clock.nanosToNextAlarm / NS_PER_CYCLE) || Infinity;
+    const others = Math.min(until, this.#nextDue, this.#nextArrival) - this.now;
+    return Math.max(1, Math.min(alarm, others));
+  }
+
+  #runMachines() {
+    const pio = this.chip.pio[0];
+    while (this.#nextDue < this.now) {
+      this.#edgeTime = this.#nextDue;
+      for (const one of this.machines) if (one.due === this.#nextDue) one.step();
+      pio.checkChangedPins();
+      this.#nextDue = this.#nextInstruction();
+    }
+    this.#edgeTime = null;
+  }
+
+  #arrive() {
+    this.chip.uart[0].feedByte(this.#arriving.shift());
+    this.#nextArrival = this.#arriving.length > 0 ? this.#nextArrival + BYTE_CYCLES : Infinity;
+  }
+
+  take() {
+    const answer = Buffer.alloc(8 + this.sent.length + 10 * this.edges.length);
+    answer.writeUInt32LE(this.sent.length, 0);
+    answer.writeUInt32LE(this.edges.length, 4);
+    answer.set(this.sent, 8);
+    let at = 8 + this.sent.length;
+    for (const [cycle, pin, level] of this.edges) {
+      answer.writeDoubleLE(cycle, at);
+      answer[at + 8] = pin;
+      answer[at + 9] = level;
+      at += 10;
+    }
+    this.sent = [];
+    this.edges = [];
+    return answer;
+  }
+}
+
+/** Reads exactly so many bytes of standard input; null at its end. */
+function read(size) {
+  const bytes = Buffer.alloc(size);
+  for (let at = 0; at < size;) {
+    const got = fs.readSync(0, bytes, at, size - at);
+    if (got === 0) return null;
+    at += got;
+  }
+  return bytes;
+}
+
+function write(bytes) {
+  for (let at = 0; at < bytes.length;) at += fs.writeSync(1, bytes, at);
+}
+
+const board = new Board(fs.readFileSync(process.argv[2]));
+for (let request = read(8); request !== null; request = read(8)) {
+  board.receive(read(request.readUInt32LE(4)));
+  board.run(request.readUInt32LE(0));
+  write(board.take());
+}
