@@ -8,6 +8,7 @@ Channels::Channels(Words& words, const Abilities& abilities)
     : words_(words), abilities_(abilities), events_(words), queue_(words, abilities), outputs_(events_) {}
 
 void Channels::set(const Setup& setup, const Moment& at) {
+    is_next_known_ = false;
     setup_ = setup;
     outputs_.set(setup);
     note_inputs(inputs_.set(setup), at);
@@ -15,6 +16,7 @@ void Channels::set(const Setup& setup, const Moment& at) {
 }
 
 void Channels::take_orders(const Moment& at) {
+    is_next_known_ = false;
     host_.look(words_.load(kBeat), at.now);
     const std::uint64_t asked = words_.load(kDirectRequest);
     if (asked == request_) { return; }
@@ -36,23 +38,34 @@ void Channels::change_directly(const Moment& at) {
 }
 
 bool Channels::begin_frame(std::uint64_t run, std::uint64_t frame, const Moment& at) {
+    is_next_known_ = false;
     const bool is_well = queue_.take(run, frame, track_);
     outputs_.begin(track_.body.changes, host_.is_silent() ? 0 : track_.body.size, at.now);
     return is_well;
 }
 
 void Channels::begin_tail(const Moment& at) {
+    is_next_known_ = false;
     outputs_.begin(track_.tail.changes, host_.is_silent() ? 0 : track_.tail.size, at.now);
 }
 
 void Channels::end_run(bool is_cut, const Moment& at) {
+    is_next_known_ = false;
     outputs_.end(at.now, at.count);
     if (is_cut) { outputs_.make_safe(setup_.at_cut, at.now, at.count); }
 }
 
-Due Channels::next() const { return earlier(earlier(outputs_.next(), inputs_.next()), host_.next()); }
+Due Channels::next() {
+    if (!is_next_known_) { next_ = earlier(earlier(outputs_.next(), inputs_.next()), host_.next()); }
+    is_next_known_ = true;
+    return next_;
+}
 
+/// With the same pins, nothing happens before something is due.
 void Channels::tend(std::uint32_t pins, const Moment& at) {
+    if (is_next_known_ && pins == pins_ && !next_.is_past(at.now)) { return; }
+    is_next_known_ = false;
+    pins_ = pins;
     outputs_.tend(at.now, at.count);
     if (host_.falls_silent(at.now)) {
         outputs_.end(at.now, at.count);

@@ -43,11 +43,13 @@ public:
     void drop_run(std::uint64_t run) { queue_.drop_run(run); }
 
     /// The next tick at which something is due.
-    Due next() const;
+    Due next();
     /// Does what is due at this moment, with these levels of the input pins.
     void tend(std::uint32_t pins, const Moment& at);
     /// A step that arrives at this count.
-    void arrive(std::int64_t tick, std::int64_t count) { outputs_.arrive(tick, count); }
+    void arrive(std::int64_t tick, std::int64_t count) {
+        if (outputs_.arrive(tick, count)) { is_next_known_ = false; }
+    }
 
     const Setup& setup() const { return setup_; }
     /// The inputs that are closed; input n is bit n.
@@ -70,6 +72,9 @@ private:
     HostWatch host_;
     OutputTrack track_;  // of the frame in progress
     std::uint64_t request_ = 0;
+    std::uint32_t pins_ = 0;      // as they were looked at last
+    Due next_;                    // if it is known
+    bool is_next_known_ = false;  // nothing has changed since it was found
 };
 
 }  // namespace lockstep::firmware

@@ -38,7 +38,7 @@ void Device::store_abilities() {
 }
 
 void Device::advance(std::int64_t until) {
-    prepare_setup();
+    prepare_orders();
     take_orders();
     execute(until);
     publish();
@@ -65,7 +65,8 @@ void Device::execute(std::int64_t until) {
     }
 }
 
-void Device::prepare_setup() {
+void Device::prepare_orders() {
+    segments_.check_ahead();
     const std::uint64_t asked = words_.load(kSetupRequest);
     if (is_in_motion() || asked == setup_taken_ || asked == setup_refused_) { return; }
     prepared_ = load_setup(words_);
@@ -244,7 +245,7 @@ bool Device::is_triggered() const {
     return inputs != 0 && is_closed(inputs) != opens;
 }
 
-std::int64_t Device::next_due(std::int64_t until) const {
+std::int64_t Device::next_due(std::int64_t until) {
     const Due due = channels_.next();
     return due.is_past(until) ? due.tick : until;
 }

@@ -29,8 +29,8 @@ public:
     void advance(std::int64_t until);
     /// The parts of advance(), for a board that executes ticks more often than it exchanges words with the host.
     void take_orders();
-    /// Reads a setup that take_orders() will take. It takes long, and needs no other word of the device.
-    void prepare_setup();
+    /// Checks what the host has written: what takes long. It may run while ticks are executed.
+    void prepare_orders();
     void execute(std::int64_t until);
     void publish();
 
@@ -66,7 +66,7 @@ private:
     bool is_closed(std::uint32_t inputs) const { return (channels_.closed() & inputs) != 0; }
     const Setup& setup() const { return channels_.setup(); }
 
-    std::int64_t next_due(std::int64_t until) const;
+    std::int64_t next_due(std::int64_t until);
     bool on_step(std::int64_t tick, int direction);
     void tend();
     std::uint64_t reason_to_cease() const;

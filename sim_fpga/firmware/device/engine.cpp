@@ -13,9 +13,17 @@ std::uint32_t all_of(std::uint32_t ticks) { return ~std::uint32_t{0} >> (kBlockT
 
 }  // namespace
 
-/// Velocity is linear in time, so that its last value decides: the first is a word of 64 bits.
+/// Velocity is linear in time, so that its last value decides: the first is a word of 64 bits. The product of most
+/// pieces has 63 bits, which takes a quarter of the time.
 bool is_executable(const Piece& piece) {
     if (piece.ticks < 1 || piece.ticks > kLongestPiece) { return false; }
+    constexpr std::int64_t kFewTicks = std::int64_t{1} << 20;
+    constexpr std::uint64_t kSmall = std::uint64_t{1} << 43;
+    if (piece.ticks < kFewTicks && piece.acceleration + kSmall < 2 * kSmall) {
+        const std::uint64_t gained = piece.acceleration * static_cast<std::uint64_t>(piece.ticks);
+        const std::uint64_t last = piece.velocity + gained;
+        return is_backward(piece.velocity) != is_backward(gained) || is_backward(last) == is_backward(gained);
+    }
     const Wide gained = product_of(static_cast<std::int64_t>(piece.acceleration), piece.ticks);
     return is_narrow(widened(static_cast<std::int64_t>(piece.velocity)) + gained);
 }

@@ -44,12 +44,13 @@ void Outputs::tend(std::int64_t now, std::int64_t count) {
     for (; left_ > 0 && start_ + changes_->at <= now; ++changes_, --left_) { change(*changes_, now, count); }
 }
 
-void Outputs::arrive(std::int64_t tick, std::int64_t count) {
-    if (places_.pulses == 0 || count != places_.next) { return; }
+bool Outputs::arrive(std::int64_t tick, std::int64_t count) {
+    if (places_.pulses == 0 || count != places_.next) { return false; }
     pulse_ends_ = Due::at(tick + compare_ticks_);
     places_.next += places_.every;
     pulses_left_ = --places_.pulses;
     if (pulses_left_ == 0) { events_.put({.tick = tick, .kind = EventKind::CompareEnds, .value = count}); }
+    return true;
 }
 
 void Outputs::change(const OutputChange& change, std::int64_t now, std::int64_t count) {

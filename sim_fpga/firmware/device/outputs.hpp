@@ -31,8 +31,8 @@ public:
     Due next() const;
     /// Does what is due after tick `now`, at this count.
     void tend(std::int64_t now, std::int64_t count);
-    /// A step that arrives at this count.
-    void arrive(std::int64_t tick, std::int64_t count);
+    /// A step that arrives at this count. Returns true if it begins a pulse.
+    bool arrive(std::int64_t tick, std::int64_t count);
 
     void change_digital(std::uint16_t levels, std::uint16_t mask, std::int64_t now, std::int64_t count);
     void change_analog(std::size_t channel, std::int64_t value, std::int64_t slope, std::int64_t now);

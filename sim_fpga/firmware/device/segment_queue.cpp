@@ -39,6 +39,15 @@ void SegmentQueue::drop(const FrameHeader& header) {
     tail_ += entries < loaded() ? entries : loaded();
 }
 
+void SegmentQueue::check_ahead() {
+    const std::uint64_t head = words_.load(kSegmentHead);
+    if (head - checked_ > kSegmentRoom) { checked_ = head - kSegmentRoom; }
+    for (; checked_ != head; ++checked_) {
+        const std::size_t at = kSegments.entry(checked_);
+        if (is_executable_at(at)) { words_.mark_checked(at); }
+    }
+}
+
 bool SegmentQueue::take_frame(std::uint64_t number, LoadedFrame& frame) {
     FrameHeader header;
     if (!front(header) || !is_whole(header)) { return false; }
@@ -46,27 +55,31 @@ bool SegmentQueue::take_frame(std::uint64_t number, LoadedFrame& frame) {
     frame.is_last = header.is_last_frame();
     frame.body_pieces = static_cast<std::size_t>(header.body_pieces());
     frame.size = static_cast<std::size_t>(header.pieces());
-    for (std::size_t k = 0; k < frame.size; ++k) { (void)read_piece(tail_ + 1 + k, frame.pieces[k]); }
+    for (std::size_t k = 0; k < frame.size; ++k) { frame.pieces[k] = piece_at(kSegments.entry(tail_ + 1 + k)); }
     tail_ += 1 + header.pieces();
     return true;
 }
 
 bool SegmentQueue::is_whole(const FrameHeader& header) const {
     if (header.body_pieces() == 0 || header.pieces() > kMostPieces || header.pieces() >= loaded()) { return false; }
-    Piece piece;
-    for (std::uint64_t k = 1; k <= header.pieces(); ++k) {
-        if (!read_piece(tail_ + k, piece)) { return false; }
+    const auto pieces = static_cast<std::size_t>(header.pieces());
+    for (std::size_t k = 1; k <= pieces; ++k) {
+        const std::size_t at = kSegments.entry(tail_ + k);
+        if (!words_.is_checked(at) && !is_executable_at(at)) { return false; }
     }
     return true;
 }
 
-bool SegmentQueue::read_piece(std::uint64_t index, Piece& piece) const {
-    const std::size_t at = kSegments.entry(index);
+Piece SegmentQueue::piece_at(std::size_t at) const {
     const std::uint64_t tag = words_.load_within(kSegmentRing, at + kSegmentRingPieceTag);
-    piece = {.ticks = static_cast<std::int64_t>(kSegmentRingPieceTagTicks.of(tag)),
-             .velocity = words_.load_within(kSegmentRing, at + kSegmentRingPieceVelocity),
-             .acceleration = words_.load_within(kSegmentRing, at + kSegmentRingPieceAcceleration)};
-    return (tag & kSegmentRingHeaderTagIsHeader) == 0 && is_executable(piece);
+    return {.ticks = static_cast<std::int64_t>(kSegmentRingPieceTagTicks.of(tag)),
+            .velocity = words_.load_within(kSegmentRing, at + kSegmentRingPieceVelocity),
+            .acceleration = words_.load_within(kSegmentRing, at + kSegmentRingPieceAcceleration)};
+}
+
+bool SegmentQueue::is_executable_at(std::size_t at) const {
+    const std::uint64_t tag = words_.load_within(kSegmentRing, at + kSegmentRingPieceTag);
+    return (tag & kSegmentRingHeaderTagIsHeader) == 0 && is_executable(piece_at(at));
 }
 
 }  // namespace lockstep::firmware

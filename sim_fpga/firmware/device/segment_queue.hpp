@@ -40,10 +40,12 @@ struct LoadedFrame {
 
 class SegmentQueue {
 public:
-    explicit SegmentQueue(const Words& words) : words_(words) {}
+    explicit SegmentQueue(Words& words) : words_(words) {}
 
     /// Entries taken since power-up.
     std::uint64_t taken() const { return tail_; }
+    /// Checks pieces that have been loaded, which takes long. So a frame can be taken in a short time.
+    void check_ahead();
     /// Reads the oldest entry. Returns false if the ring is empty, or the host's head is impossible.
     [[nodiscard]] bool front(FrameHeader& header) const;
     /// Takes frames off the ring while the oldest is of `run`, or while it is of any other run.
@@ -57,11 +59,13 @@ private:
     std::uint64_t loaded() const { return words_.load(registers::kSegmentHead) - tail_; }
     void drop(const FrameHeader& header);
     bool is_whole(const FrameHeader& header) const;
-    /// Returns false if the entry is none that can be executed.
-    bool read_piece(std::uint64_t index, Piece& piece) const;
+    /// The entry at an offset in the window, as a piece.
+    Piece piece_at(std::size_t at) const;
+    bool is_executable_at(std::size_t at) const;
 
-    const Words& words_;
+    Words& words_;
     std::uint64_t tail_ = 0;
+    std::uint64_t checked_ = 0;  // entries that were checked ahead
 };
 
 }  // namespace lockstep::firmware

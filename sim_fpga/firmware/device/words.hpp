@@ -44,6 +44,9 @@ public:
     std::uint64_t load(std::size_t offset) const { return words_[index(offset)]; }
     void store(std::size_t offset, std::uint64_t value) {
         if (const std::size_t at = index(offset); at != kNowhere) { words_[at] = value; }
+        if (const std::size_t entry = segment_entry(offset); entry < kSegmentRoom) {
+            checked_[entry / 32] &= ~(std::uint32_t{1} << entry % 32);
+        }
     }
     /// In the area that begins at `area`, which is known when this is compiled: takes a fraction of the time.
     std::uint64_t load_within(std::size_t area, std::size_t offset) const {
@@ -53,6 +56,15 @@ public:
         words_[index(area) + (offset - area) / kWordBytes] = value;
     }
     void store(std::size_t offset, std::int64_t value) { store(offset, static_cast<std::uint64_t>(value)); }
+
+    /// Marks an entry of the segment ring, by its offset, as a piece that can be executed, until a word of it is
+    /// written.
+    void mark_checked(std::size_t offset) {
+        checked_[segment_entry(offset) / 32] |= std::uint32_t{1} << segment_entry(offset) % 32;
+    }
+    bool is_checked(std::size_t offset) const {
+        return (checked_[segment_entry(offset) / 32] >> segment_entry(offset) % 32 & 1) != 0;
+    }
 
     /// Whether there is such a word and the host writes it.
     static constexpr bool is_of_host(std::size_t offset) {
@@ -75,7 +87,13 @@ private:
         return kNowhere;
     }
 
+    /// Of offsets that are not in the ring: any number that no entry has.
+    static constexpr std::size_t segment_entry(std::size_t offset) {
+        return (offset - registers::kSegmentRing) / registers::kSegmentRingEntryBytes;
+    }
+
     std::uint64_t words_[kNowhere + 1]{};  // the last one stays 0
+    std::uint32_t checked_[kSegmentRoom / 32]{};
 };
 
 /// A ring's place in the window. Entries are numbered from power-up on, and their number is a power of two.

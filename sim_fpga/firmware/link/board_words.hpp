@@ -47,7 +47,7 @@ public:
     /// Ticks are not executed until leave().
     virtual void enter() = 0;
     virtual void leave() = 0;
-    /// Before enter(): what takes long of take_orders(), and reads no word that changes within.
+    /// Before enter(): what takes long.
     virtual void prepare_orders() = 0;
     /// Within enter() and leave(): the devices take the host's words; a device publishes its words.
     virtual void take_orders() = 0;

@@ -64,7 +64,7 @@ void Board::enter() { asm volatile("cpsid i" ::: "memory"); }
 void Board::leave() { asm volatile("cpsie i" ::: "memory"); }
 
 void Board::prepare_orders() {
-    for (Device& device : devices_) { device.prepare_setup(); }
+    for (Device& device : devices_) { device.prepare_orders(); }
 }
 
 void Board::take_orders() {

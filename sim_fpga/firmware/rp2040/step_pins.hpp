@@ -14,11 +14,11 @@ namespace lockstep::firmware {
 inline constexpr std::size_t kMotors = 3;
 
 // Ticks are executed in blocks, some of which wait in memory for the machines, which themselves have room for 128
-// ticks. So what the host or a switch asks for comes to the pins up to 640 ticks later.
+// ticks. So what the host or a switch asks for comes to the pins up to 1152 ticks later.
 inline constexpr std::uint32_t kRenderTicks = 128;
 inline constexpr std::uint32_t kTicksPerWord = 16;
 inline constexpr std::uint32_t kWordsPerBlock = kRenderTicks / kTicksPerWord;
-inline constexpr std::uint32_t kWaitingBlocks = 4;
+inline constexpr std::uint32_t kWaitingBlocks = 8;
 
 // Pins of motor n.
 inline constexpr unsigned kUartTransmitPin = 0, kUartReceivePin = 1;

@@ -47,7 +47,7 @@ private:
     void enter() override {}
     void leave() override {}
     void prepare_orders() override {
-        for (firmware::Device& device : devices_) { device.prepare_setup(); }
+        for (firmware::Device& device : devices_) { device.prepare_orders(); }
     }
     void take_orders() override {
         for (firmware::Device& device : devices_) { device.take_orders(); }

@@ -111,16 +111,18 @@ std::int64_t any_speed(std::mt19937_64& random) {
     return random() % 4 == 0 ? -speed : speed;
 }
 
-/// Frames of any pieces, there and back.
+/// Frames of any pieces, one of which has many.
 Course course(std::uint64_t seed, Tick start) {
+    constexpr FrameNumber kFrames = 4;
     std::mt19937_64 random(seed);
     Course result;
     Position at = rest_position(0, false);
-    for (FrameNumber number = 1; number <= 6; ++number) {
-        device::LoadFrame frame{number, start, number == 6, {at, {}, {}}};
-        for (int pieces = 0; pieces < 5; ++pieces) {
+    for (FrameNumber number = 1; number <= kFrames; ++number) {
+        device::LoadFrame frame{number, start, number == kFrames, {at, {}, {}}};
+        const std::int64_t pieces = number == 2 ? 40 : 5;
+        for (std::int64_t left = pieces; left > 0; --left) {
             const std::int64_t speed = any_speed(random);
-            const Ticks ticks{300 + static_cast<std::int64_t>(random() % 2000)};
+            const Ticks ticks{128 + static_cast<std::int64_t>(random() % 10'000) / pieces};
             const Piece piece{ticks, {speed}, {(any_speed(random) - speed) / ticks.value}};
             tick_by_tick({start, at, piece}, [&](StepEdge step) { result.steps.push_back(step); });
             (void)frame.track.body.push_back(piece);
