@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Packs a program for the flash of an RP2040 into a UF2 file, which the board's boot ROM takes as a file on its USB drive.
 
-Usage: pack_uf2.py PROGRAM.bin PROGRAM.uf2    The first 252 bytes are the second stage of booting, which gets its CRC.
+Usage: pack_uf2.py PROGRAM.elf PROGRAM.uf2    The first 252 bytes are the second stage of booting, which gets its CRC.
 """
 import pathlib
 import struct
@@ -12,6 +12,20 @@ FAMILY_RP2040 = 0xE48BFF56
 HAS_FAMILY = 0x2000
 BLOCK = 256
 STAGE = 252
+
+
+def image(elf):
+    """What the flash contains, from its beginning: the segments at their load addresses."""
+    table, = struct.unpack_from("<I", elf, 28)
+    entry_size, entries = struct.unpack_from("<2H", elf, 42)
+    flash = bytearray()
+    for entry in range(entries):
+        kind, offset, _, address, size = struct.unpack_from("<5I", elf, table + entry * entry_size)
+        if kind == 1 and size > 0:
+            at = address - FLASH
+            flash = flash.ljust(at + size, b"\0")
+            flash[at:at + size] = elf[offset:offset + size]
+    return bytes(flash)
 
 
 def crc32_mpeg2(data):
@@ -38,7 +52,7 @@ def blocks(program):
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
-    program = with_crc(pathlib.Path(sys.argv[1]).read_bytes())
+    program = with_crc(image(pathlib.Path(sys.argv[1]).read_bytes()))
     pathlib.Path(sys.argv[2]).write_bytes(b"".join(blocks(program)))
 
 
