@@ -33,6 +33,11 @@ constexpr std::uint32_t control(unsigned pin) { return 0x4001'4004 + 8 * pin; }
 inline constexpr std::uint32_t kUart = 2, kSio = 5, kPio0 = 6;
 inline constexpr std::uint32_t kInverted = bit(8);
 }  // namespace io
+namespace pads {
+constexpr std::uint32_t pin(unsigned n) { return 0x4001'C004 + 4 * n; }
+/// 4 mA, with hysteresis, read, pulled low.
+inline constexpr std::uint32_t kInput = 0x56;
+}  // namespace pads
 namespace crystal {
 inline constexpr std::uint32_t kControl = 0x4002'4000, kStatus = 0x4002'4004, kStartup = 0x4002'400C;
 }  // namespace crystal

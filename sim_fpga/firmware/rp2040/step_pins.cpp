@@ -65,7 +65,10 @@ void connect_motor(std::size_t motor) {
     at(machine + pio0::kPins) = 1U << 29 | 1U << 20 | step_pin(motor) << 10 | direction_pin(motor);
     at(io::control(enable_pin(motor))) = io::kSio;
     at(sio::kOutputEnable) = bit(enable_pin(motor));
-    for (unsigned n = 0; n < 3; ++n) { at(io::control(first_input_pin(motor) + n)) = io::kSio; }
+    for (unsigned pin = first_input_pin(motor); pin < first_input_pin(motor + 1); ++pin) {
+        at(pads::pin(pin)) = pads::kInput;
+        at(io::control(pin)) = io::kSio;
+    }
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 //
 // Usage: node board_emulator.mjs FIRMWARE.uf2
 //
-// Request, on standard input, little-endian: the microsecond until which to run (u32), how many bytes arrive at the board
-// from now on (u32), these bytes. Answer: how many bytes the board has sent (u32), how many edges its pins had (u32), the
+// Request, on standard input, little-endian: the microsecond until which to run (u32), the levels of the input pins (u32;
+// pin n is bit n), how many bytes arrive at the board from now on (u32), these bytes. Answer: how many bytes the board has sent (u32), how many edges its pins had (u32), the
 // bytes, the edges: processor cycle (f64), pin (u8), level (u8). An end of input ends the process. The start of the
 // machines that time the pins is an edge of pin 255.
 //
@@ -19,6 +19,7 @@ const UART_QUEUE = 32;
 const TRANSMIT_FULL = 1 << 5;
 const START = 255;
 const WATCHED_PINS = [2, 3, 4, 6, 7, 8, 10, 11, 12];
+const INPUT_PINS = [13, 14, 15, 16, 17, 18, 19, 20, 21];
 const STACK_OF_BOOT_ROM = 0x20041f00;
 const SECOND_STAGE = 0x10000000;
 
@@ -118,6 +119,10 @@ class Board {
     }
   }
 
+  setInputs(levels) {
+    for (const pin of INPUT_PINS) this.chip.gpio[pin].setInputValue((levels >>> pin & 1) === 1);
+  }
+
   receive(bytes) {
     if (this.#arriving.length === 0 && bytes.length > 0) this.#nextArrival = this.now + BYTE_CYCLES;
     this.#arriving.push(...bytes);
@@ -197,8 +202,9 @@ function write(bytes) {
 }
 
 const board = new Board(fs.readFileSync(process.argv[2]));
-for (let request = read(8); request !== null; request = read(8)) {
-  board.receive(read(request.readUInt32LE(4)));
+for (let request = read(12); request !== null; request = read(12)) {
+  board.setInputs(request.readUInt32LE(4));
+  board.receive(read(request.readUInt32LE(8)));
   board.run(request.readUInt32LE(0));
   write(board.take());
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <deque>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -68,19 +69,30 @@ public:
                 waiting_.insert(waiting_.end(), frame.bytes, frame.bytes + frame.size);
             }
             const auto end = waiting_.begin() + static_cast<std::ptrdiff_t>(std::min(kBytesPerSlice, waiting_.size()));
-            const std::vector<std::uint8_t> bytes(waiting_.begin(), end);
+            std::vector<std::uint8_t> bytes(waiting_.begin(), end);
+            spoil(bytes);
             waiting_.erase(waiting_.begin(), end);
             now_us_ += kSlice_us;
-            take(board_.run(now_us_, bytes));
+            take(board_.run(now_us_, levels_, bytes));
         }
     }
+    /// From now on one byte of a thousand comes damaged, either way.
+    void damage() { is_poor_ = true; }
+    /// The upper limit switch of a motor.
+    void close_switch(std::size_t motor) { levels_ |= 1U << (14 + 3 * motor); }
     DeviceDriver driver(std::size_t motor) { return DeviceDriver::attach(windows_[motor], kTick_ns).value(); }
     bool is_connected() const { return windows_[kMotors - 1].load(registers::kMagic) == registers::kMagicValue; }
     std::uint32_t now_us() const { return now_us_; }
     const std::vector<StepEdge>& steps(std::size_t motor) const { return pins_[motor].steps; }
 
 private:
-    void take(const EmulatedBoard::Answer& answer) {
+    void spoil(std::vector<std::uint8_t>& bytes) {
+        for (std::uint8_t& byte : bytes) {
+            if (is_poor_ && random_() % 1000 == 0) { byte = static_cast<std::uint8_t>(byte ^ (1U << random_() % 8)); }
+        }
+    }
+    void take(EmulatedBoard::Answer answer) {
+        spoil(answer.sent);
         for (const std::uint8_t byte : answer.sent) { link_.take(byte, now_us_); }
         for (const PinEdge& edge : answer.edges) {
             if (edge.pin == kStartPin) { start_ = edge.cycle; }
@@ -97,11 +109,15 @@ private:
     std::deque<std::uint8_t> waiting_;
     std::uint32_t now_us_ = 0;
     double start_ = 0;
+    std::uint32_t levels_ = 0;  // of the input pins; pin n is bit n
+    bool is_poor_ = false;
+    std::mt19937_64 random_{1};
 };
 
 struct Course {
     std::vector<device::LoadFrame> frames;
-    std::vector<StepEdge> steps;
+    FrameNumber armed;
+    std::vector<StepEdge> steps;  // of the armed frames, and of a tail behind them
     Tick end;
 };
 
@@ -111,70 +127,137 @@ std::int64_t any_speed(std::mt19937_64& random) {
     return random() % 4 == 0 ? -speed : speed;
 }
 
+Piece any_piece(std::mt19937_64& random, std::int64_t most_ticks) {
+    const std::int64_t speed = any_speed(random);
+    const Ticks ticks{128 + static_cast<std::int64_t>(random() % 10'000) % most_ticks};
+    return {ticks, {speed}, {(any_speed(random) - speed) / ticks.value}};
+}
+
+/// The steps of pieces from a tick and a place on, which move to their end.
+template <typename Pieces>
+void append_steps(const Pieces& pieces, Tick& tick, Position& at, std::vector<StepEdge>& steps) {
+    for (const Piece& piece : pieces) {
+        tick_by_tick({tick, at, piece}, [&](StepEdge step) { steps.push_back(step); });
+        tick += piece.ticks;
+        at = at + piece.covered();
+    }
+}
+
+constexpr FrameNumber kFrames = 4;
+
 /// Frames of any pieces, one of which has many.
-Course course(std::uint64_t seed, Tick start) {
-    constexpr FrameNumber kFrames = 4;
+Course course(std::uint64_t seed, Tick start, FrameNumber armed) {
     std::mt19937_64 random(seed);
-    Course result;
+    Course result{{}, armed, {}, start};
     Position at = rest_position(0, false);
+    std::vector<StepEdge> not_armed;
     for (FrameNumber number = 1; number <= kFrames; ++number) {
         device::LoadFrame frame{number, start, number == kFrames, {at, {}, {}}};
         const std::int64_t pieces = number == 2 ? 40 : 5;
         for (std::int64_t left = pieces; left > 0; --left) {
-            const std::int64_t speed = any_speed(random);
-            const Ticks ticks{128 + static_cast<std::int64_t>(random() % 10'000) / pieces};
-            const Piece piece{ticks, {speed}, {(any_speed(random) - speed) / ticks.value}};
-            tick_by_tick({start, at, piece}, [&](StepEdge step) { result.steps.push_back(step); });
-            (void)frame.track.body.push_back(piece);
-            start += ticks;
-            at = at + piece.covered();
+            frame.track.body.append(any_piece(random, 10'000 / pieces));
+        }
+        append_steps(frame.track.body, start, at, number <= armed ? result.steps : not_armed);
+        if (!frame.last) { frame.track.tail.append(any_piece(random, 2000)); }
+        if (number == armed) {
+            result.end = start;
+            Position rest = at;
+            append_steps(frame.track.tail, result.end, rest, result.steps);
         }
         result.frames.push_back(frame);
     }
-    result.end = start;
     return result;
 }
 
-TEST(Board, MakesEachPinEdgeOfItsFrames) {
-    BoardBench bench;
-    while (!bench.is_connected()) {
-        ASSERT_LT(bench.now_us(), 100'000U) << "the board does not answer";
-        bench.run(bench.now_us() + 1000);
+/// Forward, at a step per 20 ticks.
+Course long_way(Tick start, Ticks ticks) {
+    const Piece piece{ticks, {std::numeric_limits<std::int64_t>::max() / 10}, {}};
+    Course result{{{1, start, true, {rest_position(0, false), {piece}, {}}}}, 1, {}, start};
+    Position at = rest_position(0, false);
+    append_steps(result.frames.front().track.body, result.end, at, result.steps);
+    return result;
+}
+
+class Board : public ::testing::Test {
+protected:
+    void SetUp() override {
+        while (!bench.is_connected()) {
+            ASSERT_LT(bench.now_us(), 200'000U) << "the board does not answer";
+            bench.run(bench.now_us() + 1000);
+        }
+        for (std::size_t motor = 0; motor < kMotors; ++motor) { drivers.push_back(bench.driver(motor)); }
     }
-    const Tick start{static_cast<std::int64_t>(bench.now_us()) + 120'000};
-    std::vector<DeviceDriver> drivers;
-    std::vector<Course> courses;
-    std::vector<std::vector<StepEdge>> recorded(kMotors);
-    for (std::size_t motor = 0; motor < kMotors; ++motor) {
-        drivers.push_back(bench.driver(motor));
-        courses.push_back(course(motor + 1, start));
+    /// For the line to bring all frames to the board.
+    Tick soon() const { return Tick{static_cast<std::int64_t>(bench.now_us()) + 120'000}; }
+
+    void order(std::size_t motor, const Course& course) {
         ASSERT_TRUE(drivers[motor].set_up({}));
         ASSERT_TRUE(drivers[motor].apply(device::BeginRun{1}));
-        for (const auto& frame : courses[motor].frames) { ASSERT_TRUE(drivers[motor].apply(frame)); }
-        ASSERT_TRUE(drivers[motor].apply(device::Arm{courses[motor].frames.size()}));
+        for (const auto& frame : course.frames) { ASSERT_TRUE(drivers[motor].apply(frame)); }
+        ASSERT_TRUE(drivers[motor].apply(device::Arm{course.armed}));
     }
-    Tick end;
-    for (const Course& course : courses) { end = std::max(end, course.end); }
-    constexpr std::uint32_t kRecords_us = 400'000;  // for the line to bring the ticks of all steps
-    const auto are_all_recorded = [&] {
-        return std::ranges::equal(recorded, courses, {}, &std::vector<StepEdge>::size,
-                                  [](const Course& one) { return one.steps.size(); });
-    };
-    while (bench.now_us() < end.value + kRecords_us && (bench.now_us() < end.value + 5000 || !are_all_recorded())) {
-        bench.run(bench.now_us() + 1000);
-        for (std::size_t motor = 0; motor < kMotors; ++motor) {
-            ASSERT_TRUE(drivers[motor].drain_capture([&](StepEdge step) { recorded[motor].push_back(step); }));
+    void run(std::int64_t until_us) {
+        while (bench.now_us() < until_us) {
+            bench.run(bench.now_us() + 1000);
+            for (std::size_t motor = 0; motor < kMotors; ++motor) {
+                ASSERT_TRUE(drivers[motor].drain_capture([&](StepEdge step) { recorded[motor].push_back(step); }));
+            }
         }
     }
-    bench.run(bench.now_us() + 20'000);
-    for (std::size_t motor = 0; motor < kMotors; ++motor) {
+    /// Until the line has brought the ticks of all steps.
+    void run_to_end(const Course& course, std::size_t motor) {
+        for (int left = 100; left > 0 && recorded[motor].size() < course.steps.size(); --left) {
+            run(std::max<std::int64_t>(bench.now_us(), course.end.value) + 10'000);
+        }
+        run(bench.now_us() + 20'000);
+    }
+    void expect_steps(const Course& course, std::size_t motor) {
+        EXPECT_TRUE(bench.steps(motor) == course.steps)
+            << "motor " << motor << ": " << bench.steps(motor).size() << " edges, not " << course.steps.size();
+        EXPECT_TRUE(recorded[motor] == course.steps) << recorded[motor].size() << " recorded";
         const auto status = drivers[motor].read();
         ASSERT_TRUE(status);
-        EXPECT_TRUE(status->finished && !status->bad_segment && !status->in_tail && !status->capture_overflow);
-        EXPECT_TRUE(bench.steps(motor) == courses[motor].steps)
-            << "motor " << motor << ": " << bench.steps(motor).size() << " edges, not " << courses[motor].steps.size();
-        EXPECT_TRUE(recorded[motor] == courses[motor].steps) << recorded[motor].size() << " recorded";
+        EXPECT_TRUE(status->finished && !status->bad_segment && !status->capture_overflow);
+        EXPECT_EQ(status->in_tail, course.armed < course.frames.size());
     }
+
+    BoardBench bench;
+    std::vector<DeviceDriver> drivers;
+    std::array<std::vector<StepEdge>, kMotors> recorded;
+};
+
+TEST_F(Board, MakesEachPinEdgeOfItsFrames) {
+    const Tick start = soon();
+    const std::array courses{course(1, start, kFrames), course(2, start, kFrames), course(3, start, kFrames)};
+    for (std::size_t motor = 0; motor < kMotors; ++motor) { order(motor, courses[motor]); }
+    for (std::size_t motor = 0; motor < kMotors; ++motor) { run_to_end(courses[motor], motor); }
+    for (std::size_t motor = 0; motor < kMotors; ++motor) { expect_steps(courses[motor], motor); }
+}
+
+/// Motor 0 may run two frames. The switch of motor 1 closes on its way. Motor 2 is not concerned, and a byte of a
+/// thousand is damaged.
+TEST_F(Board, EndsInATailOrAtASwitchAndCountsWhatItMade) {
+    constexpr Ticks kWay{60'000};
+    constexpr std::int64_t kDelay = 1152;  // from a switch to the pins
+    bench.damage();
+    const Tick start = soon() + Ticks{200'000};
+    const std::array courses{course(4, start, 2), long_way(start, kWay), course(5, start, kFrames)};
+    for (std::size_t motor = 0; motor < kMotors; ++motor) { order(motor, courses[motor]); }
+    const Tick closed = start + Ticks{20'000};
+    run(closed.value);
+    bench.close_switch(1);
+    run_to_end(courses[0], 0);
+    run_to_end(courses[2], 2);
+    expect_steps(courses[0], 0);
+    expect_steps(courses[2], 2);
+    const auto status = drivers[1].read();
+    ASSERT_TRUE(status);
+    EXPECT_TRUE(status->stopped_by_limit);
+    ASSERT_FALSE(bench.steps(1).empty());
+    EXPECT_EQ(status->position.count(), static_cast<std::int64_t>(bench.steps(1).size()));
+    EXPECT_LE(bench.steps(1).back().tick, closed + Ticks{kDelay + 5000})
+        << "the board's first tick is 5 ms behind power-up";
+    EXPECT_GE(bench.steps(1).back().tick, closed - Ticks{5000});
 }
 
 }  // namespace

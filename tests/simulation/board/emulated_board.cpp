@@ -35,8 +35,9 @@ EmulatedBoard::~EmulatedBoard() {
     ::waitpid(process_, nullptr, 0);
 }
 
-EmulatedBoard::Answer EmulatedBoard::run(std::uint32_t until_us, const std::vector<std::uint8_t>& bytes) {
-    const std::array<std::uint32_t, 2> request{until_us, static_cast<std::uint32_t>(bytes.size())};
+EmulatedBoard::Answer EmulatedBoard::run(std::uint32_t until_us, std::uint32_t levels,
+                                         const std::vector<std::uint8_t>& bytes) {
+    const std::array<std::uint32_t, 3> request{until_us, levels, static_cast<std::uint32_t>(bytes.size())};
     write(request.data(), sizeof request);
     write(bytes.data(), bytes.size());
     std::array<std::uint32_t, 2> sizes{};

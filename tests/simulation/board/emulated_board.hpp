@@ -27,9 +27,9 @@ public:
         std::vector<std::uint8_t> sent;
         std::vector<PinEdge> edges;
     };
-    /// Runs the board until this microsecond since power-up. `bytes` arrive at it, one every 10 us. Throws if the
-    /// emulator ends, which it does if the firmware stops.
-    Answer run(std::uint32_t until_us, const std::vector<std::uint8_t>& bytes);
+    /// Runs the board until this microsecond since power-up. `levels`: of the pins; pin n is bit n. `bytes` arrive at
+    /// it, one every 10 us. Throws if the emulator ends, which it does if the firmware stops.
+    Answer run(std::uint32_t until_us, std::uint32_t levels, const std::vector<std::uint8_t>& bytes);
 
 private:
     void write(const void* bytes, std::size_t size);
