@@ -41,6 +41,14 @@ public:
             for (firmware::Device& device : devices_) { device.execute(now_us_); }
         }
     }
+    /// At the board, by itself.
+    void receive(firmware::Message message) {
+        firmware::Frame frame;
+        encode(message, frame);
+        for (std::size_t n = 0; n < frame.size; ++n) { board_.take(frame.bytes[n], now_us_); }
+    }
+    /// A word of the board.
+    std::uint64_t load(std::size_t motor, std::size_t offset) const { return words_[motor]->load(offset); }
     DeviceDriver driver(std::size_t motor) { return DeviceDriver::attach(windows_[motor], kTwinTick_ns).value(); }
 
 private:
@@ -130,6 +138,33 @@ void expect_motion_over(LineFaults faults, std::uint64_t seed) {
 TEST(LinkedBoard, MakesTheStepsOfItsDrivers) { expect_motion_over({}, 1); }
 
 TEST(LinkedBoard, MakesTheSameStepsOverAPoorLine) { expect_motion_over({.damaged = 1, .lost = 1, .late = 5}, 2); }
+
+/// A message with any items, as a program would send it that does not know the map.
+firmware::Message any_message(std::mt19937_64& random, std::uint16_t number) {
+    firmware::Message message;
+    firmware::store_bytes(message.bytes, 1, 4);
+    firmware::store_bytes(message.bytes + 4, 2, 4);
+    firmware::store_bytes(message.bytes + 8, number, 2);
+    firmware::store_bytes(message.bytes + 10, random(), 2);
+    message.size = firmware::kHeaderBytes + 6 + random() % (firmware::kMostMessageBytes - firmware::kHeaderBytes - 5);
+    for (std::size_t at = firmware::kHeaderBytes; at < message.size; ++at) {
+        message.bytes[at] = static_cast<std::uint8_t>(random());
+    }
+    message.bytes[firmware::kHeaderBytes] = static_cast<std::uint8_t>(random() % 3);
+    message.bytes[firmware::kHeaderBytes + 1] = static_cast<std::uint8_t>(random() % 30);
+    firmware::store_bytes(message.bytes + firmware::kHeaderBytes + 2, random() >> (47 + random() % 8), 4);
+    return message;
+}
+
+TEST(LinkedBoard, ChangesNoWordOfADeviceForAnyMessage) {
+    LinkedBoard board({}, 1);
+    std::mt19937_64 random(1);
+    std::vector<std::uint64_t> before;
+    for (std::size_t word = 0; word < registers::kRunRequest; word += 8) { before.push_back(board.load(0, word)); }
+    for (std::uint16_t number = 0; number < 20'000; ++number) { board.receive(any_message(random, number)); }
+    for (std::size_t n = 0; n < before.size(); ++n) { ASSERT_EQ(board.load(0, n * 8), before[n]) << n; }
+    EXPECT_NE(board.load(0, registers::kStepWidth), 0U) << "messages have arrived";
+}
 
 }  // namespace
 }  // namespace lockstep::testing
