@@ -31,10 +31,10 @@ void repeat(unsigned alarm, std::uint32_t period_us) {
     at(timer::alarm(alarm)) = at(timer::kNow) + period_us;
 }
 
-void start_alarm(unsigned alarm, std::uint32_t priority) {
+void start_alarm(unsigned alarm, std::uint32_t period_us, std::uint32_t priority) {
     at(set_bits(timer::kInterrupts)) = bit(alarm);
     at(nvic::priority(alarm)) = at(nvic::priority(alarm)) | nvic::priority_bits(alarm, priority);
-    repeat(alarm, 1);
+    repeat(alarm, period_us);
     at(nvic::kEnable) = bit(alarm);
 }
 
@@ -43,8 +43,8 @@ void start_motors() {
     feed_machines();
     board().enter();
     start_step_pins();
-    start_alarm(kFeedAlarm, 0);
-    start_alarm(kRenderAlarm, 2);
+    start_alarm(kFeedAlarm, kFeedPeriod_us, 0);
+    start_alarm(kRenderAlarm, kRenderPeriod_us, 2);
     board().leave();
 }
 

@@ -204,12 +204,14 @@ protected:
             }
         }
     }
-    /// Until the line has brought the ticks of all steps.
-    void run_to_end(const Course& course, std::size_t motor) {
-        for (int left = 100; left > 0 && recorded[motor].size() < course.steps.size(); --left) {
-            run(std::max<std::int64_t>(bench.now_us(), course.end.value) + 10'000);
+    /// Until the line has brought the news that the motor's run has ended, which come behind the ticks of all steps.
+    void run_to_end(std::size_t motor) {
+        for (int left = 200; left > 0; --left) {
+            const auto status = drivers[motor].read();
+            if (status && status->run == 1 && status->finished) { return; }
+            run(bench.now_us() + 10'000);
         }
-        run(bench.now_us() + 20'000);
+        ADD_FAILURE() << "motor " << motor << " does not end its run";
     }
     void expect_steps(const Course& course, std::size_t motor) {
         EXPECT_TRUE(bench.steps(motor) == course.steps)
@@ -230,7 +232,8 @@ TEST_F(Board, MakesEachPinEdgeOfItsFrames) {
     const Tick start = soon();
     const std::array courses{course(1, start, kFrames), course(2, start, kFrames), course(3, start, kFrames)};
     for (std::size_t motor = 0; motor < kMotors; ++motor) { order(motor, courses[motor]); }
-    for (std::size_t motor = 0; motor < kMotors; ++motor) { run_to_end(courses[motor], motor); }
+    for (std::size_t motor = 0; motor < kMotors; ++motor) { run_to_end(motor); }
+    run(bench.now_us() + 1000);
     for (std::size_t motor = 0; motor < kMotors; ++motor) { expect_steps(courses[motor], motor); }
 }
 
@@ -246,8 +249,8 @@ TEST_F(Board, EndsInATailOrAtASwitchAndCountsWhatItMade) {
     const Tick closed = start + Ticks{20'000};
     run(closed.value);
     bench.close_switch(1);
-    run_to_end(courses[0], 0);
-    run_to_end(courses[2], 2);
+    for (std::size_t motor = 0; motor < kMotors; ++motor) { run_to_end(motor); }
+    run(bench.now_us() + 1000);
     expect_steps(courses[0], 0);
     expect_steps(courses[2], 2);
     const auto status = drivers[1].read();
