@@ -56,6 +56,12 @@ MachineConfig small_laser() {
     return machine;
 }
 
+MachineConfig with_camera(MachineConfig machine) {
+    machine.outputs.push_back(
+        {.name = "camera", .motor = "Y", .channel = 2, .use = OutputUse::Places, .number = 0, .pulse_us = 50});
+    return machine;
+}
+
 MachineConfig small_core_xy() {
     MachineConfig machine = small_mill();
     for (AxisConfig& axis : std::span(machine.axes).first(2)) {

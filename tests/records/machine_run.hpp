@@ -25,6 +25,7 @@ MachineConfig small_mill();
 MachineConfig small_plotter();
 /// small_plotter() with a laser at X, whose power follows the speed, and a valve at Y, output 1 of programs.
 MachineConfig small_laser();
+MachineConfig with_camera(MachineConfig machine);  // M69 P0: pulses at places of Y
 /// The same axes, moved by two belts: motors X and Y turn by their sum and their difference. It homes in place. Z is
 /// moved by a motor of its own.
 MachineConfig small_core_xy();

@@ -81,11 +81,14 @@ Record gantry() {
     return run.finish();
 }
 
-/// A laser that follows the speed, and a valve, in a program with a hold.
+/// A laser that follows the speed, a valve, and a camera with pulses at places, of which some are left at the end, in a
+/// program with a hold.
 Record outputs() {
-    MachineRun run(small_laser());
+    MachineRun run(with_camera(small_laser()));
     run.home();
-    run.begin("G21 G90 F2400\nM4 S600\nG1 X30 Y8\nM62 P1\nX32 Y20\nS200\nM63 P1\nX5 Y5\nM62 P1\nX9\nM63 P1\nM5\n");
+    run.begin(
+        "G21 G90 F2400\nM4 S600\nM69 P0 Q6 R0.5 L27\nG1 X30 Y8\nM62 P1\nX32 Y20\nS200\nM63 P1\nM69 P0 Q19 R-0.5 L36\n"
+        "X5 Y5\nM62 P1\nX9\nM63 P1\nM5\n");
     run.wait_ms(500);
     run.hold();
     run.resume();

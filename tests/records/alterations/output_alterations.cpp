@@ -19,6 +19,16 @@ std::optional<std::size_t> change_place(const Record& record, const std::string&
     return places.size() < 4 ? std::nullopt : std::optional(places[2]);
 }
 
+std::optional<std::size_t> first_change(const Record& record, const std::string& kind) {
+    const auto places = changes(record, kind);
+    return places.empty() ? std::nullopt : std::optional(places.front());
+}
+
+std::optional<std::size_t> last_change(const Record& record, const std::string& kind) {
+    const auto places = changes(record, kind);
+    return places.empty() ? std::nullopt : std::optional(places.back());
+}
+
 /// The device overwrote the change before its process read it: the messages have no gap.
 bool lose_in_device(Record& record, std::optional<std::size_t> place) {
     if (!place) { return false; }
@@ -52,6 +62,14 @@ const OutputAlteration kOutputAlterations[]{
     {"laser_with_another_slope", "analog", [](channel_event_t& event) { ++event.detail; }},
 };
 
+/// The device notes where pulses at places begin and end, and how many were not made.
+const OutputAlteration kPulseAlterations[]{
+    {"pulses_begin_a_tick_later", "compare-begins", [](channel_event_t& event) { ++event.tick; }},
+    {"pulses_begin_with_one_more_to_make", "compare-begins", [](channel_event_t& event) { ++event.detail; }},
+    {"pulses_end_a_tick_earlier", "compare-ends", [](channel_event_t& event) { --event.tick; }},
+    {"pulses_end_with_one_less_made", "compare-ends", [](channel_event_t& event) { ++event.detail; }},
+};
+
 }  // namespace
 
 std::vector<Alteration> output_alterations() {
@@ -61,12 +79,25 @@ std::vector<Alteration> output_alterations() {
                        [=](Record& r) { return change_at<channel_event_t>(r, change_place(r, one.kind), one.change); },
                        kOtherOutput, kNoMotion, kOutputs});
     }
+    for (const OutputAlteration& one : kPulseAlterations) {
+        all.push_back({one.name,
+                       [=](Record& r) { return change_at<channel_event_t>(r, first_change(r, one.kind), one.change); },
+                       kOtherOutput, kNoMotion, kOutputs});
+    }
+    all.push_back({"last_pulses_end_with_one_more_made",
+                   [](Record& r) {
+                       return change_at<channel_event_t>(r, last_change(r, "compare-ends"),
+                                                         [](channel_event_t& event) { --event.detail; });
+                   },
+                   kOtherOutput, kNoMotion, kOutputs});
     const auto lose = [&](const char* name, std::function<bool(Record&)> alter) {
         all.push_back({name, std::move(alter), kOutputLost, kNoMotion, kOutputs});
     };
     lose("laser_change_dropped", [](Record& r) { return erase_at(r, change_place(r, "analog")); });
     lose("first_laser_change_dropped", [](Record& r) { return erase_at(r, changes(r, "analog").front()); });
     lose("last_laser_change_dropped", [](Record& r) { return erase_at(r, changes(r, "analog").back()); });
+    lose("first_begin_of_pulses_dropped", [](Record& r) { return erase_at(r, first_change(r, "compare-begins")); });
+    lose("last_end_of_pulses_dropped", [](Record& r) { return erase_at(r, last_change(r, "compare-ends")); });
     lose("last_valve_change_dropped", [](Record& r) { return erase_at(r, changes(r, "digital").back()); });
     for (const char* motor : {"X", "Y"}) {
         lose(*motor == 'X' ? "laser_changes_all_dropped" : "valve_changes_all_dropped",

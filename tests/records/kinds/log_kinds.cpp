@@ -64,6 +64,21 @@ Record laser_jobs() {
     return run.finish();
 }
 
+/// Two jobs with pulses at places. In the second one some are left.
+Record camera_jobs() {
+    MachineRun run(with_camera(small_plotter()));
+    run.home();
+    run.run("G21 G90 F2400\nM69 P0 Q8 R0.5 L41\nG1 X20 Y30\nM69 P0 Q28 R-1 L19\nX5 Y5\n");
+    run.wait_ms(1200);
+    run.begin("G21 G90 F2400\nM69 P0 Q8 R0.5 L41\nG1 X20 Y30\nM69 P0 Q28 R-1 L27\nX5 Y5\n");
+    run.wait_ms(500);
+    run.hold();
+    run.resume();
+    run.to_rest();
+    run.wait_ms(300);
+    return run.finish();
+}
+
 /// The first third of each process's log is gone.
 Record merged_rotated_logs(const Record& record) {
     std::vector<std::filesystem::path> logs = own_logs(record, false);
@@ -180,6 +195,8 @@ std::vector<RecordKind> file_of_log_kinds() {
         {"own_logs_merged", merged_own_logs},
         {"rotated_logs_merged", [] { return merged_rotated_logs(three_jobs()); }, late},
         {"laser_jobs", laser_jobs},
+        {"camera_jobs", camera_jobs},
+        {"own_logs_of_a_camera_merged", [] { return merged(own_logs(camera_jobs(), false)); }},
         {"own_logs_of_a_laser_merged", [] { return merged(own_logs(laser_jobs(), false)); }},
         {"rotated_logs_of_a_laser_merged", [] { return merged_rotated_logs(laser_jobs()); }, late},
         {"extract_of_a_laser_job", [] { return extract(laser_jobs(), 3); }, extracted},
