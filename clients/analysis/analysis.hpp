@@ -101,11 +101,11 @@ struct Analysis {
     std::uint64_t program_events_not_kept = 0;
     std::vector<ChannelChange> channel_changes;  // of inputs and outputs, the first of the log, in the order of time
     std::uint64_t channel_changes_not_kept = 0;
-    std::vector<ChannelCourse> channel_courses;  // of each input and output that changed, by motors
-    std::optional<PowerMap> power_map;           // of the first analog output of a machine with axes X and Y
-    double tolerance_mm = 0;                     // of joined moves, the greatest of any program
-    std::vector<PairSkew> step_skew;             // between motors that ran frames together
-    std::optional<double> largest_distance_mm;   // of any step from the commanded line, all axes together
+    std::vector<ChannelCourse> channel_courses;              // of each input and output that changed, by motors
+    std::vector<PowerMap> power_maps;                        // of analog outputs with power, with axes X and Y
+    double tolerance_mm = 0;                                 // of joined moves, the greatest of any program
+    std::vector<PairSkew> step_skew;                         // between motors that ran frames together
+    std::optional<double> largest_distance_mm;               // of any step from the commanded line, all axes together
     std::vector<std::vector<drawing::Point>> asked_ways_mm;  // X-Y, of each program that differs from the previous one
     std::vector<std::vector<drawing::Point>> stepped_ways;   // X-Y, steps as in MoveMeter::plane
 

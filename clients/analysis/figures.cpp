@@ -84,10 +84,10 @@ std::expected<void, std::string> write_figures(const Analysis& analysis, const s
           std::pair{"xy.svg", path_figure(analysis, plane)}}) {
         if (auto written = write_text_file(directory / name, drawing::to_svg(figure)); !written) { return written; }
     }
-    if (analysis.power_map) {
-        const std::string svg =
-            power_svg(*analysis.power_map, title(analysis, "power of " + analysis.power_map->output));
-        if (auto written = write_text_file(directory / "power.svg", svg); !written) { return written; }
+    for (const PowerMap& map : analysis.power_maps) {
+        const std::string name = analysis.power_maps.size() == 1 ? "power.svg" : "power-" + map.output + ".svg";
+        const std::string svg = power_svg(map, title(analysis, "power of " + map.output));
+        if (auto written = write_text_file(directory / name, svg); !written) { return written; }
     }
     if (analysis.channel_courses.empty()) { return {}; }
     return write_text_file(directory / "outputs.svg", drawing::to_svg(outputs_figure(analysis)));

@@ -92,7 +92,7 @@ void Recorder::on_event(const program_event_t& message, const ProgramEvent& even
 
 void Recorder::on_channel(const channel_event_t& message) {
     channels_.take(message);
-    if (power_) { power_->meter.take(message); }
+    for (PowerLog& power : powers_) { power.meter.take(message); }
 }
 
 void Recorder::on_damage(LogPlace place, const std::string& what) { note_damage(analysis_.damages, place, what); }
@@ -140,11 +140,14 @@ void Recorder::begin_job(const RecordedJob& message, JobLog& record, LogPlace pl
         if (planned) { analysis_.tolerance_mm = std::max(analysis_.tolerance_mm, planned->tolerance_mm()); }
         planned ? void(asked = std::move(*planned)) : void(record.unplannable = planned.error());
     }
-    if (options_.keeps_curves() && program && record.is_on_a_line() && !message.has_program_of(latest_program_)) {
-        keep_asked_way(*program);
-        begin_power();
-        if (power_) { add_asked_power(*program, power_->output, power_->asked); }
-        latest_program_ = message;
+    if (program && record.is_on_a_line()) {
+        begin_powers();
+        for (PowerLog& power : powers_) { add_asked_power(*program, power.output, power.asked); }
+        const bool draws = options_.keeps_curves() && !message.has_program_of(latest_program_);
+        if (draws) {
+            keep_asked_way(*program);
+            latest_program_ = message;
+        }
     }
     moves_.begin(number_of(record), analysis_.tick_at(message.utime), *analysis_.config,
                  JobMoves(std::move(asked), record.is_on_a_line()), record.kind == "home");
@@ -157,33 +160,40 @@ void Recorder::on_late(const std::string& axis, const SharedLate& steps) {
     for (const EquallyLate& group : steps->groups) { lane->late.add(group, options_.keeps_curves()); }
 }
 
-void Recorder::begin_power() {
-    if (power_ || !analysis_.has_motors_as_axes()) { return; }
+void Recorder::begin_powers() {
+    if (!powers_.empty()) { return; }
     const MachineConfig& machine = *analysis_.config;
-    const AxisConfig* x = analysis_.axis_config("X");
-    const AxisConfig* y = analysis_.axis_config("Y");
-    const auto output = std::ranges::find_if(machine.outputs, &OutputConfig::is_analog);
-    if (x == nullptr || y == nullptr || output == machine.outputs.end()) { return; }
-    const double step_mm = 1 / std::min(x->steps_per_mm, y->steps_per_mm);
-    PowerMeter meter(PowerTrack(output->motor, output->channel), step_mm, machine.tick_ns);
-    PowerGrid asked(meter.made().cell_mm());
-    power_.emplace(*output, std::move(meter), std::move(asked));
-    moves_.set_on_place([this](Tick tick, drawing::Point place_mm) { power_->meter.at(tick, place_mm); });
+    const auto number = [&](const char* name) {
+        return static_cast<std::size_t>(std::ranges::find(machine.axes, name, &AxisConfig::name) -
+                                        machine.axes.begin());
+    };
+    if (std::max(number("X"), number("Y")) >= machine.axes.size()) { return; }
+    const double step_mm =
+        std::max(analysis_.kinematics->step_mm(number("X")), analysis_.kinematics->step_mm(number("Y")));
+    for (const OutputConfig& output : machine.outputs) {
+        if (!output.is_analog()) { continue; }
+        PowerMeter meter(PowerTrack(output.motor, output.channel), step_mm, machine.tick_ns);
+        PowerGrid asked(meter.made().cell_mm());
+        powers_.emplace_back(output, std::move(meter), std::move(asked));
+    }
+    if (powers_.empty()) { return; }
+    moves_.set_on_place([this](Tick tick, drawing::Point place_mm) {
+        for (PowerLog& power : powers_) { power.meter.at(tick, place_mm); }
+    });
 }
 
-PowerMap Recorder::finish_power() {
-    power_->meter.finish();
+PowerMap Recorder::finish_power(PowerLog& power) const {
+    power.meter.finish();
     std::vector<PlacedWord> words;
     for (const HappenedEvent& event : analysis_.program_events) {
-        if (event.at_rest || !is_switched_by(power_->output, event.event)) { continue; }
+        if (event.at_rest || !is_switched_by(power.output, event.event)) { continue; }
         const auto mm = [&](const char* axis) {
             const auto found = std::ranges::find(event.place, axis, &ProgramPlace::value_type::first);
             return found == event.place.end() ? std::nullopt : std::optional(found->second);
         };
         if (mm("X") && mm("Y")) { words.push_back({event.at, {*mm("X"), *mm("Y")}}); }
     }
-    return power_map(power_->output.name, std::move(power_->asked), power_->meter.made(), words,
-                     power_->meter.changes());
+    return power_map(power.output.name, std::move(power.asked), power.meter.made(), words, power.meter.changes());
 }
 
 bool Recorder::is_during(Tick tick, const JobLog& job) const {
@@ -304,7 +314,10 @@ Analysis Recorder::finish(Sorter& sorter) {
     analysis_.program_events = std::move(program_events_.events());
     std::ranges::stable_sort(analysis_.program_events, {}, &HappenedEvent::at);
     analysis_.program_events_not_kept = program_events_.not_kept();
-    if (power_) { analysis_.power_map = finish_power(); }
+    for (PowerLog& power : powers_) {
+        PowerMap map = finish_power(power);
+        if (!map.asked.is_empty()) { analysis_.power_maps.push_back(std::move(map)); }
+    }
     channels_.finish(newest_);
     analysis_.channel_changes = std::move(channels_.changes());
     analysis_.channel_courses = channels_.courses();

@@ -72,16 +72,16 @@ private:
                          note_skew(measured.skew);
                      },
                      options_.keeps_curves()};
-    /// Of the first analog output of a machine with axes X and Y.
+    /// Of an analog output of a machine with axes X and Y.
     struct PowerLog {
         OutputConfig output;
         PowerMeter meter;
         PowerGrid asked;
     };
-    void begin_power();
-    PowerMap finish_power();
+    void begin_powers();
+    PowerMap finish_power(PowerLog& power) const;
 
-    std::optional<PowerLog> power_;
+    std::vector<PowerLog> powers_;
     std::optional<AxisMeter> axes_;  // unless the motors are the axes
     std::string config_text_;        // of the configuration that was read last
     struct WaitingLate {

@@ -257,6 +257,24 @@ void fill_unread(const Damage& damage, proto::UnreadStretch& report) {
     report.set_reason(damage.what);
 }
 
+void fill(const PowerMap& map, proto::PowerReport& report) {
+    const PowerSums asked = map.asked.all();
+    const PowerSums made = map.made.all();
+    report.set_output(map.output);
+    report.set_asked_energy_s(asked.energy_s);
+    report.set_made_energy_s(made.energy_s);
+    report.set_asked_mm(asked.burned_mm);
+    report.set_made_mm(made.burned_mm);
+    report.set_unknown_mm(map.unknown_mm);
+    report.set_most_energy_ms_per_mm(1e3 * map.most_energy);
+    if (map.largest_energy_difference) {
+        report.set_largest_energy_difference_percent(100 * *map.largest_energy_difference);
+    }
+    report.set_changes_compared(map.changes_compared);
+    report.set_largest_place_mm(map.largest_place_mm);
+    report.set_cell_mm(map.asked.cell_mm());
+}
+
 proto::AnalysisReport to_report(const Analysis& analysis) {
     proto::AnalysisReport report;
     report.set_log(analysis.log.string());
@@ -282,6 +300,7 @@ proto::AnalysisReport to_report(const Analysis& analysis) {
         fill(analysis, change, *report.add_channel_changes());
     }
     report.set_channel_changes_not_listed(analysis.channel_changes_not_kept);
+    for (const PowerMap& map : analysis.power_maps) { fill(map, *report.add_power()); }
     for (const Damage& damage : analysis.damages) { fill_unread(damage, *report.add_unread()); }
     for (std::string& note : notes(analysis)) { report.add_notes(std::move(note)); }
     return report;

@@ -124,10 +124,8 @@ json run_lengths(const std::vector<int>& numbers) {
     return list;
 }
 
-json power(const Analysis& analysis) {
-    if (!analysis.power_map) { return nullptr; }
+json power_of(const PowerMap& map) {
     constexpr int kLevels = 100;
-    const PowerMap& map = *analysis.power_map;
     const auto picture = [&](const PowerGrid& grid, PowerShades::Quantity quantity) {
         return run_lengths(shades(map, grid, quantity, kLevels).numbers);
     };
@@ -147,6 +145,12 @@ json power(const Analysis& analysis) {
             {"height", bounds.height}, {"unknown", map.unknown_mm > 0}, {"maps", maps}};
 }
 
+json powers(const Analysis& analysis) {
+    json list = json::array();
+    for (const PowerMap& map : analysis.power_maps) { list.push_back(power_of(map)); }
+    return list;
+}
+
 json step_times(const Analysis& analysis) {
     json classes = json::array();
     for (std::size_t i = 0; i < TickHistogram::kClasses; ++i) { classes.push_back(class_text(analysis, i)); }
@@ -162,8 +166,8 @@ json step_times(const Analysis& analysis) {
 }  // namespace
 
 std::string page_charts(const Analysis& analysis) {
-    return fmt::format(R"({{"whole":{},"rows":{},"path":{},"power":{},"step_times":{}}})",
-                       numbers({0, shown_seconds(analysis)}), rows(analysis), path(analysis), power(analysis).dump(),
+    return fmt::format(R"({{"whole":{},"rows":{},"path":{},"powers":{},"step_times":{}}})",
+                       numbers({0, shown_seconds(analysis)}), rows(analysis), path(analysis), powers(analysis).dump(),
                        step_times(analysis).dump());
 }
 

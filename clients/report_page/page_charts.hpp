@@ -8,7 +8,7 @@
 namespace lockstep::analysis {
 
 /// {whole: [s, s], rows: [{kind, name, what, unit, colour, x, y, limits, missing}], path: {asked, stepped} or null,
-/// power: {output, summary, cell_mm, left, bottom, width, height, unknown, maps: [{name, unit, asked, made}]} or null,
+/// powers: [{output, summary, cell_mm, left, bottom, width, height, unknown, maps: [{name, unit, asked, made}]}],
 /// step_times: [{name, colour, classes, counts}]}. Rows of inputs and outputs also have {filled, levels: [name of 0,
 /// name of 1] or null, words: [{at_s, what}]}. x: seconds after the first step. A null interrupts a curve.
 std::string page_charts(const Analysis& analysis);

@@ -90,7 +90,7 @@ void MoveMeter::take(MergedSteps steps) {
     while (!steps.empty()) {
         Job* job = job_at(steps.tick());
         const Tick until = end_of_turn(steps.tick());
-        if (keeps_plane_) { trace(job, steps, until); }
+        if (keeps_plane_ || on_place_) { trace(job, steps, until); }
         if (job != nullptr) {
             job->measured.skew.take(steps, job->motor_of_lane, until);
             job->measured.moves.take(steps, job->motor_of_lane, until);
@@ -106,7 +106,7 @@ void MoveMeter::trace(Job* job, const MergedSteps& steps, Tick until) {
     if (of_a_job && !std::exchange(plane_is_of_jobs_, true)) { plane_ = {}; }
     if (of_a_job != plane_is_of_jobs_) { return; }
     if (of_a_job && on_place_ && job->is_direct) { pass_places(*job, steps, until); }
-    if (job == nullptr || job->is_direct) { return trace_lanes(steps, until); }
+    if (job == nullptr || job->is_direct) { return keeps_plane_ ? trace_lanes(steps, until) : void(); }
     if (job->plane) { trace_by_map(*job, steps, until); }
 }
 
@@ -151,16 +151,30 @@ void MoveMeter::trace_by_map(Job& job, const MergedSteps& steps, Tick until) {
         if (job.motor_of_lane[i] && !lane.steps.empty()) { counts[*job.motor_of_lane[i]] = lane.count; }
     }
     if (counts != traced_counts_) { plane_.part(); }
+    const bool passes_places = on_place_ && job.measured.moves.is_on_a_line();
     std::vector<Position> at;
     for (const std::int64_t count : counts) { at.push_back(Position::steps(count)); }
     const auto merged = steps.before(until);
     for (std::size_t i = 0; i < merged.size(); ++i) {
         const auto& motor = job.motor_of_lane[merged[i].lane()];
         if (motor) { at[*motor] = Position::steps(counts[*motor] += merged[i].direction()); }
+        if (motor && passes_places) { pass_place(job, at, *motor, merged[i].direction(), steps.tick_of(merged[i])); }
+        if (!keeps_plane_) { continue; }
         if (i + 1 < merged.size() && merged[i + 1].tick() == merged[i].tick()) { continue; }
         plane_.go_to({kinematics->axis_steps(x, at) * x_scale, kinematics->axis_steps(y, at) * y_scale});
     }
     traced_counts_ = counts;
+}
+
+/// At its step a motor is halfway between two counts. `at`: the places of the motors after the step.
+void MoveMeter::pass_place(const Job& job, std::vector<Position>& at, std::size_t motor, int direction,
+                           Tick tick) const {
+    const MappedPlane& plane = *job.plane;
+    const Position after = at[motor];
+    at[motor] = after - Displacement{direction * kHalfStep};
+    on_place_(tick, {plane.kinematics->axis_steps(plane.x, at) / job.steps_per_mm[0],
+                     plane.kinematics->axis_steps(plane.y, at) / job.steps_per_mm[1]});
+    at[motor] = after;
 }
 
 /// nullopt also if the job has no program, or the machine lacks an axis of the plane.

@@ -39,7 +39,7 @@ public:
     /// `keeps_plane`: plane() is wanted.
     MoveMeter(OnJob on_job, bool keeps_plane) : on_job_(std::move(on_job)), keeps_plane_(keeps_plane) {}
 
-    /// Only for machines with axes X and Y whose motors are the axes.
+    /// Only for machines with axes X and Y.
     void set_on_place(OnPlace on_place) { on_place_ = std::move(on_place); }
     /// Sets the name of a lane's motor.
     void name_lane(std::size_t lane, const std::string& motor);
@@ -99,6 +99,7 @@ private:
     void pass_places(Job& job, const MergedSteps& steps, Tick until) const;
     void trace_lanes(const MergedSteps& steps, Tick until);
     void trace_by_map(Job& job, const MergedSteps& steps, Tick until);
+    void pass_place(const Job& job, std::vector<Position>& at, std::size_t motor, int direction, Tick tick) const;
     void end_first();
 
     OnJob on_job_;

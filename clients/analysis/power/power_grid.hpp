@@ -70,6 +70,12 @@ public:
     bool has_power() const { return std::ranges::any_of(cells_, &PowerSums::has_power); }
     double cell_mm() const { return cell_mm_; }
     const CellBounds& bounds() const { return bounds_; }
+    /// The sums of all cells.
+    PowerSums all() const {
+        PowerSums sums;
+        for (const PowerSums& cell : cells_) { sums.add(cell); }
+        return sums;
+    }
     /// Empty sums outside of the bounds.
     PowerSums at(std::int64_t i, std::int64_t j) const;
 

@@ -261,9 +261,7 @@ function path() {
   pathChart(figure, charts.path);
 }
 
-function power() {
-  const map = charts.power;
-  if (map === null) { return; }
+function power(map) {
   const range = (first, count) => `${(first * map.cell_mm).toFixed(2)} to ${((first + count) * map.cell_mm).toFixed(2)} mm`;
   const words = `At each place: what the program's words ask for, and what the recorded steps and changes of the output made. The darker, the more; pale: path without power${map.unknown ? "; hatched: not known, because changes are missing in the log" : ""}. X ${range(map.left, map.width)}, Y ${range(map.bottom, map.height)}.`;
   const buttons = make("p");
@@ -295,7 +293,7 @@ moves();
 axes();
 overTime();
 path();
-power();
+charts.powers.forEach(power);
 stepTimes();
 record();
 document.documentElement.dataset.drawn = "yes";

@@ -19,7 +19,7 @@ NEAR = 6  # percent of a black pixel: where the path rests within a cell, its st
 
 def power_map(page):
     text = open(page, encoding="utf-8").read()
-    return json.loads(re.search(r'id="charts">(.*?)</script>', text, re.S)[1])["power"]
+    return json.loads(re.search(r'id="charts">(.*?)</script>', text, re.S)[1])["powers"][0]
 
 
 def rows(shown, lengths):
