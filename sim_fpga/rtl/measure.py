@@ -3,6 +3,7 @@
 
 Usage: measure.py README            writes the table again
        measure.py README --check    exits 1 if a row differs; places only designs of one axis, which takes a minute
+       measure.py README --device   writes the table of the device again, which takes minutes
 """
 import concurrent.futures
 import json
@@ -18,6 +19,11 @@ BEGIN, END = "<!-- table -->\n", "<!-- end -->\n"
 HEAD = """\
 | design | axes | LUT4 | flip-flops | block RAM | UP5K, MHz | HX8K, MHz | steps/s for each axis, UP5K | HX8K |
 |---|---|---|---|---|---|---|---|---|
+"""
+DEVICE_BEGIN = "<!-- device -->\n"
+DEVICE_HEAD = """\
+| design | LUT4 | flip-flops | block RAM | HX8K, MHz |
+|---|---|---|---|---|
 """
 PARTS = {
     "UP5K": ["--up5k", "--package", "sg48", "--freq", "48"],
@@ -58,6 +64,11 @@ def designs():
     for axes in (1, 3, 6):
         yield Design("Ranade: one adder for all axes", "ranade", "add_only_engine", 12 * axes, (axes,), True, N=axes,
                      MOTOR_BITS=max(1, (axes - 1).bit_length()))
+
+
+def devices():
+    yield Design("the device of a motor, 64 pieces in the ring", "axis", "axis_device", 0, (1,), True, SEGMENT_BITS=6)
+    yield Design("its pins", "axis", "axis_pins", 0, (1,), True)
 
 
 def yosys(script, work):
@@ -103,13 +114,13 @@ def with_few_pins(design, module, copies):
     return "\n".join(lines) + "\nendmodule\n"
 
 
-def megahertz(design, module, copies, work):
-    """The highest clock in each part."""
+def megahertz(design, module, copies, work, parts=PARTS):
+    """The highest clock in each of the parts."""
     wrapper, netlist = work / "few_pins.v", work / "placed.json"
     wrapper.write_text(with_few_pins(design, module, copies))
     subprocess.run(["yosys", "-q", "-p", f"read_verilog -I{HERE.parent} {design.sources()} {wrapper}; {design.chosen()} "
                     f"synth_ice40 -top few_pins -json {netlist}"], check=True)
-    return [placed(netlist, options) for options in PARTS.values()]
+    return [placed(netlist, options) for options in parts.values()]
 
 
 def placed(netlist, options):
@@ -145,8 +156,22 @@ def row(design, module, axes, only_cells, work):
             + [rounded(clock * 1e6 / design.clocks_per_step) for clock in clocks])
 
 
-def text(rows):
-    return HEAD + "".join("| " + " | ".join(cells) + " |\n" for cells in rows)
+def device_row(design):
+    with tempfile.TemporaryDirectory() as folder:
+        work = pathlib.Path(folder)
+        module = synthesized(design, work)
+        clocks = megahertz(design, module, 1, work, {"HX8K": PARTS["HX8K"]})
+        return ([design.name] + [f"{count(module, kind):,}" for kind in (LUT, FLIP_FLOP, RAM)]
+                + [f"{int(clock)}" for clock in clocks])
+
+
+def write_table(readme, begin, table):
+    before, rest = readme.read_text().split(begin)
+    readme.write_text(before + begin + table + END + rest.split(END, 1)[1])
+
+
+def text(rows, head=HEAD):
+    return head + "".join("| " + " | ".join(cells) + " |\n" for cells in rows)
 
 
 def differences(rows, table):
@@ -162,14 +187,15 @@ def differences(rows, table):
 
 def main():
     readme, check = pathlib.Path(sys.argv[1]), "--check" in sys.argv
+    if "--device" in sys.argv:
+        write_table(readme, DEVICE_BEGIN, text([device_row(design) for design in devices()], DEVICE_HEAD))
+        return 0
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         rows = [row for rows in pool.map(lambda design: rows_of(design, check), designs()) for row in rows]
-    before, rest = readme.read_text().split(BEGIN)
-    table, after = rest.split(END, 1)
     if not check:
-        readme.write_text(before + BEGIN + text(rows) + END + after)
+        write_table(readme, BEGIN, text(rows))
         return 0
-    found = list(differences(rows, table))
+    found = list(differences(rows, readme.read_text().split(BEGIN)[1].split(END)[0]))
     print("\n".join(found) or "the table is current")
     if found:
         print("remedy: sim_fpga/rtl/update-readme build")

@@ -7,7 +7,7 @@
 // Entries of the segment ring stay taken until their frame has ended, because the pieces are run from the ring. So
 // SEGMENT_TAIL moves when a frame ends, not when it begins.
 module axis_device #(
-    parameter TICK_NS = 1000,
+    parameter [63:0] TICK_NS = 1000,
     parameter TIME_UNIT_PS = 20833, // the clock's period
     parameter TIME_BITS = 16,   // of a pulse time in TIME_UNIT_PS
     parameter LEAST_STEP_TICKS = 2,

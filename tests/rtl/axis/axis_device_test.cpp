@@ -9,6 +9,7 @@
 
 #include "tests/rtl/axis/bench.hpp"
 #include "tests/rtl/axis/drawn_host.hpp"
+#include "tests/rtl/axis/one_frame.hpp"
 
 namespace lockstep::rtl {
 namespace {
@@ -69,23 +70,8 @@ TEST(AxisHardware, ShowsTheWordsOfTheSimulatedDeviceAfterEveryTickForAnyHost) {
 TEST(AxisHardware, EndsTheRunInTheTickInWhichTheVelocityLeaves64Bits) {
     using namespace registers;
     VerilogDevice<Vaxis_device> device(Tick{0});
-    device.write(kSetupRequest, 1);
-    device.write(kEnable, 1);
-    device.write(kVeto, ~std::uint64_t{0});
-    const std::size_t header = kSegments.entry(0);
-    const std::size_t piece = kSegments.entry(1);
-    device.write(header + kSegmentRingHeaderTag, kSegmentRingHeaderTagIsHeader | kSegmentRingHeaderTagLastFrame |
-                                                     kSegmentRingHeaderTagRun.word(1) |
-                                                     kSegmentRingHeaderTagFrame.word(1));
-    device.write(header + kSegmentRingHeaderStart, 2);
-    device.write(header + kSegmentRingHeaderCounts, kSegmentRingHeaderCountsBody.word(1));
-    device.write(header + kSegmentRingHeaderPhase, kRestPhase);
-    device.write(piece + kSegmentRingPieceTag, kSegmentRingPieceTagTicks.word(100));
-    device.write(piece + kSegmentRingPieceVelocity, 0);
-    device.write(piece + kSegmentRingPieceAcceleration, std::uint64_t{1} << 61);
-    device.write(kSegmentHead, 2);
-    device.write(kArmed, 1);
-    device.write(kRunRequest, 1);
+    const auto write = [&](std::size_t offset, std::uint64_t value) { device.write(offset, value); };
+    run_one_frame(write, 2, 100, 0, std::uint64_t{1} << 61);
     int steps = 0;
     for (int tick = 0; tick < 20; ++tick) {
         steps += device.tick(0, [](int) { return 0U; });

@@ -1,0 +1,42 @@
+// sim_fpga/rtl/axis/axis_chip.v: from the host's words to pulses at a pin, with ticks of its own.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "Vaxis_chip.h"
+#include "tests/rtl/axis/one_frame.hpp"
+#include "tests/rtl/clocked.hpp"
+
+namespace lockstep::rtl {
+namespace {
+
+constexpr std::int64_t kTickClocks = 96;
+
+TEST(AxisChip, MakesAPulseForEachStepAtADistanceOfWholeTicks) {
+    Clocked<Vaxis_chip> chip;
+    chip.pins.power_up = chip.pins.write = chip.pins.hold = chip.pins.input_pins = 0;
+    const auto write = [&](std::size_t offset, std::uint64_t value) {
+        chip.pins.write = 1;
+        chip.pins.write_address = static_cast<std::uint32_t>(offset / sizeof value);
+        chip.pins.write_data = value;
+        chip.clock();
+        chip.pins.write = 0;
+    };
+    write(registers::kStepWidth, 40);
+    run_one_frame(write, 10, 21, std::uint64_t{1} << 62, 0);  // a quarter of a step in each tick
+    std::vector<std::int64_t> edges;
+    bool was_on = false;
+    for (std::int64_t clock = 0; clock < 60 * kTickClocks; ++clock) {
+        chip.clock();
+        if (chip.pins.step_pin != 0 && !was_on) { edges.push_back(clock); }
+        was_on = chip.pins.step_pin != 0;
+    }
+    ASSERT_EQ(edges.size(), 5);
+    for (std::size_t i = 1; i < edges.size(); ++i) { EXPECT_EQ(edges[i] - edges[i - 1], 4 * kTickClocks); }
+    EXPECT_EQ(chip.pins.direction_pin, 1);
+    EXPECT_EQ(chip.pins.enable_pin, 1);
+}
+
+}  // namespace
+}  // namespace lockstep::rtl
