@@ -86,10 +86,24 @@ void Channels::note_inputs(std::uint32_t changed, const Moment& at) {
     }
 }
 
-void Channels::publish() {
+/// A word shows four outputs, in 2^-15 of full scale.
+std::uint64_t Channels::analog_word(std::size_t first, std::int64_t now) const {
+    constexpr unsigned kFieldBits = 16;
+    constexpr unsigned kUnshownBits = 47;
+    std::uint64_t word = 0;
+    for (std::size_t n = 0; n < kAnalogInWord; ++n) {
+        const auto value = static_cast<std::uint64_t>(outputs_.analog(first + n, now));
+        word |= (value >> kUnshownBits) << (n * kFieldBits);
+    }
+    return word;
+}
+
+void Channels::publish(std::int64_t now) {
     words_.store(kInputs, std::uint64_t{inputs_.closed()});
     words_.store(kOutputs, std::uint64_t{outputs_.digital()});
     words_.store(kPulsesLeft, std::uint64_t{outputs_.pulses_left()});
+    words_.store(kAnalogLower, analog_word(0, now));
+    words_.store(kAnalogUpper, analog_word(kAnalogInWord, now));
     words_.store(kOutputTail, queue_.taken());
     events_.publish();
 }

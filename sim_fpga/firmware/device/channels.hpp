@@ -56,11 +56,14 @@ public:
     std::uint32_t closed() const { return inputs_.closed(); }
     bool is_host_silent() const { return host_.is_silent(); }
     const Outputs& outputs() const { return outputs_; }
-    void publish();
+    void publish(std::int64_t now);
 
 private:
     void note_inputs(std::uint32_t changed, const Moment& at);
     void change_directly(const Moment& at);
+    std::uint64_t analog_word(std::size_t first, std::int64_t now) const;
+
+    static constexpr std::size_t kAnalogInWord = 4;
 
     Words& words_;
     const Abilities& abilities_;

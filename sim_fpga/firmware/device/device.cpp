@@ -310,7 +310,7 @@ void Device::publish() {
     words_.store(kSegmentTail, segments_.taken());
     capture_.publish();
     words_.store(kSetup, setup_taken_);
-    channels_.publish();
+    channels_.publish(engine_.now());
     words_.store(kSequence, ++sequence_);
 }
 

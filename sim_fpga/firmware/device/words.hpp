@@ -21,8 +21,11 @@ struct WindowArea {
     bool is_of_host;  // the host writes it, otherwise the device
 };
 
+/// Behind the last register that the device writes.
+inline constexpr std::size_t kDeviceWordsEnd = registers::kAnalogUpper + kWordBytes;
+
 inline constexpr WindowArea kWindowAreas[] = {
-    {0, registers::kPulsesLeft + kWordBytes, false},
+    {0, kDeviceWordsEnd, false},
     {registers::kRunRequest, registers::kCompareTicks + kWordBytes - registers::kRunRequest, true},
     {registers::kAnalogTable, kMostAnalog* registers::kAnalogTableEntryBytes, true},
     {registers::kInputTable, kMostInputs* registers::kInputTableEntryBytes, true},

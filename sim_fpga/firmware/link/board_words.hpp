@@ -24,7 +24,7 @@ public:
 
 private:
     static constexpr std::size_t kFirst = registers::kSequence;
-    static constexpr std::size_t kWords = (registers::kPulsesLeft - kFirst) / kWordBytes + 1;
+    static constexpr std::size_t kWords = (kDeviceWordsEnd - kFirst) / kWordBytes;
 
     bool fill_constants(const Words& words, unsigned motor, ItemWriter& items);
     bool fill_ring(const Words& words, const Ring& ring, unsigned motor, std::uint64_t head, std::uint64_t& sent,

@@ -33,7 +33,7 @@ std::optional<std::string> TwinDevices::difference() const {
     const auto ring = [&](std::size_t offset, std::size_t entries, std::size_t bytes) {
         return difference_in(offset, offset + entries * bytes);
     };
-    if (auto found = difference_in(0, registers::kPulsesLeft + 8)) { return found; }
+    if (auto found = difference_in(0, firmware::kDeviceWordsEnd)) { return found; }
     if (auto found = ring(registers::kEventRing, firmware::kEventRoom, registers::kEventRingEntryBytes)) {
         return found;
     }
