@@ -12,7 +12,7 @@
 
 namespace lockstep::firmware {
 
-/// What the board has of the words that the host writes for one motor.
+/// The words that the host writes for one motor, as far as the board has received them.
 class MotorOrders {
 public:
     explicit MotorOrders(RegisterWindow window) : window_(std::move(window)) {}

@@ -12,7 +12,7 @@
 
 namespace lockstep::firmware {
 
-/// What the host has of one motor's words.
+/// The words of one motor, as far as the host has received them.
 class MotorLook {
 public:
     void begin();
