@@ -106,8 +106,9 @@ void MoveMeter::trace(Job* job, const MergedSteps& steps, Tick until) {
     if (of_a_job && !std::exchange(plane_is_of_jobs_, true)) { plane_ = {}; }
     if (of_a_job != plane_is_of_jobs_) { return; }
     if (of_a_job && on_place_ && job->is_direct) { pass_places(*job, steps, until); }
-    if (job == nullptr || job->is_direct) { return keeps_plane_ ? trace_lanes(steps, until) : void(); }
-    if (job->plane) { trace_by_map(*job, steps, until); }
+    const bool is_by_map = job != nullptr && !job->is_direct;
+    if (!is_by_map && keeps_plane_) { trace_lanes(steps, until); }
+    if (is_by_map && job->plane) { trace_by_map(*job, steps, until); }
 }
 
 /// Before a motor's first step in the job, it is where the program begins.

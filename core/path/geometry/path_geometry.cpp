@@ -75,8 +75,8 @@ void PathGeometry::come_to_rest() {
     joiner_.finish(end, trail_);
     at_ = end;
     if (trail_.end() == ready_) { return; }
-    const bool is_at_rest = trail_.back().begins_at_rest || are_motors_on_steps(setup_, end);
-    move_end(end) || !is_at_rest ? trail_.rest_at_end() : trail_.pop_back();
+    const bool moves = move_end(end) || !(trail_.back().begins_at_rest || are_motors_on_steps(setup_, end));
+    moves ? trail_.rest_at_end() : trail_.pop_back();
 }
 
 /// Moves the end of the last piece. Returns false if the piece begins at this place.

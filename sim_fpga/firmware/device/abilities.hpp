@@ -12,7 +12,7 @@ inline constexpr std::size_t kCaptureRoom = 1024;
 inline constexpr std::size_t kOutputRoom = 64;
 inline constexpr std::size_t kEventRoom = 64;
 
-// What a frame may have at most, as in core/protocol/messages.hpp and core/hardware/output_change.hpp.
+// The largest frame, with the numbers of core/protocol/messages.hpp and core/hardware/output_change.hpp.
 inline constexpr std::size_t kMostPieces = 274;
 inline constexpr std::size_t kMostBodyChanges = 192;
 inline constexpr std::size_t kMostTailChanges = 64;

@@ -1,6 +1,7 @@
 // Messages as frames in a stream of bytes: consistent overhead byte stuffing (COBS, Cheshire and Baker 1999).
 //
-// A frame is the message and its CRC-32 without a byte of 0, then a 0. After damage the next 0 begins anew.
+// A frame is a message with its CRC-32, coded without bytes of 0, and a byte of 0 that ends it. So a receiver finds the
+// next frame after a damaged one.
 #pragma once
 
 #include <cstddef>

@@ -5,7 +5,8 @@
 // delays are harmless: what an end has is always what the other had at some instant. Unacknowledged messages are sent
 // again after a while, all of them, in order.
 //
-// Each end has a number for its session, never 0. If it changes, both begin anew with all words.
+// The number of an end's session is never 0, and differs after each start. If it changes, both ends send all words
+// again.
 #pragma once
 
 #include <cstddef>

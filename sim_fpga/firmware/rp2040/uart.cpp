@@ -31,7 +31,7 @@ void start_uart() {
     at(nvic::kEnable) = bit(kInterrupt);
 }
 
-/// What finds no room is lost, as on the line.
+/// Bytes are lost if the host sends faster than the board reads. The link sends their messages again.
 extern "C" void on_uart() {
     while ((at(uart0::kFlags) & uart0::kReceiveEmpty) == 0) {
         const auto byte = static_cast<std::uint8_t>(at(uart0::kDataByte));

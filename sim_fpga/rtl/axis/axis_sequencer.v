@@ -151,7 +151,7 @@ module axis_sequencer #(
     wire is_blocked = engine_backward ? at_min : at_max;
     wire at_limit = into_limit || (stepped && (stepped_backward ? at_min : at_max));
 
-    // What the state ACT does. At a body's end the next frame begins, or the tail, or the run is over.
+    // The decisions of the state ACT. When a body ends, the next frame begins, or the tail begins, or the run ends.
     wire begins_run = motion == WAITING && frame_valid && !is_vetoed && is_past && may_run;
     wire starts = begins_run && joins && is_good;
     wire is_piece_over = state == ACT && in_motion && idle;

@@ -141,7 +141,7 @@ TEST(FirmwareLink, CopiesEachWriteOnceAndInOrderOverAPoorLine) {
     }
 }
 
-/// An end whose process or board begins anew has another session.
+/// After the start of a process or a board its end of the link has another session.
 TEST(FirmwareLink, BeginsAnewWhenAnEndDoes) {
     ListOfWrites host;
     ListOfWrites board;

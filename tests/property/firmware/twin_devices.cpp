@@ -2,8 +2,18 @@
 
 #include <sstream>
 
+#include "core/hardware/output_change.hpp"
+#include "core/protocol/messages.hpp"
+#include "core/step/executable.hpp"
+
 namespace lockstep::testing {
 namespace {
+
+// The firmware has copies of these numbers, because the headers of core need integers of 128 bits.
+static_assert(firmware::kMostPieces == kMaxBodyPieces + 1 + kMaxTailPieces + 1);
+static_assert(firmware::kMostBodyChanges == OutputTrack::kMostInBody);
+static_assert(firmware::kMostTailChanges == OutputTrack::kMostInTail);
+static_assert(firmware::kLongestPiece == kMaxPieceTicks.value);
 
 DeviceAbilities abilities_of(const firmware::Abilities& abilities) {
     return {.segment_entries = firmware::kSegmentRoom,

@@ -1,4 +1,4 @@
-// What devices report of their outputs while a machine runs: values in ramps and holds, and the pulses that are left.
+// Devices report their outputs while a machine runs: the values in ramps and holds, and the pulses that are left.
 #include "core/outputs/reported_outputs.hpp"
 
 #include <gtest/gtest.h>
