@@ -139,7 +139,11 @@ constexpr Remedies either(Remedy one, Remedy other) { return {{one, other}, 2, t
     X(WriterHeld, 150, "writer-held", "another writer has the machine; other clients can only watch, hold and stop it", \
       "wait until the writer gives it back; or take it over: {take}", {}) \
     X(OutputsImpossible, 151, "outputs-impossible", "a frame changes outputs in a way that the axis's device cannot", \
-      "check that coordinator and axes are of the same version; please report it", in_order(Remedy::Reset, Remedy::Again))
+      "check that coordinator and axes are of the same version; please report it", in_order(Remedy::Reset, Remedy::Again)) \
+    X(ProbeNotTouched, 152, "probe-not-touched", "a probing move came to its end without a touch", \
+      "check the probe and its wire, and that the workpiece is where the move leads; a longer move searches further", in_order(Remedy::Again)) \
+    X(ProbeTouchedEarly, 153, "probe-touched-early", "the probe touched before the probing move had begun", \
+      "check the probe and its wire; move it away from what it touches", in_order(Remedy::Again))
 // clang-format on
 
 enum class FaultCode : std::uint16_t {

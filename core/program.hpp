@@ -68,6 +68,15 @@ struct Dwell {
 /// Come to rest, then continue without a resume. A sender that has no more blocks for now sends it as the last one.
 struct Settle {};
 
+/// Come to rest. The straight move that follows, the last one of the program, ends early where an input touches: where
+/// it closes or opens (G38.2 to G38.5). The coordinator reports the place.
+struct Probe {
+    std::int32_t input = 0;  // its number among the inputs for probes
+    bool opens = false;      // it touches when it opens
+    bool must_touch = true;  // otherwise the program also ends well without a touch
+    bool operator==(const Probe&) const = default;
+};
+
 inline constexpr std::int32_t kMaxEventIndex = 1'000'000;
 inline constexpr std::uint32_t kMaxEventsTogether = 100;  // between two moves, dwells or pauses
 
@@ -98,7 +107,7 @@ struct ProgramEvent {
 
 struct Block {
     std::optional<std::int32_t> line;  // in the G-code file, from 1
-    std::variant<ProgramMove, Dwell, Pause, Settle, ProgramEvent> action;
+    std::variant<ProgramMove, Dwell, Pause, Settle, ProgramEvent, Probe> action;
 };
 
 struct ProgramHead {

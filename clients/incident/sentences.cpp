@@ -179,6 +179,7 @@ std::string sentence(const Incident& incident, const Entry& entry) {
         case Kind::OwnerFollowed: return "follows an owner of the machine";
         case Kind::HomingStage: return homing_text(event.count);
         case Kind::Homed: return "is homed and parked";
+        case Kind::Touched: return "sees the touch of the probe";
         case Kind::Fault: return fault_sentence(incident, event);
         case Kind::Reset: return "is reset";
         case Kind::PositionClaimed:

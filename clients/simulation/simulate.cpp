@@ -114,7 +114,7 @@ bool Simulation::leave_pause() {
 /// Makes the input as wanted, and returns when the machine no longer waits. An edge needs the other level first.
 bool Simulation::set_input(const InputWait& wait) {
     const std::vector<InputConfig>& inputs = vm_.machine().inputs;
-    const auto input = static_cast<std::size_t>(input_numbered(inputs, wait.input) - inputs.data());
+    const auto input = static_cast<std::size_t>(input_numbered(inputs, InputUse::Program, wait.input) - inputs.data());
     const bool is_closed = wait.mode == InputMode::Closes || wait.mode == InputMode::IsClosed;
     if (wait.mode == InputMode::Closes || wait.mode == InputMode::Opens) {
         vm_.set_input(input, !is_closed);

@@ -158,6 +158,7 @@ void AxisController::receive(const AxisInputs& inputs, AxisLoop& loop) {
     for (const Command& request : inputs.requests) {
         if (stops_.take(request)) { stop_now(FaultCode::EmergencyStopped, loop); }
     }
+    following_.take(inputs.edges, loop);
     for (const Frame& frame : inputs.frames) {
         if (!owner_.is_from_owner(frame.term)) { continue; }
         const bool may_begin = is_resting() && condition_.is_ready();
@@ -269,7 +270,8 @@ AxisState AxisController::state(const AxisLoop& loop, Ticks clock_error) const {
             .inputs = device.inputs,
             .outputs = device.outputs,
             .pulses_left = device.pulses_left,
-            .analog = device.analog};
+            .analog = device.analog,
+            .touch = following_.touch()};
 }
 
 }  // namespace lockstep

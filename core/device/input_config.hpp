@@ -14,12 +14,14 @@ enum class InputUse : std::uint8_t {
     EmergencyStop,  // the device stops by itself, and the whole machine stops
     Door,           // the machine comes to rest on its path and stays there
     Program,        // programs may read it
+    Probe,          // moves end where it touches
 };
 
 constexpr std::string_view name_of(InputUse use) {
     switch (use) {
         case InputUse::EmergencyStop: return "emergency-stop";
         case InputUse::Door: return "door";
+        case InputUse::Probe: return "probe";
         case InputUse::Program: break;
     }
     return "program";
@@ -34,16 +36,19 @@ struct InputConfig {
     bool at_board = false;  // the motor is a board
     int channel = kSwitchInputs;
     InputUse use = InputUse::Program;
-    bool active_low = false;    // closed while the pin is low
-    double debounce_ms = 1;     // for how long the pin must keep its level until the input follows
-    std::optional<int> number;  // under which programs read it: Program only
+    bool active_low = false;                       // closed while the pin is low
+    double debounce_ms = 1;                        // for how long the pin must keep its level until the input follows
+    std::optional<int> number;                     // under which programs know it: Program, Probe
+    double max_overshoot_mm = kUsualOvershoot_mm;  // how far a move may go on behind the touch: Probe only
+
+    static constexpr double kUsualOvershoot_mm = 1;
     bool operator==(const InputConfig&) const = default;
 };
 
-/// The input that programs read under this number; null if there is none.
-inline const InputConfig* input_numbered(std::span<const InputConfig> inputs, int number) {
+/// The input of this use that programs know by this number; null if there is none.
+inline const InputConfig* input_numbered(std::span<const InputConfig> inputs, InputUse use, int number) {
     for (const InputConfig& input : inputs) {
-        if (input.use == InputUse::Program && input.number == number) { return &input; }
+        if (input.use == use && input.number == number) { return &input; }
     }
     return nullptr;
 }

@@ -17,6 +17,7 @@ FlightKind kind_of(AxisNotice::Kind kind) {
         case Kind::EpochEnded: return FlightKind::EpochEnded;
         case Kind::FrameRefused: return FlightKind::FrameRefused;
         case Kind::Vetoed: return FlightKind::Vetoed;
+        case Kind::Touched: return FlightKind::Touched;
         case Kind::HomingStage: return FlightKind::HomingStage;
         case Kind::Homed: return FlightKind::Homed;
         case Kind::Fault: return FlightKind::Fault;

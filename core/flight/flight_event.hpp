@@ -62,7 +62,8 @@ namespace lockstep {
     X(PositionClaimed, "position-claimed") /* at its start; fault: why the kept position is refused */               \
     X(JobContinued, "job-continued")       /* count: near this line of the G-code */                                 \
     X(Reopened, "reopened")                /* its DDS participant; detail: ReopenReason; count: how often */         \
-    X(LoopStuck, "loop-stuck")             /* lasts: how long its loop did not run; the process ends itself */
+    X(LoopStuck, "loop-stuck")             /* lasts: how long its loop did not run; the process ends itself */       \
+    X(Touched, "touched")                  /* count: the tick at which the input of its epoch touched */
 
 enum class FlightKind : std::uint8_t {
 #define X(name, text) name,

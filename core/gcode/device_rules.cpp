@@ -55,7 +55,8 @@ void ProgramBuilder::pause(PauseReason reason, int tool) {
 
 /// Without a wait M66 would only set #5399, which programs cannot read.
 void ProgramBuilder::wait_for_input(const Event& event) {
-    const InputConfig* const input = event.is_analog ? nullptr : input_numbered(setup_.inputs, event.index);
+    const InputConfig* const input =
+        event.is_analog ? nullptr : input_numbered(setup_.inputs, InputUse::Program, event.index);
     if (input == nullptr) {
         const std::string name = (event.is_analog ? "analog input " : "input ") + std::to_string(event.index);
         if (is_refused(setup_.unassigned.inputs, name.c_str(), "inputs")) { return; }

@@ -39,10 +39,10 @@ public:
     bool is_closed(std::size_t input, ClosedOf&& closed_of) const {
         return (closed_of(places_[input].motor) & places_[input].bit) != 0;
     }
-    /// The input that programs know by this number; nullopt if there is none.
-    std::optional<std::size_t> numbered(int number) const {
+    /// The input of this use that programs know by this number; nullopt if there is none.
+    std::optional<std::size_t> numbered(InputUse use, int number) const {
         for (std::size_t i = 0; i < places_.size(); ++i) {
-            if (places_[i].number == number) { return i; }
+            if (places_[i].use == use && places_[i].number == number) { return i; }
         }
         return std::nullopt;
     }

@@ -67,6 +67,24 @@ struct MotorOutputs {
     bool operator==(const MotorOutputs&) const = default;
 };
 
+/// The input whose change ends an epoch of frames: the touch of a probe.
+struct TouchInput {
+    std::uint32_t motor = 0;   // whose device has it
+    std::uint8_t channel = 0;  // of the device
+    bool opens = false;        // it touches when it opens
+    bool operator==(const TouchInput&) const = default;
+
+    /// `closed`: the closed inputs of the device; input n is bit n.
+    bool is_touched(std::uint32_t closed) const { return ((closed >> channel & 1) != 0) != opens; }
+};
+
+/// The touch that ended an epoch.
+struct EpochTouch {
+    Epoch epoch = 0;
+    Tick tick;  // machine time
+    bool operator==(const EpochTouch&) const = default;
+};
+
 /// Frame k: every axis's motion in [start, start + ticks), and the tail that brings it to rest from there.
 struct Frame {
     Term term;
@@ -74,7 +92,8 @@ struct Frame {
     FrameNumber number = 0;
     Tick start;
     Ticks ticks;
-    bool last = false;  // the epoch ends with this frame, at rest; the tail is empty
+    bool last = false;                // the epoch ends with this frame, at rest; the tail is empty
+    std::optional<TouchInput> touch;  // the epoch also ends at this input's touch
     std::vector<AxisTrack> axes;
     std::vector<MotorOutputs> outputs;  // of the motors whose devices have outputs, in order
     bool operator==(const Frame&) const = default;
@@ -126,10 +145,11 @@ struct AxisState {
     bool hears_owner = false;                   // it received its owner within silence_slots
     FaultCode unproved = FaultCode::None;       // why it did not know its position at its start; None: it knows it now
     Switches switches;
-    std::uint32_t inputs = 0;       // all closed inputs of its device; input n is bit n
-    std::uint16_t outputs = 0;      // all digital outputs of its device that are on; output n is bit n
-    std::uint32_t pulses_left = 0;  // of the newest places at its device: so many were not made, so far
-    AnalogLevels analog{};          // what the analog outputs of its device show
+    std::uint32_t inputs = 0;         // all closed inputs of its device; input n is bit n
+    std::uint16_t outputs = 0;        // all digital outputs of its device that are on; output n is bit n
+    std::uint32_t pulses_left = 0;    // of the newest places at its device: so many were not made, so far
+    AnalogLevels analog{};            // what the analog outputs of its device show
+    std::optional<EpochTouch> touch;  // of the newest epoch, if it ends at an input of this device
     bool operator==(const AxisState&) const = default;
 };
 
@@ -219,6 +239,15 @@ struct MachinePause {
     bool operator==(const MachinePause&) const = default;
 };
 
+/// How the newest probing move ended.
+struct ProbeResult {
+    std::uint64_t job = 0;
+    bool touched = false;
+    Tick tick;                                 // of the touch
+    StaticVector<double, kMaxAxes> places_mm;  // of each axis of the machine at the touch; without one, at rest
+    bool operator==(const ProbeResult&) const = default;
+};
+
 /// The state of the machine that the coordinator publishes once a slot. It also carries the coordinator's veto.
 struct MachineState {
     Term term;  // Standby: the highest number known, and the standby's identity
@@ -246,6 +275,7 @@ struct MachineState {
         devices_after;               // at rest after this epoch or an earlier one, they hold; empty: axes follow frames
     std::optional<HeldLease> lease;  // the writer's; empty: every client may give commands
     std::optional<MachinePause> pause;  // of the job; present also while axes are jogged and return in the pause
+    std::optional<ProbeResult> probe;
     // What another coordinator needs to continue the job in motion:
     JobKind job_kind = JobKind::Run;
     std::optional<std::uint64_t> program;      // Command::program of the job; nullopt: none is in motion

@@ -4,6 +4,7 @@
 #include <functional>
 #include <utility>
 
+#include "core/hardware/device_abilities.hpp"
 #include "core/kinematics/motors.hpp"
 #include "core/methods/paper_steps.hpp"
 
@@ -15,7 +16,8 @@ AxisNode::AxisNode(const Setup& setup, OpenDevice open)
       lacks_("not searched for yet"),
       controller_(setup.axis, setup.machine, setup.identity, setup.config_hash, methods::begin_steps, setup.kept),
       time_(setup.axis, setup.machine),
-      clock_reset_(setup.machine.tick_ns) {}
+      clock_reset_(setup.machine.tick_ns),
+      debounce_(setup_of(setup.machine, motors_of(setup.machine)[setup.axis]).debounce) {}
 
 const AxisOutputs& AxisNode::step(Tick own, const AxisMail& mail, const OnStep& on_step) {
     decide(own, mail, on_step);
@@ -34,7 +36,7 @@ const AxisOutputs& AxisNode::decide(Tick own, const AxisMail& mail, const OnStep
     must_restart_ = clock_reset_.must_restart(own, std::ranges::any_of(mail.coordinator, owns), controller_.at_rest(),
                                               knows_time_ ? time_.error() : Ticks{});
     drain(own, on_step, out_.device_clock);
-    drain_channels(own);
+    drain_channels(own, out_.device_clock);
     return out_;
 }
 
@@ -79,9 +81,15 @@ void AxisNode::drain(Tick own, const OnStep& on_step, const ClockView& machine_t
     if (meter != nullptr) { meter->end_loop(*free_captures); }
 }
 
-void AxisNode::drain_channels(Tick own) {
+/// An input changes its debounce after its pin.
+void AxisNode::drain_channels(Tick own, const ClockView& machine_time) {
     if (!has_device()) { return; }
-    const auto drained = found_->port->drain_channels(on_channel_);
+    const auto take = [&](const ChannelEvent& event) {
+        on_channel_(event);
+        if (event.kind != ChannelEvent::Kind::Input || !knows_time_) { return; }
+        edges_.push_back({machine_time.at(event.tick - debounce_[event.channel]), event.channel, event.closed});
+    };
+    const auto drained = found_->port->drain_channels(std::cref(take));  // by reference: a copy would be allocated
     if (!drained) { lose_device(own, drained.error()); }
 }
 
@@ -92,6 +100,7 @@ void AxisNode::control(const AxisMail& mail) {
                         .device = status,
                         .has_device = has_device(),
                         .device_failed = std::exchange(failed_, false),
+                        .edges = edges_,
                         .frames = mail.frames,
                         .peers = mail.peers,
                         .coordinator = mail.coordinator,
@@ -99,6 +108,7 @@ void AxisNode::control(const AxisMail& mail) {
                         .requests = mail.requests,
                         .clock_error = time_.error()};
     out_ = controller_.step(in);
+    edges_.clear();
     if (flight_ != nullptr) { flight_->take(in, out_); }
     if (meter_ != nullptr) {
         meter_->look(time_.now(), has_device() ? &status : nullptr);

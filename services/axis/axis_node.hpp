@@ -1,6 +1,7 @@
 // An axis controller connected to its device. An axis's process runs it in each loop, live or in virtual time.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <expected>
 #include <functional>
@@ -9,6 +10,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/axis/axis_controller.hpp"
 #include "core/axis/device/device_watch.hpp"
@@ -93,7 +95,7 @@ private:
     std::optional<DeviceTime::Device> device_clock() const;
     void control(const AxisMail& mail);
     void drain(Tick own, const OnStep& on_step, const ClockView& machine_time);
-    void drain_channels(Tick own);
+    void drain_channels(Tick own, const ClockView& machine_time);
     void note(std::string trouble);
     void give(const std::vector<DeviceOrder>& orders);
 
@@ -129,8 +131,10 @@ private:
     HealthMeter* meter_ = nullptr;  // null: nothing is measured
     AxisFlight* flight_ = nullptr;  // null: nothing is noted
     OnChannel on_channel_ = [](const ChannelEvent&) {};
-    bool failed_ = false;  // a device order failed since the last control step
-    AxisOutputs out_;      // of the last loop
+    std::array<Ticks, kMostInputs> debounce_;
+    std::vector<InputEdge> edges_;  // drained since the last control step
+    bool failed_ = false;           // a device order failed since the last control step
+    AxisOutputs out_;               // of the last loop
 };
 
 }  // namespace lockstep

@@ -39,6 +39,7 @@ void log_notice(const AxisNotice& notice) {
             return log_event(spdlog::level::err, notice.fault, "frame {} refused: {}", notice.number,
                              remedy(notice.fault));
         case Kind::Vetoed: return log_info("frame {} and those after it are vetoed", notice.number);
+        case Kind::Touched: return log_info("the probe touched at tick {}", notice.number);
         case Kind::HomingStage: return log_info("homing: {}", stage_name(notice.number));
         case Kind::Homed: return log_info("homed and parked");
         case Kind::Fault: return log_event(spdlog::level::err, notice.fault, what_of(notice) + remedy(notice.fault));

@@ -90,6 +90,7 @@ InputUse read_use(proto::InputUse use) {
     switch (use) {
         case proto::DOOR: return InputUse::Door;
         case proto::PROGRAM: return InputUse::Program;
+        case proto::PROBE: return InputUse::Probe;
         default: return InputUse::EmergencyStop;
     }
 }
@@ -101,12 +102,14 @@ InputConfig read_input(const proto::Input& message, const std::string& place, Pr
     reader.require(message.has_channel(), message.channel(), input.channel, place + ".channel");
     reader.require(message.has_use(), read_use(message.use()), input.use, place + ".use");
     if (!proto::InputUse_IsValid(message.use())) {
-        reader.refuse(place + ".use", fmt::format("{}.use is {}; it must be EMERGENCY_STOP, DOOR or PROGRAM", place,
-                                                  int{message.use()}));
+        reader.refuse(place + ".use", fmt::format("{}.use is {}; it must be EMERGENCY_STOP, DOOR, PROGRAM or PROBE",
+                                                  place, int{message.use()}));
     }
     input.active_low = message.active_low();
     if (message.has_debounce_ms()) { input.debounce_ms = message.debounce_ms(); }
+    if (input.use == InputUse::Probe) { input.number = 0; }
     if (message.has_number()) { input.number = message.number(); }
+    if (message.has_max_overshoot_mm()) { input.max_overshoot_mm = message.max_overshoot_mm(); }
     return input;
 }
 

@@ -187,7 +187,7 @@ void write_board(const BoardConfig& board, proto::Board& message) {
 }
 
 void write_input(const InputConfig& input, proto::Input& message) {
-    constexpr std::array kUses{proto::EMERGENCY_STOP, proto::DOOR, proto::PROGRAM};
+    constexpr std::array kUses{proto::EMERGENCY_STOP, proto::DOOR, proto::PROGRAM, proto::PROBE};
     message.set_name(input.name);
     input.at_board ? message.set_board(input.motor) : message.set_motor(input.motor);
     message.set_channel(input.channel);
@@ -195,6 +195,7 @@ void write_input(const InputConfig& input, proto::Input& message) {
     message.set_active_low(input.active_low);
     message.set_debounce_ms(input.debounce_ms);
     if (input.number) { message.set_number(*input.number); }
+    if (input.use == InputUse::Probe) { message.set_max_overshoot_mm(input.max_overshoot_mm); }
 }
 
 void write_axis(const AxisConfig& axis, proto::Axis& message) {

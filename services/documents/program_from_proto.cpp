@@ -178,6 +178,8 @@ Block read_block(const proto::Block& message) {
         block.action = Pause{static_cast<PauseReason>(pause.reason()), pause.tool(), pause.text(), read_wait(pause)};
     } else if (message.has_settle()) {
         block.action = Settle{};
+    } else if (message.has_probe()) {
+        block.action = Probe{message.probe().input(), message.probe().opens(), !message.probe().may_miss()};
     } else if (message.has_event()) {
         const proto::ProgramEvent& event = message.event();
         block.action = ProgramEvent{static_cast<ProgramEvent::Kind>(event.kind()), event.index(), event.value()};

@@ -36,6 +36,12 @@ struct ActionWriter {
         message.mutable_wait()->set_seconds(pause.wait->seconds);
     }
     void operator()(const Settle&) const { block.mutable_settle(); }
+    void operator()(const Probe& probe) const {
+        proto::Probe& message = *block.mutable_probe();
+        message.set_input(probe.input);
+        message.set_opens(probe.opens);
+        message.set_may_miss(!probe.must_touch);
+    }
     void operator()(const ProgramEvent& event) const {
         proto::ProgramEvent& message = *block.mutable_event();
         message.set_kind(static_cast<proto::ProgramEvent::Kind>(event.kind));

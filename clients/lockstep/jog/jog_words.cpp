@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "clients/session/move_program.hpp"
-#include "core/coordinator/jobs/jogs.hpp"
+#include "core/coordinator/jogs/jogs.hpp"
 #include "core/number_text.hpp"
 
 namespace lockstep {

@@ -15,7 +15,7 @@
 #include "clients/session/status_text.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/format.hpp"
-#include "core/coordinator/jobs/jogs.hpp"
+#include "core/coordinator/jogs/jogs.hpp"
 #include "services/runtime/clock.hpp"
 #include "services/runtime/stop_signal.hpp"
 

@@ -45,6 +45,14 @@ struct DeviceStatus {
     bool bad_output = false;  // changes of outputs in this run were malformed, and none of their frame's was made
 };
 
+/// A change of an input. The input follows its pin later, by its debounce.
+struct InputEdge {
+    Tick tick;  // when the pin changed
+    std::uint8_t channel = 0;
+    bool closed = false;  // from then on
+    bool operator==(const InputEdge&) const = default;
+};
+
 enum class Trigger : std::uint8_t { None, HomeCloses, HomeOpens };
 
 namespace device {

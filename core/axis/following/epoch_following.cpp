@@ -39,10 +39,35 @@ bool EpochFollowing::has_room(const Frame& frame, const DeviceView& device) cons
     return axis_ >= frame.axes.size() || room_for(frame.axes[axis_]) <= device.free_segments();
 }
 
+/// If the input touches already, the epoch ends before it moves.
 void EpochFollowing::begin(Epoch epoch, AxisLoop& loop) {
     recorder_.begin();
     ran_ = 0;
+    touch_.reset();
     loop.notice({AxisNotice::Kind::EpochBegun, FaultCode::None, epoch});
+    const TouchInput* const input = awaited();
+    if (input != nullptr && input->is_touched(loop.device.status().inputs)) { end_at(loop.device.status().now, loop); }
+}
+
+/// The input of this device at whose touch the newest epoch ends, unless it has touched; null if there is none.
+const TouchInput* EpochFollowing::awaited() const {
+    const auto& input = follower_.touch();
+    return !touch_ && input && input->motor == axis_ ? &*input : nullptr;
+}
+
+/// An input follows its pin with a delay, so a touch may become known when the axis rests already.
+void EpochFollowing::take(std::span<const InputEdge> edges, AxisLoop& loop) {
+    for (const InputEdge& edge : edges) {
+        const TouchInput* const input = awaited();
+        if (input == nullptr || (!is_open() && edge.tick > rested_)) { return; }
+        if (edge.channel == input->channel && edge.closed != input->opens) { end_at(edge.tick, loop); }
+    }
+}
+
+void EpochFollowing::end_at(Tick touch, AxisLoop& loop) {
+    touch_ = EpochTouch{follower_.epoch(), touch};
+    loop.notice({AxisNotice::Kind::Touched, FaultCode::None, static_cast<std::uint64_t>(touch.value)});
+    follower_.veto_for_touch(loop.next_state);
 }
 
 /// Frames are repeated, so the same refusal is reported only once.
@@ -86,6 +111,7 @@ void EpochFollowing::record(const DeviceStatus& device, AxisLoop& loop) {
 
 void EpochFollowing::end(AxisLoop& loop) {
     follower_.close();
+    rested_ = loop.device.status().now;
     loop.notice({AxisNotice::Kind::EpochEnded, FaultCode::None, follower_.epoch()});
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "core/axis/following/setpoint_follower.hpp"
 #include "core/axis/state/axis_loop.hpp"
@@ -30,6 +31,11 @@ public:
     /// the device has no room yet. The owner sends it again.
     void take(const Frame& frame, std::optional<Position> rest, AxisLoop& loop);
 
+    /// Takes the changes of the device's inputs since the last loop. The epoch in progress may end at one.
+    void take(std::span<const InputEdge> edges, AxisLoop& loop);
+    /// The touch at which the newest epoch ends, if an input of this device has touched.
+    const std::optional<EpochTouch>& touch() const { return touch_; }
+
     /// Makes the checks that are due.
     void check(AxisLoop& loop);
     /// Call it if this axis cannot go on. Vetoes the lowest frame that a veto can still stop.
@@ -45,10 +51,14 @@ private:
     bool is_left_behind(const DeviceStatus& device) const;
     void begin(Epoch epoch, AxisLoop& loop);
     void refuse(const Frame& frame, FaultCode why, AxisLoop& loop);
+    const TouchInput* awaited() const;
+    void end_at(Tick touch, AxisLoop& loop);
 
     std::size_t axis_;
     SetpointFollower follower_;
     RunRecorder recorder_;
+    std::optional<EpochTouch> touch_;
+    Tick rested_;  // when the device was seen to have ended the newest epoch
     FrameNumber ran_ = 0;
     std::uint64_t refused_frames_ = 0;
     FaultCode last_refusal_ = FaultCode::None;

@@ -56,7 +56,10 @@ FaultCode SetpointFollower::offer(const Frame& frame, std::optional<Position> re
         const FaultCode why = outputs_.check(*outputs, frame.ticks, total_ticks(track.tail));
         if (why != FaultCode::None) { return why; }
     }
-    if (first) { begin(frame.epoch); }
+    if (first) {
+        begin(frame.epoch);
+        touch_ = frame.touch;
+    }
     end_ = end;
     held_ = frame.number;
     last_held_ = frame.last;
@@ -128,20 +131,31 @@ const std::vector<DeviceOrder>& SetpointFollower::decide(Slot now, bool publishe
     return orders_;
 }
 
-/// Returns the first frame for which a veto in the state published in slot `next` still reaches every axis in time.
-/// Frames that this axis lacks are taken to last frame_slots, as all but the last one do.
-FrameNumber SetpointFollower::first_open(Slot next) const {
+/// Returns the first frame that `may_veto` allows by its start. Frames that this axis lacks are taken to last
+/// frame_slots, as all but the last one do.
+template <typename MayVeto>
+FrameNumber SetpointFollower::first_open(MayVeto&& may_veto) const {
     FrameNumber k = frames_.empty() ? held_ + 1 : frames_.front().number;
     for (; k <= held_; ++k) {
-        if (rules::axis_may_veto(next, *start_slot(k))) { return k; }
+        if (may_veto(*start_slot(k))) { return k; }
     }
     Slot start = rules::slot_of(end_tick_, slot_);
-    for (; !last_held_ && !rules::axis_may_veto(next, start); ++k) { start += timing_.frame_slots; }
+    for (; !last_held_ && !may_veto(start); ++k) { start += timing_.frame_slots; }
     return k;
+}
+
+/// Returns the first frame for which a veto in the state published in slot `next` still reaches every axis in time.
+FrameNumber SetpointFollower::first_open(Slot next) const {
+    return first_open([next](Slot start) { return rules::axis_may_veto(next, start); });
 }
 
 void SetpointFollower::veto_for_own_reasons(Slot next) {
     if (open_) { add_veto(first_open(next)); }
+}
+
+void SetpointFollower::veto_for_touch(Slot next) {
+    if (!open_) { return; }
+    add_veto(first_open([&](Slot start) { return rules::coordinator_may_veto(next, start, timing_); }));
 }
 
 }  // namespace lockstep

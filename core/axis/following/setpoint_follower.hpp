@@ -40,6 +40,11 @@ public:
     /// Call it if this axis cannot continue. Vetoes the first frame for which the state published in slot `next` still
     /// reaches every axis in time.
     void veto_for_own_reasons(Slot next);
+    /// Call it when an input of this axis's device has touched. Vetoes the first frame that no axis can have armed,
+    /// because every axis needs the state published in slot `next`, or a later one, as evidence for it.
+    void veto_for_touch(Slot next);
+    /// The input whose touch ends the epoch, if it ends at one.
+    const std::optional<TouchInput>& touch() const { return touch_; }
 
     /// Call it when the device has ended the run of this epoch. Nothing more of the epoch is held or checked.
     void close() { open_ = false; }
@@ -60,6 +65,8 @@ private:
     void begin(Epoch epoch);
     AxisSet lacking(FrameNumber k, Slot start) const;
     bool coordinator_holds(FrameNumber k, Slot start) const;
+    template <typename MayVeto>
+    FrameNumber first_open(MayVeto&& may_veto) const;
     FrameNumber first_open(Slot next) const;
     void refuse(FrameNumber veto, const FailedCheck& check);
     std::optional<Slot> start_slot(FrameNumber k) const;
@@ -79,6 +86,7 @@ private:
     Epoch named_ = 0;  // epoch that the owner's newest state names
     FrameNumber held_ = 0;
     FrameNumber checked_ = 0;  // every frame up to this one is decided
+    std::optional<TouchInput> touch_;
     std::optional<FrameNumber> veto_;
     FailedCheck failed_check_;
     std::optional<FrameNumber> device_veto_;  // the veto that was given to the device

@@ -17,8 +17,9 @@ namespace lockstep {
 struct AxisInputs {
     Tick now;  // machine time
     DeviceStatus device;
-    bool has_device = true;      // false: no device answers, and `device` is meaningless
-    bool device_failed = false;  // the device refused an order; what it has done since is unknown
+    bool has_device = true;            // false: no device answers, and `device` is meaningless
+    bool device_failed = false;        // the device refused an order; what it has done since is unknown
+    std::span<const InputEdge> edges;  // of the device, in order, each once; known up to the reading before `device`
     std::span<const Frame> frames;
     std::span<const AxisState> peers;
     std::span<const MachineState> coordinator;
@@ -61,6 +62,7 @@ struct AxisNotice {
         EpochEnded,
         FrameRefused,
         Vetoed,
+        Touched,  // the input at whose touch the epoch ends
         HomingStage,
         Homed,
         Fault,
@@ -71,7 +73,7 @@ struct AxisNotice {
     };
     Kind kind = Kind::Fault;
     FaultCode fault = FaultCode::None;
-    std::uint64_t number = 0;          // a term, epoch, frame or stage; steps lost of a FollowingError
+    std::uint64_t number = 0;          // a term, epoch, frame, stage or tick; steps lost of a FollowingError
     std::optional<FailedCheck> check;  // Vetoed: the check that failed
 };
 

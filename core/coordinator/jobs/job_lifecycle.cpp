@@ -61,6 +61,10 @@ void JobLifecycle::follow(PathTask task, const PathNext& next, std::optional<act
         return activity_.become(MachineEvent::EpochBegins, std::move(moving), loop.out);
     }
     if (const Pause* const why = std::get_if<Pause>(&next)) { return this->pause({std::move(task), *why, {}}, loop); }
+    if (const Probed* const probed = std::get_if<Probed>(&next)) {
+        if (probed->why == FaultCode::None) { return finish(task.job, JobOutcome::Done, loop); }
+        return end_early(task.job, task.job.program->last_line(), probed->why, loop);
+    }
     pause ? end_in_pause(task.job, *std::move(pause), JobOutcome::Done, loop) : end_program(task.job, loop);
 }
 
@@ -118,11 +122,14 @@ void JobLifecycle::end_in_pause(const MachineJob& job, activity::Paused pause, J
 /// Ends the job where its program ends, or where the program was cut.
 void JobLifecycle::end_program(const MachineJob& job, CoordinatorLoop& loop) {
     const auto& cut = job.program->cut();
-    if (!cut) { return finish(job, JobOutcome::Done, loop); }
-    const std::optional<std::int32_t> line = job.program->last_line();
+    cut ? end_early(job, job.program->last_line(), cut->why, loop) : finish(job, JobOutcome::Done, loop);
+}
+
+void JobLifecycle::end_early(const MachineJob& job, std::optional<std::int32_t> line, FaultCode why,
+                             CoordinatorLoop& loop) {
     finish(job, JobOutcome::Stopped, loop);
-    count_.cut(line, cut->why);
-    loop.notice({CoordinatorNotice::Kind::ProgramCut, cut->why, number_of(line)});
+    count_.cut(line, why);
+    loop.notice({CoordinatorNotice::Kind::ProgramCut, why, number_of(line)});
 }
 
 void JobLifecycle::fail(const MachineFault& fault, CoordinatorLoop& loop) {

@@ -62,6 +62,7 @@ private:
     void finish(const MachineJob& job, JobOutcome outcome, CoordinatorLoop& loop);
     void end_in_pause(const MachineJob& job, activity::Paused pause, JobOutcome outcome, CoordinatorLoop& loop);
     void end_program(const MachineJob& job, CoordinatorLoop& loop);
+    void end_early(const MachineJob& job, std::optional<std::int32_t> line, FaultCode why, CoordinatorLoop& loop);
 
     MachineActivity activity_;
     JobCount count_;

@@ -15,6 +15,7 @@ namespace {
 std::optional<Pause> pass_leg(PathTask& task, const LegEnd& end) {
     task.next = end.kind == LegEnd::Kind::Program ? end.block : end.block + 1;
     task.from = end.to;
+    task.probe = end.kind == LegEnd::Kind::Probe ? std::optional(end.probe) : std::nullopt;
     return end.kind == LegEnd::Kind::Pause ? std::optional(end.pause) : std::nullopt;
 }
 
@@ -37,7 +38,7 @@ std::optional<LegEnd> PathRunner::end_of_empty_leg(const PathTask& task) const {
         if (program.ends_before(end.block)) { return end; }
         const Block* const block = program.block(end.block);
         if (block == nullptr) { return std::nullopt; }
-        end.kind = end_by(*block);
+        note_end(*block, end);
         if (ends_leg(*block)) { return end; }
         if (planner_.moves(*block, program.places(), end.to)) { return std::nullopt; }
     }
@@ -55,13 +56,20 @@ void PathRunner::pass_events(const PathTask& task, const LegEnd& end, const Loop
     }
 }
 
+std::optional<Probed> PathRunner::end_probe_at_begin(const PathTask& task, const LoopView& loop) {
+    if (!task.probe) { return std::nullopt; }
+    return probing_.end_at_begin(task, !end_of_empty_leg(task), loop);
+}
+
 PathNext PathRunner::begin_leg(PathTask& task, const LoopView& loop, std::vector<PublishedEvent>& out) {
     while (!task.job.program->ends_before(task.next)) {
         const auto empty = end_of_empty_leg(task);
         if (!empty) { break; }
         pass_events(task, *empty, loop, out);
+        if (task.probe) { break; }
         if (const auto pause = pass_leg(task, *empty)) { return *pause; }
     }
+    if (const auto end = end_probe_at_begin(task, loop)) { return *end; }
     if (task.job.program->ends_before(task.next)) { return ProgramDone{}; }
     load_leg(task);
     begin_epoch(task, {task.next, {}}, {}, loop);
@@ -108,7 +116,8 @@ void PathRunner::begin_epoch(PathTask& task, const PathPlace& place, MotorPositi
     SwitchedBy switched{events_.devices(), events_.from()};
     const bool is_aside = task.job.kind == JobKind::Jog || task.job.kind == JobKind::Return;
     if (is_aside) { switched.devices.pulses = {}; }
-    runner_.begin(next_epoch(loop), place, at, overrides_, switched);
+    const auto touch = task.probe ? touch_input_of(*task.probe, loop.machine) : std::nullopt;
+    runner_.begin(next_epoch(loop), place, at, overrides_, switched, touch);
 }
 
 /// The devices know how many pulses they made before they came to rest.
@@ -152,7 +161,8 @@ std::optional<EpochEnd> PathRunner::advance(const PathTask& task, const LoopView
                             .overrides = change->overrides,
                             .behind = change->behind});
     }
-    return runner_.evaluate(loop.slot, loop.axes.views());
+    const auto end = runner_.evaluate(loop.slot, loop.axes.views());
+    return end && probing_.may_touch_yet(task, *end, runner_, loop) ? std::nullopt : end;
 }
 
 /// The axes have passed the places of all events before the block in which they rest.
@@ -192,6 +202,7 @@ void PathRunner::report_epoch(MachineState& state) const {
     state.overrides = overrides_;
     state.devices = events_.devices();
     state.events_from = events_.from();
+    state.probe = probing_.result();
 }
 
 void PathRunner::report_moving(const PathTask& task, MachineState& state) const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/coordinator/jobs/path_task.hpp"
+#include "core/coordinator/jobs/probing.hpp"
 #include "core/coordinator/jobs/program_events.hpp"
 #include "core/coordinator/jobs/takeover.hpp"
 #include "core/coordinator/path/coordination.hpp"
@@ -35,6 +36,12 @@ public:
     PathNext end_leg(PathTask& task, const LoopView& loop, std::vector<PublishedEvent>& out);
     /// The same, but the next leg does not begin yet. Returns why the job pauses.
     Pause hold_behind_leg(PathTask& task) const;
+
+    /// The end of a task that probes, behind a touch or at the end of its move; nullopt if it was interrupted before,
+    /// or does not probe.
+    std::optional<Probed> end_probe(const PathTask& task, const EpochEnd& end, const LoopView& loop) {
+        return task.probe ? probing_.end(task, end, runner_, loop) : std::nullopt;
+    }
 
     /// Call it in each slot of an epoch. Sends frames. Returns how the epoch ended, once it has.
     std::optional<EpochEnd> advance(const PathTask& task, const LoopView& loop, CoordinatorOutputs& out);
@@ -71,6 +78,7 @@ public:
 
 private:
     std::optional<LegEnd> end_of_empty_leg(const PathTask& task) const;
+    std::optional<Probed> end_probe_at_begin(const PathTask& task, const LoopView& loop);
     void pass_events(const PathTask& task, const LegEnd& end, const LoopView& loop, std::vector<PublishedEvent>& out);
     void load_leg(const PathTask& task);
     void note_start(const PathTask& task, const LoopView& loop, CoordinatorOutputs& out);
@@ -85,6 +93,7 @@ private:
     bool knows_places_;  // a block is planned in one part, so that its place on the program tells where it was left
     Overrides overrides_;
     Epoch epoch_ = 0;  // the newest
+    Probing probing_;
     ProgramEvents events_;
 };
 

@@ -15,8 +15,9 @@ namespace lockstep {
 
 struct PathTask {
     MachineJob job;
-    std::uint32_t next = 0;  // the first block of the next leg, or of the one in progress
-    AxisCounts from;         // where that leg begins
+    std::uint32_t next = 0;      // the first block of the next leg, or of the one in progress
+    AxisCounts from;             // where that leg begins
+    std::optional<Probe> probe;  // the leg ends where this touches
     PathProgress progress;
     bool has_moved = false;  // an epoch was begun
     int fruitless = 0;       // interruptions in a row without a frame that was run
@@ -37,6 +38,10 @@ struct PathTask {
 /// The next activity of a job on a path: an epoch that has begun, a pause, or nothing, because its program is done.
 struct EpochBegun {};
 struct ProgramDone {};
-using PathNext = std::variant<EpochBegun, Pause, ProgramDone>;
+/// The job ends with its probing move. `why`: why it ends without success.
+struct Probed {
+    FaultCode why = FaultCode::None;
+};
+using PathNext = std::variant<EpochBegun, Pause, ProgramDone, Probed>;
 
 }  // namespace lockstep

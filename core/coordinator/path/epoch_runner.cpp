@@ -8,8 +8,10 @@ EpochRunner::EpochRunner(const MachineConfig& machine)
     : timing_(machine.timing), slot_(machine.slot_ticks()), outputs_(machine) {}
 
 void EpochRunner::begin(Epoch epoch, const PathPlace& place, const MotorPositions& at, const Overrides& overrides,
-                        const SwitchedBy& switched) {
+                        const SwitchedBy& switched, const std::optional<TouchInput>& touch) {
     epoch_ = epoch;
+    touch_ = touch;
+    history_.begin(at);
     begin_ = {place, overrides};
     at_ = at;
     source_->resume(place, at_, overrides);
@@ -120,12 +122,14 @@ const Frame* EpochRunner::make_frame() {
                      .start = *start_ + made_ticks_,
                      .ticks = path.ticks,
                      .last = path.last,
+                     .touch = touch_,
                      .axes = std::move(old.axes),
                      .outputs = std::move(old.outputs)};
     });
     frame.axes = path.axes;
     if (sent_ == 1) { begin_outputs(); }
     outputs_.plan(path, {source_->events(), source_->tail_events()}, frame.outputs);
+    if (touch_) { history_.add(frame); }
     if (path.last) { end(Ending::Whole); }
     for (const FrameEvent& event : source_->events()) {
         due_.push_back({sent_, {frame.start + event.at, event.event}});
@@ -191,6 +195,13 @@ void EpochRunner::stop(Slot next) {
         const Slot start = rules::slot_of(in_flight_[k].start, slot_);
         if (rules::coordinator_may_veto(next, start, timing_)) { veto_ = in_flight_[k].number; }
     }
+}
+
+std::optional<Tick> EpochRunner::touched(std::span<const AxisView> axes) const {
+    if (!touch_) { return std::nullopt; }
+    const auto& state = axes[touch_->motor].state;
+    const bool is_of_this = state && state->touch && state->touch->epoch == epoch_;
+    return is_of_this ? std::optional(state->touch->tick) : std::nullopt;
 }
 
 void EpochRunner::list_rests(FrameNumber frame, StaticVector<FrameRest, kMaxRests>& rests) const {

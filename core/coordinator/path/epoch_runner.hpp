@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/coordinator/axes/axis_view.hpp"
+#include "core/coordinator/path/frame_history.hpp"
 #include "core/coordinator/path/frame_source.hpp"
 #include "core/coordinator/path/output_planner.hpp"
 #include "core/machine.hpp"
@@ -49,9 +50,9 @@ public:
     /// Sets what the epochs to come run.
     void load(OwnedSource source) { source_ = std::move(source); }
     /// The epoch starts when its first frame can be made, as soon as the send-ahead allows. `at` is where each axis
-    /// rests, exactly.
+    /// rests, exactly. `touch`: the epoch also ends at the touch of this input.
     void begin(Epoch epoch, const PathPlace& place, const MotorPositions& at, const Overrides& overrides,
-               const SwitchedBy& switched);
+               const SwitchedBy& switched, const std::optional<TouchInput>& touch = {});
 
     /// Returns the frames to send in this slot: new frames that are due, until an axis vetoes one, and frames that an
     /// axis lacks. The frames are valid until the next call. The caller fills in their term.
@@ -76,6 +77,12 @@ public:
 
     /// Returns nullopt while an axis may still move. Axes that are not present are left out.
     std::optional<EpochEnd> evaluate(Slot now, std::span<const AxisView> axes) const;
+
+    /// When the input of the epoch touched, if an axis reports it.
+    std::optional<Tick> touched(std::span<const AxisView> axes) const;
+    const std::optional<TouchInput>& touch() const { return touch_; }
+    /// Where the motors were at this tick, in an epoch with a touch of which frame `ran` was the last one run.
+    MotorPositions positions_at(Tick tick, FrameNumber ran) const { return history_.at(tick, ran); }
 
     /// All sent frames and their tails ended long ago, but the result is still open. Even a device that was silent as
     /// long as it may be, and a report that was equally late, do not explain that. Only slots with a call of `send`
@@ -174,6 +181,8 @@ private:
     SlidingVector<Due> due_;  // events that have not happened
     std::vector<Happened> happened_;
     ReusedQueue<Made> made_;  // the last frames; the newest is sent_
+    std::optional<TouchInput> touch_;
+    FrameHistory history_;  // of an epoch with a touch
 };
 
 }  // namespace lockstep

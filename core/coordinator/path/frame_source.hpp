@@ -16,11 +16,12 @@ namespace lockstep {
 
 /// The place of the program at which a path ends.
 struct LegEnd {
-    enum class Kind : std::uint8_t { Program, Settle, Pause };
+    enum class Kind : std::uint8_t { Program, Settle, Pause, Probe };
     Kind kind = Kind::Program;
     std::uint32_t block = 0;  // the first block after the path; at the program's end there is no such block
     AxisCounts to;            // of all axes of the machine, whole steps
     Pause pause;              // of Kind::Pause
+    Probe probe;              // of Kind::Probe: ends the next leg
 };
 
 class FrameSource {

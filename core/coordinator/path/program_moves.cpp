@@ -13,20 +13,20 @@ void ProgramMoves::begin(const std::shared_ptr<const ProgramBlocks>& program, st
     axes_.assign(axes.begin(), axes.end());
     next_ = first;
     has_moved_ = is_starved_ = false;
-    end_ = LegEnd::Kind::Program;
+    end_ = {};
     to_ = from;
     at_.clear();
     for (const std::int64_t count : from) { at_.append(static_cast<double>(count)); }
 }
 
 ProgramMoves::Read ProgramMoves::read(PathInput& path) {
-    if (program_->ends_before(next_)) { return finish(LegEnd::Kind::Program, path); }
+    if (program_->ends_before(next_)) { return finish(path); }
     const Block* const block = program_->block(next_);
     is_starved_ = block == nullptr;
     if (block == nullptr) { return {}; }
     if (ends_leg(*block)) {
-        if (const auto* pause = std::get_if<Pause>(&block->action)) { pause_ = *pause; }
-        return finish(end_by(*block), path);
+        note_end(*block, end_);
+        return finish(path);
     }
     const auto* move = std::get_if<ProgramMove>(&block->action);
     if (move != nullptr && move->arc && !has_moved_ && !begin_at_place(path)) { return {}; }
@@ -55,9 +55,8 @@ bool ProgramMoves::begin_at_place(PathInput& path) {
     return true;
 }
 
-ProgramMoves::Read ProgramMoves::finish(LegEnd::Kind end, PathInput& path) {
+ProgramMoves::Read ProgramMoves::finish(PathInput& path) {
     path.finish();
-    end_ = end;
     is_starved_ = false;
     return {.ends = true};
 }

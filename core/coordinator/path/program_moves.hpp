@@ -38,13 +38,13 @@ public:
     /// The next block was not at hand.
     bool is_starved() const { return is_starved_; }
     /// Where the leg ended.
-    LegEnd end() const { return {end_, next_, to_, pause_}; }
+    LegEnd end() const { return {end_.kind, next_, to_, end_.pause, end_.probe}; }
 
 private:
     bool begin_at_place(PathInput& path);
     double measure(const ProgramMove& move);
     void pass(const ProgramMove& move, std::uint32_t number, PathInput& path);
-    Read finish(LegEnd::Kind end, PathInput& path);
+    Read finish(PathInput& path);
 
     std::shared_ptr<const ProgramBlocks> program_;
     std::vector<double> steps_per_mm_;
@@ -57,8 +57,7 @@ private:
     std::uint32_t next_ = 0;
     bool has_moved_ = false;  // a move of the leg was read
     bool is_starved_ = false;
-    LegEnd::Kind end_ = LegEnd::Kind::Program;
-    Pause pause_;    // of end_
+    LegEnd end_;     // how the leg ends
     AxisCounts to_;  // where the path ends so far, on whole steps
     AxisVector at_;  // where the last block read leads to
 };

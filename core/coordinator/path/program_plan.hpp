@@ -37,12 +37,14 @@ Ticks ticks_of(const Dwell& dwell, double tick_s);
 /// Program: the block does not end a leg. Before other blocks the machine comes to rest, on whole steps.
 inline LegEnd::Kind end_by(const Block& block) {
     if (std::holds_alternative<Pause>(block.action)) { return LegEnd::Kind::Pause; }
+    if (std::holds_alternative<Probe>(block.action)) { return LegEnd::Kind::Probe; }
     return std::holds_alternative<Settle>(block.action) ? LegEnd::Kind::Settle : LegEnd::Kind::Program;
 }
 /// Sets how the leg ends, if it ends before `block`.
 inline void note_end(const Block& block, LegEnd& end) {
     end.kind = end_by(block);
     if (const auto* pause = std::get_if<Pause>(&block.action)) { end.pause = *pause; }
+    if (const auto* probe = std::get_if<Probe>(&block.action)) { end.probe = *probe; }
 }
 inline bool ends_leg(const Block& block) { return end_by(block) != LegEnd::Kind::Program; }
 
@@ -55,13 +57,15 @@ class ProgramPlanner {
 public:
     explicit ProgramPlanner(const MachineConfig& machine);
 
+    const MachineConfig& machine() const { return machine_; }
+
     /// Plans the whole program from where the axes stand. Errors: an axis that the machine lacks, a start that differs
     /// from the program's (StartMismatch), a start or a target outside the travel (OutsideTravel), a move that is too
     /// long to count.
     std::expected<std::vector<Leg>, PlanError> plan(const ProgramHead& head, const ProgramBlocks& blocks,
                                                     const AxisCounts& start) const;
-    /// The machine has an input with this number for programs.
-    bool has_input(int number) const { return input_numbered(machine_.inputs, number) != nullptr; }
+    /// The machine's input of this use that programs know by this number; null if it has none.
+    const InputConfig* input(InputUse use, int number) const { return input_numbered(machine_.inputs, use, number); }
     std::expected<std::vector<Leg>, PlanError> plan(const Program& program, const AxisCounts& start) const {
         return plan(program.head(), WholeProgram(borrowed(program)), start);
     }

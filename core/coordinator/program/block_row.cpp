@@ -9,7 +9,7 @@
 namespace lockstep {
 namespace {
 
-enum class RowKind : std::uint8_t { Move, Rapid, Arc, Dwell, Pause, Settle, Event };
+enum class RowKind : std::uint8_t { Move, Rapid, Arc, Dwell, Pause, Settle, Event, Probe };
 
 // Several whole numbers are packed into one, which is exact up to 2^53.
 constexpr std::int64_t kRowKinds = 8;
@@ -75,6 +75,11 @@ struct RowMaker {
         return row;
     }
     Row operator()(const Settle&) const { return {.kind = RowKind::Settle}; }
+    Row operator()(const Probe& probe) const {
+        return {.kind = RowKind::Probe,
+                .amount = static_cast<double>(probe.input),
+                .details = (probe.opens ? 1 : 0) + (probe.must_touch ? 2 : 0)};
+    }
     Row operator()(const ProgramEvent& event) const {
         return {.kind = RowKind::Event,
                 .amount = event.value,
@@ -112,12 +117,18 @@ Pause pause_of(std::span<const double> row, const PauseTexts& texts) {
     return pause;
 }
 
+Probe probe_of(std::span<const double> row) {
+    const auto details = static_cast<int>(row[2]);
+    return {static_cast<std::int32_t>(row[1]), (details & 1) != 0, (details & 2) != 0};
+}
+
 Block other_block(RowKind kind, std::optional<std::int32_t> line, std::span<const double> row,
                   const PauseTexts& texts) {
     switch (kind) {
         case RowKind::Dwell: return {line, Dwell{row[1]}};
         case RowKind::Pause: return {line, pause_of(row, texts)};
         case RowKind::Settle: return {line, Settle{}};
+        case RowKind::Probe: return {line, probe_of(row)};
         default: break;
     }
     return {line, ProgramEvent{static_cast<ProgramEvent::Kind>(row[2]), static_cast<std::int32_t>(row[3]), row[1]}};

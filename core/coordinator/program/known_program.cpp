@@ -34,7 +34,7 @@ std::expected<void, ProgramCut> KnownProgram::check(const Block& block, std::spa
                                           "the program has more than 4,000 million blocks; split it in two"});
     }
     const auto* pause = std::get_if<Pause>(&block.action);
-    if (pause != nullptr && pause->wait && !planner_.has_input(pause->wait->input)) {
+    if (pause != nullptr && pause->wait && planner_.input(InputUse::Program, pause->wait->input) == nullptr) {
         return std::unexpected(ProgramCut{FaultCode::BadProgram, block.line,
                                           "input " + std::to_string(pause->wait->input) +
                                               " is not configured on this machine; remove M66, or write input { } "
@@ -90,8 +90,12 @@ std::expected<void, ProgramCut> KnownProgram::append(std::span<const Block> bloc
 std::expected<void, ProgramCut> KnownProgram::take_all(std::span<const Block> blocks) {
     std::span<const double> from = at_mm_;
     std::uint32_t events = events_together_;
+    ProbeCheck probes = probes_;
     for (const Block& block : blocks) {
         if (auto fits = check(block, from); !fits) { return fits; }
+        if (const auto probed = probes.next(block, planner_.machine(), axes_, from); !probed) {
+            return std::unexpected(ProgramCut{probed.error().fault, block.line, probed.error().text});
+        }
         events = std::holds_alternative<ProgramEvent>(block.action) ? events + 1 : 0;
         if (events > kMaxEventsTogether) {
             return std::unexpected(ProgramCut{FaultCode::BadProgram, block.line,
@@ -109,6 +113,7 @@ std::expected<void, ProgramCut> KnownProgram::take_all(std::span<const Block> bl
     }
     known_ += static_cast<std::uint32_t>(blocks.size());
     events_together_ = events;
+    probes_ = probes;
     return {};
 }
 

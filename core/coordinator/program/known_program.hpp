@@ -12,6 +12,7 @@
 #include "core/coordinator/path/program_plan.hpp"
 #include "core/coordinator/program/block_row.hpp"
 #include "core/coordinator/program/block_times.hpp"
+#include "core/coordinator/program/probe_check.hpp"
 #include "core/coordinator/program/row_store.hpp"
 #include "core/faults.hpp"
 #include "core/machine.hpp"
@@ -91,6 +92,7 @@ private:
     std::uint32_t known_ = 0;
     std::optional<std::int32_t> last_line_;
     std::uint32_t events_together_ = 0;  // events since the last block that was no event
+    ProbeCheck probes_;
     std::optional<double> known_share_;
     PauseTexts texts_;
     std::vector<double> at_mm_;        // places after the last known block

@@ -5,6 +5,7 @@
 
 #include "core/hardware/device_abilities.hpp"
 #include "core/kinematics/motors.hpp"
+#include "core/number_text.hpp"
 #include "services/documents/machine_rules.hpp"
 #include "services/documents/names.hpp"
 #include "services/documents/problem_list.hpp"
@@ -15,6 +16,7 @@ namespace {
 
 constexpr double kMaxDebounce_ms = 1000;
 constexpr int kMaxProgramInput = 63;
+constexpr double kMaxOvershoot_mm = 1000;
 
 /// The greatest channel that the device may have. The process of a motor compares it with the device that it finds.
 int last_channel(const MotorConfig& motor) {
@@ -40,6 +42,7 @@ private:
         check_name(input, before, at + "name");
         problems_.require_range(at + "debounce_ms", input.debounce_ms, 0, kMaxDebounce_ms);
         check_number(input, before, at + "number");
+        check_overshoot(input, at + "max_overshoot_mm");
         check_owner(machine_, {input.motor, input.at_board}, at, problems_);
         const auto motor = std::ranges::find(motors_, input.motor, &MotorConfig::name);
         if (motor != motors_.end()) { check_channel(input, *motor, before, at + "channel"); }
@@ -62,16 +65,28 @@ private:
 
     void check_number(const InputConfig& input, Inputs before, const std::string& key) {
         const bool is_read = input.use == InputUse::Program;
-        problems_.require(is_read || !input.number, key,
-                          fmt::format("{} is given, but only an input with use: PROGRAM has a number; remove it", key));
+        const bool is_probe = input.use == InputUse::Probe;
+        problems_.require(
+            is_read || is_probe || !input.number, key,
+            fmt::format("{} is given, but only an input with use: PROGRAM or PROBE has a number; remove it", key));
         problems_.require(!is_read || input.number, key,
                           fmt::format("{} is missing; programs read an input with use: PROGRAM by its number", key));
         if (!input.number) { return; }
         problems_.require_range(key, *input.number, 0, kMaxProgramInput);
-        const auto other = std::ranges::find(before, input.number, &InputConfig::number);
+        const auto other = std::ranges::find_if(
+            before, [&](const InputConfig& one) { return one.use == input.use && one.number == input.number; });
         problems_.require(other == before.end(), key,
                           fmt::format("{} is {}, which input {} has already; choose another", key, *input.number,
                                       other == before.end() ? "" : other->name));
+    }
+
+    void check_overshoot(const InputConfig& input, const std::string& key) {
+        problems_.require(input.use == InputUse::Probe || input.max_overshoot_mm == InputConfig::kUsualOvershoot_mm,
+                          key,
+                          fmt::format("{} is given, but the input is no probe; remove it, or set use: PROBE", key));
+        problems_.require(input.max_overshoot_mm > 0 && input.max_overshoot_mm <= kMaxOvershoot_mm, key,
+                          fmt::format("{} is {} mm; it must be above 0 and at most {}", key,
+                                      number_text(input.max_overshoot_mm), kMaxOvershoot_mm));
     }
 
     void check_channel(const InputConfig& input, const MotorConfig& motor, Inputs before, const std::string& key) {

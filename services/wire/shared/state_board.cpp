@@ -51,7 +51,8 @@ bool has_booleans(const lockstep_wire_AxisState& state) {
         std::memcpy(&byte, &field, sizeof byte);
         return byte <= 1;
     };
-    return is_one(state.has_veto) && is_one(state.at_rest) && is_one(state.homed) && is_one(state.hears_owner);
+    return is_one(state.has_veto) && is_one(state.at_rest) && is_one(state.homed) && is_one(state.hears_owner) &&
+           is_one(state.has_touch);
 }
 
 /// Locks the axis's part until the file is closed or the process ends. Returns false if another process holds the lock.

@@ -55,6 +55,7 @@ struct MachineStateMessage : lockstep_wire_MachineState {
     MachineStateMessage(MachineStateMessage&&) = default;
     std::vector<lockstep_wire_FrameRest> rest_storage;
     std::vector<std::int64_t> place_storage;
+    std::vector<double> probe_storage;
     std::vector<double> analog_storage;
 };
 

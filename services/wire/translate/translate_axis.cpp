@@ -67,7 +67,10 @@ lockstep_wire_AxisState to_wire(const AxisState& state) {
                                     .inputs = state.inputs,
                                     .outputs = state.outputs,
                                     .pulses_left = state.pulses_left,
-                                    .analog = {}};
+                                    .analog = {},
+                                    .has_touch = state.touch.has_value(),
+                                    .touch_epoch = state.touch.value_or(EpochTouch{}).epoch,
+                                    .touch_tick = state.touch.value_or(EpochTouch{}).tick.value};
     std::ranges::copy(state.analog, wire.analog);
     return wire;
 }
@@ -81,40 +84,43 @@ FromWire<AxisState> from_wire(const lockstep_wire_AxisState& wire) {
     check.far("tick", wire.tick);
     check.far("following_error_steps", wire.following_error_steps);
     check.within<std::uint64_t>("command_done", wire.command_done, 0, kMostOrders);
+    check.far("touch_tick", wire.touch_tick);
     check.within<std::int64_t>("clock_error_ticks", wire.clock_error_ticks, 0, kLongestClockError);
     const AxisPhase phase = check.choice("phase", wire.phase, AxisPhase::Fault);
     const AnalogLevels analog = analog_of(wire, check);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
-    return AxisState{.identity = wire.identity,
-                     .axis = wire.axis,
-                     .stamp = wire.stamp,
-                     .epoch = wire.epoch,
-                     .held = wire.held,
-                     .veto = wire.has_veto ? std::optional(wire.veto) : std::nullopt,
-                     .ran = wire.ran,
-                     .at_rest = wire.at_rest,
-                     .homed = wire.homed,
-                     .phase = phase,
-                     .fault = static_cast<FaultCode>(wire.fault),
-                     .position = Position::from_count(wire.position_count, wire.position_phase),
-                     .velocity = {wire.velocity},
-                     .tick = {wire.tick},
-                     .following_error_steps = wire.following_error_steps,
-                     .command_done = wire.command_done,
-                     .command_fault = static_cast<FaultCode>(wire.command_fault),
-                     .config_hash = wire.config_hash,
-                     .refused_frames = wire.refused_frames,
-                     .clock_error = {wire.clock_error_ticks},
-                     .term = {wire.term, wire.coordinator},
-                     .hears_owner = wire.hears_owner,
-                     .unproved = static_cast<FaultCode>(wire.unproved),
-                     .switches = {.limit_min = (wire.switches & kLimitMinBit) != 0,
-                                  .limit_max = (wire.switches & kLimitMaxBit) != 0,
-                                  .home = (wire.switches & kHomeBit) != 0},
-                     .inputs = wire.inputs,
-                     .outputs = wire.outputs,
-                     .pulses_left = wire.pulses_left,
-                     .analog = analog};
+    return AxisState{
+        .identity = wire.identity,
+        .axis = wire.axis,
+        .stamp = wire.stamp,
+        .epoch = wire.epoch,
+        .held = wire.held,
+        .veto = wire.has_veto ? std::optional(wire.veto) : std::nullopt,
+        .ran = wire.ran,
+        .at_rest = wire.at_rest,
+        .homed = wire.homed,
+        .phase = phase,
+        .fault = static_cast<FaultCode>(wire.fault),
+        .position = Position::from_count(wire.position_count, wire.position_phase),
+        .velocity = {wire.velocity},
+        .tick = {wire.tick},
+        .following_error_steps = wire.following_error_steps,
+        .command_done = wire.command_done,
+        .command_fault = static_cast<FaultCode>(wire.command_fault),
+        .config_hash = wire.config_hash,
+        .refused_frames = wire.refused_frames,
+        .clock_error = {wire.clock_error_ticks},
+        .term = {wire.term, wire.coordinator},
+        .hears_owner = wire.hears_owner,
+        .unproved = static_cast<FaultCode>(wire.unproved),
+        .switches = {.limit_min = (wire.switches & kLimitMinBit) != 0,
+                     .limit_max = (wire.switches & kLimitMaxBit) != 0,
+                     .home = (wire.switches & kHomeBit) != 0},
+        .inputs = wire.inputs,
+        .outputs = wire.outputs,
+        .pulses_left = wire.pulses_left,
+        .analog = analog,
+        .touch = wire.has_touch ? std::optional(EpochTouch{wire.touch_epoch, {wire.touch_tick}}) : std::nullopt};
 }
 
 lockstep_wire_AxisCommand to_wire(const AxisCommand& command) {

@@ -79,6 +79,28 @@ void analog_to_wire(const ProgramDevices& devices, MachineStateMessage& message)
         ._maximum = size, ._length = size, ._buffer = message.analog_storage.data(), ._release = false};
 }
 
+void probe_to_wire(const ProbeResult& probe, MachineStateMessage& message) {
+    message.probe_job = probe.job;
+    message.probe_touched = probe.touched;
+    message.probe_tick = probe.tick.value;
+    message.probe_storage.assign(probe.places_mm.begin(), probe.places_mm.end());
+    const auto size = static_cast<std::uint32_t>(message.probe_storage.size());
+    message.probe_places_mm = {
+        ._maximum = size, ._length = size, ._buffer = message.probe_storage.data(), ._release = false};
+}
+
+std::optional<ProbeResult> probe_from_wire(const lockstep_wire_MachineState& wire, Checks& check) {
+    check.within<std::size_t>("the number of probe_places_mm", wire.probe_places_mm._length, 0, kMaxAxes);
+    check.far("probe_tick", wire.probe_tick);
+    if (!wire.has_probe || !check.passed()) { return std::nullopt; }
+    ProbeResult probe{.job = wire.probe_job, .touched = wire.probe_touched, .tick = {wire.probe_tick}, .places_mm = {}};
+    for (const double mm : std::span(wire.probe_places_mm._buffer, wire.probe_places_mm._length)) {
+        check.finite("probe_places_mm", mm);
+        probe.places_mm.append(mm);
+    }
+    return probe;
+}
+
 PulseOrder pulses_from_wire(const lockstep_wire_MachineState& wire, Checks& check) {
     check.finite("pulse_first_mm", wire.pulse_first_mm);
     check.finite("pulse_spacing_mm", wire.pulse_spacing_mm);
@@ -191,8 +213,14 @@ void to_wire(const MachineState& state, MachineStateMessage& message) {
             .program_messages = state.published.program_parts,
             .lost_records = state.lost_records,
             .reopened = state.process.reopened,
-            .lost_log_lines = state.process.lost_log_lines};
+            .lost_log_lines = state.process.lost_log_lines,
+            .has_probe = state.probe.has_value(),
+            .probe_job = 0,
+            .probe_touched = false,
+            .probe_tick = 0,
+            .probe_places_mm = {}};
     analog_to_wire(state.devices, message);
+    if (state.probe) { probe_to_wire(*state.probe, message); }
     if (state.lease) {
         write_text(state.lease->writer.name, wire.writer_name);
         write_text(state.lease->writer.host, wire.writer_host);
@@ -218,6 +246,7 @@ std::expected<void, std::string> from_wire(const lockstep_wire_MachineState& wir
     const ProgramDevices devices = devices_from_wire(wire, check);
     const std::string_view writer_name = read_text("writer_name", wire.writer_name, check);
     const std::string_view writer_host = read_text("writer_host", wire.writer_host, check);
+    const std::optional<ProbeResult> probe = probe_from_wire(wire, check);
     pause_from_wire(wire, into.pause, check);
     if (!check.passed()) { return std::unexpected(check.refusal()); }
     const auto fault = static_cast<FaultCode>(wire.fault);
@@ -245,6 +274,7 @@ std::expected<void, std::string> from_wire(const lockstep_wire_MachineState& wir
             .devices_after = wire.has_devices_after ? std::optional<Epoch>(wire.devices_after) : std::nullopt,
             .lease = std::move(into.lease),
             .pause = std::move(into.pause),
+            .probe = probe,
             .job_kind = wire.is_run ? JobKind::Run : JobKind::Move,
             .program = if_positive(wire.program),
             .events_from = wire.events_from,

@@ -191,7 +191,14 @@ void check_shape(const lockstep_wire_Setpoint& wire, Checks& check) {
     check.same("the number of accelerations", wire.acceleration._length, pieces);
 }
 
+std::optional<TouchInput> touch_of(const lockstep_wire_Setpoint& wire) {
+    if (!wire.has_touch) { return std::nullopt; }
+    return TouchInput{wire.touch_motor, wire.touch_channel, wire.touch_opens};
+}
+
 void check_values(const lockstep_wire_Setpoint& wire, Checks& check) {
+    check.within<std::size_t>("touch_motor", wire.touch_motor, 0, kMaxAxes - 1);
+    check.within<std::size_t>("touch_channel", wire.touch_channel, 0, kMostInputs - 1);
     check.far("start_tick", wire.start_tick);
     check.within<std::int64_t>("frame_ticks", wire.frame_ticks, 1, kMaxWireTicks);
     for (const auto count : elements(wire.from_count)) { check.far("from_count", count); }
@@ -227,6 +234,11 @@ void to_wire(const Frame& frame, SetpointMessage& message) {
     message.start_tick = frame.start.value;
     message.frame_ticks = frame.ticks.value;
     message.last = frame.last;
+    const TouchInput touch = frame.touch.value_or(TouchInput{});
+    message.has_touch = frame.touch.has_value();
+    message.touch_motor = static_cast<std::uint8_t>(touch.motor);
+    message.touch_channel = touch.channel;
+    message.touch_opens = touch.opens;
     SetpointMessage::Storage& storage = message.storage;
     make_room(storage, frame);
     for (const AxisTrack& axis : frame.axes) { append(storage, axis); }
@@ -266,6 +278,7 @@ std::expected<void, std::string> from_wire(const lockstep_wire_Setpoint& wire, F
     into.start = {wire.start_tick};
     into.ticks = {wire.frame_ticks};
     into.last = wire.last;
+    into.touch = touch_of(wire);
     into.axes.resize(wire.from_count._length);
     std::size_t at = 0;
     for (std::size_t i = 0; i < into.axes.size(); ++i) {

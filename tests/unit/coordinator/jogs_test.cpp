@@ -1,8 +1,8 @@
 // Jogs: which client holds which axis, and the orders that the axes get meanwhile.
-#include "core/coordinator/jobs/jogs.hpp"
+#include "core/coordinator/jogs/jogs.hpp"
 
 #include "coordinator_parts.hpp"
-#include "core/coordinator/jobs/path_jog.hpp"
+#include "core/coordinator/jogs/path_jog.hpp"
 
 namespace lockstep {
 namespace {

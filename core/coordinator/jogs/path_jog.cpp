@@ -1,9 +1,9 @@
-#include "core/coordinator/jobs/path_jog.hpp"
+#include "core/coordinator/jogs/path_jog.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/coordinator/jobs/jogs.hpp"
+#include "core/coordinator/jogs/jogs.hpp"
 #include "core/number_text.hpp"
 
 namespace lockstep {

@@ -1,4 +1,4 @@
-#include "core/coordinator/jobs/jogs.hpp"
+#include "core/coordinator/jogs/jogs.hpp"
 
 #include <algorithm>
 #include <cmath>

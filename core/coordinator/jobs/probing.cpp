@@ -1,0 +1,73 @@
+#include "core/coordinator/jobs/probing.hpp"
+
+#include "core/check.hpp"
+#include "core/kinematics/motors.hpp"
+
+namespace lockstep {
+namespace {
+
+MotorPositions positions_of(const LoopView& loop) {
+    MotorPositions at;
+    for (std::size_t i = 0; i < loop.axes.size(); ++i) { at.append(loop.axes.state(i)->position); }
+    return at;
+}
+
+/// Within so many slots every change of an input is known from the states of its axis: the input follows its pin, the
+/// device is read, the axis decides in its next loop, publishes, and its state arrives.
+Slot slots_until_known(const InputConfig& input, const MachineConfig& machine) {
+    const double debounce = input.debounce_ms * 1e-3 * machine.ticks_per_second();
+    return static_cast<Slot>(debounce / static_cast<double>(machine.slot_ticks().value)) + 3 + rules::kHopSlots;
+}
+
+}  // namespace
+
+std::optional<TouchInput> touch_input_of(const Probe& probe, const MachineConfig& machine) {
+    const InputConfig* const input = input_numbered(machine.inputs, InputUse::Probe, probe.input);
+    const auto motor = input == nullptr ? std::nullopt : motor_named(machine, input->motor);
+    if (!motor) { return std::nullopt; }
+    return TouchInput{static_cast<std::uint32_t>(*motor), static_cast<std::uint8_t>(input->channel), probe.opens};
+}
+
+std::optional<Probed> Probing::end_at_begin(const PathTask& task, bool moves, const LoopView& loop) {
+    rested_.reset();
+    const auto input = touch_input_of(*task.probe, loop.machine);
+    check(input.has_value(), "the input of a probe is checked when its program arrives");
+    const auto& state = loop.axes.state(input->motor);
+    const bool touches = state && input->is_touched(state->inputs);
+    if (!touches && moves) { return std::nullopt; }
+    note(task, touches ? std::optional(loop.now) : std::nullopt, positions_of(loop), loop);
+    if (!task.probe->must_touch) { return Probed{}; }
+    return Probed{touches ? FaultCode::ProbeTouchedEarly : FaultCode::ProbeNotTouched};
+}
+
+bool Probing::may_touch_yet(const PathTask& task, const EpochEnd& end, const EpochRunner& runner,
+                            const LoopView& loop) {
+    const bool rests_on_path = end.kind == EpochEnd::Kind::Complete || end.kind == EpochEnd::Kind::Interrupted;
+    const auto& input = runner.touch();
+    if (!input || !rests_on_path || runner.touched(loop.axes.views())) { return false; }
+    rested_ = rested_.value_or(loop.slot);
+    const InputConfig* const config = input_numbered(loop.machine.inputs, InputUse::Probe, task.probe->input);
+    return loop.axes.is_present(input->motor, loop.slot) &&
+           loop.axes.state(input->motor)->stamp < *rested_ + slots_until_known(*config, loop.machine);
+}
+
+std::optional<Probed> Probing::end(const PathTask& task, const EpochEnd& end, const EpochRunner& runner,
+                                   const LoopView& loop) {
+    const auto touched = runner.touched(loop.axes.views());
+    rested_.reset();
+    if (!touched && end.kind != EpochEnd::Kind::Complete) { return std::nullopt; }
+    note(task, touched, touched ? runner.positions_at(*touched, end.ran) : end.positions, loop);
+    if (!task.probe->must_touch) { return Probed{}; }
+    if (!touched) { return Probed{FaultCode::ProbeNotTouched}; }
+    const bool is_early = !runner.start() || *touched <= *runner.start();
+    return Probed{is_early ? FaultCode::ProbeTouchedEarly : FaultCode::None};
+}
+
+void Probing::note(const PathTask& task, std::optional<Tick> touched, const MotorPositions& at, const LoopView& loop) {
+    result_ = ProbeResult{task.job.number, touched.has_value(), touched.value_or(Tick{}), {}};
+    for (std::size_t i = 0; i < loop.machine.axes.size(); ++i) {
+        result_->places_mm.append(loop.kinematics.axis_steps(i, at) / loop.machine.axes[i].steps_per_mm);
+    }
+}
+
+}  // namespace lockstep

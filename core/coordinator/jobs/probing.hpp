@@ -1,0 +1,38 @@
+// Probing moves: the input at whose touch a leg ends, and the place of the touch.
+#pragma once
+
+#include <optional>
+
+#include "core/coordinator/jobs/path_task.hpp"
+#include "core/coordinator/path/epoch_runner.hpp"
+#include "core/coordinator/state/coordinator_loop.hpp"
+
+namespace lockstep {
+
+/// The input of the probe; nullopt if the machine has none of this number.
+std::optional<TouchInput> touch_input_of(const Probe& probe, const MachineConfig& machine);
+
+class Probing {
+public:
+    /// Ends a task whose probe touches before its move begins, or whose move moves nothing. Returns nullopt if the move
+    /// can begin.
+    std::optional<Probed> end_at_begin(const PathTask& task, bool moves, const LoopView& loop);
+
+    /// An epoch with a touch has come to rest as `end` says, but a touch before that may still become known: an input
+    /// follows its pin with a delay, and the states of its axis come later.
+    bool may_touch_yet(const PathTask& task, const EpochEnd& end, const EpochRunner& runner, const LoopView& loop);
+    /// Ends a task whose epoch ended behind a touch, or at the end of its move without one. Returns nullopt if it was
+    /// interrupted before.
+    std::optional<Probed> end(const PathTask& task, const EpochEnd& end, const EpochRunner& runner,
+                              const LoopView& loop);
+
+    const std::optional<ProbeResult>& result() const { return result_; }
+
+private:
+    void note(const PathTask& task, std::optional<Tick> touched, const MotorPositions& at, const LoopView& loop);
+
+    std::optional<ProbeResult> result_;  // of the newest probing move
+    std::optional<Slot> rested_;         // when the epoch in progress was first seen at rest
+};
+
+}  // namespace lockstep

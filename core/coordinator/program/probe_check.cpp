@@ -1,0 +1,84 @@
+#include "core/coordinator/program/probe_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "core/number_text.hpp"
+
+namespace lockstep {
+namespace {
+
+std::string rounded(double value) { return number_text(value, 4); }
+
+/// See overshoot_mm().
+double seconds_until_braking(const MachineConfig& machine, const InputConfig& input) {
+    const int slots = 2 + machine.timing.lease_slots() + machine.timing.frame_slots;
+    return input.debounce_ms * 1e-3 + slots * static_cast<double>(machine.timing.slot_us) * 1e-6;
+}
+
+/// The acceleration along a straight move that no axis's limit forbids.
+double acceleration_of(const ProgramMove& move, const MachineConfig& machine, std::span<const std::size_t> axes,
+                       std::span<const double> from_mm) {
+    double length = 0;
+    for (std::size_t i = 0; i < axes.size(); ++i) { length = std::hypot(length, move.target_mm[i] - from_mm[i]); }
+    double most = std::numeric_limits<double>::max();
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        const double share = std::abs(move.target_mm[i] - from_mm[i]) / length;
+        if (share > 0) { most = std::min(most, machine.axes[axes[i]].max_accel_mm_s2 / share); }
+    }
+    return most;
+}
+
+std::expected<void, PlanError> refuse(const Block& block, std::string text) {
+    return std::unexpected(PlanError{FaultCode::BadProgram, block.line, std::move(text)});
+}
+
+std::expected<void, PlanError> check_overshoot(const Block& block, const ProgramMove& move,
+                                               const MachineConfig& machine, const InputConfig& input,
+                                               double acceleration_mm_s2) {
+    const double behind = overshoot_mm(machine, input, move.feed_mm_s, acceleration_mm_s2);
+    if (behind <= input.max_overshoot_mm) { return {}; }
+    const double most = greatest_probing_feed_mm_s(machine, input, acceleration_mm_s2);
+    return refuse(block, "with F" + rounded(move.feed_mm_s * 60) + " this probing move may go on for " +
+                             rounded(behind) + " mm behind the touch, and max_overshoot_mm of input " + input.name +
+                             " is " + rounded(input.max_overshoot_mm) + "; use at most F" +
+                             rounded(std::floor(most * 600) / 10) +
+                             ", or shorter slots (timing), or raise max_overshoot_mm if the probe bears it");
+}
+
+}  // namespace
+
+double overshoot_mm(const MachineConfig& machine, const InputConfig& input, double feed_mm_s,
+                    double acceleration_mm_s2) {
+    return feed_mm_s * seconds_until_braking(machine, input) + feed_mm_s * feed_mm_s / (2 * acceleration_mm_s2);
+}
+
+/// The positive root of v^2 / 2a + v t = s.
+double greatest_probing_feed_mm_s(const MachineConfig& machine, const InputConfig& input, double acceleration_mm_s2) {
+    const double gained = acceleration_mm_s2 * seconds_until_braking(machine, input);
+    return std::sqrt(gained * gained + 2 * acceleration_mm_s2 * input.max_overshoot_mm) - gained;
+}
+
+std::expected<void, PlanError> ProbeCheck::next(const Block& block, const MachineConfig& machine,
+                                                std::span<const std::size_t> axes, std::span<const double> from_mm) {
+    if (has_moved_) { return refuse(block, "a program ends with its probing move; send what follows it afterwards"); }
+    if (const auto* probe = std::get_if<Probe>(&block.action); probe != nullptr && !probe_) {
+        probe_ = *probe;
+        if (input_numbered(machine.inputs, InputUse::Probe, probe->input) != nullptr) { return {}; }
+        return refuse(block, "probe " + std::to_string(probe->input) +
+                                 " is not configured on this machine; write input { use: PROBE } with this number in "
+                                 "the machine's file");
+    }
+    if (!probe_) { return {}; }
+    const auto* const move = std::get_if<ProgramMove>(&block.action);
+    if (move == nullptr || move->arc || move->rapid || move->target_mm.size() != axes.size()) {
+        return refuse(block, "behind a probe must be one straight move with a feed");
+    }
+    has_moved_ = true;
+    const InputConfig& input = *input_numbered(machine.inputs, InputUse::Probe, probe_->input);
+    return check_overshoot(block, *move, machine, input, acceleration_of(*move, machine, axes, from_mm));
+}
+
+}  // namespace lockstep

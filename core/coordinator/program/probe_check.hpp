@@ -1,0 +1,36 @@
+// Checks the probing moves of a program when its blocks arrive, before anything moves.
+#pragma once
+
+#include <expected>
+#include <optional>
+#include <span>
+
+#include "core/coordinator/path/program_plan.hpp"
+#include "core/machine.hpp"
+#include "core/program.hpp"
+
+namespace lockstep {
+
+/// How far a move may go on behind a touch, in mm. From the touch on, its speed is kept for at most the debounce of the
+/// input, two slots until the axis's state carries the veto, the lease, and a frame. Then the tail brakes it.
+/// `feed_mm_s`: along the move; `acceleration_mm_s2`: at which it can brake.
+double overshoot_mm(const MachineConfig& machine, const InputConfig& input, double feed_mm_s,
+                    double acceleration_mm_s2);
+
+/// The greatest feed for which overshoot_mm() is at most max_overshoot_mm.
+double greatest_probing_feed_mm_s(const MachineConfig& machine, const InputConfig& input, double acceleration_mm_s2);
+
+class ProbeCheck {
+public:
+    /// `axes`: those of the machine that the program names. Call it for all blocks, in order, with the place where each
+    /// begins. Errors: an input that the machine lacks; something else than one straight move with a feed behind the
+    /// Probe; a move that may go on too far behind the touch.
+    std::expected<void, PlanError> next(const Block& block, const MachineConfig& machine,
+                                        std::span<const std::size_t> axes, std::span<const double> from_mm);
+
+private:
+    std::optional<Probe> probe_;  // asked for
+    bool has_moved_ = false;      // and its move is known
+};
+
+}  // namespace lockstep
