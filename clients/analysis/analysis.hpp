@@ -52,6 +52,7 @@ struct JobLog {
     std::int64_t dwells = 0;       // of move_count
     std::vector<MoveLog> moves;    // the first ones, as many as are kept
     std::optional<Ticks> planned;  // as programmed
+    bool is_touched = false;       // it ended at the touch of a probe
     bool overridden = false;       // it ran with feeds or rapids other than programmed
     std::int64_t asked_steps = 0;  // of all motors in all moves, kept or not
     std::int64_t made_steps = 0;

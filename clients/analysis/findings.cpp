@@ -104,7 +104,7 @@ void check_exactness(const Analysis& analysis, Findings& found) {
 
 /// Only a job that is done must have all its steps. If the record lacks steps, the number of steps made is unknown.
 void check_steps(const Analysis& analysis, const JobLog& job, bool record_lacks_steps, Findings& found) {
-    if (job.is_whole() || job.outcome != "done" || analysis.is_exact()) { return; }
+    if (job.is_whole() || job.outcome != "done" || job.is_touched || analysis.is_exact()) { return; }
     const std::string moves = grouped(job.moves_not_whole) + " of " + plural(job.move_count, "move");
     if (!record_lacks_steps && !job.axes_not_known.empty()) {
         found.push_back(unknown(fmt::format("whether {} of {} have the commanded steps", moves, name_of(job)),

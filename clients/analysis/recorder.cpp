@@ -76,13 +76,15 @@ void Recorder::on_job(const RecordedJob& message, LogPlace place) {
                                           message.feed_percent, message.rapid_percent, message.behind_frame),
                       .axis = {},
                       .remedy = {}});
+    } else if (message.event == "probe") {
+        record->is_touched = message.outcome == "touched";
     } else if (message.event == "ended") {
         program_events_.end(message);
         record->ended_us = message.utime;
         record->outcome = message.outcome;
         if (record->is_in_pause_of) { moves_.go_on(*record->is_in_pause_of, analysis_.tick_at(message.utime)); }
     } else {
-        on_damage(place, "a job's event is neither begun, epoch, override nor ended");
+        on_damage(place, "a job's event is neither begun, epoch, override, probe nor ended");
     }
 }
 

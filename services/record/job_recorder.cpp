@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "core/kinematics/motors.hpp"
@@ -28,7 +29,7 @@ void JobRecorder::note_axis(const AxisHealth& health) {
 }
 
 void JobRecorder::record(Tick now, const JobEvent& event) {
-    constexpr std::array<const char*, 4> kEvents{"begun", "epoch", "ended", "override"};
+    constexpr std::array<const char*, 5> kEvents{"begun", "epoch", "ended", "override", "probe"};
     JobRecord record{.machine = machine_.name,
                      .coordinator = coordinator_,
                      .sequence = published_.job_events++,
@@ -47,7 +48,14 @@ void JobRecorder::record(Tick now, const JobEvent& event) {
         if (event.program) { record_program(now, event, record); }
     }
     if (event.kind == JobEvent::Kind::Ended) { record.outcome = name_of(event.outcome); }
+    if (event.probe) { add(*event.probe, record); }
     sink_.publish(channel_, to_lcm(record, now, machine_.tick_ns));
+}
+
+void JobRecorder::add(const ProbeResult& probe, JobRecord& record) {
+    record.outcome = probe.touched ? "touched" : "missed";
+    record.start = probe.tick;
+    for (const double mm : probe.places_mm) { record.start_count.push_back(std::llround(mm * kNmInMm)); }
 }
 
 void JobRecorder::record(Tick now, const PublishedEvent& event) {

@@ -10,7 +10,7 @@ EpochReplay::EpochReplay(const MachineConfig& machine, Epoch epoch, EpochStart s
                          Tick begin, const ProgramDevices& devices)
     : runner_(machine) {
     runner_.load(std::move(start.source));
-    runner_.begin(epoch, start.place, start.at, overrides, {devices, start.place.block});
+    runner_.begin(epoch, start.place, start.at, overrides, {devices, start.place.block}, start.touch);
     runner_.read_ahead();
     (void)runner_.send(slot_++, {});
     shift_ = begin - runner_.start().value_or(begin);

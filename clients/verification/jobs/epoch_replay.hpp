@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,8 +14,9 @@ namespace lockstep::verification {
 /// The start of an epoch.
 struct EpochStart {
     OwnedSource source;
-    PathPlace place;    // on the program
-    MotorPositions at;  // of each axis, exactly
+    PathPlace place;                  // on the program
+    MotorPositions at;                // of each axis, exactly
+    std::optional<TouchInput> touch;  // it ends at this input's touch
 };
 
 /// How far an axis came in an epoch: frames begun, and where it rests.
@@ -42,6 +44,9 @@ public:
 
     /// Returns the events with places in the frames up to `ran`, each event once.
     std::vector<EpochRunner::Happened> take_events(FrameNumber ran);
+
+    /// Where the motors were at a tick, in an epoch with a touch of which frame `ran` was the last one run.
+    MotorPositions positions_at(Tick tick, FrameNumber ran) const { return runner_.positions_at(tick - shift_, ran); }
 
     EpochEnd evaluate(std::span<const AxisEnd> axes) const;
 

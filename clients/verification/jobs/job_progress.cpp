@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "clients/verification/jobs/record_text.hpp"
 #include "core/kinematics/motors.hpp"
+#include "core/number_text.hpp"
 #include "core/outputs/output_levels.hpp"
 #include "core/protocol/names.hpp"
 #include "services/documents/machine_file.hpp"
+#include "services/wire/lcm/translate_lcm.hpp"
 
 namespace lockstep::verification {
 namespace {
@@ -32,6 +35,7 @@ void JobProgress::take(const OrderedRecord& record) {
     const bool lacks_events = record.outcome == "failed" || (job_ && job_->coordinator != record.coordinator);
     if (record.event != "begun") { note_owner(record); }
     if (record.event == "override") { return take_overrides(record); }
+    if (record.event == "probe") { return take_probe(record); }
     const bool goes_on = is_of_job(record) && record.event != "begun" && record.outcome != "failed";
     close_epoch(goes_on, lacks_events);
     if (record.event == "begun") { return begin(record); }
@@ -186,6 +190,25 @@ void JobProgress::take_overrides(const RecordedJob& record) {
     }
 }
 
+/// Compares the recorded places of a touch with those of the frames that were run.
+void JobProgress::take_probe(const RecordedJob& record) {
+    if (!is_of_job(record) || job_->is_lost || !job_->replay) { return; }
+    job_->is_probed = true;
+    if (!epoch_ || record.outcome != "touched") { return; }
+    const JobReplay& replay = *job_->replay;
+    const MotorPositions motors = epoch_->replay().positions_at({record.start_tick}, epoch_->ran());
+    for (std::size_t i = 0; i < replay.machine().axes.size() && i < record.start_count.size(); ++i) {
+        const AxisConfig& axis = replay.machine().axes[i];
+        const double mm = replay.kinematics().axis_steps(i, motors) / axis.steps_per_mm;
+        const std::int64_t planned = std::llround(mm * kNmInMm);
+        if (planned == record.start_count[i]) { continue; }
+        return differ(
+            fmt::format("{}: the touch at tick {} is recorded at {} {}; by the frames that were run it was at {}",
+                        job_->label, record.start_tick, axis.name,
+                        number_text(static_cast<double>(record.start_count[i]) / kNmInMm), number_text(mm)));
+    }
+}
+
 void JobProgress::end(const RecordedJob& record) {
     if (!is_of_job(record)) {
         return differ("the log has the end of " + number_of(record) + ", but not its beginning");
@@ -193,6 +216,7 @@ void JobProgress::end(const RecordedJob& record) {
     Job job = *std::exchange(job_, std::exchange(paused_, std::nullopt));
     if (job.is_lost) { return; }
     if (!job.replay) { return job.is_in_pause ? void() : events_.end(outcome_of(record)); }
+    if (job.is_probed) { job.replay->end_probed(); }
     const auto left = job.replay->next();
     if (record.outcome == "failed") {
         findings_.notes.push_back(fmt::format("{} failed{}; what was run of it is as planned", job.label,
@@ -200,7 +224,7 @@ void JobProgress::end(const RecordedJob& record) {
     } else if (!job.broken.empty()) {
         return differ(fmt::format("{} is recorded as {}, but {}", job.label, record.outcome, job.broken),
                       job.broken_axis);
-    } else if (record.outcome == "done" && job.ran == FrameNumber{0}) {
+    } else if (record.outcome == "done" && job.ran == FrameNumber{0} && !job.is_probed) {
         const std::string text = job.label + " is recorded as done, but no run of its last motion is in the log";
         questions_.ask_motion({text, {}, {}, {}, job.label});
         return job.is_in_pause ? void() : events_.leave();

@@ -84,6 +84,7 @@ private:
         std::string broken;               // why the runs are not the whole plan; empty if they are
         std::string broken_axis;
         bool is_in_pause = false;  // it takes place in the pause of another job
+        bool is_probed = false;    // its probing move ended
     };
 
     void note_owner(const RecordedJob& record);
@@ -91,6 +92,7 @@ private:
     bool begins_in_pause(const OrderedRecord& record) const;
     void begin_epoch(const RecordedJob& record);
     void take_overrides(const RecordedJob& record);
+    void take_probe(const RecordedJob& record);
     void end(const RecordedJob& record);
     void close_epoch(bool goes_on, bool lacks_events);
     void lose_epoch();

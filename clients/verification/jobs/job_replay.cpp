@@ -35,9 +35,15 @@ std::optional<EpochStart> JobReplay::next() {
         }
         source_->resume(place_, positions_, {});
         source_->read_ahead();
-        if (!source_->is_done()) { return EpochStart{source_, place_, positions_}; }
+        if (!source_->is_done()) { return EpochStart{source_, place_, positions_, touch_of(leg)}; }
     }
     return std::nullopt;
+}
+
+std::optional<TouchInput> JobReplay::touch_of(const Leg& leg) const {
+    const Block* const before = leg.first > 0 ? program_->block(leg.first - 1) : nullptr;
+    const auto* const probe = before != nullptr ? std::get_if<Probe>(&before->action) : nullptr;
+    return probe != nullptr ? planner_.touch_input(*probe) : std::nullopt;
 }
 
 std::uint32_t JobReplay::moves_from() const {

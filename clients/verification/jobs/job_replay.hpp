@@ -24,12 +24,16 @@ public:
                                                       const std::vector<std::int64_t>& start_counts);
 
     const MachineConfig& machine() const { return machine_; }
+    const Kinematics& kinematics() const { return kinematics_; }
 
     /// Returns the next epoch, or nullopt if the program is done.
     std::optional<EpochStart> next();
 
     /// Call it with the end of an epoch, Complete or Interrupted, and the epoch's source.
     void ended(const EpochEnd& end, OwnedSource source);
+
+    /// The program ended with its probing move.
+    void end_probed() { leg_ = legs_.size(), source_ = {}; }
 
     const SharedProgram& program() const { return program_; }
     /// The first block of the next motion; the axes rest before it. At the program's end, the number of blocks.
@@ -41,6 +45,7 @@ public:
 private:
     static std::int32_t line_of(const Block* block) { return block != nullptr ? block->line.value_or(0) : 0; }
     JobReplay(const MachineConfig& machine, SharedProgram program, std::vector<Leg> legs);
+    std::optional<TouchInput> touch_of(const Leg& leg) const;
 
     MachineConfig machine_;
     Kinematics kinematics_;

@@ -1,6 +1,5 @@
 #include "core/coordinator/jobs/job_advance.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "core/coordinator/jobs/job_commands.hpp"
@@ -41,11 +40,12 @@ void settle_complete(activity::OnPath& path, JobLifecycle& jobs, CoordinatorLoop
 /// Called when every axis is at rest after an epoch.
 void settle(activity::OnPath& path, const EpochEnd& end, JobLifecycle& jobs, CoordinatorLoop& loop) {
     const bool rests_on_path = end.kind == EpochEnd::Kind::Interrupted || end.kind == EpochEnd::Kind::Complete;
-    const auto probed = rests_on_path ? jobs.path().end_probe(path.task, end, loop) : std::nullopt;
-    loop.out.epoch_end = {end.kind, probed ? std::max(path.intent, Intent::Stop) : path.intent};
+    const bool may_end = rests_on_path && path.intent < Intent::Stop;
+    const auto probed = may_end ? jobs.path().end_probe(path.task, end, loop) : std::nullopt;
+    loop.out.epoch_end = {end.kind, probed ? Intent::Stop : path.intent};
     jobs.path().end_epoch(path.task, end, loop, loop.out.events);
     if (path.intent == Intent::Abort) { return jobs.fail_at_rest(path.fault, loop); }
-    if (probed && path.intent != Intent::Stop) { return jobs.follow(std::move(path.task), *probed, {}, loop); }
+    if (probed) { return jobs.follow(std::move(path.task), *probed, {}, loop); }
     const bool is_held_return = path.intent == Intent::Hold && path.pause;
     const bool ends = path.intent == Intent::Stop || is_held_return;
     switch (end.kind) {

@@ -62,6 +62,11 @@ void JobLifecycle::follow(PathTask task, const PathNext& next, std::optional<act
     }
     if (const Pause* const why = std::get_if<Pause>(&next)) { return this->pause({std::move(task), *why, {}}, loop); }
     if (const Probed* const probed = std::get_if<Probed>(&next)) {
+        loop.out.jobs.push_back({.kind = JobEvent::Kind::Probed,
+                                 .job = task.job.number,
+                                 .job_kind = task.job.kind,
+                                 .epoch = task.has_moved ? path_.epoch() : 0,
+                                 .probe = path_.probe()});
         if (probed->why == FaultCode::None) { return finish(task.job, JobOutcome::Done, loop); }
         return end_early(task.job, task.job.program->last_line(), probed->why, loop);
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/check.hpp"
 #include "core/coordinator/path/program_frames.hpp"
 #include "core/kinematics/motors.hpp"
 #include "core/outputs/output_levels.hpp"
@@ -58,7 +59,9 @@ void PathRunner::pass_events(const PathTask& task, const LegEnd& end, const Loop
 
 std::optional<Probed> PathRunner::end_probe_at_begin(const PathTask& task, const LoopView& loop) {
     if (!task.probe) { return std::nullopt; }
-    return probing_.end_at_begin(task, !end_of_empty_leg(task), loop);
+    const auto input = planner_.touch_input(*task.probe);
+    check(input.has_value(), "the input of a probe is checked when its program arrives");
+    return probing_.end_at_begin(task, *input, !end_of_empty_leg(task), loop);
 }
 
 PathNext PathRunner::begin_leg(PathTask& task, const LoopView& loop, std::vector<PublishedEvent>& out) {
@@ -116,7 +119,7 @@ void PathRunner::begin_epoch(PathTask& task, const PathPlace& place, MotorPositi
     SwitchedBy switched{events_.devices(), events_.from()};
     const bool is_aside = task.job.kind == JobKind::Jog || task.job.kind == JobKind::Return;
     if (is_aside) { switched.devices.pulses = {}; }
-    const auto touch = task.probe ? touch_input_of(*task.probe, loop.machine) : std::nullopt;
+    const auto touch = task.probe ? planner_.touch_input(*task.probe) : std::nullopt;
     runner_.begin(next_epoch(loop), place, at, overrides_, switched, touch);
 }
 

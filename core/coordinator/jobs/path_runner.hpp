@@ -43,6 +43,11 @@ public:
         return task.probe ? probing_.end(task, end, runner_, loop) : std::nullopt;
     }
 
+    /// The result of the newest probing move.
+    const std::optional<ProbeResult>& probe() const { return probing_.result(); }
+    /// The newest epoch.
+    Epoch epoch() const { return runner_.epoch(); }
+
     /// Call it in each slot of an epoch. Sends frames. Returns how the epoch ended, once it has.
     std::optional<EpochEnd> advance(const PathTask& task, const LoopView& loop, CoordinatorOutputs& out);
     /// The epoch should have come to rest long ago.

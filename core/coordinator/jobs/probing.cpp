@@ -21,19 +21,11 @@ Slot slots_until_known(const InputConfig& input, const MachineConfig& machine) {
 
 }  // namespace
 
-std::optional<TouchInput> touch_input_of(const Probe& probe, const MachineConfig& machine) {
-    const InputConfig* const input = input_numbered(machine.inputs, InputUse::Probe, probe.input);
-    const auto motor = input == nullptr ? std::nullopt : motor_named(machine, input->motor);
-    if (!motor) { return std::nullopt; }
-    return TouchInput{static_cast<std::uint32_t>(*motor), static_cast<std::uint8_t>(input->channel), probe.opens};
-}
-
-std::optional<Probed> Probing::end_at_begin(const PathTask& task, bool moves, const LoopView& loop) {
+std::optional<Probed> Probing::end_at_begin(const PathTask& task, const TouchInput& input, bool moves,
+                                            const LoopView& loop) {
     rested_.reset();
-    const auto input = touch_input_of(*task.probe, loop.machine);
-    check(input.has_value(), "the input of a probe is checked when its program arrives");
-    const auto& state = loop.axes.state(input->motor);
-    const bool touches = state && input->is_touched(state->inputs);
+    const auto& state = loop.axes.state(input.motor);
+    const bool touches = state && input.is_touched(state->inputs);
     if (!touches && moves) { return std::nullopt; }
     note(task, touches ? std::optional(loop.now) : std::nullopt, positions_of(loop), loop);
     if (!task.probe->must_touch) { return Probed{}; }

@@ -9,14 +9,11 @@
 
 namespace lockstep {
 
-/// The input of the probe; nullopt if the machine has none of this number.
-std::optional<TouchInput> touch_input_of(const Probe& probe, const MachineConfig& machine);
-
 class Probing {
 public:
     /// Ends a task whose probe touches before its move begins, or whose move moves nothing. Returns nullopt if the move
-    /// can begin.
-    std::optional<Probed> end_at_begin(const PathTask& task, bool moves, const LoopView& loop);
+    /// can begin. `input`: the probe's.
+    std::optional<Probed> end_at_begin(const PathTask& task, const TouchInput& input, bool moves, const LoopView& loop);
 
     /// An epoch with a touch has come to rest as `end` says, but a touch before that may still become known: an input
     /// follows its pin with a delay, and the states of its axis come later.

@@ -53,6 +53,13 @@ ProgramPlanner::ProgramPlanner(const MachineConfig& machine)
     for (const AxisConfig& axis : machine.axes) { steps_per_mm_.push_back(axis.steps_per_mm); }
 }
 
+std::optional<TouchInput> ProgramPlanner::touch_input(const Probe& probe) const {
+    const InputConfig* const found = input(InputUse::Probe, probe.input);
+    const auto motor = found == nullptr ? std::nullopt : motor_named(machine_, found->motor);
+    if (!motor) { return std::nullopt; }
+    return TouchInput{static_cast<std::uint32_t>(*motor), static_cast<std::uint8_t>(found->channel), probe.opens};
+}
+
 std::expected<std::vector<std::size_t>, PlanError> ProgramPlanner::axes_of(
     const std::vector<std::string>& names) const {
     std::vector<std::size_t> places;

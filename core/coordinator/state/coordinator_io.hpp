@@ -19,19 +19,20 @@ namespace lockstep {
 
 /// The record of a job. It suffices to repeat the job.
 struct JobEvent {
-    enum class Kind : std::uint8_t { Begun, EpochBegun, Ended, Overridden };
+    enum class Kind : std::uint8_t { Begun, EpochBegun, Ended, Overridden, Probed };
     Kind kind = Kind::Begun;
     std::uint64_t job = 0;
     JobKind job_kind = JobKind::Run;
     JobOutcome outcome = JobOutcome::Done;        // Ended
     std::shared_ptr<const KnownProgram> program;  // Begun; null for homing
     std::optional<std::uint64_t> program_id;      // Begun, Ended: MachineJob::program_id
-    Epoch epoch = 0;                              // EpochBegun (frame 1 starts at `start`), Overridden
+    Epoch epoch = 0;                              // EpochBegun (frame 1 starts at `start`), Overridden, Probed
     Tick start;
-    PathPlace place;          // EpochBegun: where on the program it starts
-    Overrides overrides;      // EpochBegun, Overridden
-    FrameNumber behind = 0;   // Overridden: the last frame planned without these overrides
-    AxisCounts start_counts;  // Begun
+    PathPlace place;                   // EpochBegun: where on the program it starts
+    Overrides overrides;               // EpochBegun, Overridden
+    FrameNumber behind = 0;            // Overridden: the last frame planned without these overrides
+    AxisCounts start_counts;           // Begun
+    std::optional<ProbeResult> probe;  // Probed
 };
 
 /// The next activity after the epoch in progress has come to rest. Later enumerators have priority.

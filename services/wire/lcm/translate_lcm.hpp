@@ -109,8 +109,9 @@ struct JobRecord {
     Overrides overrides;
     std::string config;
     std::string program;
-    std::vector<std::int64_t> start_count;
+    std::vector<std::int64_t> start_count;  // of a probe: nm, or millionths of a degree
 };
+inline constexpr double kNmInMm = 1e6;
 
 job_t to_lcm(const JobRecord& record, Tick now, std::int64_t tick_ns);
 

@@ -52,7 +52,7 @@ protected:
             for (const PublishedEvent& event : out.events) { switched_off += event.is_of_program ? 0 : 1; }
         }
         std::vector<std::string> names() const {
-            constexpr std::array kNames{"begun", "epoch", "ended", "override"};
+            constexpr std::array kNames{"begun", "epoch", "ended", "override", "probe"};
             std::vector<std::string> names;
             for (const JobEvent& event : events) {
                 const std::string kind(name_of(event.job_kind));
