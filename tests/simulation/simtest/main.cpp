@@ -89,6 +89,8 @@ int main(int argc, char** argv) {
     parser.add_flag("--deltas", options.machine.deltas, "machines whose first three axes are those of a delta");
     parser.add_flag("--inputs", options.machine.inputs,
                     "machines with an emergency stop and a door at inputs of devices");
+    parser.add_flag("--probes", options.machine.probes,
+                    "machines with a probe at a device, which touches at any time of probing moves");
     parser.add_flag("--outputs", options.machine.outputs,
                     "machines with outputs that programs switch, one of them in proportion to the speed");
     parser.add_flag("--boards", options.machine.boards,

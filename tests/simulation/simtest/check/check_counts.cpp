@@ -22,7 +22,7 @@ void check_order(const Recording& recording, Violations& violations) {
 }
 
 void check_sum(const Recording& recording, const JobRecord& job, std::size_t i, Violations& violations) {
-    if (job.outcome != JobOutcome::Done) { return; }
+    if (!job.is_whole()) { return; }
     const std::int64_t end = job.course.from[i] + sum(recording.steps_of(job, i));
     if (end == job.course.to[i]) { return; }
     violations.push_back(
@@ -64,6 +64,7 @@ Violations check_all(const Recording& recording) {
     append(violations, check_stops(recording));
     append(violations, check_jogs(recording));
     append(violations, check_owners(recording));
+    append(violations, check_probes(recording));
     if (violations.empty()) { append(violations, check_outputs(recording, followings)); }
     if (violations.empty()) { append(violations, check_pulses(recording, followings)); }
     return violations;

@@ -14,7 +14,7 @@ void check_job(const JobRecord& job, const Following& following, Violations& vio
                               "no place on the program fits this step: before it the machine was from " +
                                   std::to_string(left->before.first) + " to " + std::to_string(left->before.last) +
                                   " of " + std::to_string(job.course.stretches.size()) + " moves"});
-    } else if (job.outcome == JobOutcome::Done && following.end.last < job.course.end() - kEndTolerance) {
+    } else if (job.is_whole() && following.end.last < job.course.end() - kEndTolerance) {
         violations.push_back({"together",
                               {},
                               {},

@@ -62,6 +62,10 @@ Violations check_outputs(const Recording& recording, const Followings& following
 /// A device makes a pulse at each place of M69 that its steps come to, and no other.
 Violations check_pulses(const Recording& recording, const Followings& followings);
 
+/// A probing move ends at the touch: it is reported at its time, each motor is where its steps had led by then, and the
+/// way behind the touch is no longer than was announced.
+Violations check_probes(const Recording& recording);
+
 Violations check_all(const Recording& recording);
 
 }  // namespace lockstep::simtest

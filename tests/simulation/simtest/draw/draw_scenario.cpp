@@ -9,6 +9,7 @@
 #include "tests/simulation/simtest/draw/draw_motors.hpp"
 #include "tests/simulation/simtest/draw/draw_outputs.hpp"
 #include "tests/simulation/simtest/draw/draw_plant_fault.hpp"
+#include "tests/simulation/simtest/draw/draw_probes.hpp"
 #include "tests/simulation/simtest/draw/draw_program.hpp"
 #include "tests/simulation/simtest/draw/draw_stream.hpp"
 #include "tests/simulation/simtest/draw/draw_takeover.hpp"
@@ -306,6 +307,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     if (asked.stream) { give_streams(seed, asked.mixed, scenario); }
     if (kind.late_devices) { give_late_devices(seed, scenario); }
     if (kind.inputs) { give_inputs(seed, scenario); }
+    if (kind.probes) { give_probes(seed, scenario); }
     if (kind.jogs) { give_jogs(seed, with_plant(faults, asked), scenario); }
     return scenario;
 }

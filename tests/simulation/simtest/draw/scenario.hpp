@@ -75,6 +75,7 @@ struct MachineKind {
     bool deltas = false;              // draw_delta.hpp
     bool jogs = false;                // axes are jogged between programs (draw_jogs.hpp)
     bool inputs = false;              // with an emergency stop and a door (draw_inputs.hpp)
+    bool probes = false;              // programs probe (draw_probes.hpp)
     bool outputs = false;             // programs switch outputs (draw_outputs.hpp)
     bool boards = false;              // with a device without a motor
 };
@@ -128,7 +129,8 @@ struct Interrupt {
         WrongCommand,
         Override,
         StopInput,  // a person presses the emergency stop at a device, tries a reset, and releases it
-        Door        // a door opens, and closes after the hold
+        Door,       // a door opens, and closes after the hold
+        Touch       // the probe touches until the job ends
     };
     Kind kind = Kind::HoldAndResume;
     double after_s = 0;  // after the motion began or continued

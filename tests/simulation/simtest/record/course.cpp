@@ -158,6 +158,7 @@ private:
     }
     void add(const ProgramEvent& event) { events_.push_back(event); }
     void add(const Settle&) { add(Dwell{}); }
+    void add(const Probe&) { add(Dwell{}); }
     void add(const Pause&) {
         come_to_rest();
         add_stretch({.to = at_, .rests = true, .pauses = true, .ends_at_rest = true});

@@ -260,7 +260,7 @@ bool leads_to_rest(const Recording& recording, JobRecord& job) {
 Following follow(const Recording& recording, const JobRecord& job, const std::map<Epoch, EpochRuns>& epochs) {
     const std::vector<Tick> until = bound_until(recording, epochs, job);
     Following following = follow(recording, job, until);
-    if (!following.departure || job.outcome == JobOutcome::Done) { return following; }
+    if (!following.departure || job.is_whole()) { return following; }
     JobRecord cut = job;
     if (!leads_to_rest(recording, cut)) { return following; }
     Following to_rest = follow(recording, cut, until);

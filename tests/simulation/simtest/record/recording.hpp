@@ -111,6 +111,19 @@ struct Claim {
     std::size_t process = 0;
 };
 
+/// How a probing move ended.
+struct ProbeRecord {
+    ProbeResult result;
+    std::size_t motor = 0;        // whose device has the probe
+    std::optional<Tick> pressed;  // when it touched
+    Ticks debounce;
+    std::vector<std::int64_t> from;  // of each motor, where the move began
+    std::vector<double> places;      // of each moving motor: where the result places it, in steps
+    double went_on_mm = 0;           // behind the touch
+    double most_mm = 0;              // announced
+    bool is_undisturbed = false;
+};
+
 /// A job from its first frame to its end, and which steps of the axes belong to it.
 struct JobRecord {
     bool homing = false;  // no program: a homing, or jogs without a common path
@@ -121,6 +134,10 @@ struct JobRecord {
     Tick began;
     Tick ended;
     std::optional<Tick> emergency;  // the time of an emergency stop
+    std::optional<ProbeRecord> probe;
+
+    /// All of the program was run.
+    bool is_whole() const { return outcome == JobOutcome::Done && !(probe && probe->result.touched); }
 };
 
 /// An emergency stop, from the command, or from the pressing of an input, until the machine is at rest.

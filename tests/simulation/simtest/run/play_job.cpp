@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/axis/device/position_claim.hpp"
+#include "core/coordinator/program/probe_check.hpp"
 #include "tests/simulation/simtest/draw/draw_inputs.hpp"
 #include "tests/simulation/simtest/record/motor_course.hpp"
 
@@ -254,6 +256,7 @@ bool JobPlayer::is_at(const Counts& axes) const {
 }
 
 bool JobPlayer::start() {
+    if (const auto& before = bench_.vm().state()->probe) { probed_before_ = before->job; }
     const Counts axes = bench_.axes_at(at_);
     if (!is_at(axes)) { bench_.object("place", "no place of the axes belongs to those of the motors"); }
     Course of_axes = course_of(task_.program, bench_.machine(), axes, bench_.most_feed());
@@ -306,6 +309,7 @@ void JobPlayer::interrupt(const Interrupt& interrupt) {
         case Interrupt::Kind::Override: return set_overrides(interrupt.overrides);
         case Interrupt::Kind::StopInput: return press_stop();
         case Interrupt::Kind::Door: return open_door(interrupt);
+        case Interrupt::Kind::Touch: return touch();
     }
 }
 
@@ -384,6 +388,14 @@ void JobPlayer::open_door(const Interrupt& interrupt) {
     bench_.wait(bench_.input_seconds(kDoorInput));
 }
 
+/// The machine comes to rest and the job ends.
+void JobPlayer::touch() {
+    touched_ = bench_.vm().now();
+    bench_.set_input(bench_.machine().inputs.size() - 1, true);
+    const double seconds = 2 * bench_.protocol_seconds() + job_.course.seconds;
+    (void)bench_.await([&] { return ended() || disturbed() || in(MachinePhase::Holding); }, seconds, "a touch");
+}
+
 void JobPlayer::stop_at_once() { job_.emergency = play_emergency(bench_); }
 
 /// Gives a command that is refused while the machine moves. Home would be accepted at the job's end, so it is sent long
@@ -417,7 +429,53 @@ void JobPlayer::record() {
             at_[i] += bench_.recording().motors[i].steps[n].direction;
         }
     }
+    record_probe();
     end_record(bench_, job_);
+}
+
+/// The result of this job's probing move, if it has one.
+void JobPlayer::record_probe() {
+    const auto* const probe = std::get_if<Probe>(&task_.program.blocks.front().action);
+    const std::size_t number = bench_.machine().inputs.size() - 1;
+    if (probe == nullptr) { return; }
+    if (touched_) {
+        bench_.set_input(number, false);
+        bench_.wait(bench_.input_seconds(number));
+    }
+    const auto& result = bench_.vm().state()->probe;
+    if (!begun_ || !result || result->job == probed_before_) { return; }
+    const MachineConfig& machine = bench_.machine();
+    const InputConfig& input = machine.inputs[number];
+    ProbeRecord record{.result = *result,
+                       .motor = motor_named(machine, input.motor).value(),
+                       .pressed = touched_,
+                       .debounce = {std::llround(std::ceil(input.debounce_ms * 1e-3 * machine.ticks_per_second()))},
+                       .from = {},
+                       .places = {},
+                       .is_undisturbed = !disturbed() && !job_.emergency};
+    Places at;
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        at.push_back(result->places_mm[i] * machine.axes[i].steps_per_mm);
+    }
+    const Counts rest = bench_.axes_at(at_);
+    const auto& move = std::get<ProgramMove>(task_.program.blocks.back().action);
+    double most_accel = std::numeric_limits<double>::max();
+    double steps_mm = 0;
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        const double mm = static_cast<double>(rest[i]) / machine.axes[i].steps_per_mm - result->places_mm[i];
+        record.went_on_mm = std::hypot(record.went_on_mm, mm);
+        steps_mm += 2 * bench_.kinematics().step_mm(i);
+        most_accel = std::min(most_accel, machine.axes[i].max_accel_mm_s2);
+    }
+    record.most_mm = overshoot_mm(machine, input, move.feed_mm_s, most_accel) + steps_mm;
+    for (std::size_t m = 0; m < at_.size(); ++m) {
+        record.from.push_back(at_[m]);
+        for (std::size_t n = job_.first_step[m]; n < job_.end_step[m]; ++n) {
+            record.from.back() -= bench_.recording().motors[m].steps[n].direction;
+        }
+        if (m < moving_motor_count(machine)) { record.places.push_back(bench_.map().place(m, at)); }
+    }
+    job_.probe = std::move(record);
 }
 
 }  // namespace lockstep::simtest

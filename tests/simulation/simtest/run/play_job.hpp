@@ -26,8 +26,10 @@ private:
     void press_stop();
     void open_door(const Interrupt& interrupt);
     void give(const WrongCommand& wrong);
+    void touch();
     void resume();
     void record();
+    void record_probe();
     void refused(const char* what, const Reply& reply);
     bool disturbed() const { return bench_.disturbed_since(job_.began); }
     bool ended() const { return bench_.watch().outcome().has_value(); }
@@ -41,6 +43,8 @@ private:
     std::size_t next_ = 0;  // index of the next interrupt
     bool begun_ = false;
     Tick moving_since_;
+    std::optional<Tick> touched_;
+    std::uint64_t probed_before_ = 0;  // the job of the last result of a probe
 };
 
 /// A command that an idle machine must refuse: its position stays the same.

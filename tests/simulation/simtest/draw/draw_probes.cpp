@@ -1,0 +1,64 @@
+#include "tests/simulation/simtest/draw/draw_probes.hpp"
+
+#include "core/kinematics/motors.hpp"
+#include "tests/simulation/simtest/draw/draw.hpp"
+
+namespace lockstep::simtest {
+namespace {
+
+constexpr int kChannel = 5;
+constexpr double kAnyOvershoot_mm = 1000;
+
+Interrupt interrupt_of(Draw& draw, Interrupt::Kind kind) {
+    Interrupt interrupt{.kind = kind, .wrong = {}};
+    interrupt.after_s = draw.chance(0.2) ? 0 : draw.magnitude(0.002, 3);
+    interrupt.rest_s = draw.magnitude(0.001, 0.1);
+    return interrupt;
+}
+
+/// A straight move of all axes to somewhere within their travel.
+Program draw_probing(Draw& draw, const MachineConfig& machine) {
+    Program program{.name = "probe", .axes = {}, .start_mm = {}, .blocks = {}};
+    ProgramMove move{.feed_mm_s = draw.magnitude(0.5, 30), .is_feed_fixed = true};
+    for (const AxisConfig& axis : machine.axes) {
+        program.axes.push_back(axis.name);
+        move.target_mm.push_back(draw.real(axis.position_min_mm, axis.position_max_mm));
+    }
+    program.blocks.push_back({1, Probe{.must_touch = draw.chance(0.7)}});
+    program.blocks.push_back({2, std::move(move)});
+    return program;
+}
+
+Task draw_probing_task(Draw& draw, const Scenario& scenario) {
+    Task task{draw_probing(draw, scenario.machine), {}, {}, {}};
+    if (draw.chance(0.2)) { task.interrupts.push_back(interrupt_of(draw, Interrupt::Kind::HoldAndResume)); }
+    if (draw.chance(0.9)) { task.interrupts.push_back(interrupt_of(draw, Interrupt::Kind::Touch)); }
+    if (draw.chance(0.1)) {
+        task.interrupts.insert(task.interrupts.begin(), interrupt_of(draw, Interrupt::Kind::Stop));
+    }
+    if (draw.chance(0.5)) { task.faults = scenario.tasks[draw.index(scenario.tasks.size())].faults; }
+    return task;
+}
+
+}  // namespace
+
+void give_probes(std::uint64_t seed, Scenario& scenario) {
+    Draw draw(seed ^ 0x9408e9408e9408e9U);
+    const std::size_t motor = draw.index(motor_count(scenario.machine));
+    scenario.machine.inputs.push_back({.name = "probe",
+                                       .motor = motor_name(scenario.machine, motor),
+                                       .at_board = motor >= moving_motor_count(scenario.machine),
+                                       .channel = kChannel,
+                                       .use = InputUse::Probe,
+                                       .active_low = draw.chance(0.5),
+                                       .debounce_ms = draw.chance(0.3) ? 0 : draw.magnitude(0.01, 10),
+                                       .number = 0,
+                                       .max_overshoot_mm = kAnyOvershoot_mm});
+    for (std::int64_t n = draw.whole(1, 3); n > 0; --n) {
+        const auto place = draw.index(scenario.tasks.size());
+        scenario.tasks.insert(scenario.tasks.begin() + static_cast<std::ptrdiff_t>(place),
+                              draw_probing_task(draw, scenario));
+    }
+}
+
+}  // namespace lockstep::simtest

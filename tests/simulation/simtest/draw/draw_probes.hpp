@@ -1,0 +1,11 @@
+// Probing moves with a probe that touches at any time.
+#pragma once
+
+#include "tests/simulation/simtest/draw/scenario.hpp"
+
+namespace lockstep::simtest {
+
+/// Gives the machine a probe at a device, and adds jobs that probe. Call it after all other inputs are given.
+void give_probes(std::uint64_t seed, Scenario& scenario);
+
+}  // namespace lockstep::simtest
