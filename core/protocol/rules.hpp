@@ -72,10 +72,14 @@ constexpr bool may_arm(FrameNumber k, const Evidence& e) {
 /// Whether an axis may veto a frame that starts at `start` by the state that it publishes in slot `now`. It may if
 /// every axis still receives the veto in time.
 constexpr bool axis_may_veto(Slot now, Slot start) { return RULE_AXIS_MAY_VETO(now, start); }
-/// Whether the coordinator may veto it (stop, hold) by the state that it publishes in slot `now`. It may if no axis can
-/// have armed the frame.
+/// Whether a veto of it, by the state that a process publishes in slot `now`, stops every other axis, whatever is lost.
+/// It does if no other axis can arm the frame without a state of this process that carries the veto. The coordinator
+/// (stop, hold) and an axis that sees a touch veto the first such frame.
+constexpr bool veto_is_certain(Slot now, Slot start, const ProtocolTiming& t) {
+    return RULE_VETO_IS_CERTAIN(now, start, t.check_slots(), t.freshness_slots);
+}
 constexpr bool coordinator_may_veto(Slot now, Slot start, const ProtocolTiming& t) {
-    return RULE_COORDINATOR_MAY_VETO(now, start, t.check_slots(), t.freshness_slots);
+    return veto_is_certain(now, start, t);
 }
 
 /// The slot in which a frame is first sent, and whether it may still be sent in slot `now`.

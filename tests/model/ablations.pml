@@ -28,9 +28,13 @@
 #define EVALUATES_SILENCE_AGAIN
 #endif
 
-#ifdef LATER_STOPS /* the coordinator also vetoes a frame that an axis may have armed */
-#undef RULE_COORDINATOR_MAY_VETO
-#define RULE_COORDINATOR_MAY_VETO(now, start, v, m) ((now) <= RULE_FIRST_EVIDENCE(start, v, m) + 1)
+#ifdef LATER_CERTAIN_VETOES /* a stop or a touch also vetoes a frame that an axis may have armed */
+#undef RULE_VETO_IS_CERTAIN
+#define RULE_VETO_IS_CERTAIN(now, start, v, m) ((now) <= RULE_FIRST_EVIDENCE(start, v, m) + 1)
+#endif
+#ifdef TOUCH_VETOES_AS_LATE_AS_A_CHECK
+#undef RULE_VETO_IS_CERTAIN
+#define RULE_VETO_IS_CERTAIN(now, start, v, m) RULE_AXIS_MAY_VETO(now, start)
 #endif
 
 #ifdef LAST_CHECK_EARLIER_BY

@@ -48,10 +48,21 @@ inline set_clocks() { skip }
 #define P (ALL_RUN(axis[0].ran) && STOPPED)
 #ifdef STOP
 #define Q P
-#else
-#define Q ALL_RUN(FRAMES)
+#else /* without a touch these are all frames */
+#define Q ALL_RUN(touched - 1)
 #endif
 #define P_BUT_FOR_THE_VICTIM (OTHERS_RUN_THE_SAME && BESIDE(axis[0].ran, axis[1].ran) && STOPPED)
+
+/* No axis runs a frame that a touched axis has vetoed, not even the victim of a fault. */
+#ifdef TOUCH
+byte touched = NO_VETO; /* the lowest such frame */
+#else
+#define touched NO_VETO
+#endif
+#define TOUCH_STOPS_2 (axis[0].ran < touched && axis[1].ran < touched)
+#define TOUCH_STOPS_3 (TOUCH_STOPS_2 && axis[2].ran < touched)
+#define TOUCH_STOPS_4 (TOUCH_STOPS_3 && axis[3].ran < touched)
+#define TOUCH_STOPS OF_N(TOUCH_STOPS)
 
 /* ---- classes ---- */
 
@@ -163,6 +174,13 @@ inline set_clocks() { skip }
 #define ALL_STALL_TOGETHER
 #define PROMISE ALL_BESIDE
 
+#elif defined(ANY_LOSS) /* any message to any receiver, in every slot: many faults, so only certain vetoes hold */
+#define PROMISE true
+#define HIT(j, i) 1
+#define HIT_FROM_COORDINATOR(i) 1
+#define HIT_TO_COORDINATOR(j) 1
+#define MAY_BEGIN 0
+
 #elif defined(AXIS_VETO) /* for reasons of its own */
 #define OWN_REASONS
 
@@ -230,7 +248,10 @@ inline take_over() { skip }
 #ifndef HIT_TO_COORDINATOR
 #define HIT_TO_COORDINATOR(j) 0
 #endif
-#ifdef SENDER_FAILS /* each receiver separately may get the message of that slot */
+#ifdef ANY_LOSS
+#define MAY_ARRIVE(hit, age) (hit)
+#define ARRIVES(hit, age) (!(hit))
+#elif defined(SENDER_FAILS) /* each receiver separately may get the message of that slot */
 #define MAY_ARRIVE(hit, age) ((hit) && since == (age))
 #define ARRIVES(hit, age) (!(hit) || since != (age))
 #else /* the path fails: each receiver separately may get the messages in transit */
@@ -369,8 +390,23 @@ inline may_stop() {
 #ifdef STOP
     if
     :: true ->
-        lowest_open(RULE_COORDINATOR_MAY_VETO(slot, START(k), V, M));
+        lowest_open(RULE_VETO_IS_CERTAIN(slot, START(k), V, M));
         LOWEST(coordinator_veto, k)
+    :: true
+    fi
+#else
+    skip
+#endif
+}
+
+/* An input closes at any axis, in any slot and any number of times. */
+inline may_be_touched() {
+#ifdef TOUCH
+    if
+    :: true ->
+        lowest_open(RULE_VETO_IS_CERTAIN(CLOCK(i), START(k), V, M));
+        LOWEST(axis[i].veto, k);
+        LOWEST(touched, k)
     :: true
     fi
 #else

@@ -303,7 +303,7 @@ inline axis_steps() {
     if
     :: AXIS_RUNS(i) ->
         axis[i].open = axis[i].held > 0;
-        if :: axis[i].open -> veto_for_own_reasons(); decide(); evaluate_silence() :: else fi;
+        if :: axis[i].open -> veto_for_own_reasons(); may_be_touched(); decide(); evaluate_silence() :: else fi;
         publish();
         act()
     :: else -> stand_still()
@@ -388,5 +388,5 @@ init {
         }
     :: else -> break
     od;
-    assert(PROMISE)
+    assert(PROMISE && TOUCH_STOPS)
 }

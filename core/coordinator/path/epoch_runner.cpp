@@ -193,7 +193,7 @@ void EpochRunner::stop(Slot next) {
     veto_ = sent_ + 1;
     for (std::size_t k = 0; k < in_flight_.size() && *veto_ > sent_; ++k) {
         const Slot start = rules::slot_of(in_flight_[k].start, slot_);
-        if (rules::coordinator_may_veto(next, start, timing_)) { veto_ = in_flight_[k].number; }
+        if (rules::veto_is_certain(next, start, timing_)) { veto_ = in_flight_[k].number; }
     }
 }
 

@@ -48,9 +48,16 @@ TEST(Rules, AFrameIsArmedOnlyIfHeldByAllAndVetoedByNone) {
     EXPECT_FALSE(rules::may_arm(3, {.held = 3, .veto = std::nullopt, .all_hold = false}));
 }
 
-TEST(Rules, TheCoordinatorVetoesOnlyWhatNoAxisCanHaveArmed) {
-    EXPECT_TRUE(rules::coordinator_may_veto(93, kStart, kTiming));
-    EXPECT_FALSE(rules::coordinator_may_veto(94, kStart, kTiming));
+TEST(Rules, AStopOrATouchVetoesOnlyWhatNoOtherAxisCanArm) {
+    EXPECT_TRUE(rules::veto_is_certain(93, kStart, kTiming));
+    EXPECT_FALSE(rules::veto_is_certain(94, kStart, kTiming));
+}
+
+TEST(Rules, EachStateThatIsEvidenceForAFrameComesAfterItsCertainVeto) {
+    for (Slot now = 80; now < 110; ++now) {
+        if (!rules::veto_is_certain(now, kStart, kTiming)) { continue; }
+        for (Slot stamp = 80; stamp < now; ++stamp) { EXPECT_FALSE(rules::is_evidence(stamp, kStart, kTiming)); }
+    }
 }
 
 TEST(Rules, AnAxisVetoesOnlyWhatStillReachesEveryone) {
