@@ -49,7 +49,8 @@ std::uint64_t debounced(const DeviceSetup& setup) {
 /// The machine's inputs at the motor's device.
 std::uint64_t input_channels(const MachineConfig& machine, const MotorConfig& motor) {
     return inputs_with(machine, motor.name, InputUse::EmergencyStop) |
-           inputs_with(machine, motor.name, InputUse::Door) | inputs_with(machine, motor.name, InputUse::Program);
+           inputs_with(machine, motor.name, InputUse::Door) | inputs_with(machine, motor.name, InputUse::Program) |
+           inputs_with(machine, motor.name, InputUse::Probe);
 }
 
 std::uint64_t modulated(const DeviceSetup& setup) {

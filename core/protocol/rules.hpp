@@ -78,9 +78,6 @@ constexpr bool axis_may_veto(Slot now, Slot start) { return RULE_AXIS_MAY_VETO(n
 constexpr bool veto_is_certain(Slot now, Slot start, const ProtocolTiming& t) {
     return RULE_VETO_IS_CERTAIN(now, start, t.check_slots(), t.freshness_slots);
 }
-constexpr bool coordinator_may_veto(Slot now, Slot start, const ProtocolTiming& t) {
-    return veto_is_certain(now, start, t);
-}
 
 /// The slot in which a frame is first sent, and whether it may still be sent in slot `now`.
 constexpr Slot first_send_slot(Slot start, const ProtocolTiming& t) {

@@ -155,7 +155,7 @@ void SetpointFollower::veto_for_own_reasons(Slot next) {
 
 void SetpointFollower::veto_for_touch(Slot next) {
     if (!open_) { return; }
-    add_veto(first_open([&](Slot start) { return rules::coordinator_may_veto(next, start, timing_); }));
+    add_veto(first_open([&](Slot start) { return rules::veto_is_certain(next, start, timing_); }));
 }
 
 }  // namespace lockstep

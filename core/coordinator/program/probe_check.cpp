@@ -14,7 +14,8 @@ std::string rounded(double value) { return number_text(value, 4); }
 
 /// See overshoot_mm().
 double seconds_until_braking(const MachineConfig& machine, const InputConfig& input) {
-    const int slots = 2 + machine.timing.lease_slots() + machine.timing.frame_slots;
+    const ProtocolTiming& timing = machine.timing;
+    const int slots = 2 + timing.stall_slots + timing.lease_slots() + timing.frame_slots;
     return input.debounce_ms * 1e-3 + slots * static_cast<double>(machine.timing.slot_us) * 1e-6;
 }
 

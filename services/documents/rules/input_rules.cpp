@@ -5,7 +5,6 @@
 
 #include "core/hardware/device_abilities.hpp"
 #include "core/kinematics/motors.hpp"
-#include "core/number_text.hpp"
 #include "services/documents/machine_rules.hpp"
 #include "services/documents/names.hpp"
 #include "services/documents/problem_list.hpp"
@@ -16,6 +15,7 @@ namespace {
 
 constexpr double kMaxDebounce_ms = 1000;
 constexpr int kMaxProgramInput = 63;
+constexpr double kLeastOvershoot_mm = 0.001;
 constexpr double kMaxOvershoot_mm = 1000;
 
 /// The greatest channel that the device may have. The process of a motor compares it with the device that it finds.
@@ -84,9 +84,7 @@ private:
         problems_.require(input.use == InputUse::Probe || input.max_overshoot_mm == InputConfig::kUsualOvershoot_mm,
                           key,
                           fmt::format("{} is given, but the input is no probe; remove it, or set use: PROBE", key));
-        problems_.require(input.max_overshoot_mm > 0 && input.max_overshoot_mm <= kMaxOvershoot_mm, key,
-                          fmt::format("{} is {} mm; it must be above 0 and at most {}", key,
-                                      number_text(input.max_overshoot_mm), kMaxOvershoot_mm));
+        problems_.require_range(key, input.max_overshoot_mm, kLeastOvershoot_mm, kMaxOvershoot_mm);
     }
 
     void check_channel(const InputConfig& input, const MotorConfig& motor, Inputs before, const std::string& key) {

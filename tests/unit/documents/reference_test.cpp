@@ -56,7 +56,7 @@ std::optional<std::string> machine_with_key(const Key& key, const std::string& v
         {"Homing", {"homing { ", " }"}},
         {"Plant", {"plant { ", " }"}},
         {"Pins", {"pins { ", " }"}},
-        {"Input", {"input { name: \"s\" motor: \"X\" channel: 3 use: PROGRAM number: 1 ", " }"}},
+        {"Input", {"input { name: \"s\" motor: \"X\" channel: 3 use: PROBE number: 1 ", " }"}},
         {"Output", {"output { name: \"o\" motor: \"X\" channel: 0 number: 0 ", " }"}},
         {"Pwm", {"output { name: \"o\" motor: \"X\" use: SPINDLE pwm { hz: 100 ", " } }"}},
         {"Axis", {"", ""}}};

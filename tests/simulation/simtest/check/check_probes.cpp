@@ -6,7 +6,6 @@
 namespace lockstep::simtest {
 namespace {
 
-constexpr double kHalf_steps = 0.5 + 1e-6;
 constexpr Ticks kSeen{2};  // between the change of a pin and the next reading of it, with rounding
 
 std::string text(double value) { return std::to_string(value); }
@@ -52,9 +51,8 @@ private:
             most = is_before ? count : std::max(most, count);
         }
         const double place = probe_.places[m];
-        if (place >= static_cast<double>(least) - kHalf_steps && place <= static_cast<double>(most) + kHalf_steps) {
-            return;
-        }
+        const double within = probe_.within[m];
+        if (place >= static_cast<double>(least) - within && place <= static_cast<double>(most) + within) { return; }
         violations_.push_back({"probe",
                                m,
                                probe_.result.tick.value,

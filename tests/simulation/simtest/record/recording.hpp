@@ -119,6 +119,7 @@ struct ProbeRecord {
     Ticks debounce;
     std::vector<std::int64_t> from;  // of each motor, where the move began
     std::vector<double> places;      // of each moving motor: where the result places it, in steps
+    std::vector<double> within;      // of each moving motor: by how much that may differ from its count, in steps
     double went_on_mm = 0;           // behind the touch
     double most_mm = 0;              // announced
     bool is_undisturbed = false;

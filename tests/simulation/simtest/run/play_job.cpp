@@ -74,6 +74,17 @@ std::string answer_text(const Reply& reply) {
            (reply.fault == FaultCode::None ? "" : std::string(name_of(reply.fault))) + " " + reply.text;
 }
 
+/// A count is a place rounded to steps. Motors of one axis follow its path each within a step of the coarsest of them.
+double within_steps(const Bench& bench, std::size_t motor) {
+    constexpr double kHalf = 0.5 + 1e-6;
+    if (bench.map().is_direct()) { return kHalf; }
+    double most = 0;
+    for (std::size_t axis = 0; axis < bench.machine().axes.size(); ++axis) {
+        most = std::max(most, std::abs(bench.map().share(motor, axis)) * bench.map().step_of(axis));
+    }
+    return kHalf + most;
+}
+
 bool is_refusal(const Reply& reply, FaultCode why) {
     return reply.status == ReplyStatus::Refused && reply.fault == why;
 }
@@ -452,6 +463,7 @@ void JobPlayer::record_probe() {
                        .debounce = {std::llround(std::ceil(input.debounce_ms * 1e-3 * machine.ticks_per_second()))},
                        .from = {},
                        .places = {},
+                       .within = {},
                        .is_undisturbed = !disturbed() && !job_.emergency};
     Places at;
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
@@ -473,7 +485,9 @@ void JobPlayer::record_probe() {
         for (std::size_t n = job_.first_step[m]; n < job_.end_step[m]; ++n) {
             record.from.back() -= bench_.recording().motors[m].steps[n].direction;
         }
-        if (m < moving_motor_count(machine)) { record.places.push_back(bench_.map().place(m, at)); }
+        if (m >= moving_motor_count(machine)) { continue; }
+        record.places.push_back(bench_.map().place(m, at));
+        record.within.push_back(within_steps(bench_, m));
     }
     job_.probe = std::move(record);
 }

@@ -105,7 +105,8 @@ void print_run(std::uint64_t seed, const RunResult& result, const Options& optio
                  seed, joined(options.faults).c_str(), axes.c_str(), machine.long_searches ? " --long-searches" : "",
                  machine.late_devices ? " --late-devices" : "", machine.motors ? " --motors" : "",
                  machine.deltas ? " --deltas" : "", machine.jogs ? " --jogs" : "", machine.inputs ? " --inputs" : "",
-                 machine.outputs ? " --outputs" : "", machine.boards ? " --boards" : "", machine.probes ? " --probes" : "");
+                 machine.outputs ? " --outputs" : "", machine.boards ? " --boards" : "",
+                 machine.probes ? " --probes" : "");
 }
 
 void print_tally(const Tally& t, const Options& options) { options.json ? print_json(t) : print_text(t); }
