@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/kinematics/motors.hpp"
+#include "core/number_text.hpp"
 #include "services/axis/device_driver.hpp"
 #include "sim_fpga/device.hpp"
 
@@ -75,15 +76,26 @@ void DeviceReplay::on_run(const Run& run) {
 bool DeviceReplay::power_up(const Run& run) {
     if (hardware_ && incarnation_ == run.incarnation) { return true; }
     if (run.tail || !starts_from_rest(run)) {
-        findings_.notes.push_back(fmt::format("{}: {} is skipped, because the log lacks the motion to its start",
-                                              findings_.label_of(axis_), name_of(run)));
+        if (skipped_++ == 0) { first_skipped_ = name_of(run); }
         return false;
     }
+    note_skipped();
     hardware_ = std::make_unique<Hardware>(run.start - Ticks{1});
     incarnation_ = run.incarnation;
     count_at_power_up_ = run.device_start();
     motion_ = 0;
     return true;
+}
+
+/// One note for all runs up to the first motion from rest.
+void DeviceReplay::note_skipped() {
+    if (skipped_ == 0) { return; }
+    const bool is_one = skipped_ == 1;
+    const std::string others = is_one ? "" : fmt::format(" and {} after it", plural(skipped_ - 1, "run"));
+    findings_.notes.push_back(fmt::format("{}: {}{} {} skipped, because the log lacks the motion to {} start",
+                                          findings_.label_of(axis_), first_skipped_, others, is_one ? "is" : "are",
+                                          is_one ? "its" : "their"));
+    skipped_ = 0;
 }
 
 void DeviceReplay::begin_motion() {
@@ -113,6 +125,7 @@ void DeviceReplay::on_gap() {
 
 void DeviceReplay::on_end() {
     if (held_) { end_motion(); }
+    note_skipped();
 }
 
 /// Writes the held frame with its tail through the driver and arms it.

@@ -50,6 +50,7 @@ private:
     };
 
     bool power_up(const Run& run);
+    void note_skipped();
     void begin_motion();
     void load_frame(bool is_last);
     void play(Tick until);
@@ -64,6 +65,8 @@ private:
     verification::Findings& findings_;
     OnStep on_step_;
     std::unique_ptr<Hardware> hardware_;  // null before the first motion from rest
+    std::int64_t skipped_ = 0;            // runs since the last note about them
+    std::string first_skipped_;
     std::int64_t incarnation_ = 0;
     std::int64_t count_at_power_up_ = 0;  // of the recorded device
     std::uint64_t motion_ = 0;            // its number in the device

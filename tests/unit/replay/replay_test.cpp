@@ -191,5 +191,17 @@ TEST(ADevice, CannotBePoweredUpInMotionSoThatMotionIsSkipped) {
     EXPECT_THAT(findings.notes.front(), HasSubstr("axis X: frame 4 is skipped"));
 }
 
+TEST(ADevice, HasOneNoteForAllRunsThatAreSkipped) {
+    Findings findings;
+    DeviceReplay device("X", findings, [](const MadeStep&) {});
+    for (FrameNumber frame = 4; frame < 300; ++frame) {
+        device.on_run({.incarnation = 7, .epoch = 5, .frame = frame, .start = Tick{1000}, .from = {kOneStep / 3}});
+        device.on_run_over();
+    }
+    device.on_end();
+    ASSERT_EQ(findings.notes.size(), 1U);
+    EXPECT_THAT(findings.notes.front(), HasSubstr("axis X: frame 4 and 295 runs after it are skipped"));
+}
+
 }  // namespace
 }  // namespace lockstep::replay
