@@ -4,6 +4,7 @@
 
 #include "clients/scenario/model/problems.hpp"
 #include "clients/scenario/model/scenario_text.hpp"
+#include "core/number_text.hpp"
 
 namespace lockstep::scenario {
 namespace {
@@ -30,7 +31,7 @@ std::string path_text(const Asked::Expect& expect) {
 }
 
 std::string interruptions_text(const Asked::Expect& expect) {
-    return fmt::format("{} interruptions of jobs", expect.interruptions());
+    return plural(expect.interruptions(), "interruption") + " of jobs";
 }
 
 std::string together_text(const Asked::Expect& expect) {

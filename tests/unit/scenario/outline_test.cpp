@@ -93,5 +93,10 @@ TEST_F(Outline, NamesExpectationsAsTheChecksDo) {
     }
 }
 
+TEST_F(Outline, NamesOneInterruptionAsOne) {
+    EXPECT_THAT(outline(parsed(whole("expect { interruptions: 1 }"))),
+                testing::HasSubstr("expect   1 interruption of jobs"));
+}
+
 }  // namespace
 }  // namespace lockstep::scenario
