@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "services/record/reading/recycled.hpp"
+
 namespace lockstep::analysis {
 namespace {
 
@@ -23,9 +25,8 @@ bool clocks_agree(const ClockStretch& time) {
 
 // Loops without branches, which the compiler turns into vector instructions.
 
-/// Whether the first step is at the message's tick, and each further one later than the one before.
+/// Whether the first step, of at least one, is at the message's tick, and each further one later than the one before.
 bool do_rise(std::span<const std::int32_t> deltas) {
-    if (deltas.empty()) { return true; }
     std::int32_t least = 1;
     for (const std::int32_t delta : deltas.subspan(1)) { least = std::min(least, delta); }
     return deltas[0] == 0 && least > 0;
@@ -50,16 +51,17 @@ std::expected<StepBatch, std::string> to_batch(const step_batch_t& message) {
                     .ahead_first = {message.ahead_first},
                     .ahead_last = {message.ahead_last},
                     .clock_error = {message.clock_error}};
+    if (message.delta_ticks.empty()) { return std::unexpected("a message of steps without a step"); }
     if (!do_rise(message.delta_ticks)) { return std::unexpected("the ticks of a message's steps do not rise"); }
     if (!are_directions(message.direction)) { return std::unexpected("a step is neither forward nor backward"); }
-    std::vector<StepEdge> steps(message.delta_ticks.size());
+    std::vector<StepEdge> steps = Recycled<StepEdge>::take(message.delta_ticks.size());
     std::int64_t tick = message.first_tick;
     for (std::size_t i = 0; i < steps.size(); ++i) {
         tick += message.delta_ticks[i];
         steps[i] = {Tick{tick}, message.direction[i]};
     }
     batch.steps = std::move(steps);
-    if (!batch.steps.empty() && !clocks_agree(batch.machine_time())) {
+    if (!clocks_agree(batch.machine_time())) {
         return std::unexpected("the clocks of a message of steps differ by an impossible amount");
     }
     return batch;

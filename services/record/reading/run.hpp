@@ -99,7 +99,7 @@ public:
     std::int64_t count() const { return count_; }
 
 private:
-    static constexpr std::size_t kMadeAtOnce = 4096;
+    static constexpr std::size_t kMadeAtOnce = 1024;
     void make_more();
     void begin_piece();
 

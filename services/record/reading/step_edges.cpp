@@ -7,14 +7,17 @@
 #include <cstring>
 
 #include "services/record/reading/content_memory.hpp"
+#include "services/record/reading/recycled.hpp"
 
 namespace lockstep::analysis {
 
+StepEdges::KeptSteps::~KeptSteps() { Recycled<StepEdge>::give(std::move(steps)); }
+
 /// Several hashes in turn, because each waits for its own previous step only.
 StepEdges::StepEdges(std::vector<StepEdge> steps)
-    : steps_(std::make_shared<const std::vector<StepEdge>>(std::move(steps))),
-      data_(steps_->data()),
-      size_(steps_->size()) {
+    : steps_(std::make_shared<const KeptSteps>(std::move(steps))),
+      data_(steps_->steps.data()),
+      size_(steps_->steps.size()) {
     constexpr std::size_t kTogether = 4;
     std::array<ContentHash, kTogether> hashes;
     const auto add = [&](std::size_t i, ContentHash& hash) {

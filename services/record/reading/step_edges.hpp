@@ -42,7 +42,14 @@ public:
     std::size_t content() const { return content_; }
 
 private:
-    std::shared_ptr<const std::vector<StepEdge>> steps_;
+    struct KeptSteps {
+        explicit KeptSteps(std::vector<StepEdge> of) : steps(std::move(of)) {}
+        KeptSteps(const KeptSteps&) = delete;
+        KeptSteps& operator=(const KeptSteps&) = delete;
+        ~KeptSteps();
+        std::vector<StepEdge> steps;
+    };
+    std::shared_ptr<const KeptSteps> steps_;
     const StepEdge* data_ = nullptr;
     std::size_t size_ = 0;
     std::int64_t change_ = 0;
