@@ -26,8 +26,12 @@ std::int64_t total(const Analysis& analysis, std::int64_t (*of)(const AxisLog&))
 }
 
 std::int64_t steps_of(const AxisLog& axis) { return axis.counts().steps; }
-std::int64_t missing_batches_of(const AxisLog& axis) { return axis.statistics().missing_batches(); }
+std::int64_t missing_batches_before(const AxisLog& axis) { return axis.statistics().missing_batches_before(); }
+std::int64_t missing_batches_of(const AxisLog& axis) {
+    return axis.statistics().missing_batches() - axis.statistics().missing_batches_before();
+}
 std::int64_t missing_changes_of(const AxisLog& axis) { return axis.missing_changes(); }
+std::int64_t missing_samples_of(const AxisLog& axis) { return axis.missing_positions() + axis.missing_figures(); }
 
 /// Motors with steps that the log lacks.
 std::vector<std::string> axes_not_known(const Analysis& analysis) {
@@ -50,6 +54,12 @@ std::string missing_in_short(const Analysis& analysis) {
     const std::int64_t changes = total(analysis, missing_changes_of);
     if (steps == 0 && batches == 0 && changes > 0) {
         return plural(changes, "change") + " of inputs and outputs missing";
+    }
+    const std::int64_t others = total(analysis, missing_samples_of) + analysis.missing_job_events;
+    if (steps == 0 && batches == 0 && others > 0) { return plural(others, "message") + " missing, none of steps"; }
+    if (steps == 0 && batches == 0 && analysis.verified.lacks_messages) { return "messages missing, none of steps"; }
+    if (steps == 0 && batches == 0 && total(analysis, missing_batches_before) > 0) {
+        return "nothing missing since the log began";
     }
     if (steps == 0 && batches == 0) {
         return analysis.end.is_closed() ? "nothing missing" : "nothing missing as far as is known";

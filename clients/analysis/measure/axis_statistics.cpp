@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "services/record/reading/recycled.hpp"
+
 namespace lockstep::analysis {
 namespace {
 
@@ -30,7 +32,7 @@ void AxisStatistics::on_batch(const StepBatch& batch) {
     const auto measured = std::make_shared<MeasuredSteps>();
     measured->edges = batch.steps;
     measured->position_before = batch.position_before_steps;
-    measured->rates.resize(batch.steps.size());
+    measured->rates = Recycled<StepRates>::take(batch.steps.size());
     measured->clock_error = batch.clock_error;
     const bool joins = std::exchange(joined_, true) && last_;
     Tick before = joins ? last_->tick : batch.steps.front().tick;
@@ -53,6 +55,7 @@ void AxisStatistics::on_break(const Break& what) {
     ++break_count_;
     if (what.missing_batches > 0) {
         missing_batches_ += what.missing_batches;
+        missing_batches_before_ += what.from ? 0 : what.missing_batches;
         missing_steps_ += std::abs(what.position_change);
         joined_ = false;
     }

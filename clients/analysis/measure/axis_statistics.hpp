@@ -52,6 +52,8 @@ public:
     /// The maximum error of the steps' times as machine time.
     Ticks clock_error() const { return clock_error_; }
     std::int64_t missing_batches() const { return missing_batches_; }
+    /// Of these, the ones before the first batch of the log.
+    std::int64_t missing_batches_before() const { return missing_batches_before_; }
     /// The minimum number of missing steps: the sum of the changes of position across missing batches.
     std::int64_t missing_steps() const { return missing_steps_; }
 
@@ -78,6 +80,7 @@ private:
     std::int64_t break_count_ = 0;
     std::vector<Contradiction> contradictions_;
     std::int64_t missing_batches_ = 0;
+    std::int64_t missing_batches_before_ = 0;
     std::int64_t missing_steps_ = 0;
     bool joined_ = true;  // the next step follows the last one
 };

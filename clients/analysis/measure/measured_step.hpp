@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/units.hpp"
+#include "services/record/reading/recycled.hpp"
 #include "services/record/reading/step_edges.hpp"
 
 namespace lockstep::analysis {
@@ -26,6 +28,13 @@ struct MeasuredStep {
 
 /// Steps in order. Their ticks are machine time within clock_error.
 struct MeasuredSteps {
+    MeasuredSteps() = default;
+    MeasuredSteps(const MeasuredSteps&) = delete;
+    MeasuredSteps& operator=(const MeasuredSteps&) = delete;
+    MeasuredSteps(MeasuredSteps&&) = default;
+    MeasuredSteps& operator=(MeasuredSteps&&) = delete;
+    ~MeasuredSteps() { Recycled<StepRates>::give(std::move(rates)); }
+
     StepEdges edges;  // at least one
     std::int64_t position_before = 0;
     std::vector<StepRates> rates;  // of each step

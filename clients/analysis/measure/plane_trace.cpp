@@ -5,6 +5,13 @@
 
 namespace lockstep::analysis {
 
+void PlaneTrace::begin_at(std::int64_t first, std::int64_t second) {
+    if (is_at(0, first) && is_at(1, second)) { return; }
+    part();
+    at_ = {first, second};
+    put({static_cast<double>(first), static_cast<double>(second)});
+}
+
 void PlaneTrace::steps(std::span<const MergedStep> steps, std::span<const std::optional<std::size_t>> axis_of_lane) {
     if (!at_[0] || !at_[1] || ways_.back().empty()) { return; }  // then the plane's axes have no step here
     struct Change {

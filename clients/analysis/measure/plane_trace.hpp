@@ -24,6 +24,8 @@ public:
     static constexpr std::size_t kMaxPoints = 100'000;
     static constexpr std::size_t kMaxWays = 10'000;  // further ways are joined
 
+    /// The axes of the plane rest here, in steps, where a job begins.
+    void begin_at(std::int64_t first, std::int64_t second);
     /// Axis 0 or 1 of the plane has made a step in `direction` to `count`.
     void step(std::size_t axis, std::int64_t count, int direction);
     /// Whether an axis of the newest way is at this count.

@@ -105,10 +105,19 @@ void MoveMeter::trace(Job* job, const MergedSteps& steps, Tick until) {
     const bool of_a_job = job != nullptr && job->measured.moves.is_on_a_line();
     if (of_a_job && !std::exchange(plane_is_of_jobs_, true)) { plane_ = {}; }
     if (of_a_job != plane_is_of_jobs_) { return; }
+    if (of_a_job && keeps_plane_ && job->is_direct) { begin_trace(*job); }
     if (of_a_job && on_place_ && job->is_direct) { pass_places(*job, steps, until); }
     const bool is_by_map = job != nullptr && !job->is_direct;
     if (!is_by_map && keeps_plane_) { trace_lanes(steps, until); }
     if (is_by_map && job->plane) { trace_by_map(*job, steps, until); }
+}
+
+/// Before an axis's first step in the job, it is where the program begins.
+void MoveMeter::begin_trace(Job& job) {
+    const auto x = job.motor("X");
+    const auto y = job.motor("Y");
+    if (!x || !y || std::exchange(job.is_traced, true)) { return; }
+    plane_.begin_at(job.counts[*x], job.counts[*y]);
 }
 
 /// Before a motor's first step in the job, it is where the program begins.

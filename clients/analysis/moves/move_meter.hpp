@@ -78,6 +78,7 @@ private:
         std::vector<std::int64_t> counts;      // of the motors, after the places that were passed on
         std::array<double, 2> steps_per_mm{};  // of X and Y
         std::optional<MappedPlane> plane;      // with a program in the plane
+        bool is_traced = false;                // a step of it was traced
 
         std::optional<std::size_t> motor(const std::string& name) const;
     };
@@ -96,6 +97,7 @@ private:
     bool joins_plane(const MergedSteps& steps) const;
     static std::optional<MappedPlane> mapped_plane(const MachineConfig& machine, const JobMoves& moves);
     void trace(Job* job, const MergedSteps& steps, Tick until);
+    void begin_trace(Job& job);
     void pass_places(Job& job, const MergedSteps& steps, Tick until) const;
     void trace_lanes(const MergedSteps& steps, Tick until);
     void trace_by_map(Job& job, const MergedSteps& steps, Tick until);

@@ -26,6 +26,7 @@ struct AnalyzeOptions {
     std::string svg_dir;
     std::string csv_dir;
     std::string html;
+    std::string machine;
     bool no_html = false;
     bool json = false;
     bool no_colour = false;
@@ -82,6 +83,7 @@ ExitCode analyze_log(const AnalyzeOptions& options) {
     analysis::AnalysisOptions what;
     if (!options.svg_dir.empty()) { what.svg_dir = options.svg_dir; }
     if (!options.csv_dir.empty()) { what.csv_dir = options.csv_dir; }
+    if (!options.machine.empty()) { what.machine = options.machine; }
     what.curves = wants_page(options);
     what.progress = output.percent_on_terminal("reading");
     const auto found = analysis::analyze_log(options.log, what);
@@ -137,6 +139,8 @@ void add_analyze(Verb command) {
     verb.add_option("--svg", options->svg_dir,
                     "draw speed.svg, position.svg, xy.svg, and with outputs outputs.svg and power.svg");
     verb.add_option("--csv", options->csv_dir, "write every step and position of each axis into this directory");
+    verb.add_option("--machine", options->machine,
+                    "the name of the machine to analyze if the log has several; default: that of its first message");
     add_json(verb, options->json);
     verb.add_flag("--no-color", options->no_colour, "use no colours, also on a terminal");
     verb.footer(

@@ -231,6 +231,26 @@ TEST_F(Command, ALongFileWithAnErrorIsNotSimulated) {
     EXPECT_FALSE(std::filesystem::exists(log));
 }
 
+TEST_F(Command, EachMachineOfALogCanBeAnalyzedByItsName) {
+    const std::string program = file("line.gcode", "G1 X6 F600\n");
+    const std::string both = (directory / "both.lcm").string();
+    for (const char* machine : {"three-axis", "two-axis"}) {
+        const std::string of = std::string(" --machine deploy/examples/") + machine + ".textproto";
+        ASSERT_EQ(run("simulate " + program + of + " --log " + log).exit, 0);
+        std::ofstream(both, std::ios::app | std::ios::binary) << std::ifstream(log, std::ios::binary).rdbuf();
+    }
+    const auto first = report_of<proto::AnalysisReport>(run("analyze " + both + " --json"));
+    ASSERT_EQ(first.machine(), "mill");
+    const std::string text = run("analyze " + both + " --no-html").out;
+    const std::size_t remedy = text.find("--machine ");
+    ASSERT_NE(remedy, std::string::npos) << text;
+    const std::string words = text.substr(remedy, text.find(" analyzes it") - remedy);
+    const auto other = report_of<proto::AnalysisReport>(run("analyze " + both + " --json " + words));
+    EXPECT_EQ(other.axes_size(), 2);
+    EXPECT_NE(other.machine(), first.machine());
+    EXPECT_EQ(run("analyze " + both + " --machine nowhere 2>&1").exit, 2);
+}
+
 TEST_F(Command, AFileThatIsNotALogExits2) {
     EXPECT_EQ(run("verify deploy/examples/plate.gcode 2>&1").exit, 2);
     EXPECT_EQ(run("analyze deploy/examples/plate.gcode 2>&1").exit, 2);

@@ -121,6 +121,43 @@ TEST_F(AnalysisTest, ReportsAGapInStepsAndTicks) {
     EXPECT_EQ(report.notes(0), note);
 }
 
+TEST_F(AnalysisTest, HeadNamesMessagesThatAreMissingAlthoughNoStepIs) {
+    {
+        LogMaker maker(log);
+        maker.steps("X", 0, 0, even_steps(1000, 100, 10));
+        maker.position(0, 9000, 10);
+        maker.leave_out_position(0);
+        maker.position(0, 11'000, 10);
+    }
+    const auto found = analyze_log(log);
+    ASSERT_TRUE(found) << found.error();
+    EXPECT_NE(summary(*found).find("s · 1 message missing, none of steps"), std::string::npos) << summary(*found);
+    EXPECT_EQ(summary(*found).find("nothing missing"), std::string::npos);
+}
+
+TEST_F(AnalysisTest, HeadCountsNoMessagesBeforeTheLogAsMissing) {
+    {
+        LogMaker maker(log);
+        maker.steps("X", 7, 17, even_steps(5000, 100, 10));
+    }
+    const auto found = analyze_log(log);
+    ASSERT_TRUE(found) << found.error();
+    EXPECT_NE(summary(*found).find("s · nothing missing since the log began"), std::string::npos) << summary(*found);
+}
+
+TEST_F(AnalysisTest, AMessageOfStepsWithoutAStepIsNamedAsDamage) {
+    {
+        LogMaker maker(log);
+        maker.steps("X", 0, 0, even_steps(1000, 100, 10));
+        maker.steps("X", 1, 99, {});
+        maker.steps("X", 2, 10, even_steps(5000, 100, 10));
+    }
+    const auto found = analyze_log(log);
+    ASSERT_TRUE(found) << found.error();
+    ASSERT_EQ(found->damages.size(), 1U);
+    EXPECT_EQ(found->damages.front().what, "a message of steps without a step");
+}
+
 TEST_F(AnalysisTest, ReportsMissingLastSteps) {
     {
         LogMaker maker(log);
@@ -207,6 +244,25 @@ TEST_F(AnalysisTest, MeasuresDistanceOfSteppedFromCommandedPath) {
     EXPECT_LE(analyze_log(log)->largest_distance_mm.value(), 0.01) << "a step";
     record_right_angle(log, 0.5);
     EXPECT_NEAR(analyze_log(log)->largest_distance_mm.value(), 0.5, 0.01);
+}
+
+TEST_F(AnalysisTest, SteppedPathBeginsWhereTheProgramDoesThoughOneAxisStandsStill) {
+    {
+        const Program program = path_through({{0, 20}, {10, 20}});
+        LogMaker maker(log);
+        maker.job("begun", 0, program);
+        maker.job("epoch", 1000, program);
+        maker.steps("X", 0, 0, even_steps(1000, 200, 1000));
+        maker.job("ended", 800'000, program, "done");
+    }
+    const auto found = analyze_log(log);
+    ASSERT_TRUE(found) << found.error();
+    ASSERT_EQ(found->stepped_ways.size(), 1U);
+    const auto& way = found->stepped_ways.front();
+    ASSERT_GE(way.size(), 2U);
+    EXPECT_EQ(way.front(), (drawing::Point{0, 2000}));
+    EXPECT_NEAR(way.back().x, 1000, 2);
+    EXPECT_EQ(way.back().y, 2000);
 }
 
 TEST_F(AnalysisTest, MeasuresNoLineIfAxesMovedOnTheirOwn) {
