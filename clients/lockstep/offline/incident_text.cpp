@@ -46,14 +46,17 @@ std::string to_text(const Incident& incident, const Evaluation& evaluation, cons
     const std::size_t names = name_width(incident);
     text += "\n" + row("s", "process", "event; 0 s: noticed first", names, options.width);
     std::size_t left_out = 0;
+    std::string before;  // an axis may note the same twice in one loop: the coordinator and a peer stopped it
     for (const Entry& entry : incident.timeline) {
         if (weight_of(incident, entry) < options.least) {
             ++left_out;
             continue;
         }
         const double at = incident.seconds(entry.tick - evaluation.noticed);
-        text += row(fmt::format("{:+.3f}", at), incident.processes[entry.process].name, sentence(incident, entry),
-                    names, options.width);
+        const std::string next = row(fmt::format("{:+.3f}", at), incident.processes[entry.process].name,
+                                     sentence(incident, entry), names, options.width);
+        text += next == before ? "" : next;
+        before = next;
     }
     if (left_out > 0) { text += fmt::format("\n{} more routine events: --all\n", left_out); }
     for (const std::string& note : notes_of(incident)) { text += wrapped(note, options.width, "   ") + "\n"; }

@@ -130,6 +130,16 @@ TEST_F(AnalyzeIncident, NumbersThePagesOfIncidentsInOneFile) {
     EXPECT_THAT(pages(), testing::ElementsAre("20200913T122650.000Z-2.html", "20200913T122650.000Z.html"));
 }
 
+TEST_F(AnalyzeIncident, PrintsOnceWhatIsNotedTwiceInOneLoop) {
+    note(13.2, FlightKind::Fault, 0, FaultCode::EmergencyStopped);
+    write(10, 20);
+    const std::string once = analyzed("--no-html");
+    note(13.2, FlightKind::Fault, 0, FaultCode::EmergencyStopped);
+    write(10, 20);
+    EXPECT_EQ(analyzed("--no-html"), once);
+    EXPECT_THAT(once, HasSubstr("+0.200  coordinator  fault: emergency-stopped"));
+}
+
 TEST_F(AnalyzeIncident, NamesCommands) {
     write(10, 20);
     EXPECT_THAT(analyzed("--no-html"), HasSubstr("receives the command estop"));
