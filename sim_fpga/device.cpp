@@ -3,15 +3,19 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/step/executable.hpp"
+
 namespace lockstep {
 
 using namespace registers;
+
+static_assert(DeviceAbilities{}.longest_piece == kMaxPieceTicks);
 
 SimulatedDevice::SimulatedDevice(RegisterWindow window, Plant plant, std::int64_t tick_ns, Tick now,
                                  std::uint64_t power_up, const DeviceAbilities& abilities)
     : window_(window),
       abilities_(abilities),
-      segments_(window, abilities.segment_entries),
+      segments_(window, abilities.segment_entries, abilities.longest_piece),
       capture_(window, abilities.capture_entries),
       channels_(window, abilities),
       plant_(std::move(plant)),
@@ -36,6 +40,10 @@ void SimulatedDevice::reset() {
     window_.store(kLeastStepTicks, static_cast<std::uint64_t>(abilities_.least_step.value));
     window_.store(kTimeUnitPs, abilities_.time_unit_ps);
     window_.store(kLongestTime, abilities_.longest_time);
+    window_.store(kLongestPwmPeriod, abilities_.longest_pwm_period);
+    window_.store(kLongestPieceTicks, static_cast<std::uint64_t>(abilities_.longest_piece.value));
+    window_.store(kLeadTicks, static_cast<std::uint64_t>(abilities_.lead.value));
+    window_.store(kPinTicks, static_cast<std::uint64_t>(abilities_.behind.value));
     window_.store(kInputChannels, abilities_.inputs);
     window_.store(kDigitalChannels, abilities_.digital_outputs);
     window_.store(kAnalogChannels, abilities_.analog_outputs);
@@ -43,7 +51,8 @@ void SimulatedDevice::reset() {
     window_.store(kEventEntries, abilities_.event_entries);
     window_.store(kFeatures, (abilities_.has_encoder ? kFeaturesEncoder : 0) |
                                  (abilities_.can_enable ? kFeaturesEnable : 0) |
-                                 (abilities_.can_compare ? kFeaturesCompare : 0));
+                                 (abilities_.can_compare ? kFeaturesCompare : 0) |
+                                 (abilities_.frames_stay ? kFeaturesFramesStay : 0));
     tend();
     publish();
     window_.store(kMagic, kMagicValue);
@@ -65,6 +74,7 @@ void SimulatedDevice::advance(Tick until) {
     channels_.take_orders(place());
     take_run();
     if (phase_ != Phase::AtRest && stop_asked()) { finish(kStatusStoppedByHost); }
+    if (phase_ != Phase::AtRest && has_lost_ticks_) { finish(kStatusLostTicks); }
     tend();
     for (Tick next = decide(until); engine_.now() < until; next = decide(until)) {
         const Tick due = next_due(next);
@@ -232,7 +242,7 @@ bool SimulatedDevice::rebase_to(Position from) {
 }
 
 bool SimulatedDevice::may_move() const {
-    return setup_taken_ != 0 && enabled_ && engine_.now() - *enabled_ >= setup().enable_wait;
+    return !has_lost_ticks_ && setup_taken_ != 0 && enabled_ && engine_.now() - *enabled_ >= setup().enable_wait;
 }
 
 bool SimulatedDevice::runs_into_limit(int direction) const {
@@ -291,10 +301,10 @@ DevicePlace SimulatedDevice::place() const {
 
 std::uint64_t SimulatedDevice::status_word() const {
     const auto bit = [](bool set, std::uint64_t mask) { return set ? mask : 0; };
-    return run_bits_ | bit(in_motion(), kStatusMoving) | bit(phase_ == Phase::Tail, kStatusInTail) |
-           bit(is_closed(setup().limit_min), kStatusLimitMin) | bit(is_closed(setup().limit_max), kStatusLimitMax) |
-           bit(is_closed(setup().home), kStatusHome) | bit(enabled_.has_value(), kStatusEnabled) |
-           bit(channels_.is_host_silent(), kStatusHostSilent) |
+    return run_bits_ | bit(has_lost_ticks_, kStatusLostTicks) | bit(in_motion(), kStatusMoving) |
+           bit(phase_ == Phase::Tail, kStatusInTail) | bit(is_closed(setup().limit_min), kStatusLimitMin) |
+           bit(is_closed(setup().limit_max), kStatusLimitMax) | bit(is_closed(setup().home), kStatusHome) |
+           bit(enabled_.has_value(), kStatusEnabled) | bit(channels_.is_host_silent(), kStatusHostSilent) |
            bit(setup_refused_ != 0 && window_.load(kSetupRequest) == setup_refused_, kStatusBadSetup);
 }
 
@@ -311,8 +321,8 @@ void SimulatedDevice::publish() {
     window_.store(kRun, run_);
     window_.store(kFrame, frame_.number);
     store(kTriggerCount, trigger_count_);
-    store(kEncoder, plant_.encoder());
-    window_.store(kSegmentTail, segments_.taken());
+    store(kEncoder, abilities_.has_encoder ? plant_.encoder() : count_);
+    window_.store(kSegmentTail, abilities_.frames_stay && in_motion() ? frame_.entry : segments_.taken());
     window_.store(kCaptureHead, capture_.head());
     window_.store(kCaptureLost, capture_.lost());
     window_.store(kCaptureSum, capture_.sum());

@@ -10,6 +10,7 @@
 // - Pulses cease at once, and the run is finished, at a closed limit switch (in its direction), at the requested home
 //   level, while an input of STOP_INPUTS is closed, and on STOP.
 // - No run begins before a setup was taken and the motor is enabled.
+// - A device that has lost its ticks ends its run, and runs nothing more.
 // The host's registers take effect at calls of advance: in real time, once in each round of the loop.
 #pragma once
 
@@ -39,6 +40,9 @@ public:
     /// Executes all ticks up to and including `until`, then publishes its state. At or before now(), it only reads the
     /// host's registers and acts on them.
     void advance(Tick until);
+
+    /// The device could not execute ticks in time. A simulated one always can, so this is for tests.
+    void lose_ticks() { has_lost_ticks_ = true; }
 
     /// Whether the registers are still those of this device, and the host's are valid: not if their memory was
     /// removed or overwritten. The only remedy then is to power up again.
@@ -115,6 +119,7 @@ private:
     std::uint64_t setup_taken_ = 0;    // its number
     std::uint64_t setup_refused_ = 0;  // the number of one that is beyond the abilities
     std::optional<Tick> enabled_;      // since when
+    bool has_lost_ticks_ = false;
     std::uint64_t sequence_ = 0;
 };
 

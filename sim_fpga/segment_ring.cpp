@@ -42,7 +42,11 @@ bool SegmentRing::take_frame(FrameNumber number, LoadedFrame& frame) {
         header->pieces() >= loaded()) {
         return false;
     }
-    frame = {.number = number, .last = header->is_last_frame(), .body_pieces = header->body_pieces(), .pieces = {}};
+    frame = {.number = number,
+             .last = header->is_last_frame(),
+             .entry = tail_,
+             .body_pieces = header->body_pieces(),
+             .pieces = {}};
     for (std::uint64_t k = 1; k <= header->pieces(); ++k) {
         Piece piece;
         if (!read_piece(tail_ + k, piece)) { return false; }
@@ -60,7 +64,8 @@ bool SegmentRing::read_piece(std::uint64_t index, Piece& piece) const {
     piece = {.ticks = {static_cast<std::int64_t>(kSegmentRingPieceTagTicks.of(tag))},
              .velocity = {number(kSegmentRingPieceVelocity)},
              .acceleration = {number(kSegmentRingPieceAcceleration)}};
-    return (tag & kSegmentRingHeaderTagIsHeader) == 0 && piece.ticks >= Ticks{1} && executable(piece);
+    const bool is_piece = (tag & kSegmentRingHeaderTagIsHeader) == 0;
+    return is_piece && piece.ticks >= Ticks{1} && piece.ticks <= longest_piece_ && executable(piece);
 }
 
 }  // namespace lockstep

@@ -37,15 +37,18 @@ struct FrameHeader {
 struct LoadedFrame {
     FrameNumber number = 0;
     bool last = false;
+    std::uint64_t entry = 0;  // its header's place, in entries since power-up
     std::size_t body_pieces = 0;
     StaticVector<Piece, kMaxBodyPieces + 1 + kMaxTailPieces + 1> pieces;
 };
 
 class SegmentRing {
 public:
-    /// entries: a power of two, at most registers::kSegmentRingMostEntries.
-    SegmentRing(RegisterWindow window, std::size_t entries)
-        : window_(std::move(window)), ring_(registers::kSegmentRing, entries, registers::kSegmentRingEntryBytes) {}
+    /// entries: a power of two, at most registers::kSegmentRingMostEntries. longest_piece: at most kMaxPieceTicks.
+    SegmentRing(RegisterWindow window, std::size_t entries, Ticks longest_piece)
+        : window_(std::move(window)),
+          ring_(registers::kSegmentRing, entries, registers::kSegmentRingEntryBytes),
+          longest_piece_(longest_piece) {}
 
     /// Entries taken since power-up.
     std::uint64_t taken() const { return tail_; }
@@ -65,6 +68,7 @@ private:
 
     RegisterWindow window_;
     RegisterRing ring_;
+    Ticks longest_piece_;
     std::uint64_t tail_ = 0;
 };
 

@@ -33,10 +33,39 @@ std::optional<std::string> missing_channel(const char* kind, std::uint64_t used,
            text_of(channels) + ", numbered from 0";
 }
 
-/// The longest of the setup's pulse times and PWM periods.
-std::int64_t longest_ns(const DeviceSetup& setup) {
-    return std::max({setup.step_width_ns, setup.direction_setup_ns, setup.direction_hold_ns,
-                     *std::ranges::max_element(setup.pwm_period_ns)});
+/// What is wrong with a time that a device can show only if it is at most so many of its units.
+std::optional<std::string> too_long(const char* times, std::int64_t ns, std::uint64_t most,
+                                    const DeviceAbilities& device, const char* remedy) {
+    const double most_ns = static_cast<double>(most) * static_cast<double>(device.time_unit_ps) * 1e-3;
+    if (static_cast<double>(ns) <= most_ns) { return std::nullopt; }
+    return std::string("device: ") + times + " can be up to " + number_text(most_ns) + " ns, and one is " +
+           std::to_string(ns) + " ns; " + remedy;
+}
+
+/// A frame whose entries stay in the ring until it ends is there beside those that are sent ahead.
+std::optional<std::string> lack_of_room(const DeviceAbilities& device, const DeviceAbilities& needs,
+                                        const MachineConfig& machine) {
+    const auto frames = static_cast<std::uint64_t>(frames_ahead(machine.timing));
+    const std::uint64_t entries = needs.segment_entries + (device.frames_stay ? needs.segment_entries / frames : 0);
+    if (device.segment_entries >= entries) { return std::nullopt; }
+    return "device: its segment ring has " + text_of(device.segment_entries) +
+           " entries, and the frames that are sent ahead need " + text_of(entries) +
+           "; increase timing.frame_slots, or use a device with more";
+}
+
+std::optional<std::string> lack_of_time(const DeviceAbilities& device, const DeviceAbilities& needs) {
+    if (device.longest_piece < needs.longest_piece) {
+        return "device: its pieces have at most " + std::to_string(device.longest_piece.value) +
+               " ticks, and frames have pieces of up to " + std::to_string(needs.longest_piece.value) +
+               "; decrease timing.frame_slots or timing.slot_us, or increase tick_ns";
+    }
+    if (device.lead + device.behind > needs.lead) {
+        return "device: it needs frames " + std::to_string(device.lead.value) +
+               " ticks before they begin, and its pins are " + std::to_string(device.behind.value) +
+               " ticks behind; together they may be at most " + std::to_string(needs.lead.value) +
+               ", half of what timing.slot_us leaves beside clock errors; increase timing.slot_us";
+    }
+    return std::nullopt;
 }
 
 /// The inputs that have a debounce.
@@ -98,6 +127,11 @@ void add_output(const OutputConfig& output, std::int64_t tick_ns, DeviceSetup& s
 
 }  // namespace
 
+Ticks most_lead(const MachineConfig& machine) {
+    const Ticks errors = machine.estimates_clocks() ? machine.clock_error_limit() * 2 : Ticks{};
+    return {(machine.slot_ticks() - errors).value / 2};
+}
+
 /// Speeds are accepted with the rounding of their text, so the needs that follow from them leave it out.
 DeviceAbilities needs_of(const MachineConfig& machine, const MotorConfig& motor) {
     const double speed = fastest_steps_per_tick(machine, motor) / (1 + kTextRounding);
@@ -105,17 +139,16 @@ DeviceAbilities needs_of(const MachineConfig& machine, const MotorConfig& motor)
         kFrameHeaders + static_cast<std::size_t>(body_pieces(machine.timing)) + kMaxTailPieces + kDevicePieces;
     return {.segment_entries = static_cast<std::uint64_t>(frames_ahead(machine.timing)) * frame,
             .capture_entries = static_cast<std::uint64_t>(std::ceil(speed * longest_gap_ticks(machine))),
-            .least_step = {static_cast<std::int64_t>(std::min(std::floor(kPlannedPart / speed), 1e9))}};
+            .least_step = {static_cast<std::int64_t>(std::min(std::floor(kPlannedPart / speed), 1e9))},
+            .longest_piece = machine.frame_ticks(),
+            .lead = most_lead(machine)};
 }
 
 std::optional<std::string> lack_of(const DeviceAbilities& device, const MachineConfig& machine,
                                    const MotorConfig& motor) {
     const DeviceAbilities needs = needs_of(machine, motor);
-    if (device.segment_entries < needs.segment_entries) {
-        return "device: its segment ring has " + text_of(device.segment_entries) +
-               " entries, and the frames that are sent ahead need " + text_of(needs.segment_entries) +
-               "; increase timing.frame_slots, or use a device with more";
-    }
+    if (auto lack = lack_of_room(device, needs, machine)) { return lack; }
+    if (auto lack = lack_of_time(device, needs)) { return lack; }
     if (device.capture_entries < needs.capture_entries) {
         return "device: it records the ticks of " + text_of(device.capture_entries) + " steps, and motor " +
                motor.name + " makes up to " + text_of(needs.capture_entries) +
@@ -147,12 +180,10 @@ std::optional<std::string> lack_of(const DeviceAbilities& device, const DeviceSe
     if (setup.compare_outputs != 0 && !device.can_compare) {
         return "device: its steps cannot make pulses at places; use a device that can";
     }
-    const double most_ns = static_cast<double>(device.longest_time) * static_cast<double>(device.time_unit_ps) * 1e-3;
-    if (static_cast<double>(longest_ns(setup)) > most_ns) {
-        return "device: pulse times and PWM periods can be up to " + number_text(most_ns) + " ns, and one is " +
-               std::to_string(longest_ns(setup)) + " ns; make it shorter";
-    }
-    return std::nullopt;
+    const auto pulse = std::max({setup.step_width_ns, setup.direction_setup_ns, setup.direction_hold_ns});
+    if (auto lack = too_long("pulse times", pulse, device.longest_time, device, "make it shorter")) { return lack; }
+    return too_long("PWM periods", *std::ranges::max_element(setup.pwm_period_ns), device.longest_pwm_period, device,
+                    "increase pwm.hz");
 }
 
 DeviceSetup setup_of(const MachineConfig& machine, const MotorConfig& motor) {

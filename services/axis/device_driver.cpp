@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/protocol/frame_room.hpp"
+#include "core/step/executable.hpp"
 #include "sim_fpga/channel_words.hpp"
 
 namespace lockstep {
@@ -43,6 +44,14 @@ std::expected<std::uint64_t, std::string> entries_in(const char* ring, std::uint
 }
 
 std::uint64_t raw(std::int64_t value) { return static_cast<std::uint64_t>(value); }
+
+Ticks longest_piece(const AxisTrack& track) {
+    Ticks longest;
+    const auto take = [&longest](const Piece& piece) { longest = std::max(longest, piece.ticks); };
+    std::ranges::for_each(track.body, take);
+    std::ranges::for_each(track.tail, take);
+    return longest;
+}
 
 /// Writes a frame into the segment ring in order, and publishes it whole.
 class FrameWriter {
@@ -124,6 +133,29 @@ std::expected<void, std::string> read_channels(const RegisterWindow& window, Dev
     return {};
 }
 
+/// Reads the numbers of ticks into `abilities`. Error: one is impossible.
+std::expected<void, std::string> read_ticks(const RegisterWindow& window, DeviceAbilities& abilities) {
+    struct Word {
+        const char* name;
+        std::size_t word;
+        std::uint64_t least;
+        Ticks& to;
+    };
+    const auto most = raw(kMaxPieceTicks.value);
+    for (const auto& [name, word, least, to] : {Word{"LEAST_STEP_TICKS", kLeastStepTicks, 1, abilities.least_step},
+                                                {"LONGEST_PIECE_TICKS", kLongestPieceTicks, 1, abilities.longest_piece},
+                                                {"LEAD_TICKS", kLeadTicks, 0, abilities.lead},
+                                                {"PIN_TICKS", kPinTicks, 0, abilities.behind}}) {
+        const std::uint64_t ticks = window.load(word);
+        if (ticks < least || ticks > most) {
+            return std::unexpected(std::string("device: ") + name + " reads " + hex(ticks) + ", expected " +
+                                   std::to_string(least) + " to " + std::to_string(most) + "; restart the device");
+        }
+        to = {static_cast<std::int64_t>(ticks)};
+    }
+    return {};
+}
+
 std::expected<DeviceAbilities, std::string> read_abilities(const RegisterWindow& window) {
     constexpr std::uint64_t kLeastSegments = 16;
     constexpr std::uint64_t kLeastCaptures = 256;
@@ -136,12 +168,14 @@ std::expected<DeviceAbilities, std::string> read_abilities(const RegisterWindow&
     const std::uint64_t features = window.load(kFeatures);
     DeviceAbilities abilities{.segment_entries = *segments,
                               .capture_entries = *captures,
-                              .least_step = {static_cast<std::int64_t>(window.load(kLeastStepTicks))},
                               .time_unit_ps = std::max(window.load(kTimeUnitPs), std::uint64_t{1}),
                               .longest_time = window.load(kLongestTime),
+                              .longest_pwm_period = window.load(kLongestPwmPeriod),
                               .has_encoder = (features & kFeaturesEncoder) != 0,
                               .can_enable = (features & kFeaturesEnable) != 0,
-                              .can_compare = (features & kFeaturesCompare) != 0};
+                              .can_compare = (features & kFeaturesCompare) != 0,
+                              .frames_stay = (features & kFeaturesFramesStay) != 0};
+    if (const auto read = read_ticks(window, abilities); !read) { return std::unexpected(read.error()); }
     if (const auto read = read_channels(window, abilities); !read) { return std::unexpected(read.error()); }
     return abilities;
 }
@@ -163,10 +197,19 @@ std::expected<void, std::string> identify(const RegisterWindow& window, std::int
     return {};
 }
 
+/// Error: the motor may not be where the device counts it.
+std::expected<void, std::string> has_all_ticks(const RegisterWindow& window) {
+    if ((window.load(kStatus) & kStatusLostTicks) == 0) { return {}; }
+    return std::unexpected(
+        "device: STATUS shows LOST_TICKS: its pulses did not come at their ticks, because it was too busy, or starved; "
+        "power it up again");
+}
+
 }  // namespace
 
 std::expected<DeviceDriver, std::string> DeviceDriver::attach(RegisterWindow window, std::int64_t tick_ns) {
     if (const auto known = identify(window, tick_ns); !known) { return std::unexpected(known.error()); }
+    if (const auto sound = has_all_ticks(window); !sound) { return std::unexpected(sound.error()); }
     const auto abilities = read_abilities(window);
     if (!abilities) { return std::unexpected(abilities.error()); }
     DeviceDriver driver(std::move(window), tick_ns, *abilities);
@@ -221,6 +264,7 @@ std::expected<DeviceStatus, std::string> DeviceDriver::read() {
         if (const auto known = identify(window_, tick_ns_); !known) { return std::unexpected(known.error()); }
         if (before % 2 != 0 || window_.load(kSequence) != before) { continue; }
         if (!loaded) { return std::unexpected(loaded.error()); }
+        if (const auto sound = has_all_ticks(window_); !sound) { return std::unexpected(sound.error()); }
         if (status.bad_setup) {
             return std::unexpected("device: it refuses its setup, which its own abilities allow; restart the device");
         }
@@ -313,6 +357,10 @@ DeviceDriver::Result DeviceDriver::apply_one(const device::LoadFrame& order) {
                       std::to_string(room));
     }
     if (order.track.body.empty()) { return refuse("the frame has no body"); }
+    if (const Ticks longest = longest_piece(order.track); longest > abilities_.longest_piece) {
+        return refuse("a piece has " + std::to_string(longest.value) + " ticks, but the device's have at most " +
+                      std::to_string(abilities_.longest_piece.value));
+    }
     if (window_.load(kRunRequest) == 0) { return refuse("no run has been begun"); }
     FrameWriter writer(window_, segment_ring_);
     writer.begin(order);

@@ -20,7 +20,8 @@ namespace lockstep {
 class DeviceDriver {
 public:
     /// Reads what the device is built for, and changes nothing. `tick_ns` is the configured tick. Errors: no device,
-    /// another map version, another tick, impossible abilities, or a ring with contradictory head and tail.
+    /// another map version, another tick, impossible abilities, a ring with contradictory head and tail, or a device
+    /// that has lost its ticks.
     static std::expected<DeviceDriver, std::string> attach(RegisterWindow window, std::int64_t tick_ns);
 
     /// The device takes the setup when it is at rest, and its motor is enabled. No run begins before the first one.
@@ -29,15 +30,15 @@ public:
 
     /// Returns one consistent reading without waiting. While the device is in the middle of an update, it returns the
     /// previous reading. Error if that lasts for more than kMaxStaleReads reads, if there is no previous reading, or if
-    /// the registers are impossible or no longer those of a device. If a device stops between updates, `now` stands
-    /// still. Each call is a beat: it shows the device that its host lives.
+    /// the registers are impossible or no longer those of a device, or if the device has lost its ticks. If a device
+    /// stops between updates, `now` stands still. Each call is a beat: it shows the device that its host lives.
     std::expected<DeviceStatus, std::string> read();
     static constexpr int kMaxStaleReads = 1000;
     /// The last read() returned the previous reading.
     bool is_stale() const { return stale_reads_ > 0; }
 
-    /// Errors, which change nothing: a frame that does not fit into the ring, has no body, or precedes any run; a run
-    /// number that is 0 or not new; outputs that do not fit into their ring.
+    /// Errors, which change nothing: a frame that does not fit into the ring, has no body, has a piece that is too
+    /// long, or precedes any run; a run number that is 0 or not new; outputs that do not fit into their ring.
     std::expected<void, std::string> apply(const DeviceOrder& order);
 
     /// Passes every step made since the last call to on_step, in order, and returns their number. Error: a

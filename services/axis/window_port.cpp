@@ -14,7 +14,7 @@ std::expected<std::optional<DeviceReading>, std::string> WindowPort::read(Tick o
     if (newest_ && driver_.is_stale()) {
         newest_->status = *status;
     } else {
-        newest_ = DeviceReading{*status, asked, now(own)};
+        newest_ = DeviceReading{*status, asked, now(own), driver_.abilities().behind};
     }
     return newest_;
 }

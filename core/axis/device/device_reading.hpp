@@ -15,16 +15,20 @@ enum class DeviceClock : std::uint8_t {
 };
 
 /// A status, and when it was true: at an instant of the interval from `asked` to `answered`, by the process's clock. If
-/// the device counts the host's clock, `status.now` is this instant.
+/// the device counts the host's clock, `status.now` is this instant. If it has a clock of its own, this instant is that
+/// of the tick at its pins, which is `behind` the last tick that it executed. So motors of different devices step
+/// together at their pins.
 struct DeviceReading {
     DeviceStatus status;
     Tick asked;
     Tick answered;
+    Ticks behind{};
 };
 
 /// The same as an exchange with the device's clock, of which a reading shows one tick.
 inline ClockExchange exchange_of(const DeviceReading& reading) {
-    return {reading.asked, reading.status.now, reading.status.now, reading.answered};
+    const Tick at_pins = reading.status.now - reading.behind;
+    return {reading.asked, at_pins, at_pins, reading.answered};
 }
 
 }  // namespace lockstep

@@ -25,7 +25,7 @@ constexpr std::int64_t kTick_ns = 1000;
 constexpr std::uint64_t kHomeInput = 4;     // input 2 is the home switch
 constexpr std::int64_t kHomeCloses = -700;  // the home switch is closed up to this count; the device starts at 0
 
-constexpr RegisterRing kSegments(kSegmentRing, 1024, kSegmentRingEntryBytes);
+constexpr RegisterRing kSegments(kSegmentRing, 2048, kSegmentRingEntryBytes);
 constexpr RegisterRing kCaptures(kCaptureRing, kCaptureRingMostEntries, kCaptureRingEntryBytes);
 
 class OwnDevice {
@@ -39,7 +39,9 @@ public:
         window_.store(kCaptureEntries, kCaptures.entries());
         window_.store(kLeastStepTicks, 2);
         window_.store(kTimeUnitPs, kTick_ns * 1000);
+        window_.store(kLongestPieceTicks, static_cast<std::uint64_t>(kMaxPieceTicks.value));
         window_.store(kInputChannels, 3);
+        window_.store(kFeatures, kFeaturesFramesStay);  // an entry is taken as it is executed
         publish();
         window_.store(kMagic, kMagicValue);  // the other words are valid from now on
     }

@@ -27,8 +27,11 @@ struct Abilities {
     std::uint64_t tick_ns = 1000;
     std::uint64_t power_up = 0;
     std::uint64_t least_step_ticks = 2;
+    std::uint64_t lead_ticks = 0;
+    std::uint64_t pin_ticks = 0;
     std::uint64_t time_unit_ps = 1000;
     std::uint64_t longest_time = 1'000'000'000;
+    std::uint64_t longest_pwm_period = 1'000'000'000;
     std::uint64_t inputs = 0;
     std::uint64_t digital_outputs = 0;
     std::uint64_t analog_outputs = 0;

@@ -27,6 +27,10 @@ void Device::store_abilities() {
     words_.store(kLeastStepTicks, abilities_.least_step_ticks);
     words_.store(kTimeUnitPs, abilities_.time_unit_ps);
     words_.store(kLongestTime, abilities_.longest_time);
+    words_.store(kLongestPwmPeriod, abilities_.longest_pwm_period);
+    words_.store(kLongestPieceTicks, kLongestPiece);
+    words_.store(kLeadTicks, abilities_.lead_ticks);
+    words_.store(kPinTicks, abilities_.pin_ticks);
     words_.store(kInputChannels, abilities_.inputs);
     words_.store(kDigitalChannels, abilities_.digital_outputs);
     words_.store(kAnalogChannels, abilities_.analog_outputs);
@@ -50,6 +54,7 @@ void Device::take_orders() {
     channels_.take_orders(moment());
     take_run();
     if (phase_ != Phase::AtRest && is_stop_asked()) { finish(kStatusStoppedByHost); }
+    if (phase_ != Phase::AtRest && has_lost_ticks_) { finish(kStatusLostTicks); }
 }
 
 void Device::execute(std::int64_t until) {
@@ -232,7 +237,8 @@ bool Device::rebase_to(Place from) {
 }
 
 bool Device::may_move() const {
-    return setup_taken_ != 0 && enabled_.is_set && engine_.now() - enabled_.tick >= setup().enable_ticks;
+    return !has_lost_ticks_ && setup_taken_ != 0 && enabled_.is_set &&
+           engine_.now() - enabled_.tick >= setup().enable_ticks;
 }
 
 bool Device::runs_into_limit(int direction) const {
@@ -289,10 +295,10 @@ Moment Device::moment() const { return {.now = engine_.now(), .count = count_, .
 
 std::uint64_t Device::status_word() const {
     const auto bit = [](bool is_set, std::uint64_t mask) { return is_set ? mask : 0; };
-    return run_bits_ | bit(is_in_motion(), kStatusMoving) | bit(phase_ == Phase::Tail, kStatusInTail) |
-           bit(is_closed(setup().limit_min), kStatusLimitMin) | bit(is_closed(setup().limit_max), kStatusLimitMax) |
-           bit(is_closed(setup().home), kStatusHome) | bit(enabled_.is_set, kStatusEnabled) |
-           bit(channels_.is_host_silent(), kStatusHostSilent) |
+    return run_bits_ | bit(has_lost_ticks_, kStatusLostTicks) | bit(is_in_motion(), kStatusMoving) |
+           bit(phase_ == Phase::Tail, kStatusInTail) | bit(is_closed(setup().limit_min), kStatusLimitMin) |
+           bit(is_closed(setup().limit_max), kStatusLimitMax) | bit(is_closed(setup().home), kStatusHome) |
+           bit(enabled_.is_set, kStatusEnabled) | bit(channels_.is_host_silent(), kStatusHostSilent) |
            bit(setup_refused_ != 0 && words_.load(kSetupRequest) == setup_refused_, kStatusBadSetup);
 }
 
@@ -306,7 +312,7 @@ void Device::publish() {
     words_.store(kRun, run_);
     words_.store(kFrame, frame_.number);
     words_.store(kTriggerCount, trigger_count_);
-    words_.store(kEncoder, port_.encoder());
+    words_.store(kEncoder, abilities_.has_encoder ? port_.encoder() : count_);
     words_.store(kSegmentTail, segments_.taken());
     capture_.publish();
     words_.store(kSetup, setup_taken_);

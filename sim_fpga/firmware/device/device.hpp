@@ -34,6 +34,9 @@ public:
     void execute(std::int64_t until);
     void publish();
 
+    /// The board could not show ticks at their time. The motor runs nothing more.
+    void lose_ticks() { has_lost_ticks_ = true; }
+
     std::int64_t now() const { return engine_.now(); }
     bool is_enabled() const { return enabled_.is_set; }
     const Channels& channels() const { return channels_; }
@@ -100,6 +103,7 @@ private:
     std::uint64_t setup_taken_ = 0;     // its number
     std::uint64_t setup_refused_ = 0;   // the number of one that is beyond the abilities
     Due enabled_;                       // since when
+    bool has_lost_ticks_ = false;
     std::uint64_t sequence_ = 0;
 };
 

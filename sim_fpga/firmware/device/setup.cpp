@@ -46,7 +46,7 @@ void load_outputs(const Words& words, Setup& setup) {
     setup.compare_ticks = ticks_of(words.load(kCompareTicks));
     for (std::size_t n = 0; n < kMostAnalog; ++n) {
         const std::uint64_t period = words.load(kAnalogTable + n * kAnalogTableEntryBytes + kAnalogTablePwmPeriod);
-        setup.longest_time = greater(setup.longest_time, period);
+        setup.longest_pwm_period = greater(setup.longest_pwm_period, period);
         setup.pwm_channels |= static_cast<std::uint16_t>(period > 0 ? 1U << n : 0U);
     }
 }
@@ -73,7 +73,7 @@ bool is_within(const Abilities& abilities, const Setup& setup) {
         static_cast<std::uint16_t>(setup.at_cut.analog_off | setup.at_silence.analog_off | setup.pwm_channels);
     return are_there(inputs, abilities.inputs) && are_there(digital, abilities.digital_outputs) &&
            are_there(analog, abilities.analog_outputs) && (setup.compare_outputs == 0 || abilities.can_compare) &&
-           setup.longest_time <= abilities.longest_time;
+           setup.longest_time <= abilities.longest_time && setup.longest_pwm_period <= abilities.longest_pwm_period;
 }
 
 }  // namespace lockstep::firmware

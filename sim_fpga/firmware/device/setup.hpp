@@ -19,7 +19,8 @@ struct SafeOutputs {
 /// Names and meanings are those of the register map. A setup before the first has limit and home switches at inputs 0,
 /// 1 and 2, like a device of the simulation.
 struct Setup {
-    std::uint64_t longest_time = 0;  // of pulses and PWM periods, in the map's unit
+    std::uint64_t longest_time = 0;  // of pulses, in the map's unit
+    std::uint64_t longest_pwm_period = 0;
     std::uint64_t inverted = 0;
     std::uint16_t pwm_channels = 0;
     std::uint32_t debounced = 0;

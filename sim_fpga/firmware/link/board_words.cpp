@@ -26,7 +26,7 @@ bool MotorLook::fill(const Words& words, unsigned motor, ItemWriter& items) {
 
 /// MAGIC comes last: the other words are valid when it is there.
 bool MotorLook::fill_constants(const Words& words, unsigned motor, ItemWriter& items) {
-    for (std::size_t word = kVersion; word <= kFeatures; word += kWordBytes) {
+    for (std::size_t word = kVersion; word <= kPinTicks; word += kWordBytes) {
         items.put(motor, word, words.load(word));
     }
     items.put(motor, kMagic, words.load(kMagic));

@@ -10,8 +10,11 @@ constexpr Abilities abilities_of(std::uint32_t power_up, std::size_t motor) {
     return {.tick_ns = 1000,
             .power_up = std::uint64_t{power_up} << 8 | motor,
             .least_step_ticks = 16,
+            .lead_ticks = kRenderTicks,
+            .pin_ticks = kMostTicksAhead,
             .time_unit_ps = 1000,
             .longest_time = 400,
+            .longest_pwm_period = 0,
             .inputs = 3,
             .digital_outputs = 0,
             .analog_outputs = 0,
@@ -44,6 +47,10 @@ void Board::render_block() {
     for (const MotorPins& pins : pins_) { pins.queue_block(); }
     finish_block();
     now_ += kRenderTicks;
+}
+
+void Board::lose_ticks() {
+    for (Device& device : devices_) { device.lose_ticks(); }
 }
 
 bool Board::serve_link() {

@@ -18,6 +18,8 @@ public:
 
     /// Executes ticks of all motors while blocks may wait. Called by the interrupt.
     void render();
+    /// The pins had no bit for a tick.
+    void lose_ticks();
     /// Takes bytes of the host and sends frames to it. Returns false if there was nothing to do.
     bool serve_link();
 

@@ -50,10 +50,13 @@ void start_motors() {
 
 }  // namespace
 
-/// If a machine has run dry, the motors are no longer together: the board stops, and the host misses it.
+/// If a machine has run dry, the motors are no longer together: they stop, and the host is told.
 extern "C" void on_feed_time() {
     repeat(kFeedAlarm, kFeedPeriod_us);
-    if (have_run_dry()) { __builtin_trap(); }
+    if (have_run_dry()) {
+        stop_step_pins();
+        board().lose_ticks();
+    }
     feed_machines();
 }
 

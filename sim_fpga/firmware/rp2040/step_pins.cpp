@@ -10,7 +10,6 @@ using namespace chip;
 namespace {
 
 constexpr std::uint32_t kAllMachines = (1U << kMotors) - 1;
-constexpr std::uint32_t kMachineWords = 8;
 constexpr std::uint32_t kWaitingWords = kWaitingBlocks * kWordsPerBlock;
 constexpr std::uint32_t kEachDirectionBit = 0xAAAA'AAAA;
 
@@ -117,6 +116,8 @@ void start_step_pins() {
     at(pio0::kDebug) = ~std::uint32_t{0};
     at(pio0::kControl) = kAllMachines << 8 | kAllMachines << 4 | kAllMachines;
 }
+
+void stop_step_pins() { at(pio0::kControl) = 0; }
 
 bool have_room_for_block() { return queued_words - fed_words <= kWaitingWords - kWordsPerBlock; }
 

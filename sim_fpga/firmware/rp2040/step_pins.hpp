@@ -13,12 +13,14 @@ namespace lockstep::firmware {
 
 inline constexpr std::size_t kMotors = 3;
 
-// Ticks are executed in blocks, some of which wait in memory for the machines, which themselves have room for 128
-// ticks. So what the host or a switch asks for comes to the pins up to 1152 ticks later.
+// Ticks are executed in blocks, some of which wait in memory for the machines. A machine has room for 8 words of 16
+// ticks, and works on one more. So what the host or a switch asks for comes to the pins up to 1168 ticks later.
 inline constexpr std::uint32_t kRenderTicks = 128;
 inline constexpr std::uint32_t kTicksPerWord = 16;
 inline constexpr std::uint32_t kWordsPerBlock = kRenderTicks / kTicksPerWord;
 inline constexpr std::uint32_t kWaitingBlocks = 8;
+inline constexpr std::uint32_t kMachineWords = 8;
+inline constexpr std::uint32_t kMostTicksAhead = kWaitingBlocks * kRenderTicks + (kMachineWords + 1) * kTicksPerWord;
 
 // Pins of motor n.
 inline constexpr unsigned kUartTransmitPin = 0, kUartReceivePin = 1;
@@ -59,6 +61,8 @@ private:
 void connect_step_pins();
 /// Begins the first tick of all motors at the same instant.
 void start_step_pins();
+/// Ends all pulses.
+void stop_step_pins();
 /// Whether another block may wait.
 bool have_room_for_block();
 /// All motors have queued a block.

@@ -25,6 +25,9 @@ module axis_chip #(
 );
     localparam [63:0] TICK_NS = (64'd500 + TICK_CLOCKS * CLOCK_PS) / 64'd1000;
     localparam [15:0] LAST_CLOCK = TICK_CLOCKS - 1;
+    // A frame is read and checked before it begins: two clocks for each entry of a full ring, and 20.
+    localparam [63:0] LEAD_TICKS = (2 * (1 << SEGMENT_BITS) + 20) / TICK_CLOCKS + 1;
+    localparam [63:0] PIN_TICKS = 2;   // a tick, and 5 clocks
     reg [15:0] clock;
     reg tick;
     reg [INPUTS-1:0] first, second; // two registers each, because the pins belong to no clock
@@ -40,7 +43,8 @@ module axis_chip #(
     wire [2:0] inverted;
     // verilator lint_off PINCONNECTEMPTY
     axis_device #(.TICK_NS(TICK_NS), .TIME_UNIT_PS(CLOCK_PS), .TIME_BITS(TIME_BITS), .INPUTS(INPUTS),
-        .SEGMENT_BITS(SEGMENT_BITS), .CAPTURE_BITS(CAPTURE_BITS), .EVENT_BITS(EVENT_BITS)) device (.clk(clk),
+        .SEGMENT_BITS(SEGMENT_BITS), .CAPTURE_BITS(CAPTURE_BITS), .EVENT_BITS(EVENT_BITS),
+        .LEAD_TICKS(LEAD_TICKS), .PIN_TICKS(PIN_TICKS)) device (.clk(clk),
         .tick(tick), .busy(), .first_tick(64'd0), .power_up(power_up), .write(write), .write_address(write_address),
         .write_data(write_data), .read_address(read_address), .read_data(read_data), .hold(hold), .pins(second),
         .step(step), .forward(forward), .enabled(enabled), .step_width(step_width),

@@ -4,8 +4,7 @@
 // The map is memory: a write takes one clock, and a word that is read comes two clocks after its address. Inputs, ticks
 // and accesses belong to one clock. There are no outputs and no encoder yet.
 //
-// Entries of the segment ring stay taken until their frame has ended, because the pieces are run from the ring. So
-// SEGMENT_TAIL moves when a frame ends, not when it begins.
+// Pieces are run from the segment ring, which saves a second memory. So FEATURES has FRAMES_STAY.
 module axis_device #(
     parameter [63:0] TICK_NS = 1000,
     parameter TIME_UNIT_PS = 20833, // the clock's period
@@ -15,6 +14,8 @@ module axis_device #(
     parameter SEGMENT_BITS = 8, // 2 to the power of it is SEGMENT_ENTRIES
     parameter CAPTURE_BITS = 8, // and CAPTURE_ENTRIES
     parameter EVENT_BITS = 4,   // and EVENT_ENTRIES
+    parameter [63:0] LEAD_TICKS = 0,
+    parameter [63:0] PIN_TICKS = 0,
     parameter SETTLE_CLOCKS = 8 // axis_sequencer.v
 ) (
     input clk,
@@ -111,7 +112,7 @@ module axis_device #(
 
     wire capture_full, publish, publish_busy;
     wire [63:0] capture_head, capture_lost, capture_sum, capture_sums, capture_word;
-    wire [15:0] status;
+    wire [16:0] status;
     axis_sequencer #(.INPUTS(INPUTS), .ENTRY_BITS(SEGMENT_BITS), .SETTLE_CLOCKS(SETTLE_CLOCKS)) sequencer (.clk(clk),
         .tick(tick), .busy(busy), .ticks(ticks), .first_tick(first_tick), .run_request(run_request),
         .trigger_request(trigger), .armed(armed), .veto(veto), .stop(stop), .enable(enable),
@@ -158,9 +159,13 @@ module axis_device #(
         LOCKSTEP_LEAST_STEP_TICKS: constant = LEAST_STEP_TICKS;
         LOCKSTEP_TIME_UNIT_PS: constant = TIME_UNIT_PS;
         LOCKSTEP_LONGEST_TIME: constant = (64'd1 << TIME_BITS) - 1'b1;
+        LOCKSTEP_LONGEST_PIECE_TICKS: constant = 64'hffffffff;
+        LOCKSTEP_LEAD_TICKS: constant = LEAD_TICKS;
+        LOCKSTEP_PIN_TICKS: constant = PIN_TICKS;
         LOCKSTEP_INPUT_CHANNELS: constant = INPUTS;
         LOCKSTEP_EVENT_ENTRIES: constant = 64'd1 << EVENT_BITS;
-        LOCKSTEP_FEATURES: constant = 64'd1 << LOCKSTEP_FEATURES_ENABLE_BIT;
+        LOCKSTEP_FEATURES: constant = 64'd1 << LOCKSTEP_FEATURES_ENABLE_BIT |
+            64'd1 << LOCKSTEP_FEATURES_FRAMES_STAY_BIT;
         default: constant = 0;
     endcase
     wire is_event = address[19:16] == LOCKSTEP_EVENT_RING[19:16];

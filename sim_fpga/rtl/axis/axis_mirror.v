@@ -10,7 +10,7 @@ module axis_mirror (
     output reg [63:0] read_word, // one clock after the number
     output reg is_published,    // since power-up
     input [63:0] now,
-    input [15:0] status,
+    input [16:0] status,
     input [63:0] count,
     input [63:0] phase,
     input [63:0] velocity,
@@ -36,14 +36,14 @@ module axis_mirror (
     always @* case (at)
         0: word = {updates, !is_closing};
         1: word = now;
-        2: word = {48'd0, status};
+        2: word = {47'd0, status};
         3: word = count;
         4: word = phase;
         5: word = velocity;
         6: word = run;
         7: word = frame;
         8: word = trigger_count;
-        9: word = count;        // ENCODER: there is none
+        9: word = count;        // there is no encoder
         10: word = segment_tail;
         11: word = capture_head;
         12: word = capture_lost;

@@ -4,7 +4,7 @@
 // The work of a tick: the host's orders, then the inputs and the decisions of the present tick, then the tick itself,
 // then the inputs and the decisions after it, then the registers for the host. `busy` lasts as long as this work. It
 // takes no more clocks than SETTLE_CLOCKS and 60, except when a setup is taken, which is at rest. A tick that comes
-// meanwhile waits.
+// meanwhile waits. In motion its step would come to the pin too late, so the run ends, with LOST_TICKS.
 module axis_sequencer #(
     parameter INPUTS = 8,
     parameter ENTRY_BITS = 8,   // of the segment ring
@@ -81,7 +81,7 @@ module axis_sequencer #(
     output publish,             // for one clock
     input publish_busy,
     output reg [63:0] now,
-    output [15:0] status,
+    output [16:0] status,
     output reg [63:0] count,
     output reg [63:0] run,
     output reg [63:0] frame,
@@ -102,6 +102,7 @@ module axis_sequencer #(
 
     reg [4:0] state;
     reg [7:0] owed;             // ticks that have come and are not executed
+    reg has_lost_ticks;
     reg is_after;               // the tick of this work has been executed
     reg [1:0] motion;
     reg [8:0] waited;
@@ -122,7 +123,7 @@ module axis_sequencer #(
     wire run_is_new = run_request != 0 && run_request != run;
     wire is_stop_asked = stop != 0 && stop == run_request;
     wire may_enable = enable && !(is_host_silent && disables_at_silence);
-    wire may_move = setup != 0 && is_enabled && enabled_for >= enable_ticks;
+    wire may_move = !has_lost_ticks && setup != 0 && is_enabled && enabled_for >= enable_ticks;
 
     // The next frame: 1 while the run waits for it. What SETTLE compares in its last clock, ACT decides about.
     reg [63:0] number;
@@ -174,8 +175,8 @@ module axis_sequencer #(
                 reason = BY_HOST;
             end
             CEASE: begin
-                ends = motion != AT_REST && is_stop_asked;
-                reason = BY_HOST;
+                ends = motion != AT_REST && (is_stop_asked || has_lost_ticks);
+                reason = is_stop_asked ? BY_HOST : 16'd0;
             end
             TEND: begin
                 reason = (at_limit ? BY_LIMIT : 16'd0) | (is_triggered ? BY_TRIGGER : 16'd0) |
@@ -223,12 +224,13 @@ module axis_sequencer #(
     assign segment_tail = in_motion ? frame_begin : frame_at;
 
     wire bad_setup = refused != 0 && setup_request == refused;
-    assign status = run_bits | {1'b0, bad_setup, 1'b0, is_host_silent, is_enabled, 5'd0, (closed & home) != 0, at_max,
-        at_min, motion == TAIL, 1'b0, in_motion};
+    assign status = {1'b0, run_bits} | {has_lost_ticks, 1'b0, bad_setup, 1'b0, is_host_silent, is_enabled, 5'd0,
+        (closed & home) != 0, at_max, at_min, motion == TAIL, 1'b0, in_motion};
 
     initial begin
         state = POWER_UP;
-        {owed, is_after, motion, waited, trigger, run_bits, is_last, body_left, tail_left, piece, frame_begin} = 0;
+        {owed, has_lost_ticks, is_after, motion, waited, trigger, run_bits, is_last, body_left, tail_left} = 0;
+        {piece, frame_begin} = 0;
         {fetched, refused, is_enabled, enabled_for, stepped, stepped_backward, into_limit} = 0;
         {number, is_vetoed, is_armed, is_of_request, is_number, is_past, is_now, is_place, rests, is_same_phase} = 0;
         {now, count, run, frame, trigger_count, setup} = 0;
@@ -237,6 +239,7 @@ module axis_sequencer #(
     // The order of work.
     always @(posedge clk) begin
         owed <= owed + {7'd0, tick} - {7'd0, state == IDLE && owed != 0};
+        if (tick && busy && in_motion) has_lost_ticks <= 1;
         waited <= state == SETTLE ? waited + 1'b1 : 9'd0;
         fetched <= fetch ? fetched + 1'b1 : 2'd0;
         case (state)

@@ -17,7 +17,7 @@ std::uint64_t pieces_to_load() {
 
 TEST(FirmwareDevice, HasTheWordsOfTheSimulatedDeviceForAnyHost) {
     constexpr int kTurns = 200;
-    constexpr std::uint64_t kAllStatusBits = registers::kStatusBadOutput * 2 - 1;
+    constexpr std::uint64_t kAllStatusBits = registers::kStatusLostTicks * 2 - 1;
     std::uint64_t pieces = 0;
     std::uint64_t steps = 0;
     std::uint64_t seen = 0;

@@ -33,6 +33,8 @@ MUTANTS = [
     ("device/device.cpp", "direction < 0 ? setup().limit_min : setup().limit_max", "setup().limit_max"),
     ("device/device.cpp", "from.phase == kForwardPhase || from.phase == kBackwardPhase", "from.phase == kForwardPhase"),
     ("device/device.cpp", "        into_limit_ = true;\n", ""),
+    ("device/device.cpp", "phase_ != Phase::AtRest && has_lost_ticks_", "false"),
+    ("device/device.cpp", "abilities_.has_encoder ? port_.encoder() : count_", "port_.encoder()"),
     ("device/device.cpp", "channels_.begin_tail(moment());", ""),
     ("device/channels.cpp", "is_next_known_ && pins == pins_ && ", "is_next_known_ && "),
     ("device/channels.cpp", "    is_next_known_ = false;\n    const bool is_well", "    const bool is_well"),

@@ -29,10 +29,12 @@ MotorConfig narrow_motor(bool has_limits) {
 
 firmware::Abilities any_abilities(std::uint64_t seed) {
     return {.power_up = seed,
+            .lead_ticks = seed % 200,
+            .pin_ticks = seed % 2000,
             .inputs = 3 + seed % 30,
             .digital_outputs = seed / 7 % 17,
             .analog_outputs = seed / 5 % 9,
-            .has_encoder = true,
+            .has_encoder = seed % 3 != 0,
             .can_enable = true,
             .can_compare = seed % 4 != 0};
 }
@@ -53,6 +55,7 @@ RandomHost::RandomHost(std::uint64_t seed)
 std::optional<std::string> RandomHost::turn() {
     for (std::int64_t left = below(6); left > 0; --left) { act(); }
     if (one_in(60)) { write_anything(); }
+    if (one_in(2000)) { devices_.lose_ticks(); }
     now_ += Ticks{below(one_in(3) ? 4 : one_in(4) ? 3000 : 200)};
     devices_.advance(now_);
     seen_ |= devices_.load(kStatus);

@@ -41,6 +41,10 @@ public:
         simulated_->advance(until);
         firmware_->advance(until.value);
     }
+    void lose_ticks() {
+        simulated_->lose_ticks();
+        firmware_->lose_ticks();
+    }
     /// Does the same to both plants.
     template <typename Change>
     void disturb(Change&& change) {

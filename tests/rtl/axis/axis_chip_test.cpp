@@ -33,6 +33,12 @@ TEST(AxisChip, MakesAPulseForEachStepAtADistanceOfWholeTicks) {
         was_on = chip.pins.step_pin != 0;
     }
     ASSERT_EQ(edges.size(), 5);
+    chip.pins.read_address = registers::kPinTicks / 8;
+    chip.clock();
+    chip.clock();
+    const auto behind = static_cast<std::int64_t>(chip.pins.read_data);
+    EXPECT_GT(edges[0], 12 * kTickClocks) << "the first step is made at tick 12";
+    EXPECT_LE(edges[0], (12 + behind) * kTickClocks);
     for (std::size_t i = 1; i < edges.size(); ++i) { EXPECT_EQ(edges[i] - edges[i - 1], 4 * kTickClocks); }
     EXPECT_EQ(chip.pins.direction_pin, 1);
     EXPECT_EQ(chip.pins.enable_pin, 1);

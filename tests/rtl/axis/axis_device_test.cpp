@@ -81,5 +81,30 @@ TEST(AxisHardware, EndsTheRunInTheTickInWhichTheVelocityLeaves64Bits) {
     EXPECT_EQ(device.read(kVelocity), 0);
 }
 
+/// The pins would show its step too late.
+TEST(AxisHardware, ATickThatIsNotDoneBeforeTheNextEndsTheRunAndAllFurtherOnes) {
+    using namespace registers;
+    VerilogDevice<Vaxis_device> device(Tick{0});
+    const auto write = [&](std::size_t offset, std::uint64_t value) { device.write(offset, value); };
+    const auto run_ticks = [&](int ticks) {
+        int steps = 0;
+        for (; ticks > 0; --ticks) {
+            steps += device.tick(0, [](int) { return 0U; });
+        }
+        return steps;
+    };
+    run_one_frame(write, 2, 100, std::uint64_t{1} << 62, 0);
+    device.begin_tick();
+    EXPECT_EQ(run_ticks(1), 0) << "at rest a tick may wait";
+    EXPECT_EQ(device.read(kStatus) & kStatusLostTicks, 0);
+    EXPECT_EQ(run_ticks(7), 2);
+    device.begin_tick();
+    (void)run_ticks(1);
+    EXPECT_EQ(device.read(kStatus), kStatusFinished | kStatusLostTicks | kStatusEnabled);
+    device.write(kRunRequest, 2);
+    EXPECT_EQ(run_ticks(20), 0);
+    EXPECT_EQ(device.read(kStatus), kStatusFinished | kStatusLostTicks | kStatusEnabled);
+}
+
 }  // namespace
 }  // namespace lockstep::rtl

@@ -82,7 +82,7 @@ private:
         using namespace registers;
         const std::uint64_t body = draw_.one_in(300) ? 0 : 1 + below(4);
         const std::uint64_t tail = below(4);
-        const std::uint64_t used = head_ - bench_.verilog().read(kSegmentTail);
+        const std::uint64_t used = head_ - bench_.load(kSegmentTail);
         if (used + 1 + body + tail > kSegments.entries()) { return; }
         const std::uint64_t number = ++frame_;
         --frames_left_;
@@ -108,7 +108,6 @@ private:
             start_ += drawn.ticks;
             at_ = at_ + drawn.covered();
         }
-        bench_.note_frame(head_);
         head_ += 1 + body + tail;
         const std::uint64_t missing = draw_.one_in(200) ? 1 + below(3) : 0;
         bench_.store(kSegmentHead, head_ - missing);

@@ -75,6 +75,8 @@ LONG_MUTANTS = [
     ("axis_device", "axis/axis_sequencer.v", "(is_stopped ? BY_INPUT : 16'd0);", "16'd0;"),
     ("axis_device", "axis/axis_sequencer.v", "start_setup = state == SETUP && setup_is_new && !in_motion",
      "start_setup = state == SETUP && setup_is_new"),
+    ("axis_device", "axis/axis_sequencer.v", "tick && busy && in_motion", "tick && busy"),
+    ("axis_device", "axis/axis_sequencer.v", "is_stop_asked || has_lost_ticks", "is_stop_asked"),
     ("axis_device", "axis/axis_frame_scanner.v", "is_whole = loaded[63:17] != 0 || pieces < loaded[16:0]", "is_whole = 1"),
     ("axis_device", "axis/axis_frame_scanner.v", "is_well <= is_piece;", "is_well <= 1;"),
     ("axis_device", "axis/axis_frame_scanner.v", "(is_of_run ? drop_own : drop_others)", "(!is_of_run && drop_others)"),

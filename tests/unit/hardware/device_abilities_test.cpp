@@ -58,5 +58,50 @@ TEST(DeviceAbilities, JustEnoughIsEnoughAndOneLessIsNot) {
               "197.580645, or decrease its steps_per_mm");
 }
 
+TEST(DeviceAbilities, AFrameThatStaysInTheRingNeedsRoomBesideThoseSentAhead) {
+    const Case one;
+    DeviceAbilities device = needs_of(one.machine, one.motor);
+    device.frames_stay = true;
+    const std::uint64_t frame = device.segment_entries / static_cast<std::uint64_t>(frames_ahead(one.machine.timing));
+    EXPECT_NE(one.lack(device), "");
+    device.segment_entries += frame;
+    EXPECT_EQ(one.lack(device), "");
+}
+
+TEST(DeviceAbilities, FramesComeEarlyEnoughForADeviceThatExecutesAheadOfItsPins) {
+    Case one;
+    one.machine.timing.slot_us = 4000;
+    DeviceAbilities device{.lead = Ticks{832}, .behind = Ticks{1168}};
+    EXPECT_EQ(one.lack(device), "");
+    ++device.lead.value;
+    EXPECT_EQ(
+        one.lack(device),
+        "device: it needs frames 833 ticks before they begin, and its pins are 1168 ticks behind; together they may "
+        "be at most 2000, half of what timing.slot_us leaves beside clock errors; increase timing.slot_us");
+    one.machine.timing.time_source = TimeSource::Network;
+    one.machine.timing.clock_error_limit_us = 500;
+    EXPECT_EQ(most_lead(one.machine), Ticks{1500});
+}
+
+TEST(DeviceAbilities, APieceMayLastAsLongAsAFrame) {
+    const Case one;
+    EXPECT_EQ(one.lack({.longest_piece = Ticks{50'000}}), "");
+    EXPECT_EQ(one.lack({.longest_piece = Ticks{49'999}}),
+              "device: its pieces have at most 49999 ticks, and frames have pieces of up to 50000; decrease "
+              "timing.frame_slots or timing.slot_us, or increase tick_ns");
+}
+
+TEST(DeviceAbilities, PulsesAndPwmPeriodsHaveLimitsOfTheirOwn) {
+    DeviceSetup setup{.step_width_ns = 400};
+    setup.pwm_period_ns[0] = 1'000'000;
+    const DeviceAbilities device{.longest_time = 400, .longest_pwm_period = 1'000'000};
+    EXPECT_EQ(lack_of(device, setup), std::nullopt);
+    ++setup.pwm_period_ns[0];
+    EXPECT_EQ(lack_of(device, setup),
+              "device: PWM periods can be up to 1000000 ns, and one is 1000001 ns; increase pwm.hz");
+    ++setup.step_width_ns;
+    EXPECT_EQ(lack_of(device, setup), "device: pulse times can be up to 400 ns, and one is 401 ns; make it shorter");
+}
+
 }  // namespace
 }  // namespace lockstep

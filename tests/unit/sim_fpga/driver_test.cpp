@@ -37,8 +37,54 @@ TEST(Driver, RefusesImpossibleAbilities) {
     }
 }
 
+TEST(Driver, RefusesImpossibleNumbersOfTicks) {
+    const auto error_with = [](std::size_t word, std::uint64_t ticks) {
+        DeviceBench bench;
+        bench.window.store(word, ticks);
+        return attach_error(bench.window);
+    };
+    EXPECT_EQ(error_with(registers::kLongestPieceTicks, 0),
+              "device: LONGEST_PIECE_TICKS reads 0x0000000000000000, expected 1 to 4398046511104; restart the device");
+    EXPECT_NE(error_with(registers::kLeastStepTicks, 0).find("LEAST_STEP_TICKS reads"), std::string::npos);
+    EXPECT_NE(error_with(registers::kLeadTicks, ~std::uint64_t{0}).find("LEAD_TICKS reads"), std::string::npos);
+    EXPECT_NE(error_with(registers::kPinTicks, ~std::uint64_t{0}).find("PIN_TICKS reads"), std::string::npos);
+}
+
+TEST(Driver, RefusesAFrameWithAPieceThatIsTooLongForTheDevice) {
+    DeviceBench bench(bench_axis(), {.longest_piece = kBody});
+    bench.order(device::BeginRun{1});
+    bench.order(last_frame(1));
+    device::LoadFrame longer = last_frame(2);
+    longer.track.body[0].ticks += Ticks{1};
+    EXPECT_EQ(bench.driver.apply(longer).error(),
+              "device: frame 2 is not loaded: a piece has 1281 ticks, but the device's have at most 1280");
+}
+
+TEST(Driver, ADeviceThatHasLostTicksIsUsedNoMore) {
+    DeviceBench bench;
+    bench.order(device::BeginRun{1});
+    bench.order(frame(1));
+    bench.order(device::Arm{1});
+    EXPECT_TRUE(bench.at(kStart + Ticks{500}).moving);
+    bench.device.lose_ticks();
+    bench.device.advance(kStart + Ticks{600});
+    EXPECT_EQ(bench.window.load(registers::kStatus) & (registers::kStatusMoving | registers::kStatusLostTicks),
+              registers::kStatusLostTicks);
+    const auto read = bench.driver.read();
+    ASSERT_FALSE(read);
+    EXPECT_NE(read.error().find("LOST_TICKS"), std::string::npos) << read.error();
+    EXPECT_EQ(attach_error(bench.window), read.error()) << "until it is powered up again";
+}
+
 TEST(Driver, ReadsWhatTheDeviceIsBuiltFor) {
-    const DeviceAbilities small{.segment_entries = 16, .capture_entries = 256, .least_step = Ticks{5}};
+    const DeviceAbilities small{.segment_entries = 16,
+                                .capture_entries = 256,
+                                .least_step = Ticks{5},
+                                .longest_piece = Ticks{1000},
+                                .lead = Ticks{128},
+                                .behind = Ticks{1168},
+                                .longest_pwm_period = 7,
+                                .frames_stay = true};
     EXPECT_EQ(DeviceBench(bench_axis(), small).driver.abilities(), small);
 }
 

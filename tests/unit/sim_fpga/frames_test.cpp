@@ -113,6 +113,20 @@ TEST(Frames, AnUnarmedNextFrameIsNotRun) {
     EXPECT_EQ(after.position.count(), 11);
 }
 
+TEST(Frames, EntriesOfAFrameAreTakenAsItBeginsOrStayUntilItEnds) {
+    for (const bool stay : {false, true}) {
+        DeviceBench bench(bench_axis(), {.frames_stay = stay});
+        const auto taken = [&](Tick at) { return bench.at(at), bench.window.load(registers::kSegmentTail); };
+        bench.order(device::BeginRun{1});
+        bench.order(frame(1));
+        bench.order(last_frame(2));
+        bench.order(device::Arm{2});
+        EXPECT_EQ(taken(kStart + Ticks{1}), stay ? 0u : 3u);
+        EXPECT_EQ(taken(kEnd1 + Ticks{1}), stay ? 3u : 5u);
+        EXPECT_EQ(taken(kMuchLater), 5u);
+    }
+}
+
 TEST(Frames, AVetoBeforeItsStartStopsAnArmedFrameAndThoseAfterIt) {
     DeviceBench bench;
     bench.order(device::BeginRun{1});

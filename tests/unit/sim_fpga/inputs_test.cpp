@@ -180,7 +180,7 @@ TEST(Setup, BeyondTheDeviceIsRefusedWithItsRemedy) {
     EXPECT_EQ(error({.at_cut = {.digital = {}, .analog_off = 2}}),
               "device: there is no analog output 1; it has 1, numbered from 0");
     EXPECT_EQ(error({.step_width_ns = 1001}),
-              "device: pulse times and PWM periods can be up to 1000 ns, and one is 1001 ns; make it shorter");
+              "device: pulse times can be up to 1000 ns, and one is 1001 ns; make it shorter");
 }
 
 TEST(Setup, OfTheWindowIsTheOneThatWasWritten) {

@@ -21,6 +21,16 @@ TEST(WindowPort, AReadingOfADeviceWithItsOwnClockHasTheIntervalInWhichItWasMade)
     EXPECT_EQ(reading.status.now, Tick{5}) << "read in between";
 }
 
+/// So motors of devices with different delays step together.
+TEST(WindowPort, TheClockOfADeviceIsTheTickAtItsPins) {
+    DeviceBench bench(bench_axis(), {.behind = Ticks{40}});
+    (void)bench.at(Tick{100});
+    WindowPort port(DeviceDriver::attach(bench.window, kTick_ns).value(), [] { return Tick{1'000'000}; });
+    const DeviceReading reading = port.read(Tick{0}).value().value();
+    EXPECT_EQ(reading.status.now, Tick{100});
+    EXPECT_EQ(exchange_of(reading).received, Tick{60});
+}
+
 TEST(WindowPort, AReadingOfADeviceThatIsHeldUpKeepsItsAge) {
     DeviceBench bench;
     (void)bench.at(Tick{5});
