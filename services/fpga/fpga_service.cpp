@@ -18,7 +18,6 @@
 #include "services/runtime/log.hpp"
 #include "services/runtime/periodic.hpp"
 #include "services/runtime/service_options.hpp"
-#include "sim_fpga/device.hpp"
 
 namespace lockstep {
 namespace {
@@ -34,8 +33,9 @@ std::uint64_t drawn_number() {
 /// up again, and the slide stays where it is.
 class Board {
 public:
-    Board(const FpgaOptions& options, const MotorConfig& axis, const MachineConfig& machine)
+    Board(const FpgaOptions& options, MakeDevice make, const MotorConfig& axis, const MachineConfig& machine)
         : options_(options),
+          make_(make),
           tick_ns_(machine.tick_ns),
           clock_(machine.tick_ns, machine.timing.time_source),
           inputs_(machine, axis, options.closed_inputs),
@@ -48,7 +48,7 @@ public:
         auto window = options_.file.empty() ? RegisterWindow::create_shared(options_.name)
                                             : RegisterWindow::create_file(options_.file);
         if (!window) { return std::unexpected(window.error()); }
-        device_ = std::make_unique<SimulatedDevice>(std::move(*window), plant_, tick_ns_, clock_.now(), drawn_number());
+        device_ = make_({std::move(*window), plant_, tick_ns_, clock_.now(), drawn_number()});
         log_info(fmt::format("device \"{}{}\" is powered up", options_.name, options_.file));
         return {};
     }
@@ -66,34 +66,35 @@ public:
 
 private:
     FpgaOptions options_;
+    MakeDevice make_;
     std::int64_t tick_ns_;
     MachineClock clock_;
     ClosedInputs inputs_;
     Plant plant_;
-    std::unique_ptr<SimulatedDevice> device_;
+    std::unique_ptr<ServedDevice> device_;
 };
 
-std::expected<Board, std::string> set_up(const FpgaOptions& options) {
+std::expected<Board, std::string> set_up(const FpgaOptions& options, MakeDevice make) {
     const auto loaded = load_machine(options.machine_file);
     if (!loaded) { return std::unexpected(to_text(options.machine_file, loaded.error())); }
     const MachineConfig& machine = loaded->config;
     const auto axis = motor_named(machine, options.axis);
     if (!axis) { return std::unexpected(options.machine_file + ": no axis \"" + options.axis + "\""); }
-    Board board(options, motors_of(machine)[*axis], machine);
+    Board board(options, make, motors_of(machine)[*axis], machine);
     if (auto up = board.power_up(); !up) { return std::unexpected(up.error()); }
     return board;
 }
 
 }  // namespace
 
-int serve_fpga(const FpgaOptions& options) {
+int serve_fpga(const FpgaOptions& options, MakeDevice make) {
     StopSignal stop;
     const EndGuard guard(stop);
     if (const auto log = open_log({.service = "fpga", .axis = options.axis, .in_background = true}); !log) {
         std::cerr << log.error() << '\n';
         return 1;
     }
-    auto board = set_up(options);
+    auto board = set_up(options, make);
     if (!board) { return end_with_failure(board.error()); }
     PeriodicLoop loop(kPeriod);
     std::expected<void, std::string> well;

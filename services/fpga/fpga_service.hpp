@@ -1,10 +1,12 @@
-// One axis's simulated device in real time, in shared memory or in a file.
+// One axis's device in real time, in shared memory or in a file.
 //
 // Its tick is CLOCK_MONOTONIC in units of tick_ns, as in every process of the machine. Steps fall on the ticks that the
 // frames define, even if the loop wakes late. Only the host's register writes take effect later by that delay.
 #pragma once
 
 #include <string>
+
+#include "services/fpga/served_device.hpp"
 
 namespace lockstep {
 
@@ -18,6 +20,9 @@ struct FpgaOptions {
 
 /// Serves until SIGINT or SIGTERM. Returns the exit code: 0 after a requested end, 1 after a failure, with the cause in
 /// the log.
-int serve_fpga(const FpgaOptions& options);
+int serve_fpga(const FpgaOptions& options, MakeDevice make);
+
+/// The command line of such a process: reads the options, and serves. `summary`: what it does, in a sentence.
+int run_fpga_command(int argc, char** argv, const char* summary, MakeDevice make);
 
 }  // namespace lockstep

@@ -1,25 +1,31 @@
-// lockstep-fpga: the command line.
-#include "services/arguments/argument_parser.hpp"
+// lockstep-fpga: serves a simulated device.
+#include <utility>
+
 #include "services/fpga/fpga_service.hpp"
+#include "sim_fpga/device.hpp"
+
+namespace lockstep {
+namespace {
+
+class ServedSimulation final : public ServedDevice {
+public:
+    explicit ServedSimulation(const PowerUp& up) : device_(up.window, up.plant, up.tick_ns, up.now, up.number) {}
+
+    void advance(Tick until) override { device_.advance(until); }
+    bool is_intact() const override { return device_.is_intact(); }
+    Plant& plant() override { return device_.plant(); }
+
+private:
+    SimulatedDevice device_;
+};
+
+std::unique_ptr<ServedDevice> make_simulation(const PowerUp& up) { return std::make_unique<ServedSimulation>(up); }
+
+}  // namespace
+}  // namespace lockstep
 
 int main(int argc, char** argv) {
-    lockstep::ArgumentParser parser(
-        "Runs the simulated device of one axis in real time, on shared memory, until SIGTERM or SIGINT.");
-    lockstep::FpgaOptions options;
-    parser.add_option("--machine", options.machine_file, "the machine's configuration file").required();
-    parser.add_option("--axis", options.axis, "the axis's name in that file").required();
-    const lockstep::Verb place = parser.add_choice("where", "where the registers are: in shared memory or in a file");
-    place.add_option("--name", options.name,
-                     "use shared memory of this name, under /dev/shm; the axis's device is then shm:NAME");
-    place.add_option("--file", options.file,
-                     "map this file, and create it if it is missing; the axis's device is then uio:PATH");
-    parser.add_option("--closed-inputs", options.closed_inputs,
-                      "a file with the names of the inputs of the machine that are closed; write it to press or open "
-                      "them");
-    parser.footer(
-        "Examples:\n  lockstep-fpga --machine machine.textproto --axis X --name lockstep-x\n"
-        "  lockstep-fpga --machine machine.textproto --axis X --file /run/lockstep/x.registers\n"
-        "Exit codes: 0 ended as asked, 1 failed, 2 wrong usage");
-    parser.action([&] { return lockstep::serve_fpga(options); });
-    return parser.run(argc, argv);
+    return lockstep::run_fpga_command(
+        argc, argv, "Runs the simulated device of one axis in real time, on shared memory, until SIGTERM or SIGINT.",
+        lockstep::make_simulation);
 }

@@ -39,6 +39,9 @@ public:
         return hardware_.pins.read_data;
     }
 
+    /// While they are held, the device's words stay as they are, and ticks take fewer clocks.
+    void hold_words(bool held) { hardware_.pins.hold = held; }
+
     /// A tick that is not awaited.
     void begin_tick() {
         hardware_.pins.tick = 1;
