@@ -100,12 +100,12 @@ bool Channels::is_intact() const {
     return events <= abilities_.event_entries && changes <= abilities_.output_entries;
 }
 
-void Channels::publish(Tick now) {
+void Channels::publish(Tick now, bool in_motion) {
     window_.store(kInputs, inputs_.closed());
     window_.store(kOutputs, outputs_.digital());
     window_.store(kPulsesLeft, outputs_.pulses_left());
     store_analog(window_, outputs_.analog(now));
-    window_.store(kOutputTail, ring_.taken());
+    window_.store(kOutputTail, abilities_.frames_stay && in_motion ? ring_.begin_of_frame() : ring_.taken());
     window_.store(kEventHead, events_.head());
     window_.store(kEventLost, events_.lost());
 }

@@ -56,7 +56,8 @@ public:
     bool is_host_silent() const { return host_.is_silent(); }
     const OutputUnit& outputs() const { return outputs_; }
     bool is_intact() const;
-    void publish(Tick now);
+    /// in_motion: a frame is in progress.
+    void publish(Tick now, bool in_motion);
 
 private:
     void look(std::uint32_t pins, const DevicePlace& at);

@@ -328,7 +328,7 @@ void SimulatedDevice::publish() {
     window_.store(kCaptureSum, capture_.sum());
     window_.store(kCaptureSums, capture_.sums());
     window_.store(kSetup, setup_taken_);
-    channels_.publish(engine_.now());
+    channels_.publish(engine_.now(), in_motion());
     window_.store(kSequence, ++sequence_);
 }
 

@@ -25,13 +25,19 @@ bool OutputRing::take(std::uint64_t run, FrameNumber frame, OutputTrack& track) 
     track.body.clear();
     track.tail.clear();
     bool is_well = true;
+    bool is_found = false;
     while (!is_empty()) {
         const bool of_run = is_of_run(window_, oldest(), run);
         const std::int32_t after = of_run ? frames_after(window_, oldest(), frame) : -1;
         if (after > 0) { break; }
-        if (after == 0) { is_well = read(track) && is_well; }
+        if (!is_found) { first_ = tail_; }
+        if (after == 0) {
+            is_found = true;
+            is_well = read(track) && is_well;
+        }
         ++tail_;
     }
+    if (!is_found) { first_ = tail_; }
     if (!is_well) {
         track.body.clear();
         track.tail.clear();

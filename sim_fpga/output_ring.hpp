@@ -21,6 +21,8 @@ public:
 
     /// Entries taken since power-up.
     std::uint64_t taken() const { return tail_; }
+    /// Where the entries of the frame begin that was taken last.
+    std::uint64_t begin_of_frame() const { return first_; }
     /// Takes the changes of this frame into `track`, and drops those of frames before it and of other runs. Returns
     /// false if one of them is malformed: `track` is empty then.
     [[nodiscard]] bool take(std::uint64_t run, FrameNumber frame, OutputTrack& track);
@@ -37,6 +39,7 @@ private:
     DeviceAbilities abilities_;
     RegisterRing ring_;
     std::uint64_t tail_ = 0;
+    std::uint64_t first_ = 0;
 };
 
 }  // namespace lockstep

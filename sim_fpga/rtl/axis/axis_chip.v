@@ -47,7 +47,8 @@ module axis_chip #(
         .LEAD_TICKS(LEAD_TICKS), .PIN_TICKS(PIN_TICKS)) device (.clk(clk),
         .tick(tick), .busy(), .first_tick(64'd0), .power_up(power_up), .write(write), .write_address(write_address),
         .write_data(write_data), .read_address(read_address), .read_data(read_data), .hold(hold), .pins(second),
-        .step(step), .forward(forward), .enabled(enabled), .step_width(step_width),
+        .step(step), .forward(forward), .enabled(enabled), .digital(), .outputs_inverted(),
+        .analog(), .step_width(step_width),
         .direction_setup(direction_setup), .direction_hold(direction_hold), .inverted(inverted));
     // verilator lint_on PINCONNECTEMPTY
     axis_pins #(.TIME_BITS(TIME_BITS)) pins (.clk(clk), .tick(tick), .step(step), .forward(forward),

@@ -2,7 +2,7 @@
 // sim_fpga/device.hpp, and shows the same registers after each tick.
 //
 // The map is memory: a write takes one clock, and a word that is read comes two clocks after its address. Inputs, ticks
-// and accesses belong to one clock. There are no outputs and no encoder yet.
+// and accesses belong to one clock. There is no encoder, and there are no pulses at places.
 //
 // Pieces are run from the segment ring, which saves a second memory. So FEATURES has FRAMES_STAY.
 module axis_device #(
@@ -11,6 +11,9 @@ module axis_device #(
     parameter TIME_BITS = 16,   // of a pulse time in TIME_UNIT_PS
     parameter LEAST_STEP_TICKS = 2,
     parameter INPUTS = 8,
+    parameter DIGITAL = 8,
+    parameter ANALOG = 2,
+    parameter OUTPUT_BITS = 5,  // 2 to the power of it is OUTPUT_ENTRIES
     parameter SEGMENT_BITS = 8, // 2 to the power of it is SEGMENT_ENTRIES
     parameter CAPTURE_BITS = 8, // and CAPTURE_ENTRIES
     parameter EVENT_BITS = 4,   // and EVENT_ENTRIES
@@ -39,40 +42,46 @@ module axis_device #(
     output [TIME_BITS-1:0] step_width,
     output [TIME_BITS-1:0] direction_setup,
     output [TIME_BITS-1:0] direction_hold,
-    output [2:0] inverted
+    output [2:0] inverted,
+    // The outputs.
+    output [15:0] digital,      // output n is bit n, 1 while it is on
+    output [15:0] outputs_inverted,
+    output [127:0] analog       // 16 bits each, in 2^-15 of full scale
 );
     // verilator lint_off UNUSED
     `include "registers.vh"
     // verilator lint_on UNUSED
 
     wire [63:0] run_request, armed, veto, stop, segment_head, capture_tail, event_tail, beat;
-    wire [63:0] setup_request;
+    wire [63:0] setup_request, output_head, direct_request;
     wire [63:0] setup_word, host_word;
     wire [32:0] trigger;
-    wire [6:0] setup_address;
-    wire enable;
+    wire [6:0] setup_address, direct_address;
+    wire enable, setup_busy;
     axis_host_words host_words (.clk(clk), .write(write), .write_address(write_address), .write_data(write_data),
         .read_address({read_address[13], read_address[8:3]}), .read_word(host_word),
-        .setup_address(setup_address), .setup_word(setup_word),
+        .setup_address(setup_busy ? setup_address : direct_address), .setup_word(setup_word),
         .run_request(run_request), .trigger(trigger), .armed(armed), .veto(veto), .stop(stop),
         .segment_head(segment_head), .capture_tail(capture_tail), .event_tail(event_tail), .beat(beat), .enable(enable),
-        .setup_request(setup_request));
+        .output_head(output_head), .direct_request(direct_request), .setup_request(setup_request));
 
-    wire start_setup, setup_busy, setup_taken, setup_refused, invert_inputs, set_debounce, disables_at_silence;
+    wire [39:0] at_cut, at_silence;
+    wire start_setup, setup_taken, setup_refused, invert_inputs, set_debounce, disables_at_silence;
     wire [31:0] enable_ticks, debounce_ticks, silence_ticks;
     wire [INPUTS-1:0] inputs_inverted, next_inputs_inverted, limit_min, limit_max, home, stop_inputs;
     wire [4:0] debounce_input;
-    axis_setup #(.INPUTS(INPUTS), .TIME_BITS(TIME_BITS)) setup_words (.clk(clk),
+    axis_setup #(.INPUTS(INPUTS), .DIGITAL(DIGITAL), .ANALOG(ANALOG), .TIME_BITS(TIME_BITS)) setup_words (.clk(clk),
         .start(start_setup), .busy(setup_busy), .taken(setup_taken), .refused(setup_refused), .address(setup_address),
         .word(setup_word), .step_width(step_width), .direction_setup(direction_setup),
         .direction_hold(direction_hold), .enable_ticks(enable_ticks),
         .inverted(inverted), .inputs_inverted(inputs_inverted), .invert_inputs(invert_inputs),
         .next_inputs_inverted(next_inputs_inverted), .limit_min(limit_min), .limit_max(limit_max), .home(home),
         .stop(stop_inputs), .set_debounce(set_debounce), .debounce_input(debounce_input),
-        .debounce_ticks(debounce_ticks), .disables_at_silence(disables_at_silence), .silence_ticks(silence_ticks));
+        .debounce_ticks(debounce_ticks), .outputs_inverted(outputs_inverted), .at_cut(at_cut),
+        .at_silence(at_silence), .disables_at_silence(disables_at_silence), .silence_ticks(silence_ticks));
 
     wire [63:0] now, count, run, frame, trigger_count, segment_tail, setup, phase, velocity;
-    wire ticks, look, inputs_busy, look_at_host, judge_host, is_host_silent, accelerate, travel;
+    wire ticks, look, inputs_busy, look_at_host, judge_host, falls_silent, is_host_silent, accelerate, travel;
     wire [INPUTS-1:0] closed;
     wire input_changes, changed_closed, events_busy;
     wire [4:0] changed_input;
@@ -82,11 +91,22 @@ module axis_device #(
         .debounce_ticks(debounce_ticks), .now(now[31:0]), .look(look), .busy(inputs_busy), .closed(closed),
         .changes(input_changes), .changed_input(changed_input), .changed_closed(changed_closed),
         .wait_for_event(events_busy));
-    axis_events #(.ENTRY_BITS(EVENT_BITS)) events (.clk(clk), .put(input_changes), .channel(changed_input),
-        .closed(changed_closed), .now(now), .count(count), .phase(phase), .busy(events_busy), .tail(event_tail),
+    // Inputs and outputs never change in the same clock, because one is looked at after the other.
+    wire output_changes, is_analog;
+    wire [4:0] changed_output;
+    wire [63:0] output_value, output_detail;
+    reg notes_output;           // the event is that of an output
+    initial notes_output = 0;
+    always @(posedge clk) if (input_changes || output_changes) notes_output <= output_changes;
+    axis_events #(.ENTRY_BITS(EVENT_BITS)) events (.clk(clk), .put(input_changes || output_changes),
+        .kind(!output_changes ? 2'd0 : is_analog ? 2'd2 : 2'd1),
+        .channel(!output_changes ? changed_input : is_analog ? changed_output : 5'd0),
+        .levels(!output_changes ? {15'd0, changed_closed} : is_analog ? 16'd0 : digital), .now(now),
+        .value(notes_output && is_analog ? output_value : count),
+        .detail(!notes_output ? phase : is_analog ? output_detail : 64'd0), .busy(events_busy), .tail(event_tail),
         .read_address(read_address[EVENT_BITS+4:3]), .read_word(event_word), .head(event_head), .lost(event_lost));
     axis_host_watch host_watch (.clk(clk), .begins(setup_taken), .look(look_at_host), .beat(beat), .tick(ticks),
-        .judge(judge_host), .patience(silence_ticks), .is_silent(is_host_silent));
+        .judge(judge_host), .patience(silence_ticks), .falls_silent(falls_silent), .is_silent(is_host_silent));
 
     wire fetch, drop_own, drop_others, take, frame_settled, frame_valid, frame_good, frame_is_last, frame_is_of_run;
     wire [SEGMENT_BITS+1:0] fetch_address, scan_address;
@@ -102,6 +122,27 @@ module axis_device #(
         .word(piece_word), .settled(frame_settled), .valid(frame_valid), .good(frame_good), .taken(frame_at),
         .is_last(frame_is_last), .is_of_run(frame_is_of_run), .number(frame_number), .start(frame_start),
         .count(frame_count), .body_pieces(frame_body_pieces), .tail_pieces(frame_tail_pieces), .phase(frame_phase));
+
+    wire direct_outputs, due_outputs, silence_outputs, end_outputs, is_cut, begins_body, begins_tail, rests, in_motion;
+    wire outputs_busy, outputs_settled, outputs_well, reads_output;
+    wire [OUTPUT_BITS+1:0] output_address;
+    wire [63:0] output_word, output_tail, first_output, behind_outputs;
+    wire is_output_write = write && write_address[19:16] == LOCKSTEP_OUTPUT_RING[19:16];
+    axis_output_ring #(.ENTRY_BITS(OUTPUT_BITS), .DIGITAL(DIGITAL), .ANALOG(ANALOG)) output_ring (.clk(clk),
+        .write(is_output_write), .write_address(write_address[OUTPUT_BITS+4:3]), .write_data(write_data),
+        .head(output_head), .run(run[23:0]), .frame(frame[31:0]), .rests(rests), .in_motion(in_motion),
+        .drop_own(drop_own), .take(begins_body), .settled(outputs_settled), .is_well(outputs_well),
+        .tail(output_tail), .first(first_output), .behind(behind_outputs), .reads(reads_output),
+        .read_address(output_address), .word(output_word));
+    axis_outputs #(.ENTRY_BITS(OUTPUT_BITS), .DIGITAL(DIGITAL), .ANALOG(ANALOG)) outputs (.clk(clk),
+        .direct(direct_outputs), .due(due_outputs), .begin_body(begins_body), .is_well(outputs_well),
+        .begin_tail(begins_tail), .end_run(end_outputs), .is_cut(is_cut), .silence(silence_outputs), .tick(ticks),
+        .busy(outputs_busy), .is_host_silent(is_host_silent), .now(now), .at_cut(at_cut), .at_silence(at_silence),
+        .direct_request(direct_request), .word_address(direct_address), .host_word(setup_word), .run(run[23:0]),
+        .frame(frame[31:0]), .first(first_output), .behind(behind_outputs), .reads(reads_output),
+        .read_address(output_address), .word(output_word), .put(output_changes), .is_analog(is_analog),
+        .channel(changed_output), .value(output_value), .detail(output_detail), .events_busy(events_busy),
+        .levels(digital), .analog(analog));
 
     wire load_ticks, load_velocity, load_acceleration, halt, rebase, idle, overflow, engine_step, engine_backward;
     wire [63:0] rebase_phase;
@@ -120,7 +161,11 @@ module axis_device #(
         .setup_refused(setup_refused), .enable_ticks(enable_ticks), .limit_min(limit_min), .limit_max(limit_max),
         .home(home), .stop_inputs(stop_inputs), .disables_at_silence(disables_at_silence), .look(look),
         .inputs_busy(inputs_busy), .closed(closed), .look_at_host(look_at_host), .judge_host(judge_host),
-        .is_host_silent(is_host_silent), .drop_own(drop_own), .drop_others(drop_others), .take(take),
+        .falls_silent(falls_silent), .is_host_silent(is_host_silent), .direct_outputs(direct_outputs),
+        .due_outputs(due_outputs), .silence_outputs(silence_outputs), .end_outputs(end_outputs), .is_cut(is_cut),
+        .begins_body(begins_body), .begins_tail(begins_tail), .outputs_busy(outputs_busy),
+        .outputs_settled(outputs_settled), .outputs_well(outputs_well), .at_rest(rests), .in_motion(in_motion),
+        .drop_own(drop_own), .drop_others(drop_others), .take(take),
         .frame_settled(frame_settled), .frame_valid(frame_valid), .frame_good(frame_good), .frame_at(frame_at),
         .frame_is_last(frame_is_last), .frame_is_of_run(frame_is_of_run), .frame_number(frame_number),
         .frame_start(frame_start), .frame_count(frame_count), .frame_body_pieces(frame_body_pieces),
@@ -143,7 +188,8 @@ module axis_device #(
         .status(status), .count(count), .phase(phase), .velocity(velocity), .run(run), .frame(frame),
         .trigger_count(trigger_count), .segment_tail(segment_tail), .capture_head(capture_head),
         .capture_lost(capture_lost), .capture_sum(capture_sum), .capture_sums(capture_sums), .setup(setup),
-        .inputs({{(32 - INPUTS){1'b0}}, closed}), .event_head(event_head), .event_lost(event_lost));
+        .inputs({{(32 - INPUTS){1'b0}}, closed}), .event_head(event_head), .event_lost(event_lost),
+        .outputs(digital), .output_tail(output_tail), .analog(analog));
 
     // What the host reads.
     reg [19:3] address;         // a clock later, with the memories' words
@@ -163,6 +209,9 @@ module axis_device #(
         LOCKSTEP_LEAD_TICKS: constant = LEAD_TICKS;
         LOCKSTEP_PIN_TICKS: constant = PIN_TICKS;
         LOCKSTEP_INPUT_CHANNELS: constant = INPUTS;
+        LOCKSTEP_DIGITAL_CHANNELS: constant = DIGITAL;
+        LOCKSTEP_ANALOG_CHANNELS: constant = ANALOG;
+        LOCKSTEP_OUTPUT_ENTRIES: constant = 64'd1 << OUTPUT_BITS;
         LOCKSTEP_EVENT_ENTRIES: constant = 64'd1 << EVENT_BITS;
         LOCKSTEP_FEATURES: constant = 64'd1 << LOCKSTEP_FEATURES_ENABLE_BIT |
             64'd1 << LOCKSTEP_FEATURES_FRAMES_STAY_BIT;

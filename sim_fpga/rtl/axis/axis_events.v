@@ -1,14 +1,15 @@
-// The event ring: every change of an input, with the place of the axis. It is sim_fpga/event_ring.hpp.
+// The event ring: every change of an input or an output. It is sim_fpga/event_ring.hpp.
 module axis_events #(
     parameter ENTRY_BITS = 4
 ) (
     input clk,
-    input put,                  // for one clock, while it is not busy: this input changes
+    input put,                  // for one clock, while it is not busy
+    input [1:0] kind,           // as in WHAT
     input [4:0] channel,
-    input closed,
+    input [15:0] levels,
     input [63:0] now,           // these stay as they are while it is busy
-    input [63:0] count,
-    input [63:0] phase,
+    input [63:0] value,
+    input [63:0] detail,
     output reg busy,
     input [63:0] tail,          // EVENT_TAIL
     input [ENTRY_BITS+1:0] read_address,
@@ -21,23 +22,25 @@ module axis_events #(
     wire is_full = used >= ENTRIES;
     reg [1:0] at;               // the word that is written
     reg [4:0] its_channel;
-    reg is_closed;
+    reg [1:0] its_kind;
+    reg [15:0] its_levels;
     reg [63:0] word;
     always @* case (at)
         0: word = now;
-        1: word = {47'd0, is_closed, 3'd0, its_channel, 8'd0}; // KIND 0: INPUT
-        2: word = count;
-        3: word = phase;
+        1: word = {32'd0, its_levels, 3'd0, its_channel, 6'd0, its_kind};
+        2: word = value;
+        3: word = detail;
     endcase
     axis_ring_memory #(.ENTRY_BITS(ENTRY_BITS)) entries (.clk(clk), .write(busy),
         .write_address({head[ENTRY_BITS-1:0], at}), .write_data(word), .read_address(read_address), .word(read_word));
 
-    initial {busy, head, lost, at, its_channel, is_closed} = 0;
+    initial {busy, head, lost, at, its_channel, its_kind, its_levels} = 0;
     always @(posedge clk) begin
         if (put && !is_full) begin
             busy <= 1;
             its_channel <= channel;
-            is_closed <= closed;
+            its_kind <= kind;
+            its_levels <= levels;
         end else if (put) lost <= lost + 1'b1;
         if (busy) begin
             at <= at + 1'b1;

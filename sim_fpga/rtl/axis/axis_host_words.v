@@ -19,6 +19,8 @@ module axis_host_words (
     output reg [63:0] event_tail,
     output reg [63:0] beat,
     output reg enable,
+    output reg [63:0] output_head,
+    output reg [63:0] direct_request,
     output reg [63:0] setup_request
 );
     // verilator lint_off UNUSED
@@ -32,7 +34,7 @@ module axis_host_words (
     initial begin
         for (i = 0; i < 128; i = i + 1) words[i] = 0;
         {run_request, trigger, armed, veto, stop, segment_head, capture_tail, event_tail, beat} = 0;
-        {enable, setup_request} = 0;
+        {enable, setup_request, output_head, direct_request} = 0;
     end
     always @(posedge clk) begin
         if (write && is_host_word) words[{write_address[13], write_address[8:3]}] <= write_data;
@@ -50,6 +52,8 @@ module axis_host_words (
         LOCKSTEP_EVENT_TAIL: event_tail <= write_data;
         LOCKSTEP_BEAT: beat <= write_data;
         LOCKSTEP_ENABLE: enable <= write_data != 0;
+        LOCKSTEP_OUTPUT_HEAD: output_head <= write_data;
+        LOCKSTEP_DIRECT_REQUEST: direct_request <= write_data;
         LOCKSTEP_SETUP_REQUEST: setup_request <= write_data;
         default: ;
     endcase

@@ -25,9 +25,12 @@ module axis_mirror (
     input [63:0] setup,
     input [31:0] inputs,
     input [63:0] event_head,
-    input [63:0] event_lost
+    input [63:0] event_lost,
+    input [15:0] outputs,
+    input [63:0] output_tail,
+    input [127:0] analog
 );
-    localparam LAST = 21;       // the word at 0x01A8
+    localparam LAST = 23;       // the word at 0x01B8
     (* no_rw_check *) reg [63:0] words[0:31];
     reg [4:0] at;               // the word that is written
     reg is_closing;             // SEQUENCE becomes even
@@ -51,9 +54,13 @@ module axis_mirror (
         14: word = capture_sums;
         15: word = setup;
         16: word = {32'd0, inputs};
+        17: word = {48'd0, outputs};
+        18: word = output_tail;
         19: word = event_head;
         20: word = event_lost;
-        default: word = 0;      // of outputs: there are none
+        22: word = analog[63:0];
+        23: word = analog[127:64];
+        default: word = 0;      // there are no pulses at places
     endcase
 
     integer i;

@@ -40,7 +40,21 @@ module axis_sequencer #(
     input [INPUTS-1:0] closed,
     output look_at_host,
     output judge_host,
+    input falls_silent,
     input is_host_silent,
+    // The outputs.
+    output direct_outputs,
+    output due_outputs,
+    output silence_outputs,
+    output end_outputs,
+    output is_cut,
+    output begins_body,
+    output begins_tail,
+    input outputs_busy,
+    input outputs_settled,      // those of the next frame are known
+    input outputs_well,
+    output at_rest,
+    output in_motion,
     // The next frame.
     output drop_own,
     output drop_others,
@@ -93,14 +107,16 @@ module axis_sequencer #(
     localparam AT_REST = 0, WAITING = 1, BODY = 2, TAIL = 3;
     localparam POWER_UP = 0, IDLE = 1, SETUP = 2, TAKE_SETUP = 3, ENABLE = 4, RUN = 5, CEASE = 6, LOOK = 7, TEND = 8,
         TENDED = 9, DECIDE = 10, SETTLE = 11, ACT = 12, FETCH = 13, ACCELERATE = 14, TRAVEL = 15, STEP = 16,
-        PUBLISH = 17, PUBLISHED = 18;
+        PUBLISH = 17, PUBLISHED = 18, OUTPUTS = 19, DIRECT = 20, DUE = 21, JUDGE = 22;
     // The bits of STATUS that a new run clears.
     localparam [15:0] FINISHED = 1 << 1, ENDED_IN_TAIL = 1 << 2, BY_LIMIT = 1 << 6, BY_TRIGGER = 1 << 7,
-        BY_HOST = 1 << 8, BAD_SEGMENT = 1 << 9, OVERFLOWS = 1 << 10, BY_INPUT = 1 << 13;
+        BY_HOST = 1 << 8, BAD_SEGMENT = 1 << 9, OVERFLOWS = 1 << 10, BY_INPUT = 1 << 13,
+        BAD_OUTPUT = 1 << 15;
     localparam [8:0] MOST_WAITED = SETTLE_CLOCKS;
     localparam [63:0] REST_PHASE = 64'h8000000000000000;
 
-    reg [4:0] state;
+    wire is_settled = frame_settled && outputs_settled;
+    reg [4:0] state, next, back; // `back`: when the outputs have changed
     reg [7:0] owed;             // ticks that have come and are not executed
     reg has_lost_ticks;
     reg is_after;               // the tick of this work has been executed
@@ -118,7 +134,8 @@ module axis_sequencer #(
     reg [31:0] enabled_for;
     reg stepped, stepped_backward, into_limit; // in this tick
 
-    wire in_motion = motion == BODY || motion == TAIL;
+    assign in_motion = motion == BODY || motion == TAIL;
+    assign at_rest = motion == AT_REST;
     wire setup_is_new = setup_request != setup && setup_request != refused;
     wire run_is_new = run_request != 0 && run_request != run;
     wire is_stop_asked = stop != 0 && stop == run_request;
@@ -159,7 +176,7 @@ module axis_sequencer #(
     wire is_body_over = is_piece_over && motion == BODY && body_left == 1;
     wire is_next = is_body_over && !is_last && frame_valid && frame_is_of_run && is_number && may_run;
     wire follows = is_next && joins && is_good;
-    wire begins_tail = is_body_over && !is_last && !follows && tail_left != 0;
+    assign begins_tail = is_body_over && !is_last && !follows && tail_left != 0;
     wire goes_on = is_piece_over && (motion == BODY ? body_left != 1 : tail_left != 1);
     wire begins_frame = (state == ACT && starts && !is_stopped && !is_triggered) || follows;
 
@@ -202,7 +219,13 @@ module axis_sequencer #(
     assign start_setup = state == SETUP && setup_is_new && !in_motion;
     assign look = state == LOOK;
     assign look_at_host = state == ENABLE;
-    assign judge_host = state == LOOK;
+    assign judge_host = state == JUDGE;
+    assign direct_outputs = state == DIRECT;
+    assign due_outputs = state == DUE;
+    assign silence_outputs = falls_silent;
+    assign end_outputs = ends;
+    assign is_cut = reason != 0 || motion != BODY || !is_last;
+    assign begins_body = begins_frame;
     assign drop_own = state == SETTLE && motion == AT_REST;
     assign drop_others = state == SETTLE && motion == WAITING;
     assign take = state == ACT && (starts || follows);
@@ -229,6 +252,7 @@ module axis_sequencer #(
 
     initial begin
         state = POWER_UP;
+        back = IDLE;
         {owed, has_lost_ticks, is_after, motion, waited, trigger, run_bits, is_last, body_left, tail_left} = 0;
         {piece, frame_begin} = 0;
         {fetched, refused, is_enabled, enabled_for, stepped, stepped_backward, into_limit} = 0;
@@ -242,41 +266,42 @@ module axis_sequencer #(
         if (tick && busy && in_motion) has_lost_ticks <= 1;
         waited <= state == SETTLE ? waited + 1'b1 : 9'd0;
         fetched <= fetch ? fetched + 1'b1 : 2'd0;
-        case (state)
-            POWER_UP: begin
-                now <= first_tick;
-                state <= PUBLISH;
-            end
-            IDLE: begin
-                is_after <= 0;
-                if (owed != 0) state <= SETUP;
-            end
-            SETUP: state <= start_setup ? TAKE_SETUP : ENABLE;
-            TAKE_SETUP: if (!setup_busy) state <= ENABLE;
-            ENABLE: state <= RUN;
-            RUN: state <= CEASE;
-            CEASE: state <= LOOK;
-            LOOK: state <= TEND;
-            TEND: if (!inputs_busy) state <= TENDED;
-            TENDED: state <= DECIDE;
-            DECIDE: state <= SETTLE;
-            SETTLE: if ((frame_settled && waited != 0) || waited == MOST_WAITED) state <= ACT;
-            ACT: state <= begins_frame || begins_tail || goes_on ? FETCH : is_after ? PUBLISH : ACCELERATE;
-            FETCH: if (fetched == 3) state <= is_after ? PUBLISH : ACCELERATE;
-            ACCELERATE: begin
-                now <= now + 1'b1;
-                state <= TRAVEL;
-            end
-            TRAVEL: begin
-                is_after <= 1;
-                state <= STEP;
-            end
-            STEP: state <= LOOK;
-            PUBLISH: state <= PUBLISHED;
-            PUBLISHED: if (!publish_busy) state <= IDLE;
-            default: state <= IDLE;
-        endcase
+        if (state == POWER_UP) now <= first_tick;
+        else if (state == ACCELERATE) now <= now + 1'b1;
+        if (state == IDLE) is_after <= 0;
+        else if (state == TRAVEL) is_after <= 1;
+        state <= asks ? OUTPUTS : next;
+        if (asks) back <= next;
     end
+
+    // The outputs do what they are asked for before the work goes on.
+    wire asks = ends || state == DIRECT || state == DUE || falls_silent;
+    always @* case (state)
+        POWER_UP: next = PUBLISH;
+        IDLE: next = owed != 0 ? SETUP : IDLE;
+        SETUP: next = start_setup ? TAKE_SETUP : ENABLE;
+        TAKE_SETUP: next = setup_busy ? TAKE_SETUP : ENABLE;
+        ENABLE: next = DIRECT;
+        DIRECT: next = RUN;
+        RUN: next = CEASE;
+        CEASE: next = DUE;
+        DUE: next = JUDGE;
+        JUDGE: next = LOOK;
+        LOOK: next = TEND;
+        TEND: next = inputs_busy ? TEND : TENDED;
+        TENDED: next = DECIDE;
+        DECIDE: next = SETTLE;
+        SETTLE: next = (is_settled && waited != 0) || waited == MOST_WAITED ? ACT : SETTLE;
+        ACT: next = begins_frame || begins_tail || goes_on ? FETCH : is_after ? PUBLISH : ACCELERATE;
+        FETCH: next = fetched != 3 ? FETCH : is_after ? PUBLISH : ACCELERATE;
+        ACCELERATE: next = TRAVEL;
+        TRAVEL: next = STEP;
+        STEP: next = DUE;
+        PUBLISH: next = PUBLISHED;
+        PUBLISHED: next = publish_busy ? PUBLISHED : IDLE;
+        OUTPUTS: next = outputs_busy ? OUTPUTS : back;
+        default: next = IDLE;
+    endcase
 
     // The setup and the motor's enable.
     always @(posedge clk) begin
@@ -300,6 +325,7 @@ module axis_sequencer #(
             run_bits <= 0;
             frame <= 0;
         end else if (begins_frame) begin
+            if (!outputs_well) run_bits <= run_bits | BAD_OUTPUT;
             motion <= BODY;
             frame <= number;
             is_last <= frame_is_last;

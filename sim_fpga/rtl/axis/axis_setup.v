@@ -4,6 +4,8 @@
 // the longest.
 module axis_setup #(
     parameter INPUTS = 8,
+    parameter DIGITAL = 8,
+    parameter ANALOG = 2,
     parameter TIME_BITS = 16    // of a pulse time
 ) (
     input clk,
@@ -28,6 +30,9 @@ module axis_setup #(
     output set_debounce,        // for one clock: of this input
     output [4:0] debounce_input,
     output [31:0] debounce_ticks,
+    output reg [15:0] outputs_inverted,
+    output reg [39:0] at_cut,
+    output reg [39:0] at_silence,
     output reg disables_at_silence,
     output reg [31:0] silence_ticks
 );
@@ -50,8 +55,9 @@ module axis_setup #(
     always @* case (at)
         STEP_WIDTH, DIRECTION_SETUP, DIRECTION_HOLD: is_possible = word >> TIME_BITS == 0;
         INPUTS_INVERTED, LIMIT_MIN, LIMIT_MAX, HOME, STOP: is_possible = word[31:0] >> INPUTS == 0;
-        OUTPUTS_INVERTED, COMPARE_OUTPUTS: is_possible = word[15:0] == 0;
-        AT_CUT, AT_SILENCE: is_possible = word[39:16] == 0;
+        OUTPUTS_INVERTED: is_possible = word[15:0] >> DIGITAL == 0;
+        COMPARE_OUTPUTS: is_possible = word[15:0] == 0;
+        AT_CUT, AT_SILENCE: is_possible = word[31:16] >> DIGITAL == 0 && word[39:32] >> ANALOG == 0;
         default: is_possible = at < DEBOUNCE || (is_debounce && {27'd0, channel} < INPUTS) || word == 0;
     endcase
 
@@ -69,7 +75,8 @@ module axis_setup #(
 
     initial begin
         {state, at, asked, step_width, direction_setup, direction_hold, enable_ticks, inverted, inputs_inverted} = 0;
-        {limit_min, limit_max, home, stop, disables_at_silence, silence_ticks} = 0;
+        {limit_min, limit_max, home, stop, outputs_inverted, at_cut, at_silence, disables_at_silence} = 0;
+        silence_ticks = 0;
         limit_min[0] = 1;
         limit_max[1] = 1;
         home[2] = 1;
@@ -95,7 +102,9 @@ module axis_setup #(
             LIMIT_MAX: limit_max <= word[INPUTS-1:0];
             HOME: home <= word[INPUTS-1:0];
             STOP: stop <= word[INPUTS-1:0];
-            AT_SILENCE: disables_at_silence <= word[40];
+            OUTPUTS_INVERTED: outputs_inverted <= word[15:0];
+            AT_CUT: at_cut <= word[39:0];
+            AT_SILENCE: {disables_at_silence, at_silence} <= word[40:0];
             SILENCE_TICKS: silence_ticks <= ticks;
             default: ;
         endcase

@@ -55,13 +55,13 @@ TEST(AxisHardware, ShowsTheWordsOfTheSimulatedDeviceAfterEveryTickForAnyHost) {
     using namespace registers;
     EXPECT_GT(bench.load(kCaptureHead), 2'000) << "steps";
     EXPECT_GT(bench.load(kCaptureLost), 10) << "steps";
-    EXPECT_GT(bench.load(kEventHead), 200) << "changes of inputs";
-    EXPECT_GT(bench.load(kEventLost), 10) << "changes of inputs";
+    EXPECT_GT(bench.load(kEventHead), 200) << "changes of inputs and outputs";
+    EXPECT_GT(bench.load(kEventLost), 10) << "changes of inputs and outputs";
     EXPECT_GT(covered.joins(), 500);
     for (const std::uint64_t bit :
          {kStatusFinished, kStatusInTail, kStatusLimitMin, kStatusLimitMax, kStatusHome, kStatusStoppedByLimit,
           kStatusStoppedByTrigger, kStatusStoppedByHost, kStatusBadSegment, kStatusCaptureOverflow, kStatusEnabled,
-          kStatusHostSilent, kStatusStoppedByInput, kStatusBadSetup}) {
+          kStatusHostSilent, kStatusStoppedByInput, kStatusBadSetup, kStatusBadOutput}) {
         EXPECT_GT(covered.of(bit), 5) << "bit " << std::countr_zero(bit);
     }
 }

@@ -25,15 +25,17 @@ inline constexpr DeviceAbilities kAbilities{.segment_entries = 64,
                                             .longest_time = 65'535,
                                             .longest_pwm_period = 0,
                                             .inputs = 8,
-                                            .digital_outputs = 0,
-                                            .analog_outputs = 0,
-                                            .output_entries = 0,
+                                            .digital_outputs = 8,
+                                            .analog_outputs = 2,
+                                            .output_entries = 32,
                                             .event_entries = 32,
                                             .has_encoder = false,
                                             .can_compare = false,
                                             .frames_stay = true};
 inline constexpr RegisterRing kSegments(registers::kSegmentRing, kAbilities.segment_entries,
                                         registers::kSegmentRingEntryBytes);
+inline constexpr RegisterRing kChanges(registers::kOutputRing, kAbilities.output_entries,
+                                       registers::kOutputRingEntryBytes);
 inline constexpr RegisterRing kEvents(registers::kEventRing, kAbilities.event_entries, registers::kEventRingEntryBytes);
 inline constexpr RegisterRing kCaptures(registers::kCaptureRing, kAbilities.capture_entries,
                                         registers::kCaptureRingEntryBytes);
@@ -73,14 +75,16 @@ public:
 
 private:
     using Name = std::pair<const char*, std::size_t>;
-    static constexpr std::array<Name, 7> kEachTick{{{"TICK", registers::kTick},
+    static constexpr std::array<Name, 9> kEachTick{{{"TICK", registers::kTick},
                                                     {"STATUS", registers::kStatus},
                                                     {"COUNT", registers::kCount},
                                                     {"PHASE", registers::kPhase},
                                                     {"VELOCITY", registers::kVelocity},
                                                     {"RUN", registers::kRun},
-                                                    {"FRAME", registers::kFrame}}};
-    static constexpr std::array<Name, 11> kRest{{{"TRIGGER_COUNT", registers::kTriggerCount},
+                                                    {"FRAME", registers::kFrame},
+                                                    {"OUTPUTS", registers::kOutputs},
+                                                    {"ANALOG_LOWER", registers::kAnalogLower}}};
+    static constexpr std::array<Name, 13> kRest{{{"TRIGGER_COUNT", registers::kTriggerCount},
                                                  {"CAPTURE_HEAD", registers::kCaptureHead},
                                                  {"CAPTURE_LOST", registers::kCaptureLost},
                                                  {"CAPTURE_SUM", registers::kCaptureSum},
@@ -90,7 +94,9 @@ private:
                                                  {"EVENT_HEAD", registers::kEventHead},
                                                  {"EVENT_LOST", registers::kEventLost},
                                                  {"ENCODER", registers::kEncoder},
-                                                 {"SEGMENT_TAIL", registers::kSegmentTail}}};
+                                                 {"SEGMENT_TAIL", registers::kSegmentTail},
+                                                 {"OUTPUT_TAIL", registers::kOutputTail},
+                                                 {"ANALOG_UPPER", registers::kAnalogUpper}}};
 
     /// A plant whose switches are far away.
     static Plant plant() {

@@ -31,6 +31,7 @@ public:
         beat();
         touch_inputs();
         touch_setup();
+        if (draw_.one_in(200)) { change_outputs(); }
     }
     std::int64_t pieces() const { return pieces_; }
 
@@ -100,6 +101,9 @@ private:
                      kSegmentRingHeaderCountsCount.word(static_cast<std::uint64_t>(at_.count()) + off) |
                          kSegmentRingHeaderCountsBody.word(body) | kSegmentRingHeaderCountsTail.word(tail));
         const std::uint64_t bent = draw_.one_in(100) ? std::uint64_t{1} << below(64) : 0;
+        load_outputs(run, number, 12, false);
+        load_outputs(run, number, 12, true);
+        bench_.store(kOutputHead, output_head_);
         bench_.store(at + kSegmentRingHeaderPhase, draw_.one_in(50) ? kRestPhase : at_.phase() ^ bent);
         for (std::uint64_t n = 1; n <= body + tail; ++n) {
             const Piece drawn = piece();
@@ -112,6 +116,39 @@ private:
         const std::uint64_t missing = draw_.one_in(200) ? 1 + below(3) : 0;
         bench_.store(kSegmentHead, head_ - missing);
         missing_ = missing != 0;
+    }
+
+    /// Changes of the frame's outputs, mostly in order and possible.
+    void load_outputs(std::uint64_t run, std::uint64_t frame, std::int64_t ticks, bool is_tail) {
+        using namespace registers;
+        std::int64_t at = 1;
+        for (std::int64_t left = draw_.one_in(3) ? draw_.below(5) : 0; left > 0; --left) {
+            if (output_head_ - bench_.load(kOutputTail) >= kChanges.entries()) { return; }
+            at += draw_.below(1 + ticks / 2);
+            const std::size_t entry = kChanges.entry(output_head_++);
+            const std::uint64_t kind = draw_.one_in(300) ? 2 + below(2) : below(2);
+            const std::uint64_t other = draw_.one_in(40) ? below(3) - 1 : 0;
+            bench_.store(entry + kOutputRingTag,
+                         (is_tail != draw_.one_in(40) ? kOutputRingTagTail : 0) | kOutputRingTagKind.word(kind) |
+                             kOutputRingTagChannel.word(draw_.one_in(300) ? 2 : below(2)) |
+                             kOutputRingTagRun.word(run) | kOutputRingTagFrame.word(frame + other));
+            bench_.store(entry + kOutputRingAt, draw_.one_in(300) ? below(4) : static_cast<std::uint64_t>(at));
+            bench_.store(entry + kOutputRingValue, kind == 1 ? any_analog() : any_levels());
+            bench_.store(entry + kOutputRingSlope, draw_.one_in(3) ? 0 : any_slope());
+        }
+    }
+    std::uint64_t bits(unsigned count) { return below(std::int64_t{1} << count); }
+    std::uint64_t any_levels() { return bits(16) | bits(8) << 16 | (draw_.one_in(300) ? std::uint64_t{1} << 24 : 0); }
+    std::uint64_t any_analog() { return bits(62) << (draw_.one_in(4) ? 2 : 0) >> below(3); }
+    std::uint64_t any_slope() { return (draw_.one_in(2) ? ~std::uint64_t{0} : 0) ^ bits(62) >> below(10); }
+
+    void change_outputs() {
+        using namespace registers;
+        bench_.store(kDirectOutputs, bits(40));
+        for (const std::size_t n : {0, 1}) {
+            bench_.store(kAnalogTable + n * kAnalogTableEntryBytes + kAnalogTableDirectValue, any_analog());
+        }
+        bench_.store(kDirectRequest, ++request_);
     }
 
     void arm() {
@@ -168,7 +205,10 @@ private:
         bench_.store(kLimitMaxInputs, 2U | any_inputs());
         bench_.store(kHomeInputs, any_inputs() | (draw_.one_in(30) ? 256 : 0));
         bench_.store(kStopInputs, draw_.one_in(2) ? any_inputs() : 0);
-        bench_.store(kOutputsAtSilence, kOutputsAtSilenceDisable.word(below(2)));
+        bench_.store(kOutputsInverted, bits(8));
+        bench_.store(kOutputsAtCut, bits(24) | bits(2) << 32);
+        bench_.store(kOutputsAtSilence, bits(24) | bits(2) << 32 | kOutputsAtSilenceDisable.word(below(2)) |
+                                            (draw_.one_in(30) ? std::uint64_t{1} << 34 : 0));
         bench_.store(kSilenceTicks, draw_.one_in(2) ? 0 : 50 + below(200));
         for (std::size_t n = 0; n < 8; ++n) {
             bench_.store(kInputTable + n * kInputTableEntryBytes, draw_.one_in(2) ? 0 : below(12));
@@ -183,6 +223,8 @@ private:
     std::uint64_t frame_ = 0;
     std::uint64_t armed_ = 0;
     std::uint64_t head_ = 0;
+    std::uint64_t output_head_ = 0;
+    std::uint64_t request_ = 0;
     std::uint64_t captured_ = 0;
     std::uint64_t noted_ = 0;
     std::uint64_t beat_ = 0;

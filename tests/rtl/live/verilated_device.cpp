@@ -26,6 +26,7 @@ VerilatedDevice::VerilatedDevice(const PowerUp& up)
       now_(up.now),
       device_(up.now, up.number),
       segments_(ring_of(device_, kSegmentRing, kSegmentEntries, kSegmentRingEntryBytes)),
+      changes_(ring_of(device_, kOutputRing, kOutputEntries, kOutputRingEntryBytes)),
       captures_(ring_of(device_, kCaptureRing, kCaptureEntries, kCaptureRingEntryBytes)),
       events_(ring_of(device_, kEventRing, kEventEntries, kEventRingEntryBytes)),
       taken_(kSegmentRing / kWord) {
@@ -57,6 +58,7 @@ bool VerilatedDevice::is_intact() const {
 /// meanwhile.
 void VerilatedDevice::take_orders() {
     take_setup();
+    take_direct();
     const std::uint64_t run = window_.load(kRunRequest);
     const std::uint64_t veto = window_.load(kVeto);
     const std::uint64_t armed = window_.load(kArmed);
@@ -82,16 +84,33 @@ void VerilatedDevice::take_setup() {
     take(kSetupRequest, request);
 }
 
+void VerilatedDevice::take_direct() {
+    const std::uint64_t request = window_.load(kDirectRequest);
+    if (request == taken_[kDirectRequest / kWord]) { return; }
+    take(kDirectOutputs);
+    for (std::size_t word = kAnalogTable; word < kInputTable; word += kWord) { take(word); }
+    take(kDirectRequest, request);
+}
+
+/// The outputs of a frame are in their ring before the frame is in its own.
 void VerilatedDevice::take_frames() {
-    const std::uint64_t head = window_.load(kSegmentHead);
-    if (head - loaded_ > segments_.entries()) { return; }  // impossible: is_intact() will tell
-    for (; loaded_ != head; ++loaded_) {
-        const std::size_t entry = segments_.entry(loaded_);
-        for (std::size_t word = entry; word < entry + kSegmentRingEntryBytes; word += kWord) {
+    const std::uint64_t frames = window_.load(kSegmentHead);
+    take_ring(changes_, kOutputRingEntryBytes, window_.load(kOutputHead), changed_);
+    take(kOutputHead, changed_);
+    take_ring(segments_, kSegmentRingEntryBytes, frames, loaded_);
+    take(kSegmentHead, loaded_);
+}
+
+/// Gives the device the new entries of a ring that the host writes.
+void VerilatedDevice::take_ring(const RegisterRing& ring, std::size_t entry_bytes, std::uint64_t head,
+                                std::uint64_t& taken) {
+    if (head - taken > ring.entries()) { return; }  // impossible: is_intact() will tell
+    for (; taken != head; ++taken) {
+        const std::size_t entry = ring.entry(taken);
+        for (std::size_t word = entry; word < entry + entry_bytes; word += kWord) {
             device_.write(word, window_.load(word));
         }
     }
-    take(kSegmentHead, head);
 }
 
 void VerilatedDevice::take(std::size_t offset, std::uint64_t word) {

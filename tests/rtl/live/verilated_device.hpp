@@ -24,7 +24,9 @@ public:
 private:
     void take_orders();
     void take_setup();
+    void take_direct();
     void take_frames();
+    void take_ring(const RegisterRing& ring, std::size_t entry_bytes, std::uint64_t head, std::uint64_t& taken);
     void take(std::size_t offset, std::uint64_t word);
     void take(std::size_t offset) { take(offset, window_.load(offset)); }
     void execute(Tick until);
@@ -38,10 +40,12 @@ private:
     Tick now_;
     VerilogDevice<Vaxis_of_machine> device_;
     RegisterRing segments_;
+    RegisterRing changes_;
     RegisterRing captures_;
     RegisterRing events_;
     std::vector<std::uint64_t> taken_;  // the host's registers, as the device has them
     std::uint64_t loaded_ = 0;          // entries of the segment ring that the device has
+    std::uint64_t changed_ = 0;         // entries of the output ring that the device has
     std::uint64_t captured_ = 0;        // entries of the capture ring that the window has
     std::uint64_t noted_ = 0;           // entries of the event ring that the window has
     std::uint64_t sequence_ = 0;

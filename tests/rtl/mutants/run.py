@@ -93,6 +93,18 @@ LONG_MUTANTS = [
     ("axis_device", "axis/axis_events.v", "put && !is_full", "put"),
     ("axis_device", "axis/axis_capture.v", "sums <= sums + sum;", "sums <= sum;"),
     ("axis_device", "axis/axis_host_watch.v", "ticks >= patience", "ticks > patience"),
+    ("axis_device", "axis/axis_outputs.v", "is_active <= is_usable && !is_host_silent", "is_active <= is_usable"),
+    ("axis_device", "axis/axis_outputs.v", "$signed(due_at) > $signed(now)", "$signed(due_at) >= $signed(now)"),
+    ("axis_device", "axis/axis_outputs.v", "(levels & ~new_value[31:16])", "levels"),
+    ("axis_device", "axis/axis_outputs.v", "clamped == 0 && new_slope == 0", "clamped == 0"),
+    ("axis_device", "axis/axis_outputs.v", "sum[63] || sum[62:0] > FULL ? FULL", "sum[63] ? FULL"),
+    ("axis_device", "axis/axis_outputs.v", "is_safe_asked <= silence || is_cut", "is_safe_asked <= is_cut"),
+    ("axis_device", "axis/axis_outputs.v", "channel <= {2'd0, due_channel};", ""),
+    ("axis_device", "axis/axis_output_ring.v", "word[42:0] >= last", "word[42:0] > last"),
+    ("axis_device", "axis/axis_output_ring.v", "is_found ? its_first : at", "at"),
+    ("axis_device", "axis/axis_output_ring.v", "kind == 1 && {29'd0, channel} < ANALOG", "kind == 1"),
+    ("axis_device", "axis/axis_output_ring.v", "if (!of_run) state <= STOP;", "if (0) state <= STOP;"),
+    ("axis_device", "axis/axis_sequencer.v", "reason != 0 || motion != BODY || !is_last", "reason != 0"),
     ("axis_device", "axis/axis_setup.v", "refused = state == CHECK && asked && !is_possible", "refused = 1'b0"),
 ]
 

@@ -1,0 +1,234 @@
+// The outputs: levels, and analog values that change by their slope in each tick. They change with the frames that run,
+// at once by a direct request, and to a safe state. It is sim_fpga/output_unit.hpp, without pulses at places.
+//
+// The sequencer asks for one thing at a time, for one clock, and waits while it is done.
+module axis_outputs #(
+    parameter ENTRY_BITS = 5,
+    parameter DIGITAL = 8,
+    parameter ANALOG = 2        // at most 8
+) (
+    input clk,
+    // What the sequencer asks for.
+    input direct,               // what the host asks for directly
+    input due,                  // the changes of the present frame that are due
+    input begin_body,           // a clock later `first` is that of the frame
+    input is_well,              // then: its outputs can be made
+    input begin_tail,
+    input end_run,              // values stay as they are
+    input is_cut,               // and then: as OUTPUTS_AT_CUT says
+    input silence,              // the same, as OUTPUTS_AT_SILENCE says
+    input tick,
+    output busy,                // from the clock after on
+    input is_host_silent,
+    input [63:0] now,
+    // The setup.
+    input [39:0] at_cut,
+    input [39:0] at_silence,
+    // The host's words.
+    input [63:0] direct_request,
+    output [6:0] word_address,  // in axis_host_words.v
+    input [63:0] host_word,     // one clock after the address
+    // The ring's entries of the present frame.
+    input [23:0] run,
+    input [31:0] frame,
+    input [63:0] first,
+    input [63:0] behind,
+    output reads,
+    output [ENTRY_BITS+1:0] read_address,
+    input [63:0] word,
+    // A change, for one clock. Its words stay until the event is noted.
+    output put,
+    output reg is_analog,
+    output reg [4:0] channel,
+    output [63:0] value,
+    output [63:0] detail,
+    input events_busy,
+    // What the outputs show.
+    output reg [15:0] levels,
+    output [127:0] analog   // 16 bits each, of 2^-15 of full scale
+);
+    localparam REST = 0, DIRECT = 1, CHANNEL = 2, CHANNEL_WORD = 3, NEXT = 4, TAG = 5, AT = 6, VALUE = 7, SLOPE = 8,
+        DIGITAL_CHANGE = 9, ANALOG_CHANGE = 10, NOTE = 11, NOTED = 12, END = 13, SAFE_CHANNEL = 14;
+    localparam [62:0] FULL = 63'd1 << 62;
+    localparam [6:0] DIRECT_OUTPUTS = 7'd12, FIRST_DIRECT_VALUE = 7'd65; // in axis_host_words.v
+    reg [3:0] state, back;      // `back`: after a change
+    reg asked;                  // the memory shows the word
+    reg [63:0] request;         // the direct request taken last
+    reg [39:0] safe;
+    reg is_safe_asked;
+    reg [7:0] mask;             // the analog outputs that change
+    // The list of changes.
+    reg is_active, in_tail, is_due_known, is_usable, begins;
+    reg [63:0] at, start, due_at;
+    reg [1:0] kind;
+    reg [2:0] due_channel;
+    reg [63:0] new_value, new_slope;
+    // The outputs.
+    reg [62:0] values[0:7];
+    reg [63:0] slopes[0:7];
+    reg [7:0] is_off;           // it began at 0, and does not rise
+
+    wire [15:0] changed_levels = (levels & ~new_value[31:16]) | (new_value[15:0] & new_value[31:16]);
+    wire [62:0] clamped = new_value[63] ? 63'd0 : new_value[62] ? FULL : new_value[62:0];
+    wire [7:0] safe_off = safe[39:32];
+    wire is_last = {27'd0, channel} == ANALOG;
+    assign busy = state != REST;
+    assign word_address = state == DIRECT ? DIRECT_OUTPUTS : FIRST_DIRECT_VALUE + {1'b0, channel, 1'b0};
+    wire [1:0] number = state == AT ? 2'd1 : state == VALUE ? 2'd2 : state == SLOPE ? 2'd3 : 2'd0;
+    assign reads = (state == TAG || state == AT || state == VALUE || state == SLOPE) && !asked;
+    assign read_address = {at[ENTRY_BITS-1:0], number};
+    assign put = state == NOTE && !events_busy;
+    assign value = {1'b0, values[channel[2:0]]};
+    assign detail = slopes[channel[2:0]];
+    wire is_this = word[31:8] == run && word[63:32] == frame && word[0] == in_tail;
+
+    // A value a tick later.
+    function [62:0] later(input [62:0] from, input [63:0] by);
+        reg [64:0] sum;
+        begin
+            sum = {2'd0, from} + {by[63], by};
+            later = sum[64] ? 63'd0 : sum[63] || sum[62:0] > FULL ? FULL : sum[62:0];
+        end
+    endfunction
+    genvar n;
+    generate for (n = 0; n < 8; n = n + 1) begin : channels
+        assign analog[16*n +: 16] = values[n][62:47];
+    end endgenerate
+    integer i;
+    initial begin
+        {state, back, asked, request, safe, is_safe_asked, mask, is_active, in_tail, is_due_known, at, start} = 0;
+        {is_usable, begins, due_at, kind, due_channel, new_value, new_slope, levels, is_analog, channel} = 0;
+        is_off = 8'hff;
+        for (i = 0; i < 8; i = i + 1) begin
+            values[i] = 0;
+            slopes[i] = 0;
+        end
+    end
+    always @(posedge clk) begin
+        asked <= busy && !asked && state != NEXT;
+        case (state)
+            REST: begin
+                asked <= 0;
+                channel <= 0;
+                if (direct && direct_request != request) begin
+                    request <= direct_request;
+                    if (!is_host_silent) state <= DIRECT;
+                end
+                if (due && is_active) state <= NEXT;
+                if (end_run || silence) begin
+                    is_active <= 0;
+                    safe <= silence ? at_silence : at_cut;
+                    is_safe_asked <= silence || is_cut;
+                    state <= END;
+                end
+            end
+            // What the host asks for directly: levels, then one channel after the other.
+            DIRECT: if (asked) begin
+                new_value <= {32'd0, host_word[31:16] & ((16'd1 << DIGITAL) - 16'd1), host_word[15:0]};
+                mask <= host_word[39:32];
+                back <= CHANNEL;
+                state <= DIGITAL_CHANGE;
+            end
+            CHANNEL: begin
+                asked <= 0;
+                if (is_last) state <= REST;
+                else if (mask[channel[2:0]]) state <= CHANNEL_WORD;
+                else channel <= channel + 1'b1;
+            end
+            CHANNEL_WORD: if (asked) begin
+                new_value <= host_word;
+                new_slope <= 0;
+                back <= CHANNEL;
+                state <= ANALOG_CHANGE;
+            end
+            // The changes of the frame.
+            NEXT: begin
+                if (is_due_known ? $signed(due_at) > $signed(now) : at == behind) state <= REST;
+                else state <= is_due_known ? VALUE : TAG;
+            end
+            TAG: if (asked) begin
+                {due_channel, kind} <= word[5:1];
+                if (is_this) state <= AT;
+                else begin
+                    at <= at + 1'b1;
+                    state <= NEXT;
+                end
+            end
+            AT: if (asked) begin
+                due_at <= start + word;
+                is_due_known <= 1;
+                state <= NEXT;
+            end
+            VALUE: if (asked) begin
+                new_value <= word;
+                state <= SLOPE;
+            end
+            SLOPE: if (asked) begin
+                new_slope <= word;
+                channel <= {2'd0, due_channel};
+                at <= at + 1'b1;
+                is_due_known <= 0;
+                back <= NEXT;
+                state <= kind == 0 ? DIGITAL_CHANGE : ANALOG_CHANGE;
+            end
+            // A change, and its event.
+            DIGITAL_CHANGE: begin
+                levels <= changed_levels;
+                is_analog <= 0;
+                state <= changed_levels != levels ? NOTE : back;
+                asked <= 0;
+            end
+            ANALOG_CHANGE: begin
+                values[channel[2:0]] <= clamped;
+                slopes[channel[2:0]] <= new_slope;
+                is_off[channel[2:0]] <= clamped == 0 && new_slope == 0;
+                is_analog <= 1;
+                state <= NOTE;
+            end
+            NOTE: if (!events_busy) state <= NOTED;
+            NOTED: begin
+                asked <= 0;
+                if (!events_busy) begin
+                    if (is_analog && back != NEXT) channel <= channel + 1'b1;
+                    state <= back;
+                end
+            end
+            // The end of a run: slopes end, then outputs become safe.
+            END: begin
+                if (is_last) begin
+                    channel <= 0;
+                    new_value <= {32'd0, safe[31:0]};
+                    back <= SAFE_CHANNEL;
+                    state <= is_safe_asked ? DIGITAL_CHANGE : REST;
+                end else if (slopes[channel[2:0]] != 0) begin
+                    new_value <= {1'b0, values[channel[2:0]]};
+                    new_slope <= 0;
+                    back <= END;
+                    state <= ANALOG_CHANGE;
+                end else channel <= channel + 1'b1;
+            end
+            SAFE_CHANNEL: begin
+                if (is_last) state <= REST;
+                else if (safe_off[channel[2:0]] && !is_off[channel[2:0]]) begin
+                    {new_value, new_slope} <= 0;
+                    back <= SAFE_CHANNEL;
+                    state <= ANALOG_CHANGE;
+                end else channel <= channel + 1'b1;
+            end
+            default: state <= REST;
+        endcase
+        begins <= begin_body || begin_tail;
+        if (begin_body) is_usable <= is_well;
+        if (begin_body || begin_tail) begin
+            in_tail <= begin_tail;
+            start <= now;
+        end
+        if (begins) begin
+            is_active <= is_usable && !is_host_silent;
+            is_due_known <= 0;
+            at <= first;
+        end
+        if (tick) for (i = 0; i < ANALOG; i = i + 1)
+            values[i] <= later(values[i], slopes[i]);
+    end
+endmodule
