@@ -45,6 +45,13 @@ struct PinsConfig {
     bool operator==(const PinsConfig&) const = default;
 };
 
+/// A measured error of a screw: where its slide is asked to go, and how much further it is then without compensation.
+struct ScrewPoint {
+    double position_mm = 0;
+    double error_mm = 0;
+    bool operator==(const ScrewPoint&) const = default;
+};
+
 /// Properties of the simulated hardware behind an axis.
 struct PlantConfig {
     double start_position_mm = 0;       // where the slide stands at power-up, in machine coordinates
@@ -67,6 +74,7 @@ struct MotorBlock {
     std::optional<double> max_following_error_mm;
     std::optional<PlantConfig> plant;
     std::optional<PinsConfig> pins;
+    std::vector<ScrewPoint> screw;  // of its own; empty: the axis's
 };
 
 /// A coordinate that programs name. Without `motors` it has one motor, with its name, whose properties stand here.
@@ -88,6 +96,7 @@ struct AxisConfig {
     HomingConfig homing;
     PlantConfig plant;
     PinsConfig pins;
+    std::vector<ScrewPoint> screw;  // empty: its screw is exact
     std::vector<MotorBlock> motors;
     std::optional<double> max_skew_mm;  // by how much its motors may differ while they square; several motors only
 };

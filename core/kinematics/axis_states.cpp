@@ -31,6 +31,22 @@ Switches any_of(const Switches& a, const Switches& b) {
     return {a.limit_min || b.limit_min, a.limit_max || b.limit_max, a.home || b.home};
 }
 
+/// Of an axis whose motor has its steps. If the motor corrects its screw, the place is the slide's.
+AxisState state_by_own(std::size_t axis, std::size_t own, const Kinematics& kinematics,
+                       std::span<const AxisState* const> motors) {
+    AxisState state = *motors[own];
+    if (!kinematics.corrects_screw(own)) { return state; }
+    MotorCounts counts;
+    std::vector<Position> places(motors.size());
+    for (std::size_t m = 0; m < motors.size(); ++m) { counts.steps.append(m == own ? state.position.count() : 0); }
+    places[own] = state.position;
+    const bool is_whole = rests_on_whole_step(state.position);
+    state.position = is_whole ? Position::steps(kinematics.axes_at(counts)[axis])
+                              : Position{static_cast<Int128>(kinematics.axis_steps(axis, places) * 0x1p64)};
+    state.velocity = {};
+    return state;
+}
+
 }  // namespace
 
 AxisSet motors_needed_for(std::size_t axis, const Kinematics& kinematics) {
@@ -48,7 +64,7 @@ AxisSet motors_needed_for(std::size_t axis, const Kinematics& kinematics) {
 std::optional<AxisState> axis_state_of(std::size_t axis, const Kinematics& kinematics,
                                        std::span<const AxisState* const> motors) {
     if (const auto own = kinematics.own_motor(axis)) {
-        return motors[*own] == nullptr ? std::nullopt : std::optional(*motors[*own]);
+        return motors[*own] == nullptr ? std::nullopt : std::optional(state_by_own(axis, *own, kinematics, motors));
     }
     const AxisSet needed = motors_needed_for(axis, kinematics);
     const AxisSet own = kinematics.motors_of_axes(axis_bit(axis));

@@ -19,7 +19,7 @@ void set_steps_of_axes(MachineConfig& machine) {
             const double share = map.factor(m, i);
             if (share == 0) { continue; }
             const double steps = std::abs(share) * motors[m].steps_per_mm;
-            const bool follows = std::abs(share) == 1 && map.only_axis_of(m) == i;
+            const bool follows = std::abs(share) == 1 && map.only_axis_of(m) == i && motors[m].screw.is_exact();
             is_simple[i] = is_simple[i] && follows && (finest[i] == 0 || finest[i] == steps);
             finest[i] = std::max(finest[i], steps);
         }

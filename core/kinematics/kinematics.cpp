@@ -24,8 +24,8 @@ Kinematics::Kinematics(const MachineConfig& machine)
       inverse_(map_.motors_by_joints().inverse().value_or(LinearMap(map_.axes(), map_.motors()))),
       is_direct_(map_.is_identity()) {
     for (std::size_t i = 0; i < map_.axes(); ++i) {
-        own_motors_.push_back(find_own_motor(i));
         axis_steps_per_mm_.push_back(machine.axes[i].steps_per_mm);
+        own_motors_.push_back(find_own_motor(i));
         steps_mm_.push_back(step_mm_of(i, machine));
         rest_steps_.push_back(find_rest_steps(i));
     }
@@ -49,8 +49,12 @@ AxisCounts Kinematics::axes_at(const MotorCounts& motors) const {
         while (axes.size() > map_.axes()) { axes.pop_back(); }
         return axes;
     }
+    StaticVector<double, kMaxAxes> places;
+    for (std::size_t m = 0; m < map_.motors(); ++m) {
+        places.append(map_.without_screw(m, static_cast<double>(motors[m])));
+    }
     for (std::size_t i = 0; i < inverse_.motors(); ++i) {
-        const double steps = map_.axis_by_joints(i, [&](std::size_t j) { return inverse_.place(j, motors.steps); });
+        const double steps = map_.axis_by_joints(i, [&](std::size_t j) { return inverse_.place(j, places); });
         const std::int64_t nearest = std::llround(std::clamp(steps, -kMostSteps, kMostSteps));
         axes.append(moves_alone(i) ? place_of_all(i, nearest, motors) : nearest);
     }
@@ -71,7 +75,11 @@ std::int64_t Kinematics::place_of_all(std::size_t axis, std::int64_t mean, const
     const auto is_of_all = [&](std::int64_t place) {
         for (std::size_t m = 0; m < map_.motors(); ++m) {
             const double share = map_.shares().factor(m, axis);
-            if (share != 0 && std::llround(share * static_cast<double>(place)) != motors[m]) { return false; }
+            const double steps = share * static_cast<double>(place);
+            const Screw* const screw = map_.screw(m);
+            if (share != 0 && std::llround(screw == nullptr ? steps : screw->motor(steps)) != motors[m]) {
+                return false;
+            }
         }
         return true;
     };
@@ -87,7 +95,7 @@ std::int64_t Kinematics::place_of_all(std::size_t axis, std::int64_t mean, const
 bool Kinematics::rests_on_its_steps(std::size_t axis) const {
     for (std::size_t m = 0; m < map_.motors(); ++m) {
         const double share = std::abs(map_.shares().factor(m, axis));
-        if (share != 0 && share != 1) { return false; }
+        if (share != 0 && (share != 1 || map_.screw(m) != nullptr)) { return false; }
     }
     return moves_alone(axis);
 }
@@ -101,7 +109,10 @@ double Kinematics::axis_steps(std::size_t axis, std::span<const Position> motors
     if (is_direct_) { return motors[axis].as_steps(); }
     return map_.axis_by_joints(axis, [&](std::size_t joint) {
         double sum = 0;
-        for (std::size_t m = 0; m < map_.motors(); ++m) { sum += inverse_.factor(joint, m) * motors[m].as_steps(); }
+        for (std::size_t m = 0; m < map_.motors(); ++m) {
+            const double share = inverse_.factor(joint, m);
+            if (share != 0) { sum += share * map_.without_screw(m, motors[m].as_steps()); }
+        }
         return sum;
     });
 }
@@ -120,10 +131,16 @@ double Kinematics::axis_speed(std::size_t axis, std::span<const Position> motors
     return axes ? speed(*axes) : 0;
 }
 
-/// For a delta the most at a corner of the travel.
+/// Screws count with their steepest error. For a delta the most at a corner of the travel.
 double Kinematics::step_mm_of(std::size_t axis, const MachineConfig& machine) const {
     const double steps_per_mm = machine.axes[axis].steps_per_mm;
-    if (map_.is_linear()) { return steps_of(inverse_, axis) / steps_per_mm; }
+    if (!map_.delta()) {
+        double steps = 0;
+        for (std::size_t m = 0; m < map_.motors(); ++m) {
+            steps += std::abs(inverse_.factor(axis, m)) / (1 - map_.screw_share(m));
+        }
+        return steps / steps_per_mm;
+    }
     double most = 0;
     constexpr std::size_t kCorners = 4;
     const std::array<std::size_t, 3>& delta = map_.delta()->axes;
@@ -176,8 +193,11 @@ std::vector<std::string> Kinematics::names_of_axes(AxisSet axes) const {
 std::optional<std::size_t> Kinematics::find_own_motor(std::size_t axis) const {
     std::optional<std::size_t> own;
     for (std::size_t m = 0; m < map_.motors(); ++m) {
-        if (map_.shares().factor(m, axis) == 0) { continue; }
-        if (own || map_.shares().factor(m, axis) != 1 || map_.shares().only_axis_of(m) != axis) { return std::nullopt; }
+        const double share = map_.shares().factor(m, axis);
+        if (share == 0) { continue; }
+        const double with_screw = motors_[m].steps_per_mm / axis_steps_per_mm_[axis];  // the axis has finer steps
+        const bool follows = share == 1 || (map_.screw(m) != nullptr && share == with_screw);
+        if (own || !follows || map_.shares().only_axis_of(m) != axis) { return std::nullopt; }
         own = m;
     }
     return own;

@@ -58,7 +58,15 @@ public:
     AxisSet axes_of_motor(std::size_t motor) const;
     /// Their names.
     std::vector<std::string> names_of_axes(AxisSet axes) const;
-    /// The only motor of an axis, if it moves no other axis and has the axis's steps; otherwise nullopt.
+    /// Whether a motor corrects the errors of its screw, so that its place differs from its slide's.
+    bool corrects_screw(std::size_t motor) const { return map_.screw(motor) != nullptr; }
+    /// Where a motor rests while one axis is elsewhere than the others place it: `axes` with this axis at `place`.
+    std::int64_t motor_at(std::size_t motor, AxisCounts axes, std::size_t axis, std::int64_t place) const {
+        axes[axis] = place;
+        return motors_at(axes)[motor];
+    }
+    /// The only motor of an axis, if it moves no other axis and has the axis's steps, or corrects its screw; otherwise
+    /// nullopt.
     const std::optional<std::size_t>& own_motor(std::size_t axis) const { return own_motors_[axis]; }
     /// Says why an axis without a motor of its own does not move by itself.
     std::string needs_frames(std::size_t axis) const;

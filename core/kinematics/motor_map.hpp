@@ -1,5 +1,6 @@
 // The places of the motors by those of the axes, in steps. Most motors follow sums of shares of the axes; the carriages
-// of a delta follow three axes by roots (core/kinematics/delta_map.hpp).
+// of a delta follow three axes by roots (core/kinematics/delta_map.hpp). A motor then corrects the errors of its screw
+// (core/kinematics/screw.hpp).
 #pragma once
 
 #include <optional>
@@ -7,6 +8,7 @@
 
 #include "core/kinematics/delta_map.hpp"
 #include "core/kinematics/linear_map.hpp"
+#include "core/kinematics/screw.hpp"
 
 namespace lockstep {
 
@@ -31,45 +33,65 @@ struct MachineDelta {
 class MotorMap {
 public:
     MotorMap() = default;
-    /// `shares`: for the motors of a delta the greatest slopes within the travel.
-    MotorMap(LinearMap shares, std::optional<MachineDelta> delta = std::nullopt)  // NOLINT(google-explicit-constructor)
-        : shares_(std::move(shares)), delta_(std::move(delta)) {}
+    /// `shares`: for the motors of a delta the greatest slopes within the travel. `screws`: of the motors, in their
+    /// steps; none: all are exact.
+    MotorMap(LinearMap shares, std::optional<MachineDelta> delta = std::nullopt,  // NOLINT(google-explicit-constructor)
+             std::vector<Screw> screws = {})
+        : shares_(std::move(shares)), delta_(std::move(delta)), screws_(std::move(screws)) {}
 
     std::size_t motors() const { return shares_.motors(); }
     std::size_t axes() const { return shares_.axes(); }
-    bool is_linear() const { return !delta_; }
+    bool is_linear() const { return !delta_ && screws_.empty(); }
     const std::optional<MachineDelta>& delta() const { return delta_; }
     bool is_identity() const { return is_linear() && shares_.is_identity(); }
-    /// By how much each motor moves at most if an axis moves by a step, with a sign if it is the same everywhere.
+    /// Null if its screw is exact.
+    const Screw* screw(std::size_t motor) const {
+        return screws_.empty() || screws_[motor].is_exact() ? nullptr : &screws_[motor];
+    }
+    /// By how much each motor moves at most if an axis moves by a step and all screws are exact, with a sign if it is
+    /// the same everywhere.
     const LinearMap& shares() const { return shares_; }
 
     /// The place of a motor.
     template <typename Places>
     double place(std::size_t motor, const Places& axes) const {
-        const auto tower = tower_of(motor);
-        if (!tower) { return shares_.place(motor, axes); }
-        return delta_->map.height_mm(*tower, delta_->point(axes)) * delta_->motor_steps_per_mm[*tower];
+        const double steps = exact_place(motor, axes);
+        const Screw* const own = screw(motor);
+        return own == nullptr ? steps : own->motor(steps);
     }
     /// By how much a motor moves while the axes move a little from `at`, for a change of the axes.
     template <typename Places>
     double slope(std::size_t motor, const Places& at, const Places& change) const {
-        const auto tower = tower_of(motor);
-        if (!tower) { return shares_.place(motor, change); }
-        return delta_->map.rise_mm(*tower, delta_->point(at), delta_->point(change)) *
-               delta_->motor_steps_per_mm[*tower];
+        const double steps = exact_slope(motor, at, change);
+        const Screw* const own = screw(motor);
+        return own == nullptr ? steps : own->slope(exact_place(motor, at)) * steps;
+    }
+    /// The place that a motor would have with an exact screw; `steps` is its place.
+    double without_screw(std::size_t motor, double steps) const {
+        const Screw* const own = screw(motor);
+        return own == nullptr ? steps : own->place(steps);
+    }
+    /// By how much more or less a motor moves at most because of its screw, as a share.
+    double screw_share(std::size_t motor) const {
+        const Screw* const own = screw(motor);
+        return own == nullptr ? 0 : own->most_slope();
     }
     /// Whether a motor follows a curve while the axes move in a line.
-    bool is_curved(std::size_t motor) const { return tower_of(motor).has_value(); }
+    bool is_curved(std::size_t motor) const { return tower_of(motor) || has_bent_screw(motor); }
     /// Whether some motor's slope changes while the axes move in this direction.
     template <typename Places>
     bool bends(const Places& direction) const {
-        return delta_ && (direction[delta_->axes[0]] != 0 || direction[delta_->axes[1]] != 0);
+        if (delta_ && (direction[delta_->axes[0]] != 0 || direction[delta_->axes[1]] != 0)) { return true; }
+        for (std::size_t m = 0; m < screws_.size(); ++m) {
+            if (has_bent_screw(m) && shares_.place(m, direction) != 0) { return true; }
+        }
+        return false;
     }
     /// The slopes at a place of the axes.
     LinearMap slopes_at(const std::vector<double>& axes) const;
 
     /// Joints: the motors' places without what is not linear, one for each axis, so that a linear map leads from them
-    /// to the motors. Those of a delta are its carriages, in steps of their motors.
+    /// to the motors, with exact screws. Those of a delta are its carriages, in steps of their motors.
     LinearMap motors_by_joints() const;
     /// The place of an axis; `joint(i)` is the place of a joint.
     template <typename Joint>
@@ -88,9 +110,28 @@ private:
     std::optional<std::size_t> tower_of(std::size_t motor) const {
         return delta_ ? delta_->tower_of(motor) : std::nullopt;
     }
+    bool has_bent_screw(std::size_t motor) const {
+        const Screw* const own = screw(motor);
+        return own != nullptr && own->most_bend() != 0;
+    }
+    /// The place and the slope of a motor with an exact screw.
+    template <typename Places>
+    double exact_place(std::size_t motor, const Places& axes) const {
+        const auto tower = tower_of(motor);
+        if (!tower) { return shares_.place(motor, axes); }
+        return delta_->map.height_mm(*tower, delta_->point(axes)) * delta_->motor_steps_per_mm[*tower];
+    }
+    template <typename Places>
+    double exact_slope(std::size_t motor, const Places& at, const Places& change) const {
+        const auto tower = tower_of(motor);
+        if (!tower) { return shares_.place(motor, change); }
+        return delta_->map.rise_mm(*tower, delta_->point(at), delta_->point(change)) *
+               delta_->motor_steps_per_mm[*tower];
+    }
 
     LinearMap shares_;
     std::optional<MachineDelta> delta_;
+    std::vector<Screw> screws_;  // of each motor, in its steps; empty: all are exact
 };
 
 }  // namespace lockstep

@@ -199,6 +199,49 @@ void set_carriage(MotorConfig& motor, const MotorBlock* block, const MachineConf
     motor.plant.max_torque_accel_mm_s2 += bend_mm_s2;
 }
 
+/// What the configuration gives of a motor's screw: its own, or its axis's.
+const std::vector<ScrewPoint>& screw_of(const AxisConfig& axis, const MotorBlock* block) {
+    return block == nullptr || block->screw.empty() ? axis.screw : block->screw;
+}
+
+/// `unit`: of the motor's way, for each mm. `share`: mm of the motor's way for each mm of the points.
+Screw screw_of(const std::vector<ScrewPoint>& points, double share, double unit) {
+    std::vector<ScrewError> errors;
+    for (const ScrewPoint& point : points) {
+        errors.push_back({share * point.position_mm * unit, share * point.error_mm * unit});
+    }
+    if (share < 0) { std::ranges::reverse(errors); }
+    return Screw(errors);
+}
+
+/// The points are those of the axis that the motor moves alone; otherwise of the motor's own way.
+double share_of_points(const LinearMap& map, std::size_t motor, std::size_t axis) {
+    return map.only_axis_of(motor) == axis ? map.factor(motor, axis) : 1;
+}
+
+/// Converts places of the slide to places of the motor. Limits that the motor has not of its own are so much lower that
+/// the axis keeps its limits wherever the motor does.
+void correct_screw(MotorConfig& motor, const MotorBlock* block) {
+    if (motor.screw.is_exact()) { return; }
+    for (double* mm : {&motor.position_min_mm, &motor.position_max_mm, &motor.homing.switch_position_mm,
+                       &motor.homing.park_mm, &motor.plant.start_position_mm}) {
+        *mm = motor.screw.motor(*mm);
+    }
+    const double slower = 1 - motor.screw.most_slope();
+    const double bend_mm_s2 = motor.screw.most_bend() * motor.max_velocity_mm_s * motor.max_velocity_mm_s;
+    motor.homing.search_velocity_mm_s *= slower;
+    motor.homing.latch_velocity_mm_s *= slower;
+    if (motor.unhomed_jog_mm_s) { *motor.unhomed_jog_mm_s *= slower; }
+    if (block == nullptr || !block->start_velocity_mm_s) { motor.start_velocity_mm_s *= slower; }
+    if (block == nullptr || !block->max_velocity_mm_s) { motor.max_velocity_mm_s *= slower; }
+    if (block == nullptr || !block->max_accel_mm_s2) {
+        motor.max_accel_mm_s2 = motor.max_accel_mm_s2 * slower - bend_mm_s2;
+    }
+    if (block == nullptr || !block->max_decel_mm_s2) {
+        motor.max_decel_mm_s2 = motor.max_decel_mm_s2 * slower - bend_mm_s2;
+    }
+}
+
 void set_share(LinearMap& map, std::size_t motor, const MachineConfig& machine, const std::string& axis, double share) {
     const std::size_t place = axis_named(machine, axis);
     if (place < machine.axes.size()) { map.factor(motor, place) = share; }
@@ -328,6 +371,8 @@ std::vector<MotorConfig> moving_motors_of(const MachineConfig& machine) {
         scale(motor, block != nullptr && block->plant.has_value(), machine, shares);
         const auto tower = delta ? delta->tower_of(motors.size()) : std::nullopt;
         if (tower) { set_carriage(motor, block, machine, *delta, *tower); }
+        motor.screw = screw_of(screw_of(axis, block), share_of_points(map, motors.size(), a), 1);
+        correct_screw(motor, block);
         motors.push_back(std::move(motor));
     });
     return motors;
@@ -341,12 +386,21 @@ std::vector<MotorConfig> motors_of(const MachineConfig& machine) {
 
 MotorMap step_map_of(const MachineConfig& machine) {
     LinearMap map = motor_map_of(machine);
+    std::vector<Screw> screws;
+    bool has_screws = false;
+    each_motor(machine, [&](std::size_t a, const AxisConfig& axis, const MotorBlock* block) {
+        const std::size_t motor = screws.size();
+        screws.push_back(
+            screw_of(screw_of(axis, block), share_of_points(map, motor, a), motor_steps_per_mm(machine, motor)));
+        has_screws = has_screws || !screws.back().is_exact();
+    });
+    if (!has_screws) { screws.clear(); }
     for (std::size_t m = 0; m < map.motors(); ++m) {
         for (std::size_t i = 0; i < map.axes(); ++i) {
             map.factor(m, i) *= motor_steps_per_mm(machine, m) / machine.axes[i].steps_per_mm;
         }
     }
-    return {std::move(map), delta_of(machine)};
+    return {std::move(map), delta_of(machine), std::move(screws)};
 }
 
 }  // namespace lockstep

@@ -33,6 +33,7 @@ struct MotorConfig {
     HomingConfig homing;
     PlantConfig plant;
     PinsConfig pins;
+    Screw screw;  // in mm
 
     bool is_board() const { return !axis; }
 };

@@ -58,6 +58,7 @@ inline void PathSetup::use_map(const MotorMap& map, std::span<const AxisLimits> 
     for (std::size_t m = 0; m < map.motors(); ++m) {
         double sum = 0;
         for (const double share : map.shares().row(m)) { sum += std::abs(share); }
+        sum *= 1 + map.screw_share(m);
         for (std::size_t i = 0; i < map.axes(); ++i) {
             if (map.shares().factor(m, i) != 0) { motor_step[i] = std::min(motor_step[i], 1 / sum); }
         }

@@ -50,6 +50,7 @@ Problems problems_of(const MachineDraft& draft, const Text& text) {
         add(motor_problems(draft.machine, axis));
     }
     if (problems.empty()) { add(board_problems(draft.machine)); }
+    if (problems.empty()) { add(screw_problems(draft.machine)); }
     if (problems.empty()) { add(kinematics_problems(draft.machine)); }
     if (problems.empty()) {
         add(pin_problems(draft.machine));

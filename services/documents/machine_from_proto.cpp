@@ -203,6 +203,18 @@ PinsConfig read_pins(const proto::Pins& message) {
             .enable_inverted = message.enable_inverted()};
 }
 
+std::vector<ScrewPoint> read_screw(const proto::Screw& message, const std::string& place, ProtoReader& reader) {
+    std::vector<ScrewPoint> points;
+    for (int k = 0; k < message.point_size(); ++k) {
+        const proto::ScrewPoint& from = message.point(k);
+        const std::string at = fmt::format("{}.point[{}]", place, k);
+        ScrewPoint& point = points.emplace_back();
+        reader.require(from.has_position_mm(), from.position_mm(), point.position_mm, at + ".position_mm");
+        reader.require(from.has_error_mm(), from.error_mm(), point.error_mm, at + ".error_mm");
+    }
+    return points;
+}
+
 StepMethod read_method(proto::Method method) {
     switch (method) {
         case proto::SPIELAUER: return StepMethod::Spielauer;
@@ -233,6 +245,7 @@ MotorBlock read_motor(const proto::Motor& message, const AxisConfig& axis, const
     motor.max_following_error_mm = given(message.has_max_following_error_mm(), message.max_following_error_mm());
     if (message.has_plant()) { motor.plant = read_plant(message.plant(), axis); }
     if (message.has_pins()) { motor.pins = read_pins(message.pins()); }
+    motor.screw = read_screw(message.screw(), place + ".screw", reader);
     return motor;
 }
 
@@ -323,6 +336,7 @@ AxisConfig read_axis(const proto::Axis& message, ProtoReader reader) {
     axis.homing = read_homing(message.homing(), axis, message.motor_size() > 1);
     axis.plant = read_plant(message.plant(), axis);
     axis.pins = read_pins(message.pins());
+    axis.screw = read_screw(message.screw(), "screw", reader);
     read_motors(message, axis, reader);
     return axis;
 }

@@ -35,6 +35,9 @@ std::vector<Problem> motor_problems(const MachineConfig& machine, std::size_t ax
 /// Checks the boards and their names, after all axes and motors were found sound.
 std::vector<Problem> board_problems(const MachineConfig& machine);
 
+/// Checks the errors of screws, after all axes and motors were found sound.
+std::vector<Problem> screw_problems(const MachineConfig& machine);
+
 /// Checks which motors move which axes, after all axes and motors were found sound.
 std::vector<Problem> kinematics_problems(const MachineConfig& machine);
 

@@ -123,6 +123,14 @@ void write_pins(const PinsConfig& pins, proto::Pins& message) {
     message.set_enable_inverted(pins.enable_inverted);
 }
 
+void write_screw(const std::vector<ScrewPoint>& points, proto::Screw& message) {
+    for (const ScrewPoint& point : points) {
+        proto::ScrewPoint& out = *message.add_point();
+        out.set_position_mm(point.position_mm);
+        out.set_error_mm(point.error_mm);
+    }
+}
+
 proto::Method method_to_proto(StepMethod method) {
     constexpr std::array kMethods{proto::RANADE, proto::SPIELAUER, proto::LAI, proto::LAM, proto::CARRICA};
     return kMethods[static_cast<std::size_t>(method)];
@@ -141,6 +149,7 @@ void write_motor(const MotorBlock& motor, proto::Motor& message) {
     if (motor.max_following_error_mm) { message.set_max_following_error_mm(*motor.max_following_error_mm); }
     if (motor.plant) { write_plant(*motor.plant, *message.mutable_plant()); }
     if (motor.pins) { write_pins(*motor.pins, *message.mutable_pins()); }
+    if (!motor.screw.empty()) { write_screw(motor.screw, *message.mutable_screw()); }
 }
 
 void write_delta(const DeltaConfig& delta, proto::Delta& message) {
@@ -216,6 +225,7 @@ void write_axis(const AxisConfig& axis, proto::Axis& message) {
     write_homing(axis.homing, *message.mutable_homing());
     write_plant(axis.plant, *message.mutable_plant());
     if (axis.pins != PinsConfig{}) { write_pins(axis.pins, *message.mutable_pins()); }
+    if (!axis.screw.empty()) { write_screw(axis.screw, *message.mutable_screw()); }
     for (const MotorBlock& motor : axis.motors) { write_motor(motor, *message.add_motor()); }
     if (axis.max_skew_mm) { message.set_max_skew_mm(*axis.max_skew_mm); }
 }

@@ -41,7 +41,7 @@ std::expected<OwnTargets, Refusal> OwnTargets::plan(const KnownProgram& program,
         if (to == targets.from_[axes[k]]) { continue; }
         const auto motor = loop.kinematics.own_motor(axes[k]);
         if (!motor) { return refuse(FaultCode::BadProgram, loop.kinematics.needs_frames(axes[k])); }
-        targets.ends_.steps[*motor] = to;
+        targets.ends_.steps[*motor] = loop.kinematics.motor_at(*motor, targets.from_, axes[k], to);
     }
     for (std::size_t m = 0; m < targets.ends_.size(); ++m) {
         const std::int64_t steps = std::abs(targets.ends_[m] - targets.begins_[m]);

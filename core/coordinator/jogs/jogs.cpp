@@ -25,6 +25,31 @@ CommandResult check_speed(const AxisConfig& axis, double speed_mm_s) {
     return refuse(FaultCode::BadProgram, jog_speed_text(axis, speed));
 }
 
+/// The place of an axis's motor that corrects its screw, where the jog of the axis ends by itself. A distance that is
+/// none for the motor is a step of it, unless the axis is at the end of its travel.
+std::int64_t corrected_target(const JogAxis& asked, std::size_t motor, const AxisState& state, const LoopView& loop) {
+    const AxisConfig& axis = loop.machine.axes[asked.axis];
+    const std::int64_t count = state.position.count();
+    const std::int64_t step = asked.speed_mm_s < 0 ? -1 : 1;
+    if (!state.homed) {
+        const auto way = static_cast<double>(jog_target(asked, axis, 0, false)) / axis.steps_per_mm;
+        const std::int64_t steps = to_steps(loop.kinematics.motors()[motor], way);
+        return count + (steps == 0 ? step : steps);
+    }
+    const AxisCounts here = loop.counts();
+    const auto at = [&](std::int64_t place) { return loop.kinematics.motor_at(motor, here, asked.axis, place); };
+    const std::int64_t end = at(to_steps(axis, step < 0 ? axis.position_min_mm : axis.position_max_mm));
+    const std::int64_t target = at(jog_target(asked, axis, here[asked.axis], true));
+    return target == count && end * step > count * step ? count + step : target;
+}
+
+/// The place, in the motor's steps, where the jog of an axis with a motor of its own ends by itself.
+std::int64_t motor_target(const JogAxis& asked, std::size_t motor, const LoopView& loop) {
+    const AxisState& state = *loop.axes.state(motor);
+    if (loop.kinematics.corrects_screw(motor)) { return corrected_target(asked, motor, state, loop); }
+    return jog_target(asked, loop.machine.axes[asked.axis], state.position.count(), state.homed);
+}
+
 }  // namespace
 
 bool is_jog_speed(const AxisConfig& axis, double speed_mm_s) {
@@ -78,10 +103,10 @@ std::expected<Jogs::Jog, Refusal> Jogs::jog_of(const JogAxis& asked, const Comma
     const AxisState& state = *loop.axes.state(*motor);
     if (auto homed = check_homed(axis, state); !homed) { return std::unexpected(homed.error()); }
     if (auto speed = check_speed(axis, asked.speed_mm_s); !speed) { return std::unexpected(speed.error()); }
-    const std::int64_t here = state.position.count();
-    if (const std::int64_t target = jog_target(asked, axis, here, state.homed); state.at_rest && target == here) {
-        return refuse(FaultCode::OutsideTravel, "axis " + axis.name + " is at the end of its travel, " +
-                                                    short_number(to_mm(axis, static_cast<double>(target))) + " mm");
+    if (state.at_rest && motor_target(asked, *motor, loop) == state.position.count()) {
+        const auto here = static_cast<double>(loop.counts()[asked.axis]);
+        return refuse(FaultCode::OutsideTravel,
+                      "axis " + axis.name + " is at the end of its travel, " + short_number(to_mm(axis, here)) + " mm");
     }
     Jog jog{*motor, command.client, command.sequence, asked, loop.is_late ? loop.now - hold_ : loop.now, {}};
     if (before && !asked.distance_mm && before->asked == asked) { jog.target = before->target; }
@@ -142,10 +167,7 @@ Jogs::Next Jogs::next_at_rest(const Jog& jog, const LoopView& loop) {
 
 const AxisCommand& Jogs::order(std::size_t axis, const LoopView& loop, AxisOrders& orders) {
     Jog& jog = *jogs_[axis];
-    if (!jog.target) {
-        const AxisState& state = *loop.axes.state(jog.motor);
-        jog.target = jog_target(jog.asked, loop.machine.axes[axis], state.position.count(), state.homed);
-    }
+    if (!jog.target) { jog.target = motor_target(jog.asked, jog.motor, loop); }
     AxisCommand& order = orders.give(jog.motor, AxisCommandKind::Jog, loop.term);
     order.target_steps = *jog.target;
     order.speed_mm_s = std::abs(jog.asked.speed_mm_s);

@@ -1,11 +1,13 @@
 #include "core/path/geometry/motor_rows.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lockstep {
 namespace {
 
 constexpr std::size_t kMostParts = 1024;
+constexpr double kLeastPart_mm = 1e-3;   // of a part that ends at a knot
 constexpr double kMeasuredShare = 0.75;  // of kMapShare: between the places that are compared the distance is greater
 
 /// The rows of the axes are behind the motors'.
@@ -141,49 +143,94 @@ struct MotorCurve {
 RowPieces::RowPieces(const PathSetup& setup, const Quadratic& axes) : setup_(setup), axes_(axes) {
     const bool is_curve = axes.length > 0 && (setup.motor_map.bends(axes.slope) || setup.motor_map.bends(axes.bend));
     if (!is_curve) { return; }
-    parts_ = 1;
-    while (parts_ < kMostParts && !is_close()) { parts_ *= 2; }
-    end_ = 2 * parts_;
+    cuts_.push_back(0);
+    for (const double to : knots()) { add_parts(cuts_.back(), to); }
+    end_ = 2 * (cuts_.size() - 1);
 }
 
-double RowPieces::cut_at(std::size_t part) const {
-    return part == parts_ ? axes_.length : axes_.length * static_cast<double>(part) / static_cast<double>(parts_);
+/// The places between which the screws are smooth, the last one at the end of the piece. Where several motors pass
+/// knots together, only the first one counts.
+std::vector<double> RowPieces::knots() const {
+    std::vector<double> at;
+    for (std::size_t m = 0; m < setup_.motor_map.motors(); ++m) { add_knots(m, at); }
+    std::ranges::sort(at);
+    std::vector<double> knots;
+    for (const double u : at) {
+        const double before = knots.empty() ? 0 : knots.back();
+        if (u - before > kLeastPart_mm && axes_.length - u > kLeastPart_mm) { knots.push_back(u); }
+    }
+    knots.push_back(axes_.length);
+    return knots;
 }
 
-/// Compares the quadratics with the curve in their middles and where they meet.
-bool RowPieces::is_close() const {
+/// The motor's way without its screw is from + slope u + bend u (u - length) / 2, as in Quadratic.
+void RowPieces::add_knots(std::size_t motor, std::vector<double>& at) const {
+    const Screw* const screw = setup_.motor_map.screw(motor);
+    if (screw == nullptr) { return; }
+    const LinearMap& shares = setup_.motor_map.shares();
+    const double from = shares.place(motor, axes_.from);
+    const double slope = shares.place(motor, axes_.slope);
+    const double bend = shares.place(motor, axes_.bend);
+    const double to = from + slope * axes_.length;
+    const double aside = std::abs(bend) * axes_.length * axes_.length / 8;
+    const auto begin = std::ranges::lower_bound(screw->knots(), std::min(from, to) - aside);
+    const auto end = std::ranges::upper_bound(screw->knots(), std::max(from, to) + aside);
+    const double begin_slope = slope - bend * axes_.length / 2;
+    for (auto knot = begin; knot != end; ++knot) {
+        const double root = begin_slope * begin_slope + 2 * bend * (*knot - from);
+        if (root < 0) { continue; }
+        const double sum = begin_slope + std::copysign(std::sqrt(root), begin_slope);
+        if (sum != 0) { at.push_back(2 * (*knot - from) / sum); }
+        if (bend != 0) { at.push_back(-sum / bend); }
+    }
+}
+
+/// Cuts the way between two cuts into equal parts.
+void RowPieces::add_parts(double from, double to) {
+    std::size_t parts = 1;
+    const auto cut = [&](std::size_t part) {
+        return part == parts ? to : from + (to - from) * static_cast<double>(part) / static_cast<double>(parts);
+    };
+    const auto are_close = [&] {
+        for (std::size_t k = 0; k < parts; ++k) {
+            if (!is_close(cut(k), cut(k + 1))) { return false; }
+        }
+        return true;
+    };
+    while (parts < kMostParts && !are_close()) { parts *= 2; }
+    for (std::size_t k = 1; k <= parts; ++k) { cuts_.push_back(cut(k)); }
+}
+
+/// Compares the quadratics of a part with the curve in their middles and where they meet.
+bool RowPieces::is_close(double from, double to) const {
     const MotorMap& map = setup_.motor_map;
     const auto is_near = [&](std::size_t m, const MotorCurve& curve, double u, double steps) {
         const double place = map.place(m, way_at(axes_, u)) + curve.offset.at(u);
         return std::abs(place - steps) <= kMeasuredShare * kMapShare;
     };
-    for (std::size_t k = 0; k < parts_; ++k) {
-        const double a = cut_at(k);
-        const double b = cut_at(k + 1);
-        for (std::size_t m = 0; m < map.motors(); ++m) {
-            if (!map.is_curved(m)) { continue; }
-            const MotorCurve curve(map, m, axes_, a, b);
-            const double quarter = (b - a) / 4;
-            const bool is_close = is_near(m, curve, a + 2 * quarter, curve.middle) &&
-                                  is_near(m, curve, a + quarter, curve.quarter(curve.first())) &&
-                                  is_near(m, curve, b - quarter, curve.quarter(curve.second()));
-            if (!is_close) { return false; }
-        }
+    for (std::size_t m = 0; m < map.motors(); ++m) {
+        if (!map.is_curved(m)) { continue; }
+        const MotorCurve curve(map, m, axes_, from, to);
+        const double quarter = (to - from) / 4;
+        const bool is_close = is_near(m, curve, from + 2 * quarter, curve.middle) &&
+                              is_near(m, curve, from + quarter, curve.quarter(curve.first())) &&
+                              is_near(m, curve, to - quarter, curve.quarter(curve.second()));
+        if (!is_close) { return false; }
     }
     return true;
 }
 
 Quadratic RowPieces::next() {
     const std::size_t number = next_++;
-    if (parts_ > 0) { return half(number); }
+    if (!cuts_.empty()) { return half(number); }
     const MotorMap& map = setup_.motor_map;
     return rows_of(axes_, map.motors(), [&](std::size_t m) { return straight_way(map, m, axes_); });
 }
 
 Quadratic RowPieces::half(std::size_t number) const {
     const MotorMap& map = setup_.motor_map;
-    const double a = cut_at(number / 2);
-    const double b = cut_at(number / 2 + 1);
+    const double a = cuts_[number / 2];
+    const double b = cuts_[number / 2 + 1];
     const bool is_first = number % 2 == 0;
     const double middle = (a + b) / 2;
     const Quadratic axes = is_first ? part_of(axes_, a, middle) : part_of(axes_, middle, b);

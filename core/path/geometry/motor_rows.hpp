@@ -1,9 +1,13 @@
 // Maps a piece of geometry from the axes to the rows of a PathSetup: the motors, then the axes.
 //
-// A map that is not linear makes other curves of quadratics. So the piece is cut into equal parts, as many as are
-// needed to keep each motor within kMapShare of a step. In a part each motor has two quadratics of the same length. At
-// both ends they have the place and the slope of the curve, and they meet with the same slope: no speed jumps at a cut.
+// A map that is not linear makes other curves of quadratics. So the piece is cut where a motor passes a knot of its
+// screw, and between these cuts into equal parts, as many as are needed to keep each motor within kMapShare of a step.
+// In a part each motor has two quadratics of the same length. At both ends they have the place and the slope of the
+// curve, and they meet with the same slope: no speed jumps at a cut. Of a straight piece that passes knots they are
+// exactly the curve.
 #pragma once
+
+#include <vector>
 
 #include "core/motion/path.hpp"
 #include "core/path/geometry/quadratic.hpp"
@@ -21,13 +25,15 @@ public:
     Quadratic next();
 
 private:
-    bool is_close() const;
-    double cut_at(std::size_t part) const;
+    void add_knots(std::size_t motor, std::vector<double>& at) const;
+    std::vector<double> knots() const;
+    void add_parts(double from, double to);
+    bool is_close(double from, double to) const;
     Quadratic half(std::size_t number) const;
 
     const PathSetup& setup_;
     const Quadratic& axes_;
-    std::size_t parts_ = 0;  // 0: all motors are quadratics along the piece
+    std::vector<double> cuts_;  // the parts' ends, mm; empty: all motors are quadratics along the piece
     std::size_t next_ = 0;
     std::size_t end_ = 1;
 };
