@@ -242,6 +242,24 @@ void correct_screw(MotorConfig& motor, const MotorBlock* block) {
     }
 }
 
+bool corrects_screws(const MachineConfig& machine) {
+    bool has_screws = false;
+    each_motor(machine, [&](std::size_t, const AxisConfig& axis, const MotorBlock* block) {
+        has_screws = has_screws || !screw_of(axis, block).empty();
+    });
+    return has_screws;
+}
+
+/// After homing, the motors have to be where a place of the axes in whole steps puts them. Otherwise motors with
+/// different screws may round to steps to which no such place belongs.
+MachineConfig with_whole_parks(MachineConfig machine) {
+    for (AxisConfig& axis : machine.axes) {
+        if (!(axis.steps_per_mm > 0)) { continue; }
+        axis.homing.park_mm = to_mm(axis, static_cast<double>(to_steps(axis, axis.homing.park_mm)));
+    }
+    return machine;
+}
+
 void set_share(LinearMap& map, std::size_t motor, const MachineConfig& machine, const std::string& axis, double share) {
     const std::size_t place = axis_named(machine, axis);
     if (place < machine.axes.size()) { map.factor(motor, place) = share; }
@@ -359,7 +377,8 @@ DeltaMap::Reach reach_of(const MachineConfig& machine, const MachineDelta& delta
                            tool_at(machine, delta, [](const AxisConfig& a) { return a.position_max_mm; }));
 }
 
-std::vector<MotorConfig> moving_motors_of(const MachineConfig& machine) {
+std::vector<MotorConfig> moving_motors_of(const MachineConfig& given) {
+    const MachineConfig machine = corrects_screws(given) ? with_whole_parks(given) : given;
     const LinearMap map = motor_map_of(machine);
     const auto delta = delta_of(machine);
     std::vector<MotorConfig> motors;

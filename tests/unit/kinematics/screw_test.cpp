@@ -141,6 +141,20 @@ TEST(PlaceOfAnAxisWithAScrew, ExistsForEveryStepOfItsMotor) {
     for (std::int64_t step = 0; step < 80'000; ++step) { ASSERT_FALSE(kinematics.astray({{step, 0, -4}})) << step; }
 }
 
+/// Otherwise a gantry would be refused as skewed after each homing.
+TEST(MotorsOfAGantryWithScrews, ParkWhereAPlaceOfTheirAxisPutsThem) {
+    for (int k = 0; k < 6000; ++k) {
+        MachineConfig machine = corrected_machine();
+        for (AxisConfig& axis : machine.axes) { axis.homing.park_mm = 0.01234 * k; }
+        const Kinematics kinematics(machine);
+        MotorCounts parked;
+        for (const MotorConfig& motor : kinematics.motors()) {
+            parked.steps.append(to_steps(motor, motor.homing.park_mm));
+        }
+        EXPECT_FALSE(kinematics.astray(parked)) << machine.axes[1].homing.park_mm;
+    }
+}
+
 TEST(SpeedOfAnAxisWithAScrew, IsThatOfItsSlide) {
     const Kinematics kinematics(corrected_machine());
     const std::vector<Position> motors{Position::steps(10'000), Position::steps(0), Position::steps(0)};
