@@ -20,7 +20,7 @@ const proto::AxisAnalysis* analysis_of(const proto::AnalysisReport& analysis, co
 std::expected<FinalPlace, std::string> final_place(const proto::AnalysisReport& analysis, const MachineConfig& machine,
                                                    std::size_t axis) {
     const Kinematics kinematics(machine);
-    if (const auto own = kinematics.own_motor(axis)) {
+    if (const auto own = kinematics.own_motor(axis); own && !kinematics.corrects_screw(*own)) {
         const proto::AxisAnalysis* const found = analysis_of(analysis, kinematics.motors()[*own].name);
         if (found == nullptr) { return std::unexpected("not recorded"); }
         return FinalPlace{found->position_end_mm(), Tick{found->last_tick()}, 0};

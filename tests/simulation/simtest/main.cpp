@@ -87,6 +87,7 @@ int main(int argc, char** argv) {
     parser.add_flag("--motors", options.machine.motors,
                     "machines with several motors on an axis, belts that move two axes, gears or skewed guides");
     parser.add_flag("--deltas", options.machine.deltas, "machines whose first three axes are those of a delta");
+    parser.add_flag("--screws", options.machine.screws, "machines whose motors correct errors of their screws");
     parser.add_flag("--inputs", options.machine.inputs,
                     "machines with an emergency stop and a door at inputs of devices");
     parser.add_flag("--probes", options.machine.probes,

@@ -11,6 +11,7 @@
 #include "tests/simulation/simtest/draw/draw_plant_fault.hpp"
 #include "tests/simulation/simtest/draw/draw_probes.hpp"
 #include "tests/simulation/simtest/draw/draw_program.hpp"
+#include "tests/simulation/simtest/draw/draw_screws.hpp"
 #include "tests/simulation/simtest/draw/draw_stream.hpp"
 #include "tests/simulation/simtest/draw/draw_takeover.hpp"
 #include "tests/simulation/simtest/draw/scenario.hpp"
@@ -272,6 +273,7 @@ Scenario draw_scenario(std::uint64_t seed, const FaultKinds& asked, const Machin
     } else if (kind.motors) {
         scenario.machine = with_motors(seed, std::move(scenario.machine));
     }
+    if (kind.screws && !kind.deltas) { scenario.machine = with_screws(seed, std::move(scenario.machine)); }
     if (kind.boards && scenario.machine.coordination != StepMethod::Lai) {
         scenario.machine.boards.push_back({.name = "IO", .host = "", .device = {}});
     }

@@ -73,6 +73,7 @@ struct MachineKind {
     bool late_devices = false;        // some devices answer late and have their own clocks
     bool motors = false;              // axes have several motors, or share them (draw_motors.hpp)
     bool deltas = false;              // draw_delta.hpp
+    bool screws = false;              // motors correct errors of screws (draw_screws.hpp); not of deltas
     bool jogs = false;                // axes are jogged between programs (draw_jogs.hpp)
     bool inputs = false;              // with an emergency stop and a door (draw_inputs.hpp)
     bool probes = false;              // programs probe (draw_probes.hpp)

@@ -82,10 +82,10 @@ private:
         return stretch;
     }
 
-    /// A line of a motor that is curved leads from its whole step at a rest to the one at the next, over its whole
-    /// length. The line of another motor is one stretch from end to end.
+    /// A line leads each motor from its whole step at a rest to the one at the next, over its whole length. If no motor
+    /// is curved, the line is one stretch from end to end.
     double rest_offset(const Course& axes, std::size_t k, std::size_t m, double share) const {
-        if (!map_.is_curved(m)) { return 0; }
+        if (!map_.any_is_curved()) { return 0; }
         const auto to_whole = [&](const Places& place) {
             return std::round(map_.place(m, place)) - map_.place(m, place);
         };

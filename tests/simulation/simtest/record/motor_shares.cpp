@@ -68,12 +68,28 @@ double bend_of(const MachineConfig& machine, const Carriages& carriages, std::si
         std::max(std::abs(carriages.bend(tower, at, speed)), std::abs(carriages.bend(tower, at, opposite))));
 }
 
+/// The measured errors of a motor's screw, by its own way, with this many units for each mm. Those of a motor that
+/// moves one axis only are given by the places of the axis.
+ScrewByBezier screw_of(const AxisConfig& axis, std::size_t number, const MotorBlock* block,
+                       const std::vector<double>& shares, double units) {
+    const std::vector<ScrewPoint>& points = block == nullptr || block->screw.empty() ? axis.screw : block->screw;
+    const auto moved = std::ranges::count_if(shares, [](double share) { return share != 0; });
+    const double share = moved == 1 && shares[number] != 0 ? shares[number] : 1;
+    std::vector<ScrewByBezier::Point> errors;
+    for (const ScrewPoint& point : points) {
+        errors.push_back({share * units * point.position_mm, share * units * point.error_mm});
+    }
+    std::ranges::sort(errors, {}, &ScrewByBezier::Point::place);
+    return ScrewByBezier(errors);
+}
+
 }  // namespace
 
 MotorShares::MotorShares(const MachineConfig& machine)
     : carriages_(machine),
       is_direct_(machine.kinematics == KinematicsConfig{} &&
-                 std::ranges::all_of(machine.axes, [](const AxisConfig& axis) { return axis.motors.empty(); })) {
+                 std::ranges::all_of(
+                     machine.axes, [](const AxisConfig& axis) { return axis.motors.empty() && axis.screw.empty(); })) {
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         axis_steps_per_mm_.push_back(machine.axes[i].steps_per_mm);
         if (machine.axes[i].motors.empty()) { add(machine, i, nullptr); }
@@ -87,6 +103,7 @@ void MotorShares::add_board() {
     towers_.emplace_back();
     shares_.emplace_back(axis_steps_per_mm_.size(), 0.0);
     steps_per_mm_.push_back(1);
+    screws_.emplace_back();
     limits_.push_back({1, 1, 1, 1});
 }
 
@@ -102,11 +119,15 @@ void MotorShares::add(const MachineConfig& machine, std::size_t axis, const Moto
         for (std::size_t i = 0; i < shares.size(); ++i) { sum += std::abs(shares[i]) * machine.axes[i].*value; }
         return sum;
     };
-    const double bend = tower ? bend_of(machine, carriages_, *tower) : 0;
+    const ScrewByBezier screw = screw_of(machine.axes[axis], axis, block, shares, 1);
+    const auto speed = [&](double most) { return block == nullptr ? most : block->max_velocity_mm_s.value_or(most); };
+    const double top = speed(demand(&AxisConfig::max_velocity_mm_s));
+    const double bend = tower ? bend_of(machine, carriages_, *tower) : -screw.most_bend() * top * top;
     const auto limit = [&](double AxisConfig::*of_axis, std::optional<double> MotorBlock::*own, double more = 0) {
-        const double most = demand(of_axis) + more;
+        const double all = demand(of_axis);
+        const double most = all * (1 - screw.most_slope()) + more;
         const double its = block == nullptr ? most : (block->*own).value_or(most);
-        slower_ = std::max(slower_, most / its);
+        slower_ = std::max(slower_, std::max(all, most) / its);
         return its;
     };
     limits_.push_back({limit(&AxisConfig::start_velocity_mm_s, &MotorBlock::start_velocity_mm_s),
@@ -115,6 +136,7 @@ void MotorShares::add(const MachineConfig& machine, std::size_t axis, const Moto
                        limit(&AxisConfig::max_decel_mm_s2, &MotorBlock::max_decel_mm_s2, bend)});
     const double of_axis = machine.axes[axis].steps_per_mm;
     steps_per_mm_.push_back(block == nullptr ? of_axis : block->steps_per_mm.value_or(of_axis));
+    screws_.push_back(screw_of(machine.axes[axis], axis, block, shares, steps_per_mm_.back()));
     for (std::size_t i = 0; i < shares.size(); ++i) {
         shares[i] *= steps_per_mm_.back() / machine.axes[i].steps_per_mm;
     }
@@ -172,7 +194,9 @@ bool MotorShares::is_own(std::size_t axis) const {
     std::size_t movers = 0;
     for (std::size_t m = 0; m < shares_.size(); ++m) {
         if (shares_[m][axis] == 0) { continue; }
-        if (!moves_only(m, axis) || shares_[m][axis] != 1) { return false; }
+        const double share_mm = shares_[m][axis] * axis_steps_per_mm_[axis] / steps_per_mm_[m];
+        const bool follows = shares_[m][axis] == 1 || (!screws_[m].is_exact() && std::abs(share_mm - 1) < 1e-9);
+        if (!moves_only(m, axis) || !follows) { return false; }
         ++movers;
     }
     return movers == 1;
@@ -192,16 +216,21 @@ Carriages::Tool MotorShares::tool(const Places& axes) const {
 
 double MotorShares::share_at(std::size_t motor, std::size_t axis, const Places& axes) const {
     const auto coordinate = carriages_.coordinate_of(axis);
-    if (!towers_[motor] || !coordinate) { return shares_[motor][axis]; }
+    if (!towers_[motor] || !coordinate) {
+        return shares_[motor][axis] * (1 - screws_[motor].slope(exact_place(motor, axes)));
+    }
     Carriages::Tool by{};
     by[*coordinate] = 1 / static_cast<long double>(axis_steps_per_mm_[axis]);
     return static_cast<double>(carriages_.change(*towers_[motor], tool(axes), by) * steps_per_mm_[motor]);
 }
 
 /// The curve of a carriage is bent most at one of its ends, where its rod lies flatter. A parabola of this bend is an
-/// eighth of it above its chord.
+/// eighth of it above its chord. So is a screw where it bends most.
 double MotorShares::bulge(std::size_t motor, const Places& from, const Places& to) const {
-    if (!towers_[motor]) { return 0; }
+    if (!towers_[motor]) {
+        const double way = exact_place(motor, to) - exact_place(motor, from);
+        return screws_[motor].most_bend() / 8 * way * way;
+    }
     const Carriages::Tool begin = tool(from);
     const Carriages::Tool end = tool(to);
     const Carriages::Tool by{end[0] - begin[0], end[1] - begin[1], end[2] - begin[2]};
@@ -211,6 +240,19 @@ double MotorShares::bulge(std::size_t motor, const Places& from, const Places& t
 }
 
 double MotorShares::place(std::size_t motor, const Places& axes) const {
+    const double exact = exact_place(motor, axes);
+    return exact - screws_[motor].error(exact);
+}
+
+/// Each round is nearer by the slope of the error, at most 0.05.
+double MotorShares::without_screw(std::size_t motor, double steps) const {
+    constexpr int kRounds = 20;
+    double place = steps;
+    for (int round = 0; round < kRounds; ++round) { place = steps + screws_[motor].error(place); }
+    return place;
+}
+
+double MotorShares::exact_place(std::size_t motor, const Places& axes) const {
     if (const auto tower = towers_[motor]) {
         return static_cast<double>(carriages_.height(*tower, tool(axes)) * steps_per_mm_[motor]);
     }

@@ -1,10 +1,12 @@
 // Which motors move which axes, by the machine's configuration. It shares no code with core/kinematics.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
 #include "core/machine.hpp"
+#include "tests/screw_by_bezier.hpp"
 #include "tests/simulation/simtest/record/carriages.hpp"
 
 namespace lockstep::simtest {
@@ -28,10 +30,13 @@ public:
     /// Each axis is a motor. Boards follow.
     bool is_direct() const { return is_direct_; }
     /// A motor follows curves while the axes move in lines.
-    bool is_curved(std::size_t motor) const { return towers_[motor].has_value(); }
-    /// An axis is moved by one motor, which moves no other axis and has the axis's steps.
+    bool is_curved(std::size_t motor) const { return towers_[motor] || !screws_[motor].is_exact(); }
+    /// An axis is moved by one motor, which moves no other axis and has the axis's steps, or corrects its screw.
     bool is_own(std::size_t axis) const;
-    bool any_is_curved() const { return !carriages_.none(); }
+    bool any_is_curved() const {
+        return !carriages_.none() ||
+               std::ranges::any_of(screws_, [](const ScrewByBezier& screw) { return !screw.is_exact(); });
+    }
     /// A motor moves this axis and no other one.
     bool moves_only(std::size_t motor, std::size_t axis) const;
     /// Steps of a motor for each step of an axis; of a motor that is curved, the most within the travel.
@@ -40,6 +45,8 @@ public:
     double share_at(std::size_t motor, std::size_t axis, const Places& axes) const;
     /// The place of a motor in steps.
     double place(std::size_t motor, const Places& axes) const;
+    /// The place that a motor with this one would have with an exact screw, in steps.
+    double without_screw(std::size_t motor, double steps) const;
     /// Steps of an axis that are a step of its coarsest motor; of a delta, that are a step of all carriages at most.
     double step_of(std::size_t axis) const;
     /// Steps of the finest motor for each step of an axis.
@@ -56,6 +63,8 @@ private:
     void add(const MachineConfig& machine, std::size_t axis, const MotorBlock* block);
     void add_board();
     Carriages::Tool tool(const Places& axes) const;
+    /// The place of a motor with an exact screw.
+    double exact_place(std::size_t motor, const Places& axes) const;
     double steps_of_carriages(std::size_t coordinate, const Carriages::Tool& at) const;
 
     Carriages carriages_;
@@ -63,6 +72,7 @@ private:
     std::vector<std::optional<std::size_t>> towers_;  // of each motor
     std::vector<std::vector<double>> shares_;
     std::vector<double> steps_per_mm_;
+    std::vector<ScrewByBezier> screws_;  // in steps
     std::vector<MotorLimits> limits_;
     double slower_ = 1;
     bool is_direct_;

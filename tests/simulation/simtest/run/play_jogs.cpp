@@ -80,7 +80,8 @@ bool JogPlayer::has_astray_motors() const {
         for (std::size_t m = 0; m < bench_.map().motors(); ++m) {
             if (!bench_.map().moves_only(m, i)) { continue; }
             const double share = bench_.map().share(m, i);
-            const double at = static_cast<double>(bench_.watch().motors()[m].position.count()) / share;
+            const auto count = static_cast<double>(bench_.watch().motors()[m].position.count());
+            const double at = bench_.map().without_screw(m, count) / share;
             least = std::max(least, at - 0.5 / std::abs(share));
             most = std::min(most, at + 0.5 / std::abs(share));
         }
@@ -141,7 +142,7 @@ double JogPlayer::reaction_seconds() const {
         if (needs_path(keys)) { slots = kOwnSlots + 2 * t.send_ahead_slots + 3 * t.frame_slots; }
         for (const JogAxis& jog : keys.axes) {  // an axis that moves by itself stops on a whole step
             const double steps_per_s = std::abs(jog.speed_mm_s) * bench_.machine().axes[jog.axis].steps_per_mm;
-            seconds = std::max(seconds, kOwn_s + 2 / steps_per_s);
+            seconds = std::max(seconds, kOwn_s + 2 * bench_.map().step_of(jog.axis) / steps_per_s);
         }
     }
     // A carriage that its curve accelerates has less left to brake with.
@@ -200,7 +201,8 @@ void JogPlayer::check_place() {
     const Counts axes = bench_.axes_at(at_);
     for (std::size_t i = 0; i < axes.size(); ++i) {
         const AxisConfig& axis = bench_.machine().axes[i];
-        const double beside = bench_.map().is_own(i) ? 0 : bench_.map().step_of(i);
+        const double step = bench_.map().step_of(i);  // 1: the axis rests on its own steps
+        const double beside = bench_.map().is_own(i) && step == 1 ? 0 : step;
         const auto at = static_cast<double>(axes[i]);
         if (at < static_cast<double>(nearest_step(axis, axis.position_min_mm)) - beside ||
             at > static_cast<double>(nearest_step(axis, axis.position_max_mm)) + beside) {

@@ -101,12 +101,13 @@ void print_run(std::uint64_t seed, const RunResult& result, const Options& optio
     if (result.violations.empty()) { return; }
     const MachineKind& machine = options.machine;
     const std::string axes = machine.axes ? " --axes " + std::to_string(*machine.axes) : "";
-    std::fprintf(to, "  replay: lockstep-simtest --seed %" PRIu64 " --runs 1 --faults %s%s%s%s%s%s%s%s%s%s%s --trace\n",
+    std::fprintf(to,
+                 "  replay: lockstep-simtest --seed %" PRIu64 " --runs 1 --faults %s%s%s%s%s%s%s%s%s%s%s%s --trace\n",
                  seed, joined(options.faults).c_str(), axes.c_str(), machine.long_searches ? " --long-searches" : "",
                  machine.late_devices ? " --late-devices" : "", machine.motors ? " --motors" : "",
-                 machine.deltas ? " --deltas" : "", machine.jogs ? " --jogs" : "", machine.inputs ? " --inputs" : "",
-                 machine.outputs ? " --outputs" : "", machine.boards ? " --boards" : "",
-                 machine.probes ? " --probes" : "");
+                 machine.deltas ? " --deltas" : "", machine.screws ? " --screws" : "", machine.jogs ? " --jogs" : "",
+                 machine.inputs ? " --inputs" : "", machine.outputs ? " --outputs" : "",
+                 machine.boards ? " --boards" : "", machine.probes ? " --probes" : "");
 }
 
 void print_tally(const Tally& t, const Options& options) { options.json ? print_json(t) : print_text(t); }
