@@ -6,9 +6,9 @@
 
 namespace lockstep::firmware {
 
-// Entries of a motor's rings. They are memory: 80 kB for each motor, of the 264 kB of an RP2040.
+// Entries of a motor's rings. They are memory: 56 kB for each motor, of the 264 kB of an RP2040.
 inline constexpr std::size_t kSegmentRoom = 1024;
-inline constexpr std::size_t kCaptureRoom = 1024;
+inline constexpr std::size_t kCaptureRoom = 2048;
 inline constexpr std::size_t kOutputRoom = 64;
 inline constexpr std::size_t kEventRoom = 64;
 

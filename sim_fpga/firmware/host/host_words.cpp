@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "sim_fpga/firmware/host/link_words.hpp"
+
 namespace lockstep::firmware {
 
 using namespace registers;
@@ -17,13 +19,14 @@ void MotorOrders::begin() {
     window_.store(kMagic, 0);
     for (std::size_t n = 0; n < kWords; ++n) { window_.store(kFirst + n * sizeof(std::uint64_t), 0); }
     sent_.assign(kWords, 0);
-    segments_ = changes_ = sequence_ = 0;
+    segments_ = changes_ = sequence_ = magic_ = 0;
+    is_new_ = false;
 }
 
 /// Orders come first: a veto does not wait behind frames. A number that makes other words take effect is read before
 /// them and sent behind them.
 void MotorOrders::fill(unsigned motor, ItemWriter& items) {
-    if (window_.load(kMagic) != kMagicValue) { return; }
+    if (magic_ != kMagicValue) { return; }
     const std::uint64_t frames = window_.load(kSegmentHead);
     const std::uint64_t outputs = window_.load(kOutputHead);
     if (!fill_orders(motor, items)) { return; }
@@ -87,16 +90,46 @@ bool MotorOrders::put_changed(unsigned motor, std::size_t offset, std::uint64_t 
 
 void MotorOrders::take(std::size_t offset, std::uint64_t value) {
     if (offset >= kWindowBytes || offset % sizeof(std::uint64_t) != 0) { return; }
-    if (offset == kSequence) {
-        sequence_ = value;
-        window_.store(kSequence, value - 1);
-        return;
+    if (offset >= kFirst && offset < kFirst + kWords * sizeof(std::uint64_t)) { return take_own(offset, value); }
+    switch (offset) {
+        case kMagic: magic_ = value; break;
+        case kSequence:
+            sequence_ = value;
+            window_.store(kSequence, value - 1);
+            break;
+        case kLookWord:
+            look_ = LookTime::of(value);
+            is_new_ = true;
+            break;
+        default: window_.store(offset, value);
     }
-    window_.store(offset, value);
 }
 
-void MotorOrders::show() {
-    if (sequence_ != 0) { window_.store(kSequence, sequence_); }
+/// A word of the host that the board has from the host before this one.
+void MotorOrders::take_own(std::size_t offset, std::uint64_t value) {
+    if (magic_ != 0) { return; }
+    window_.store(offset, value);
+    sent_[(offset - kFirst) / sizeof(std::uint64_t)] = value;
+    if (offset == kSegmentHead) { segments_ = value; }
+    if (offset == kOutputHead) { changes_ = value; }
+}
+
+/// The board had received look_.heard of the host when it looked. MAGIC comes last: everything else is valid then.
+void MotorOrders::show(std::int64_t now_ns) {
+    if (!std::exchange(is_new_, false) || sequence_ == 0) { return; }
+    const auto now_us = static_cast<std::uint64_t>(now_ns) / 1000;
+    const std::uint32_t ago_us = static_cast<std::uint32_t>(now_us) - look_.heard;
+    window_.store(kAskedWord, (now_us - ago_us) * 1000);
+    window_.store(kAnsweredWord, static_cast<std::uint64_t>(now_ns));
+    window_.store(kBehindWord, look_.behind);
+    window_.store(kSequence, sequence_);
+    if (answers_) { window_.store(kMagic, magic_); }
+}
+
+void MotorOrders::show_link(bool answers) {
+    answers_ = answers;
+    window_.store(kAnswersWord, answers ? 1 : 0);
+    window_.store(kMagic, answers ? magic_ : 0);
 }
 
 HostWords::HostWords(std::vector<RegisterWindow> windows) {
@@ -108,7 +141,7 @@ void HostWords::begin() {
 }
 
 /// Each motor in turn is the first: none waits behind another's frames.
-void HostWords::fill(ItemWriter& items) {
+void HostWords::fill(ItemWriter& items, std::uint32_t /*heard*/) {
     for (std::size_t n = 0; n < motors_.size(); ++n) {
         const std::size_t motor = (turn_ + n) % motors_.size();
         motors_[motor].fill(static_cast<unsigned>(motor), items);
@@ -121,7 +154,11 @@ void HostWords::take(unsigned motor, std::size_t offset, std::uint64_t value) {
 }
 
 void HostWords::close() {
-    for (MotorOrders& motor : motors_) { motor.show(); }
+    for (MotorOrders& motor : motors_) { motor.show(now_ns_); }
+}
+
+void HostWords::show_link(bool answers) {
+    for (MotorOrders& motor : motors_) { motor.show_link(answers); }
 }
 
 }  // namespace lockstep::firmware

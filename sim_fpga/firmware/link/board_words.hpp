@@ -2,6 +2,9 @@
 //
 // For each motor in turn it takes a consistent look at the registers, sends the steps and events up to this look, and
 // then its words that have changed, in one message.
+//
+// A host that begins while the board is switched on gets the host's words too: it goes on where the one before it
+// ended.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +12,7 @@
 
 #include "sim_fpga/firmware/device/words.hpp"
 #include "sim_fpga/firmware/link/link.hpp"
+#include "sim_fpga/firmware/link/look_word.hpp"
 
 namespace lockstep::firmware {
 
@@ -18,7 +22,7 @@ public:
     void begin();
     /// Whether the next words to send are those of a new look.
     bool needs_look() const { return is_known_ && !is_looking_; }
-    void look(const Words& words);
+    void look(const Words& words, LookTime time);
     /// Puts words. Returns false if there is nothing more to send of this look.
     bool fill(const Words& words, unsigned motor, ItemWriter& items);
 
@@ -26,7 +30,9 @@ private:
     static constexpr std::size_t kFirst = registers::kSequence;
     static constexpr std::size_t kWords = (kDeviceWordsEnd - kFirst) / kWordBytes;
 
-    bool fill_constants(const Words& words, unsigned motor, ItemWriter& items);
+    void fill_constants(const Words& words, unsigned motor, ItemWriter& items);
+    /// Returns false if there was no room for all.
+    bool fill_orders(const Words& words, unsigned motor, ItemWriter& items);
     bool fill_ring(const Words& words, const Ring& ring, unsigned motor, std::uint64_t head, std::uint64_t& sent,
                    ItemWriter& items) const;
     void fill_registers(unsigned motor, ItemWriter& items);
@@ -36,7 +42,9 @@ private:
     std::uint64_t sent_[kWords]{};
     std::uint64_t steps_ = 0;   // entries of the capture ring that were sent
     std::uint64_t events_ = 0;  // entries of the event ring that were sent
-    bool is_known_ = false;     // the host has the words that never change
+    LookTime time_{};           // of the look
+    std::size_t orders_ = 0;    // the word of the host that it gets next, by its offset; 0: none of the board's yet
+    bool is_known_ = false;     // the host has the words that never change, and its own
     bool is_whole_ = false;     // the host has all registers of some look
     bool is_looking_ = false;   // this look is not yet sent
 };
@@ -51,7 +59,8 @@ public:
     virtual void prepare_orders() = 0;
     /// Within enter() and leave(): the devices take the host's words; a device publishes its words.
     virtual void take_orders() = 0;
-    virtual void publish(std::size_t motor) = 0;
+    /// Returns the ticks that the board's clock has counted beyond the published TICK.
+    virtual std::uint32_t publish(std::size_t motor) = 0;
 
 protected:
     ~Exchange() = default;
@@ -66,7 +75,7 @@ public:
         : words_(words), motors_(motors), exchange_(exchange) {}
 
     void begin() override;
-    void fill(ItemWriter& items) override;
+    void fill(ItemWriter& items, std::uint32_t heard) override;
     void take(unsigned motor, std::size_t offset, std::uint64_t value) override;
     void open() override { orders_ = 0; }
     void close() override;

@@ -1,7 +1,8 @@
 // The words in a message: items of consecutive words of a motor's window.
 //
 // An item is: the motor (1 byte), the number of words (1), the first word's number in the window (4), the words (8
-// each), all little-endian.
+// each), all little-endian. If bit 7 of the motor is set, each word behind the first is its distance from the one
+// before, 7 bits a byte, the lowest first, with bit 7 set in all bytes but the last: two bytes a step instead of eight.
 #pragma once
 
 #include <cstddef>
@@ -13,6 +14,8 @@ namespace lockstep::firmware {
 
 inline constexpr std::size_t kHeaderBytes = 20;
 inline constexpr std::size_t kItemBytes = 6;  // without its words
+inline constexpr unsigned kRisingWords = 0x80;
+inline constexpr std::size_t kMostDistanceBytes = 10;
 
 constexpr void store_bytes(std::uint8_t* to, std::uint64_t value, std::size_t bytes) {
     for (std::size_t n = 0; n < bytes; ++n) { to[n] = static_cast<std::uint8_t>(value >> 8 * n); }
@@ -37,14 +40,39 @@ public:
     }
     /// Room for it must be there. offset: in bytes, as in the register map.
     void put(unsigned motor, std::size_t offset, std::uint64_t value) {
-        if (motor != motor_ || offset != next_ || count_ == 0) { begin(motor, offset); }
-        store_bytes(message_.bytes + message_.size, value, 8);
-        message_.size += 8;
-        message_.bytes[item_ + 1] = ++count_;
-        next_ += 8;
+        if (!continues(motor, offset)) { begin(motor, offset); }
+        put_bytes(value, 8);
+        count();
+    }
+    /// The same for a word that is greater than the one before it, in fewer bytes.
+    void put_rising(unsigned motor, std::size_t offset, std::uint64_t value) {
+        if (continues(motor | kRisingWords, offset)) {
+            put_distance(value - last_);
+        } else {
+            begin(motor | kRisingWords, offset);
+            put_bytes(value, 8);
+        }
+        last_ = value;
+        count();
     }
 
 private:
+    bool continues(unsigned motor, std::size_t offset) const {
+        return motor == motor_ && offset == next_ && count_ != 0 && count_ != 255;
+    }
+    void count() {
+        message_.bytes[item_ + 1] = ++count_;
+        next_ += 8;
+    }
+    void put_bytes(std::uint64_t value, std::size_t bytes) {
+        store_bytes(message_.bytes + message_.size, value, bytes);
+        message_.size += bytes;
+    }
+    void put_distance(std::uint64_t distance) {
+        for (; distance > 0x7F; distance >>= 7) { put_bytes((distance & 0x7F) | 0x80, 1); }
+        put_bytes(distance, 1);
+    }
+
     void begin(unsigned motor, std::size_t offset) {
         item_ = message_.size;
         message_.bytes[item_] = static_cast<std::uint8_t>(motor);
@@ -60,7 +88,33 @@ private:
     unsigned motor_ = 0;
     std::size_t next_ = 0;  // the offset that continues the item
     std::uint8_t count_ = 0;
+    std::uint64_t last_ = 0;  // the word before, of words that rise
 };
+
+/// Reads a distance of put_rising(). Returns 0, and moves `at` to the end, if the message ends within it.
+inline std::uint64_t load_distance(const Message& message, std::size_t& at) {
+    std::uint64_t distance = 0;
+    for (std::size_t n = 0; n < kMostDistanceBytes && at < message.size; ++n) {
+        const std::uint8_t byte = message.bytes[at++];
+        distance |= std::uint64_t{byte & 0x7FU} << 7 * n;
+        if ((byte & 0x80) == 0) { return distance; }
+    }
+    at = message.size;
+    return 0;
+}
+
+/// Calls take(n, value) for the words of an item of words that rise, and moves `at` behind it.
+template <typename Take>
+void for_each_rising(const Message& message, std::size_t& at, std::size_t count, Take&& take) {
+    std::uint64_t value = load_bytes(message.bytes + at, 8);
+    at += 8;
+    for (std::size_t n = 0; n < count; ++n) {
+        const std::uint64_t distance = n == 0 ? 0 : load_distance(message, at);
+        if (n != 0 && distance == 0) { return; }
+        value += distance;
+        take(n, value);
+    }
+}
 
 /// Calls take(motor, offset, value) for each word of a message, in order. Stops at an item that is not whole.
 template <typename Take>
@@ -71,7 +125,14 @@ void for_each_word(const Message& message, Take&& take) {
         const std::size_t count = message.bytes[at + 1];
         const auto first = static_cast<std::size_t>(load_bytes(message.bytes + at + 2, 4));
         at += kItemBytes;
-        if (at + count * 8 > message.size) { return; }
+        const bool rises = (motor & kRisingWords) != 0;
+        if (rises && at + 8 <= message.size) {
+            for_each_rising(message, at, count, [&](std::size_t n, std::uint64_t value) {
+                take(motor & ~kRisingWords, (first + n) * 8, value);
+            });
+            continue;
+        }
+        if (rises || at + count * 8 > message.size) { return; }
         for (std::size_t n = 0; n < count; ++n, at += 8) {
             take(motor, (first + n) * 8, load_bytes(message.bytes + at, 8));
         }

@@ -44,6 +44,8 @@ void Link::take_message(const Message& message, std::uint32_t now_us) {
 void Link::begin_with(std::uint32_t peer) {
     peer_ = peer;
     acknowledged_ = sent_ = made_ = expected_ = 0;
+    repeats_ = in_parts_ = 0;
+    parts_.clear();
     words_.begin();
 }
 
@@ -53,22 +55,27 @@ void Link::take_acknowledgement(std::uint16_t acknowledged, std::uint32_t now_us
     const auto again = static_cast<std::uint16_t>(sent_ - acknowledged_);
     acknowledged_ = acknowledged;
     if (again < news) { sent_ = acknowledged; }
+    in_parts_ -= in_parts_ < news ? in_parts_ : news;
+    repeats_ = 0;
     progress_us_ = now_us;
 }
 
 void Link::take_words(const Message& message, std::uint16_t number) {
     owes_answer_ = true;
     if (number != expected_) { return; }
+    if (is_part(message) && !parts_.take(message)) { return; }
     ++expected_;
     words_.open();
-    for_each_word(message, [this](unsigned motor, std::size_t offset, std::uint64_t value) {
-        words_.take(motor, offset, value);
-    });
+    for_each_word(
+        is_part(message) ? parts_.message() : message,
+        [this](unsigned motor, std::size_t offset, std::uint64_t value) { words_.take(motor, offset, value); });
     words_.close();
+    parts_.clear();
 }
 
 bool Link::next_frame(std::uint32_t now_us, Frame& frame) {
     repeat_if_late(now_us);
+    if (in_parts_ > 0 && make_part(now_us, frame)) { return true; }
     if (sent_ != made_ || make_message()) {
         if (sent_ == acknowledged_) { progress_us_ = now_us; }
         const std::uint16_t number = sent_++;
@@ -82,14 +89,30 @@ bool Link::next_frame(std::uint32_t now_us, Frame& frame) {
 }
 
 void Link::repeat_if_late(std::uint32_t now_us) {
-    if (in_flight() > 0 && now_us - progress_us_ >= kRepeat_us) { sent_ = acknowledged_; }
+    if (in_flight() == 0 || now_us - progress_us_ < kRepeat_us) { return; }
+    sent_ = acknowledged_;
+    if (in_parts_ > 0) { return; }
+    progress_us_ = now_us;
+    if (++repeats_ > kMostRepeats) { in_parts_ = kMessagesInParts; }
+}
+
+/// Returns false if there is nothing to send. The parts of the oldest message take turns, without a pause: the line is
+/// poor, and nothing else can be sent before it has arrived.
+bool Link::make_part(std::uint32_t now_us, Frame& frame) {
+    if (in_flight() == 0 && !make_message()) { return false; }
+    const Message& message = stored(acknowledged_);
+    part_ = part_ + 1 < parts_of(message) ? part_ + 1 : 0;
+    cut_part(message, part_, part_message_);
+    if (sent_ == acknowledged_) { ++sent_; }
+    finish(part_message_, acknowledged_, now_us, frame);
+    return true;
 }
 
 /// Returns false if there is nothing to send, or no room to keep it.
 bool Link::make_message() {
     if (peer_ == 0 || in_flight() == kMostInFlight) { return false; }
     ItemWriter items(stored(made_));
-    words_.fill(items);
+    words_.fill(items, peer_stamp_);
     if (items.is_empty()) { return false; }
     ++made_;
     return true;

@@ -3,7 +3,8 @@
 // Each word of the register map is written by one side alone, so the link needs nothing but copies. Messages with words
 // are numbered. An end accepts only the next number, and tells the other which one that is, so that repeats, gaps and
 // delays are harmless: what an end has is always what the other had at some instant. Unacknowledged messages are sent
-// again after a while, all of them, in order.
+// again after a while, all of them, in order. If that does not help, because the line spoils each long message, the
+// oldest one is sent in parts.
 //
 // The number of an end's session is never 0, and differs after each start. If it changes, both ends send all words
 // again.
@@ -14,6 +15,7 @@
 
 #include "sim_fpga/firmware/link/frame.hpp"
 #include "sim_fpga/firmware/link/items.hpp"
+#include "sim_fpga/firmware/link/parts.hpp"
 
 namespace lockstep::firmware {
 
@@ -22,8 +24,9 @@ class LinkWords {
 public:
     /// The other end has begun: it has none of this side's words.
     virtual void begin() = 0;
-    /// Puts words that the other end does not have, as many as fit, or none.
-    virtual void fill(ItemWriter& items) = 0;
+    /// Puts words that the other end does not have, as many as fit, or none. heard: the newest of the other end's times
+    /// that has arrived.
+    virtual void fill(ItemWriter& items, std::uint32_t heard) = 0;
     /// The words of a message follow. They take effect together.
     virtual void open() = 0;
     /// A word of the other side.
@@ -60,6 +63,10 @@ public:
     static constexpr std::uint32_t kIdle_us = 5'000;
     /// Messages with words that are not yet acknowledged.
     static constexpr std::uint16_t kMostInFlight = 4;
+    /// A message that was sent again so often without an acknowledgement is sent in parts, and so are as many behind it
+    /// as kMessagesInParts says.
+    static constexpr unsigned kMostRepeats = 4;
+    static constexpr unsigned kMessagesInParts = 64;
 
 private:
     struct Header;
@@ -71,6 +78,7 @@ private:
     void take_words(const Message& message, std::uint16_t number);
     void repeat_if_late(std::uint32_t now_us);
     bool make_message();
+    bool make_part(std::uint32_t now_us, Frame& frame);
     void finish(Message& message, std::uint16_t number, std::uint32_t now_us, Frame& frame);
     Message& stored(std::uint16_t number) { return stored_[number % kMostInFlight]; }
     std::uint16_t in_flight() const { return static_cast<std::uint16_t>(made_ - acknowledged_); }
@@ -81,12 +89,17 @@ private:
     FrameReader reader_;
     Message stored_[kMostInFlight];
     Message empty_;
+    Message part_message_;
     std::uint16_t acknowledged_ = 0;  // messages below this number have arrived
     std::uint16_t sent_ = 0;          // the next number to send, or to send again
     std::uint16_t made_ = 0;          // the number of the next new message
     std::uint16_t expected_ = 0;      // the number of the next message of the other end
     std::uint32_t progress_us_ = 0;   // when the other end last acknowledged something, or the first message was sent
     std::uint32_t spoke_us_ = 0;      // when this end last sent anything
+    unsigned repeats_ = 0;            // since the other end last acknowledged something
+    unsigned in_parts_ = 0;           // messages that are sent in parts from now on
+    std::size_t part_ = 0;            // the part to send next
+    PartCollector parts_;             // of message expected_
     bool owes_answer_ = true;
     std::uint32_t peer_stamp_ = 0;
     std::uint32_t echoed_ = 0;

@@ -74,6 +74,17 @@ void Board::prepare_orders() {
     for (Device& device : devices_) { device.prepare_orders(); }
 }
 
+void Board::begin_clock() { began_us_ = chip::at(chip::timer::kNow); }
+
+/// The board's clock is the pins', ahead by the greatest number of ticks that may wait: TICK never passes it. The timer
+/// counts the same crystal, and 32 bits of it suffice for a difference of a few blocks.
+std::uint32_t Board::publish(std::size_t motor) {
+    devices_[motor].publish();
+    const std::uint32_t at_pins = chip::at(chip::timer::kNow) - began_us_;
+    const std::uint32_t behind = at_pins + kMostTicksAhead - static_cast<std::uint32_t>(now_);
+    return static_cast<std::int32_t>(behind) > 0 ? behind : 0;
+}
+
 void Board::take_orders() {
     for (std::size_t motor = 0; motor < kMotors; ++motor) {
         devices_[motor].take_orders();

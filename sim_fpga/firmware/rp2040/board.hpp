@@ -16,6 +16,8 @@ class Board final : public Exchange {
 public:
     explicit Board(std::uint32_t power_up);
 
+    /// The machines that time the pins begin now.
+    void begin_clock();
     /// Executes ticks of all motors while blocks may wait. Called by the interrupt.
     void render();
     /// The pins had no bit for a tick.
@@ -27,7 +29,7 @@ public:
     void leave() override;
     void prepare_orders() override;
     void take_orders() override;
-    void publish(std::size_t motor) override { devices_[motor].publish(); }
+    std::uint32_t publish(std::size_t motor) override;
 
 private:
     void render_block();
@@ -38,7 +40,8 @@ private:
     BoardWords board_words_;
     Link link_;
     Transmission transmission_;
-    std::int64_t now_ = 0;  // the last tick that was executed
+    std::int64_t now_ = 0;        // the last tick that was executed
+    std::uint32_t began_us_ = 0;  // when the pins began the first tick, by the chip's timer
 };
 
 }  // namespace lockstep::firmware

@@ -43,6 +43,7 @@ void start_motors() {
     feed_machines();
     board().enter();
     start_step_pins();
+    board().begin_clock();
     start_alarm(kFeedAlarm, kFeedPeriod_us, 0);
     start_alarm(kRenderAlarm, kRenderPeriod_us, 2);
     board().leave();

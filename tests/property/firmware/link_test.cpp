@@ -24,7 +24,7 @@ public:
         sent_ = 0;
         taken.clear();
     }
-    void fill(firmware::ItemWriter& items) override {
+    void fill(firmware::ItemWriter& items, std::uint32_t /*heard*/) override {
         for (; sent_ < writes.size() && items.has_room(1); ++sent_) {
             items.put(writes[sent_].motor, writes[sent_].offset, writes[sent_].value);
         }
