@@ -109,6 +109,14 @@ struct BoardConfig {
     bool operator==(const BoardConfig&) const = default;
 };
 
+/// A board that carries the devices of several motors, which it executes by itself: a motor whose device is
+/// "board:NAME/N" has one of them. It takes part in nothing; its motors do.
+struct BoardLinkConfig {
+    std::string name;
+    std::string link;  // as read_link_name() takes it
+    bool operator==(const BoardLinkConfig&) const = default;
+};
+
 /// A share of an axis in the place of a motor.
 struct AxisShare {
     std::string axis;
@@ -236,6 +244,7 @@ struct MachineConfig {
     std::optional<WebConfig> web;      // none: `lockstep up` starts no page
     std::vector<AxisConfig> axes;
     std::vector<BoardConfig> boards;
+    std::vector<BoardLinkConfig> board_links;
     KinematicsConfig kinematics;
     std::vector<OutputConfig> outputs;
     double output_silence_ms = 500;  // how long a process may be silent until the outputs of its device go off

@@ -120,6 +120,17 @@ BoardConfig read_board(const proto::Board& message, const std::string& place, Pr
     return board;
 }
 
+BoardLinkConfig read_board_link(const proto::Board& message, const std::string& place, ProtoReader reader) {
+    BoardLinkConfig board{.name = {}, .link = message.link()};
+    reader.require(message.has_name(), message.name(), board.name, place + ".name");
+    if (message.has_host() || message.has_device()) {
+        reader.refuse(place + ".link", fmt::format("{0} has a link, so {0}.host and {0}.device have no meaning; remove "
+                                                   "them: lockstep-board runs on the host of the board's motors",
+                                                   place));
+    }
+    return board;
+}
+
 }  // namespace
 
 DeviceName read_device(const std::string& text, const std::string& key, ProtoReader& reader) {
@@ -132,8 +143,12 @@ DeviceName read_device(const std::string& text, const std::string& key, ProtoRea
 
 void read_devices(const proto::Machine& message, MachineDraft& draft) {
     for (int k = 0; k < message.board_size(); ++k) {
-        draft.machine.boards.push_back(
-            read_board(message.board(k), fmt::format("board[{}]", k), ProtoReader(draft.missing)));
+        const std::string place = fmt::format("board[{}]", k);
+        if (message.board(k).has_link()) {
+            draft.machine.board_links.push_back(read_board_link(message.board(k), place, ProtoReader(draft.missing)));
+        } else {
+            draft.machine.boards.push_back(read_board(message.board(k), place, ProtoReader(draft.missing)));
+        }
     }
     ProtoReader of_outputs(draft.missing);
     for (int k = 0; k < message.output_size(); ++k) {

@@ -189,6 +189,11 @@ void write_kinematics(const KinematicsConfig& kinematics, proto::Machine& messag
     }
 }
 
+void write_board_link(const BoardLinkConfig& board, proto::Board& message) {
+    message.set_name(board.name);
+    message.set_link(board.link);
+}
+
 void write_board(const BoardConfig& board, proto::Board& message) {
     message.set_name(board.name);
     if (!board.host.empty()) { message.set_host(board.host); }
@@ -252,6 +257,7 @@ proto::Machine machine_to_proto(const MachineConfig& machine) {
     message.set_coordination(method_to_proto(machine.coordination));
     for (const AxisConfig& axis : machine.axes) { write_axis(axis, *message.add_axis()); }
     for (const BoardConfig& board : machine.boards) { write_board(board, *message.add_board()); }
+    for (const BoardLinkConfig& board : machine.board_links) { write_board_link(board, *message.add_board()); }
     write_kinematics(machine.kinematics, message);
     for (const OutputConfig& output : machine.outputs) { write_output(output, *message.add_output()); }
     if (!machine.outputs.empty()) { message.set_output_silence_ms(machine.output_silence_ms); }

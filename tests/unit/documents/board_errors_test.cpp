@@ -39,7 +39,7 @@ TEST(Boards, WrongValuesAreRefusedWithPlaceValueAndRemedy) {
          "m:12:9: error: io names an axis, a motor or another board already"},
         {with_blocks({R"(board { name: "IO" host: "a b" })", kAir}), "board[0].host is \"a b\"; it must be the name"},
         {with_blocks({R"(board { name: "IO" device: "usb:1" })", kAir}),
-         "m:11:20: error: board[0].device is \"usb:1\"; it must be sim, shm:NAME or uio:PATH"},
+         "m:11:20: error: board[0].device is \"usb:1\"; it must be sim, shm:NAME, uio:PATH or board:NAME/N"},
         {with_blocks({kIo}),
          "m:11:9: error: board IO has no output and no input; write board: \"IO\" in the blocks of those that it has"},
         {with_blocks({kIo, R"(output { name: "air" motor: "IO" })"}), "board IO has no output and no input"},

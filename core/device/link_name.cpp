@@ -1,0 +1,36 @@
+#include "core/device/link_name.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+namespace lockstep {
+namespace {
+
+constexpr std::string_view kSerial = "serial:";
+constexpr std::string_view kTcp = "tcp:";
+
+bool is_address(std::string_view text) {
+    return !text.empty() && std::ranges::all_of(text, [](char c) { return (c >= '0' && c <= '9') || c == '.'; });
+}
+
+/// ADDRESS:PORT
+std::optional<LinkName> read_tcp(std::string_view text) {
+    const std::size_t colon = std::min(text.find(':'), text.size());
+    const std::string_view port = text.substr(std::min(text.size(), colon + 1));
+    LinkName link{LinkName::Kind::Tcp, std::string(text.substr(0, colon))};
+    const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), link.port);
+    const bool is_port = error == std::errc() && end == port.data() + port.size() && link.port != 0;
+    return is_port && is_address(link.place) ? std::optional(link) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<LinkName> read_link_name(std::string_view text) {
+    if (text.starts_with(kTcp)) { return read_tcp(text.substr(kTcp.size())); }
+    if (!text.starts_with(kSerial)) { return std::nullopt; }
+    const std::string_view path = text.substr(kSerial.size());
+    if (path.size() < 2 || path.front() != '/') { return std::nullopt; }
+    return LinkName{LinkName::Kind::Serial, std::string(path)};
+}
+
+}  // namespace lockstep

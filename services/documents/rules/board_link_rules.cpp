@@ -1,0 +1,126 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/device/link_name.hpp"
+#include "core/kinematics/motors.hpp"
+#include "services/documents/machine_rules.hpp"
+#include "services/documents/names.hpp"
+#include "services/documents/problem_list.hpp"
+
+namespace lockstep {
+namespace {
+
+/// The motors whose devices are behind links.
+std::vector<MotorConfig> linked_motors_of(const MachineConfig& machine) {
+    std::vector<MotorConfig> motors = motors_of(machine);
+    std::erase_if(motors, [](const MotorConfig& motor) { return motor.device.kind != DeviceName::Kind::Linked; });
+    return motors;
+}
+
+/// The key `device` of a motor.
+FieldPath device_of(const MachineConfig& machine, const MotorConfig& motor) {
+    if (!motor.axis) { return {{}, "board"}; }
+    const auto& blocks = machine.axes[*motor.axis].motors;
+    const auto block = std::ranges::find(blocks, motor.name, &MotorBlock::name);
+    return {motor.axis, block == blocks.end() ? "device" : fmt::format("motor[{}].device", block - blocks.begin())};
+}
+
+/// Why a motor cannot have its device; empty if it can. `before`: the motors before it.
+std::string fault_of(const MachineConfig& machine, const MotorConfig& motor, const std::vector<MotorConfig>& before) {
+    const std::string text = motor.device.text();
+    const std::string& board = motor.device.place;
+    if (std::ranges::find(machine.board_links, board, &BoardLinkConfig::name) == machine.board_links.end()) {
+        return fmt::format(
+            "device {} of motor {} is at a board that the machine does not have; add board {{ name: "
+            "\"{}\" link: \"serial:/dev/...\" }}, or correct the name",
+            text, motor.name, board);
+    }
+    for (const MotorConfig& other : before) {
+        if (other.device == motor.device) {
+            return fmt::format("device {} is that of motor {} already; give motor {} another number", text, other.name,
+                               motor.name);
+        }
+        if (other.device.place == board && !same_name(other.host, motor.host)) {
+            return fmt::format(
+                "motors {} and {} have devices of board {}, but run on host \"{}\" and on host \"{}\"; "
+                "place both on the host to which the board is connected",
+                other.name, motor.name, board, other.host, motor.host);
+        }
+    }
+    return {};
+}
+
+/// Checks one board, whose block has the number `number` among those with a link.
+class BoardLinkRules {
+public:
+    BoardLinkRules(const MachineConfig& machine, std::size_t number)
+        : machine_(machine), board_(machine.board_links[number]), number_(number) {}
+
+    std::vector<Problem> check() {
+        // Blocks without a link are counted apart. With both kinds, the text names the block.
+        const std::string at = machine_.boards.empty() ? fmt::format("board[{}].", number_) : "board.";
+        const std::string& name = board_.name;
+        problems_.require(is_axis_name(name), at + "name",
+                          fmt::format("the board's name is \"{}\"; it must be a letter, then letters, digits and _, "
+                                      "at most {} characters",
+                                      name, kMaxAxisName));
+        problems_.require(
+            !is_taken(), at + "name",
+            fmt::format("{} names an axis, a motor or another board already; give this board another name", name));
+        problems_.require(read_link_name(board_.link).has_value(), at + "link",
+                          fmt::format("the link of board {} is \"{}\"; it must be {}, such as serial:/dev/ttyUSB0",
+                                      name, board_.link, kLinkNames));
+        if (const auto* other = with_same_link()) {
+            problems_.require(false, at + "link",
+                              fmt::format("link {} of board {} is that of board {} already; a link leads to one board",
+                                          board_.link, name, other->name));
+        }
+        problems_.require(is_used(), at + "name",
+                          fmt::format("no motor has a device of board {0}; write device: \"board:{0}/0\" in the block "
+                                      "of one that it drives, or remove the board",
+                                      name));
+        return problems_.take();
+    }
+
+private:
+    bool is_taken() const {
+        std::vector<std::string> names = motor_names(machine_);
+        for (const AxisConfig& axis : machine_.axes) { names.push_back(axis.name); }
+        for (std::size_t k = 0; k < number_; ++k) { names.push_back(machine_.board_links[k].name); }
+        return std::ranges::any_of(names, [&](const std::string& other) { return same_name(other, board_.name); });
+    }
+    const BoardLinkConfig* with_same_link() const {
+        for (std::size_t k = 0; k < number_; ++k) {
+            if (machine_.board_links[k].link == board_.link) { return &machine_.board_links[k]; }
+        }
+        return nullptr;
+    }
+    bool is_used() const {
+        const auto has_it = [&](const MotorConfig& motor) { return motor.device.place == board_.name; };
+        return std::ranges::any_of(linked_motors_of(machine_), has_it);
+    }
+
+    const MachineConfig& machine_;
+    const BoardLinkConfig& board_;
+    std::size_t number_;
+    ProblemList problems_;
+};
+
+}  // namespace
+
+std::vector<Problem> board_link_problems(const MachineConfig& machine) {
+    std::vector<Problem> problems;
+    std::vector<MotorConfig> before;
+    for (const MotorConfig& motor : linked_motors_of(machine)) {
+        std::string fault = fault_of(machine, motor, before);
+        if (!fault.empty()) { problems.push_back({device_of(machine, motor), std::move(fault)}); }
+        before.push_back(motor);
+    }
+    for (std::size_t k = 0; k < machine.board_links.size(); ++k) {
+        std::ranges::move(BoardLinkRules(machine, k).check(), std::back_inserter(problems));
+    }
+    return problems;
+}
+
+}  // namespace lockstep
