@@ -2,7 +2,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-install(TARGETS lockstep lockstep-coordinator lockstep-axis lockstep-fpga lockstep-grbl lockstep-web
+install(TARGETS lockstep lockstep-coordinator lockstep-axis lockstep-board lockstep-fpga lockstep-grbl lockstep-web
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT lockstep)
 install(DIRECTORY deploy/examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/examples COMPONENT lockstep
   USE_SOURCE_PERMISSIONS)
@@ -37,7 +37,7 @@ set(MANUAL ${PROJECT_BINARY_DIR}/man)
 if(CMAKE_CROSSCOMPILING)
   set(MANUAL ${PROJECT_SOURCE_DIR}/build/man)
 else()
-  set(DOCUMENTED lockstep lockstep-coordinator lockstep-axis lockstep-fpga lockstep-grbl lockstep-web)
+  set(DOCUMENTED lockstep lockstep-coordinator lockstep-axis lockstep-board lockstep-fpga lockstep-grbl lockstep-web)
   set(PROGRAMS ${DOCUMENTED})
   list(TRANSFORM PROGRAMS REPLACE "(.+)" "$<TARGET_FILE:\\1>")
   add_custom_command(OUTPUT ${MANUAL}/lockstep.1
@@ -48,6 +48,7 @@ endif()
 install(DIRECTORY ${MANUAL}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT lockstep OPTIONAL)
 
 install(FILES deploy/systemd/lockstep-coordinator.service deploy/systemd/lockstep-axis@.service
+  deploy/systemd/lockstep-board@.service
   deploy/systemd/lockstep-grbl.service deploy/systemd/lockstep-logger.service deploy/systemd/lockstep-web.service
   DESTINATION lib/systemd/system COMPONENT lockstep)
 
@@ -75,7 +76,7 @@ install(FILES ${PROJECT_BINARY_DIR}/lockstep-config.cmake ${PROJECT_BINARY_DIR}/
 
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # installing and packing do not first build all targets
 # Builds the content of the package `lockstep`.
-add_custom_target(package_files DEPENDS lockstep lockstep-coordinator lockstep-axis lockstep-fpga lockstep-grbl lockstep-web lockstep_lcm_python)
+add_custom_target(package_files DEPENDS lockstep lockstep-coordinator lockstep-axis lockstep-board lockstep-fpga lockstep-grbl lockstep-web lockstep_lcm_python)
 if(TARGET manual)
   add_dependencies(package_files manual)
 endif()

@@ -124,7 +124,7 @@ void AxisNode::look(Tick own) {
     const auto reading = found_->port->read(own);
     if (!reading) { return lose_device(own, reading.error()); }
     const auto doubt = *reading ? found_->watch.doubt_of(own, (*reading)->status) : found_->watch.doubt_of_silence(own);
-    if (doubt) { return lose_device(own, "device: " + *doubt); }
+    if (doubt) { return lose_device(own, "device: " + *doubt + found_->port->remedy()); }
     if (!*reading) { return; }
     found_->is_new = !found_->newest || found_->newest->asked != (*reading)->asked;
     found_->newest = *reading;

@@ -12,6 +12,7 @@
 #include "services/axis/axis_network.hpp"
 #include "services/axis/axis_node.hpp"
 #include "services/axis/axis_notices.hpp"
+#include "services/axis/board_port.hpp"
 #include "services/axis/device_window.hpp"
 #include "services/axis/position_file.hpp"
 #include "services/axis/window_port.hpp"
@@ -46,8 +47,13 @@ OpenDevice opener_of(const DeviceName& device, const MotorConfig& motor, const M
     if (device.kind == DeviceName::Kind::Simulated) {
         return [machine, motor](Tick now) { return simulated_port(machine, motor, now); };
     }
+    if (device.kind == DeviceName::Kind::Linked) {
+        MotorConfig linked = motor;
+        linked.device = device;
+        return [clock, machine, linked](Tick) { return BoardPort::open(machine, linked, clock); };
+    }
     return [device, clock, machine, motor](Tick) -> std::expected<std::unique_ptr<DevicePort>, std::string> {
-        auto window = open_window(device);
+        auto window = open_window(device, machine);
         if (!window) { return std::unexpected(window.error()); }
         const bool has_own_clock = window->is_hardware();
         auto driver = attach_driver(std::move(*window), machine, motor);

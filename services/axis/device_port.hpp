@@ -46,6 +46,9 @@ public:
     /// Changes that the device had no room to note, since its power-up.
     virtual std::uint64_t lost_channel_events() const = 0;
 
+    /// What to check if the device no longer answers, for the end of a text. Empty: nothing that the port knows of.
+    virtual std::string remedy() const { return {}; }
+
 protected:
     DevicePort() = default;
     DevicePort(const DevicePort&) = default;

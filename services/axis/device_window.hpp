@@ -5,11 +5,16 @@
 #include <string>
 
 #include "core/device/device_name.hpp"
+#include "core/machine.hpp"
 #include "sim_fpga/register_window.hpp"
 
 namespace lockstep {
 
-/// `device` is shared or mapped, not simulated. Error: the registers cannot be mapped.
-std::expected<RegisterWindow, std::string> open_window(const DeviceName& device);
+/// `device` is not simulated. Error: the registers cannot be mapped; for a linked device also: lockstep-board does not
+/// run, or its board does not answer or has no such motor.
+std::expected<RegisterWindow, std::string> open_window(const DeviceName& device, const MachineConfig& machine);
+
+/// What to check if a linked device does not answer, for the end of a text.
+std::string link_remedy(const DeviceName& device, const MachineConfig& machine);
 
 }  // namespace lockstep

@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
     parser.add_option(
         "--fpga", options.fpga,
         "the device to use instead of the file's: sim (in this process), shm:NAME (of lockstep-fpga) or uio:PATH "
-        "(memory-mapped, such as uio:/dev/uio0)");
+        "(memory-mapped, such as uio:/dev/uio0) or board:NAME/N (of lockstep-board)");
     parser.add_option("--log", options.log_file, "the file for log lines; default: standard error");
     std::string clock_error;
     parser.add_option("--clock-error", clock_error,

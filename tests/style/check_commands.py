@@ -13,7 +13,7 @@ import subprocess
 import sys
 
 GIT_FILES = ["git", "-c", "safe.directory=*", "ls-files", "-co", "--exclude-standard"]  # accepts a clone of any owner
-PROGRAMS = "lockstep|lockstep-axis|lockstep-coordinator|lockstep-fpga|lockstep-grbl|lockstep-simtest|lockstep-web"
+PROGRAMS = "lockstep|lockstep-axis|lockstep-board|lockstep-coordinator|lockstep-fpga|lockstep-grbl|lockstep-simtest|lockstep-web"
 COMMAND = re.compile(rf"(?:^|[;&|] *|client |CYCLONEDDS_URI=\S+ )({PROGRAMS}) +(?=[a-z-])(.*)")
 SCRIPT = re.compile(r"(?m)(?:^    |`)((?:tests|deploy|core|docs|idl|sim_fpga)/[\w./-]+)(?= [\w<-])")
 BUILT = re.compile(r"build/bin/([\w-]+)")

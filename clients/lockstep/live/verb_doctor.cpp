@@ -70,7 +70,7 @@ void examine_host(const MachineConfig& machine, double seconds, Output& output, 
 }
 
 std::expected<void, std::string> try_device(const MachineConfig& machine, const MotorConfig& motor) {
-    const auto window = open_window(motor.device);
+    const auto window = open_window(motor.device, machine);
     if (!window) { return std::unexpected(window.error()); }
     const auto driver = find_device(*window, machine, motor);
     return driver ? std::expected<void, std::string>{} : std::unexpected(driver.error());

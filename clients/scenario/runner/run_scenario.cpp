@@ -89,8 +89,8 @@ std::expected<void, std::string> start_devices(const Scenario& scenario, Process
         const std::string name = "fpga-" + motor;
         if (const auto started = processes.start(name); !started) { return started; }
         const auto deadline = monotonic_now() + kStartPatience;
-        for (auto window = open_window(shared_device(scenario.machine, motor)); !window;
-             window = open_window(shared_device(scenario.machine, motor))) {
+        for (auto window = open_window(shared_device(scenario.machine, motor), scenario.machine); !window;
+             window = open_window(shared_device(scenario.machine, motor), scenario.machine)) {
             if (monotonic_now() > deadline) { return std::unexpected(name + ": " + window.error()); }
             std::this_thread::sleep_for(5ms);
         }
