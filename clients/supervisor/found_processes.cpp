@@ -81,6 +81,7 @@ std::string service_name(const std::vector<std::string>& words, const fs::path& 
     };
     if (is_run("lockstep-axis")) { return "axis-" + value_of(words, "--axis"); }
     if (is_run("lockstep-fpga")) { return "fpga-" + value_of(words, "--axis"); }
+    if (is_run("lockstep-board")) { return "board-" + value_of(words, "--board"); }
     if (is_run("lockstep-web")) { return kWeb; }
     if (!is_run("lockstep-coordinator")) { return ""; }
     return std::ranges::find(words, "--second") == words.end() ? "coordinator" : "coordinator-2";

@@ -11,7 +11,9 @@ namespace lockstep {
 namespace {
 
 /// A device, or the page.
-bool is_not_on_network(const std::string& line) { return line.starts_with("fpga-") || line == kWeb; }
+bool is_not_on_network(const std::string& line) {
+    return line.starts_with("fpga-") || line.starts_with("board-") || line == kWeb;
+}
 
 bool is_present(const ProcessRecord& record, const std::vector<PresentProcess>& present) {
     return std::ranges::any_of(present, [here = host_name(), &record](const PresentProcess& process) {

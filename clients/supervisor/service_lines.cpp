@@ -1,9 +1,21 @@
 #include "clients/supervisor/service_lines.hpp"
 
+#include <set>
+
 #include "core/kinematics/motors.hpp"
 
 namespace lockstep {
 namespace {
+
+/// The boards behind links that carry devices of these motors, each once.
+std::set<std::string> boards_of(const MachineConfig& machine, const std::vector<std::size_t>& placed) {
+    const std::vector<MotorConfig> motors = motors_of(machine);
+    std::set<std::string> boards;
+    for (const std::size_t i : placed) {
+        if (motors[i].device.kind == DeviceName::Kind::Linked) { boards.insert(motors[i].device.place); }
+    }
+    return boards;
+}
 
 std::string shared_name(const MachineConfig& machine, const std::string& motor) {
     return "lockstep-" + machine.name + "-" + motor;
@@ -31,6 +43,13 @@ std::vector<ServiceLine> service_lines(const MachineConfig& machine, const Place
         const std::string& motor = motor_name(machine, i);
         lines.push_back(
             line("fpga-" + motor, begin("lockstep-fpga"), {"--axis", motor, "--name", shared_name(machine, motor)}));
+    }
+    if (layout.fpga == FpgaKind::AsConfigured) {
+        for (const std::string& board : boards_of(machine, placed.axes)) {
+            const std::string name = "board-" + board;
+            lines.push_back(
+                line(name, begin("lockstep-board"), {"--board", board, "--log", state.log_file(name).string()}));
+        }
     }
     for (const char* name : {"coordinator", "coordinator-2"}) {
         if (!placed.coordinator) { break; }

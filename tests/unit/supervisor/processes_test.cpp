@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "clients/supervisor/found_processes.hpp"
 #include "clients/supervisor/process_record.hpp"
 #include "clients/supervisor/restart_policy.hpp"
 #include "clients/supervisor/service_lines.hpp"
@@ -125,6 +126,21 @@ TEST(ServiceLines, WithDevicesOfTheirOwnHaveTheDevicesFirst) {
     EXPECT_THAT(names_of(lines), ElementsAre("fpga-X", "fpga-Y", "coordinator", "axis-X", "axis-Y"));
     EXPECT_EQ(lines[0].words.back(), "lockstep-mill-X");
     EXPECT_THAT(lines[3].words, Contains("shm:lockstep-mill-X"));
+}
+
+TEST(ServiceLines, HaveTheBoardOfPlacedMotorsOnceAndFirst) {
+    MachineConfig machine = two_axes();
+    machine.board_links = {{.name = "pico1", .link = "tcp:127.0.0.1:7001"}};
+    for (unsigned n : {0U, 1U}) { machine.axes[n].device = {DeviceName::Kind::Linked, "pico1", n}; }
+    const StateDirectory state("mill");
+    const auto lines = service_lines(machine, all(), {}, "/opt/bin", state);
+    EXPECT_THAT(names_of(lines), ElementsAre("board-pico1", "coordinator", "axis-X", "axis-Y"));
+    EXPECT_EQ(lines[0].words[0], "/opt/bin/lockstep-board");
+    EXPECT_EQ(service_name(lines[0].words, state.machine_file()), "board-pico1");
+    EXPECT_THAT(names_of(service_lines(machine, {.axes = {1}}, {}, "/opt/bin", state)),
+                ElementsAre("board-pico1", "axis-Y"));
+    EXPECT_THAT(names_of(service_lines(machine, all(), {.fpga = FpgaKind::Sim}, "/opt/bin", state)),
+                ElementsAre("coordinator", "axis-X", "axis-Y"));
 }
 
 }  // namespace
