@@ -165,9 +165,11 @@ bool AxisCheck::begin_next_run() {
     const bool follows = last_run_ && last_run_->incarnation == run.incarnation && !is_behind_gap;
     const bool jumps = follows && last_run_->device_stop() != run.device_start();
     if (jumps && std::exchange(device_lost_, false)) {
+        const std::int64_t late = waiting_.drop_before(run.incarnation, run.start);
+        const std::string made = late == 0 ? "" : "; it made " + plural(late, "step") + " more, which are not compared";
         findings_.notes.push_back(
-            fmt::format("{}: its device was lost after {}; from {} on another device counts, from {}", label(),
-                        name_of(*last_run_), name_of(run), run.device_start()));
+            fmt::format("{}: its device was lost after {}{}; from {} on another device counts, from {}", label(),
+                        name_of(*last_run_), made, name_of(run), run.device_start()));
     } else if (jumps) {
         differ(fmt::format("{}: {} starts at count {} of the device, but the run before it ended at {}", label(),
                            name_of(run), run.device_start(), last_run_->device_stop()),
