@@ -19,7 +19,11 @@ std::expected<std::unique_ptr<DevicePort>, std::string> BoardPort::open(const Ma
 }
 
 BoardPort::BoardPort(RegisterWindow window, DeviceDriver driver, const MachineClock& clock, std::string remedy)
-    : window_(std::move(window)), port_(std::move(driver)), clock_(clock), remedy_(std::move(remedy)) {}
+    : window_(std::move(window)),
+      pins_behind_(driver.abilities().behind),
+      port_(std::move(driver)),
+      clock_(clock),
+      remedy_(std::move(remedy)) {}
 
 /// The registers belong to these times if the times are the same before and behind them. They change with each answer,
 /// so if they are not, the driver's reading counts with the next one.
@@ -42,13 +46,14 @@ BoardPort::Times BoardPort::times() const {
             window_.load(firmware::kBehindWord)};
 }
 
-/// The board's clock showed TICK earlier, by as much as it had counted beyond it.
+/// The board's clock showed TICK earlier, by as much as it had counted beyond it. Its pins are a constant time behind.
 DeviceReading BoardPort::reading(const DeviceStatus& status, const Times& times) const {
     const auto tick_at = [this](std::uint64_t ns) {
         return clock_.tick_at(std::chrono::nanoseconds{static_cast<std::int64_t>(ns)});
     };
     const Ticks behind{static_cast<std::int64_t>(times.behind_ticks)};
-    return {status, tick_at(times.asked_ns) - behind - Ticks{1}, tick_at(times.answered_ns) - behind + Ticks{1}};
+    return {status, tick_at(times.asked_ns) - behind - Ticks{1}, tick_at(times.answered_ns) - behind + Ticks{1},
+            pins_behind_};
 }
 
 }  // namespace lockstep

@@ -47,6 +47,7 @@ private:
     DeviceReading reading(const DeviceStatus& status, const Times& times) const;
 
     RegisterWindow window_;
+    Ticks pins_behind_;
     WindowPort port_;
     MachineClock clock_;
     std::string remedy_;

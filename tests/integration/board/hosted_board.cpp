@@ -95,12 +95,15 @@ public:
 
 private:
     static constexpr std::int64_t kBlock = 128;
-    static constexpr std::int64_t kMostAhead = 1152;
+    static constexpr std::int64_t kMostAhead = 1168;
 
     void add(const MachineConfig& machine, const MotorConfig& motor, unsigned n, std::FILE* edges) {
         const firmware::Abilities abilities{.power_up = std::uint64_t{session_} << 8 | n,
                                             .least_step_ticks = 16,
+                                            .lead_ticks = kBlock,
+                                            .pin_ticks = kMostAhead,
                                             .longest_time = 400,
+                                            .longest_pwm_period = 0,
                                             .inputs = 3,
                                             .can_enable = true,
                                             .can_compare = false};

@@ -116,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Hosts, MachineRefused,
     testing::Values(Refusal{axis_with("host: \"a b\""), 10, 3, "host is \"a b\"; it must be the name of a host"},
-                    Refusal{axis_with("device: \"usb\""), 10, 3, "sim, shm:NAME or uio:PATH"},
+                    Refusal{axis_with("device: \"usb\""), 10, 3, "sim, shm:NAME, uio:PATH or board:NAME"},
                     Refusal{axis_with("device: \"uio:uio0\""), 10, 3, "such as uio:/dev/uio0"},
                     Refusal{axis_with("device: \"uio:/dev/uio0\"") + "timing { time_source: PTP }", 12, 10,
                             "leaves no room for the clock error of device uio:/dev/uio0 of axis X; set NETWORK"},
