@@ -19,7 +19,7 @@ void MotorOrders::begin() {
     window_.store(kMagic, 0);
     for (std::size_t n = 0; n < kWords; ++n) { window_.store(kFirst + n * sizeof(std::uint64_t), 0); }
     sent_.assign(kWords, 0);
-    segments_ = changes_ = sequence_ = magic_ = 0;
+    segments_ = whole_ = changes_ = sequence_ = magic_ = 0;
     is_new_ = false;
 }
 
@@ -33,8 +33,11 @@ void MotorOrders::fill(unsigned motor, ItemWriter& items) {
     fill_setup(motor, items);
     fill_ring({kOutputRing, kOutputRingEntryBytes, kOutputEntries}, motor, outputs, changes_, items);
     if (changes_ != outputs || !put_changed(motor, kOutputHead, outputs, items)) { return; }
-    fill_ring({kSegmentRing, kSegmentRingEntryBytes, kSegmentEntries}, motor, frames, segments_, items);
-    if (segments_ == frames) { put_changed(motor, kSegmentHead, frames, items); }
+    if (!put_changed(motor, kSegmentHead, whole_, items)) { return; }
+    const Ring segments{kSegmentRing, kSegmentRingEntryBytes, kSegmentEntries};
+    fill_ring(segments, motor, frames, segments_, items);
+    whole_ = end_of_whole_frames(segments, frames);
+    put_changed(motor, kSegmentHead, whole_, items);
 }
 
 /// The board takes all words of a message at the same instant. So they must be of one run: the words are read in the
@@ -68,6 +71,17 @@ void MotorOrders::fill_setup(unsigned motor, ItemWriter& items) {
         put_changed(motor, kDirectRequest, direct, items);
         put_changed(motor, kSetupRequest, setup, items);
     }
+}
+
+/// Frames that were sent whole need not wait for those behind them. They end where another begins, or at `frames`.
+std::uint64_t MotorOrders::end_of_whole_frames(const Ring& segments, std::uint64_t frames) const {
+    const std::uint64_t entries = window_.load(segments.entries_word);
+    for (std::uint64_t end = segments_; end != whole_; --end) {
+        const std::size_t at = segments.offset + end % entries * segments.entry_bytes;
+        const bool is_header = (window_.load(at + kSegmentRingHeaderTag) & kSegmentRingHeaderTagIsHeader) != 0;
+        if (end == frames || is_header) { return end; }
+    }
+    return whole_;
 }
 
 void MotorOrders::fill_ring(const Ring& ring, unsigned motor, std::uint64_t head, std::uint64_t& sent,
@@ -110,7 +124,7 @@ void MotorOrders::take_own(std::size_t offset, std::uint64_t value) {
     if (magic_ != 0) { return; }
     window_.store(offset, value);
     sent_[(offset - kFirst) / sizeof(std::uint64_t)] = value;
-    if (offset == kSegmentHead) { segments_ = value; }
+    if (offset == kSegmentHead) { segments_ = whole_ = value; }
     if (offset == kOutputHead) { changes_ = value; }
 }
 

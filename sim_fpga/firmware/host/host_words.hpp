@@ -35,6 +35,7 @@ private:
     bool fill_orders(unsigned motor, ItemWriter& items);
     void fill_setup(unsigned motor, ItemWriter& items);
     void fill_ring(const Ring& ring, unsigned motor, std::uint64_t head, std::uint64_t& sent, ItemWriter& items);
+    std::uint64_t end_of_whole_frames(const Ring& segments, std::uint64_t frames) const;
     /// Returns false if there is no room.
     bool put_changed(unsigned motor, std::size_t offset, std::uint64_t value, ItemWriter& items);
     void take_own(std::size_t offset, std::uint64_t value);
@@ -42,6 +43,7 @@ private:
     RegisterWindow window_;
     std::vector<std::uint64_t> sent_ = std::vector<std::uint64_t>(kWords);
     std::uint64_t segments_ = 0;  // entries of the segment ring that were sent
+    std::uint64_t whole_ = 0;     // those of them whose frames were sent whole
     std::uint64_t changes_ = 0;   // entries of the output ring that were sent
     std::uint64_t sequence_ = 0;
     LookTime look_{};

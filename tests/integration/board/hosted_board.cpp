@@ -37,6 +37,22 @@ struct Options {
     std::string unplugged;  // while this file exists, there is no line
     double ppm = 0;         // by which the board's crystal is fast
     int bad_bytes = 0;      // of 1000, either way: damaged or lost
+    double rate = 0;        // bytes a second, either way; 0: as many as the connection takes
+};
+
+/// When a line of a certain speed is free for the next byte.
+class LinePace {
+public:
+    explicit LinePace(double bytes_per_s) : ns_per_byte_(bytes_per_s > 0 ? 1e9 / bytes_per_s : 0) {}
+    bool is_free(std::chrono::nanoseconds now) const { return free_ <= now; }
+    void take(std::chrono::nanoseconds now, std::size_t bytes) {
+        free_ = std::max(free_, now) +
+                std::chrono::nanoseconds{static_cast<std::int64_t>(ns_per_byte_ * static_cast<double>(bytes))};
+    }
+
+private:
+    double ns_per_byte_;
+    std::chrono::nanoseconds free_{};
 };
 
 /// A motor's plant, whose steps are written down.
@@ -62,7 +78,11 @@ private:
 class HostedBoard final : public firmware::Exchange {
 public:
     HostedBoard(const MachineConfig& machine, const Options& options, std::FILE* edges)
-        : ppm_(options.ppm), bad_bytes_(options.bad_bytes), session_(std::random_device{}() | 1) {
+        : ppm_(options.ppm),
+          bad_bytes_(options.bad_bytes),
+          there_(options.rate),
+          back_(options.rate),
+          session_(std::random_device{}() | 1) {
         const auto motors = motors_of(machine);
         for (unsigned n = 0; n < firmware::BoardWords::kMostMotors; ++n) {
             const DeviceName name{DeviceName::Kind::Linked, options.board, n};
@@ -84,9 +104,16 @@ public:
     bool serve(LinkLine& line) {
         const auto bytes = line.receive();
         if (!bytes) { return false; }
-        for (const std::uint8_t byte : *bytes) { take(byte); }
+        const auto now = monotonic_now();
+        arrived_.insert(arrived_.end(), bytes->begin(), bytes->end());
+        for (; !arrived_.empty() && there_.is_free(now); arrived_.pop_front()) {
+            there_.take(now - kLoop, 1);
+            take(arrived_.front());
+        }
         firmware::Frame frame;
-        for (int left = 8; left > 0 && line.is_free() && link_->next_frame(now_us(), frame); --left) {
+        for (int left = 8; left > 0 && back_.is_free(now) && line.is_free(); --left) {
+            if (!link_->next_frame(now_us(), frame)) { break; }
+            back_.take(now - kLoop, frame.size);
             spoil(frame);
             line.send(frame);
         }
@@ -94,6 +121,7 @@ public:
     }
 
 private:
+    static constexpr std::chrono::nanoseconds kLoop = std::chrono::milliseconds{1};  // about as long as a loop takes
     static constexpr std::int64_t kBlock = 128;
     static constexpr std::int64_t kMostAhead = 1168;
 
@@ -153,6 +181,9 @@ private:
 
     double ppm_;
     int bad_bytes_;
+    LinePace there_;
+    LinePace back_;
+    std::deque<std::uint8_t> arrived_;
     std::uint32_t session_;
     std::chrono::nanoseconds began_ = monotonic_now();
     std::int64_t now_ = 0;
@@ -217,6 +248,7 @@ int main(int argc, char** argv) {
     parser.add_option("--edges", options.edges, "a file for each edge of a step pin: motor, tick, direction");
     parser.add_option("--unplugged", options.unplugged, "while this file exists, there is no line");
     parser.add_option("--ppm", options.ppm, "by how much its crystal is fast");
+    parser.add_option("--rate", options.rate, "how many bytes a second its line takes, either way");
     parser.add_option("--bad-bytes", options.bad_bytes, "how many of 1000 bytes are damaged or lost");
     parser.action([&] { return lockstep::testing::run(options); });
     return parser.run(argc, argv);
