@@ -17,7 +17,7 @@ std::uint32_t drawn_number() {
 }
 
 /// In a step: more than may be under way (Link::kMostInFlight).
-constexpr int kMostFrames = 8;
+constexpr int kMostFrames = 10;
 
 std::uint32_t microseconds(BoardBridge::Time time) { return static_cast<std::uint32_t>(time.count() / 1000); }
 

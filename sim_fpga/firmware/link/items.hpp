@@ -1,8 +1,11 @@
 // The words in a message: items of consecutive words of a motor's window.
 //
-// An item is: the motor (1 byte), the number of words (1), the first word's number in the window (4), the words (8
-// each), all little-endian. If bit 7 of the motor is set, each word behind the first is its distance from the one
-// before, 7 bits a byte, the lowest first, with bit 7 set in all bytes but the last: two bytes a step instead of eight.
+// An item is: the motor (1 byte), the number of words (1), the first word's number in the window (4), the words, all
+// little-endian. A word has as many bytes as it needs as a signed number, from 0 to 8. Before two words is a byte with
+// their numbers of bytes, that of the first one in the lower half.
+//
+// If bit 7 of the motor is set, the first word has 8 bytes and each word behind it is its distance from the one before:
+// 7 bits a byte, the lowest first, with bit 7 set in all bytes but the last. So the tick of a step takes two bytes.
 #pragma once
 
 #include <cstddef>
@@ -26,6 +29,21 @@ constexpr std::uint64_t load_bytes(const std::uint8_t* from, std::size_t bytes) 
     return value;
 }
 
+/// How many bytes the word needs as a signed number.
+constexpr std::size_t bytes_needed(std::uint64_t value) {
+    const auto number = static_cast<std::int64_t>(value);
+    const auto bits = static_cast<std::uint64_t>(number < 0 ? ~number : number);
+    std::size_t bytes = 0;
+    while (bytes < 8 && bits >> (bytes == 0 ? 0 : 8 * bytes - 1) != 0) { ++bytes; }
+    return number == -1 ? 1 : bytes;
+}
+/// The word of so many bytes.
+constexpr std::uint64_t load_signed(const std::uint8_t* from, std::size_t bytes) {
+    const std::uint64_t value = load_bytes(from, bytes);
+    const bool is_negative = bytes > 0 && bytes < 8 && (value >> (8 * bytes - 1) & 1) != 0;
+    return is_negative ? value | ~std::uint64_t{0} << 8 * bytes : value;
+}
+
 /// Appends words to a message that has a header.
 class ItemWriter {
 public:
@@ -33,15 +51,22 @@ public:
 
     bool is_empty() const { return message_.size == kHeaderBytes; }
     /// Whether so many words fit, wherever they are.
-    bool has_room(std::size_t words) const { return message_.size + words * (kItemBytes + 8) <= kMostMessageBytes; }
-    /// Whether any of so many consecutive words fit: a word that is left out takes more room than a new item does.
+    bool has_room(std::size_t words) const { return message_.size + words * (kItemBytes + 9) <= kMostMessageBytes; }
+    /// Whether any of so many consecutive words fit: words that are left out take no less room than a new item does.
     bool has_room_for_run(std::size_t words) const {
-        return message_.size + kItemBytes + words * 8 <= kMostMessageBytes;
+        return message_.size + kItemBytes + (words + 1) / 2 + words * 8 <= kMostMessageBytes;
     }
     /// Room for it must be there. offset: in bytes, as in the register map.
     void put(unsigned motor, std::size_t offset, std::uint64_t value) {
         if (!continues(motor, offset)) { begin(motor, offset); }
-        put_bytes(value, 8);
+        const std::size_t bytes = bytes_needed(value);
+        if (count_ % 2 == 0) {
+            sizes_ = message_.size;
+            put_bytes(bytes, 1);
+        } else {
+            message_.bytes[sizes_] = static_cast<std::uint8_t>(message_.bytes[sizes_] | bytes << 4);
+        }
+        put_bytes(value, bytes);
         count();
     }
     /// The same for a word that is greater than the one before it, in fewer bytes.
@@ -84,7 +109,8 @@ private:
     }
 
     Message& message_;
-    std::size_t item_ = 0;  // where the present item begins
+    std::size_t item_ = 0;   // where the present item begins
+    std::size_t sizes_ = 0;  // where the numbers of bytes of its newest words are
     unsigned motor_ = 0;
     std::size_t next_ = 0;  // the offset that continues the item
     std::uint8_t count_ = 0;
@@ -132,9 +158,15 @@ void for_each_word(const Message& message, Take&& take) {
             });
             continue;
         }
-        if (rises || at + count * 8 > message.size) { return; }
-        for (std::size_t n = 0; n < count; ++n, at += 8) {
-            take(motor, (first + n) * 8, load_bytes(message.bytes + at, 8));
+        if (rises) { return; }
+        std::uint8_t sizes = 0;
+        for (std::size_t n = 0; n < count; ++n, sizes >>= 4) {
+            if (at == message.size && (n % 2 == 0 || (sizes & 15U) != 0)) { return; }
+            if (n % 2 == 0) { sizes = message.bytes[at++]; }
+            const std::size_t bytes = sizes & 15U;
+            if (bytes > 8 || at + bytes > message.size) { return; }
+            take(motor, (first + n) * 8, load_signed(message.bytes + at, bytes));
+            at += bytes;
         }
     }
 }

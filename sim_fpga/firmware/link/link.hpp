@@ -62,7 +62,7 @@ public:
     /// An end with nothing to send still sends a message so often.
     static constexpr std::uint32_t kIdle_us = 5'000;
     /// Messages with words that are not yet acknowledged.
-    static constexpr std::uint16_t kMostInFlight = 4;
+    static constexpr std::uint16_t kMostInFlight = 8;
     /// A message that was sent again so often without an acknowledgement is sent in parts, and so are as many behind it
     /// as kMessagesInParts says.
     static constexpr unsigned kMostRepeats = 4;
