@@ -65,8 +65,8 @@ public:
     static constexpr std::uint16_t kMostInFlight = 8;
     /// A message that was sent again so often without an acknowledgement is sent in parts, and so are as many behind it
     /// as kMessagesInParts says.
-    static constexpr unsigned kMostRepeats = 4;
-    static constexpr unsigned kMessagesInParts = 64;
+    static constexpr unsigned kMostRepeats = 10;
+    static constexpr unsigned kMessagesInParts = 32;
 
 private:
     struct Header;
