@@ -1,19 +1,19 @@
 #include <algorithm>
 
-#include "tests/simulation/simtest/draw/draw_delta.hpp"
 #include "tests/simulation/simtest/draw/draw_fault.hpp"
 #include "tests/simulation/simtest/draw/draw_inputs.hpp"
 #include "tests/simulation/simtest/draw/draw_jogs.hpp"
-#include "tests/simulation/simtest/draw/draw_late_devices.hpp"
 #include "tests/simulation/simtest/draw/draw_machine.hpp"
-#include "tests/simulation/simtest/draw/draw_motors.hpp"
 #include "tests/simulation/simtest/draw/draw_outputs.hpp"
 #include "tests/simulation/simtest/draw/draw_plant_fault.hpp"
 #include "tests/simulation/simtest/draw/draw_probes.hpp"
 #include "tests/simulation/simtest/draw/draw_program.hpp"
-#include "tests/simulation/simtest/draw/draw_screws.hpp"
 #include "tests/simulation/simtest/draw/draw_stream.hpp"
 #include "tests/simulation/simtest/draw/draw_takeover.hpp"
+#include "tests/simulation/simtest/draw/machine/draw_delta.hpp"
+#include "tests/simulation/simtest/draw/machine/draw_late_devices.hpp"
+#include "tests/simulation/simtest/draw/machine/draw_motors.hpp"
+#include "tests/simulation/simtest/draw/machine/draw_screws.hpp"
 #include "tests/simulation/simtest/draw/scenario.hpp"
 #include "tests/simulation/simtest/record/motor_shares.hpp"
 

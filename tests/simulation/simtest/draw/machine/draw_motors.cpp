@@ -1,4 +1,4 @@
-#include "tests/simulation/simtest/draw/draw_motors.hpp"
+#include "tests/simulation/simtest/draw/machine/draw_motors.hpp"
 
 #include <algorithm>
 #include <string>

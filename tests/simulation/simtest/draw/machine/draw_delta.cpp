@@ -1,4 +1,4 @@
-#include "tests/simulation/simtest/draw/draw_delta.hpp"
+#include "tests/simulation/simtest/draw/machine/draw_delta.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "tests/simulation/simtest/draw/draw_screws.hpp"
+#include "tests/simulation/simtest/draw/machine/draw_screws.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "tests/simulation/simtest/draw/draw_late_devices.hpp"
+#include "tests/simulation/simtest/draw/machine/draw_late_devices.hpp"
 
 #include <algorithm>
 
