@@ -98,15 +98,25 @@ void ask_in_fault(Bench& bench) {
     if (moves || reply->status != ReplyStatus::Refused) { bench.object("refusal", "in Fault: " + answer_text(*reply)); }
 }
 
-/// The park position. A motor that lost its coordinator on the way, with its zero set, rests where it reports;
-/// check_slides() compares that with the true place of the slide.
+bool has_screws(const MachineConfig& machine) {
+    return std::ranges::any_of(machine.axes, [](const AxisConfig& axis) {
+        return !axis.screw.empty() ||
+               std::ranges::any_of(axis.motors, [](const MotorBlock& motor) { return !motor.screw.empty(); });
+    });
+}
+
+/// The park position, on a whole step of the axis if motors correct screws. A motor that lost its coordinator on the
+/// way, with its zero set, rests where it reports; check_slides() compares that with the true place of the slide.
 std::int64_t place_after_homing(const Bench& bench, std::size_t motor, JobOutcome outcome) {
     const AxisState& state = bench.watch().motors()[motor];
     if (outcome != JobOutcome::Done && state.homed && state.at_rest) { return state.position.count(); }
     const MotorConfig& config = bench.kinematics().motors()[motor];
     if (!bench.map().is_curved(motor)) { return nearest_step(config, config.homing.park_mm); }
     Places park;
-    for (const AxisConfig& axis : bench.machine().axes) { park.push_back(axis.homing.park_mm * axis.steps_per_mm); }
+    for (const AxisConfig& axis : bench.machine().axes) {
+        const double steps = axis.homing.park_mm * axis.steps_per_mm;
+        park.push_back(has_screws(bench.machine()) ? std::round(steps) : steps);
+    }
     return std::llround(bench.map().place(motor, park));
 }
 
