@@ -46,6 +46,7 @@ module axis_device #(
     // The outputs.
     output [15:0] digital,      // output n is bit n, 1 while it is on
     output [15:0] outputs_inverted,
+    output [ANALOG*TIME_BITS-1:0] pwm_periods,
     output [127:0] analog       // 16 bits each, in 2^-15 of full scale
 );
     // verilator lint_off UNUSED
@@ -77,7 +78,7 @@ module axis_device #(
         .inverted(inverted), .inputs_inverted(inputs_inverted), .invert_inputs(invert_inputs),
         .next_inputs_inverted(next_inputs_inverted), .limit_min(limit_min), .limit_max(limit_max), .home(home),
         .stop(stop_inputs), .set_debounce(set_debounce), .debounce_input(debounce_input),
-        .debounce_ticks(debounce_ticks), .outputs_inverted(outputs_inverted), .at_cut(at_cut),
+        .debounce_ticks(debounce_ticks), .pwm_periods(pwm_periods), .outputs_inverted(outputs_inverted), .at_cut(at_cut),
         .at_silence(at_silence), .disables_at_silence(disables_at_silence), .silence_ticks(silence_ticks));
 
     wire [63:0] now, count, run, frame, trigger_count, segment_tail, setup, phase, velocity;
@@ -204,7 +205,7 @@ module axis_device #(
         LOCKSTEP_CAPTURE_ENTRIES: constant = 64'd1 << CAPTURE_BITS;
         LOCKSTEP_LEAST_STEP_TICKS: constant = LEAST_STEP_TICKS;
         LOCKSTEP_TIME_UNIT_PS: constant = TIME_UNIT_PS;
-        LOCKSTEP_LONGEST_TIME: constant = (64'd1 << TIME_BITS) - 1'b1;
+        LOCKSTEP_LONGEST_TIME, LOCKSTEP_LONGEST_PWM_PERIOD: constant = (64'd1 << TIME_BITS) - 1'b1;
         LOCKSTEP_LONGEST_PIECE_TICKS: constant = 64'hffffffff;
         LOCKSTEP_LEAD_TICKS: constant = LEAD_TICKS;
         LOCKSTEP_PIN_TICKS: constant = PIN_TICKS;

@@ -30,6 +30,7 @@ module axis_setup #(
     output set_debounce,        // for one clock: of this input
     output [4:0] debounce_input,
     output [31:0] debounce_ticks,
+    output reg [ANALOG*TIME_BITS-1:0] pwm_periods,
     output reg [15:0] outputs_inverted,
     output reg [39:0] at_cut,
     output reg [39:0] at_silence,
@@ -58,7 +59,8 @@ module axis_setup #(
         OUTPUTS_INVERTED: is_possible = word[15:0] >> DIGITAL == 0;
         COMPARE_OUTPUTS: is_possible = word[15:0] == 0;
         AT_CUT, AT_SILENCE: is_possible = word[31:16] >> DIGITAL == 0 && word[39:32] >> ANALOG == 0;
-        default: is_possible = at < DEBOUNCE || (is_debounce && {27'd0, channel} < INPUTS) || word == 0;
+        default: is_possible = at < DEBOUNCE || word == 0 || (is_debounce ? {27'd0, channel} < INPUTS :
+            {29'd0, at[2:0]} < ANALOG && word >> TIME_BITS == 0);
     endcase
 
     wire is_read = state == TAKE && asked;
@@ -76,7 +78,7 @@ module axis_setup #(
     initial begin
         {state, at, asked, step_width, direction_setup, direction_hold, enable_ticks, inverted, inputs_inverted} = 0;
         {limit_min, limit_max, home, stop, outputs_inverted, at_cut, at_silence, disables_at_silence} = 0;
-        silence_ticks = 0;
+        {silence_ticks, pwm_periods} = 0;
         limit_min[0] = 1;
         limit_max[1] = 1;
         home[2] = 1;
@@ -91,6 +93,8 @@ module axis_setup #(
             if (refused || taken) state <= REST;
             else if (is_last) state <= TAKE;
         end
+        if (is_read && at >= PWM_PERIOD && {29'd0, at[2:0]} < ANALOG)
+            pwm_periods[TIME_BITS*at[2:0] +: TIME_BITS] <= word[TIME_BITS-1:0];
         if (is_read) case (at)
             STEP_WIDTH: step_width <= word[TIME_BITS-1:0];
             DIRECTION_SETUP: direction_setup <= word[TIME_BITS-1:0];

@@ -44,5 +44,33 @@ TEST(AxisChip, MakesAPulseForEachStepAtADistanceOfWholeTicks) {
     EXPECT_EQ(chip.pins.enable_pin, 1);
 }
 
+TEST(AxisChip, ShowsOutputsAtItsPins) {
+    using namespace registers;
+    Clocked<Vaxis_chip> chip;
+    chip.pins.power_up = chip.pins.write = chip.pins.hold = chip.pins.input_pins = 0;
+    const auto write = [&](std::size_t offset, std::uint64_t value) {
+        chip.pins.write = 1;
+        chip.pins.write_address = static_cast<std::uint32_t>(offset / sizeof value);
+        chip.pins.write_data = value;
+        chip.clock();
+        chip.pins.write = 0;
+    };
+    write(kOutputsInverted, 1);
+    write(kAnalogTable + kAnalogTableEntryBytes, 200);  // the period of output 1, in clocks
+    write(kSetupRequest, 1);
+    write(kAnalogTable + kAnalogTableEntryBytes + kAnalogTableDirectValue, std::uint64_t{1} << 60);
+    write(kDirectOutputs, kDirectOutputsLevels.word(6) | kDirectOutputsMask.word(2) | kDirectOutputsAnalogMask.word(2));
+    write(kDirectRequest, 1);
+    for (std::int64_t clock = 0; clock < 20 * kTickClocks; ++clock) { chip.clock(); }
+    EXPECT_EQ(chip.pins.digital_pins, 3) << "output 0 is off, and inverted";
+    int on = 0;
+    for (int clock = 0; clock < 200; ++clock) {
+        chip.clock();
+        EXPECT_EQ(chip.pins.pwm_pins & 1, 0);
+        on += chip.pins.pwm_pins >> 1 & 1;
+    }
+    EXPECT_EQ(on, 50) << "a quarter of full scale";
+}
+
 }  // namespace
 }  // namespace lockstep::rtl

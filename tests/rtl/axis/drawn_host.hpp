@@ -128,10 +128,11 @@ private:
             const std::size_t entry = kChanges.entry(output_head_++);
             const std::uint64_t kind = draw_.one_in(300) ? 2 + below(2) : below(2);
             const std::uint64_t other = draw_.one_in(40) ? below(3) - 1 : 0;
-            bench_.store(entry + kOutputRingTag,
-                         (is_tail != draw_.one_in(40) ? kOutputRingTagTail : 0) | kOutputRingTagKind.word(kind) |
-                             kOutputRingTagChannel.word(draw_.one_in(300) ? 2 : below(2)) |
-                             kOutputRingTagRun.word(run) | kOutputRingTagFrame.word(frame + other));
+            bench_.store(entry + kOutputRingTag, (is_tail != draw_.one_in(40) ? kOutputRingTagTail : 0) |
+                                                     kOutputRingTagKind.word(kind) |
+                                                     kOutputRingTagChannel.word(draw_.one_in(300) ? 2 : below(2)) |
+                                                     kOutputRingTagRun.word(run - (draw_.one_in(40) ? 1 : 0)) |
+                                                     kOutputRingTagFrame.word(frame + other));
             bench_.store(entry + kOutputRingAt, draw_.one_in(300) ? below(4) : static_cast<std::uint64_t>(at));
             bench_.store(entry + kOutputRingValue, kind == 1 ? any_analog() : any_levels());
             bench_.store(entry + kOutputRingSlope, draw_.one_in(3) ? 0 : any_slope());
@@ -212,6 +213,10 @@ private:
         bench_.store(kSilenceTicks, draw_.one_in(2) ? 0 : 50 + below(200));
         for (std::size_t n = 0; n < 8; ++n) {
             bench_.store(kInputTable + n * kInputTableEntryBytes, draw_.one_in(2) ? 0 : below(12));
+        }
+        for (std::size_t n = 0; n < 3; ++n) {
+            const std::uint64_t period = draw_.one_in(30) ? 65'536 : below(65'536);
+            bench_.store(kAnalogTable + n * kAnalogTableEntryBytes, n < 2 || draw_.one_in(30) ? period : 0);
         }
         bench_.store(kInputTable + 9 * kInputTableEntryBytes, draw_.one_in(30) ? 1 : 0);
         bench_.store(kSetupRequest, ++setup_);
