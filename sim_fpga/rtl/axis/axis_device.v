@@ -78,8 +78,9 @@ module axis_device #(
         .inverted(inverted), .inputs_inverted(inputs_inverted), .invert_inputs(invert_inputs),
         .next_inputs_inverted(next_inputs_inverted), .limit_min(limit_min), .limit_max(limit_max), .home(home),
         .stop(stop_inputs), .set_debounce(set_debounce), .debounce_input(debounce_input),
-        .debounce_ticks(debounce_ticks), .pwm_periods(pwm_periods), .outputs_inverted(outputs_inverted), .at_cut(at_cut),
-        .at_silence(at_silence), .disables_at_silence(disables_at_silence), .silence_ticks(silence_ticks));
+        .debounce_ticks(debounce_ticks), .pwm_periods(pwm_periods), .outputs_inverted(outputs_inverted),
+        .at_cut(at_cut), .at_silence(at_silence),
+        .disables_at_silence(disables_at_silence), .silence_ticks(silence_ticks));
 
     wire [63:0] now, count, run, frame, trigger_count, segment_tail, setup, phase, velocity;
     wire ticks, look, inputs_busy, look_at_host, judge_host, falls_silent, is_host_silent, accelerate, travel;
