@@ -57,6 +57,6 @@
         // A run does not change in motion.
         if (was == BODY || was == TAIL) assert (run == was_run);
 `ifdef REACHABLE
-        assert (!(step && was == TAIL)); // must fail: a step of a tail is reached
+        assert (motion != TAIL); // must fail: a tail is reached
 `endif
     end
