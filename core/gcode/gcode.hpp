@@ -8,6 +8,8 @@
 // - G28 and G30 go to the park position until G28.1 or G30.1 sets another; they do not home.
 // - Splines become arcs (spline_arcs.hpp). Arcs that are not in the plane of two axes are cut into chords (chords.hpp).
 // - Coordinate systems, offsets and the tool table are inputs, and are returned as the program leaves them.
+// - G38.2 to G38.5 have a P, the number of the probe. Text that is read without a machine takes the touch to be at the
+//   end of the move.
 // - Words for devices that the machine does not have are refused, or become events on the path, as `unassigned` says.
 #pragma once
 
@@ -75,8 +77,16 @@ struct GcodeSetup {
     gcode::KeptValues values;
     double chord_tolerance_mm = 0.001;  // of chords of curves
     bool curves_as_chords = false;      // for a planner that takes straight moves only
+    bool awaits_touches = false;  // the touch of each probing move will be given; false: it is the end of the move
     gcode::Limits limits;
     std::function<std::optional<std::string>(std::string_view name)> find_subroutine;
+};
+
+/// How a probing move ended. One place for each axis of the setup, in machine coordinates.
+struct ProbeTouch {
+    bool touched = false;
+    std::vector<double> places_mm;  // at the touch; without one, at the end of the move
+    std::vector<double> rest_mm;    // where the axes came to rest: the program continues from there
 };
 
 /// A word that was skipped, or a message of the program.

@@ -48,6 +48,13 @@ std::expected<void, GcodeError> GcodeStream::take(std::string_view line, int num
     return {};
 }
 
+bool GcodeStream::awaits_touch() const { return parts_->interpreter.awaits_touch(); }
+
+std::expected<void, GcodeError> GcodeStream::touched(const ProbeTouch& touch) {
+    const gcode::Touch known = parts_->builder.go_on_behind(touch);
+    return parts_->outcome(parts_->interpreter.go_on_behind(known));
+}
+
 std::expected<void, GcodeError> GcodeStream::finish() { return parts_->outcome(parts_->interpreter.finish()); }
 
 bool GcodeStream::is_ended() const { return parts_->interpreter.ended(); }

@@ -21,6 +21,12 @@ public:
     /// Reads the next line, without its line end. Returns its first error. After an error, further lines can be read
     /// only to find their errors.
     std::expected<void, GcodeError> take(std::string_view line, int number);
+    /// True after the line of a probing move, with GcodeSetup::awaits_touches. The blocks up to it are a whole program,
+    /// and no line may be taken before touched().
+    bool awaits_touch() const;
+    /// Gives the touch, and reads on in a loop or a subroutine, up to the next probing move. The blocks from here on
+    /// are another program, with another head(). Returns errors like take().
+    std::expected<void, GcodeError> touched(const ProbeTouch& touch);
     /// Ends the text.
     std::expected<void, GcodeError> finish();
     /// True after M2, M30 or the second %. Later lines are ignored.

@@ -113,6 +113,7 @@ Result Interpreter::do_plain(Reader& reader) {
     const bool is_comment = line_.at(0) == '(' && line_.end_of_comment(0) == line_.text().size();
     begun_ = begun_ || !is_comment;
     ended_ = ended_ || here.ended;
+    awaits_touch_ = here.awaits_touch;
     return done;
 }
 
@@ -145,7 +146,7 @@ Result Interpreter::keep(const OWord& word, std::string_view text) {
 Result Interpreter::do_o_word(Reader& reader, const OWord& word) {
     if (word.keyword == Keyword::Call) {
         if (auto called = call(reader, word); !called) { return called; }
-        return do_frames();
+        return run_on();
     }
     if (word.keyword == Keyword::Number) { return rest_is_empty(reader); }
     return keep(word, line_.raw());
@@ -159,11 +160,15 @@ Result Interpreter::close_body() {
         subroutines_.insert_or_assign(body.label, std::move(body));
         return {};
     }
-    const std::size_t lines = body.lines.size();
-    levels_.push_back({.body = &body, .kept = {}, .repeats = {}});
-    auto done = do_frames();
-    kept_lines_ -= lines;
-    return done;
+    running_ = std::move(body);
+    levels_.push_back({.body = &*running_, .kept = {}, .repeats = {}});
+    return run_on();
+}
+
+Result Interpreter::go_on_behind(const Touch& touch) {
+    awaits_touch_ = false;
+    note_touch(state_, touch);
+    return run_on();
 }
 
 Result Interpreter::finish() {

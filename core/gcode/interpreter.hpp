@@ -35,6 +35,12 @@ public:
     Result finish();
     /// The O-word whose end has not been read yet, such as "o100 while"; nullopt if there is none.
     std::optional<std::string> open_word() const { return recorder_.open_word(); }
+    /// True after a probing move, if Setup::awaits_touches. Before the next line, go_on_behind() must be called.
+    bool awaits_touch() const { return awaits_touch_; }
+    /// Gives the touch that is awaited, and runs the rest of a loop or a subroutine, up to the next probing move.
+    Result go_on_behind(const Touch& touch);
+    /// The probing move is in a loop or a subroutine, which has not ended.
+    bool is_within_body() const { return !levels_.empty(); }
     /// True after M2, M30, the second % or stop(). Later lines are ignored.
     bool ended() const { return ended_; }
     /// Ends the program behind the present line, also if that is in a loop.
@@ -72,6 +78,7 @@ private:
     Result close_body();
 
     // Kept lines: loops.cpp
+    Result run_on();
     Result do_frames();
     Result do_kept(Level& level, const KeptLine& line);
     Result do_flow(Level& level, std::size_t at, Reader& reader);
@@ -120,6 +127,7 @@ private:
     std::map<std::pair<std::string, std::string>, Opening> openings_;
     int program_line_ = 0;  // the last line taken of the program itself
     std::vector<Level> levels_;
+    std::optional<Body> running_;  // the loop or branch of the program itself that is being run
     int calls_ = 0;
     std::int64_t repeated_lines_ = 0;  // lines of loops and subroutines that were run, and their actions
     std::int64_t idle_lines_ = 0;      // since the last action
@@ -128,6 +136,7 @@ private:
     bool has_returned_ = false;
     bool begun_ = false;
     bool ended_ = false;
+    bool awaits_touch_ = false;
 };
 
 }  // namespace lockstep::gcode

@@ -5,8 +5,18 @@
 
 namespace lockstep::gcode {
 
+/// Runs the kept lines to their end, or to the next probing move.
+Result Interpreter::run_on() {
+    auto done = do_frames();
+    if (levels_.empty() && running_) {
+        kept_lines_ -= running_->lines.size();
+        running_.reset();
+    }
+    return done;
+}
+
 Result Interpreter::do_frames() {
-    while (!levels_.empty() && !ended_) {
+    while (!levels_.empty() && !ended_ && !awaits_touch_) {
         Level& level = levels_.back();
         if (level.next >= level.body->lines.size()) {
             end_call();
@@ -21,7 +31,7 @@ Result Interpreter::do_frames() {
             return done;
         }
     }
-    unwind();
+    if (!awaits_touch_) { unwind(); }
     return {};
 }
 

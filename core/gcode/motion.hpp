@@ -63,6 +63,22 @@ struct Dwell {
     double seconds = 0;
 };
 
+/// A straight move that ends where a probe touches: where its input closes, or opens.
+struct Probing {
+    Point target{};
+    double feed = 0;
+    std::optional<int> probe;  // its number; nullopt: the machine's only one
+    bool opens = false;
+    bool must_touch = true;
+};
+
+/// How a probing move ended.
+struct Touch {
+    bool touched = false;
+    Point at{};    // where it touched; without a touch the end of the move
+    Point rest{};  // where the axes came to rest, some way behind it
+};
+
 enum class EventKind : std::uint8_t {
     Stop,            // M0
     OptionalStop,    // M1
@@ -103,7 +119,7 @@ struct Event {
     double spacing = 0;      // Pulses: R; as the first place in the program's units
 };
 
-using Action = std::variant<Straight, Arc, Spline, Dwell, Event>;
+using Action = std::variant<Straight, Arc, Spline, Dwell, Probing, Event>;
 
 /// Receives the actions in the order of the program; `line` is the line of the text, from 1.
 using Sink = std::function<void(const Action& action, int line)>;

@@ -46,6 +46,7 @@ std::string axis_letters(const GcodeSetup& setup) {
 Setup interpreter_setup(const GcodeSetup& setup) {
     return {.axes = axis_letters(setup),
             .skip_deletable = setup.switches.skip_deletable,
+            .awaits_touches = setup.awaits_touches,
             .limits = setup.limits,
             .find_subroutine = setup.find_subroutine};
 }
@@ -101,6 +102,8 @@ void ProgramBuilder::take(const Action& action, int line, const Interpreter& int
         this->spline(*spline);
     } else if (const auto* dwell = std::get_if<gcode::Dwell>(&action)) {
         append(lockstep::Dwell{dwell->seconds});
+    } else if (const auto* probing = std::get_if<Probing>(&action)) {
+        probe(*probing);
     } else if (const auto* happens = std::get_if<Event>(&action)) {
         event(*happens);
     }
@@ -243,6 +246,7 @@ double ProgramBuilder::feed_along_path(const ProgramMove& move) const {
 
 void ProgramBuilder::append(decltype(lockstep::Block::action) action) {
     await_speed(action);
+    if (std::exchange(is_behind_probe_, false)) { append(Settle{}); }
     events_together_ = std::holds_alternative<ProgramEvent>(action) ? events_together_ + 1 : 0;
     if (events_together_ == kMaxEventsTogether + 1) {
         fail("the program has more than " + std::to_string(kMaxEventsTogether) +

@@ -44,6 +44,9 @@ public:
     }
     /// `interpreter` is at the action's block; it provides the places of words for errors.
     void take(const Action& action, int line, const Interpreter& interpreter);
+    /// Continues behind a probing move. Returns the touch as the interpreter needs it. Axes that it did not move stay
+    /// at their exact places.
+    Touch go_on_behind(const ProbeTouch& touch);
     /// The errors of the actions since the last call.
     std::vector<GcodeError> take_errors() { return std::exchange(errors_, {}); }
 
@@ -71,6 +74,8 @@ private:
     ProgramMove move_to(const std::vector<double>& to, double feed, std::optional<ArcShape> arc) const;
     double within_travel(std::size_t axis, double mm);
     double feed_along_path(const ProgramMove& move) const;
+    void probe(const Probing& probing);
+    const InputConfig* probe_numbered(std::optional<int> number);
     void event(const Event& event);
     void end();
     void change_tool(int tool);
@@ -97,6 +102,7 @@ private:
     std::vector<GcodeNote> notes_;
     std::set<std::string> noted_;
     std::vector<double> position_;
+    std::vector<double> probed_from_;  // where the last probing move began
     Point at_{};
     std::vector<GcodeError> errors_;
     bool is_full_ = false;
@@ -110,6 +116,7 @@ private:
     bool spindle_turns_ = false;
     bool coolant_flows_ = false;
     bool awaits_speed_ = false;
+    bool is_behind_probe_ = false;  // the machine rests before the next block
     const Interpreter* interpreter_ = nullptr;
 };
 

@@ -21,6 +21,7 @@ struct Limits {
 struct Setup {
     std::string axes = "XYZABCUVW";  // those of these letters that the machine has
     bool skip_deletable = true;      // block delete: lines that begin with / are not run
+    bool awaits_touches = false;     // behind a probing move it waits for the touch; false: this is the end of the move
     Limits limits;
     /// The whole text, if it is known. A subroutine may then be behind its call. It must outlive the interpreter.
     std::string_view program;

@@ -54,6 +54,18 @@ void begin_system(State& state, std::size_t system) {
     state.program = to_program(state.offsets, state.machine);
 }
 
+void note_touch(State& state, const Touch& touch) {
+    constexpr double kMillimetresPerInch = 25.4;
+    state.machine = touch.rest;
+    state.program = to_program(state.offsets, touch.rest);
+    Point at = to_program(state.offsets, touch.at);
+    for (std::size_t axis = 0; axis < kAxes; ++axis) {
+        if (state.modal.inches && !is_turning(axis)) { at[axis] /= kMillimetresPerInch; }
+    }
+    set_place(state.parameters, kTouchParameter, at);
+    state.parameters.numbered[kTouchedParameter] = touch.touched ? 1 : 0;
+}
+
 void begin(State& state) {
     const std::vector<double>& numbered = state.parameters.numbered;
     const double chosen = numbered[kSystemParameter];

@@ -98,6 +98,9 @@ struct State {
     ParameterValues parameters;
 };
 
+// The last probing move's result: nine numbers in the program's coordinates and units, and 1 if it touched.
+inline constexpr int kTouchParameter = 5061;
+inline constexpr int kTouchedParameter = 5070;
 // Parameters that hold places: nine numbers each, in mm and degrees, in machine coordinates.
 inline constexpr int kHomeParameter = 5161;        // G28
 inline constexpr int kSecondHomeParameter = 5181;  // G30
@@ -116,6 +119,9 @@ Point to_program(const Offsets& offsets, const Point& machine);
 
 /// Chooses a coordinate system: 0 is G54.
 void begin_system(State& state, std::size_t system);
+
+/// Sets the parameters of a probing move's result, and the axes' place behind it.
+void note_touch(State& state, const Touch& touch);
 
 /// Takes the offsets from the parameters, and computes the axes' place in the program's coordinates.
 void begin(State& state);

@@ -28,8 +28,9 @@ struct Context {
     const Line& line;
     LineWords& block;
     KeptModes& kept;
-    int motion = kNoMotion;  // the motion that this block runs, times ten
-    bool ended = false;      // M2, M30
+    int motion = kNoMotion;     // the motion that this block runs, times ten
+    bool ended = false;         // M2, M30
+    bool awaits_touch = false;  // the block ends with a probing move whose touch is not known yet
 
     /// An error at a word: the word's text and `what`.
     std::unexpected<GcodeError> refuse(char letter, const std::string& what) const;

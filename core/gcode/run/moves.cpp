@@ -134,6 +134,7 @@ Result run_motion(Context& context) {
         case 53: done = nurbs(context); break;
         default:
             if (is_cycle(motion)) { done = canned_cycle(context); }
+            if (is_probing(motion)) { done = probe(context); }
     }
     modal.motion = motion;
     return done;

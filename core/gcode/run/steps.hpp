@@ -61,6 +61,7 @@ Result cubic_spline(Context& context);
 Result quadratic_spline(Context& context);
 Result nurbs(Context& context);
 Result canned_cycle(Context& context);
+Result probe(Context& context);
 
 /// Returns an error if a motion at feed is not possible: no feed, or no F with inverse time.
 Result check_feed(const Context& context);
@@ -72,6 +73,8 @@ void move(Context& context, const Point& target, double feed);
 Point machine_target(const Offsets& offsets, const Standing& from, const Point& program);
 Point machine_target(const State& state, const Point& program);
 
+/// G38.2 to G38.5.
+constexpr bool is_probing(int motion) { return motion >= 382 && motion <= 385; }
 /// G73 and G81 to G89; `motion` is the G code's number times ten.
 constexpr bool is_cycle(int motion) { return motion == 730 || (motion > 800 && motion < 900); }
 

@@ -41,6 +41,10 @@ public:
         if (interpreter_.state().modal.side != gcode::Side::None) {
             return std::unexpected(needs_lines("cutter compensation"));
         }
+        if (interpreter_.awaits_touch() && interpreter_.is_within_body()) {
+            return std::unexpected(
+                GcodeError{1, 1, "a subroutine that probes runs from a file only; write it into a file"});
+        }
         return SessionLine{.head = builder_.head(),
                            .blocks = builder_.take_blocks(),
                            .notes = builder_.take_notes(),
@@ -48,6 +52,7 @@ public:
                            .values = {},
                            .changes_values = false,
                            .ends_program = ends_program_,
+                           .awaits_touch = interpreter_.awaits_touch(),
                            .message = builder_.message(),
                            .awaits_speed = builder_.awaits_speed(),
                            .after = interpreter_.memory()};
@@ -69,6 +74,7 @@ private:
 
 GcodeSession::GcodeSession(GcodeSetup setup, const MachineConfig& machine, int first_motion)
     : setup_(std::move(setup)), machine_(machine), first_motion_(first_motion), park_(gcode::park_place(setup_)) {
+    setup_.awaits_touches = true;
     reset();
 }
 
@@ -143,6 +149,21 @@ void GcodeSession::commit(SessionLine& line) {
     place_mm_ = line.place_mm;
     values_ = line.values;
     if (line.ends_program) { end_program(); }
+}
+
+/// An axis at the step where the move would end keeps its exact place.
+void GcodeSession::touched(const ProbeTouch& touch) {
+    State& state = memory_.state;
+    gcode::Touch known{.touched = touch.touched, .at = state.machine, .rest = state.machine};
+    for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
+        const AxisConfig& axis = machine_.axes[i];
+        const auto letter = gcode::axis_place(axis.name);
+        if (!letter || to_steps(axis, state.machine[*letter]) == to_steps(axis, touch.rest_mm[i])) { continue; }
+        known.at[*letter] = touch.places_mm[i];
+        known.rest[*letter] = touch.rest_mm[i];
+        if (place_mm_) { (*place_mm_)[i] = touch.rest_mm[i]; }
+    }
+    gcode::note_touch(state, known);
 }
 
 void GcodeSession::set_devices(const ProgramDevices& devices) {

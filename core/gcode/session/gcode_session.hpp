@@ -5,7 +5,7 @@
 // with which a program begins; parameters and tool stay. A reset clears everything.
 //
 // A line is read by itself. Loops, branches, subroutines and cutter compensation need the lines after it, so they are
-// refused. A call of a subroutine in a file of its name is one line.
+// refused. A call of a subroutine in a file of its name is one line, unless it probes.
 #pragma once
 
 #include <expected>
@@ -36,6 +36,7 @@ struct SessionLine {
     gcode::KeptValues values;      // after the line
     bool changes_values = false;
     bool ends_program = false;  // M2, M30
+    bool awaits_touch = false;  // it ends with a probing move: before the next line, touched() must be called
     std::string message;        // for commit(): for the next pause
     bool awaits_speed = false;  // for commit(): a feed waits for the spindle
     gcode::Memory after;        // for commit()
@@ -52,6 +53,8 @@ public:
     std::expected<SessionLine, GcodeError> read(std::string_view line, const SessionStart& start) const;
     /// Continues behind a line that read() has returned. Takes its `after`.
     void commit(SessionLine& line);
+    /// Gives how the probing move of the last line ended.
+    void touched(const ProbeTouch& touch);
     /// Restores the modes with which a program begins.
     void end_program();
     /// Sets the modes of spindle and coolant to what is switched on.
