@@ -58,6 +58,7 @@ struct PlantConfig {
     double travel_margin_mm = 0;        // from the end of travel to the limit switch
     double max_torque_accel_mm_s2 = 0;  // the motor loses steps above this
     double max_jump_mm_s = 0;           // it also loses steps at larger jumps of speed
+    std::optional<double> probe_at_mm;  // the inputs for probes are closed here and beyond, as seen from the start
 };
 
 /// A `motor` block of an axis. A value that it does not give is that of the axis.

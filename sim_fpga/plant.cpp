@@ -71,11 +71,26 @@ void Plant::evaluate(StepEdge edge) {
 
 double Plant::position_mm() const { return start_mm_ + static_cast<double>(slide_) / steps_per_mm_; }
 
+namespace {
+
+/// The place is beyond itself as seen from where the slide starts.
+void put_probe(Plant& plant, const InputConfig& input, const MotorConfig& motor) {
+    if (!motor.plant.probe_at_mm) { return; }
+    const double steps = (*motor.plant.probe_at_mm - motor.plant.start_position_mm) * motor.steps_per_mm;
+    const bool toward_min = steps < 0;
+    plant.put_probe(static_cast<unsigned>(input.channel), toward_min ? steps_down(steps) : steps_up(steps), toward_min,
+                    input.active_low);
+}
+
+}  // namespace
+
 Plant plant_of(const MachineConfig& machine, const MotorConfig& motor) {
     Plant plant(motor, machine.tick_ns);
     if (motor.is_board()) { plant.remove_switches(); }
     for (const InputConfig& input : machine.inputs) {
-        if (input.motor == motor.name) { set_input(plant, input, false); }
+        if (input.motor != motor.name) { continue; }
+        set_input(plant, input, false);
+        if (input.use == InputUse::Probe) { put_probe(plant, input, motor); }
     }
     return plant;
 }

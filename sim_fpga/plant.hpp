@@ -45,9 +45,12 @@ public:
     }
     /// Moves the slide without pulses, as if by hand.
     void push(std::int64_t steps) { slide_ += steps; }
-    /// Puts a probe at a place, in steps since power-up: input `input` is closed at and beyond it.
-    void put_probe(unsigned input, std::int64_t at, bool toward_min) {
-        probe_ = {.bit = std::uint32_t{1} << input, .at = at, .toward_min = toward_min};
+    /// Puts something for a probe at a place, in steps since power-up: at and beyond it the pin of input `input` is
+    /// high, or low. Inputs put there before stay, but all at this place.
+    void put_probe(unsigned input, std::int64_t at, bool toward_min, bool low = false) {
+        (low ? probe_.low : probe_.high) |= std::uint32_t{1} << input;
+        probe_.at = at;
+        probe_.toward_min = toward_min;
     }
     /// Sets the pin of an input that no switch uses, as a device beside the axis does.
     void set_pin(unsigned input, bool high) {
@@ -79,8 +82,9 @@ public:
     std::uint32_t pins() const {
         const PlantInputs switches = inputs();
         const bool touches = probe_.toward_min ? slide_ <= probe_.at : slide_ >= probe_.at;
-        return (switches.limit_min ? 1U : 0U) | (switches.limit_max ? 2U : 0U) | (switches.home ? 4U : 0U) |
-               (touches ? probe_.bit : 0U) | others_;
+        const std::uint32_t open =
+            (switches.limit_min ? 1U : 0U) | (switches.limit_max ? 2U : 0U) | (switches.home ? 4U : 0U) | others_;
+        return touches ? (open | probe_.high) & ~probe_.low : open;
     }
 
 private:
@@ -101,7 +105,8 @@ private:
     PlantInputs stuck_closed_;
     PlantInputs stuck_open_;
     struct Probe {
-        std::uint32_t bit = 0;  // of its pin; 0: there is none
+        std::uint32_t high = 0;  // pins that are high when it touches
+        std::uint32_t low = 0;
         std::int64_t at = 0;
         bool toward_min = false;
     };
@@ -118,7 +123,8 @@ private:
     std::int64_t slide_ = 0;
 };
 
-/// The plant of a motor of the machine. Nobody touches its inputs: all are open.
+/// The plant of a motor of the machine. Nobody touches its inputs: all are open, except those of probes at and beyond
+/// plant.probe_at_mm.
 Plant plant_of(const MachineConfig& machine, const MotorConfig& motor);
 /// Closes or opens an input of the machine whose pin is at this plant.
 inline void set_input(Plant& plant, const InputConfig& input, bool closed) {

@@ -282,6 +282,13 @@ private:
             fmt::format(
                 "plant.start_position_mm is {}, not between the limit switches; it must be above {} and below {}",
                 number_text(at), number_text(limit_min()), number_text(limit_max())));
+        if (!axis_.plant.probe_at_mm) { return; }
+        const double probe = *axis_.plant.probe_at_mm;
+        problems_.require_between(
+            {"plant.probe_at_mm", "plant.start_position_mm"}, probe > limit_min() && probe < limit_max() && probe != at,
+            fmt::format("plant.probe_at_mm is {}; it must be above {}, below {}, and not at plant.start_position_mm, "
+                        "because a probe touches there and beyond it as seen from the start",
+                        number_text(probe), number_text(limit_min()), number_text(limit_max())));
     }
 
     /// Plans a trial move, so it runs only if the limits are valid.

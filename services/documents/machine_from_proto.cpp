@@ -190,6 +190,7 @@ PlantConfig read_plant(const proto::Plant& message, const AxisConfig& axis) {
         .max_jump_mm_s = message.has_max_jump_mm_s()
                              ? message.max_jump_mm_s()
                              : std::min(kDefaultPlantReserve * axis.start_velocity_mm_s, axis_ranges::kMaxSpeed_mm_s),
+        .probe_at_mm = message.has_probe_at_mm() ? std::optional(message.probe_at_mm()) : std::nullopt,
     };
 }
 

@@ -84,6 +84,7 @@ void write_plant(const PlantConfig& plant, proto::Plant& message) {
     message.set_travel_margin_mm(plant.travel_margin_mm);
     message.set_max_torque_accel_mm_s2(plant.max_torque_accel_mm_s2);
     message.set_max_jump_mm_s(plant.max_jump_mm_s);
+    if (plant.probe_at_mm) { message.set_probe_at_mm(*plant.probe_at_mm); }
 }
 
 proto::OutputUse use_to_proto(OutputUse use) {

@@ -184,6 +184,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{axis_with("plant { start_position_mm: 202 }"), 10, 11,
                 "between the limit switches; it must be above -2 and below 202"},
         Refusal{axis_with("plant { travel_margin_mm: 0 }"), 10, 11, "from 1e-09 to 1000000"},
+        Refusal{axis_with("plant { probe_at_mm: 202 }"), 10, 11, "must be above -2, below 202"},
+        Refusal{axis_with("plant { start_position_mm: 9 probe_at_mm: 9 }"), 10, 32, "not at plant.start_position_mm"},
         Refusal{axis_with("plant { max_jump_mm_s: nan }"), 10, 11, "nan"}));
 
 TEST(MachineErrors, ReportsEveryErrorInTheOrderOfTheText) {

@@ -149,5 +149,32 @@ TEST(Slide, TheHomeSwitchIsClosedFromItsPositionOnTowardItsEnd) {
     EXPECT_TRUE(up.inputs().home);
 }
 
+/// The pins after a push of so many steps, on a machine with two probes. One of them is high while it is open.
+std::uint32_t pins_after(std::int64_t steps, double probe_at_mm) {
+    MotorConfig motor = axis();
+    motor.name = "Z";
+    motor.plant.probe_at_mm = probe_at_mm;
+    const MachineConfig machine{
+        .inputs = {
+            {.name = "plate", .motor = "Z", .channel = 3, .use = InputUse::Probe, .number = 0},
+            {.name = "setter", .motor = "Z", .channel = 5, .use = InputUse::Probe, .active_low = true, .number = 1},
+            {.name = "clamp", .motor = "Z", .channel = 4, .use = InputUse::Program, .number = 2}}};
+    Plant plant = plant_of(machine, motor);
+    plant.push(steps);
+    return plant.pins() & 0x38;
+}
+
+TEST(ProbeInputs, AreClosedAtTheirPlaceAndBeyondItAsSeenFromTheStart) {
+    constexpr std::uint32_t kOpen = 0x20;
+    constexpr std::uint32_t kClosed = 0x08;
+    for (const int side : {-1, 1}) {
+        const double place_mm = 50 + side * 2;
+        EXPECT_EQ(pins_after(0, place_mm), kOpen);
+        EXPECT_EQ(pins_after(side * 159, place_mm), kOpen);
+        EXPECT_EQ(pins_after(side * 160, place_mm), kClosed);
+        EXPECT_EQ(pins_after(side * 500, place_mm), kClosed);
+    }
+}
+
 }  // namespace
 }  // namespace lockstep
