@@ -20,7 +20,7 @@ struct Group {
 const Group kGroups[] = {
     {"Verbs that set up a machine", {add_machine, add_config, add_keys, add_doctor, add_timing}},
     {"Verbs that operate a machine",
-     {add_up, add_status, add_watch, add_home, add_move, add_jog, add_run, add_send, add_down}},
+     {add_up, add_status, add_watch, add_home, add_move, add_probe, add_jog, add_run, add_send, add_down}},
     {"Verbs that interrupt or change a job", {add_interrupts, add_override}},
     {"Verbs for offsets and tools", {add_offsets, add_touch, add_tools}},
     {"Verbs for programs, without a machine", {add_check, add_plan, add_simulate, add_compare, add_scenario}},

@@ -29,6 +29,7 @@ void add_keys(Verb command);  // make, show, check
 void add_spy(Verb command);
 void add_home(Verb command);
 void add_move(Verb command);
+void add_probe(Verb command);
 void add_jog(Verb command);
 void add_run(Verb command);
 void add_send(Verb command);

@@ -36,9 +36,25 @@ const Diagnostics& ProgramText::errors() {
     return errors_;
 }
 
-/// Returns false if no line is left.
+void ProgramText::touched(const ProbeTouch& touch) {
+    if (const auto done = gcode_.touched(touch); !done) { report(done.error()); }
+    head_ = gcode_.head();
+    at_mm_ = head_.start_mm;
+    blocks_.clear();
+    first_ = 0;
+    take_blocks();
+}
+
+void ProgramText::take_blocks() const {
+    for (Block& block : gcode_.take_blocks()) {
+        if (errors_.empty()) { blocks_.push_back(std::move(block)); }
+    }
+    std::ranges::move(gcode_.take_notes(), std::back_inserter(notes_));
+}
+
+/// Returns false if no line is left, or none can be read before the touch is known.
 bool ProgramText::read_line() const {
-    if (is_over_) { return false; }
+    if (is_over_ || awaits_touch()) { return false; }
     const auto next = lines_.next();
     if (!next) {
         errors_.push_back({.line = line_ + 1, .column = 1, .message = next.error()});
@@ -49,10 +65,7 @@ bool ProgramText::read_line() const {
     const bool is_end = next->state == LineReader::State::Ends;
     const auto done = is_end ? gcode_.finish() : gcode_.take(next->line, ++line_);
     if (!done) { report(done.error()); }
-    for (Block& block : gcode_.take_blocks()) {
-        if (errors_.empty()) { blocks_.push_back(std::move(block)); }
-    }
-    std::ranges::move(gcode_.take_notes(), std::back_inserter(notes_));
+    take_blocks();
     is_over_ = is_end || gcode_.is_ended();
     return !is_over_;
 }

@@ -24,6 +24,12 @@ public:
     /// The place before the last requested block.
     std::optional<std::span<const double>> place_before(std::uint32_t /*number*/) const override { return at_mm_; }
 
+    /// With GcodeSetup::awaits_touches: the blocks so far end with a probing move, and those behind it are another
+    /// program.
+    bool awaits_touch() const { return gcode_.awaits_touch(); }
+    /// Begins that program: its blocks are numbered from 0, and it has another head(). Call when all blocks were read.
+    void touched(const ProbeTouch& touch);
+
     /// Moves the next blocks to the end of `out`, at most `count`, in place of requests of single blocks. Places are
     /// then not known. Returns false if no block follows.
     bool take_blocks(std::size_t count, std::vector<Block>& out);
@@ -37,6 +43,7 @@ public:
 
 private:
     bool read_line() const;
+    void take_blocks() const;
     void report(const GcodeError& error) const;
 
     // Mutable because const functions read ahead. Reading does not change the program.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "clients/text/format.hpp"
@@ -97,6 +98,48 @@ std::expected<Program, std::string> move_program(const MachineConfig& machine, c
     }
     return Program{
         .name = "move", .axes = machine.axis_names(), .start_mm = start_mm, .blocks = {{.action = std::move(move)}}};
+}
+
+namespace {
+
+std::string probes_text(const MachineConfig& machine) {
+    std::string text;
+    for (const InputConfig& input : machine.inputs) {
+        if (input.use == InputUse::Probe) { text += fmt::format(" {} ({})", input.number.value_or(0), input.name); }
+    }
+    return text;
+}
+
+std::expected<int, std::string> chosen_probe(const MachineConfig& machine, std::optional<int> number) {
+    const std::string probes = probes_text(machine);
+    if (probes.empty()) { return std::unexpected("the machine has no probe; write input { use: PROBE } in its file"); }
+    const auto is_probe = [](const InputConfig& input) { return input.use == InputUse::Probe; };
+    if (!number && std::ranges::count_if(machine.inputs, is_probe) > 1) {
+        return std::unexpected("the machine has several probes; choose one with --probe:" + probes);
+    }
+    const int chosen = number.value_or(std::ranges::find_if(machine.inputs, is_probe)->number.value_or(0));
+    if (input_numbered(machine.inputs, InputUse::Probe, chosen) != nullptr) { return chosen; }
+    return std::unexpected(fmt::format("the machine has no probe {}; it has:{}", chosen, probes));
+}
+
+}  // namespace
+
+std::expected<Program, std::string> probe_program(const MachineConfig& machine, const std::vector<double>& start_mm,
+                                                  const ProbeOptions& options) {
+    const auto probe = chosen_probe(machine, options.probe);
+    if (!probe) { return std::unexpected(probe.error()); }
+    if (!options.move.feed_mm_min) { return std::unexpected("a probing move needs a feed; write --feed, in mm/min"); }
+    auto program = move_program(machine, start_mm, options.move);
+    if (!program) { return program; }
+    auto& move = std::get<ProgramMove>(program->blocks.front().action);
+    if (move.target_mm == start_mm) {
+        return std::unexpected("the axes stand at the end of this move already; write a place further on");
+    }
+    move.mode = PathMode::ExactStop;
+    program->name = "probe";
+    program->blocks.insert(program->blocks.begin(),
+                           {.action = Probe{.input = *probe, .opens = options.away, .must_touch = !options.may_miss}});
+    return program;
 }
 
 }  // namespace lockstep

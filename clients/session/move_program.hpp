@@ -33,6 +33,18 @@ struct MoveOptions {
 std::expected<Program, std::string> move_program(const MachineConfig& machine, const std::vector<double>& start_mm,
                                                  const MoveOptions& options);
 
+struct ProbeOptions {
+    MoveOptions move;          // with a feed
+    std::optional<int> probe;  // its number; nullopt: the machine's only one
+    bool away = false;         // it touches when it opens
+    bool may_miss = false;
+};
+
+/// Like move_program(), for a move that ends where a probe touches. Also fails without a feed, if the machine lacks the
+/// probe, or if no axis moves.
+std::expected<Program, std::string> probe_program(const MachineConfig& machine, const std::vector<double>& start_mm,
+                                                  const ProbeOptions& options);
+
 /// The requested duration of own moves in whole ticks; nullopt if none was requested.
 std::optional<Ticks> ticks_of(const MachineConfig& machine, const MoveOptions& options);
 

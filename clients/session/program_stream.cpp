@@ -9,8 +9,21 @@
 
 namespace lockstep {
 
+namespace {
+
+GcodeSetup awaiting_touches(GcodeSetup setup) {
+    setup.awaits_touches = true;
+    return setup;
+}
+
+}  // namespace
+
 ProgramStream::ProgramStream(LineReader lines, const GcodeSetup& setup, std::uint64_t revision)
-    : lines_(std::move(lines)), gcode_(setup), head_(gcode_.head()), before_(setup.values), revision_(revision) {}
+    : lines_(std::move(lines)),
+      gcode_(awaiting_touches(setup)),
+      head_(gcode_.head()),
+      before_(setup.values),
+      revision_(revision) {}
 
 std::expected<void, Diagnostics> ProgramStream::read_first() {
     for (std::size_t n = 0; n < kLinesFirst && read_line() == Reading::Goes; ++n) {}
@@ -31,12 +44,35 @@ std::expected<Program, Diagnostics> ProgramStream::skip_before(int line) {
         blocks_.clear();
     }
     modal_ = gcode_.modal();
+    if (gcode_.awaits_touch()) { refuse_restart_behind_touch(line); }
     if (!trouble_) { (void)read_first(); }
     if (trouble_) { return std::unexpected(Diagnostics{*trouble_}); }
     if (feed) { program.blocks.push_back(*std::move(feed)); }
     if (last) { program.blocks.push_back(*std::move(last)); }
     program.blocks.insert(program.blocks.end(), blocks_.begin(), blocks_.end());
     return program;
+}
+
+void ProgramStream::refuse_restart_behind_touch(int line) {
+    trouble_ = Diagnostic{.line = line_,
+                          .column = 1,
+                          .message = fmt::format("line {} depends on where this probing move touches; continue from "
+                                                 "this line or one before it",
+                                                 line)};
+}
+
+std::expected<void, Diagnostics> ProgramStream::touched(const ProbeTouch& touch, std::uint64_t revision) {
+    before_ = gcode_.values();
+    revision_ = revision;
+    is_over_ = false;
+    is_settled_ = true;
+    if (const auto done = gcode_.touched(touch); !done) {
+        trouble_ = to_diagnostics({done.error()}).front();
+        is_over_ = true;
+    }
+    head_ = gcode_.head();
+    take_blocks();
+    return read_first();
 }
 
 void ProgramStream::replace_first(const Program& program) {
@@ -46,6 +82,7 @@ void ProgramStream::replace_first(const Program& program) {
 }
 
 ProgramStream::Reading ProgramStream::read_line() {
+    is_over_ = is_over_ || awaits_touch() || gcode_.is_ended();
     if (is_over_) { return Reading::Ends; }
     const auto next = lines_.next();
     if (!next) {
@@ -57,7 +94,7 @@ ProgramStream::Reading ProgramStream::read_line() {
     } else if (const auto done = gcode_.finish(); !done) {
         trouble_ = to_diagnostics({done.error()}).front();
     }
-    is_over_ = trouble_ || gcode_.is_ended() || next->state == LineReader::State::Ends;
+    is_over_ = trouble_ || awaits_touch() || gcode_.is_ended() || next->state == LineReader::State::Ends;
     return is_over_ ? Reading::Ends : Reading::Goes;
 }
 
@@ -67,6 +104,10 @@ void ProgramStream::take_line(std::string_view line) {
         trouble_ = to_diagnostics({done.error()}).front();
         return;  // the line's blocks before its error are dropped
     }
+    take_blocks();
+}
+
+void ProgramStream::take_blocks() {
     std::vector<Block> blocks = gcode_.take_blocks();
     blocks_.insert(blocks_.end(), std::make_move_iterator(blocks.begin()), std::make_move_iterator(blocks.end()));
 }

@@ -1,4 +1,7 @@
 // Reads a G-code file, or a pipe, while the coordinator runs it: as much at a time as the coordinator has room for.
+//
+// What follows a probing move depends on its touch. So the file is divided there: each part, up to and with a probing
+// move, is a program of its own.
 #pragma once
 
 #include <chrono>
@@ -17,6 +20,7 @@ public:
     /// `revision`: the revision of the machine's values in `setup`.
     ProgramStream(LineReader lines, const GcodeSetup& setup, std::uint64_t revision);
 
+    /// Of the present part.
     const ProgramHead& head() const { return head_; }
     gcode::ProgramValues values() const { return {.revision = revision_, .after = {}}; }
 
@@ -33,6 +37,16 @@ public:
     /// received. At an error it cuts the program, and the machine runs the part before the error.
     void feed(ProgramSender& sender, std::chrono::nanoseconds now);
 
+    /// The present part ends with a probing move.
+    bool awaits_touch() const { return gcode_.awaits_touch(); }
+    /// The present part changes the machine's offsets or tools.
+    bool changes_values() const { return gcode_.values() != before_; }
+    /// Begins the next part, behind the touch, and reads its first lines. `revision`: of the machine's values now.
+    /// Fails like read_first().
+    std::expected<void, Diagnostics> touched(const ProbeTouch& touch, std::uint64_t revision);
+    /// Nothing is left to run.
+    bool is_empty() const { return is_over_ && blocks_.empty() && !awaits_touch() && !changes_values(); }
+
     /// Why the program was cut, with the place; nullopt if it was not.
     const std::optional<Diagnostic>& trouble() const { return trouble_; }
     /// Ignored words, and messages, since the last call.
@@ -46,6 +60,8 @@ private:
     enum class Reading : std::uint8_t { Goes, Waits, Ends };
     Reading read_line();
     void take_line(std::string_view line);
+    void take_blocks();
+    void refuse_restart_behind_touch(int line);
     void append(ProgramSender& sender);
     void finish(ProgramSender& sender);
     void settle(ProgramSender& sender, std::chrono::nanoseconds now);
@@ -54,7 +70,7 @@ private:
     GcodeStream gcode_;
     ProgramHead head_;
     ModalState modal_;
-    gcode::KeptValues before_;  // values before the program
+    gcode::KeptValues before_;  // values before the present part
     std::uint64_t revision_;
     std::vector<Block> blocks_;  // blocks read; those from next_ on are not appended yet
     std::size_t next_ = 0;

@@ -12,11 +12,11 @@ namespace {
 
 constexpr double kAskAfter_s = 0.1;  // well within ProgramStore::kSenderSilence_s
 
+}  // namespace
+
 std::string place_and_text(const std::string& file, const Diagnostic& error) {
     return fmt::format("{}:{}:{}: {}", file, error.line, error.column, error.message);
 }
-
-}  // namespace
 
 ProgramFeed::ProgramFeed(VirtualMachine& vm, std::uint64_t program, ProgramText& text,
                          std::function<void(std::size_t blocks)> make_room)

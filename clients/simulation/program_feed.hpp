@@ -14,6 +14,9 @@
 
 namespace lockstep {
 
+/// "plate.gcode:7:3: ..."
+std::string place_and_text(const std::string& file, const Diagnostic& error);
+
 class ProgramFeed {
 public:
     /// `make_room` makes the coordinator keep so many more blocks from now on. The text and the machine must outlive

@@ -34,7 +34,10 @@ public:
 private:
     bool is(MachinePhase phase) const { return vm_.state() && vm_.state()->phase == phase; }
     bool at_rest() const { return is(MachinePhase::Idle) || is(MachinePhase::Fault) || is(MachinePhase::Paused); }
-    std::expected<SimulationResult, std::string> home_and_run(const std::function<bool()>& give_program);
+    std::expected<SimulationResult, std::string> home_and_run(const std::function<bool()>& give_program,
+                                                              ProgramText* text);
+    bool read_on(ProgramText* text);
+    std::vector<std::int64_t> axis_counts() const;
     bool advance_while(const std::function<bool()>& busy);
     void advance_a_turn(const std::function<bool()>& busy);
     std::optional<Reply> ask(CommandKind kind, std::uint64_t program);
@@ -50,8 +53,11 @@ private:
     MotionClock clock_;
     MachineRecorder recorder_;
     const SimulationHooks& hooks_;
-    std::optional<ProgramFeed> feed_;  // of a program that is read while it runs
-    std::string trouble_;              // of the last command
+    std::optional<ProgramFeed> feed_;   // of a program that is read while it runs
+    std::string trouble_;               // of the last command
+    std::uint64_t program_ = kProgram;  // the newest one
+    std::vector<ProbeTouch> touches_;
+    Ticks motion_;  // of the parts that were run
 };
 
 /// Returns false if the caller cancelled.
@@ -153,30 +159,60 @@ SimulationResult Simulation::finish(SimulationResult result) {
     }
     result.trouble = trouble_;
     result.steps = recorder_.steps();
-    MotorCounts motors;
-    for (const auto& motor : vm_.axis_states()) { motors.steps.append(motor ? motor->position.count() : 0); }
-    for (const std::int64_t count : Kinematics(vm_.machine()).axes_at(motors)) { result.final_counts.push_back(count); }
+    result.final_counts = axis_counts();
+    result.touches = touches_;
     return result;
 }
 
+std::vector<std::int64_t> Simulation::axis_counts() const {
+    MotorCounts motors;
+    for (const auto& motor : vm_.axis_states()) { motors.steps.append(motor ? motor->position.count() : 0); }
+    const AxisCounts counts = Kinematics(vm_.machine()).axes_at(motors);
+    return {counts.begin(), counts.end()};
+}
+
 std::expected<SimulationResult, std::string> Simulation::run(const Program& program) {
-    return home_and_run([&] {
-        vm_.give_program(kProgram, program);
-        return true;
-    });
+    return home_and_run(
+        [&] {
+            vm_.give_program(program_, program);
+            return true;
+        },
+        nullptr);
 }
 
 /// Begins the program as soon as its first part has arrived.
 std::expected<SimulationResult, std::string> Simulation::run(ProgramText& program,
                                                              const std::function<void(std::size_t)>& make_room) {
-    return home_and_run([&] {
-        feed_.emplace(vm_, kProgram, program, make_room);
-        return advance_while([&] { return !feed_->has_begun(); });
-    });
+    return home_and_run(
+        [&] {
+            feed_.emplace(vm_, program_, program, make_room);
+            return advance_while([&] { return !feed_->has_begun(); });
+        },
+        &program);
 }
 
-/// `give_program` returns false if the caller cancelled.
-std::expected<SimulationResult, std::string> Simulation::home_and_run(const std::function<bool()>& give_program) {
+/// Reads on behind the probing move with which the last job ended. Returns false if there is none, or nothing follows.
+bool Simulation::read_on(ProgramText* text) {
+    const bool is_done = clock_.last_ended() && clock_.last_ended()->outcome == JobOutcome::Done;
+    if (text == nullptr || !is_done || !text->awaits_touch() || !vm_.state()->probe) { return false; }
+    const ProbeResult& probe = *vm_.state()->probe;
+    ProbeTouch touch{
+        .touched = probe.touched, .places_mm = {probe.places_mm.begin(), probe.places_mm.end()}, .rest_mm = {}};
+    const std::vector<std::int64_t> counts = axis_counts();
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        touch.rest_mm.push_back(to_mm(vm_.machine().axes[i], static_cast<double>(counts[i])));
+    }
+    text->touched(touch);
+    touches_.push_back(std::move(touch));
+    if (!text->ends_before(0) || text->errors().empty()) { return !text->ends_before(0); }
+    trouble_ = place_and_text(text->head().name, text->errors().front());
+    return false;
+}
+
+/// `give_program` returns false if the caller cancelled. `text`: of a program that may go on behind a touch; may be
+/// null.
+std::expected<SimulationResult, std::string> Simulation::home_and_run(const std::function<bool()>& give_program,
+                                                                      ProgramText* text) {
     const auto given_up = [] { return std::unexpected(std::string("interrupted before its end")); };
     SimulationResult result;
     const Tick power_up = vm_.now();
@@ -188,12 +224,15 @@ std::expected<SimulationResult, std::string> Simulation::home_and_run(const std:
 
     const Tick begin = vm_.now();
     computing_s = stopwatch();
-    if (!give_program() || !do_job(CommandKind::Run, kProgram)) { return given_up(); }
+    do {
+        if (!give_program() || !do_job(CommandKind::Run, program_++)) { return given_up(); }
+        motion_ += clock_.motion();
+    } while (trouble_.empty() && read_on(text));
     result.running = stage_since(begin, computing_s);
     if (trouble_.empty()) {
         result.job = clock_.last_ended()->job;
         result.outcome = clock_.last_ended()->outcome;
-        result.motion = clock_.motion();
+        result.motion = motion_;
     }
     return finish(std::move(result));
 }

@@ -28,13 +28,14 @@ struct SimulatedStage {
 };
 
 struct SimulationResult {
-    std::uint64_t job = 0;  // 0 if homing failed and the program was not begun
+    std::uint64_t job = 0;  // the last one of a program that probes; 0 if homing failed and the program was not begun
     JobOutcome outcome = JobOutcome::Failed;
     FaultCode fault = FaultCode::None;
     std::optional<std::size_t> fault_axis;
     std::string trouble;                     // as text; empty if there was none
     Ticks motion;                            // duration of the program's motion, without pauses
     std::vector<std::int64_t> final_counts;  // of the axes, steps
+    std::vector<ProbeTouch> touches;         // of its probing moves, in order
     std::int64_t steps = 0;                  // of all axes, homing included
     std::uint64_t most_blocks_kept = 0;      // at once, of a program that was read while it ran
     SimulatedStage homing;
@@ -56,7 +57,8 @@ std::expected<SimulationResult, std::string> simulate(const MachineConfig& machi
 /// The same for a program of any length: the machine runs it while it is read, so that memory does not grow with its
 /// length. The caller has checked the whole program before. If a line has an error nevertheless, the machine runs the
 /// lines before it, and the result says so. `kept_bytes` limits the kept blocks, unless the planner must look further
-/// ahead. Not for the LAI method, which plans programs as a whole.
+/// ahead. A text with GcodeSetup::awaits_touches is run part by part, up to each probing move. Not for the LAI method,
+/// which plans programs as a whole.
 inline constexpr std::uint64_t kKeptBlockBytes = 8'000'000;
 std::expected<SimulationResult, std::string> simulate(const MachineConfig& machine, ProgramText& program,
                                                       RecordSink& sink, const SimulationHooks& hooks = {},

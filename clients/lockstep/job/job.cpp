@@ -7,6 +7,7 @@
 #include "clients/lockstep/job/final_positions.hpp"
 #include "clients/lockstep/job/job_watch.hpp"
 #include "clients/session/control/lease_turn.hpp"
+#include "clients/session/control/probe_touch.hpp"
 #include "clients/session/record_loss.hpp"
 #include "clients/session/refusal.hpp"
 #include "clients/session/reports.hpp"
@@ -158,6 +159,33 @@ void follow_events(Session& session, const Job& job, Output& output) {
     }
 }
 
+/// Prints the result of the job's probing move.
+std::expected<ProbeTouch, Failure> report_touch(Session& session, proto::RunReport& report, Output& output) {
+    auto touch = touch_of(session, report.job());
+    if (!touch) { return touch; }
+    const proto::ProbeReport probe = probe_report(session.config(), *touch);
+    output.print(wrapped(report.name() + ": " + text_of(probe), 80, "  "));
+    *report.add_probes() = probe;
+    return touch;
+}
+
+/// Reads the next part of a program, behind its probing move.
+std::expected<void, Failure> read_on(Session& session, ProgramStream& stream, proto::RunReport& report,
+                                     Output& output) {
+    const auto touch = report_touch(session, report, output);
+    if (!touch) { return std::unexpected(touch.error()); }
+    if (stream.changes_values()) {
+        if (auto kept = session.await_kept(stream.values().revision + 1); !kept) {
+            return std::unexpected(kept.error());
+        }
+    }
+    const auto values = session.values();
+    if (!values) { return std::unexpected(values.error()); }
+    const auto read = stream.touched(*touch, values->revision);
+    warn_of(stream.take_notes(), output);
+    return read ? std::expected<void, Failure>{} : std::unexpected(bad_file(report.name(), read.error()));
+}
+
 ExitCode end(Session& session, const Job& job, JobResult result, JobWatch& watch, proto::RunReport& report,
              Output& output) {
     report.set_outcome(outcome_name(result));
@@ -192,25 +220,41 @@ ExitCode run_job(Session& session, const Job& job, Output& output) {
     if (!turn.answer()) { return output.fail(turn.answer().error()); }
     if (turn.is_refused()) { return print_refusal(title(job), *turn.answer(), report, output); }
     follow_events(session, job, output);
-    const auto reply = begin(session, job, stop);
-    if (!reply) { return output.fail(reply.error()); }
-    if (reply->status == ReplyStatus::Refused) { return print_refusal(title(job), *reply, report, output); }
-    report.set_job(reply->job);
-    if (job.detach && job.stream != nullptr) {
-        if (const auto sent = send_rest(session, stop, false); !sent) { return output.fail(sent.error()); }
-    }
-    if (job.detach) { return end_begun(job, report, output); }
-    output.print(fmt::format("{}: job {}{}", title(job), reply->job,
-                             job.planned_s ? ", planned to take " + duration_text(*job.planned_s) : ""));
     const nanoseconds begun = monotonic_now();
-    JobWatch watch(session, reply->job, job.command, output, stop, hang_up);
-    const auto result = watch.wait();
-    if (!result) { return output.fail(result.error()); }
-    if (job.stream != nullptr) { report_stream(session, job, output); }
+    std::optional<JobWatch> watch;
+    std::optional<JobResult> result;
+    while (!result) {
+        const auto reply = begin(session, job, stop);
+        if (!reply) { return output.fail(reply.error()); }
+        if (reply->status == ReplyStatus::Refused) { return print_refusal(title(job), *reply, report, output); }
+        report.set_job(reply->job);
+        if (job.detach && job.stream != nullptr) {
+            if (const auto sent = send_rest(session, stop, false); !sent) { return output.fail(sent.error()); }
+        }
+        if (job.detach && job.stream != nullptr && job.stream->awaits_touch()) {
+            output.warn("the program probes: the lines behind its first probing move are not run; leave --detach out");
+        }
+        if (job.detach) { return end_begun(job, report, output); }
+        output.print(fmt::format("{}: job {}{}", title(job), reply->job,
+                                 job.planned_s ? ", planned to take " + duration_text(*job.planned_s) : ""));
+        watch.emplace(session, reply->job, job.command, output, stop, hang_up);
+        const auto part = watch->wait();
+        if (!part) { return output.fail(part.error()); }
+        if (job.stream != nullptr) { report_stream(session, job, output); }
+        result = *part;
+        if (result == JobResult::Done && job.probes) {
+            if (const auto touch = report_touch(session, report, output); !touch) { return output.fail(touch.error()); }
+        }
+        if (result != JobResult::Done || job.stream == nullptr || !job.stream->awaits_touch()) { continue; }
+        if (const auto read = read_on(session, *job.stream, report, output); !read) {
+            return output.fail(read.error());
+        }
+        if (!job.stream->is_empty()) { result.reset(); }
+    }
     report.set_real_s(static_cast<double>((monotonic_now() - begun).count()) * 1e-9);
     report.set_lost_records(std::max(lost, lost_records(status_report(session))) - lost);
     if (report.lost_records() > 0) { output.warn(record_loss_text(status_report(session))); }
-    return end(session, job, *result, watch, report, output);
+    return end(session, job, *result, *watch, report, output);
 }
 
 }  // namespace lockstep

@@ -18,9 +18,11 @@ struct Job {
     AxisSet axes = 0;                            // home: the axes; empty for all
     std::optional<Program> program;              // move, run, own move
     std::optional<gcode::ProgramValues> values;  // run: the machine's values that it reads and changes
-    ProgramStream* stream = nullptr;             // run: a program read while it runs, instead of `program`
+    ProgramStream* stream = nullptr;             // run: a program read while it runs, instead of `program`; each of
+                                                 // its parts is a job
     std::optional<Ticks> ticks = {};             // own move: its duration; nullopt: as fast as allowed
     std::optional<double> planned_s;
+    bool probes = false;  // `program` ends with a probing move
     bool detach = false;  // return when the job has begun
     bool take = false;    // take the lease even from another writer
 };

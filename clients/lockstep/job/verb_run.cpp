@@ -129,6 +129,17 @@ std::expected<void, Failure> read_first(const RunOptions& options, const Machine
     return {};
 }
 
+/// Whether the program has probing moves. What follows one depends on its touch, so it is read while it runs.
+bool does_probe(std::string_view text, const GcodeSetup& setup) {
+    bool probes = false;
+    (void)gcode_actions(text, setup, [&](const gcode::Action& action, int) {
+        probes |= std::holds_alternative<gcode::Probing>(action);
+    });
+    return probes;
+}
+
+ExitCode run_stream(const RunOptions& options, Start& start, LineReader lines, Output& output);
+
 ExitCode run_stream(const RunOptions& options) {
     Output output(options.json);
     if (options.file == "-" && options.dry_run) {
@@ -138,19 +149,27 @@ ExitCode run_stream(const RunOptions& options) {
     if (!lines) { return output.fail(bad_file(options.file, {{.message = lines.error()}})); }
     auto start = reach_start(options);
     if (!start) { return output.fail(start.error()); }
-    const MachineConfig& machine = start->session.config();
-    const auto started_mm = options.is_restart() ? places_at_start(machine, options.started_at) : start->stands_mm;
+    return run_stream(options, *start, *std::move(lines), output);
+}
+
+ExitCode run_stream(const RunOptions& options, Start& start, LineReader lines, Output& output) {
+    const MachineConfig& machine = start.session.config();
+    const auto started_mm = options.is_restart() ? places_at_start(machine, options.started_at) : start.stands_mm;
     if (!started_mm) { return output.fail(bad_input("--started-at: " + started_mm.error())); }
     const std::string name = options.file == "-" ? "standard input" : options.file;
-    ProgramStream stream(*std::move(lines),
-                         program_setup(name, machine, *started_mm, options.switches, start->values.values),
-                         start->values.revision);
-    if (auto read = read_first(options, machine, start->stands_mm, stream, output); !read) {
+    ProgramStream stream(std::move(lines),
+                         program_setup(name, machine, *started_mm, options.switches, start.values.values),
+                         start.values.revision);
+    if (auto read = read_first(options, machine, start.stands_mm, stream, output); !read) {
         return output.fail(read.error());
     }
     if (options.dry_run) {
         output.print("nothing was sent");
         return kExitDone;
+    }
+    if (options.detach && stream.awaits_touch()) {
+        return output.fail(
+            bad_input("the program probes, and this command runs what follows a touch; leave --detach out"));
     }
     if (const auto confirmed = confirm(options, output); !confirmed) { return output.fail(confirmed.error()); }
     warn_of(stream.take_notes(), output);
@@ -160,7 +179,7 @@ ExitCode run_stream(const RunOptions& options) {
                   .stream = &stream,
                   .detach = options.detach,
                   .take = options.take};
-    return run_job(start->session, job, output);
+    return run_job(start.session, job, output);
 }
 
 /// Plans a long file while reading it.
@@ -187,6 +206,13 @@ ExitCode run(const RunOptions& options) {
     if (!text) { return output.fail(bad_file(options.file, {text.error()})); }
     auto start = reach_start(options);
     if (!start) { return output.fail(start.error()); }
+    const GcodeSetup setup =
+        program_setup(options.file, start->session.config(), start->stands_mm, options.switches, start->values.values);
+    if (!options.dry_run && does_probe(*text, setup)) {
+        auto lines = LineReader::open(options.file);
+        if (!lines) { return output.fail(bad_file(options.file, {{.message = lines.error()}})); }
+        return run_stream(options, *start, *std::move(lines), output);
+    }
     auto chosen = choose(options, *text, start->session.config(), start->stands_mm, start->values, output);
     if (!chosen) { return output.fail(chosen.error()); }
     const auto planned_s = planned_seconds(start->session, chosen->program, start->stands_mm);

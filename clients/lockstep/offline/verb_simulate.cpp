@@ -1,6 +1,7 @@
 // lockstep simulate
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <expected>
 #include <functional>
 #include <memory>
@@ -9,6 +10,7 @@
 #include "clients/lockstep/offline/program_input.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/planning/program_text.hpp"
+#include "clients/session/control/probe_touch.hpp"
 #include "clients/session/reports.hpp"
 #include "clients/simulation/simulate.hpp"
 #include "clients/supervisor/machine_choice.hpp"
@@ -51,6 +53,7 @@ proto::RunReport run_report(const PlannedFile& input, const SimulationResult& re
                                       ? motor_fault(result.fault, Kinematics(input.machine), *result.fault_axis)
                                       : fault_report(result.fault, "");
     }
+    for (const ProbeTouch& touch : result.touches) { *report.add_probes() = probe_report(input.machine, touch); }
     for (std::size_t i = 0; i < result.final_counts.size(); ++i) {
         proto::FinalPosition& place = *report.add_final_positions();
         place.set_name(input.machine.axes[i].name);
@@ -92,16 +95,38 @@ ExitCode record_simulation(const SimulateOptions& options, const PlannedFile& in
     const auto result = run(log->sink(), {.progress = progress, .stopwatch = seconds_now});
     if (!result) { return output.fail(failed(result.error() + "; no log was written")); }
     if (auto kept = log->keep(); !kept) { return output.fail(failed(kept.error())); }
+    const proto::RunReport report = run_report(input, *result);
+    for (const proto::ProbeReport& probe : report.probes()) { output.print(report.name() + ": " + text_of(probe)); }
     output.print(in_words(options, input, *result));
-    output.report(run_report(input, *result));
+    output.report(report);
     if (!result->trouble.empty()) { output.warn(result->trouble); }
     return result->job != 0 && result->outcome == JobOutcome::Done ? kExitDone : kExitFailed;
 }
 
+bool does_probe(const Program& program) {
+    return std::ranges::any_of(program.blocks,
+                               [](const Block& block) { return std::holds_alternative<Probe>(block.action); });
+}
+
+GcodeSetup awaiting_touches(GcodeSetup setup) {
+    setup.awaits_touches = true;
+    return setup;
+}
+
+ExitCode simulate_lines(const SimulateOptions& options, const PlannedFile& input, LineReader lines, Output& output) {
+    ProgramText text(std::move(lines), awaiting_touches(input.setup));
+    const auto run = [&](RecordSink& sink, const SimulationHooks& hooks) {
+        return simulate(input.machine, text, sink, hooks);
+    };
+    return record_simulation(options, input, run, output);
+}
+
 ExitCode simulate_short_file(const SimulateOptions& options) {
     Output output(options.json);
+    auto lines = LineReader::open(options.file);
     const auto input = read_program(options);
     if (!input) { return output.fail(input.error()); }
+    if (lines && does_probe(input->program)) { return simulate_lines(options, *input, *std::move(lines), output); }
     const auto run = [&](RecordSink& sink, const SimulationHooks& hooks) {
         return simulate(input->machine, input->program, sink, hooks);
     };
@@ -116,11 +141,7 @@ ExitCode simulate_long_file(const SimulateOptions& options) {
     if (!lines) { return output.fail(bad_file(options.file, {{.message = lines.error()}})); }
     const auto input = plan_file(options, output);
     if (!input) { return output.fail(input.error()); }
-    ProgramText text(*std::move(lines), input->setup);
-    const auto run = [&](RecordSink& sink, const SimulationHooks& hooks) {
-        return simulate(input->machine, text, sink, hooks);
-    };
-    return record_simulation(options, *input, run, output);
+    return simulate_lines(options, *input, *std::move(lines), output);
 }
 
 /// Whether the file is read while it runs.

@@ -76,5 +76,32 @@ TEST(Move, IsRefusedWithTheValueAndTheLimit) {
     EXPECT_THAT(error_of({.targets = {"X=5"}, .feed_mm_min = -600}), HasSubstr("--feed"));
 }
 
+MachineConfig two_axes_with_probe() {
+    MachineConfig machine = two_axes();
+    machine.inputs = {{.name = "plate", .motor = "X", .use = InputUse::Probe, .number = 3}};
+    return machine;
+}
+
+TEST(ProbeProgram, EndsWithAMoveThatTouches) {
+    const auto program =
+        probe_program(two_axes_with_probe(), {5, 5}, {.move = {.targets = {"X=20"}, .feed_mm_min = 60}, .away = true});
+    ASSERT_TRUE(program) << program.error();
+    ASSERT_EQ(program->blocks.size(), 2u);
+    EXPECT_EQ(std::get<Probe>(program->blocks[0].action), (Probe{.input = 3, .opens = true, .must_touch = true}));
+    EXPECT_EQ(std::get<ProgramMove>(program->blocks[1].action).feed_mm_s, 1);
+}
+
+TEST(ProbeProgram, NeedsAFeedAProbeAndAPlaceFurtherOn) {
+    const MachineConfig machine = two_axes_with_probe();
+    EXPECT_EQ(probe_program(machine, {5, 5}, {.move = {.targets = {"X=20"}}}).error(),
+              "a probing move needs a feed; write --feed, in mm/min");
+    EXPECT_EQ(probe_program(machine, {5, 5}, {.move = {.targets = {"X=5"}, .feed_mm_min = 60}}).error(),
+              "the axes stand at the end of this move already; write a place further on");
+    EXPECT_EQ(probe_program(machine, {5, 5}, {.move = {.targets = {"X=9"}, .feed_mm_min = 60}, .probe = 1}).error(),
+              "the machine has no probe 1; it has: 3 (plate)");
+    EXPECT_EQ(probe_program(two_axes(), {5, 5}, {.move = {.targets = {"X=9"}, .feed_mm_min = 60}}).error(),
+              "the machine has no probe; write input { use: PROBE } in its file");
+}
+
 }  // namespace
 }  // namespace lockstep

@@ -136,5 +136,51 @@ TEST_F(Reading, APipeThatIsSilentSettles) {
     close(ends[0]);
 }
 
+class ReadingProbes : public Reading {
+protected:
+    ProgramStream stream_with(const std::string& text) {
+        GcodeSetup setup = setup_of_two();
+        setup.inputs = {{.name = "plate", .motor = "X", .use = InputUse::Probe, .number = 0}};
+        return {LineReader::open(file(text)).value(), setup, 3};
+    }
+};
+
+TEST_F(ReadingProbes, AProgramIsDividedBehindEachProbingMove) {
+    ProgramStream stream = stream_with("G38.2 X50 F60\nG10 L2 P1 X1\nG0 X[#5061+2]\nG38.3 X60\n");
+    ASSERT_TRUE(stream.read_first());
+    const ProgramDocument first = sent(stream);
+    EXPECT_EQ(first.program.blocks.size(), 2u);
+    EXPECT_EQ(first.cut, "");
+    ASSERT_TRUE(stream.awaits_touch());
+
+    ASSERT_TRUE(stream.touched({.touched = true, .places_mm = {20, 0}, .rest_mm = {20.5, 0}}, 4));
+    EXPECT_FALSE(stream.is_empty());
+    EXPECT_TRUE(stream.changes_values());
+    const ProgramDocument second = sent(stream);
+    EXPECT_EQ(second.program.start_mm, (std::vector<double>{20.5, 0}));
+    EXPECT_EQ(std::get<ProgramMove>(second.program.blocks[0].action).target_mm[0], 23);
+    EXPECT_EQ(second.values->revision, 4u);
+    EXPECT_EQ(second.values->after->systems[0].origin[0], 1);
+
+    ASSERT_TRUE(stream.touched({.touched = false, .places_mm = {61, 0}, .rest_mm = {61, 0}}, 5));
+    EXPECT_TRUE(stream.is_empty()) << "nothing follows the last probing move";
+}
+
+TEST_F(ReadingProbes, TellAnErrorBehindATouchBeforeAnythingElseMoves) {
+    ProgramStream stream = stream_with("G38.2 X50 F60\nG0 X[#5061+170]\n");
+    ASSERT_TRUE(stream.read_first());
+    (void)sent(stream);
+    const auto read = stream.touched({.touched = true, .places_mm = {40, 0}, .rest_mm = {41, 0}}, 3);
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().front().line, 2);
+}
+
+TEST_F(ReadingProbes, RefuseARestartBehindAProbingMove) {
+    ProgramStream stream = stream_with("G0 X1\nG38.2 X50 F60\nG0 X2\nG0 X3\n");
+    const auto beginning = stream.skip_before(4);
+    ASSERT_FALSE(beginning);
+    EXPECT_EQ(beginning.error().front().line, 2);
+}
+
 }  // namespace
 }  // namespace lockstep

@@ -1,0 +1,26 @@
+// How a probing move ended: the coordinator's result, and where the axes came to rest.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <expected>
+#include <optional>
+#include <string>
+
+#include "clients/session/session.hpp"
+#include "core/gcode/gcode.hpp"
+#include "idl/proto/report.pb.h"
+
+namespace lockstep {
+
+/// The result of the job that probed, and where every axis rests, as reported after `since`; nullopt until all is
+/// received.
+std::optional<ProbeTouch> received_touch(const Session& session, std::uint64_t job, std::chrono::nanoseconds since);
+/// Waits until the result of the job that probed and the rest of every axis are received. Fails if they are not.
+std::expected<ProbeTouch, Failure> touch_of(Session& session, std::uint64_t job);
+
+proto::ProbeReport probe_report(const MachineConfig& machine, const ProbeTouch& touch);
+/// "touched at X 10.0000  Z -3.2150, and went on by 0.0210 mm"; of axes that did not move, only the place.
+std::string text_of(const proto::ProbeReport& probe);
+
+}  // namespace lockstep
