@@ -63,6 +63,10 @@ LineProgram::Outcome LineProgram::begin(bool is_held) {
 LineProgram::Outcome LineProgram::follow(const MachineState& state) {
     if (state.job > job_) { return lose("another client's job began before these lines ended"); }
     if (state.job < job_ || !state.outcome) { return Outcome::Goes; }
+    const bool is_miss =
+        state.job_fault == FaultCode::ProbeNotTouched || state.job_fault == FaultCode::ProbeTouchedEarly;
+    const bool is_run = state.outcome == JobOutcome::Done || is_miss;
+    if (is_run && state.probe && state.probe->job == job_) { return Outcome::Probed; }
     if (state.outcome == JobOutcome::Done) { return Outcome::Done; }
     return lose("the machine was stopped, so the accepted lines are dropped");
 }

@@ -28,7 +28,8 @@ public:
     /// Whether the machine was commanded to run it.
     bool is_begun() const { return run_.has_value(); }
 
-    enum class Outcome : std::uint8_t { Goes, Done, Lost };
+    /// Probed: it ended with a probing move, which touched or not.
+    enum class Outcome : std::uint8_t { Goes, Done, Probed, Lost };
     /// Sends the blocks that are due, and commands the machine to run the program unless it is held. `state`: the
     /// machine's newest.
     Outcome pass(const MachineState& state, bool is_held, std::chrono::nanoseconds now);

@@ -34,24 +34,27 @@ void LineRunner::accept(nanoseconds now) {
     const auto behind = next.line.is_answered_behind ? std::optional(next.request) : std::nullopt;
     const std::int32_t number = queue_.add(next.line, behind);
     for (Block& block : next.line.blocks) { block.line = number; }
-    later_.push_back({std::move(next.line.from_mm), std::move(next.line.blocks), number});
+    later_.push_back({std::move(next.line.from_mm), std::move(next.line.blocks), number, next.line.probes});
     appended_ = now;
     append_later();
     if (!behind) { answers_.push_back({next.request, {.is_done = true}}); }
 }
 
 void LineRunner::append_later() {
-    if (program_ && !program_->is_open()) { return; }
-    for (Later& later : std::exchange(later_, {})) {
+    while (!later_.empty() && (!program_ || program_->is_open())) {
+        Later later = std::move(later_.front());
+        later_.pop_front();
         if (!program_) { program_ = std::make_unique<LineProgram>(machine_, std::move(later.from_mm), port_); }
         for (const Block& block : later.blocks) { program_->append(block); }
         last_ = later.number;
+        if (later.probes) { program_->end(); }
     }
 }
 
 void LineRunner::pass_program(const MachineState& state, nanoseconds now) {
     switch (program_->pass(state, is_hold_wanted_, now)) {
         case LineProgram::Outcome::Lost: return lose(state, now);
+        case LineProgram::Outcome::Probed: return end_probing(state);
         case LineProgram::Outcome::Done:
             answer_done(queue_.pass(last_));
             close();
@@ -117,8 +120,15 @@ void LineRunner::pass_stop(const MachineState& state, bool rests, nanoseconds no
     if (has_stopped || now - *stopping_since_ > kStopPatience) { stopping_since_.reset(); }
 }
 
-void LineRunner::answer_done(const std::vector<std::uint64_t>& requests) {
-    for (const std::uint64_t request : requests) { answers_.push_back({request, {.is_done = true}}); }
+void LineRunner::answer_done(const std::vector<std::uint64_t>& requests, const Answer& answer) {
+    for (const std::uint64_t request : requests) { answers_.push_back({request, answer}); }
+}
+
+/// The line that probed was run, also if it did not touch. The sender decides what comes next.
+void LineRunner::end_probing(const MachineState& state) {
+    answer_done(queue_.pass(last_), {.is_done = true, .why = state.job_fault, .probe = state.probe});
+    close();
+    append_later();
 }
 
 /// Gives no reason if the machine has a fault, because the fault is an alarm by itself.

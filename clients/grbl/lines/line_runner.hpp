@@ -70,7 +70,8 @@ private:
     void pass_hold(const MachineState& state);
     void pass_stop(const MachineState& state, bool rests, std::chrono::nanoseconds now);
     bool must_end(const MachineState& state, std::chrono::nanoseconds now) const;
-    void answer_done(const std::vector<std::uint64_t>& requests);
+    void answer_done(const std::vector<std::uint64_t>& requests, const Answer& answer = {.is_done = true});
+    void end_probing(const MachineState& state);
     void lose(const MachineState& state, std::chrono::nanoseconds now);
     void drop();
     void close();
@@ -88,6 +89,7 @@ private:
         std::vector<double> from_mm;
         std::vector<Block> blocks;
         std::int32_t number = 0;
+        bool probes = false;  // it ends the program
     };
     std::deque<Later> later_;
     std::unique_ptr<LineProgram> program_;

@@ -6,7 +6,6 @@
 namespace lockstep::grbl {
 namespace {
 
-constexpr std::string_view kNoProbe = "there is no probe";
 constexpr std::string_view kOneNumber = "reported as error 20";
 
 constexpr std::array kErrors{
@@ -58,8 +57,8 @@ constexpr std::array kAlarms{
     Code{2, "Soft limit", "The target of a line is outside the travel. The position is kept. Unlock with $X."},
     Code{3, "Abort during cycle",
          "A motion ended before its end, by a fault or by another client. A message gives the reason. Unlock with $X."},
-    Code{4, "Probe fail", "The probe was not in its initial state.", kNoProbe},
-    Code{5, "Probe fail", "The probe did not touch within its travel.", kNoProbe},
+    Code{4, "Probe fail", "The probe touched before its move began. Move it away. Unlock with $X."},
+    Code{5, "Probe fail", "The probe did not touch within its move. Unlock with $X."},
     Code{6, "Homing fail", "Homing was reset.", "a reset stops the machine on its path and is not an alarm"},
     Code{7, "Homing fail", "The safety door was opened during homing.", "there is no door"},
     Code{8, "Homing fail", "The switch did not open behind the pull-off, or is not steady. Check switch and wiring."},

@@ -11,6 +11,8 @@ Error error_of(std::string_view message) {
         {"has no number", Error::BadNumber},
         {"is not a number", Error::BadNumber},
         {"has no feed", Error::NoFeed},
+        {"has no axis", Error::NoAxisWords},
+        {"goes nowhere", Error::BadTarget},
         {" repeats ", Error::RepeatedWord},
         {": a block has one ", Error::SameModalGroup},
         {"radius", Error::BadTarget},

@@ -49,9 +49,11 @@ struct Refused {
 Error error_of(std::string_view message);
 
 /// grbl's alarms: 1 a limit switch, 2 a target outside travel, 3 a reset in motion and everything else that ends a
-/// motion, 8 and 9 failed homing.
+/// motion, 4 and 5 a probe that touches too early or not at all, 8 and 9 failed homing.
 inline constexpr int kTravelAlarm = 2;
 inline constexpr int kAbortAlarm = 3;
+inline constexpr int kTouchedEarlyAlarm = 4;
+inline constexpr int kNotTouchedAlarm = 5;
 
 constexpr int alarm_of(FaultCode fault) {
     switch (fault) {

@@ -61,7 +61,7 @@ std::expected<LineEffect, Refused> GcodeLines::read(std::string_view line, const
 bool GcodeLines::rests_before(const SessionLine& line) const {
     const gcode::State& before = session_.state();
     const gcode::State& after = line.after.state;
-    return line.changes_values || line.ends_program || before.modal.system != after.modal.system ||
+    return line.changes_values || line.ends_program || line.awaits_touch || before.modal.system != after.modal.system ||
            before.offsets.tool != after.offsets.tool;
 }
 

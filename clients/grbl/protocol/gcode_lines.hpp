@@ -35,6 +35,8 @@ public:
                                             const gcode::KeptValues& values) const;
     /// Applies the modes and parameters that the line leaves.
     void commit(SessionLine& line) { session_.commit(line); }
+    /// Gives how the probing move of the last line ended.
+    void touched(const ProbeTouch& touch) { session_.touched(touch); }
 
     /// Sets the modes of spindle and coolant to off. Returns whether lines had switched one of them on.
     bool switch_off();

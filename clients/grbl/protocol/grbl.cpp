@@ -87,6 +87,7 @@ void Grbl::answer(std::uint64_t number, const Answer& answer) {
     const std::string before = std::exchange(before_ok_, {});
     auto line = std::exchange(asked_line_, std::nullopt);
     if (answer.is_done && line) { lines_.commit(*line); }
+    if (answer.probe) { take_touch(answer); }
     if (answer.is_done) {
         if (!before.empty()) { say(before); }
         ok();

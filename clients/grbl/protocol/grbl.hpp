@@ -66,6 +66,8 @@ private:
     void do_gcode(const ReceivedLine& line);
     void do_effect(LineEffect&& effect, bool is_check);
     void refuse_gcode(const Refused& refused);
+    void take_touch(const Answer& answer);
+    std::string probe_text(const ProbeResult& probe) const;
     bool is_settled() const;
     std::vector<double> place_mm() const;
     const gcode::KeptValues& values() const;

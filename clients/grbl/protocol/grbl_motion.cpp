@@ -81,13 +81,41 @@ void Grbl::do_effect(LineEffect&& effect, bool is_check) {
                                             .from_mm = line.head.start_mm,
                                             .seconds = effect.seconds,
                                             .sender_line = number,
-                                            .is_answered_behind = effect.rests_behind || line.ends_program};
+                                            .is_answered_behind = effect.rests_behind || line.ends_program,
+                                            .probes = line.awaits_touch};
         ++view_.lines;
         waits_for_line_ = true;
     }
     waits_for_ = number_;
     before_ok_ = end;
     asked_line_ = std::move(line);
+}
+
+/// The place of the next line is not known until the machine rests behind the touch: see is_settled().
+void Grbl::take_touch(const Answer& answer) {
+    const ProbeResult& probe = *answer.probe;
+    ProbeTouch touch{.touched = probe.touched, .places_mm = {}, .rest_mm = {}};
+    for (std::size_t i = 0; i < view_.axes.size(); ++i) {
+        touch.places_mm.push_back(probe.places_mm[i]);
+        touch.rest_mm.push_back(view_.axes[i].mm);
+    }
+    lines_.touched(touch);
+    view_.probe = probe;
+    view_.lines = 0;
+    view_.is_stopping = true;
+    if (answer.why == FaultCode::ProbeTouchedEarly) {
+        return raise_alarm(kTouchedEarlyAlarm, "the probe touches before its move begins; move it away, then $X");
+    }
+    if (answer.why == FaultCode::ProbeNotTouched) {
+        raise_alarm(kNotTouchedAlarm, "the probe did not touch within the move; check it and the place, then $X");
+    }
+    say("[PRB:" + probe_text(probe) + "]");
+}
+
+/// In machine coordinates, as grbl reports it.
+std::string Grbl::probe_text(const ProbeResult& probe) const {
+    const std::vector<double> places(probe.places_mm.begin(), probe.places_mm.end());
+    return places_text(places, options_.inches) + (probe.touched ? ":1" : ":0");
 }
 
 /// A target outside the travel stops the machine and raises an alarm, as grbl's soft limits do, because the following

@@ -153,7 +153,7 @@ void Grbl::print_parameters() {
     say("[G30:" + home_of(values.second_home) + "]");
     say("[G92:" + places_of(values.g92_applies ? values.g92 : gcode::Point{}) + "]");
     say("[TLO:" + places_text({lines_.tool_length_mm()}, options_.inches) + "]");
-    say("[PRB:" + places_of({}) + ":0]");
+    say("[PRB:" + (view_.probe ? probe_text(*view_.probe) : places_of({}) + ":0") + "]");
     ok();
 }
 

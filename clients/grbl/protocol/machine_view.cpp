@@ -23,6 +23,7 @@ MachineView view_of(const MachineConfig& machine, const MachineState& state, con
     view.line = state.line;
     view.overrides = state.overrides;
     view.devices = state.devices;
+    view.probe = state.probe;
     if (state.pause) { view.pause = state.pause->why; }
     double squares = 0;
     for (std::size_t i = 0; i < axes.size(); ++i) {
@@ -47,6 +48,7 @@ std::string letters_of_inputs(const MachineConfig& machine,
                               const std::function<std::uint32_t(std::size_t motor)>& closed_of) {
     const MotorInputs inputs(machine);
     std::string letters;
+    if (inputs.closed(InputUse::Probe, closed_of)) { letters += 'P'; }
     if (inputs.closed(InputUse::Door, closed_of)) { letters += 'D'; }
     if (inputs.closed(InputUse::EmergencyStop, closed_of)) { letters += 'E'; }
     return letters;

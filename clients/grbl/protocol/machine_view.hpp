@@ -32,15 +32,16 @@ struct MachineView {
     bool is_fault_of_board = false;
     std::vector<AxisPlace> axes;       // in the configuration's order
     double feed_mm_min = 0;            // of all axes together, now
-    std::string closed_inputs;         // D: a door is open; E: an emergency stop is closed
+    std::string closed_inputs;         // P: a probe touches; D: a door is open; E: an emergency stop is closed
     std::string closed_switches;       // the letters of the axes with a limit or home switch closed at a motor
     std::optional<std::int32_t> line;  // of the program in motion, or the N word of the sender's line
     Overrides overrides;
     ProgramDevices devices;
     std::string accessories;  // S, C: the spindle turns, forward or reverse; F: flood; M: mist
     gcode::KeptValues values;
-    std::optional<Pause> pause;  // the job waits for a person
-    std::string way_back;        // to the place of the pause; empty if the axes are there
+    std::optional<ProbeResult> probe;  // of the newest probing move
+    std::optional<Pause> pause;        // the job waits for a person
+    std::string way_back;              // to the place of the pause; empty if the axes are there
     // About the sender's accepted lines:
     std::size_t lines = 0;     // number of lines not run yet
     bool is_held = false;      // they wait for a resume, and the machine has not begun them
@@ -54,7 +55,8 @@ struct MachineView {
 MachineView view_of(const MachineConfig& machine, const MachineState& state, const std::vector<const AxisState*>& axes,
                     std::span<const double> steps_per_tick);
 
-/// The letters of `Pn` for the machine's inputs that are closed: D for a door, E for an emergency stop. `closed_of`:
+/// The letters of `Pn` for the machine's inputs that are closed: P for a probe, D for a door, E for an
+/// emergency stop. `closed_of`:
 /// the closed inputs of a motor's device, by the motor's number; 0 if it was not received.
 std::string letters_of_inputs(const MachineConfig& machine,
                               const std::function<std::uint32_t(std::size_t motor)>& closed_of);

@@ -26,6 +26,7 @@ struct LineToRun {
     double seconds = 0;                       // approximate duration
     std::optional<std::int32_t> sender_line;  // for reports
     bool is_answered_behind = false;          // answered after it was run, else when it is accepted
+    bool probes = false;  // its last block is a probing move, and the next line depends on the touch
 };
 
 struct Request {
@@ -56,9 +57,10 @@ struct Request {
 
 struct Answer {
     bool is_done = false;
-    FaultCode why = FaultCode::None;  // reason of a refusal or a failure
-    std::string text;                 // for a person
-    std::optional<Error> error;       // if it is not the error for the fault `why`
+    FaultCode why = FaultCode::None;   // reason of a refusal or a failure
+    std::string text;                  // for a person
+    std::optional<Error> error;        // if it is not the error for the fault `why`
+    std::optional<ProbeResult> probe;  // of a line that probes, which was run
 };
 
 }  // namespace lockstep::grbl

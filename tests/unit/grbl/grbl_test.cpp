@@ -62,6 +62,14 @@ TEST_F(Sender, SeesWhichSwitchesAreClosed) {
     EXPECT_THAT(status(), testing::Not(HasSubstr("|Pn:")));
 }
 
+TEST_F(Sender, SeesThatAProbeTouches) {
+    MachineConfig machine = mill();
+    machine.inputs = {{.name = "plate", .motor = "Y", .channel = 3, .use = InputUse::Probe, .number = 0}};
+    view.closed_inputs = letters_of_inputs(machine, [](std::size_t) { return 8U; });
+    grbl.see(view);
+    EXPECT_THAT(status(), HasSubstr("|Pn:P|"));
+}
+
 TEST_F(Sender, SeesThatADoorIsOpenOrAnEmergencyStopIsPressed) {
     MachineConfig machine = mill();
     machine.inputs = {{.name = "stop", .motor = "Y", .channel = 3, .use = InputUse::EmergencyStop},
