@@ -131,12 +131,14 @@ void Api::run_line(const MdiOrder& order, const Done& done) {
         done(std::move(outcome));
     };
     const bool taken = parts_.desk.add([this, line = order.line, noted] {
-        const auto start = real_start(*parts_.port.snapshot(), parts_.machine);
+        const auto snapshot = parts_.port.snapshot();
+        mdi_.see(*snapshot);
+        const auto start = real_start(*snapshot, parts_.machine);
         if (!start) { return noted(std::unexpected(start.error())); }
         auto program = mdi_.read(line, *start);
         if (!program) { return noted(std::unexpected(program.error())); }
         const auto answered = [this, noted](Outcome&& outcome) {
-            mdi_.answer(outcome.has_value());
+            mdi_.answer(outcome.has_value(), outcome ? outcome->job : std::nullopt);
             noted(std::move(outcome));
         };
         if (!*program) { return answered(Accepted{}); }

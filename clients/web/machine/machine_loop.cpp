@@ -80,9 +80,27 @@ void MachineLoop::jog(const JogOrder& order, Done done) {
 
 void MachineLoop::run(ReadyProgram&& program, Done done) {
     const auto shared = std::make_shared<ReadyProgram>(std::move(program));
-    const auto begun = [this, facts = shared->facts](std::uint64_t job) { job_ = OwnJob{job, facts}; };
-    add([this, shared, begun, done] { start(std::make_unique<RunTask>(std::move(*shared), begun, shown(done)), done); },
-        done);
+    add([this, shared, done] { run_task(*shared, done); }, done);
+}
+
+void MachineLoop::run_task(const ReadyProgram& program, const Done& done) {
+    const auto begun = [this, program](std::uint64_t job) {
+        job_ = OwnJob{job, program.facts};
+        if (program.stream) { probing_.emplace(program, job); }
+    };
+    start(std::make_unique<RunTask>(ReadyProgram(program), begun, shown(done)), done);
+}
+
+/// Nobody waits for the answer to a next part: the machine's state shows the job.
+void MachineLoop::run_next_part() {
+    if (!probing_) { return; }
+    const ProbingRun::State state = probing_->poll(session_);
+    if (state == ProbingRun::State::Runs) { return; }
+    const ReadyProgram next = probing_->next();
+    probing_.reset();
+    if (state == ProbingRun::State::Ready) {
+        run_task(next, [](Outcome&&) {});
+    }
 }
 
 void MachineLoop::change_values(ValuesTask::Change change, Done done) {
@@ -119,6 +137,7 @@ void MachineLoop::work(const std::stop_token& stop) {
         take_actions();
         jog_.follow(lease_, monotonic_now());
         tasks_.poll(session_, lease_);
+        run_next_part();
         lease_.use({.wants = jog_.is_pressed() || tasks_.wants_lease(),
                     .takes_over = tasks_.takes_lease(),
                     .has_work = has_work()});
@@ -162,7 +181,7 @@ bool MachineLoop::is_own_job() const {
 /// A held job does not count: another person may continue it.
 bool MachineLoop::has_work() const {
     if (jog_.is_pressed() || !tasks_.is_empty()) { return true; }
-    if (!is_own_job()) { return false; }
+    if (!is_own_job()) { return probing_.has_value(); }
     const MachinePhase phase = session_.state()->state.phase;
     return phase != MachinePhase::Holding && phase != MachinePhase::Paused;
 }

@@ -12,6 +12,7 @@
 
 #include "clients/web/machine/jog_turn.hpp"
 #include "clients/web/machine/port.hpp"
+#include "clients/web/machine/probing_run.hpp"
 #include "clients/web/machine/session_lease.hpp"
 #include "clients/web/machine/task_queue.hpp"
 
@@ -46,6 +47,8 @@ private:
     bool is_sending() const;
     /// True while a command, a jog or a job of this server is under way.
     bool has_work() const;
+    void run_task(const ReadyProgram& program, const Done& done);
+    void run_next_part();
     bool is_own_job() const;
 
     void note_healths();
@@ -64,6 +67,7 @@ private:
     TaskQueue tasks_;
     std::vector<std::optional<Seen<AxisHealth>>> healths_;
     std::optional<OwnJob> job_;
+    std::optional<ProbingRun> probing_;  // of that job, if its program may go on behind a touch
     std::chrono::nanoseconds published_{};
 
     mutable std::mutex mutex_;

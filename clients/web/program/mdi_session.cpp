@@ -18,7 +18,8 @@ std::shared_ptr<const ProgramFacts> facts_of(const std::string& text, const Sess
 
 }  // namespace
 
-MdiSession::MdiSession(const MachineConfig& machine) : session_(session_setup(machine, kName), machine) {}
+MdiSession::MdiSession(const MachineConfig& machine)
+    : machine_(machine), session_(session_setup(machine, kName), machine) {}
 
 std::expected<std::optional<ReadyProgram>, Problem> MdiSession::read(const std::string& line,
                                                                      const ProgramStart& start) {
@@ -27,6 +28,7 @@ std::expected<std::optional<ReadyProgram>, Problem> MdiSession::read(const std::
     auto read = session_.read(line, {start.place_mm, start.values.values});
     if (!read) { return std::unexpected(wrong_program(to_diagnostics({read.error()}))); }
     is_waiting_ = true;
+    probing_job_.reset();
     std::optional<ReadyProgram> program;
     if (read->changes_values || !read->blocks.empty()) {
         const auto facts = facts_of(line, *read);
@@ -38,9 +40,12 @@ std::expected<std::optional<ReadyProgram>, Problem> MdiSession::read(const std::
     return program;
 }
 
-void MdiSession::answer(bool is_accepted) {
+void MdiSession::answer(bool is_accepted, std::optional<std::uint64_t> job) {
     const std::lock_guard lock(mutex_);
-    if (waiting_ && is_accepted) { session_.commit(*waiting_); }
+    if (waiting_ && is_accepted) {
+        session_.commit(*waiting_);
+        if (waiting_->awaits_touch) { probing_job_ = job; }
+    }
     waiting_.reset();
     is_waiting_ = false;
 }
@@ -56,6 +61,23 @@ void MdiSession::see(const Snapshot& snapshot) {
     if (snapshot.machine->value.phase == MachinePhase::Fault) { reset(); }
     const std::lock_guard lock(mutex_);
     session_.set_devices(snapshot.machine->value.devices);
+    take_touch(snapshot);
+}
+
+/// The result may be known before all axes are at rest.
+void MdiSession::take_touch(const Snapshot& snapshot) {
+    const MachineState& machine = snapshot.machine->value;
+    if (!probing_job_ || !machine.probe || machine.probe->job != *probing_job_) { return; }
+    if (machine.phase != MachinePhase::Idle) { return; }
+    ProbeTouch touch{.touched = machine.probe->touched, .places_mm = {}, .rest_mm = {}};
+    for (std::size_t i = 0; i < snapshot.axes.size(); ++i) {
+        const auto& axis = snapshot.axes[i].state;
+        if (!axis || !axis->value.at_rest) { return; }
+        touch.places_mm.push_back(machine.probe->places_mm[i]);
+        touch.rest_mm.push_back(to_mm(machine_.axes[i], static_cast<double>(axis->value.position.count())));
+    }
+    session_.touched(touch);
+    probing_job_.reset();
 }
 
 void MdiSession::end_program() {

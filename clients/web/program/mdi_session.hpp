@@ -26,11 +26,11 @@ public:
     /// Makes a line ready to run; nullopt if it leaves the machine as it is. Call answer() next. Fails with 422 for a
     /// wrong line, and with 409 until the line before is answered.
     std::expected<std::optional<ReadyProgram>, Problem> read(const std::string& line, const ProgramStart& start);
-    /// The machine has accepted or refused the line. A refused line leaves nothing behind.
-    void answer(bool is_accepted);
+    /// The machine has accepted or refused the line. A refused line leaves nothing behind. `job`: that runs it.
+    void answer(bool is_accepted, std::optional<std::uint64_t> job = {});
     /// Adds a line to the list of earlier ones.
     void note(const std::string& line, bool is_accepted);
-    /// A fault resets; spindle and coolant are as the machine reports them.
+    /// A fault resets; spindle and coolant are as the machine reports them. A line that probes leaves its touch behind.
     void see(const Snapshot& snapshot);
     /// Restores the modes with which a program begins.
     void end_program();
@@ -42,10 +42,14 @@ public:
     std::deque<std::pair<std::string, bool>> lines() const;
 
 private:
+    void take_touch(const Snapshot& snapshot);
+
+    MachineConfig machine_;
     mutable std::mutex mutex_;
     GcodeSession session_;
-    bool is_waiting_ = false;             // a line waits for the machine's answer
-    std::optional<SessionLine> waiting_;  // that line; nullopt after a reset
+    bool is_waiting_ = false;                   // a line waits for the machine's answer
+    std::optional<SessionLine> waiting_;        // that line; nullopt after a reset
+    std::optional<std::uint64_t> probing_job_;  // of the last line, which probes; its touch is not known yet
     std::deque<std::pair<std::string, bool>> lines_;
 };
 

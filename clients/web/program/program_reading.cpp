@@ -80,7 +80,13 @@ std::expected<ReadyProgram, Problem> ready_stream(const LoadedProgram& program, 
     auto stream = std::make_shared<ProgramStream>(*std::move(lines), setup, start.values.revision);
     if (auto read = stream->read_first(); !read) { return std::unexpected(wrong_program(read.error())); }
     return ReadyProgram{stream->head(), stream->values(),
-                        [stream](ProgramSender& sender) { stream->feed(sender, monotonic_now()); }, program.facts};
+                        [stream](ProgramSender& sender) { stream->feed(sender, monotonic_now()); }, program.facts,
+                        stream};
+}
+
+bool does_probe(const Program& program) {
+    return std::ranges::any_of(program.blocks,
+                               [](const Block& block) { return std::holds_alternative<Probe>(block.action); });
 }
 
 std::expected<void, Problem> check_phase(const Snapshot& snapshot) {
@@ -171,6 +177,7 @@ std::expected<ReadyProgram, Problem> ready_program(const LoadedProgram& program,
     if (program.text->size() > kShort_bytes) { return ready_stream(program, setup, start); }
     auto reading = read_gcode(*program.text, setup);
     if (!reading) { return std::unexpected(wrong_program(to_diagnostics(reading.error()))); }
+    if (does_probe(reading->program)) { return ready_stream(program, setup, start); }
     gcode::ProgramValues values{.revision = start.values.revision, .after = {}};
     if (reading->values != start.values.values) { values.after = std::move(reading->values); }
     const ProgramHead head = reading->program.head();

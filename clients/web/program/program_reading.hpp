@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "clients/session/program_stream.hpp"
 #include "clients/session/session.hpp"
 #include "clients/web/http/message.hpp"
 #include "clients/web/program/path_points.hpp"
@@ -42,9 +43,11 @@ struct ReadyProgram {
     gcode::ProgramValues values;
     Session::Feed feed;
     std::shared_ptr<const ProgramFacts> facts;
+    std::shared_ptr<ProgramStream> stream = {};  // that `feed` sends; null if it was read as a whole
 };
 
-/// Reads a long program's first part here; the rest is read while it runs. Fails with 422 like load_program().
+/// Reads the first part here of a program that is long or probes; the rest is read while it runs. Fails with 422 like
+/// load_program().
 std::expected<ReadyProgram, Problem> ready_program(const LoadedProgram& program, const MachineConfig& machine,
                                                    const ProgramStart& start);
 

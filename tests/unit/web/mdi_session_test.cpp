@@ -101,5 +101,30 @@ TEST_F(Mdi, TheOldestLinesAreForgotten) {
     EXPECT_EQ(lines.back(), std::pair(std::string("G0 X100"), true));
 }
 
+TEST(MdiProbe, TheNextLineKnowsWhereTheProbeTouchedAndWhereTheAxesRest) {
+    MachineConfig machine = two_axes();
+    machine.inputs = {{.name = "plate", .motor = machine.axes[0].name, .use = InputUse::Probe, .number = 0}};
+    Snapshot snapshot = snapshot_at_rest();
+    MdiSession mdi(machine);
+    const std::vector<double> from_mm = real_start(snapshot, machine).value().place_mm;
+    const std::string line = "G91 G38.2 X4 F60";
+    ASSERT_TRUE(mdi.read(line, real_start(snapshot, machine).value()));
+    mdi.answer(true, 7);
+
+    ProbeResult probe{.job = 7, .touched = true, .tick = {}, .places_mm = {}};
+    for (const double mm : from_mm) { probe.places_mm.append(mm); }
+    probe.places_mm[0] += 2;
+    snapshot.machine->value.probe = probe;
+    const double rest_mm = from_mm[0] + 3;
+    snapshot.axes[0].state->value.position = Position::steps(to_steps(machine.axes[0], rest_mm));
+    mdi.see(snapshot);
+    const auto next = mdi.read("G0 X[#5061-#5420]", real_start(snapshot, machine).value());
+    ASSERT_TRUE(next && *next);
+    EXPECT_NEAR((*next)->head.start_mm[0], rest_mm, 0.01);
+    ProgramSender sender(7, 1, 42, (*next)->head, (*next)->values);
+    (*next)->feed(sender);
+    EXPECT_TRUE(sender.has_unsent()) << "it moves back to the touch";
+}
+
 }  // namespace
 }  // namespace lockstep::web

@@ -1,0 +1,34 @@
+// A program that probes, while its parts run: behind each touch it makes the next part ready.
+#pragma once
+
+#include <chrono>
+#include <optional>
+
+#include "clients/session/session.hpp"
+#include "clients/web/program/program_reading.hpp"
+
+namespace lockstep::web {
+
+class ProbingRun {
+public:
+    /// `job` runs the program's present part.
+    ProbingRun(ReadyProgram program, std::uint64_t job) : program_(std::move(program)), job_(job) {}
+
+    enum class State : std::uint8_t {
+        Runs,   // the job has not ended, or the touch and the axes' rest are not known yet
+        Ready,  // next() is the part behind the touch
+        Over,   // nothing more is to run
+    };
+    /// Call it in each loop until it is not Runs. Reads the next part's first lines.
+    State poll(const Session& session);
+    ReadyProgram next() const { return program_; }
+
+private:
+    State read_on(const Session& session);
+
+    ReadyProgram program_;
+    std::uint64_t job_;
+    std::optional<std::chrono::nanoseconds> ended_;
+};
+
+}  // namespace lockstep::web
