@@ -67,6 +67,9 @@ void add(Text& text, const Pause& pause) {
     text << "pause" << static_cast<std::int64_t>(pause.reason) << std::int64_t{pause.tool} << pause.text;
 }
 void add(Text& text, const Settle&) { text << "settle"; }
+void add(Text& text, const Probe& probe) {
+    text << "probe" << std::int64_t{probe.input} << probe.opens << probe.must_touch;
+}
 void add(Text& text, const ProgramEvent& event) {
     text << "event" << static_cast<std::int64_t>(event.kind) << std::int64_t{event.index} << event.value;
 }

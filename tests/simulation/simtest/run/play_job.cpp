@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/axis/device/position_claim.hpp"
-#include "core/coordinator/program/probe_check.hpp"
 #include "tests/simulation/simtest/draw/draw_inputs.hpp"
 #include "tests/simulation/simtest/record/motor_course.hpp"
+#include "tests/simulation/simtest/run/probe_record.hpp"
 
 namespace lockstep::simtest {
 namespace {
@@ -72,17 +71,6 @@ void end_record(Bench& bench, JobRecord& job) {
 std::string answer_text(const Reply& reply) {
     return std::string(reply.status == ReplyStatus::Accepted ? "accepted" : "refused: ") +
            (reply.fault == FaultCode::None ? "" : std::string(name_of(reply.fault))) + " " + reply.text;
-}
-
-/// A count is a place rounded to steps. Motors of one axis follow its path each within a step of the coarsest of them.
-double within_steps(const Bench& bench, std::size_t motor) {
-    constexpr double kHalf = 0.5 + 1e-6;
-    if (bench.map().is_direct()) { return kHalf; }
-    double most = 0;
-    for (std::size_t axis = 0; axis < bench.machine().axes.size(); ++axis) {
-        most = std::max(most, std::abs(bench.map().share(motor, axis)) * bench.map().step_of(axis));
-    }
-    return kHalf + most;
 }
 
 bool is_refusal(const Reply& reply, FaultCode why) {
@@ -454,52 +442,19 @@ void JobPlayer::record() {
     end_record(bench_, job_);
 }
 
-/// The result of this job's probing move, if it has one.
+/// Takes the result of this job's probing move, if it has one.
 void JobPlayer::record_probe() {
-    const auto* const probe = std::get_if<Probe>(&task_.program.blocks.front().action);
-    const std::size_t number = bench_.machine().inputs.size() - 1;
-    if (probe == nullptr) { return; }
+    if (!is_probing(task_.program)) { return; }
     if (touched_) {
-        bench_.set_input(number, false);
-        bench_.wait(bench_.input_seconds(number));
+        const std::size_t probe = bench_.machine().inputs.size() - 1;
+        bench_.set_input(probe, false);
+        bench_.wait(bench_.input_seconds(probe));
     }
     const auto& result = bench_.vm().state()->probe;
     if (!begun_ || !result || result->job == probed_before_) { return; }
-    const MachineConfig& machine = bench_.machine();
-    const InputConfig& input = machine.inputs[number];
-    ProbeRecord record{.result = *result,
-                       .motor = motor_named(machine, input.motor).value(),
-                       .pressed = touched_,
-                       .debounce = {std::llround(std::ceil(input.debounce_ms * 1e-3 * machine.ticks_per_second()))},
-                       .from = {},
-                       .places = {},
-                       .within = {},
-                       .is_undisturbed = !disturbed() && !job_.emergency};
-    Places at;
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        at.push_back(result->places_mm[i] * machine.axes[i].steps_per_mm);
-    }
-    const Counts rest = bench_.axes_at(at_);
-    const auto& move = std::get<ProgramMove>(task_.program.blocks.back().action);
-    double most_accel = std::numeric_limits<double>::max();
-    double steps_mm = 0;
-    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        const double mm = static_cast<double>(rest[i]) / machine.axes[i].steps_per_mm - result->places_mm[i];
-        record.went_on_mm = std::hypot(record.went_on_mm, mm);
-        steps_mm += 2 * bench_.kinematics().step_mm(i);
-        most_accel = std::min(most_accel, machine.axes[i].max_accel_mm_s2);
-    }
-    record.most_mm = overshoot_mm(machine, input, move.feed_mm_s, most_accel) + steps_mm;
-    for (std::size_t m = 0; m < at_.size(); ++m) {
-        record.from.push_back(at_[m]);
-        for (std::size_t n = job_.first_step[m]; n < job_.end_step[m]; ++n) {
-            record.from.back() -= bench_.recording().motors[m].steps[n].direction;
-        }
-        if (m >= moving_motor_count(machine)) { continue; }
-        record.places.push_back(bench_.map().place(m, at));
-        record.within.push_back(within_steps(bench_, m));
-    }
-    job_.probe = std::move(record);
+    job_.probe = probe_record(bench_, task_.program, job_, at_);
+    job_.probe->pressed = touched_;
+    job_.probe->is_undisturbed = !disturbed() && !job_.emergency;
 }
 
 }  // namespace lockstep::simtest

@@ -1,0 +1,74 @@
+#include "tests/simulation/simtest/run/probe_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/coordinator/program/probe_check.hpp"
+#include "core/kinematics/motors.hpp"
+
+namespace lockstep::simtest {
+namespace {
+
+/// A count is a place rounded to steps. Motors of one axis follow its path each within a step of the coarsest of them.
+double within_steps(const Bench& bench, std::size_t motor) {
+    constexpr double kHalf = 0.5 + 1e-6;
+    if (bench.map().is_direct()) { return kHalf; }
+    double most = 0;
+    for (std::size_t axis = 0; axis < bench.machine().axes.size(); ++axis) {
+        most = std::max(most, std::abs(bench.map().share(motor, axis)) * bench.map().step_of(axis));
+    }
+    return kHalf + most;
+}
+
+/// The motor's count where the job began.
+std::int64_t count_before(const Recording& recording, const JobRecord& job, std::size_t motor, std::int64_t after) {
+    for (const StepEdge& step : recording.steps_of(job, motor)) { after -= step.direction; }
+    return after;
+}
+
+/// The way behind the touch, and what was announced of it. The axes rest within their steps of the path.
+void measure(const Bench& bench, double feed_mm_s, const Counts& at, ProbeRecord& record) {
+    const MachineConfig& machine = bench.machine();
+    const Counts rest = bench.axes_at(at);
+    double most_accel = std::numeric_limits<double>::max();
+    double steps_mm = 0;
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        const double mm = static_cast<double>(rest[i]) / machine.axes[i].steps_per_mm - record.result.places_mm[i];
+        record.went_on_mm = std::hypot(record.went_on_mm, mm);
+        steps_mm += 2 * bench.kinematics().step_mm(i);
+        most_accel = std::min(most_accel, machine.axes[i].max_accel_mm_s2);
+    }
+    record.most_mm = overshoot_mm(machine, machine.inputs.back(), feed_mm_s, most_accel) + steps_mm;
+}
+
+}  // namespace
+
+bool is_probing(const Program& program) { return std::holds_alternative<Probe>(program.blocks.front().action); }
+
+ProbeRecord probe_record(Bench& bench, const Program& program, const JobRecord& job, const Counts& at) {
+    const MachineConfig& machine = bench.machine();
+    const InputConfig& input = machine.inputs.back();
+    const double debounce = std::ceil(input.debounce_ms * 1e-3 * machine.ticks_per_second());
+    ProbeRecord record{.result = *bench.vm().state()->probe,
+                       .motor = motor_named(machine, input.motor).value(),
+                       .pressed = {},
+                       .debounce = {std::llround(debounce)},
+                       .from = {},
+                       .places = {},
+                       .within = {}};
+    Places places;
+    for (std::size_t i = 0; i < machine.axes.size(); ++i) {
+        places.push_back(record.result.places_mm[i] * machine.axes[i].steps_per_mm);
+    }
+    for (std::size_t m = 0; m < at.size(); ++m) {
+        record.from.push_back(count_before(bench.recording(), job, m, at[m]));
+        if (m >= moving_motor_count(machine)) { continue; }
+        record.places.push_back(bench.map().place(m, places));
+        record.within.push_back(within_steps(bench, m));
+    }
+    measure(bench, std::get<ProgramMove>(program.blocks.back().action).feed_mm_s, at, record);
+    return record;
+}
+
+}  // namespace lockstep::simtest
