@@ -87,7 +87,7 @@ TEST(GrblTables, NameEveryNumberThatIsSent) {
     std::set<int> sent;
     for (const Error error : kAllErrors) { sent.insert(static_cast<int>(error)); }
     for (const Code& code : error_codes()) { EXPECT_EQ(code.why_never.empty(), sent.contains(code.number)); }
-    std::set<int> alarms{kTravelAlarm, kAbortAlarm};
+    std::set<int> alarms{kTravelAlarm, kAbortAlarm, kTouchedEarlyAlarm, kNotTouchedAlarm};
     for (int fault = 0; fault < 1000; ++fault) { alarms.insert(alarm_of(static_cast<FaultCode>(fault))); }
     for (const Code& code : alarm_codes()) { EXPECT_EQ(code.why_never.empty(), alarms.contains(code.number)); }
     EXPECT_EQ(find_code(error_codes(), 20)->name, "Unsupported command");
