@@ -77,7 +77,7 @@ protected:
         return ask(CommandKind::Run, 0, programs_);
     }
     void home() {
-        ASSERT_TRUE(reaches(MachinePhase::Idle, 2));
+        ASSERT_TRUE(reaches(MachinePhase::Idle, 2)) << describe();
         ASSERT_EQ(ask(CommandKind::Home).status, ReplyStatus::Accepted);
         ASSERT_TRUE(reaches(MachinePhase::Idle, 20)) << describe();
     }

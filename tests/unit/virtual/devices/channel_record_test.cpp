@@ -63,7 +63,9 @@ class ChannelRecordsOverALink : public ChannelRecords {
 protected:
     static VirtualOptions over_links() {
         VirtualOptions options{.machine = small_machine()};
-        options.machine.timing.time_source = TimeSource::Network;
+        ProtocolTiming& timing = options.machine.timing;
+        timing.time_source = TimeSource::Network;
+        timing.clock_error_limit_us = timing.most_clock_error_us();
         options.links.assign(motor_count(options.machine), {Ticks{200}, Ticks{3000}});
         return options;
     }
