@@ -12,7 +12,9 @@
 #include "core/outputs/output_levels.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/record/reading/job_of.hpp"
+#include "services/record/reading/log_step.hpp"
 #include "services/record/reading/run.hpp"
+#include "services/wire/lcm/translate_lcm.hpp"
 
 namespace lockstep::analysis {
 namespace {
@@ -77,7 +79,7 @@ void Recorder::on_job(const RecordedJob& message, LogPlace place) {
                       .axis = {},
                       .remedy = {}});
     } else if (message.event == "probe") {
-        record->is_touched = message.outcome == "touched";
+        take_probe(message, *record);
     } else if (message.event == "ended") {
         program_events_.end(message);
         record->ended_us = message.utime;
@@ -86,6 +88,17 @@ void Recorder::on_job(const RecordedJob& message, LogPlace place) {
     } else {
         on_damage(place, "a job's event is neither begun, epoch, override, probe nor ended");
     }
+}
+
+void Recorder::take_probe(const RecordedJob& message, JobLog& record) {
+    record.is_touched = message.outcome == "touched";
+    if (!record.is_touched || !analysis_.config || !is_countable(message.start_tick)) { return; }
+    std::string what = "the probe touched at";
+    const std::vector<AxisConfig>& axes = analysis_.config->axes;
+    for (std::size_t i = 0; i < axes.size() && i < message.start_count.size(); ++i) {
+        what += fmt::format(" {} {:.4f}", axes[i].name, static_cast<double>(message.start_count[i]) / kNmInMm);
+    }
+    events_.note({.at = Tick{message.start_tick}, .what = std::move(what), .axis = {}, .remedy = {}});
 }
 
 void Recorder::on_event(const program_event_t& message, const ProgramEvent& event) {

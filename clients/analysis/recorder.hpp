@@ -53,6 +53,7 @@ private:
     std::size_t number_of(const JobLog& job) const { return static_cast<std::size_t>(&job - analysis_.jobs.data()); }
     std::optional<std::size_t> paused_by(const JobLog& begun) const;
     void begin_job(const RecordedJob& message, JobLog& job, LogPlace place);
+    void take_probe(const RecordedJob& message, JobLog& record);
     void read_machine(const RecordedJob& message, LogPlace place);
     std::shared_ptr<const RecordedProgram> read_program(const RecordedJob& message, LogPlace place);
     bool is_during(Tick tick, const JobLog& job) const;

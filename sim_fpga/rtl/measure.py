@@ -123,10 +123,16 @@ def megahertz(design, module, copies, work, parts=PARTS):
     return [placed(netlist, options) for options in parts.values()]
 
 
+class DoesNotFit(Exception):
+    """The part has fewer cells than the design needs."""
+
+
 def placed(netlist, options):
     run = subprocess.run(["nextpnr-ice40", *options, "--json", str(netlist), "--seed", "1", "--pcf-allow-unconstrained",
                           "--timing-allow-fail"], capture_output=True, text=True, check=False)
     found = re.findall(r"Max frequency for clock .*?: ([\d.]+) MHz", run.stderr)
+    if "no BELs remaining" in run.stderr:
+        raise DoesNotFit
     if run.returncode or not found:
         raise RuntimeError(run.stderr[-2000:])
     return float(found[-1])
@@ -160,9 +166,11 @@ def device_row(design):
     with tempfile.TemporaryDirectory() as folder:
         work = pathlib.Path(folder)
         module = synthesized(design, work)
-        clocks = megahertz(design, module, 1, work, {"HX8K": PARTS["HX8K"]})
-        return ([design.name] + [f"{count(module, kind):,}" for kind in (LUT, FLIP_FLOP, RAM)]
-                + [f"{int(clock)}" for clock in clocks])
+        try:
+            clocks = [f"{int(clock)}" for clock in megahertz(design, module, 1, work, {"HX8K": PARTS["HX8K"]})]
+        except DoesNotFit:
+            clocks = ["does not fit"]
+        return [design.name] + [f"{count(module, kind):,}" for kind in (LUT, FLIP_FLOP, RAM)] + clocks
 
 
 def write_table(readme, begin, table):

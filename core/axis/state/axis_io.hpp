@@ -62,14 +62,14 @@ struct AxisNotice {
         EpochEnded,
         FrameRefused,
         Vetoed,
-        Touched,  // the input at whose touch the epoch ends
         HomingStage,
         Homed,
         Fault,
         Reset,
         CommandRefused,
-        PositionProved,   // the axis is homed by the position that was kept
-        PositionUnproved  // the kept position does not home the axis; `fault` gives the reason
+        PositionProved,    // the axis is homed by the position that was kept
+        PositionUnproved,  // the kept position does not home the axis; `fault` gives the reason
+        Touched            // the input at whose touch the epoch ends
     };
     Kind kind = Kind::Fault;
     FaultCode fault = FaultCode::None;

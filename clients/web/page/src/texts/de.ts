@@ -81,7 +81,7 @@ export const de: Texts = {
   },
   inputs: {
     title: "Eingänge", open: "{name}: offen",
-    closed: { "emergency-stop": "{name}: Not-Halt gedrückt", door: "{name}: Tür offen", program: "{name}: geschlossen" },
+    closed: { "emergency-stop": "{name}: Not-Halt gedrückt", door: "{name}: Tür offen", program: "{name}: geschlossen", probe: "{name}: berührt" },
   },
   outputs: {
     title: "Ausgänge", on: "ein", off: "aus", same: "{name}: {level}", differs: "{name}: {level} (Programm: {asked})",
