@@ -1,7 +1,7 @@
 #include "core/flight/axis_flight.hpp"
 
+#include <algorithm>
 #include <utility>
-
 #include <variant>
 
 #include "core/kinematics/motors.hpp"
@@ -64,6 +64,7 @@ void AxisFlight::receive(const AxisInputs& in) {
     for (const AxisState& peer : in.peers) {
         if (peer.axis >= axes_.size() || peer.axis == axis_) { continue; }
         axes_[peer.axis].receive(in.now, {peer.identity, peer.fault, peer.epoch, peer.veto}, log_);
+        if (peer.touch) { touched_ = std::max(touched_, peer.touch->epoch); }
     }
     for (const MachineState& state : in.coordinator) {
         if (state.phase != MachinePhase::Standby) { receive_owner(in.now, state); }
@@ -136,6 +137,7 @@ void AxisFlight::take_notice(Tick now, const AxisNotice& notice) {
         event.count = static_cast<std::int64_t>(notice.check->lacking);
     }
     log_.add(event);
+    if (notice.kind == Kind::Touched) { touched_ = epoch_; }
     if (notice.kind == Kind::Fault) { log_.incident(now, IncidentReason::Fault); }
     if (vetoed && notice.check) { log_.incident(now, IncidentReason::Veto); }
     if (notice.kind == Kind::EpochEnded) { end_epoch(now); }
@@ -144,9 +146,10 @@ void AxisFlight::take_notice(Tick now, const AxisNotice& notice) {
     }
 }
 
-/// A motion was interrupted if it ended early although the owner's last received phase is Running.
+/// A motion was interrupted if it ended early although the owner's last received phase is Running, and no probe
+/// touched.
 void AxisFlight::end_epoch(Tick now) {
-    const bool is_complete = last_frame_ && ran_ == *last_frame_;
+    const bool is_complete = (last_frame_ && ran_ == *last_frame_) || touched_ == epoch_;
     if (!is_complete && machine_phase_ == MachinePhase::Running) { log_.incident(now, IncidentReason::Interrupted); }
 }
 

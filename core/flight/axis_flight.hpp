@@ -36,6 +36,7 @@ private:
     std::uint64_t order_ = 0;                // number of the last order received
     bool has_owner_ = false;                 // has ever followed an owner
     Epoch epoch_ = 0;                        // the last epoch begun
+    Epoch touched_ = 0;                      // the last epoch with a touch
     bool own_run_ = false;                   // the device's current run is an own move of the axis
     std::optional<Tick> noted_;              // when the state was last noted
     std::optional<AxisPhase> phase_;         // phase at the last state
