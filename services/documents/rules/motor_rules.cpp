@@ -6,6 +6,7 @@
 
 #include "core/kinematics/motors.hpp"
 #include "core/methods/suits.hpp"
+#include "core/motion/step_source.hpp"
 #include "core/number_text.hpp"
 #include "core/protocol/frame_room.hpp"
 #include "services/documents/machine_rules.hpp"

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "core/hardware/output_change.hpp"
+#include "core/kinematics/motors.hpp"
 #include "services/documents/machine_rules.hpp"
 #include "services/documents/names.hpp"
 #include "services/documents/problem_list.hpp"
