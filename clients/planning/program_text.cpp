@@ -5,6 +5,11 @@
 
 namespace lockstep {
 
+bool does_probe(const Program& program) {
+    return std::ranges::any_of(program.blocks,
+                               [](const Block& block) { return std::holds_alternative<Probe>(block.action); });
+}
+
 ProgramText::ProgramText(LineReader lines, const GcodeSetup& setup)
     : lines_(std::move(lines)), gcode_(setup), head_(gcode_.head()), at_mm_(head_.start_mm) {}
 

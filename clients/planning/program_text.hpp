@@ -11,6 +11,9 @@
 
 namespace lockstep {
 
+/// Whether a program has probing moves. The part behind such a move depends on the touch.
+bool does_probe(const Program& program);
+
 /// Blocks must be requested in order; blocks before the last requested one are dropped. No block follows the first line
 /// with an error. A subroutine must precede its call or be in a file of its name.
 class ProgramText final : public ProgramBlocks {

@@ -1,7 +1,7 @@
 // Reads a G-code file, or a pipe, while the coordinator runs it: as much at a time as the coordinator has room for.
 //
-// What follows a probing move depends on its touch. So the file is divided there: each part, up to and with a probing
-// move, is a program of its own.
+// The lines behind a probing move depend on its touch. So the file is divided into parts: each part ends with a probing
+// move, and is a program of its own.
 #pragma once
 
 #include <chrono>

@@ -33,7 +33,8 @@ std::optional<std::string> missing_channel(const char* kind, std::uint64_t used,
            text_of(channels) + ", numbered from 0";
 }
 
-/// What is wrong with a time that a device can show only if it is at most so many of its units.
+/// Says by how much a time is longer than the device can show it: `most` of the device's units of time. Returns nullopt
+/// if it is not longer.
 std::optional<std::string> too_long(const char* times, std::int64_t ns, std::uint64_t most,
                                     const DeviceAbilities& device, const char* remedy) {
     const double most_ns = static_cast<double>(most) * static_cast<double>(device.time_unit_ps) * 1e-3;

@@ -46,7 +46,7 @@ public:
     /// Changes that the device had no room to note, since its power-up.
     virtual std::uint64_t lost_channel_events() const = 0;
 
-    /// What to check if the device no longer answers, for the end of a text. Empty: nothing that the port knows of.
+    /// The end of a message about a device that no longer answers: what to check. Empty if the port knows nothing.
     virtual std::string remedy() const { return {}; }
 
 protected:

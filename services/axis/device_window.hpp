@@ -14,7 +14,7 @@ namespace lockstep {
 /// run, or its board does not answer or has no such motor.
 std::expected<RegisterWindow, std::string> open_window(const DeviceName& device, const MachineConfig& machine);
 
-/// What to check if a linked device does not answer, for the end of a text.
+/// The end of a message about a linked device that does not answer: which cable to check.
 std::string link_remedy(const DeviceName& device, const MachineConfig& machine);
 
 }  // namespace lockstep

@@ -1,5 +1,5 @@
-// Copies words between the windows of a board's motors and the board, over its line, and opens the line anew when it is
-// gone.
+// Copies words in both directions: between the board and the windows of its motors. If the line to the board is gone,
+// it opens the line again.
 #pragma once
 
 #include <chrono>

@@ -26,7 +26,7 @@ protected:
     ServedDevice& operator=(const ServedDevice&) = default;
 };
 
-/// What a device has when it powers up, at rest after tick `now`.
+/// With this a device begins after power-up: at rest, after tick `now`.
 struct PowerUp {
     RegisterWindow window;
     Plant plant;

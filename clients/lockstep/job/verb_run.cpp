@@ -129,7 +129,8 @@ std::expected<void, Failure> read_first(const RunOptions& options, const Machine
     return {};
 }
 
-/// Whether the program has probing moves. What follows one depends on its touch, so it is read while it runs.
+/// Whether the program has probing moves. The lines behind such a move depend on the touch, so they are read while the
+/// program runs.
 bool does_probe(std::string_view text, const GcodeSetup& setup) {
     bool probes = false;
     (void)gcode_actions(text, setup, [&](const gcode::Action& action, int) {

@@ -103,11 +103,6 @@ ExitCode record_simulation(const SimulateOptions& options, const PlannedFile& in
     return result->job != 0 && result->outcome == JobOutcome::Done ? kExitDone : kExitFailed;
 }
 
-bool does_probe(const Program& program) {
-    return std::ranges::any_of(program.blocks,
-                               [](const Block& block) { return std::holds_alternative<Probe>(block.action); });
-}
-
 GcodeSetup awaiting_touches(GcodeSetup setup) {
     setup.awaits_touches = true;
     return setup;

@@ -20,7 +20,7 @@ std::optional<ProbeTouch> received_touch(const Session& session, std::uint64_t j
 std::expected<ProbeTouch, Failure> touch_of(Session& session, std::uint64_t job);
 
 proto::ProbeReport probe_report(const MachineConfig& machine, const ProbeTouch& touch);
-/// "touched at X 10.0000  Z -3.2150, and went on by 0.0210 mm"; of axes that did not move, only the place.
+/// "touched at X 10.0000  Z -3.2150; the axes rest 0.0210 mm behind it", or where the move ended without a touch.
 std::string text_of(const proto::ProbeReport& probe);
 
 }  // namespace lockstep

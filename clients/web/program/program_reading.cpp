@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "clients/planning/plan_summary.hpp"
+#include "clients/planning/program_text.hpp"
 #include "clients/session/program_stream.hpp"
 #include "services/documents/program_file.hpp"
 #include "services/runtime/clock.hpp"
@@ -82,11 +83,6 @@ std::expected<ReadyProgram, Problem> ready_stream(const LoadedProgram& program, 
     return ReadyProgram{stream->head(), stream->values(),
                         [stream](ProgramSender& sender) { stream->feed(sender, monotonic_now()); }, program.facts,
                         stream};
-}
-
-bool does_probe(const Program& program) {
-    return std::ranges::any_of(program.blocks,
-                               [](const Block& block) { return std::holds_alternative<Probe>(block.action); });
 }
 
 std::expected<void, Problem> check_phase(const Snapshot& snapshot) {
