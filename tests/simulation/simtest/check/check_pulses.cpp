@@ -50,7 +50,8 @@ std::vector<Order> orders_of(const Course& course, std::int32_t number, double s
 /// reading of a note.
 class PulseWalk {
 public:
-    PulseWalk(std::vector<Order> orders, std::int64_t count) : orders_(std::move(orders)), count_(count) {}
+    /// `orders` must stay where they are.
+    PulseWalk(std::span<const Order> orders, std::int64_t count) : orders_(orders), count_(count) {}
 
     /// A step after which the machine is at these places.
     void step(const StepEdge& step, const Reached& places) {
@@ -63,7 +64,7 @@ public:
         }
     }
     /// The orders that can begin with a note, at a place up to `last`: behind a rest the one that ended there, or the
-    /// next one. Of words at one place the last one counts.
+    /// one of the next. Of words at one place the last one counts, and also of words between which no step was made.
     std::vector<std::size_t> that_begin(const ChannelEvent& event, double last) const {
         std::vector<std::size_t> orders;
         if (now_ < orders_.size() && rest_ == event.detail && event.tick > ended_) { orders.push_back(now_); }
@@ -71,7 +72,7 @@ public:
             const bool is_replaced = k + 1 < orders_.size() && orders_[k + 1].from == orders_[k].from;
             if (is_replaced || orders_[k].count != event.detail || orders_[k].from >= last + kPlaceHair) { continue; }
             orders.push_back(k);
-            break;
+            if (orders_[k].from < passed_) { break; }
         }
         return orders;
     }
@@ -90,6 +91,10 @@ public:
         rest_ = std::exchange(left_, 0);
     }
     const std::string& wrong() const { return wrong_; }
+    /// Whether both go on in the same way, after a note with which an order begins.
+    bool equals(const PulseWalk& other) const {
+        return now_ == other.now_ && next_ == other.next_ && wrong_.empty() == other.wrong_.empty();
+    }
 
 private:
     /// Words before this place have been followed.
@@ -109,7 +114,7 @@ private:
     }
 
     static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-    std::vector<Order> orders_;
+    std::span<const Order> orders_;
     std::int64_t count_;
     std::size_t now_ = kNone;  // in orders_
     std::int64_t next_ = 0;    // the place of its next pulse
@@ -146,8 +151,10 @@ private:
         std::vector<PulseWalk> begun;
         for (const PulseWalk& walk : walks_) {
             for (const std::size_t order : walk.that_begin(event, last)) {
-                begun.push_back(walk);
-                begun.back().begin(order, event);
+                PulseWalk next = walk;
+                next.begin(order, event);
+                const auto is_same = [&](const PulseWalk& other) { return other.equals(next); };
+                if (std::ranges::none_of(begun, is_same)) { begun.push_back(std::move(next)); }
             }
         }
         if (begun.empty() && !walks_.empty()) {
@@ -202,10 +209,10 @@ Violations check_pulses(const Recording& recording, const Followings& followings
             const JobRecord& job = recording.jobs[k];
             if (job.homing || job.outcome == JobOutcome::Failed || may_hide(recording, m, job)) { continue; }
             if (followings[k]->departure) { continue; }
-            std::vector<Order> orders = orders_of(job.course, output.number, steps_per_mm);
+            const std::vector<Order> orders = orders_of(job.course, output.number, steps_per_mm);
             const auto begin = count_before(recording.motors[m], job);
             if (orders.empty() || !begin) { continue; }
-            PulseWalks walk({std::move(orders), *begin});
+            PulseWalks walk({orders, *begin});
             const std::span<const StepEdge> steps = recording.steps_of(job, m);
             const std::vector<Reached>& places = followings[k]->at_step[m];
             std::size_t n = 0;

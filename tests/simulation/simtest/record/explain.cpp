@@ -85,6 +85,8 @@ constexpr std::array kExplanations{
     Explanation{Cause::Switch, FaultCode::MotorsSkewed},
     Explanation{Cause::Push, FaultCode::MotorsSkewed},
     Explanation{Cause::Device, FaultCode::MotorsSkewed},
+    // Its device stopped one motor of an axis on the path, before the others.
+    Explanation{Cause::DamagedFrame, FaultCode::MotorsSkewed},
     // A device that takes no segments can run out of room for frames before it counts as lost.
     Explanation{Cause::SilentDevice, FaultCode::DeviceFault},
     // Orders that wait for a link reach the device after the start of their frame. It runs the tail then.
