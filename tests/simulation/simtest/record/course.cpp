@@ -9,9 +9,10 @@
 namespace lockstep::simtest {
 namespace {
 
-constexpr double kSharp = 0.9;       // cosine: moves with a greater angle between their directions are not joined,
-constexpr double kLong_mm = 0.1;     // if both are longer than this
-constexpr double kJointHair = 1e-9;  // part of a stretch: a place this near to a joint is at the joint
+constexpr double kSharp = 0.9;         // cosine: moves with a greater angle between their directions are not joined,
+constexpr double kLong_mm = 0.1;       // if both are longer than this
+constexpr double kPoint_steps = 0.25;  // the machine goes straight to the end of an arc whose radii are at most this
+constexpr double kJointHair = 1e-9;    // part of a stretch: a place this near to a joint is at the joint
 
 double length_mm(const MachineConfig& machine, const Places& from, const Places& to) {
     double square = 0;
@@ -52,12 +53,22 @@ public:
     }
 
 private:
-    /// Adds an arc as chords that deviate from it by at most a fiftieth of a step.
     void add(const ProgramMove& move) {
-        if (!move.arc) {
-            add_line(move);
-            return end_of_move(move);
-        }
+        move.arc&& arc_steps(move) > kPoint_steps ? add_arc(move) : add_line(move);
+        programmed_mm_ = move.target_mm;
+        if (move.mode == PathMode::ExactStop) { add(Dwell{}); }  // the machine rests
+    }
+    /// Its greater radius, in steps of the finer axis.
+    double arc_steps(const ProgramMove& move) const {
+        const std::size_t first = move.arc->first;
+        const std::size_t second = move.arc->second;
+        const auto radius = [&](const std::vector<double>& at) {
+            return std::hypot(at[first] - move.arc->centre_first_mm, at[second] - move.arc->centre_second_mm);
+        };
+        return std::max(scale_of(first), scale_of(second)) * std::max(radius(programmed_mm_), radius(move.target_mm));
+    }
+    /// Adds an arc as chords that deviate from it by at most a fiftieth of a step.
+    void add_arc(const ProgramMove& move) {
         const std::size_t first = move.arc->first;
         const std::size_t second = move.arc->second;
         const std::vector<double> from = programmed_mm_;
@@ -71,8 +82,7 @@ private:
         if (sweep < 1e-9) { sweep += 2 * std::numbers::pi; }
         sweep += 2 * std::numbers::pi * (move.arc->turns - 1);
         const double radius = std::hypot(x, y);
-        const double steps = std::max(scale_of(first), scale_of(second)) * std::max(radius, std::hypot(to_x, to_y));
-        const double chords = std::ceil(sweep / std::sqrt(8 * 0.02 / std::max(steps, 1.0)));
+        const double chords = std::ceil(sweep / std::sqrt(8 * 0.02 / std::max(arc_steps(move), 1.0)));
         arc_ = course_.stretches.size();
         for (double k = 1; k < chords; ++k) {
             ProgramMove chord = move;
@@ -88,17 +98,11 @@ private:
             add_chord(chord);
         }
         add_chord(move);
-        end_of_move(move);
     }
     void add_chord(const ProgramMove& chord) {
         const std::size_t before = course_.stretches.size();
         add_line(chord);
         if (course_.stretches.size() > before) { course_.stretches.back().is_arc = true; }
-    }
-    /// At the end of a move of G61.1 the machine rests.
-    void end_of_move(const ProgramMove& move) {
-        programmed_mm_ = move.target_mm;
-        if (move.mode == PathMode::ExactStop) { add(Dwell{}); }
     }
 
     /// Steps of its finest motor, per mm.
