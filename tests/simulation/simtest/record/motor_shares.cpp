@@ -204,7 +204,11 @@ bool MotorShares::is_own(std::size_t axis) const {
 
 double MotorShares::finest(std::size_t axis) const {
     double most = 0;
-    for (const std::vector<double>& shares : shares_) { most = std::max(most, std::abs(shares[axis])); }
+    for (const std::vector<double>& shares : shares_) {
+        double sum = 0;
+        for (const double share : shares) { sum += std::abs(share); }
+        if (shares[axis] != 0) { most = std::max(most, sum); }
+    }
     return most;
 }
 

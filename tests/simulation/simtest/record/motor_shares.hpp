@@ -49,7 +49,7 @@ public:
     double without_screw(std::size_t motor, double steps) const;
     /// Steps of an axis that are a step of its coarsest motor; of a delta, that are a step of all carriages at most.
     double step_of(std::size_t axis) const;
-    /// Steps of the finest motor for each step of an axis.
+    /// Steps of the finest motor that an axis moves, if all axes go one step the way that moves this motor most.
     double finest(std::size_t axis) const;
     /// For a motor that is curved, by how many steps its way differs from a line at most, while the axes move in one
     /// between these places.
