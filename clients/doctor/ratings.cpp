@@ -160,6 +160,13 @@ Finding rate_device(const MotorConfig& axis, const std::expected<void, std::stri
                 " in the machine's file"};
 }
 
+Finding rate_board(const BoardLinkConfig& board, const std::vector<std::string>& lacks) {
+    const std::string what = "board " + board.name;
+    if (lacks.empty()) { return {Rating::Good, what, board.link + " answers, and suits its motors", ""}; }
+    return {Rating::Bad, what, fmt::format("{}", fmt::join(lacks, "; ")),
+            fmt::format("mend it, then look again: lockstep board check --board {}", board.name)};
+}
+
 Finding rate_directory(const std::string& what, const std::string& path, const std::string& not_writable) {
     if (not_writable.empty()) { return {Rating::Good, what, path + " can be written", ""}; }
     return {Rating::Bad, what, path + " cannot be written: " + not_writable, "install -d -o $(id -un) " + path};

@@ -66,6 +66,9 @@ Finding rate_clock(TimeSource source, const ClockFacts& facts);
 /// answer: the result of attaching to the device.
 Finding rate_device(const MotorConfig& axis, const std::expected<void, std::string>& answer);
 
+/// lacks: why the board does not answer, or how its devices do not suit their motors.
+Finding rate_board(const BoardLinkConfig& board, const std::vector<std::string>& lacks);
+
 /// not_writable: the reason why `path` cannot be written, or empty.
 Finding rate_directory(const std::string& what, const std::string& path, const std::string& not_writable);
 

@@ -18,7 +18,7 @@ struct Group {
 };
 
 const Group kGroups[] = {
-    {"Verbs that set up a machine", {add_machine, add_config, add_keys, add_doctor, add_timing}},
+    {"Verbs that set up a machine", {add_machine, add_config, add_keys, add_doctor, add_board, add_timing}},
     {"Verbs that operate a machine",
      {add_up, add_status, add_watch, add_home, add_move, add_probe, add_jog, add_run, add_send, add_down}},
     {"Verbs that interrupt or change a job", {add_interrupts, add_override}},

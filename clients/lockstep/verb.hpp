@@ -23,6 +23,7 @@ void add_down(Verb command);
 void add_status(Verb command);
 void add_watch(Verb command);
 void add_doctor(Verb command);
+void add_board(Verb command);   // list, check, bench
 void add_timing(Verb command);  // apply
 void add_flight(Verb command);
 void add_keys(Verb command);  // make, show, check

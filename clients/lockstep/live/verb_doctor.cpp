@@ -1,8 +1,11 @@
 // lockstep doctor
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 
 #include "clients/doctor/probes.hpp"
+#include "clients/lockstep/live/boards_report.hpp"
 #include "clients/lockstep/live/keys_report.hpp"
 #include "clients/lockstep/live/timing_report.hpp"
 #include "clients/lockstep/live_options.hpp"
@@ -76,13 +79,29 @@ std::expected<void, std::string> try_device(const MachineConfig& machine, const 
     return driver ? std::expected<void, std::string>{} : std::unexpected(driver.error());
 }
 
+void examine_board(const MachineConfig& machine, const BoardLinkConfig& board, Findings& findings) {
+    const proto::BoardReport report = check_board(machine, board);
+    std::vector<std::string> lacks;
+    if (report.has_lack()) { lacks.push_back(report.lack()); }
+    for (const proto::BoardMotorReport& motor : report.motors()) {
+        if (motor.has_lack()) { lacks.push_back(fmt::format("its motor {}: {}", motor.number(), motor.lack())); }
+    }
+    findings.push_back(doctor::rate_board(board, lacks));
+}
+
 void examine_parts_here(const MachineConfig& machine, Findings& findings) {
     const Placement here = placed_on(machine, host_name());
+    std::set<std::string> boards;  // with a link, that motors here use
     for (const std::size_t i : here.axes) {
         const MotorConfig axis = motors_of(machine)[i];
-        if (axis.device.kind != DeviceName::Kind::Simulated) {
+        if (axis.device.kind == DeviceName::Kind::Linked) {
+            boards.insert(axis.device.place);
+        } else if (axis.device.kind != DeviceName::Kind::Simulated) {
             findings.push_back(doctor::rate_device(axis, try_device(machine, axis)));
         }
+    }
+    for (const BoardLinkConfig& board : machine.board_links) {
+        if (boards.contains(board.name)) { examine_board(machine, board, findings); }
     }
     if (here.empty() || !machine.record.own_logs) { return; }
     const std::string directory =

@@ -25,6 +25,15 @@ TEST(DoctorOnTheInterface, NamesTheProblemAndTheCommandThatCorrectsIt) {
     EXPECT_EQ(rate_interface({.interface = "lo"}, silent).rating, Rating::Good) << "lo supports it anyway";
 }
 
+TEST(DoctorOnABoard, NamesAllThatItLacks) {
+    const BoardLinkConfig board{.name = "pico1", .link = "serial:/dev/ttyUSB0"};
+    EXPECT_EQ(rate_board(board, {}).rating, Rating::Good);
+    const Finding lacks = rate_board(board, {"its motor 0: too slow", "its motor 1: missing"});
+    EXPECT_EQ(lacks.rating, Rating::Bad);
+    EXPECT_EQ(lacks.found, "its motor 0: too slow; its motor 1: missing");
+    EXPECT_THAT(lacks.remedy, HasSubstr("lockstep board check --board pico1"));
+}
+
 TEST(DoctorOnMulticast, NeedsARouteAndReceptionOfItsOwnMessages) {
     EXPECT_EQ(rate_route({}, {}, true).rating, Rating::Good);
     EXPECT_EQ(rate_route({}, std::unexpected("no route"), {}).remedy, "ip route add 224.0.0.0/4 dev lo");

@@ -1,0 +1,36 @@
+// What is known of a machine's boards behind links, and whether they suit its motors.
+#pragma once
+
+#include <expected>
+#include <string>
+#include <vector>
+
+#include "clients/text/failure.hpp"
+#include "core/machine.hpp"
+#include "idl/proto/report.pb.h"
+
+namespace lockstep {
+
+/// The boards of the machine with this name; all if it is empty. Error: there is none.
+std::expected<std::vector<BoardLinkConfig>, Failure> boards_of(const MachineConfig& machine, const std::string& name);
+
+/// Its name, its link and the motors that use it.
+proto::BoardReport board_report(const MachineConfig& machine, const BoardLinkConfig& board);
+
+/// Waits until the board answers, for two seconds at most. Adds its devices, and those that a motor of the machine
+/// needs and the board lacks.
+proto::BoardReport check_board(const MachineConfig& machine, const BoardLinkConfig& board);
+
+/// Why this user cannot open the board's line; empty if it can, and for TCP.
+std::string why_not_opened(const BoardLinkConfig& board);
+
+/// The serial adapters of this host that no board of the machine names.
+std::vector<std::string> free_adapters(const MachineConfig& machine);
+
+/// Whether the board answers and suits all motors that use it, as far as the report says.
+bool is_well(const proto::BoardReport& report);
+
+/// The report as lines of text.
+std::vector<std::string> board_lines(const proto::BoardReport& report);
+
+}  // namespace lockstep

@@ -1,0 +1,97 @@
+// lockstep board
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include "clients/lockstep/live/board_look.hpp"
+#include "clients/lockstep/live/boards_report.hpp"
+#include "clients/lockstep/live_options.hpp"
+#include "clients/lockstep/verb.hpp"
+#include "clients/supervisor/machine_choice.hpp"
+#include "clients/text/output.hpp"
+
+namespace lockstep {
+namespace {
+
+struct BoardOptions : LiveOptions {
+    std::string board;  // empty: all
+    double seconds = 3;
+};
+
+/// `look`: makes the report of a board.
+template <typename Look>
+ExitCode report_boards(const BoardOptions& options, Look look, bool with_adapters = false) {
+    Output output(options.json);
+    const auto machine = choose_machine(options.machine_file);
+    if (!machine) { return output.fail(machine.error()); }
+    const auto boards = boards_of(machine->config, options.board);
+    if (!boards) { return output.fail(boards.error()); }
+    proto::BoardsReport report;
+    for (const BoardLinkConfig& board : *boards) {
+        const proto::BoardReport& one = *report.add_boards() = look(machine->config, board);
+        for (const std::string& line : board_lines(one)) { output.print(line); }
+    }
+    if (with_adapters) {
+        for (const std::string& adapter : free_adapters(machine->config)) {
+            report.add_free_adapters(adapter);
+            output.print("no board of this machine: " + adapter);
+        }
+    }
+    output.report(report);
+    return std::ranges::all_of(report.boards(), is_well) ? kExitDone : kExitFailed;
+}
+
+ExitCode list(const BoardOptions& options) {
+    const auto look = [](const MachineConfig& machine, const BoardLinkConfig& board) {
+        proto::BoardReport report = board_report(machine, board);
+        if (const std::string lack = why_not_opened(board); !lack.empty()) { report.set_lack(lack); }
+        return report;
+    };
+    return report_boards(options, look, true);
+}
+
+ExitCode check(const BoardOptions& options) { return report_boards(options, check_board); }
+
+ExitCode bench(const BoardOptions& options) {
+    return report_boards(options, [&](const MachineConfig& machine, const BoardLinkConfig& board) {
+        proto::BoardReport report = board_report(machine, board);
+        BoardLook look(machine, board);
+        report.set_is_held(look.is_held());
+        if (const auto lack = look.await(BoardLook::kPatience)) {
+            report.set_lack(*lack);
+        } else {
+            *report.mutable_figures() = look.measure(std::chrono::duration<double>{options.seconds});
+        }
+        return report;
+    });
+}
+
+using Action = ExitCode (*)(const BoardOptions&);
+
+std::pair<Verb, std::shared_ptr<BoardOptions>> add_part(Verb boards, const std::string& name, const std::string& what,
+                                                        Action action) {
+    const auto options = std::make_shared<BoardOptions>();
+    const Verb verb = boards.add_verb(name, what);
+    add_live_options(verb, *options);
+    verb.add_option("--board", options->board, "the board's name; default: all boards of the machine that have a link");
+    verb.footer(footer("  lockstep board " + name + "\n  lockstep board " + name + " --board pico1\n"));
+    verb.action([options, action] { return action(*options); });
+    return {verb, options};
+}
+
+}  // namespace
+
+void add_board(Verb command) {
+    const Verb boards = command.add_verb("board",
+                                         "look at boards behind links\n"
+                                         "The machine may be up or down.");
+    boards.footer(group_footer("  lockstep board check\n", "board check"));
+    add_part(boards, "list", "list the machine's boards and the free serial adapters, without a word to any of them",
+             list);
+    add_part(boards, "check", "check that each board answers, and that its devices suit the motors that use them",
+             check);
+    const auto [verb, options] = add_part(boards, "bench", "measure how long the answers of each board take", bench);
+    verb.add_option("--seconds", options->seconds, "how long to measure").in_range(0.1, 3600.0).with_default();
+}
+
+}  // namespace lockstep
