@@ -89,8 +89,8 @@ std::optional<std::size_t> AxisRoster::closed_input(InputUse use) const {
                           [this](std::size_t motor) { return views_[motor].state ? views_[motor].state->inputs : 0; });
 }
 
-std::optional<bool> AxisRoster::is_input_closed(InputUse use, int number, Slot since) const {
-    const auto input = inputs_.numbered(use, number);
+std::optional<bool> AxisRoster::is_input_closed(int number, Slot since) const {
+    const auto input = inputs_.numbered(InputUse::Program, number);
     if (!input) { return std::nullopt; }
     const auto& state = views_[inputs_.motor(*input)].state;
     if (!state || state->stamp < since) { return std::nullopt; }

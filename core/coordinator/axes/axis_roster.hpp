@@ -54,9 +54,9 @@ public:
     bool all_rest() const;
     /// The first of the machine's inputs with this use that is closed; nullopt if there is none.
     std::optional<std::size_t> closed_input(InputUse use) const;
-    /// Whether the input of this use that programs know by this number is closed. Nullopt: it is not known from a state
+    /// Whether the input for which programs wait by this number is closed. Nullopt: it is not known from a state
     /// stamped in slot `since` or later.
-    std::optional<bool> is_input_closed(InputUse use, int number, Slot since) const;
+    std::optional<bool> is_input_closed(int number, Slot since) const;
     /// A motor whose emergency stop input is closed, or that was stopped by it and not reset yet; nullopt: there is
     /// none.
     std::optional<std::size_t> stopped_by_input() const;

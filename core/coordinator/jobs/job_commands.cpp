@@ -356,7 +356,7 @@ CommandResult reset(JobLifecycle& jobs, CoordinatorLoop& loop) {
 void go_on_at_input(JobLifecycle& jobs, CoordinatorLoop& loop) {
     if (!waits_for_input(jobs.activity())) { return; }
     activity::Paused& paused = *jobs.activity().as<activity::Paused>();
-    const auto is_closed = loop.axes.is_input_closed(InputUse::Program, paused.why.wait->input, paused.watch->since());
+    const auto is_closed = loop.axes.is_input_closed(paused.why.wait->input, paused.watch->since());
     const bool can_go_on = check_present(loop) && check_clocks(loop);
     switch (paused.watch->look(can_go_on ? is_closed : std::nullopt, loop.now)) {
         case InputWatch::Result::Waits: return;
