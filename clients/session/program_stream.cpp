@@ -75,6 +75,11 @@ std::expected<void, Diagnostics> ProgramStream::touched(const ProbeTouch& touch,
     return read_first();
 }
 
+void ProgramStream::cannot_go_on(std::string why) {
+    trouble_ = Diagnostic{.line = line_, .column = 1, .message = std::move(why)};
+    is_over_ = true;
+}
+
 void ProgramStream::replace_first(const Program& program) {
     head_ = program.head();
     blocks_ = program.blocks;

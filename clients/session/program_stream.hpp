@@ -44,6 +44,8 @@ public:
     /// Begins the next part, behind the touch, and reads its first lines. `revision`: of the machine's values now.
     /// Fails like read_first().
     std::expected<void, Diagnostics> touched(const ProbeTouch& touch, std::uint64_t revision);
+    /// Cuts the program behind the touch.
+    void cannot_go_on(std::string why);
     /// Nothing is left to run.
     bool is_empty() const { return is_over_ && blocks_.empty() && !awaits_touch() && !changes_values(); }
 

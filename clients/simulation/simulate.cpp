@@ -8,6 +8,7 @@
 #include "clients/simulation/motion_clock.hpp"
 #include "clients/simulation/program_feed.hpp"
 #include "clients/simulation/sliding_rows.hpp"
+#include "core/gcode/session/probe_touch.hpp"
 #include "core/kinematics/kinematics.hpp"
 #include "services/documents/machine_file.hpp"
 
@@ -196,12 +197,12 @@ bool Simulation::read_on(ProgramText* text) {
     const bool is_done = clock_.last_ended() && clock_.last_ended()->outcome == JobOutcome::Done;
     if (text == nullptr || !is_done || !text->awaits_touch() || !vm_.state()->probe) { return false; }
     const ProbeResult& probe = *vm_.state()->probe;
-    ProbeTouch touch{
-        .touched = probe.touched, .places_mm = {probe.places_mm.begin(), probe.places_mm.end()}, .rest_mm = {}};
+    std::vector<double> rest_mm;
     const std::vector<std::int64_t> counts = axis_counts();
     for (std::size_t i = 0; i < counts.size(); ++i) {
-        touch.rest_mm.push_back(to_mm(vm_.machine().axes[i], static_cast<double>(counts[i])));
+        rest_mm.push_back(to_mm(vm_.machine().axes[i], static_cast<double>(counts[i])));
     }
+    ProbeTouch touch = touch_from(probe, std::move(rest_mm)).value();  // both are of this machine
     text->touched(touch);
     touches_.push_back(std::move(touch));
     if (!text->ends_before(0) || text->errors().empty()) { return !text->ends_before(0); }

@@ -6,6 +6,7 @@
 
 #include "clients/grbl/protocol/grbl.hpp"
 #include "clients/grbl/protocol/jog_line.hpp"
+#include "core/gcode/session/probe_touch.hpp"
 
 namespace lockstep::grbl {
 namespace {
@@ -94,12 +95,11 @@ void Grbl::do_effect(LineEffect&& effect, bool is_check) {
 /// The place of the next line is not known until the machine rests behind the touch: see is_settled().
 void Grbl::take_touch(const Answer& answer) {
     const ProbeResult& probe = *answer.probe;
-    ProbeTouch touch{.touched = probe.touched, .places_mm = {}, .rest_mm = {}};
-    for (std::size_t i = 0; i < view_.axes.size(); ++i) {
-        touch.places_mm.push_back(probe.places_mm[i]);
-        touch.rest_mm.push_back(view_.axes[i].mm);
-    }
-    lines_.touched(touch);
+    std::vector<double> rest_mm;
+    for (const AxisPlace& axis : view_.axes) { rest_mm.push_back(axis.mm); }
+    const auto touch = touch_from(probe, std::move(rest_mm));
+    if (!touch) { return raise_alarm(kNotTouchedAlarm, touch.error().text()); }
+    lines_.touched(*touch);
     view_.probe = probe;
     view_.lines = 0;
     view_.is_stopping = true;

@@ -1,9 +1,12 @@
 #include "clients/session/control/probe_touch.hpp"
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "clients/session/status_text.hpp"
 #include "clients/text/format.hpp"
+#include "core/gcode/session/probe_touch.hpp"
 #include "services/runtime/clock.hpp"
 
 namespace lockstep {
@@ -15,25 +18,28 @@ constexpr std::chrono::nanoseconds kTouchPatience = 1s;
 
 }  // namespace
 
-std::optional<ProbeTouch> received_touch(const Session& session, std::uint64_t job, std::chrono::nanoseconds since) {
+std::optional<TouchOrError> received_touch(const Session& session, std::uint64_t job, std::chrono::nanoseconds since) {
     const MachineConfig& machine = session.config();
     const auto& result = session.state()->state.probe;
     if (!result || result->job != job) { return std::nullopt; }
-    ProbeTouch touch{
-        .touched = result->touched, .places_mm = {result->places_mm.begin(), result->places_mm.end()}, .rest_mm = {}};
+    std::vector<double> rest_mm;
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         const auto& axis = session.axis(i);
         if (!axis || axis->time <= since || !axis->state.at_rest) { return std::nullopt; }
-        touch.rest_mm.push_back(to_mm(machine.axes[i], static_cast<double>(axis->state.position.count())));
+        rest_mm.push_back(to_mm(machine.axes[i], static_cast<double>(axis->state.position.count())));
     }
-    return touch;
+    auto touch = touch_from(*result, std::move(rest_mm));
+    if (!touch) { return TouchOrError(std::unexpected(touch.error().text())); }
+    return TouchOrError(*std::move(touch));
 }
 
 std::expected<ProbeTouch, Failure> touch_of(Session& session, std::uint64_t job) {
     const std::chrono::nanoseconds since = monotonic_now();
-    std::optional<ProbeTouch> touch;
+    std::optional<TouchOrError> touch;
     const auto is_known = [&] { return (touch = received_touch(session, job, since)).has_value(); };
-    if (session.receive_until(kTouchPatience, is_known)) { return *std::move(touch); }
+    const bool is_received = session.receive_until(kTouchPatience, is_known);
+    if (is_received && !*touch) { return std::unexpected(failed(touch->error())); }
+    if (is_received) { return **std::move(touch); }
     return std::unexpected(failed("the result of the probing move of job " + std::to_string(job) +
                                   ", and where the axes rest, are not received; see: lockstep status"));
 }

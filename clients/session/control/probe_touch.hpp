@@ -13,10 +13,14 @@
 
 namespace lockstep {
 
+/// The error of a result that is not of this machine.
+using TouchOrError = std::expected<ProbeTouch, std::string>;
+
 /// The result of the job that probed, and where every axis rests, as reported after `since`; nullopt until all is
 /// received.
-std::optional<ProbeTouch> received_touch(const Session& session, std::uint64_t job, std::chrono::nanoseconds since);
-/// Waits until the result of the job that probed and the rest of every axis are received. Fails if they are not.
+std::optional<TouchOrError> received_touch(const Session& session, std::uint64_t job, std::chrono::nanoseconds since);
+/// Waits until the result of the job that probed and the rest of every axis are received. Fails if they are not, or are
+/// not of this machine.
 std::expected<ProbeTouch, Failure> touch_of(Session& session, std::uint64_t job);
 
 proto::ProbeReport probe_report(const MachineConfig& machine, const ProbeTouch& touch);

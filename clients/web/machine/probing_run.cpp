@@ -22,7 +22,11 @@ ProbingRun::State ProbingRun::read_on(const Session& session) {
     const auto values = session.newest_values();
     if (!touch || !values) { return State::Runs; }
     if (stream.changes_values() && values->revision <= stream.values().revision) { return State::Runs; }
-    (void)stream.touched(*touch, values->revision);
+    if (*touch) {
+        (void)stream.touched(**touch, values->revision);
+    } else {
+        stream.cannot_go_on(touch->error());
+    }
     if (stream.is_empty() && !stream.trouble()) { return State::Over; }
     program_.head = stream.head();
     program_.values = stream.values();

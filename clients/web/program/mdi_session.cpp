@@ -1,5 +1,6 @@
 #include "clients/web/program/mdi_session.hpp"
 
+#include "core/gcode/session/probe_touch.hpp"
 #include "services/documents/program_file.hpp"
 
 namespace lockstep::web {
@@ -64,19 +65,19 @@ void MdiSession::see(const Snapshot& snapshot) {
     take_touch(snapshot);
 }
 
-/// The result may be known before all axes are at rest.
+/// The result may be known before all axes are at rest. If it is not of this machine, the next line is the first one.
 void MdiSession::take_touch(const Snapshot& snapshot) {
     const MachineState& machine = snapshot.machine->value;
     if (!probing_job_ || !machine.probe || machine.probe->job != *probing_job_) { return; }
     if (machine.phase != MachinePhase::Idle) { return; }
-    ProbeTouch touch{.touched = machine.probe->touched, .places_mm = {}, .rest_mm = {}};
+    std::vector<double> rest_mm;
     for (std::size_t i = 0; i < snapshot.axes.size(); ++i) {
         const auto& axis = snapshot.axes[i].state;
         if (!axis || !axis->value.at_rest) { return; }
-        touch.places_mm.push_back(machine.probe->places_mm[i]);
-        touch.rest_mm.push_back(to_mm(machine_.axes[i], static_cast<double>(axis->value.position.count())));
+        rest_mm.push_back(to_mm(machine_.axes[i], static_cast<double>(axis->value.position.count())));
     }
-    session_.touched(touch);
+    const auto touch = touch_from(*machine.probe, std::move(rest_mm));
+    touch ? session_.touched(*touch) : session_.reset();
     probing_job_.reset();
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/gcode/gcode_stream.hpp"
 #include "core/gcode/session/gcode_session.hpp"
+#include "core/gcode/session/probe_touch.hpp"
 #include "tests/unit/gcode/three_axes.hpp"
 
 namespace lockstep {
@@ -174,6 +175,20 @@ TEST(ProbingWords, WorkLineByLine) {
     ASSERT_TRUE(next);
     EXPECT_FALSE(next->awaits_touch);
     EXPECT_THAT(next->place_mm, ElementsAre(0, 0, 21.5));
+}
+
+TEST(ReceivedTouch, HasAPlaceForEachAxisOfTheMachine) {
+    ProbeResult result{.job = 7, .touched = true, .tick = {}, .places_mm = {}};
+    result.places_mm.append(1);
+    result.places_mm.append(2);
+    const auto touch = touch_from(result, {3, 4});
+    ASSERT_TRUE(touch);
+    EXPECT_TRUE(touch->touched);
+    EXPECT_THAT(touch->places_mm, ElementsAre(1, 2));
+    EXPECT_THAT(touch->rest_mm, ElementsAre(3, 4));
+    const auto other = touch_from(result, {3, 4, 5});
+    ASSERT_FALSE(other);
+    EXPECT_THAT(other.error().text(), HasSubstr("job 7 has places of 2 axes, but the machine has 3; start"));
 }
 
 }  // namespace
