@@ -23,6 +23,10 @@ bool CountedBlocks::ends_before(std::uint32_t number) const {
 
 bool CountedBlocks::count(const Block& block, std::uint32_t number) const {
     if (error_) { return false; }
+    if (const auto probed = check_probing(block, number); !probed) {
+        error_ = probed.error();
+        return false;
+    }
     const auto length_mm = planner_.length_of(block, number, axes_, at_);
     if (!length_mm) {
         error_ = length_mm.error();
@@ -34,6 +38,17 @@ bool CountedBlocks::count(const Block& block, std::uint32_t number) const {
         length_mm_ += **length_mm;
     }
     return true;
+}
+
+/// A coordinator gets each probing move as the end of a program, and refuses it by the same rule.
+std::expected<void, PlanError> CountedBlocks::check_probing(const Block& block, std::uint32_t number) const {
+    if (std::holds_alternative<Probe>(block.action)) { probe_.emplace(); }
+    if (!probe_) { return {}; }
+    const auto from_mm = blocks_->place_before(number);
+    const auto fits =
+        from_mm ? probe_->next(block, planner_.machine(), axes_, *from_mm) : std::expected<void, PlanError>{};
+    if (std::holds_alternative<ProgramMove>(block.action)) { probe_.reset(); }
+    return fits;
 }
 
 }  // namespace lockstep

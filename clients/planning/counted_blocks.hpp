@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/coordinator/path/program_plan.hpp"
+#include "core/coordinator/program/probe_check.hpp"
 
 namespace lockstep {
 
@@ -30,6 +31,7 @@ public:
 
 private:
     bool count(const Block& block, std::uint32_t number) const;
+    std::expected<void, PlanError> check_probing(const Block& block, std::uint32_t number) const;
 
     const ProgramPlanner& planner_;
     std::shared_ptr<const ProgramBlocks> blocks_;
@@ -39,6 +41,7 @@ private:
     mutable std::uint32_t next_ = 0;
     mutable int moves_ = 0;
     mutable double length_mm_ = 0;
+    mutable std::optional<ProbeCheck> probe_;  // of a probing move whose end is not reached
     mutable std::optional<PlanError> error_;
 };
 

@@ -8,6 +8,7 @@
 #include "clients/planning/leg_plan.hpp"
 #include "clients/planning/plan_figures.hpp"
 #include "clients/planning/plan_summary.hpp"
+#include "core/coordinator/program/known_program.hpp"
 #include "tests/unit/verification/recorded_machine.hpp"
 
 namespace lockstep {
@@ -171,6 +172,23 @@ TEST(Plan, DrawsArcsAndRests) {
     EXPECT_EQ(std::ranges::count(speed.y, 0.0), 4) << "two legs, each from rest to rest";
     EXPECT_NEAR(speed.x.back(), plan->duration_s, 1e-9);
     EXPECT_TRUE(std::ranges::is_sorted(speed.x));
+}
+
+/// Each probing move is the end of a program that the coordinator gets.
+TEST(Plan, RefusesAProbingMoveThatTheCoordinatorRefuses) {
+    const MachineConfig machine = example("probe");
+    const std::string down = "G91 G38.2 Z-1 F60\n";
+    EXPECT_TRUE(plan_program(machine, program_of(machine, down + "G38.2 Z-1 F60\nG0 Z2\n")).has_value());
+    const auto plan = plan_program(machine, program_of(machine, down + "G38.2 Z-1 F6000\nG0 Z2\n"));
+    ASSERT_FALSE(plan.has_value());
+    EXPECT_EQ(plan.error().line, 2);
+    const Program alone = program_of(machine, "G91 G38.2 Z-1 F6000\n");
+    auto known =
+        KnownProgram::begin(machine, alone.head(), std::make_unique<MemoryRows>(KnownProgram::row_width(alone.head())));
+    const auto taken = known->append(alone.blocks);
+    ASSERT_FALSE(taken.has_value());
+    EXPECT_EQ(plan.error().text, taken.error().text);
+    EXPECT_THAT(plan.error().text, testing::HasSubstr("max_overshoot_mm of input"));
 }
 
 }  // namespace
