@@ -18,6 +18,12 @@ struct Hash {
         (add(parts), ...);
     }
 
+    /// What only machines with inputs or outputs have. The hashes of other machines stay those of before.
+    template <typename... Parts>
+    void add_if(bool has_it, const Parts&... parts) {
+        if (has_it) { of(parts...); }
+    }
+
     template <typename Number>
     requires std::integral<Number> || std::is_enum_v<Number>
     void add(Number number) { value = (value ^ static_cast<std::uint64_t>(number)) * 0x100000001b3U; }
@@ -47,13 +53,21 @@ struct Hash {
     void add(const AxisTrack& track) { of(track.from, track.body, track.tail); }
     void add(const PathPlace& place) { of(place.block, static_cast<std::int64_t>(place.along.raw >> 32)); }
     void add(const Overrides& overrides) { of(overrides.feed_percent, overrides.rapid_percent); }
-    void add(const Frame& f) { of(f.term, f.epoch, f.number, f.start, f.ticks, f.last, f.axes); }
+    void add(const TouchInput& touch) { of(touch.motor, touch.channel, touch.opens); }
+    void add(const MotorOutputs& of_motor) { of(of_motor.motor, of_motor.track.body, of_motor.track.tail); }
+    void add(const Frame& f) {
+        of(f.term, f.epoch, f.number, f.start, f.ticks, f.last, f.axes);
+        add_if(f.touch.has_value() || !f.outputs.empty(), f.touch, f.outputs);
+    }
     void add(const Switches& s) { of(s.limit_min, s.limit_max, s.home); }
     void add(const AxisState& s) {
         of(s.identity, s.axis, s.stamp, s.epoch, s.held, s.veto, s.ran, s.at_rest, s.homed, s.phase, s.fault,
            s.position, s.velocity, s.tick, s.following_error_steps, s.command_done, s.command_fault, s.config_hash,
            s.refused_frames, s.clock_error, s.term, s.hears_owner, s.unproved, s.switches);
+        add_if(s.touch.has_value(), s.touch);
+        add_if(s.outputs != 0 || s.pulses_left != 0 || s.analog != AnalogLevels{}, s.outputs, s.pulses_left, s.analog);
     }
+    void add(const EpochTouch& touch) { of(touch.epoch, touch.tick); }
     void add(const AxisCommand& c) {
         of(c.term, c.sequence, c.axis, c.kind, c.target_steps, c.ticks, c.speed_mm_s, c.until);
     }
@@ -61,10 +75,12 @@ struct Hash {
     void add(const HeldLease& lease) { of(lease.writer.id, lease.writer.name, lease.writer.host, lease.since); }
     void add(const MachinePause& pause) { of(pause.why.reason, pause.why.tool, pause.why.text, pause.place); }
     void add(const FrameRest& rest) { of(rest.frame, rest.place, rest.last, rest.digest); }
+    void add(const ProbeResult& p) { of(p.job, p.touched, p.tick, p.places_mm); }
     void add(const MachineState& s) {
         of(s.term, s.stamp, s.tick, s.phase, s.fault, s.fault_axis, s.epoch, s.sent, s.veto, s.job, s.outcome,
            s.job_begun, s.line, s.job_fault, s.lacks_blocks, s.progress, s.remaining_s, s.overrides, s.axes_present,
            s.config_hash, s.devices, s.lease, s.pause, s.job_kind, s.program, s.events_from, s.rests);
+        add_if(s.probe.has_value(), s.probe);
     }
     void add(const ProgramEvent& event) { of(event.kind, event.index, event.value); }
     void add(const PublishedEvent& e) {
