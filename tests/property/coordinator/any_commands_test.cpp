@@ -1,0 +1,153 @@
+// A coordinator publishes, orders and answers what any_commands.txt has recorded, whatever clients ask in whatever
+// order. To write the file: LOCKSTEP_WRITE_HASHES=1 build/bin/property_coordinator --gtest_filter='*StayAsRecorded'
+#include <random>
+
+#include "core/coordinator/coordinator.hpp"
+#include "core/methods/paper_steps.hpp"
+#include "tests/property/coordinator/fake_axes.hpp"
+#include "tests/property/recorded_hashes.hpp"
+#include "tests/simulation/simtest/record/publication.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::uint32_t kMachines = 60;
+constexpr Slot kFirst = 1000;
+constexpr Slot kSlots = 2500;
+
+MachineConfig draw_machine(std::mt19937_64& random) {
+    MachineConfig machine{.name = "drawn"};
+    machine.timing = {
+        .slot_us = 1000, .stall_slots = 1, .freshness_slots = 2, .send_ahead_slots = 12, .frame_slots = 5};
+    const std::size_t axes = 1 + random() % 3;
+    for (std::size_t i = 0; i < axes; ++i) {
+        machine.axes.push_back({.name = std::string(1, "XYZ"[i]),
+                                .steps_per_mm = 100,
+                                .start_velocity_mm_s = 20,
+                                .max_velocity_mm_s = 50,
+                                .max_accel_mm_s2 = 1000,
+                                .max_decel_mm_s2 = 1000,
+                                .position_min_mm = -10,
+                                .position_max_mm = 10});
+        machine.axes.back().homing.sequence = static_cast<int>(random() % 2);
+        if (random() % 2 == 0) { machine.axes.back().unhomed_jog_mm_s = 5; }
+    }
+    if (axes > 1 && random() % 4 == 0) { machine.coordination = StepMethod::Lai; }
+    if (random() % 2 == 0) { machine.unattended_job = UnattendedJob::IsHeld; }
+    return machine;
+}
+
+/// A coordinator with clients that ask anything at any time.
+class Asked {
+public:
+    explicit Asked(std::uint32_t number)
+        : random_(number),
+          machine_(draw_machine(random_)),
+          axes_(machine_.axes.size(), number),
+          coordinator_(machine_, kFirst * FakeAxes::kSlot, 1, methods::begin_steps) {}
+
+    std::string hash() {
+        for (Slot now = kFirst; now < kFirst + kSlots; ++now) { slot(now); }
+        return std::to_string(published_.value());
+    }
+
+private:
+    bool one_of(std::uint64_t n) { return random_() % n == 0; }
+    double place() { return static_cast<double>(random_() % 2100) / 100 - 10.5; }
+
+    Block draw_block(std::int32_t line) {
+        const std::uint64_t kind = random_() % 12;
+        if (kind == 0) { return {line, Dwell{static_cast<double>(random_() % 10) / 50}}; }
+        if (kind == 1) { return {line, Pause{.reason = static_cast<PauseReason>(random_() % 3)}}; }
+        if (kind == 2) { return {line, Settle{}}; }
+        if (kind == 3) { return {line, ProgramEvent{ProgramEvent::Kind::SpindleForward, 0, 1000}}; }
+        ProgramMove move{.target_mm = {}, .feed_mm_s = static_cast<double>(1 + random_() % 60), .rapid = one_of(4)};
+        for (std::size_t i = 0; i < machine_.axes.size(); ++i) { move.target_mm.push_back(place() / 4); }
+        move.mode = static_cast<PathMode>(random_() % 3);
+        move.is_feed_fixed = one_of(5);
+        return {line, move};
+    }
+    Program draw_program() {
+        Program program{.name = "drawn", .axes = machine_.axis_names()};
+        for (std::size_t i = 0; i < machine_.axes.size(); ++i) {
+            const double start_mm = static_cast<double>(axes_.count(i)) / machine_.axes[i].steps_per_mm;
+            program.start_mm.push_back(one_of(30) ? 1 : start_mm);
+        }
+        const std::int32_t blocks = 1 + static_cast<std::int32_t>(random_() % 8);
+        for (std::int32_t line = 1; line <= blocks; ++line) { program.blocks.push_back(draw_block(line)); }
+        return program;
+    }
+
+    /// What a client asks in this phase, or anything.
+    CommandKind draw_kind() {
+        using enum CommandKind;
+        if (coordinator_.phase() == MachinePhase::Fault && !one_of(3)) { return Reset; }
+        if (!axes_.are_homed() && !one_of(3)) { return Home; }
+        constexpr std::array kKinds{Run,  Run,    Run,  Run,      Run,      Run,  MoveOwn, MoveOwn, Jog,   Jog, Jog,
+                                    Hold, Resume, Stop, Override, Override, Move, Resume,  Hold,    Reset, Home};
+        if (one_of(60)) { return EmergencyStop; }
+        if (one_of(20)) { return one_of(2) ? TakeLease : GiveLease; }
+        return kKinds[random_() % kKinds.size()];
+    }
+    Command draw_command() {
+        Command command{.client = 1 + random_() % 2, .sequence = ++sequence_, .kind = draw_kind()};
+        command.axes = one_of(5) ? random_() % 8 : 0;
+        command.program = one_of(20) ? 1 : sequence_;
+        coordinator_.accept_program(sequence_, draw_program());
+        if (one_of(3)) { command.ticks = Ticks{static_cast<std::int64_t>(random_() % 3'000'000)}; }
+        if (one_of(2)) { command.feed_percent = static_cast<int>(5 + random_() % 200); }
+        if (one_of(2)) { command.rapid_percent = static_cast<int>(5 + random_() % 100); }
+        for (std::uint32_t i = 0; i < machine_.axes.size(); ++i) {
+            if (one_of(2)) { command.jogs.push_back({i, place() * 6, one_of(2) ? std::optional(2.0) : std::nullopt}); }
+        }
+        command.writer = {.id = one_of(20) ? 2U : 1U, .name = "anna", .host = "bench"};
+        command.takes_over = one_of(3);
+        command.returns = one_of(3);
+        return command;
+    }
+    /// Now and then a client repeats a command.
+    std::vector<Command> commands() {
+        constexpr std::uint64_t kOnceIn = 40;
+        if (one_of(kOnceIn)) {
+            last_ = draw_command();
+            return {last_};
+        }
+        return last_.sequence != 0 && one_of(8) ? std::vector{last_} : std::vector<Command>{};
+    }
+    /// Sometimes another coordinator is received: one that stands by, or one that claims the machine.
+    std::vector<MachineState> others(Slot now) {
+        constexpr std::uint64_t kOnceIn = 700;
+        if (!one_of(kOnceIn)) { return {}; }
+        MachineState other{.term = {1 + random_() % 2'000'000, 999}, .stamp = now - static_cast<Slot>(random_() % 3)};
+        other.phase = one_of(2) ? MachinePhase::Standby : MachinePhase::Idle;
+        return {other};
+    }
+
+    void slot(Slot now) {
+        const Term term = coordinator_.owns_machine() ? coordinator_.term() : Term{};
+        const auto commanded = commands();
+        const auto heard = others(now);
+        const CoordinatorOutputs& out =
+            coordinator_.step({Tick{now * FakeAxes::kSlot}, axes_.states(now, term), heard, commanded, {}});
+        published_.on_coordinator(0, Tick{now * FakeAxes::kSlot}, out);
+        for (const Frame& frame : out.frames) { axes_.take(frame); }
+        for (const AxisCommand& order : out.axis_commands) { axes_.take(order, now); }
+        if (out.state && out.state->veto) { axes_.take_veto(out.state->veto); }
+    }
+
+    std::mt19937_64 random_;
+    MachineConfig machine_;
+    FakeAxes axes_;
+    Coordinator coordinator_;
+    simtest::PublicationHash published_;
+    Command last_;
+    std::uint64_t sequence_ = 0;
+};
+
+TEST(AnswersToAnyCommands, StayAsRecorded) {
+    expect_recorded("tests/property/coordinator/any_commands.txt", kMachines,
+                    [](std::uint32_t number) { return Asked(number).hash(); });
+}
+
+}  // namespace
+}  // namespace lockstep
