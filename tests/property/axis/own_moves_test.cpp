@@ -24,7 +24,8 @@ public:
     std::int64_t below(std::int64_t n) { return static_cast<std::int64_t>(random_() % static_cast<std::uint64_t>(n)); }
     /// A power of ten, times 1 to 9.
     double of_any_size(int least_power, int powers) {
-        return static_cast<double>(1 + below(9)) * std::pow(10, static_cast<double>(least_power + below(powers)));
+        const double power = std::pow(10, static_cast<double>(least_power + below(powers)));
+        return static_cast<double>(1 + below(9)) * power;
     }
 
 private:
@@ -70,9 +71,9 @@ std::string move_of(std::uint32_t number) {
     const bool backward = drawn.one_of(2);
     const Ticks span{500 + drawn.below(20'000)};
     const std::int64_t from = drawn.below(1000) - 500;
-    record_frames(text, OwnMove(std::move(*pieces),
-                                {rest_position(from, backward), backward, request.steps, Tick{drawn.below(1'000'000)}},
-                                limits_of(motor, tick_ns), span, Ticks{drawn.below(3) * span.value / 2}));
+    const Ticks to_whole_step{drawn.below(3) * span.value / 2};
+    const OwnMove::Place place{rest_position(from, backward), backward, request.steps, Tick{drawn.below(1'000'000)}};
+    record_frames(text, OwnMove(std::move(*pieces), place, limits_of(motor, tick_ns), span, to_whole_step));
     return text.text();
 }
 
@@ -89,7 +90,10 @@ void draw_homing(Drawn& drawn, HomingConfig& homing) {
 
 /// Touches are near each other, exactly as far apart as they may be, or farther.
 LocalEnd draw_end(Drawn& drawn, std::int64_t tolerance) {
-    const auto about = [&] { return tolerance * drawn.below(2) + drawn.below(3) - 1; };
+    const auto about = [&] {
+        const std::int64_t apart = tolerance * drawn.below(2);
+        return apart + drawn.below(3) - 1;
+    };
     const std::int64_t count = about();
     const bool fails = drawn.one_of(10);
     return {.by_trigger = !fails,

@@ -89,13 +89,14 @@ std::string owners_of(std::uint32_t number) {
     for (int k = 0; k < 120; ++k) {
         const bool is_silent = below(random, 12) == 0;
         now += is_silent ? rules::silence_slots(t) + below(random, 5) - 2 : below(random, 3);
-        text.line(link.receives_owner(now), gate.next(now), gate.missed(now), gate.enter(now));
+        text.line(link.receives_owner(now), gate.next(now), gate.missed(now));
+        text.line(gate.enter(now));
         if (below(random, 20) == 0) { link.forgive(below(random, 4)); }
         MachineState state{.term = {static_cast<std::uint64_t>(1 + below(random, 3)), 5}, .stamp = now};
         state.stamp -= below(random, 8) == 0 ? below(random, 2 * rules::silence_slots(t)) : 0;
         state.phase = static_cast<MachinePhase>(below(random, 10));
-        text.line(link.take(state, now, below(random, 4) != 0), link.term().number, link.is_from_owner(state.term),
-                  link.receives_owner(now));
+        text.line(link.take(state, now, below(random, 4) != 0));
+        text.line(link.term().number, link.is_from_owner(state.term), link.receives_owner(now));
     }
     return text.text();
 }
@@ -116,11 +117,13 @@ std::string peers_of(std::uint32_t number) {
         now += Ticks{below(random, 100)};
         slot += below(random, 3);
         const Identity heard = other + (below(random, 60) == 0 ? 10 : 0);
-        const Slot stamp = slot - (below(random, 6) == 0 ? below(random, rules::silence_slots(t) + 3) : 0) +
-                           (below(random, 6) == 0 ? below(random, 4) : 0);
+        const Slot late = below(random, 6) == 0 ? below(random, rules::silence_slots(t) + 3) : 0;
+        const Slot early = below(random, 6) == 0 ? below(random, 4) : 0;
+        const Slot stamp = slot - late + early;
         const bool proved = second.proves(heard, stamp, slot);
         text.line(proved, rivals.front().must_leave(heard, proved, now));
-        evidence.receive(stamp, 7 + below(random, 10) / 9, static_cast<FrameNumber>(below(random, 4)));
+        const Epoch epoch = below(random, 10) == 0 ? 8 : 7;
+        evidence.receive(stamp, epoch, static_cast<FrameNumber>(below(random, 4)));
         text.line(evidence.holds(7, 2, stamp + t.lease_slots() + below(random, 3) - 1, t));
     }
     return text.text();
