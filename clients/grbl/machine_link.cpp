@@ -4,6 +4,7 @@
 
 #include "clients/session/control/store_values.hpp"
 #include "clients/session/reports.hpp"
+#include "clients/session/waits.hpp"
 #include "core/coordinator/path/return_way.hpp"
 #include "services/runtime/clock.hpp"
 
@@ -35,9 +36,9 @@ Command command_of(const Request& request) {
 bool MachineLink::claim(const Request& request, Grbl& grbl) {
     using Kind = Request::Kind;
     if (request.kind == Kind::Hold || request.kind == Kind::Stop || request.kind == Kind::CancelJog) { return true; }
-    session_.use_lease({.has_work = true});
+    use_lease(session_, {.has_work = true});
     if (session_.lease().is_held() || session_.is_silent()) { return true; }
-    const auto reply = session_.take_lease(takes_over_);
+    const auto reply = take_lease(session_, takes_over_);
     if (!reply || session_.lease().is_held()) { return true; }
     if (request.number != 0) { grbl.answer(request.number, answer_of(*reply)); }
     return false;
@@ -88,8 +89,8 @@ void MachineLink::release() {
         session_.receive(5ms);
         lines_.pass(session_.state()->state, rests(), monotonic_now());
     }
-    session_.close_stream();
-    session_.give_lease();
+    session_.upload().close();
+    give_lease(session_);
 }
 
 void MachineLink::pass(nanoseconds time, Grbl& grbl) {
@@ -112,7 +113,7 @@ void MachineLink::pass_lease(Grbl& grbl) {
         lines_.leave();
         grbl.abort(session_.lease().answer()->text);
     }
-    session_.use_lease({.has_work = has_work});
+    use_lease(session_, {.has_work = has_work});
 }
 
 bool MachineLink::follow(Open& open, Grbl& grbl) {
@@ -164,7 +165,7 @@ bool MachineLink::change_settings(const Request& request, Grbl& grbl) {
 
 void MachineLink::set_values(const Request& request, Grbl& grbl) {
     if (request.drops_settings && !change_settings(request, grbl)) { return; }
-    const auto before = session_.values();
+    const auto before = await_values(session_);
     if (!before) { return grbl.answer(request.number, {.text = before.error().errors.front().message}); }
     RevisedValues values = *before;
     const auto stored = store_values(session_, values, request.values);
@@ -177,7 +178,7 @@ void MachineLink::set_values(const Request& request, Grbl& grbl) {
 /// Whether every axis is at rest, according to its latest report.
 bool MachineLink::rests() const {
     for (std::size_t i = 0; i < session_.config().axes.size(); ++i) {
-        if (!session_.axis(i) || !session_.axis(i)->state.at_rest) { return false; }
+        if (!session_.received().axis(i) || !session_.received().axis(i)->state.at_rest) { return false; }
     }
     return true;
 }
@@ -198,21 +199,21 @@ MachineView MachineLink::view() {
     std::vector<double> speeds;
     bool is_received = !session_.is_silent();
     for (std::size_t i = 0; i < session_.config().axes.size(); ++i) {
-        const auto& axis = session_.axis(i);
+        const auto& axis = session_.received().axis(i);
         axes.push_back(axis ? &axis->state : nullptr);
-        speeds.push_back(session_.axis_speed(i));
-        is_received = is_received && session_.axis_present(i);
+        speeds.push_back(session_.received().axis_speed(i));
+        is_received = is_received && session_.received().axis_present(i);
     }
     MachineView view = view_of(session_.config(), state->state, axes, speeds);
     view.closed_inputs = letters_of_inputs(session_.config(), [this](std::size_t motor) {
-        return session_.motor(motor) ? session_.motor(motor)->state.inputs : 0;
+        return session_.received().motor(motor) ? session_.received().motor(motor)->state.inputs : 0;
     });
     view.accessories = letters_of_outputs(session_.config(), view.devices, [this](std::size_t motor) {
-        return session_.motor(motor) ? &session_.motor(motor)->state : nullptr;
+        return session_.received().motor(motor) ? &session_.received().motor(motor)->state : nullptr;
     });
     view.is_received = is_received;
     if (const auto way = way_back(session_)) { view.way_back = text_of_way(*way); }
-    if (const auto values = session_.newest_values()) { values_ = values->values; }
+    if (const auto values = session_.values().newest()) { values_ = values->values; }
     view.values = values_;
     lines_.report(state->state, view);
     return view;

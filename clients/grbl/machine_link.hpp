@@ -17,8 +17,8 @@ namespace lockstep::grbl {
 class SessionPort : public MachinePort {
 public:
     explicit SessionPort(Session& session) : session_(session) {}
-    ProgramSender& open(const ProgramHead& head) override { return session_.open_stream(head); }
-    void close() override { session_.close_stream(); }
+    ProgramSender& open(const ProgramHead& head) override { return session_.upload().open(head); }
+    void close() override { session_.upload().close(); }
     CommandStep follow(CommandTracker& tracker) override { return session_.follow(tracker); }
 
 private:

@@ -119,11 +119,11 @@ void serve_all(Doors& doors, const ChosenMachine& machine, Session& session, con
     bool is_to_switch_off = false;
     while (!stop.requested() && !renewal.is_due(session)) {
         if (const auto sender = doors.lobby.take_speaker()) {
-            session.write_as(writer_at(grbl::peer_of(*sender)));
+            session.lease().write_as(writer_at(grbl::peer_of(*sender)));
             is_to_switch_off = serve(*sender, true, doors, is_to_switch_off, machine, session, options, stop);
         }
         if (doors.terminal && doors.terminal->is_used()) {
-            session.write_as(writer_at(options.terminal));
+            session.lease().write_as(writer_at(options.terminal));
             is_to_switch_off =
                 serve(doors.terminal->descriptor(), false, doors, is_to_switch_off, machine, session, options, stop);
         }

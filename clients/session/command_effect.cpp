@@ -27,7 +27,7 @@ bool shows_effect(CommandKind command, MachinePhase phase) {
 
 std::string missing_axes(const Session& session) {
     std::string names;
-    for (std::size_t i = 0; i < session.kinematics().motors().size(); ++i) {
+    for (std::size_t i = 0; i < session.received().kinematics().motors().size(); ++i) {
         if (has_axis(session.state()->state.axes_present, i)) { continue; }
         names += (names.empty() ? "" : ", ") + motor_name(session.config(), i);
     }

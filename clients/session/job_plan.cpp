@@ -3,14 +3,15 @@
 #include <utility>
 
 #include "clients/planning/plan_summary.hpp"
+#include "clients/session/waits.hpp"
 
 namespace lockstep {
 
 std::expected<std::vector<double>, Failure> start_places(Session& session) {
-    if (auto reached = session.reach_axes(); !reached) { return std::unexpected(reached.error()); }
+    if (auto reached = reach_axes(session); !reached) { return std::unexpected(reached.error()); }
     std::vector<double> start_mm;
     for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
-        const auto count = static_cast<double>(session.axis(i)->state.position.count());
+        const auto count = static_cast<double>(session.received().axis(i)->state.position.count());
         start_mm.push_back(to_mm(session.config().axes[i], count));
     }
     return start_mm;

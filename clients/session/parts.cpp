@@ -35,8 +35,8 @@ std::string axis_state(const MachineConfig& machine, const KnownParts& known, st
 
 KnownParts known_parts(const Session& session) {
     KnownParts known{.coordinator_present = session.state() && !session.is_silent(), .present = session.present()};
-    for (std::size_t i = 0; i < session.kinematics().motors().size(); ++i) {
-        if (session.motor_present(i)) { known.axes_present |= axis_bit(i); }
+    for (std::size_t i = 0; i < session.received().kinematics().motors().size(); ++i) {
+        if (session.received().motor_present(i)) { known.axes_present |= axis_bit(i); }
     }
     if (known.coordinator_present) { known.axes_present_at_coordinator = session.state()->state.axes_present; }
     return known;

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "clients/session/program_sender.hpp"
+#include "clients/session/upload/program_sender.hpp"
 #include "core/gcode/gcode_stream.hpp"
 #include "services/files/diagnostic.hpp"
 #include "services/files/line_reader.hpp"
@@ -33,8 +33,8 @@ public:
     const ModalState& modal() const { return modal_; }
     /// Replaces the blocks read so far by a program that starts elsewhere.
     void replace_first(const Program& program);
-    /// A Session::Feed. If a pipe stays empty for kSettleAfter, the machine comes to rest at the end of the blocks
-    /// received. At an error it cuts the program, and the machine runs the part before the error.
+    /// A ProgramUpload::Feed. If a pipe stays empty for kSettleAfter, the machine comes to rest at the end of the
+    /// blocks received. At an error it cuts the program, and the machine runs the part before the error.
     void feed(ProgramSender& sender, std::chrono::nanoseconds now);
 
     /// The present part ends with a probing move.

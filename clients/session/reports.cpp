@@ -141,8 +141,8 @@ std::optional<Program> way_back(const Session& session) {
     if (!received || !received->state.pause) { return std::nullopt; }
     const auto& place = received->state.pause->place;
     std::vector<std::int64_t> here;
-    for (std::size_t i = 0; i < machine.axes.size() && session.axis(i); ++i) {
-        here.push_back(session.axis(i)->state.position.count());
+    for (std::size_t i = 0; i < machine.axes.size() && session.received().axis(i); ++i) {
+        here.push_back(session.received().axis(i)->state.position.count());
     }
     if (here.size() != machine.axes.size() || place.size() != here.size()) { return std::nullopt; }
     Program way = return_way(machine, here, {place.begin(), place.end()});
@@ -170,18 +170,19 @@ std::optional<proto::PauseReport> pause_report(const Session& session) {
 namespace {
 
 void add_health(const Session& session, std::size_t motor, proto::AxisStatus& row) {
-    const auto& health = session.health(motor);
+    const auto& health = session.received().health(motor);
     if (health) { *row.mutable_health() = health_report(*health, session.config()); }
 }
 
 /// `motors`: those that the axis's row is about. Names the first of them that has the row's fault.
 void name_faults(const Session& session, AxisSet motors, proto::AxisStatus& row) {
     const auto named = [&](const proto::FaultReport& fault, FaultCode AxisState::*of) {
-        for (std::size_t m = 0; m < session.kinematics().motors().size(); ++m) {
+        for (std::size_t m = 0; m < session.received().kinematics().motors().size(); ++m) {
             const auto code = static_cast<FaultCode>(fault.number());
-            const bool has_it = has_axis(motors, m) && session.motor(m) && session.motor(m)->state.*of == code;
+            const bool has_it =
+                has_axis(motors, m) && session.received().motor(m) && session.received().motor(m)->state.*of == code;
             if (!has_it) { continue; }
-            proto::FaultReport of_motor = motor_fault(code, session.kinematics(), m);
+            proto::FaultReport of_motor = motor_fault(code, session.received().kinematics(), m);
             name_stop_inputs(session.config(), m, of_motor);
             return of_motor;
         }
@@ -195,37 +196,37 @@ void add_axes(const Session& session, proto::StatusReport& report) {
     const MachineConfig& machine = session.config();
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         const AxisConfig& config = machine.axes[i];
-        const auto& axis = session.axis(i);
+        const auto& axis = session.received().axis(i);
         proto::AxisStatus& row = *report.add_axes();
         row = axis_status({config.name, config.steps_per_mm, machine.ticks_per_second()}, axis ? &axis->state : nullptr,
-                          session.axis_speed(i));
-        row.set_present(session.axis_present(i));
-        name_faults(session, motors_needed_for(i, session.kinematics()), row);
-        if (const auto own = session.kinematics().own_motor(i)) { add_health(session, *own, row); }
+                          session.received().axis_speed(i));
+        row.set_present(session.received().axis_present(i));
+        name_faults(session, motors_needed_for(i, session.received().kinematics()), row);
+        if (const auto own = session.received().kinematics().own_motor(i)) { add_health(session, *own, row); }
     }
 }
 
 /// Motors that are not an axis's own.
 void add_motors(const Session& session, proto::StatusReport& report) {
-    const Kinematics& kinematics = session.kinematics();
+    const Kinematics& kinematics = session.received().kinematics();
     for (std::size_t m = 0; m < kinematics.motors().size(); ++m) {
         const MotorConfig& config = kinematics.motors()[m];
         if (config.is_board() || kinematics.own_motor(*config.axis) == m) { continue; }
-        const auto& motor = session.motor(m);
+        const auto& motor = session.received().motor(m);
         proto::AxisStatus& row = *report.add_motors();
         row = axis_status({config.name, config.steps_per_mm, session.config().ticks_per_second()},
                           motor ? &motor->state : nullptr, motor ? motor->state.velocity.steps_per_tick() : 0);
         row.set_axis(session.config().axes[*config.axis].name);
-        row.set_present(session.motor_present(m));
+        row.set_present(session.received().motor_present(m));
         name_faults(session, axis_bit(m), row);
         add_health(session, m, row);
     }
 }
 
 void add_boards(const Session& session, proto::StatusReport& report) {
-    const std::vector<MotorConfig>& motors = session.kinematics().motors();
+    const std::vector<MotorConfig>& motors = session.received().kinematics().motors();
     for (std::size_t m = moving_motor_count(session.config()); m < motors.size(); ++m) {
-        const auto& board = session.motor(m);
+        const auto& board = session.received().motor(m);
         proto::AxisStatus& row = *report.add_boards();
         row = axis_status({motors[m].name, motors[m].steps_per_mm, session.config().ticks_per_second()},
                           board ? &board->state : nullptr, 0);
@@ -235,7 +236,7 @@ void add_boards(const Session& session, proto::StatusReport& report) {
         row.clear_homed();
         row.clear_following_error_steps();
         row.set_board(true);
-        row.set_present(session.motor_present(m));
+        row.set_present(session.received().motor_present(m));
         name_faults(session, axis_bit(m), row);
         add_health(session, m, row);
     }
@@ -256,16 +257,17 @@ proto::StatusReport status_report(const Session& session) {
     }
     if (auto pause = pause_report(session)) { *report.mutable_pause() = *std::move(pause); }
     report.set_standby(session.has_standby());
-    report.set_unsaved_values(session.values_unsaved_since().has_value());
+    report.set_unsaved_values(session.values().unsaved_since().has_value());
     add_axes(session, report);
     add_motors(session, report);
     add_boards(session, report);
     const auto closed_of = [&](std::size_t motor) {
-        return session.motor(motor) ? std::optional(session.motor(motor)->state.inputs) : std::nullopt;
+        return session.received().motor(motor) ? std::optional(session.received().motor(motor)->state.inputs)
+                                               : std::nullopt;
     };
     add_inputs(machine, closed_of, report);
     const auto state_of = [&](std::size_t motor) {
-        return session.motor(motor) ? &session.motor(motor)->state : nullptr;
+        return session.received().motor(motor) ? &session.received().motor(motor)->state : nullptr;
     };
     add_outputs(machine, state_of, session.state() ? &session.state()->state : nullptr, report);
     return report;

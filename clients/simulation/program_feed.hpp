@@ -1,6 +1,6 @@
 // Sends a program to a machine in virtual time while the machine runs it: part by part, as far as the coordinator has
-// room, as clients/session/program_sender.hpp does live. The virtual network loses nothing, so one part at a time is
-// under way and none is repeated.
+// room, as clients/session/upload/program_sender.hpp does live. The virtual network loses nothing, so one part at a
+// time is under way and none is repeated.
 #pragma once
 
 #include <cstdint>

@@ -135,18 +135,19 @@ Failure missing(const Session& session, const OwnParts& parts, const StateDirect
     if (!session.state()) {
         return failed(with_log("no messages are received from the coordinator", "coordinator", state));
     }
-    for (std::size_t i = 0; i < session.kinematics().motors().size(); ++i) {
+    for (std::size_t i = 0; i < session.received().kinematics().motors().size(); ++i) {
         const std::string& name = motor_name(session.config(), i);
         if (!has_axis(session.state()->state.axes_present, i)) {
-            return failed(
-                with_log("no messages are received from " + session.kinematics().label(i), "axis-" + name, state));
+            return failed(with_log("no messages are received from " + session.received().kinematics().label(i),
+                                   "axis-" + name, state));
         }
     }
-    for (std::size_t i = 0; i < session.kinematics().motors().size(); ++i) {
+    for (std::size_t i = 0; i < session.received().kinematics().motors().size(); ++i) {
         const std::string& name = motor_name(session.config(), i);
-        const auto& axis = session.motor(i);
+        const auto& axis = session.received().motor(i);
         if (axis && axis->state.unproved == FaultCode::DeviceMissing) {
-            return failed(with_log(session.kinematics().label(i) + " waits for its device", "axis-" + name, state));
+            return failed(
+                with_log(session.received().kinematics().label(i) + " waits for its device", "axis-" + name, state));
         }
     }
     return failed(with_log("the machine does not become Idle", "coordinator", state));
@@ -207,8 +208,8 @@ std::expected<ProcessRecord, Failure> supervise_in_background(const StateDirecto
 
 bool is_whole(const Session& session) {
     if (!session.state()) { return false; }
-    for (std::size_t i = 0; i < session.kinematics().motors().size(); ++i) {
-        if (!session.motor_present(i) || !has_axis(session.state()->state.axes_present, i)) { return false; }
+    for (std::size_t i = 0; i < session.received().kinematics().motors().size(); ++i) {
+        if (!session.received().motor_present(i) || !has_axis(session.state()->state.axes_present, i)) { return false; }
     }
     const MachinePhase phase = session.state()->state.phase;
     return phase == MachinePhase::Idle || phase == MachinePhase::Fault;

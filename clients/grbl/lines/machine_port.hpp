@@ -1,8 +1,10 @@
 // The messages of a client that runs programs, over DDS or, in tests, to a machine in virtual time.
 #pragma once
 
+#include <optional>
+
 #include "clients/session/follow/command_tracker.hpp"
-#include "clients/session/program_sender.hpp"
+#include "clients/session/upload/program_sender.hpp"
 #include "core/program.hpp"
 
 namespace lockstep::grbl {
@@ -17,5 +19,15 @@ public:
     /// Call in each loop until the command is over. Sends the command when that is due.
     virtual CommandStep follow(CommandTracker& tracker) = 0;
 };
+
+/// Follows the command, if there is one, and forgets it when it is over.
+inline void follow(MachinePort& port, std::optional<CommandTracker>& tracker) {
+    if (tracker && is_over(port.follow(*tracker))) { tracker.reset(); }
+}
+
+inline void begin(MachinePort& port, std::optional<CommandTracker>& tracker, CommandKind kind) {
+    tracker.emplace(Command{.kind = kind});
+    follow(port, tracker);
+}
 
 }  // namespace lockstep::grbl

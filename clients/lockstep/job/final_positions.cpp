@@ -18,10 +18,12 @@ void add_final_positions(Session& session, proto::RunReport& report) {
     const MachineConfig& machine = session.config();
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
         const auto rests = [&] {
-            return session.axis(i) && session.axis(i)->time > end && session.axis(i)->state.at_rest;
+            return session.received().axis(i) && session.received().axis(i)->time > end &&
+                   session.received().axis(i)->state.at_rest;
         };
         if (session.receive_until(end + kFinalStatePatience - monotonic_now(), rests)) {
-            *report.add_final_positions() = place_of(machine.axes[i], session.axis(i)->state.position.count());
+            *report.add_final_positions() =
+                place_of(machine.axes[i], session.received().axis(i)->state.position.count());
         }
     }
 }

@@ -12,6 +12,7 @@
 #include "clients/session/refusal.hpp"
 #include "clients/session/reports.hpp"
 #include "clients/session/status_text.hpp"
+#include "clients/session/waits.hpp"
 #include "clients/text/format.hpp"
 #include "clients/text/notes.hpp"
 #include "core/coordinator/path/coordination.hpp"
@@ -83,12 +84,12 @@ proto::RunReport new_report(const Job& job) {
 /// Sends until the coordinator has all of the program and no longer needs this process. `before_it_runs`: fails if
 /// there is no room for all of it.
 std::expected<void, Failure> send_rest(Session& session, const StopSignal& stop, bool before_it_runs) {
-    while (!session.sender()->is_done() && !session.sender()->refusal()) {
+    while (!session.upload().sender()->is_done() && !session.upload().sender()->refusal()) {
         if (stop.requested()) {
             return std::unexpected(failed("interrupted; the machine runs the part that was sent"));
         }
-        if (session.is_silent()) { return std::unexpected(session.silent()); }
-        if (before_it_runs && session.sender()->lacks_room()) {
+        if (session.is_silent()) { return std::unexpected(silence(session)); }
+        if (before_it_runs && session.upload().sender()->lacks_room()) {
             return std::unexpected(bad_input(
                 fmt::format("with coordination: LAI a program is planned as a whole, so it has at most {} blocks; "
                             "split it in two, or choose another coordination",
@@ -103,7 +104,7 @@ std::expected<Reply, Failure> begin(Session& session, const Job& job, const Stop
     std::uint64_t program = 0;
     if (job.stream != nullptr) {
         const auto feed = [&stream = *job.stream](ProgramSender& sender) { stream.feed(sender, monotonic_now()); };
-        const auto begun = session.stream(job.stream->head(), job.stream->values(), feed, &stop);
+        const auto begun = stream_program(session, job.stream->head(), job.stream->values(), feed, &stop);
         if (!begun) { return std::unexpected(begun.error()); }
         program = *begun;
         const bool is_planned_whole = coordination_of(session.config()).plans_whole;
@@ -111,23 +112,23 @@ std::expected<Reply, Failure> begin(Session& session, const Job& job, const Stop
         if (!sent) { return std::unexpected(sent.error()); }
     }
     if (job.program) {
-        const auto sent = session.send(*job.program, &stop, job.values);
+        const auto sent = send_program(session, *job.program, &stop, job.values);
         if (!sent) { return std::unexpected(sent.error()); }
         program = *sent;
     }
     const Command command{.kind = job.command, .axes = job.axes, .program = program, .ticks = job.ticks};
-    auto reply = session.command(command, &stop);
+    auto reply = send_command(session, command, &stop);
     if (reply || !stop.requested()) { return reply; }
-    (void)session.command({.kind = CommandKind::Stop});
+    (void)send_command(session, {.kind = CommandKind::Stop});
     return std::unexpected(
         failed("interrupted before the coordinator answered: it is not known whether the job began, so "
                "a stop was sent; see: lockstep status"));
 }
 
 /// Waits until the program's offsets and tools are on the coordinator's disk.
-void await_values(Session& session, const Job& job, Output& output) {
+void await_kept_values(Session& session, const Job& job, Output& output) {
     if (!job.values || !job.values->after) { return; }
-    const auto kept = session.await_kept(job.values->revision + 1);
+    const auto kept = await_kept(session, job.values->revision + 1);
     if (!kept) { output.warn(kept.error().errors.front().message); }
 }
 
@@ -139,7 +140,7 @@ void report_stream(const Session& session, const Job& job, Output& output) {
             fmt::format("{0}:{1}:{2}: {3}\nthe lines before it were run; correct this line and continue: "
                         "lockstep run FILE --from-line {1}",
                         job.name, trouble->line, trouble->column, trouble->message));
-    } else if (const auto& refusal = session.sender()->refusal()) {
+    } else if (const auto& refusal = session.upload().sender()->refusal()) {
         output.warn(job.name + ": the coordinator accepts no more of the program: " + refusal->text);
     }
 }
@@ -154,8 +155,8 @@ ExitCode end_begun(const Job& job, proto::RunReport& report, Output& output) {
 /// Call before the job begins, to receive its first events too.
 void follow_events(Session& session, const Job& job, Output& output) {
     if (job.command != CommandKind::Run || job.detach) { return; }
-    if (const auto follows = session.follow_events(kEventPatience); !follows) {
-        output.warn(follows.error().errors.front().message + "; some may not be printed");
+    if (!session.receive_until(kEventPatience, [&] { return session.follow_events(); })) {
+        output.warn("events of programs are not received from every coordinator; some may not be printed");
     }
 }
 
@@ -175,11 +176,11 @@ std::expected<void, Failure> read_on(Session& session, ProgramStream& stream, pr
     const auto touch = report_touch(session, report, output);
     if (!touch) { return std::unexpected(touch.error()); }
     if (stream.changes_values()) {
-        if (auto kept = session.await_kept(stream.values().revision + 1); !kept) {
+        if (auto kept = await_kept(session, stream.values().revision + 1); !kept) {
             return std::unexpected(kept.error());
         }
     }
-    const auto values = session.values();
+    const auto values = await_values(session);
     if (!values) { return std::unexpected(values.error()); }
     const auto read = stream.touched(*touch, values->revision);
     warn_of(stream.take_notes(), output);
@@ -202,7 +203,7 @@ ExitCode end(Session& session, const Job& job, JobResult result, JobWatch& watch
     if (result == JobResult::CutShort && state.line) { report.set_line(*state.line); }
     add_final_positions(session, report);
     watch.print_events();
-    if (result == JobResult::Done) { await_values(session, job, output); }
+    if (result == JobResult::Done) { await_kept_values(session, job, output); }
     output.report(report);
     print_end(session, job, report, output);
     return result == JobResult::Done ? kExitDone : kExitFailed;

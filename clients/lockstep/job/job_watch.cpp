@@ -6,6 +6,7 @@
 
 #include "clients/session/reports.hpp"
 #include "clients/session/status_text.hpp"
+#include "clients/session/waits.hpp"
 #include "services/runtime/clock.hpp"
 
 namespace lockstep {
@@ -41,7 +42,7 @@ std::expected<JobResult, Failure> JobWatch::wait() {
         const bool rests = state.phase == MachinePhase::Holding || state.phase == MachinePhase::Paused;
         if (hang_up_.came() && rests && state.job == number_) { return JobResult::Held; }
         if (auto followed = follow_signals(); !followed) { return std::unexpected(followed.error()); }
-        if (rest_asked_ && session_.running_time() - *rest_asked_ > kRestPatience) {
+        if (rest_asked_ && session_.owner().running_time() - *rest_asked_ > kRestPatience) {
             return std::unexpected(restless());
         }
         print_stall(state);
@@ -55,7 +56,7 @@ void JobWatch::print_events() {
 }
 
 Failure JobWatch::silent() const {
-    Failure failure = session_.silent();
+    Failure failure = silence(session_);
     std::string& message = failure.errors.front().message;
     message = "the coordinator fell silent; the axes come to rest on the path by themselves. " + message;
     return failure;
@@ -76,17 +77,17 @@ std::expected<void, Failure> JobWatch::follow_signals() {
 
 std::expected<void, Failure> JobWatch::send_hold() {
     hold_sent_ = true;
-    rest_asked_ = session_.running_time();
-    const auto reply = session_.command({.kind = CommandKind::Hold});
+    rest_asked_ = session_.owner().running_time();
+    const auto reply = send_command(session_, {.kind = CommandKind::Hold});
     if (!reply) { return std::unexpected(reply.error()); }
     return reply->status == ReplyStatus::Accepted ? std::expected<void, Failure>{} : send_stop();
 }
 
 std::expected<void, Failure> JobWatch::send_stop() {
     stop_sent_ = true;
-    rest_asked_ = session_.running_time();
+    rest_asked_ = session_.owner().running_time();
     output_.print(command_ == CommandKind::Home ? "stopping ..." : "stopping on the path ...");
-    const auto reply = session_.command({.kind = CommandKind::Stop});
+    const auto reply = send_command(session_, {.kind = CommandKind::Stop});
     if (!reply) { return std::unexpected(reply.error()); }
     const bool has_ended = reply->fault == FaultCode::NothingToDo;
     if (reply->status == ReplyStatus::Accepted || has_ended) { return {}; }
@@ -96,7 +97,7 @@ std::expected<void, Failure> JobWatch::send_stop() {
 
 /// The coordinator did not wait for this command: the job is where its state says.
 void JobWatch::print_stall(const MachineState& state) {
-    const auto stall = session_.take_stall();
+    const auto stall = session_.owner().take_stall();
     if (!stall) { return; }
     const bool rests = state.phase == MachinePhase::Holding || state.phase == MachinePhase::Paused;
     output_.print(fmt::format("this command was itself stopped for {:.0f} s, in which it watched nothing; the job {}",

@@ -10,6 +10,7 @@
 #include "clients/session/reports.hpp"
 #include "clients/session/session.hpp"
 #include "clients/session/status_text.hpp"
+#include "clients/session/waits.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/format.hpp"
 #include "clients/text/output.hpp"
@@ -75,7 +76,7 @@ ExitCode report_outcome(Session& session, const Interrupt& interrupt, const Repl
 
 /// Axes that were jogged in a pause first return to its place. A person must confirm the way, or a script pass --yes.
 std::expected<bool, Failure> confirm_return(const InterruptOptions& options, Session& session, Output& output) {
-    session.await_axes();
+    await_axes(session);
     const auto way = way_back(session);
     if (!way) { return false; }
     output.print("axes were moved in the pause; the machine first returns to its place: " + text_of_way(*way));
@@ -103,26 +104,27 @@ ExitCode interrupt_machine(const InterruptOptions& options, const Interrupt& int
         if (!returns) { return output.fail(returns.error()); }
         command.returns = *returns;
     }
-    const auto reply = session->command(command);
+    const auto reply = send_command(*session, command);
     if (!reply) { return output.fail(reply.error()); }
     return report_outcome(*session, interrupt, *reply, output);
 }
 
 /// Whether the axis is at rest with a fault, so that nothing moves it before a reset.
 bool is_stopped(const Session& session, std::size_t axis) {
-    const bool is_known = session.motor_present(axis);
-    return is_known && session.motor(axis)->state.at_rest && session.motor(axis)->state.fault != FaultCode::None;
+    const bool is_known = session.received().motor_present(axis);
+    return is_known && session.received().motor(axis)->state.at_rest &&
+           session.received().motor(axis)->state.fault != FaultCode::None;
 }
 
 /// Reports which axes have stopped by themselves, if no coordinator replies.
 ExitCode report_axes(const Session& session, Output& output) {
     std::string stopped;
     std::string other;
-    for (std::size_t i = 0; i < session.kinematics().motors().size(); ++i) {
+    for (std::size_t i = 0; i < session.received().kinematics().motors().size(); ++i) {
         std::string& list = is_stopped(session, i) ? stopped : other;
         list += (list.empty() ? "" : ", ") + motor_name(session.config(), i);
     }
-    if (stopped.empty()) { return output.fail(session.silent()); }
+    if (stopped.empty()) { return output.fail(silence(session)); }
     proto::CommandReport report;
     report.set_accepted(other.empty());
     report.set_text("no coordinator answers; these axes have stopped by themselves until a reset: " + stopped +
@@ -139,7 +141,7 @@ ExitCode stop_at_once(const LiveOptions& options, const Interrupt& interrupt) {
     if (!machine) { return output.fail(machine.error()); }
     auto session = Session::join(*machine, Purpose::Command);
     if (!session) { return output.fail(session.error()); }
-    const auto reply = session->command({.kind = interrupt.command});
+    const auto reply = send_command(*session, {.kind = interrupt.command});
     return reply ? report_outcome(*session, interrupt, *reply, output) : report_axes(*session, output);
 }
 

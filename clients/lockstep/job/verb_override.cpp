@@ -8,6 +8,7 @@
 #include "clients/session/control/lease_turn.hpp"
 #include "clients/session/refusal.hpp"
 #include "clients/session/session.hpp"
+#include "clients/session/waits.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/output.hpp"
 #include "core/overrides.hpp"
@@ -38,9 +39,9 @@ ExitCode turn(const OverrideOptions& options) {
         const LeaseTurn turn(*session, options.take);
         if (!turn.answer()) { return output.fail(turn.answer().error()); }
         if (turn.is_refused()) { return print_refusal(*turn.answer(), output); }
-        const auto reply = session->command({.kind = CommandKind::Override,
-                                             .feed_percent = options.feed_percent,
-                                             .rapid_percent = options.rapid_percent});
+        const auto reply = send_command(*session, {.kind = CommandKind::Override,
+                                                   .feed_percent = options.feed_percent,
+                                                   .rapid_percent = options.rapid_percent});
         if (!reply) { return output.fail(reply.error()); }
         if (reply->status == ReplyStatus::Refused) { return print_refusal(*reply, output); }
     }

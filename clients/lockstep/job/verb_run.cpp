@@ -10,6 +10,7 @@
 #include "clients/planning/program_text.hpp"
 #include "clients/session/job_plan.hpp"
 #include "clients/session/program_start.hpp"
+#include "clients/session/waits.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/format.hpp"
 #include "clients/text/notes.hpp"
@@ -59,7 +60,7 @@ std::expected<Start, Failure> reach_start(const RunOptions& options) {
     if (!session) { return std::unexpected(session.error()); }
     auto stands_mm = start_places(*session);
     if (!stands_mm) { return std::unexpected(stands_mm.error()); }
-    auto values = session->values();
+    auto values = await_values(*session);
     if (!values) { return std::unexpected(values.error()); }
     return Start{*std::move(session), *std::move(stands_mm), *std::move(values)};
 }

@@ -25,7 +25,7 @@ std::string padded(std::string text, std::size_t width) {
 
 std::string line_of(const Session& session, const JogKeys& keys, std::size_t axis) {
     const AxisConfig& config = session.config().axes[axis];
-    const auto& received = session.axis(axis);
+    const auto& received = session.received().axis(axis);
     if (!received) { return padded("  " + config.name, 8) + "not received\n"; }
     const AxisState& state = received->state;
     const std::string place = fixed(to_mm(config, static_cast<double>(state.position.count())), 3);

@@ -13,6 +13,7 @@
 #include "clients/session/refusal.hpp"
 #include "clients/session/reports.hpp"
 #include "clients/session/status_text.hpp"
+#include "clients/session/waits.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/format.hpp"
 #include "core/coordinator/jogs/jogs.hpp"
@@ -34,7 +35,7 @@ struct JogVerbOptions : LiveOptions {
 void warn_of_unhomed(const Session& session, const std::vector<JogAxis>& jogs, Output& output) {
     for (const JogAxis& jog : jogs) {
         const AxisConfig& axis = session.config().axes[jog.axis];
-        const auto& received = session.axis(jog.axis);
+        const auto& received = session.received().axis(jog.axis);
         if (!received || received->state.homed || !axis.unhomed_jog_mm_s) { continue; }
         output.warn(
             fmt::format("axis {} is not homed: it jogs at {} mm/s at most, and only a limit switch ends the jog",
@@ -47,15 +48,15 @@ class Arrival {
 public:
     Arrival(const Session& session, const std::vector<JogAxis>& jogs) : jogs_(jogs) {
         for (const JogAxis& jog : jogs) {
-            const AxisState& state = session.axis(jog.axis)->state;
+            const AxisState& state = session.received().axis(jog.axis)->state;
             targets_.push_back(jog_target(jog, session.config().axes[jog.axis], state.position.count(), state.homed));
         }
     }
     bool is_complete(const Session& session) const {
         for (std::size_t i = 0; i < jogs_.size(); ++i) {
-            const auto& received = session.axis(jogs_[i].axis);
+            const auto& received = session.received().axis(jogs_[i].axis);
             // Where the jog began and ends, motors rest on whole steps of their own.
-            const std::int64_t rests = 2 * session.kinematics().rest_steps(jogs_[i].axis);
+            const std::int64_t rests = 2 * session.received().kinematics().rest_steps(jogs_[i].axis);
             if (!received || std::abs(received->state.position.count() - targets_[i]) > rests) { return false; }
         }
         return true;
@@ -72,11 +73,12 @@ std::expected<bool, Failure> hold(Session& session, JogLink& link) {
     const HangUp hang_up;
     while (!link.is_over() && !stop.requested() && !hang_up.came()) {
         link.pass(monotonic_now() + 20ms);
-        if (session.is_silent()) { return std::unexpected(session.silent()); }
+        if (session.is_silent()) { return std::unexpected(silence(session)); }
     }
     const bool is_released = !link.is_over();
     link.release();
-    for (const nanoseconds end = session.running_time() + kBrakePatience; session.running_time() < end;) {
+    for (const nanoseconds end = session.owner().running_time() + kBrakePatience;
+         session.owner().running_time() < end;) {
         link.pass(monotonic_now() + 20ms);
         const MachinePhase phase = session.state()->state.phase;
         if (phase != MachinePhase::Jogging && phase != MachinePhase::Stopping) { break; }
@@ -98,7 +100,7 @@ ExitCode finish(Session& session, const Arrival& arrival, bool is_released, prot
 }
 
 ExitCode jog_by_words(Session& session, const JogOptions& options, const std::vector<JogAxis>& jogs, Output& output) {
-    if (auto axes = session.reach_axes(); !axes) { return output.fail(axes.error()); }
+    if (auto axes = reach_axes(session); !axes) { return output.fail(axes.error()); }
     warn_of_unhomed(session, jogs, output);
     const Arrival arrival(session, jogs);
     proto::RunReport report;
@@ -107,7 +109,7 @@ ExitCode jog_by_words(Session& session, const JogOptions& options, const std::ve
     JogLink link(session);
     link.press(jogs);
     while (link.reply() == nullptr) {
-        if (link.is_unanswered()) { return output.fail(session.silent()); }
+        if (link.is_unanswered()) { return output.fail(silence(session)); }
         link.pass(monotonic_now() + 5ms);
     }
     if (link.reply()->status == ReplyStatus::Refused) {
@@ -138,7 +140,7 @@ ExitCode jog(const JogVerbOptions& options) {
     if (!turn.answer()) { return output.fail(turn.answer().error()); }
     if (turn.is_refused()) { return print_refusal(*turn.answer(), output); }
     if (!jogs->empty()) { return jog_by_words(*session, options.jog, *jogs, output); }
-    session->await_axes();
+    await_axes(*session);
     return jog_by_keys(*session, options.jog.distance_mm, output);
 }
 

@@ -147,8 +147,8 @@ void examine_processes(const ChosenMachine& machine, Findings& findings) {
     const auto& owner = session->state();
     add_process("coordinator", std::nullopt, owner.has_value(), owner ? owner->state.config_hash : 0);
     for (std::size_t i = 0; i < motor_count(machine.config); ++i) {
-        const auto& axis = session->motor(i);
-        add_process(session->kinematics().label(i), i, axis.has_value(), axis ? axis->state.config_hash : 0);
+        const auto& axis = session->received().motor(i);
+        add_process(session->received().kinematics().label(i), i, axis.has_value(), axis ? axis->state.config_hash : 0);
     }
 }
 

@@ -6,6 +6,7 @@
 #include "clients/lockstep/live_options.hpp"
 #include "clients/lockstep/verb.hpp"
 #include "clients/session/session.hpp"
+#include "clients/session/waits.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/supervisor/other_hosts.hpp"
 #include "clients/supervisor/state_directory.hpp"
@@ -31,7 +32,7 @@ constexpr auto kLastStates = 300ms;  // so that clients receive the final states
 /// Brings a machine that moves to rest on its path. A machine that does not answer is taken down directly.
 void bring_to_rest(const ChosenMachine& machine, Output& output) {
     auto session = Session::join(machine, Purpose::Command);
-    if (!session || !session->reach(1s)) { return; }
+    if (!session || !reach(*session, 1s)) { return; }
     const auto moves = [&] {
         const MachinePhase phase = session->state()->state.phase;
         return phase == MachinePhase::Homing || phase == MachinePhase::Jogging || phase == MachinePhase::Running ||
@@ -39,7 +40,7 @@ void bring_to_rest(const ChosenMachine& machine, Output& output) {
     };
     if (!moves()) { return; }
     output.print("stopping first ...");
-    if (!session->command({.kind = CommandKind::Stop})) { return; }
+    if (!send_command(*session, {.kind = CommandKind::Stop})) { return; }
     (void)session->receive_until(kDownPatience, [&] { return !moves(); });
     const auto until = monotonic_now() + kLastStates;
     while (monotonic_now() < until) { session->receive(until - monotonic_now()); }

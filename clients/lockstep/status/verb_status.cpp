@@ -7,6 +7,7 @@
 #include "clients/session/reports.hpp"
 #include "clients/session/session.hpp"
 #include "clients/session/status_text.hpp"
+#include "clients/session/waits.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/output.hpp"
 
@@ -21,9 +22,9 @@ ExitCode status(const LiveOptions& options) {
     if (!machine) { return output.fail(machine.error()); }
     auto session = Session::open(*machine, Purpose::Look);
     if (!session) { return output.fail(session.error()); }
-    session->await_axes();
-    session->await_healths(1s);
-    session->await_values(1s);
+    await_axes(*session);
+    await_healths(*session, 1s);
+    (void)session->receive_until(1s, [&] { return session->values().has_any(); });
     if (session->config_differs()) {
         output.warn("the coordinator runs another configuration than this command reads");
     }

@@ -5,6 +5,7 @@
 #include "clients/lockstep/verb.hpp"
 #include "clients/session/reports.hpp"
 #include "clients/session/session.hpp"
+#include "clients/session/waits.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/colour.hpp"
 #include "clients/text/output.hpp"
@@ -60,8 +61,8 @@ ExitCode watch(const LiveOptions& options) {
     if (session->config_differs()) {
         output.warn("the coordinator runs another configuration than this command reads");
     }
-    session->await_axes();
-    session->await_healths(300ms);
+    await_axes(*session);
+    await_healths(*session, 300ms);
     const StopSignal stop;
     if (output.is_terminal() && !output.json()) {
         watch_on_screen(*session, stop, wants_colour() ? Ink::Colour : Ink::Plain);

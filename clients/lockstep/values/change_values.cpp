@@ -4,6 +4,7 @@
 #include "clients/session/control/store_values.hpp"
 #include "clients/session/refusal.hpp"
 #include "clients/session/session.hpp"
+#include "clients/session/waits.hpp"
 #include "clients/supervisor/machine_choice.hpp"
 #include "clients/text/format.hpp"
 #include "clients/text/output.hpp"
@@ -31,7 +32,7 @@ void note_paused_job(const Session& session, Output& output) {
 
 ExitCode print(const Session& session, const RevisedValues& values, ValuesText text, Output& output) {
     std::vector<std::string> warnings;
-    if (session.values_unsaved_since()) {
+    if (session.values().unsaved_since()) {
         warnings.push_back(std::string(kUnsavedValues) + "; " + kUnsavedValuesRemedy);
     }
     output.report(values_to_proto(values), warnings);
@@ -45,7 +46,7 @@ ExitCode show_values(const LiveOptions& options, ValuesText text) {
     Output output(options.json);
     auto session = open(options, Purpose::Look);
     if (!session) { return output.fail(session.error()); }
-    const auto values = session->values();
+    const auto values = await_values(*session);
     return values ? print(*session, *values, text, output) : output.fail(values.error());
 }
 
@@ -58,7 +59,7 @@ ExitCode change_values_here(const LiveOptions& options, ValuesText text, const C
     Output output(options.json);
     auto session = open(options, Purpose::Command);
     if (!session) { return output.fail(session.error()); }
-    auto values = session->values();
+    auto values = await_values(*session);
     if (!values) { return output.fail(values.error()); }
     gcode::KeptValues wanted = values->values;
     if (const auto changed = change(*session, wanted); !changed) { return output.fail(bad_input(changed.error())); }

@@ -20,7 +20,7 @@ Changed check_homed(const Session& session, const ChangeWords& words) {
         const auto target = parse_target(word);
         const auto axis = target ? find_axis(session.config(), target->axis) : std::unexpected(target.error());
         if (!axis) { return std::unexpected(axis.error()); }
-        if (session.axis(*axis)->state.homed) { continue; }
+        if (session.received().axis(*axis)->state.homed) { continue; }
         return std::unexpected("axis " + session.config().axes[*axis].name +
                                " is not homed, so its position is not known; home it: lockstep home");
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "clients/session/command_effect.hpp"
+#include "clients/session/waits.hpp"
 #include "services/files/text_file.hpp"
 #include "services/runtime/clock.hpp"
 
@@ -116,13 +117,13 @@ Done ActExecutor::reset() {
 
 /// The axes receive the command directly, whether a coordinator answers or not.
 Done ActExecutor::stop_at_once() {
-    const auto reply = session_.command({.kind = CommandKind::EmergencyStop}, nullptr, kStopPatience);
+    const auto reply = send_command(session_, {.kind = CommandKind::EmergencyStop}, nullptr, kStopPatience);
     if (!reply || reply->status == ReplyStatus::Accepted) { return {}; }
     return std::unexpected("refused: " + reply->text);
 }
 
 Done ActExecutor::ask(const Command& command) {
-    const auto reply = session_.command(command);
+    const auto reply = send_command(session_, command);
     if (!reply) { return std::unexpected(failure_text(reply.error())); }
     if (reply->status == ReplyStatus::Accepted) { return {}; }
     return std::unexpected("refused: " + reply->text);

@@ -6,6 +6,7 @@
 #include "clients/session/job_plan.hpp"
 #include "clients/session/move_program.hpp"
 #include "clients/session/reports.hpp"
+#include "clients/session/waits.hpp"
 #include "clients/text/format.hpp"
 #include "core/kinematics/motors.hpp"
 
@@ -43,22 +44,62 @@ CommandKind command_of(const Step& step) {
 
 std::string text_of(const Failure& failure) { return to_text(failure.file, failure.errors); }
 
+/// Whether states of all axes with active processes came since then.
+bool receives_all(const Session& session, ProcessSet& processes, nanoseconds since) {
+    const std::vector<std::string> motors = motor_names(session.config());
+    for (std::size_t i = 0; i < motors.size(); ++i) {
+        const bool is_received = session.received().motor(i) && session.received().motor(i)->time > since &&
+                                 has_axis(session.state()->state.axes_present, i);
+        if (processes.is_active("axis-" + motors[i]) && !is_received) { return false; }
+    }
+    return true;
+}
+
+/// Ignores axes with overdue states.
+bool all_present_rest(const Session& session) {
+    for (std::size_t i = 0; i < motor_count(session.config()); ++i) {
+        if (session.received().motor_present(i) && !session.received().motor(i)->state.at_rest) { return false; }
+    }
+    return true;
+}
+
+Moment moment_of(const Session& session, nanoseconds begun) {
+    Moment now{.since_begun_s = to_seconds(monotonic_now() - begun)};
+    if (session.state()) {
+        now.phase = session.state()->state.phase;
+        now.line = session.state()->state.line;
+    }
+    for (std::size_t i = 0; i < session.config().axes.size(); ++i) {
+        const auto& axis = session.received().axis(i);
+        now.at_mm.push_back(axis ? std::optional(to_mm(session.config().axes[i], axis->state.position.as_steps()))
+                                 : std::nullopt);
+    }
+    return now;
+}
+
+std::expected<Program, std::string> program_of_step(const Scenario& scenario, const Step& step,
+                                                    const std::vector<double>& start_mm) {
+    if (step.has_run()) {
+        auto program = program_of(step.run(), scenario.folder(), scenario.machine, start_mm);
+        if (!program) { return std::unexpected(to_text("the program", program.error())); }
+        return *std::move(program);
+    }
+    MoveOptions options{.targets = {step.move().to().begin(), step.move().to().end()}};
+    if (step.move().has_feed_mm_min()) { options.feed_mm_min = step.move().feed_mm_min(); }
+    return move_program(scenario.machine, start_mm, options);
+}
+
 }  // namespace
 
 ScenarioExecutor::ScenarioExecutor(const Scenario& scenario, Session& session, ProcessSet& processes, ActExecutor& acts)
-    : scenario_(scenario),
-      session_(session),
-      processes_(processes),
-      acts_(acts),
-      clock_(scenario.machine.tick_ns, scenario.machine.timing.time_source),
-      start_(clock_.now()) {}
+    : scenario_(scenario), session_(session), processes_(processes), acts_(acts), notes_(scenario.machine) {}
 
 void ScenarioExecutor::execute() {
-    start_ = clock_.now();
+    notes_.begin();
     for (const Step& step : scenario_.asked.step()) {
         ++step_;
         execute_step(step);
-        if (!observed_.broken.empty()) { return; }
+        if (!notes_.observed().broken.empty()) { return; }
     }
     settle();
 }
@@ -66,17 +107,19 @@ void ScenarioExecutor::execute() {
 void ScenarioExecutor::execute_step(const Step& step) {
     if (step.has_wait()) { return execute_wait(step); }
     if (!step.has_act()) { return execute_job(step); }
-    note(text_of(step.act()));
+    notes_.note(text_of(step.act()));
     const auto done = acts_.execute(step.act());
-    add_check(title(step), done ? "done" : done.error(), done.has_value());
+    notes_.add_check(title(step), done ? "done" : done.error(), done.has_value());
 }
 
 void ScenarioExecutor::execute_wait(const Step& step) {
     const Asked::Wait& wait = step.wait();
     if (wait.has_phase()) {
         const bool is_there = wait_for(wait.phase());
-        if (!is_there) { observed_.broken = title(step) + ": not reached, it is " + status_report(session_).phase(); }
-        note(title(step) + (is_there ? ": it is" : ": not reached"));
+        if (!is_there) {
+            notes_.observed().broken = title(step) + ": not reached, it is " + status_report(session_).phase();
+        }
+        notes_.note(title(step) + (is_there ? ": it is" : ": not reached"));
     }
     const nanoseconds until = monotonic_now() + to_time(wait.seconds());
     while (monotonic_now() < until) { poll_session(); }
@@ -86,7 +129,7 @@ void ScenarioExecutor::execute_wait(const Step& step) {
 void ScenarioExecutor::check_found(const Step& step) {
     const auto fault = session_.state() ? fault_of(session_.state()->state, scenario_.machine) : std::nullopt;
     const std::string found = fault ? fault->name() : "none";
-    add_check(title(step) + ": the fault is " + step.fault(), found, found == step.fault());
+    notes_.add_check(title(step) + ": the fault is " + step.fault(), found, found == step.fault());
 }
 
 bool ScenarioExecutor::wait_for(Asked::Phase phase) {
@@ -94,29 +137,20 @@ bool ScenarioExecutor::wait_for(Asked::Phase phase) {
     const nanoseconds since = monotonic_now();
     const auto is_there = [&] {
         const auto& received = session_.state();
-        return received && received->time > since && is_in(phase, received->state.phase) && receives_all(since);
+        return received && received->time > since && is_in(phase, received->state.phase) &&
+               receives_all(session_, processes_, since);
     };
     while (!is_there() && monotonic_now() < deadline) { poll_session(); }
     return is_there();
 }
 
-bool ScenarioExecutor::receives_all(nanoseconds since) {
-    const std::vector<std::string> motors = motor_names(scenario_.machine);
-    for (std::size_t i = 0; i < motors.size(); ++i) {
-        const bool is_received =
-            session_.motor(i) && session_.motor(i)->time > since && has_axis(session_.state()->state.axes_present, i);
-        if (processes_.is_active("axis-" + motors[i]) && !is_received) { return false; }
-    }
-    return true;
-}
-
 void ScenarioExecutor::execute_job(const Step& step) {
-    note(text_of(step));
+    notes_.note(text_of(step));
     const Term asked = session_.state() ? session_.state()->state.term : Term{};
     const auto reply = begin(step);
     EventSchedule schedule(step, scenario_.machine.axis_names());
     if (!reply) {
-        observed_.broken = title(step) + ": " + reply.error();
+        notes_.observed().broken = title(step) + ": " + reply.error();
         return;
     }
     std::optional<Ended> end;
@@ -126,10 +160,11 @@ void ScenarioExecutor::execute_job(const Step& step) {
         end = watch({reply->job, asked, asked}, schedule);
     }
     if (!end) {
-        observed_.broken = title(step) + ": it has not ended after " + fixed(to_seconds(kJobPatience), 0) + " s";
+        notes_.observed().broken =
+            title(step) + ": it has not ended after " + fixed(to_seconds(kJobPatience), 0) + " s";
         return check_left(step, schedule, "the job has not ended");
     }
-    note(text_of(step) + ": " + text_of(end->ending) + (end->fault.empty() ? "" : ", " + end->fault));
+    notes_.note(text_of(step) + ": " + text_of(end->ending) + (end->fault.empty() ? "" : ", " + end->fault));
     check_left(step, schedule, "the job ended before (" + text_of(end->ending) + ")");
     check_ending(step, *end);
 }
@@ -144,7 +179,7 @@ std::expected<Reply, std::string> ScenarioExecutor::begin(const Step& step) {
         if (!program) { return std::unexpected(program.error()); }
         command.program = *program;
     }
-    auto reply = session_.command(command);
+    auto reply = send_command(session_, command);
     if (!reply) { return std::unexpected(text_of(reply.error())); }
     return *std::move(reply);
 }
@@ -152,23 +187,11 @@ std::expected<Reply, std::string> ScenarioExecutor::begin(const Step& step) {
 std::expected<std::uint64_t, std::string> ScenarioExecutor::send(const Step& step) {
     const auto start_mm = start_places(session_);
     if (!start_mm) { return std::unexpected(text_of(start_mm.error())); }
-    const auto program = program_of_step(step, *start_mm);
+    const auto program = program_of_step(scenario_, step, *start_mm);
     if (!program) { return std::unexpected(program.error()); }
-    const auto sent = session_.send(*program);
+    const auto sent = send_program(session_, *program);
     if (!sent) { return std::unexpected(text_of(sent.error())); }
     return *sent;
-}
-
-std::expected<Program, std::string> ScenarioExecutor::program_of_step(const Step& step,
-                                                                      const std::vector<double>& start_mm) {
-    if (step.has_run()) {
-        auto program = program_of(step.run(), scenario_.folder(), scenario_.machine, start_mm);
-        if (!program) { return std::unexpected(to_text("the program", program.error())); }
-        return *std::move(program);
-    }
-    MoveOptions options{.targets = {step.move().to().begin(), step.move().to().end()}};
-    if (step.move().has_feed_mm_min()) { options.feed_mm_min = step.move().feed_mm_min(); }
-    return move_program(scenario_.machine, start_mm, options);
 }
 
 std::optional<ScenarioExecutor::Ended> ScenarioExecutor::watch(WatchedJob watched, EventSchedule& schedule) {
@@ -182,7 +205,9 @@ std::optional<ScenarioExecutor::Ended> ScenarioExecutor::watch(WatchedJob watche
 }
 
 std::optional<ScenarioExecutor::Ended> ScenarioExecutor::ended(WatchedJob& watched) {
-    if (session_.is_silent()) { return all_present_rest() ? std::optional(Ended{Step::SILENT, ""}) : std::nullopt; }
+    if (session_.is_silent()) {
+        return all_present_rest(session_) ? std::optional(Ended{Step::SILENT, ""}) : std::nullopt;
+    }
     const MachineState& state = session_.state()->state;
     const JobResult result = lockstep::result_of(state, watched.job, watched.asked, watched.runs_it);
     if (result == JobResult::InProgress) {
@@ -193,43 +218,22 @@ std::optional<ScenarioExecutor::Ended> ScenarioExecutor::ended(WatchedJob& watch
     return Ended{ending_of(result), fault ? fault->name() : ""};
 }
 
-/// Ignores axes with overdue states.
-bool ScenarioExecutor::all_present_rest() const {
-    for (std::size_t i = 0; i < motor_count(scenario_.machine); ++i) {
-        if (session_.motor_present(i) && !session_.motor(i)->state.at_rest) { return false; }
-    }
-    return true;
-}
-
-Moment ScenarioExecutor::moment(nanoseconds begun) const {
-    Moment now{.since_begun_s = to_seconds(monotonic_now() - begun)};
-    if (session_.state()) {
-        now.phase = session_.state()->state.phase;
-        now.line = session_.state()->state.line;
-    }
-    for (std::size_t i = 0; i < scenario_.machine.axes.size(); ++i) {
-        const auto& axis = session_.axis(i);
-        now.at_mm.push_back(axis ? std::optional(to_mm(scenario_.machine.axes[i], axis->state.position.as_steps()))
-                                 : std::nullopt);
-    }
-    return now;
-}
-
 void ScenarioExecutor::inject_due(EventSchedule& schedule, nanoseconds begun) {
-    while (const Asked::During* during = schedule.next(moment(begun))) {
-        const Tick at = clock_.now();
-        note(text_of(*during), at);
+    while (const Asked::During* during = schedule.next(moment_of(session_, begun))) {
+        const Tick at = notes_.now();
+        notes_.note(text_of(*during), at);
         const auto done = acts_.execute(during->act());
-        add_check(text_of(*during), done ? "done at " + fixed(at_s(at), 3) + " s" : done.error(), done.has_value());
+        notes_.add_check(text_of(*during), done ? "done at " + fixed(notes_.seconds_at(at), 3) + " s" : done.error(),
+                         done.has_value());
         for (const auto& output : during->output()) {
-            observed_.outputs.push_back({text_of(during->act()), at, output});
+            notes_.observed().outputs.push_back({text_of(during->act()), at, output});
         }
         if (!during->has_rests_within_frames()) { continue; }
         AwaitedRest rest{text_of(during->act()), at, during->rests_within_frames(), {}};
         for (const std::string& motor : motor_names(scenario_.machine)) {
             if (processes_.is_active("axis-" + motor)) { rest.axes.push_back(motor); }
         }
-        observed_.rests.push_back(std::move(rest));
+        notes_.observed().rests.push_back(std::move(rest));
     }
 }
 
@@ -240,23 +244,23 @@ void ScenarioExecutor::poll_session() {
 
 void ScenarioExecutor::undo_due() {
     while (const auto act = acts_.take_due()) {
-        note(text_of(*act));
+        notes_.note(text_of(*act));
         const auto done = acts_.execute(*act);
-        if (!done) { add_check(text_of(*act), done.error(), false); }
+        if (!done) { notes_.add_check(text_of(*act), done.error(), false); }
     }
 }
 
 void ScenarioExecutor::check_left(const Step& step, const EventSchedule& schedule, const std::string& because) {
     for (int i = schedule.done(); i < step.during_size(); ++i) {
-        add_check(text_of(step.during(i)), "never happened: " + because, false);
+        notes_.add_check(text_of(step.during(i)), "never happened: " + because, false);
     }
 }
 
 void ScenarioExecutor::check_ending(const Step& step, const Ended& found) {
     const auto with = [](const std::string& fault) { return fault.empty() ? "" : " with " + fault; };
     const bool held = found.ending == step.ends() && (!step.has_fault() || step.fault() == found.fault);
-    add_check(title(step) + ": ends " + text_of(step.ends()) + with(step.fault()),
-              text_of(found.ending) + with(found.fault), held);
+    notes_.add_check(title(step) + ": ends " + text_of(step.ends()) + with(step.fault()),
+                     text_of(found.ending) + with(found.fault), held);
 }
 
 /// Waits until all acts are undone, and exactly the axes with active processes count as present.
@@ -265,27 +269,14 @@ void ScenarioExecutor::settle() {
     const auto is_settled = [&] {
         const std::vector<std::string> motors = motor_names(scenario_.machine);
         for (std::size_t i = 0; i < motors.size(); ++i) {
-            if (session_.motor_present(i) != processes_.is_active("axis-" + motors[i])) { return false; }
+            if (session_.received().motor_present(i) != processes_.is_active("axis-" + motors[i])) { return false; }
         }
         return !acts_.has_more_to_undo();
     };
     while (acts_.has_more_to_undo() || (!is_settled() && monotonic_now() - since < kSettlePatience)) { poll_session(); }
-    observed_.status = status_report(session_);
+    notes_.observed().status = status_report(session_);
 }
 
 std::string ScenarioExecutor::title(const Step& step) const { return fmt::format("step {}, {}", step_, text_of(step)); }
-
-double ScenarioExecutor::at_s(Tick tick) const { return scenario_.machine.microseconds(tick - start_) * 1e-6; }
-
-void ScenarioExecutor::note(const std::string& what, Tick at) {
-    proto::ScenarioHappening& happening = observed_.events.emplace_back();
-    happening.set_tick(at.value);
-    happening.set_at_s(at_s(at));
-    happening.set_what(what);
-}
-
-void ScenarioExecutor::add_check(const std::string& asked, const std::string& found, bool held) {
-    observed_.checks.push_back(check_of(asked, found, kAsObserved, held));
-}
 
 }  // namespace lockstep::scenario

@@ -5,8 +5,8 @@
 #include "clients/scenario/model/event_schedule.hpp"
 #include "clients/scenario/model/facts.hpp"
 #include "clients/scenario/runner/act_executor.hpp"
+#include "clients/scenario/runner/run_notes.hpp"
 #include "clients/session/job_result.hpp"
-#include "services/runtime/clock.hpp"
 
 namespace lockstep::scenario {
 
@@ -19,7 +19,7 @@ public:
     bool wait_for(Asked::Phase phase);
     /// Executes the steps in order. Ends early at a step that cannot be executed.
     void execute();
-    const Observations& observations() const { return observed_; }
+    const Observations& observations() const { return notes_.observed(); }
 
 private:
     struct WatchedJob {
@@ -38,7 +38,6 @@ private:
     void check_found(const Asked::Step& step);
     std::expected<Reply, std::string> begin(const Asked::Step& step);
     std::expected<std::uint64_t, std::string> send(const Asked::Step& step);
-    std::expected<Program, std::string> program_of_step(const Asked::Step& step, const std::vector<double>& start_mm);
     std::optional<Ended> watch(WatchedJob watched, EventSchedule& schedule);
     std::optional<Ended> ended(WatchedJob& watched);
     void inject_due(EventSchedule& schedule, std::chrono::nanoseconds begun);
@@ -47,24 +46,14 @@ private:
     void check_ending(const Asked::Step& step, const Ended& found);
     void check_left(const Asked::Step& step, const EventSchedule& schedule, const std::string& because);
     void settle();
-
-    Moment moment(std::chrono::nanoseconds begun) const;
-    bool receives_all(std::chrono::nanoseconds since);
-    bool all_present_rest() const;
     std::string title(const Asked::Step& step) const;
-    double at_s(Tick tick) const;
-    void note(const std::string& what) { note(what, clock_.now()); }
-    void note(const std::string& what, Tick at);
-    void add_check(const std::string& asked, const std::string& found, bool held);
 
     const Scenario& scenario_;
     Session& session_;
     ProcessSet& processes_;
     ActExecutor& acts_;
-    MachineClock clock_;
-    Tick start_;
+    RunNotes notes_;
     int step_ = 0;  // counted from 1
-    Observations observed_;
 };
 
 }  // namespace lockstep::scenario

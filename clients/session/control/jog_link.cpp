@@ -16,7 +16,7 @@ void JogLink::press(const std::vector<JogAxis>& jogs) {
 void JogLink::pass(std::chrono::nanoseconds until) {
     for (auto now = monotonic_now(); now < until; now = monotonic_now()) {
         if (tracker_) { step_ = session_.follow(*tracker_); }
-        const auto due_in = tracker_ ? tracker_->due_in(session_.running_time()) : std::nullopt;
+        const auto due_in = tracker_ ? tracker_->due_in(session_.owner().running_time()) : std::nullopt;
         session_.receive(std::min(until - now, due_in ? std::max(*due_in, kLeastWait) : until - now));
     }
 }

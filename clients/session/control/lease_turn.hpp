@@ -4,6 +4,7 @@
 #include <expected>
 
 #include "clients/session/session.hpp"
+#include "services/runtime/stop_signal.hpp"
 
 namespace lockstep {
 

@@ -24,7 +24,7 @@ std::optional<TouchOrError> received_touch(const Session& session, std::uint64_t
     if (!result || result->job != job) { return std::nullopt; }
     std::vector<double> rest_mm;
     for (std::size_t i = 0; i < machine.axes.size(); ++i) {
-        const auto& axis = session.axis(i);
+        const auto& axis = session.received().axis(i);
         if (!axis || axis->time <= since || !axis->state.at_rest) { return std::nullopt; }
         rest_mm.push_back(to_mm(machine.axes[i], static_cast<double>(axis->state.position.count())));
     }

@@ -1,5 +1,7 @@
 #include "clients/session/control/store_values.hpp"
 
+#include "clients/session/waits.hpp"
+
 namespace lockstep {
 
 Program edit_of(const MachineConfig& machine) {
@@ -12,11 +14,11 @@ Program edit_of(const MachineConfig& machine) {
 std::expected<void, Failure> store_values(Session& session, RevisedValues& values, const gcode::KeptValues& wanted) {
     if (wanted == values.values) { return {}; }
     const gcode::ProgramValues edit{.revision = values.revision, .after = wanted, .at_once = true};
-    if (const auto sent = session.send(edit_of(session.config()), nullptr, edit); !sent) {
+    if (const auto sent = send_program(session, edit_of(session.config()), nullptr, edit); !sent) {
         return std::unexpected(sent.error());
     }
     values = {values.revision + 1, wanted};
-    return session.await_kept(values.revision);
+    return await_kept(session, values.revision);
 }
 
 }  // namespace lockstep

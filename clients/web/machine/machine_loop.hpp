@@ -2,18 +2,18 @@
 // jogs and the lease, and publishes the state.
 #pragma once
 
-#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
-#include <vector>
 
+#include "clients/web/machine/action_queue.hpp"
 #include "clients/web/machine/jog_turn.hpp"
 #include "clients/web/machine/port.hpp"
 #include "clients/web/machine/probing_run.hpp"
 #include "clients/web/machine/session_lease.hpp"
+#include "clients/web/machine/snapshot_taker.hpp"
 #include "clients/web/machine/task_queue.hpp"
 
 namespace lockstep::web {
@@ -37,12 +37,10 @@ public:
     std::shared_ptr<const Snapshot> snapshot() const override;
 
 private:
-    using Action = std::function<void()>;
     /// Refuses with `done` if too many actions wait already.
     /// `is_stop`: it has a place even if too many others wait.
-    void add(Action action, const Done& done, bool is_stop = false);
+    void add(ActionQueue::Action action, const Done& done, bool is_stop = false);
     void work(const std::stop_token& stop);
-    void take_actions();
     void start(std::unique_ptr<Task> task, const Done& done);
     bool is_sending() const;
     /// True while a command, a jog or a job of this server is under way.
@@ -51,27 +49,23 @@ private:
     void run_next_part();
     bool is_own_job() const;
 
-    void note_healths();
     void show();
     /// Updates the snapshot before `done`, so that a client that reads the state after its answer finds the effect
     /// there.
     Done shown(const Done& done);
-    Snapshot taken() const;
-    AxisSnapshot taken_axis(std::size_t axis) const;
-    std::vector<MotorSnapshot> taken_motors() const;
 
     Session session_;
     SessionLease lease_;
     JogTurn jog_;
     Publish publish_;
     TaskQueue tasks_;
-    std::vector<std::optional<Seen<AxisHealth>>> healths_;
+    SnapshotTaker snapshots_;
     std::optional<OwnJob> job_;
     std::optional<ProbingRun> probing_;  // of that job, if its program may go on behind a touch
     std::chrono::nanoseconds published_{};
 
+    ActionQueue actions_;
     mutable std::mutex mutex_;
-    std::deque<Action> actions_;
     std::shared_ptr<const Snapshot> snapshot_;
     std::jthread thread_;  // the last member: it uses the others
 };

@@ -19,7 +19,7 @@ ProbingRun::State ProbingRun::poll(const Session& session) {
 ProbingRun::State ProbingRun::read_on(const Session& session) {
     ProgramStream& stream = *program_.stream;
     const auto touch = received_touch(session, job_, *ended_);
-    const auto values = session.newest_values();
+    const auto values = session.values().newest();
     if (!touch || !values) { return State::Runs; }
     if (stream.changes_values() && values->revision <= stream.values().revision) { return State::Runs; }
     if (*touch) {

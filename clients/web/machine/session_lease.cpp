@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "clients/session/waits.hpp"
 #include "clients/web/state/writer_document.hpp"
 #include "services/network/host_name.hpp"
 
@@ -17,10 +18,10 @@ std::chrono::system_clock::time_point time_of(Tick tick, const MachineState& sta
 
 }  // namespace
 
-std::string silence_of(const Session& session) { return session.silent().errors.front().message; }
+std::string silence_of(const Session& session) { return silence(session).errors.front().message; }
 
 SessionLease::SessionLease(Session& session, const std::string& name) : session_(session) {
-    session_.write_as({.name = name, .host = host_name()});
+    session_.lease().write_as({.name = name, .host = host_name()});
 }
 
 std::optional<Problem> SessionLease::refusal(bool takes_over) const {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "clients/session/session.hpp"
+#include "clients/session/waits.hpp"
 #include "clients/web/request/problem.hpp"
 #include "clients/web/state/snapshot.hpp"
 
@@ -18,10 +19,10 @@ public:
     /// Notes the machine's writer. Call it when the session has received messages.
     void see();
     /// Call it in each loop, after the commands that wait for the lease have looked at is_held() and refusal().
-    void use(const LeaseUse& use) { session_.use_lease(use); }
-    void give() { session_.give_lease(); }
+    void use(const LeaseUse& use) { use_lease(session_, use); }
+    void give() { give_lease(session_); }
     /// Gives the lease back and waits briefly for the coordinator's answer. Call it at the end.
-    void end() { session_.give_lease(std::chrono::milliseconds{300}); }
+    void end() { give_lease(session_, std::chrono::milliseconds{300}); }
 
     bool is_held() const { return session_.lease().is_held(); }
     /// Why a command that waits for the lease has failed: another writer has the lease, or the coordinator does not

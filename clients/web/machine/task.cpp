@@ -31,11 +31,12 @@ bool Task::end(Outcome&& outcome) {
 }
 
 bool LeaseTask::poll(Session& session) {
-    if (!begun_) { begun_ = session.running_time(); }
+    if (!begun_) { begun_ = session.owner().running_time(); }
     const HeldLease* lease = session.writer();
     const bool is_writer = lease != nullptr && lease->writer.id == session.lease().writer().id;
     if (is_writer == takes_ && !session.is_silent()) { return end(Accepted{}); }
-    return session.running_time() - *begun_ > kPatience && end(std::unexpected(unanswered(silence_of(session))));
+    return session.owner().running_time() - *begun_ > kPatience &&
+           end(std::unexpected(unanswered(silence_of(session))));
 }
 
 CommandTask::CommandTask(const Command& command, Done done)
@@ -53,11 +54,11 @@ bool CommandTask::poll(Session& session) {
 bool RunTask::poll(Session& session) {
     if (command_) { return command_->poll(session); }
     if (!sent_) {
-        id_ = session.begin_stream(program_.head, program_.values, std::move(program_.feed));
-        sent_ = session.running_time();
+        id_ = session.upload().open(program_.head, program_.values, std::move(program_.feed)).program();
+        sent_ = session.owner().running_time();
         return false;
     }
-    const ProgramSender& sender = *session.sender();
+    const ProgramSender& sender = *session.upload().sender();
     if (sender.refusal()) { return end(std::unexpected(refused_by(*sender.refusal()))); }
     const bool is_planned_whole = coordination_of(session.config()).plans_whole;
     if (is_planned_whole ? sender.is_done() : sender.parts_taken() > 0) {
@@ -68,14 +69,14 @@ bool RunTask::poll(Session& session) {
         command_ = std::make_unique<CommandTask>(Command{.kind = CommandKind::Run, .program = id_}, done);
         return false;
     }
-    if (session.running_time() - *sent_ <= (is_planned_whole ? CommandTracker::kPlanPatience : kPatience)) {
+    if (session.owner().running_time() - *sent_ <= (is_planned_whole ? CommandTracker::kPlanPatience : kPatience)) {
         return false;
     }
     return end(std::unexpected(unanswered(silence_of(session))));
 }
 
 bool ValuesTask::begin(Session& session) {
-    const auto before = session.newest_values();
+    const auto before = session.values().newest();
     if (!before) {
         return end(std::unexpected(unanswered("the coordinator has not reported the machine's offsets and tools yet")));
     }
@@ -83,18 +84,18 @@ bool ValuesTask::begin(Session& session) {
     if (!wanted) { return end(std::unexpected(wanted.error())); }
     if (*wanted == before->values) { return end(Accepted{}); }
     const gcode::ProgramValues edit{.revision = before->revision, .after = *wanted, .at_once = true};
-    (void)session.begin_stream(edit_of(session.config()).head(), edit, [](ProgramSender& sender) { sender.end(); });
+    session.upload().open(edit_of(session.config()).head(), edit).end();
     revision_ = before->revision + 1;
-    sent_ = session.running_time();
+    sent_ = session.owner().running_time();
     return false;
 }
 
 bool ValuesTask::poll(Session& session) {
     if (!sent_) { return begin(session); }
-    const ProgramSender& sender = *session.sender();
+    const ProgramSender& sender = *session.upload().sender();
     if (sender.refusal()) { return end(std::unexpected(refused_by(*sender.refusal()))); }
-    if (sender.is_done() && session.is_kept(revision_)) { return end(Accepted{}); }
-    if (session.running_time() - *sent_ <= (sender.is_done() ? kDiskPatience : kPatience)) { return false; }
+    if (sender.is_done() && session.values().is_kept(revision_)) { return end(Accepted{}); }
+    if (session.owner().running_time() - *sent_ <= (sender.is_done() ? kDiskPatience : kPatience)) { return false; }
     return end(std::unexpected(unanswered(
         sender.is_done() ? "the coordinator has not reported that the change is on its disk; its log names the reason"
                          : silence_of(session))));

@@ -113,7 +113,7 @@ Problem wrong_program(const Diagnostics& errors) {
             .errors = errors};
 }
 
-Session::Feed feed_of(std::vector<Block>&& blocks) {
+ProgramUpload::Feed feed_of(std::vector<Block>&& blocks) {
     return [blocks = std::make_shared<const std::vector<Block>>(std::move(blocks)),
             next = std::size_t{0}](ProgramSender& sender) mutable {
         for (std::size_t n = sender.free_blocks(); n > 0 && next < blocks->size(); --n) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "clients/session/program_stream.hpp"
-#include "clients/session/session.hpp"
+#include "clients/session/upload/program_upload.hpp"
 #include "clients/web/http/message.hpp"
 #include "clients/web/program/path_points.hpp"
 #include "clients/web/request/problem.hpp"
@@ -41,7 +41,7 @@ std::expected<LoadedProgram, Problem> load_program(std::string text, const std::
 struct ReadyProgram {
     ProgramHead head;
     gcode::ProgramValues values;
-    Session::Feed feed;
+    ProgramUpload::Feed feed;
     std::shared_ptr<const ProgramFacts> facts;
     std::shared_ptr<ProgramStream> stream = {};  // that `feed` sends; null if it was read as a whole
 };
@@ -52,7 +52,7 @@ std::expected<ReadyProgram, Problem> ready_program(const LoadedProgram& program,
                                                    const ProgramStart& start);
 
 /// Passes the blocks to a session's sender as it has room for them.
-Session::Feed feed_of(std::vector<Block>&& blocks);
+ProgramUpload::Feed feed_of(std::vector<Block>&& blocks);
 /// 422 with the errors.
 Problem wrong_program(const Diagnostics& errors);
 

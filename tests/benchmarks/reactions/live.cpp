@@ -11,6 +11,7 @@
 #include <string>
 
 #include "clients/session/session.hpp"
+#include "clients/session/waits.hpp"
 #include "services/documents/machine_file.hpp"
 #include "services/runtime/clock.hpp"
 
@@ -28,7 +29,7 @@ struct Reaction {
 
 class LiveMachine {
 public:
-    explicit LiveMachine(Session session) : session_(std::move(session)) { session_.await_axes(); }
+    explicit LiveMachine(Session session) : session_(std::move(session)) { await_axes(session_); }
 
     /// Moves from one end of the travel to the other. Returns when the speed is steady.
     bool move(CommandKind kind) {
@@ -36,14 +37,14 @@ public:
         const double here = static_cast<double>(state().position.count()) / axis.steps_per_mm;
         const double to = here > 100 ? axis.position_min_mm + 5 : axis.position_max_mm - 5;
         const bool own = kind == CommandKind::MoveOwn;
-        const auto program = session_.send({.name = "line",
-                                            .axes = {axis.name},
-                                            .start_mm = {here},
-                                            .blocks = {{1, ProgramMove{{to}, own ? 0 : kSpeed_mm_s, own}}}});
+        const auto program = send_program(session_, {.name = "line",
+                                                     .axes = {axis.name},
+                                                     .start_mm = {here},
+                                                     .blocks = {{1, ProgramMove{{to}, own ? 0 : kSpeed_mm_s, own}}}});
         return program && does({.kind = kind, .program = *program}) && until([&] { return is_steady(); });
     }
     bool does(const Command& command) {
-        const auto reply = session_.command(command);
+        const auto reply = send_command(session_, command);
         return reply && reply->status == ReplyStatus::Accepted;
     }
     /// The reaction to `event`; nullopt if there is none in 20 s, or if the machine braked before it because this host
@@ -69,7 +70,7 @@ public:
     }
 
 private:
-    const AxisState& state() const { return session_.axis(0)->state; }
+    const AxisState& state() const { return session_.received().axis(0)->state; }
     double speed() const {
         const double per_tick = std::abs(state().velocity.steps_per_tick());
         return per_tick * session_.config().ticks_per_second() / session_.config().axes[0].steps_per_mm;

@@ -1,5 +1,5 @@
 // A program is sent while it is made: parts in flight, repetitions, and the free room of the coordinator.
-#include "clients/session/program_sender.hpp"
+#include "clients/session/upload/program_sender.hpp"
 
 #include <gtest/gtest.h>
 

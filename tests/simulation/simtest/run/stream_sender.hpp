@@ -26,7 +26,7 @@ private:
     void send(ProgramPart part);
     Ticks ticks(double seconds) const;
 
-    static constexpr double kRepeatAfter_s = 0.3;  // as clients/session/program_sender.hpp
+    static constexpr double kRepeatAfter_s = 0.3;  // as clients/session/upload/program_sender.hpp
     static constexpr double kAskAfter_s = 1;
 
     VirtualMachine& vm_;

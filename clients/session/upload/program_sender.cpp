@@ -1,4 +1,4 @@
-#include "clients/session/program_sender.hpp"
+#include "clients/session/upload/program_sender.hpp"
 
 #include <algorithm>
 
