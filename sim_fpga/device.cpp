@@ -9,75 +9,71 @@ namespace lockstep {
 
 using namespace registers;
 
+namespace {
+
+bool is_vetoed(const RegisterWindow& window, FrameNumber frame) { return window.load(kVeto) <= frame; }
+
+bool is_stop_asked(const RegisterWindow& window) {
+    const std::uint64_t stop = window.load(kStop);
+    return stop != 0 && stop == window.load(kRunRequest);
+}
+
+bool joins(const StepEngine& engine, const FrameHeader& frame) {
+    return frame.start == engine.now() && frame.from(engine.position().count()) == engine.position();
+}
+
+bool is_closed(const Channels& channels, std::uint32_t inputs) { return (channels.closed() & inputs) != 0; }
+
+bool runs_into_limit(const Channels& channels, int direction) {
+    return is_closed(channels, direction < 0 ? channels.setup().limit_min : channels.setup().limit_max);
+}
+
+/// trigger: the word of TRIGGER.
+bool is_triggered(const Channels& channels, std::uint64_t trigger) {
+    const auto inputs = static_cast<std::uint32_t>(kTriggerInputs.of(trigger));
+    const bool opens = (trigger & kTriggerOpens) != 0;
+    return inputs != 0 && is_closed(channels, inputs) != opens;
+}
+
+}  // namespace
+
 static_assert(DeviceAbilities{}.longest_piece == kMaxPieceTicks);
 
 SimulatedDevice::SimulatedDevice(RegisterWindow window, Plant plant, std::int64_t tick_ns, Tick now,
                                  std::uint64_t power_up, const DeviceAbilities& abilities)
     : window_(window),
       abilities_(abilities),
+      identity_(window, tick_ns, power_up),
+      motor_(window, abilities),
       segments_(window, abilities.segment_entries, abilities.longest_piece),
       capture_(window, abilities.capture_entries),
       channels_(window, abilities),
       plant_(std::move(plant)),
-      tick_ns_(static_cast<std::uint64_t>(tick_ns)),
-      power_up_(power_up),
       engine_(now, rest_position(0, false)) {
-    reset();
-}
-
-void SimulatedDevice::reset() {
-    for (const std::size_t word :
-         {kMagic, kSequence, kRunRequest, kTrigger, kArmed, kVeto, kStop, kSegmentHead, kCaptureTail, kOutputHead,
-          kEventTail, kBeat, kEnable, kDirectRequest, kSetupRequest}) {
-        window_.store(word, 0);
-    }
-    window_.store(kVersion, kVersionValue);
-    window_.store(kMapChecksum, kMapChecksumValue);
-    window_.store(kTickNs, tick_ns_);
-    window_.store(kPowerUp, power_up_);
-    window_.store(kSegmentEntries, abilities_.segment_entries);
-    window_.store(kCaptureEntries, abilities_.capture_entries);
-    window_.store(kLeastStepTicks, static_cast<std::uint64_t>(abilities_.least_step.value));
-    window_.store(kTimeUnitPs, abilities_.time_unit_ps);
-    window_.store(kLongestTime, abilities_.longest_time);
-    window_.store(kLongestPwmPeriod, abilities_.longest_pwm_period);
-    window_.store(kLongestPieceTicks, static_cast<std::uint64_t>(abilities_.longest_piece.value));
-    window_.store(kLeadTicks, static_cast<std::uint64_t>(abilities_.lead.value));
-    window_.store(kPinTicks, static_cast<std::uint64_t>(abilities_.behind.value));
-    window_.store(kInputChannels, abilities_.inputs);
-    window_.store(kDigitalChannels, abilities_.digital_outputs);
-    window_.store(kAnalogChannels, abilities_.analog_outputs);
-    window_.store(kOutputEntries, abilities_.output_entries);
-    window_.store(kEventEntries, abilities_.event_entries);
-    window_.store(kFeatures, (abilities_.has_encoder ? kFeaturesEncoder : 0) |
-                                 (abilities_.can_enable ? kFeaturesEnable : 0) |
-                                 (abilities_.can_compare ? kFeaturesCompare : 0) |
-                                 (abilities_.frames_stay ? kFeaturesFramesStay : 0));
+    identity_.store(abilities);
     tend();
     publish();
-    window_.store(kMagic, kMagicValue);
+    identity_.show();
 }
 
 bool SimulatedDevice::is_intact() const {
-    const bool is_own = window_.load(kMagic) == kMagicValue && window_.load(kVersion) == kVersionValue &&
-                        window_.load(kMapChecksum) == kMapChecksumValue && window_.load(kTickNs) == tick_ns_ &&
-                        window_.load(kPowerUp) == power_up_;
     const std::uint64_t loaded = window_.load(kSegmentHead) - segments_.taken();
     const std::uint64_t captured = capture_.head() - window_.load(kCaptureTail);
-    return is_own && loaded <= abilities_.segment_entries && captured <= abilities_.capture_entries &&
+    return identity_.is_intact() && loaded <= abilities_.segment_entries && captured <= abilities_.capture_entries &&
            channels_.is_intact();
 }
 
 void SimulatedDevice::advance(Tick until) {
-    take_setup();
+    const auto setup = in_motion() ? std::nullopt : motor_.take_setup();
+    if (setup) { channels_.set(*setup, place()); }
     take_enable();
     channels_.take_orders(place());
     take_run();
-    if (phase_ != Phase::AtRest && stop_asked()) { finish(kStatusStoppedByHost); }
+    if (phase_ != Phase::AtRest && is_stop_asked(window_)) { finish(kStatusStoppedByHost); }
     if (phase_ != Phase::AtRest && has_lost_ticks_) { finish(kStatusLostTicks); }
     tend();
     for (Tick next = decide(until); engine_.now() < until; next = decide(until)) {
-        const Tick due = next_due(next);
+        const Tick due = std::min(next, channels_.next().value_or(next));
         if (engine_.idle()) {
             engine_.wait(due);
         } else {
@@ -88,27 +84,9 @@ void SimulatedDevice::advance(Tick until) {
     publish();
 }
 
-/// A setup changes what inputs and pulses mean, so it is taken at rest only.
-void SimulatedDevice::take_setup() {
-    const std::uint64_t asked = window_.load(kSetupRequest);
-    if (in_motion() || asked == setup_taken_ || asked == setup_refused_) { return; }
-    const DeviceSetup setup = load_setup(window_, abilities_.time_unit_ps);
-    if (lack_of(abilities_, setup)) {
-        setup_refused_ = asked;
-        return;
-    }
-    setup_taken_ = asked;
-    channels_.set(setup, place());
-}
-
 void SimulatedDevice::take_enable() {
-    const bool falls_off = channels_.is_host_silent() && setup().disable_at_silence;
-    if (window_.load(kEnable) == 0 || falls_off) {
-        if (enabled_.has_value() && in_motion()) { finish(kStatusStoppedByHost); }
-        enabled_.reset();
-    } else if (!enabled_) {
-        enabled_ = engine_.now();
-    }
+    const bool falls_off = channels_.is_host_silent() && channels_.setup().disable_at_silence;
+    if (motor_.take_enable(falls_off, engine_.now()) && in_motion()) { finish(kStatusStoppedByHost); }
 }
 
 void SimulatedDevice::take_run() {
@@ -139,7 +117,7 @@ Tick SimulatedDevice::decide_first_frame(Tick until) {
     segments_.drop_other_runs(run_);
     const auto first = segments_.front();
     if (!first) { return until; }
-    if (vetoed(1)) {
+    if (is_vetoed(window_, 1)) {
         finish(0);
         return until;
     }
@@ -149,9 +127,9 @@ Tick SimulatedDevice::decide_first_frame(Tick until) {
             first->is_frame(1) && first->start == engine_.now() && rebase_to(first->from(engine_.position().count()));
         if (!joins || !segments_.take_frame(1, next_)) {
             finish(kStatusBadSegment);
-        } else if (is_closed(setup().stop)) {
+        } else if (is_closed(channels_, channels_.setup().stop)) {
             finish(kStatusStoppedByInput);
-        } else if (triggered()) {
+        } else if (is_triggered(channels_, trigger_)) {
             trigger_count_ = count_;
             finish(kStatusStoppedByTrigger);
         } else {
@@ -180,7 +158,7 @@ void SimulatedDevice::end_body() {
     const auto next = segments_.front();
     const FrameNumber number = frame_.number + 1;
     if (next && next->is_of_run(run_) && next->is_frame(number) && may_run(number)) {
-        if (joins(*next) && segments_.take_frame(number, next_)) {
+        if (joins(engine_, *next) && segments_.take_frame(number, next_)) {
             begin_frame();
             return;
         }
@@ -220,18 +198,8 @@ void SimulatedDevice::finish(std::uint64_t reason) {
 /// The host withdraws ARMED before it lifts VETO for another run, and requests that run last. The registers are read in
 /// reverse order, so no mixture of the values of two runs lets a frame through.
 bool SimulatedDevice::may_run(FrameNumber frame) const {
-    return !vetoed(frame) && window_.load(kArmed) >= frame && window_.load(kRunRequest) == run_ && may_move();
-}
-
-bool SimulatedDevice::vetoed(FrameNumber frame) const { return window_.load(kVeto) <= frame; }
-
-bool SimulatedDevice::stop_asked() const {
-    const std::uint64_t stop = window_.load(kStop);
-    return stop != 0 && stop == window_.load(kRunRequest);
-}
-
-bool SimulatedDevice::joins(const FrameHeader& frame) const {
-    return frame.start == engine_.now() && frame.from(engine_.position().count()) == engine_.position();
+    return !is_vetoed(window_, frame) && window_.load(kArmed) >= frame && window_.load(kRunRequest) == run_ &&
+           !has_lost_ticks_ && motor_.may_move(engine_.now(), channels_.setup().enable_wait);
 }
 
 /// A run may begin at the axis's position, with the phase that a stop left, or with the phase at rest.
@@ -241,28 +209,9 @@ bool SimulatedDevice::rebase_to(Position from) {
     return same_place;
 }
 
-bool SimulatedDevice::may_move() const {
-    return !has_lost_ticks_ && setup_taken_ != 0 && enabled_ && engine_.now() - *enabled_ >= setup().enable_wait;
-}
-
-bool SimulatedDevice::runs_into_limit(int direction) const {
-    return is_closed(direction < 0 ? setup().limit_min : setup().limit_max);
-}
-
-bool SimulatedDevice::triggered() const {
-    const auto inputs = static_cast<std::uint32_t>(kTriggerInputs.of(trigger_));
-    const bool opens = (trigger_ & kTriggerOpens) != 0;
-    return inputs != 0 && is_closed(inputs) != opens;
-}
-
-Tick SimulatedDevice::next_due(Tick until) const {
-    const auto due = channels_.next();
-    return due ? std::min(until, *due) : until;
-}
-
 /// Returns false to pause after this tick: for a limit switch, or to look at the inputs.
 bool SimulatedDevice::on_step(StepEdge step) {
-    if (runs_into_limit(step.direction)) {
+    if (runs_into_limit(channels_, step.direction)) {
         into_limit_ = true;
         return false;
     }
@@ -290,9 +239,9 @@ void SimulatedDevice::tend() {
 /// Why pulses cease after this tick. 0: they do not.
 std::uint64_t SimulatedDevice::reason_to_cease() const {
     if (!in_motion()) { return 0; }
-    const bool at_limit = into_limit_ || (stepped_ != 0 && runs_into_limit(stepped_));
-    return (at_limit ? kStatusStoppedByLimit : 0) | (triggered() ? kStatusStoppedByTrigger : 0) |
-           (is_closed(setup().stop) ? kStatusStoppedByInput : 0);
+    const bool at_limit = into_limit_ || (stepped_ != 0 && runs_into_limit(channels_, stepped_));
+    return (at_limit ? kStatusStoppedByLimit : 0) | (is_triggered(channels_, trigger_) ? kStatusStoppedByTrigger : 0) |
+           (is_closed(channels_, channels_.setup().stop) ? kStatusStoppedByInput : 0);
 }
 
 DevicePlace SimulatedDevice::place() const {
@@ -302,10 +251,11 @@ DevicePlace SimulatedDevice::place() const {
 std::uint64_t SimulatedDevice::status_word() const {
     const auto bit = [](bool set, std::uint64_t mask) { return set ? mask : 0; };
     return run_bits_ | bit(has_lost_ticks_, kStatusLostTicks) | bit(in_motion(), kStatusMoving) |
-           bit(phase_ == Phase::Tail, kStatusInTail) | bit(is_closed(setup().limit_min), kStatusLimitMin) |
-           bit(is_closed(setup().limit_max), kStatusLimitMax) | bit(is_closed(setup().home), kStatusHome) |
-           bit(enabled_.has_value(), kStatusEnabled) | bit(channels_.is_host_silent(), kStatusHostSilent) |
-           bit(setup_refused_ != 0 && window_.load(kSetupRequest) == setup_refused_, kStatusBadSetup);
+           bit(phase_ == Phase::Tail, kStatusInTail) |
+           bit(is_closed(channels_, channels_.setup().limit_min), kStatusLimitMin) |
+           bit(is_closed(channels_, channels_.setup().limit_max), kStatusLimitMax) |
+           bit(is_closed(channels_, channels_.setup().home), kStatusHome) | bit(motor_.is_enabled(), kStatusEnabled) |
+           bit(channels_.is_host_silent(), kStatusHostSilent) | bit(motor_.refuses_setup(), kStatusBadSetup);
 }
 
 void SimulatedDevice::publish() {
@@ -327,7 +277,7 @@ void SimulatedDevice::publish() {
     window_.store(kCaptureLost, capture_.lost());
     window_.store(kCaptureSum, capture_.sum());
     window_.store(kCaptureSums, capture_.sums());
-    window_.store(kSetup, setup_taken_);
+    window_.store(kSetup, motor_.setup_number());
     channels_.publish(engine_.now(), in_motion());
     window_.store(kSequence, ++sequence_);
 }

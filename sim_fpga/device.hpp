@@ -18,11 +18,12 @@
 #include <optional>
 
 #include "core/hardware/device_abilities.hpp"
-#include "core/hardware/device_setup.hpp"
 #include "core/step/engine.hpp"
 #include "core/step/segment.hpp"
 #include "sim_fpga/capture_ring.hpp"
 #include "sim_fpga/channels.hpp"
+#include "sim_fpga/device_identity.hpp"
+#include "sim_fpga/motor_readiness.hpp"
 #include "sim_fpga/plant.hpp"
 #include "sim_fpga/register_window.hpp"
 #include "sim_fpga/segment_ring.hpp"
@@ -59,8 +60,6 @@ public:
 private:
     enum class Phase : std::uint8_t { AtRest, Waiting, Body, Tail };
 
-    void reset();
-    void take_setup();
     void take_enable();
     void take_run();
     Tick decide(Tick until);
@@ -72,18 +71,8 @@ private:
     void finish(std::uint64_t reason);
 
     bool may_run(FrameNumber frame) const;
-    bool vetoed(FrameNumber frame) const;
-    bool stop_asked() const;
-    bool joins(const FrameHeader& frame) const;
     bool rebase_to(Position from);
-    bool runs_into_limit(int direction) const;
-    bool triggered() const;
 
-    const DeviceSetup& setup() const { return channels_.setup(); }
-    bool is_closed(std::uint32_t inputs) const { return (channels_.closed() & inputs) != 0; }
-    bool may_move() const;
-
-    Tick next_due(Tick until) const;
     bool on_step(StepEdge step);
     void tend();
     std::uint64_t reason_to_cease() const;
@@ -94,12 +83,12 @@ private:
 
     RegisterWindow window_;
     DeviceAbilities abilities_;
+    DeviceIdentity identity_;
+    MotorReadiness motor_;
     SegmentRing segments_;
     CaptureRing capture_;
     Channels channels_;
     Plant plant_;
-    std::uint64_t tick_ns_;
-    std::uint64_t power_up_;
     StepEngine engine_;
 
     Phase phase_ = Phase::AtRest;
@@ -116,9 +105,6 @@ private:
     int stepped_ = 0;          // the direction of a step after which pulses paused; 0: none
     bool into_limit_ = false;  // a pulse was suppressed at a limit switch
 
-    std::uint64_t setup_taken_ = 0;    // its number
-    std::uint64_t setup_refused_ = 0;  // the number of one that is beyond the abilities
-    std::optional<Tick> enabled_;      // since when
     bool has_lost_ticks_ = false;
     std::uint64_t sequence_ = 0;
 };
