@@ -7,11 +7,14 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-bool is_held(MachinePhase phase) { return phase == MachinePhase::Holding || phase == MachinePhase::Paused; }
-
 bool is_busy(MachinePhase phase) {
-    return is_held(phase) || phase == MachinePhase::Running || phase == MachinePhase::Stopping ||
-           phase == MachinePhase::Homing || phase == MachinePhase::Jogging;
+    return phase == MachinePhase::Holding || phase == MachinePhase::Paused || phase == MachinePhase::Running ||
+           phase == MachinePhase::Stopping || phase == MachinePhase::Homing || phase == MachinePhase::Jogging;
+}
+
+void add_answers(std::vector<LineRunner::Answered>& answers, const std::vector<std::uint64_t>& requests,
+                 const Answer& answer) {
+    for (const std::uint64_t request : requests) { answers.push_back({request, answer}); }
 }
 
 /// After this time the newest state shows the effect of an answered command.
@@ -24,8 +27,9 @@ void LineRunner::take(std::uint64_t request, LineToRun&& line) { next_ = Next{re
 void LineRunner::pass(const MachineState& state, bool rests, nanoseconds now) {
     accept(now);
     if (program_) { pass_program(state, now); }
-    pass_hold(state);
-    pass_stop(state, rests, now);
+    const bool is_job = program_ && program_->is_job_of(state);
+    hold_.pass(has_lines(), is_job ? std::optional(state.phase) : std::nullopt);
+    stop_.pass(!is_busy(state.phase) && rests, state_age(machine_), now);
 }
 
 void LineRunner::accept(nanoseconds now) {
@@ -52,16 +56,17 @@ void LineRunner::append_later() {
 }
 
 void LineRunner::pass_program(const MachineState& state, nanoseconds now) {
-    switch (program_->pass(state, is_hold_wanted_, now)) {
+    switch (program_->pass(state, hold_.is_wanted(), now)) {
         case LineProgram::Outcome::Lost: return lose(state, now);
-        case LineProgram::Outcome::Probed: return end_probing(state);
-        case LineProgram::Outcome::Done:
-            answer_done(queue_.pass(last_));
-            close();
-            return append_later();
+        // The line that probed was run, also if it did not touch. The sender decides what comes next.
+        case LineProgram::Outcome::Probed:
+            return end_program({.is_done = true, .why = state.job_fault, .probe = state.probe});
+        case LineProgram::Outcome::Done: return end_program({.is_done = true});
         case LineProgram::Outcome::Goes: break;
     }
-    if (program_->is_job_of(state) && state.line) { answer_done(queue_.pass_to(*state.line)); }
+    if (program_->is_job_of(state) && state.line) {
+        add_answers(answers_, queue_.pass_to(*state.line), {.is_done = true});
+    }
     if (program_->is_open() && must_end(state, now)) { program_->end(); }
 }
 
@@ -75,58 +80,17 @@ bool LineRunner::must_end(const MachineState& state, nanoseconds now) const {
     return state.lacks_blocks || (!next_ && now - appended_ >= kLongIdle && state.remaining_s < kNearEnd_s);
 }
 
-void LineRunner::begin(std::optional<CommandTracker>& tracker, CommandKind kind) {
-    tracker.emplace(Command{.kind = kind});
-    follow(tracker);
-}
+void LineRunner::hold() { hold_.hold(has_lines()); }
 
-void LineRunner::follow(std::optional<CommandTracker>& tracker) {
-    if (tracker && is_over(port_.follow(*tracker))) { tracker.reset(); }
-}
-
-void LineRunner::hold() {
-    is_hold_wanted_ = has_lines();
-    if (!is_hold_wanted_) { begin(hold_, CommandKind::Hold); }
-}
-
-void LineRunner::resume() {
-    is_hold_wanted_ = false;
-    const bool is_machine_held = !program_ || program_->is_begun();
-    if (is_machine_held) { begin(resume_, CommandKind::Resume); }
-}
-
-void LineRunner::pass_hold(const MachineState& state) {
-    const bool is_job = program_ && program_->is_job_of(state);
-    if (!has_lines() || (is_job && is_held(state.phase))) { is_hold_wanted_ = false; }
-    const bool moves = is_job && state.phase == MachinePhase::Running;
-    if (is_hold_wanted_ && moves && !hold_) { begin(hold_, CommandKind::Hold); }
-    follow(hold_);
-    follow(resume_);
-}
+void LineRunner::resume() { hold_.resume(!program_ || program_->is_begun()); }
 
 void LineRunner::stop(nanoseconds now) {
     drop();
-    begin(stop_, CommandKind::Stop);
-    stopping_since_ = now;
+    stop_.begin(now);
 }
 
-void LineRunner::pass_stop(const MachineState& state, bool rests, nanoseconds now) {
-    if (stop_) {
-        follow(stop_);
-        stopping_since_ = now;
-    }
-    if (stop_ || !stopping_since_) { return; }
-    const bool has_stopped = !is_busy(state.phase) && rests && now - *stopping_since_ > state_age(machine_);
-    if (has_stopped || now - *stopping_since_ > kStopPatience) { stopping_since_.reset(); }
-}
-
-void LineRunner::answer_done(const std::vector<std::uint64_t>& requests, const Answer& answer) {
-    for (const std::uint64_t request : requests) { answers_.push_back({request, answer}); }
-}
-
-/// The line that probed was run, also if it did not touch. The sender decides what comes next.
-void LineRunner::end_probing(const MachineState& state) {
-    answer_done(queue_.pass(last_), {.is_done = true, .why = state.job_fault, .probe = state.probe});
+void LineRunner::end_program(const Answer& answer) {
+    add_answers(answers_, queue_.pass(last_), answer);
     close();
     append_later();
 }
@@ -138,13 +102,11 @@ void LineRunner::lose(const MachineState& state, nanoseconds now) {
 }
 
 void LineRunner::drop() {
-    for (const std::uint64_t request : queue_.drop()) { answers_.push_back({request, {}}); }
+    add_answers(answers_, queue_.drop(), {});
     if (next_) { answers_.push_back({next_->request, {}}); }
     next_.reset();
     later_.clear();
-    is_hold_wanted_ = false;
-    hold_.reset();
-    resume_.reset();
+    hold_.drop();
     close();
 }
 
@@ -162,8 +124,8 @@ void LineRunner::close() {
 
 void LineRunner::report(const MachineState& state, MachineView& view) const {
     view.lines = queue_.size() + (next_ ? 1 : 0);
-    view.is_held = is_hold_wanted_;
-    view.is_stopping = stopping_since_.has_value();
+    view.is_held = hold_.is_wanted();
+    view.is_stopping = stop_.is_in_progress();
     if (program_ && program_->is_job_of(state) && state.line) { view.line = queue_.sender_line(*state.line); }
 }
 

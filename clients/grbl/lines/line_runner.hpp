@@ -14,8 +14,10 @@
 #include <utility>
 #include <vector>
 
+#include "clients/grbl/lines/line_hold.hpp"
 #include "clients/grbl/lines/line_program.hpp"
 #include "clients/grbl/lines/line_queue.hpp"
+#include "clients/grbl/lines/line_stop.hpp"
 #include "clients/grbl/protocol/machine_view.hpp"
 #include "clients/grbl/protocol/request.hpp"
 
@@ -23,7 +25,8 @@ namespace lockstep::grbl {
 
 class LineRunner {
 public:
-    LineRunner(const MachineConfig& machine, MachinePort& port) : machine_(machine), port_(port) {}
+    LineRunner(const MachineConfig& machine, MachinePort& port)
+        : machine_(machine), port_(port), hold_(port), stop_(port) {}
 
     /// Takes a request to run a line. The next request must come after the answer to this one.
     void take(std::uint64_t request, LineToRun&& line);
@@ -57,21 +60,14 @@ public:
     static constexpr std::chrono::milliseconds kIdle{40};       // minimum time without a line before a program ends
     static constexpr std::chrono::milliseconds kLongIdle{250};  // after this time without a line, no more are likely;
     static constexpr double kNearEnd_s = 1;                     // then a program ends when less motion is left
-    static constexpr std::chrono::seconds kStopPatience{20};
 
 private:
     bool has_lines() const { return next_ || queue_.size() > 0; }
     void accept(std::chrono::nanoseconds now);
     void append_later();
     void pass_program(const MachineState& state, std::chrono::nanoseconds now);
-    void begin(std::optional<CommandTracker>& tracker, CommandKind kind);
-    /// Follows the command, if there is one, and forgets it when it is over.
-    void follow(std::optional<CommandTracker>& tracker);
-    void pass_hold(const MachineState& state);
-    void pass_stop(const MachineState& state, bool rests, std::chrono::nanoseconds now);
     bool must_end(const MachineState& state, std::chrono::nanoseconds now) const;
-    void answer_done(const std::vector<std::uint64_t>& requests, const Answer& answer = {.is_done = true});
-    void end_probing(const MachineState& state);
+    void end_program(const Answer& answer);
     void lose(const MachineState& state, std::chrono::nanoseconds now);
     void drop();
     void close();
@@ -95,11 +91,8 @@ private:
     std::unique_ptr<LineProgram> program_;
     std::int32_t last_ = 0;                // the last line of the program
     std::chrono::nanoseconds appended_{};  // when the last line was appended
-    bool is_hold_wanted_ = false;          // and the machine does not report it yet
-    std::optional<CommandTracker> hold_;
-    std::optional<CommandTracker> resume_;
-    std::optional<CommandTracker> stop_;
-    std::optional<std::chrono::nanoseconds> stopping_since_;
+    LineHold hold_;
+    LineStop stop_;
     std::vector<Answered> answers_;
     std::optional<std::string> loss_;
 };

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "clients/grbl/protocol/jog_line.hpp"
 #include "clients/grbl/protocol/remedy_words.hpp"
 
 namespace lockstep::grbl {
@@ -37,17 +38,17 @@ std::string capitals(std::string_view text) {
 }  // namespace
 
 Grbl::Grbl(const MachineConfig& machine, std::string version)
-    : machine_(machine), next_machine_(machine), version_(std::move(version)), lines_(machine) {}
+    : shared_(machine), gcode_(shared_), system_(shared_, std::move(version)) {}
 
 void Grbl::greet() {
-    output_ += "\r\n";
-    say(kGreeting);
+    shared_.output.say("");
+    shared_.output.say(kGreeting);
     begin();
 }
 
 void Grbl::begin() {
     report_.restart();
-    if (state() == State::Alarm) { say("[MSG:'$H'|'$X' to unlock]"); }
+    if (shared_.state() == State::Alarm) { shared_.output.say("[MSG:'$H'|'$X' to unlock]"); }
 }
 
 void Grbl::receive(std::string_view bytes) {
@@ -60,60 +61,63 @@ void Grbl::receive(std::string_view bytes) {
 }
 
 void Grbl::see(const MachineView& view) {
-    const bool had_fault = view_.is_received && view_.phase == MachinePhase::Fault;
+    const bool had_fault = shared_.view.is_received && shared_.view.phase == MachinePhase::Fault;
     const bool has_fault = view.is_received && view.phase == MachinePhase::Fault;
-    const bool begins_pause = view.is_received && view.pause && view.pause != view_.pause;
-    view_ = view;
+    const bool begins_pause = view.is_received && view.pause && view.pause != shared_.view.pause;
+    shared_.view = view;
     if (begins_pause) { say_pause(); }
-    if (waits_for_ && waits_for_line_) { view_.lines = std::max<std::size_t>(view_.lines, 1); }
+    if (const auto& awaited = shared_.requests.awaited(); awaited && awaited->runs_line) {
+        shared_.view.lines = std::max<std::size_t>(shared_.view.lines, 1);
+    }
     if (has_fault && !had_fault) {
-        say(fmt::format("ALARM:{}", alarm_of(view.fault)));
+        shared_.output.say(fmt::format("ALARM:{}", alarm_of(view.fault)));
         const FaultText* text = find_fault(view.fault);
         if (text != nullptr) {
             const std::string place = view.fault_place.empty() ? "" : view.fault_place + ": ";
             const FaultText fault = view.is_fault_of_board ? for_board(*text) : *text;
-            say_message(fmt::format("{}{}: {}; {}", place, fault.name, fault.cause, remedy_text(fault, sender_words)));
+            shared_.output.say_message(
+                fmt::format("{}{}: {}; {}", place, fault.name, fault.cause, remedy_text(fault, sender_words)));
         }
-        modes_.is_unlocked = false;
-        lines_.reset();
+        shared_.modes.is_unlocked = false;
+        shared_.lines.reset();
     }
     advance();
 }
 
 void Grbl::answer(std::uint64_t number, const Answer& answer) {
-    if (waits_for_ != number) { return; }
-    waits_for_.reset();
-    waits_for_line_ = false;
-    const std::string before = std::exchange(before_ok_, {});
-    auto line = std::exchange(asked_line_, std::nullopt);
-    if (answer.is_done && line) { lines_.commit(*line); }
-    if (answer.probe) { take_touch(answer); }
+    auto awaited = shared_.requests.end(number);
+    if (!awaited) { return; }
+    if (answer.is_done && awaited->line) { shared_.lines.commit(*awaited->line); }
+    if (answer.probe) { gcode_.take_touch(answer); }
     if (answer.is_done) {
-        if (!before.empty()) { say(before); }
-        ok();
+        if (!awaited->before_ok.empty()) { shared_.output.say(awaited->before_ok); }
+        shared_.output.ok();
     } else {
-        has_jog_ = false;
+        shared_.has_jog = false;
         const Error of_fault = answer.why == FaultCode::OutsideTravel ? Error::TravelExceeded : Error::Locked;
-        refuse(answer.error.value_or(of_fault), answer.text);
+        shared_.output.refuse(answer.error.value_or(of_fault), answer.text);
     }
     advance();
 }
 
 void Grbl::end_jog() {
-    has_jog_ = false;
+    shared_.has_jog = false;
     advance();
 }
 
 void Grbl::do_real_time(unsigned char byte) {
-    Overrides overrides = view_.overrides;
+    Overrides overrides = shared_.view.overrides;
     switch (byte) {
-        case '?': return say(report_.text(view_, state(), lines_.offset_mm(values()), bytes_.room(), options_));
+        case '?':
+            return shared_.output.say(report_.text(shared_.view, shared_.state(),
+                                                   shared_.lines.offset_mm(gcode_.values()), bytes_.room(),
+                                                   shared_.options));
         case '!':
         case kDoor: return hold();
         case '~': return resume();
         case kSoftReset: return soft_reset();
         case kCancelJog:
-            if (has_jog_) { hold(); }
+            if (shared_.has_jog) { hold(); }
             return;
         case kFeedUsual: overrides.feed_percent = 100; break;
         case kFeedMore: overrides.feed_percent += 10; break;
@@ -130,46 +134,46 @@ void Grbl::do_real_time(unsigned char byte) {
 
 /// A sender cannot show and confirm the way back to the place of a pause.
 void Grbl::resume() {
-    if (state() != State::Hold) { return; }
-    if (view_.way_back.empty()) { return void(ask(Request::Kind::Resume)); }
-    say_message(
-        "axes were moved in the pause; way back: " + view_.way_back +
+    if (shared_.state() != State::Hold) { return; }
+    if (shared_.view.way_back.empty()) { return void(shared_.requests.add(Request::Kind::Resume)); }
+    shared_.output.say_message(
+        "axes were moved in the pause; way back: " + shared_.view.way_back +
         "; jog them back, or let the machine return and continue: lockstep resume --yes, or Resume on the page");
 }
 
 /// Tells a person why the machine waits. The person who gave a hold knows it.
 void Grbl::say_pause() {
-    if (view_.pause->reason == PauseReason::Hold) { return; }
-    std::string text = text_of(*view_.pause);
+    if (shared_.view.pause->reason == PauseReason::Hold) { return; }
+    std::string text = text_of(*shared_.view.pause);
     text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
-    say_message(text);
+    shared_.output.say_message(text);
 }
 
 /// Stores the request in the view, so that a repeated step counts from it before the machine reports it.
 void Grbl::turn(const Overrides& overrides) {
-    view_.overrides.feed_percent = std::clamp(overrides.feed_percent, Overrides::kLeast, Overrides::kMost);
-    view_.overrides.rapid_percent = std::clamp(overrides.rapid_percent, Overrides::kLeast, Overrides::kMost);
-    ask(Request::Kind::Override).overrides = view_.overrides;
+    shared_.view.overrides.feed_percent = std::clamp(overrides.feed_percent, Overrides::kLeast, Overrides::kMost);
+    shared_.view.overrides.rapid_percent = std::clamp(overrides.rapid_percent, Overrides::kLeast, Overrides::kMost);
+    shared_.requests.add(Request::Kind::Override).overrides = shared_.view.overrides;
 }
 
 /// A hold ends a jog, and drops the jog that waits.
 void Grbl::hold() {
-    if (has_jog_) {
-        (void)ask(Request::Kind::CancelJog);
-        if (std::exchange(next_jog_, std::nullopt)) { ok(); }
-    } else if (state() == State::Run) {
-        (void)ask(Request::Kind::Hold);
+    if (shared_.has_jog) {
+        (void)shared_.requests.add(Request::Kind::CancelJog);
+        if (std::exchange(next_jog_, std::nullopt)) { shared_.output.ok(); }
+    } else if (shared_.state() == State::Run) {
+        (void)shared_.requests.add(Request::Kind::Hold);
     }
 }
 
 /// grbl stops the pulses at once and loses the position. Here the machine brakes on its path and keeps the position.
 void Grbl::soft_reset() {
-    const State before = state();
-    if (has_jog_) { (void)ask(Request::Kind::CancelJog); }
+    const State before = shared_.state();
+    if (shared_.has_jog) { (void)shared_.requests.add(Request::Kind::CancelJog); }
     const bool moves =
         before == State::Run || before == State::Hold || before == State::HoldEnding || before == State::Home;
-    if (moves) { stop(); }
-    modes_ = {.is_unlocked = modes_.is_unlocked};
+    if (moves) { shared_.stop(); }
+    shared_.modes = {.is_unlocked = shared_.modes.is_unlocked};
     forget_lines();
     greet();
 }
@@ -180,36 +184,25 @@ void Grbl::leave() {
 }
 
 void Grbl::forget_lines() {
-    is_to_switch_off_ = lines_.switch_off() || is_to_switch_off_;
-    lines_.reset();
-    waits_for_.reset();
-    waits_for_line_ = false;
-    asked_line_.reset();
-    before_ok_.clear();
+    gcode_.forget();
+    shared_.requests.give_up();
     next_jog_.reset();
-    next_line_.reset();
-    refused_body_.clear();
-    program_line_ = 0;
-    planned_mm_.clear();
-    checked_values_.reset();
 }
 
-/// Until the machine rests, its position is not known.
-void Grbl::stop() {
-    (void)ask(Request::Kind::Stop);
-    view_.is_stopping = true;
-    view_.lines = 0;
+void Grbl::abort(const std::string& why) {
+    (void)shared_.lines.switch_off();
+    shared_.raise_alarm(kAbortAlarm, why);
+    advance();
 }
 
 void Grbl::advance() {
-    switch_off();
-    while (!waits_for_) {
-        if (next_jog_ && has_jog_) { return; }
-        if (next_line_ && (view_.lines > 0 || !is_settled())) { return; }
+    gcode_.switch_off();
+    while (!shared_.requests.awaited()) {
+        if ((next_jog_ && shared_.has_jog) || gcode_.must_wait()) { return; }
         if (next_jog_) {
             do_line(*std::exchange(next_jog_, std::nullopt));
-        } else if (next_line_) {
-            do_line(*std::exchange(next_line_, std::nullopt));
+        } else if (const auto next = gcode_.take_next()) {
+            do_line(*next);
         } else if (bytes_.has_line()) {
             do_line(bytes_.next_line());
         } else {
@@ -219,43 +212,36 @@ void Grbl::advance() {
 }
 
 void Grbl::do_line(const ReceivedLine& line) {
-    if (line.is_too_long) { return refuse(Error::LineTooLong); }
+    if (line.is_too_long) { return shared_.output.refuse(Error::LineTooLong); }
     const std::string text = capitals(line.text);
-    if (text.starts_with("$J=") && has_jog_) {
-        next_jog_ = line;
-        return;
+    if (text.starts_with("$J=")) { return shared_.has_jog ? void(next_jog_ = line) : jog(text.substr(3)); }
+    if (text.empty()) { return shared_.output.ok(); }
+    if (text == "$C") { return toggle_check(); }
+    text.front() == '$' ? system_.do_line(std::string_view(text).substr(1)) : gcode_.do_line(line);
+}
+
+void Grbl::jog(std::string_view text) {
+    const bool is_in_pause = shared_.state() == State::Hold && shared_.view.pause;
+    if (shared_.state() != State::Idle && !is_in_pause) { return shared_.output.refuse(Error::NotIdle); }
+    const JogModes modes{shared_.lines.inches(), shared_.lines.relative(), shared_.lines.offset_mm(gcode_.values())};
+    auto jogs = read_jog(text, shared_.machine, shared_.view.axes, modes);
+    if (!jogs) { return shared_.output.refuse(jogs.error().error, jogs.error().text); }
+    if (jogs->empty()) { return shared_.output.ok(); }
+    shared_.has_jog = true;
+    shared_.requests.await(Request::Kind::Jog).jogs = std::move(*jogs);
+}
+
+void Grbl::toggle_check() {
+    if (shared_.modes.is_checking) {
+        shared_.output.say("[MSG:Disabled]");
+        shared_.output.ok();
+        return soft_reset();
     }
-    if (text.empty()) { return ok(); }
-    text.front() == '$' ? do_system(std::string_view(text).substr(1)) : do_gcode(line);
-}
-
-/// A requested jog counts as Jog before the machine's state shows it.
-State Grbl::state() const {
-    const State state = state_of(view_, modes_);
-    return has_jog_ && state != State::Alarm ? State::Jog : state;
-}
-
-bool Grbl::is_quiet() const {
-    const State now = state();
-    return (now == State::Idle || now == State::Alarm) && !has_jog_;
-}
-
-/// Replaces line ends, because a message is one line.
-void Grbl::say_message(const std::string& text) {
-    std::string line = "[MSG:" + text + "]";
-    std::ranges::replace_if(
-        line, [](char c) { return c == '\n' || c == '\r'; }, ' ');
-    say(line);
-}
-
-void Grbl::refuse(Error error, const std::string& text) {
-    if (!text.empty()) { say_message(text); }
-    say(fmt::format("error:{}", static_cast<int>(error)));
-}
-
-Request& Grbl::ask(Request::Kind kind) {
-    requests_.push_back({.kind = kind, .number = ++number_});
-    return requests_.back();
+    if (shared_.state() != State::Idle || shared_.has_jog) { return shared_.output.refuse(Error::NotIdle); }
+    shared_.modes.is_checking = true;
+    gcode_.begin_check();
+    shared_.output.say("[MSG:Enabled]");
+    shared_.output.ok();
 }
 
 }  // namespace lockstep::grbl

@@ -42,5 +42,7 @@ private:
 
 /// "1.000,-2.500": a number for each axis, with three digits after the point, or four in inches.
 std::string places_text(const std::vector<double>& mm, bool inches);
+/// The place of a touch in machine coordinates, and whether there was one: "1.000,2.000,-3.500:1".
+std::string probe_text(const ProbeResult& probe, bool inches);
 
 }  // namespace lockstep::grbl

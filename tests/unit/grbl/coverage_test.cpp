@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "clients/grbl/protocol/code_table.hpp"
+#include "clients/grbl/protocol/settings.hpp"
 #include "services/files/text_file.hpp"
 #include "tests/unit/grbl/hand_sender.hpp"
 

@@ -61,7 +61,8 @@ protected:
         MachineConfig machine = mill();
         machine.unassigned = {
             .spindle = WordRule::Ignore, .outputs = WordRule::Ignore, .tool_change = ToolChange::GoOn};
-        grbl = Grbl(machine, "1.0");
+        std::destroy_at(&grbl);
+        std::construct_at(&grbl, machine, "1.0");
         grbl.see(view);
     }
     /// Runs a line until the machine rests.
