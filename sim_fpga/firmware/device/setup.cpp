@@ -55,8 +55,9 @@ void load_outputs(const Words& words, Setup& setup) {
 
 Setup load_setup(const Words& words) {
     Setup setup;
-    setup.longest_time =
-        greater(words.load(kStepWidth), greater(words.load(kDirectionSetup), words.load(kDirectionHold)));
+    setup.step_width = words.load(kStepWidth);
+    setup.direction_setup = words.load(kDirectionSetup);
+    setup.direction_hold = words.load(kDirectionHold);
     setup.enable_ticks = ticks_of(words.load(kEnableTicks));
     setup.inverted = words.load(kInverted);
     load_inputs(words, setup);
@@ -65,6 +66,7 @@ Setup load_setup(const Words& words) {
 }
 
 bool is_within(const Abilities& abilities, const Setup& setup) {
+    const std::uint64_t longest_time = greater(setup.step_width, greater(setup.direction_setup, setup.direction_hold));
     const std::uint32_t inputs =
         setup.inputs_inverted | setup.limit_min | setup.limit_max | setup.home | setup.stop | setup.debounced;
     const auto digital = static_cast<std::uint16_t>(setup.outputs_inverted | setup.at_cut.mask | setup.at_silence.mask |
@@ -73,7 +75,7 @@ bool is_within(const Abilities& abilities, const Setup& setup) {
         static_cast<std::uint16_t>(setup.at_cut.analog_off | setup.at_silence.analog_off | setup.pwm_channels);
     return are_there(inputs, abilities.inputs) && are_there(digital, abilities.digital_outputs) &&
            are_there(analog, abilities.analog_outputs) && (setup.compare_outputs == 0 || abilities.can_compare) &&
-           setup.longest_time <= abilities.longest_time && setup.longest_pwm_period <= abilities.longest_pwm_period;
+           longest_time <= abilities.longest_time && setup.longest_pwm_period <= abilities.longest_pwm_period;
 }
 
 }  // namespace lockstep::firmware

@@ -19,7 +19,10 @@ struct SafeOutputs {
 /// Names and meanings are those of the register map. A setup before the first has limit and home switches at inputs 0,
 /// 1 and 2, like a device of the simulation.
 struct Setup {
-    std::uint64_t longest_time = 0;  // of pulses, in the map's unit
+    // Of pulses, in the map's unit.
+    std::uint64_t step_width = 0;
+    std::uint64_t direction_setup = 0;
+    std::uint64_t direction_hold = 0;
     std::uint64_t longest_pwm_period = 0;
     std::uint64_t inverted = 0;
     std::uint16_t pwm_channels = 0;

@@ -5,15 +5,14 @@
 namespace lockstep::firmware {
 namespace {
 
-/// Pulses of 400 ns, a direction 600 ns before and 400 ns behind an edge: all times up to 400 ns are kept.
 constexpr Abilities abilities_of(std::uint32_t power_up, std::size_t motor) {
     return {.tick_ns = 1000,
             .power_up = std::uint64_t{power_up} << 8 | motor,
-            .least_step_ticks = 16,
+            .least_step_ticks = kLeastStepTicks,
             .lead_ticks = kRenderTicks,
-            .pin_ticks = kMostTicksAhead,
+            .pin_ticks = kMostTicksAhead + kMostDelayTicks,
             .time_unit_ps = 1000,
-            .longest_time = 400,
+            .longest_time = kMostTime_ns,
             .longest_pwm_period = 0,
             .inputs = 3,
             .digital_outputs = 0,
@@ -89,7 +88,10 @@ void Board::take_orders() {
     for (std::size_t motor = 0; motor < kMotors; ++motor) {
         devices_[motor].take_orders();
         pins_[motor].show_enabled(devices_[motor].is_enabled());
-        pins_[motor].invert(devices_[motor].channels().setup().inverted);
+        const Setup& setup = devices_[motor].channels().setup();
+        pins_[motor].invert(setup.inverted);
+        pins_[motor].time(static_cast<std::uint32_t>(setup.step_width),
+                          static_cast<std::uint32_t>(setup.direction_setup));
     }
 }
 

@@ -12,25 +12,28 @@ namespace {
 constexpr std::uint32_t kAllMachines = (1U << kMotors) - 1;
 constexpr std::uint32_t kWaitingWords = kWaitingBlocks * kWordsPerBlock;
 constexpr std::uint32_t kEachDirectionBit = 0xAAAA'AAAA;
+constexpr std::uint32_t kEachStepBit = 0x5555'5555;
+constexpr std::uint32_t kTick_ns = 1000;
 
-/// Instructions of a machine. Each shows the step pin's level for 1 + `delay` of its cycles.
-constexpr std::uint32_t timed(std::uint32_t instruction, std::uint32_t step, std::uint32_t delay) {
-    return instruction | step << 12 | delay << 8;
-}
+/// An instruction of a machine, and `more` of its cycles behind it.
+constexpr std::uint32_t lasting(std::uint32_t instruction, std::uint32_t more) { return instruction | more << 8; }
 constexpr std::uint32_t kOutPin = 0x6001;  // a bit to the direction pin
 constexpr std::uint32_t kOutX = 0x6021;    // a bit to X
 constexpr std::uint32_t jump(std::uint32_t to) { return to; }
 constexpr std::uint32_t jump_if_x_is_0(std::uint32_t to) { return 1 << 5 | to; }
 constexpr std::uint32_t kSetPinsOutput = 0xE081;
 constexpr std::uint32_t kSetPinsLow = 0xE000;
+constexpr std::uint32_t kSetPinsHigh = 0xE001;
 
 /// 25 cycles of 40 ns a tick.
 constexpr std::uint32_t kProgram[] = {
-    timed(kOutPin, 0, 11),           // 0: 480 ns
-    timed(kOutX, 0, 1),              // 1: 80 ns
-    timed(jump_if_x_is_0(4), 0, 0),  // 2: 40 ns
-    timed(jump(0), 1, 9),            // 3: 400 ns
-    timed(jump(0), 0, 9),            // 4: 400 ns
+    lasting(kOutPin, 12),      // 0: 520 ns
+    kOutX,                     // 1: 40 ns
+    jump_if_x_is_0(5),         // 2: 40 ns
+    lasting(kSetPinsHigh, 8),  // 3: 360 ns
+    jump(0),                   // 4: 40 ns
+    lasting(kSetPinsLow, 8),   // 5: 360 ns
+    jump(0),                   // 6: 40 ns
 };
 constexpr std::uint32_t kDividerOf125MHz = 5;
 
@@ -38,6 +41,13 @@ constexpr std::uint32_t kDividerOf125MHz = 5;
 std::uint32_t waiting[kMotors][kWaitingWords];
 volatile std::uint32_t queued_words;
 volatile std::uint32_t fed_words;
+
+/// So many ticks are at least so long. Without a division, for which the processor has no instruction.
+std::uint32_t ticks_of(std::uint32_t ns) {
+    std::uint32_t ticks = 0;
+    while (ticks * kTick_ns < ns) { ++ticks; }
+    return ticks;
+}
 
 /// The machines take words together, and the last one is fed last.
 bool machines_have_room() { return (at(pio0::kLevels) >> 8 * (kMotors - 1) & 15) < kMachineWords; }
@@ -61,7 +71,7 @@ void connect_motor(std::size_t motor) {
     at(machine + pio0::kShift) = bit(30) | bit(17);  // one queue of 8 words; taken by itself, highest bit first
     connect_pin(machine, step_pin(motor));
     connect_pin(machine, direction_pin(motor));
-    at(machine + pio0::kPins) = 1U << 29 | 1U << 20 | step_pin(motor) << 10 | direction_pin(motor);
+    at(machine + pio0::kPins) = 1U << 26 | step_pin(motor) << 5 | 1U << 20 | direction_pin(motor);
     at(io::control(enable_pin(motor))) = io::kSio;
     at(sio::kOutputEnable) = bit(enable_pin(motor));
     for (unsigned pin = first_input_pin(motor); pin < first_input_pin(motor + 1); ++pin) {
@@ -74,25 +84,51 @@ void connect_motor(std::size_t motor) {
 
 void MotorPins::begin_block(std::int64_t now) {
     block_ = now;
-    for (std::uint32_t& word : words_) { word = is_forward_ ? kEachDirectionBit : 0; }
+    words_[0] = words_[kWordsPerBlock];
+    words_[1] = words_[kWordsPerBlock + 1];
+    for (std::uint32_t n = 2; n < kWordsPerBlock + 2; ++n) { words_[n] = is_forward_ ? kEachDirectionBit : 0; }
 }
 
 void MotorPins::look() { pins_ = at(sio::kInputs) >> first_input_pin(motor_) & 7; }
 
 void MotorPins::step(std::int64_t tick, int direction) {
-    const auto n = static_cast<std::uint32_t>(tick - block_ - 1);
-    const std::uint32_t pair = 30 - n % kTicksPerWord * 2;  // the lower bit of the tick's two
+    const bool turns = (direction > 0) != is_forward_;
+    if (turns && tick - stepped_ < kLeastStepTicks) {
+        pulse(stepped_);
+        stepped_ = kLongAgo;
+        return;
+    }
+    if (turns) { turn(tick); }
+    pulse(tick);
+    stepped_ = tick;
+}
+
+/// Adds the pulse of a step, or takes it back.
+void MotorPins::pulse(std::int64_t tick) {
+    const auto rise = static_cast<std::uint32_t>(tick - block_ - 1 + kLeastStepTicks) + delay_;
+    const std::uint32_t bits = rise % kTicksPerWord * 2;
+    std::uint32_t* const word = words_ + rise / kTicksPerWord;
+    word[0] ^= pulse_ >> bits;
+    if (const std::uint32_t rest = pulse_ << 1 << (31 - bits); rest != 0) { word[1] ^= rest; }
+}
+
+void MotorPins::turn(std::int64_t tick) {
+    is_forward_ = !is_forward_;
+    const auto n = static_cast<std::uint32_t>(tick - block_ - 1 + kLeastStepTicks);
     std::uint32_t word = n / kTicksPerWord;
-    words_[word] |= std::uint32_t{1} << pair;
-    if ((direction > 0) == is_forward_) { return; }
-    is_forward_ = direction > 0;
-    words_[word] ^= kEachDirectionBit & (~std::uint32_t{0} >> (30 - pair));
-    while (++word < kWordsPerBlock) { words_[word] ^= kEachDirectionBit; }
+    words_[word] ^= kEachDirectionBit & (~std::uint32_t{0} >> n % kTicksPerWord * 2);
+    while (++word < kWordsPerBlock + 2) { words_[word] ^= kEachDirectionBit; }
+}
+
+void MotorPins::time(std::uint32_t width_ns, std::uint32_t direction_ns) {
+    const std::uint32_t ticks = width_ns == 0 ? 1 : ticks_of(width_ns);
+    pulse_ = kEachStepBit & ~(~std::uint32_t{0} >> 2 * ticks);
+    delay_ = direction_ns <= kDirectionToStep_ns ? 0 : ticks_of(direction_ns - kDirectionToStep_ns);
 }
 
 void MotorPins::queue_block() const {
-    std::uint32_t at = queued_words;
-    for (const std::uint32_t word : words_) { waiting[motor_][at++ % kWaitingWords] = word; }
+    const std::uint32_t at = queued_words;
+    for (std::uint32_t n = 0; n < kWordsPerBlock; ++n) { waiting[motor_][(at + n) % kWaitingWords] = words_[n]; }
 }
 
 void MotorPins::show_enabled(bool is_enabled) const {
@@ -117,7 +153,10 @@ void start_step_pins() {
     at(pio0::kControl) = kAllMachines << 8 | kAllMachines << 4 | kAllMachines;
 }
 
-void stop_step_pins() { at(pio0::kControl) = 0; }
+void stop_step_pins() {
+    at(pio0::kControl) = 0;
+    for (unsigned motor = 0; motor < kMotors; ++motor) { at(pio0::machine(motor) + pio0::kExecute) = kSetPinsLow; }
+}
 
 bool have_room_for_block() { return queued_words - fed_words <= kWaitingWords - kWordsPerBlock; }
 

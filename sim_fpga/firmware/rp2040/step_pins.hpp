@@ -1,7 +1,11 @@
 // Step and direction pins, timed by the chip's programmable machines: one for each motor.
 //
-// A machine takes two bits a tick: the direction, then whether there is a step. A tick is 1 us: the direction changes
-// at its beginning, the pulse begins 600 ns later and lasts 400 ns.
+// A machine takes two bits a tick: the levels of the direction and of the step. A tick is 1 us: the direction changes
+// at its beginning, and the step 600 ns later. So a pulse lasts whole ticks. If a driver needs a direction earlier, the
+// pulses come later, by as many ticks as are needed for all of them.
+//
+// A motor that turns may make a step and the opposite one in any two ticks. If they are nearer than kLeastStepTicks,
+// the times of pins cannot be kept. Neither is made then: the motor stands where it would stand after both.
 #pragma once
 
 #include <cstddef>
@@ -22,6 +26,14 @@ inline constexpr std::uint32_t kWaitingBlocks = 8;
 inline constexpr std::uint32_t kMachineWords = 8;
 inline constexpr std::uint32_t kMostTicksAhead = kWaitingBlocks * kRenderTicks + (kMachineWords + 1) * kTicksPerWord;
 
+/// From one step to the next, at least. Pulses and their pauses, and the times before and behind a change of direction,
+/// fit in between if none of them is longer than kMostTime_ns.
+inline constexpr std::uint32_t kLeastStepTicks = 16;
+inline constexpr std::uint32_t kMostTime_ns = 7000;
+inline constexpr std::uint32_t kDirectionToStep_ns = 600;
+/// From the machine's tick of a step to its edge, at most.
+inline constexpr std::uint32_t kMostDelayTicks = kLeastStepTicks + 7;
+
 // Pins of motor n.
 inline constexpr unsigned kUartTransmitPin = 0, kUartReceivePin = 1;
 constexpr unsigned step_pin(std::size_t motor) { return static_cast<unsigned>(2 + motor); }
@@ -33,7 +45,7 @@ constexpr unsigned first_input_pin(std::size_t motor) { return static_cast<unsig
 /// A motor's pins. Its steps of a block are collected, and then queued.
 class MotorPins final : public Port {
 public:
-    explicit MotorPins(std::size_t motor) : motor_(motor) {}
+    explicit MotorPins(std::size_t motor) : motor_(motor) { time(0, 0); }
 
     /// Begins the block behind tick `now`.
     void begin_block(std::int64_t now);
@@ -44,17 +56,29 @@ public:
     void show_enabled(bool is_enabled) const;
     /// inverted: as in the word INVERTED.
     void invert(std::uint64_t inverted) const;
+    /// How long a pulse is, and how long before it the direction changes, at least: up to kMostTime_ns.
+    void time(std::uint32_t width_ns, std::uint32_t direction_ns);
 
     std::uint32_t pins() const override { return pins_; }
     void step(std::int64_t tick, int direction) override;
     std::int64_t encoder() const override { return 0; }
 
 private:
+    static constexpr std::int64_t kLongAgo = -1'000'000;
+
+    void pulse(std::int64_t tick);
+    void turn(std::int64_t tick);
+
     std::size_t motor_;
     std::uint32_t pins_ = 0;
-    std::int64_t block_ = 0;   // the tick before the block
-    bool is_forward_ = false;  // the level of the direction pin
-    std::uint32_t words_[kWordsPerBlock]{};
+    std::int64_t block_ = 0;           // the tick before the block
+    bool is_forward_ = false;          // the level of the direction pin
+    std::int64_t stepped_ = kLongAgo;  // the tick of the last step that is made
+    std::uint32_t delay_ = 0;          // of pulses behind the direction, in ticks
+    std::uint32_t pulse_;              // the bits of a pulse that begins with a word
+    // The block, kLeastStepTicks late, so that it has the last step if an opposite one may take it back. Two more words
+    // have what comes behind it.
+    std::uint32_t words_[kWordsPerBlock + 2]{};
 };
 
 /// Loads the machines and connects all pins. The machines wait.

@@ -123,14 +123,14 @@ public:
 private:
     static constexpr std::chrono::nanoseconds kLoop = std::chrono::milliseconds{1};  // about as long as a loop takes
     static constexpr std::int64_t kBlock = 128;
-    static constexpr std::int64_t kMostAhead = 1168;
+    static constexpr std::int64_t kMostAhead = 1191;
 
     void add(const MachineConfig& machine, const MotorConfig& motor, unsigned n, std::FILE* edges) {
         const firmware::Abilities abilities{.power_up = std::uint64_t{session_} << 8 | n,
                                             .least_step_ticks = 16,
                                             .lead_ticks = kBlock,
                                             .pin_ticks = kMostAhead,
-                                            .longest_time = 400,
+                                            .longest_time = 7000,
                                             .longest_pwm_period = 0,
                                             .inputs = 3,
                                             .can_enable = true,

@@ -3,9 +3,10 @@
 // Usage: node board_emulator.mjs FIRMWARE.uf2
 //
 // Request, on standard input, little-endian: the microsecond until which to run (u32), the levels of the input pins (u32;
-// pin n is bit n), how many bytes arrive at the board from now on (u32), these bytes. Answer: how many bytes the board has sent (u32), how many edges its pins had (u32), the
-// bytes, the edges: processor cycle (f64), pin (u8), level (u8). An end of input ends the process. The start of the
-// machines that time the pins is an edge of pin 255.
+// pin n is bit n), how many bytes arrive at the board from now on (u32), these bytes. Answer: how many bytes the board has
+// sent (u32), how many edges its pins had (u32), for how many cycles the processor was in interrupts (u32), the bytes, the
+// edges: processor cycle (f64), pin (u8), level (u8). An end of input ends the process. The start of the machines that
+// time the pins is an edge of pin 255.
 //
 // The package rp2040js runs the chip's programmable machines (PIO) from a JavaScript timer, without dividers. Here they
 // run in step with the processor. It also lets a UART send without end; here a byte takes its time.
@@ -46,6 +47,7 @@ class Board {
   now = 0; // processor cycles since power-up
   sent = [];
   edges = [];
+  interrupted = 0; // cycles
   #arriving = [];
   #nextArrival = Infinity;
   #leaving = 0; // the cycle at which the UART's queue is empty
@@ -134,6 +136,7 @@ class Board {
     while (this.now < until) {
       const cycles = chip.core.waiting ? this.#cyclesToWake(until) : chip.core.executeInstruction();
       this.now += cycles;
+      if (chip.core.IPSR !== 0) this.interrupted += cycles;
       chip.clock.tick(cycles * NS_PER_CYCLE);
       if (this.#nextDue < this.now) this.#runMachines();
       if (this.#nextArrival <= this.now) this.#arrive();
@@ -169,11 +172,13 @@ class Board {
   }
 
   take() {
-    const answer = Buffer.alloc(8 + this.sent.length + 10 * this.edges.length);
+    const head = 12;
+    const answer = Buffer.alloc(head + this.sent.length + 10 * this.edges.length);
     answer.writeUInt32LE(this.sent.length, 0);
     answer.writeUInt32LE(this.edges.length, 4);
-    answer.set(this.sent, 8);
-    let at = 8 + this.sent.length;
+    answer.writeUInt32LE(this.interrupted, 8);
+    answer.set(this.sent, head);
+    let at = head + this.sent.length;
     for (const [cycle, pin, level] of this.edges) {
       answer.writeDoubleLE(cycle, at);
       answer[at + 8] = pin;
@@ -182,6 +187,7 @@ class Board {
     }
     this.sent = [];
     this.edges = [];
+    this.interrupted = 0;
     return answer;
   }
 }

@@ -40,11 +40,11 @@ EmulatedBoard::Answer EmulatedBoard::run(std::uint32_t until_us, std::uint32_t l
     const std::array<std::uint32_t, 3> request{until_us, levels, static_cast<std::uint32_t>(bytes.size())};
     write(request.data(), sizeof request);
     write(bytes.data(), bytes.size());
-    std::array<std::uint32_t, 2> sizes{};
-    read(sizes.data(), sizeof sizes);
-    Answer answer{std::vector<std::uint8_t>(sizes[0]), {}};
+    std::array<std::uint32_t, 3> head{};
+    read(head.data(), sizeof head);
+    Answer answer{std::vector<std::uint8_t>(head[0]), {}, head[2]};
     read(answer.sent.data(), answer.sent.size());
-    for (std::uint32_t n = 0; n < sizes[1]; ++n) {
+    for (std::uint32_t n = 0; n < head[1]; ++n) {
         std::array<std::uint8_t, 10> edge{};
         read(edge.data(), edge.size());
         double cycle = 0;

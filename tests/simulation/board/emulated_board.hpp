@@ -26,6 +26,7 @@ public:
     struct Answer {
         std::vector<std::uint8_t> sent;
         std::vector<PinEdge> edges;
+        std::uint32_t interrupted = 0;  // for how many cycles the processor was in interrupts
     };
     /// Runs the board until this microsecond since power-up. `levels`: of the pins; pin n is bit n. `bytes` arrive at
     /// it, one every 10 us. Throws if the emulator ends, which it does if the firmware stops.
