@@ -6,6 +6,8 @@ install(TARGETS lockstep lockstep-coordinator lockstep-axis lockstep-board locks
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT lockstep)
 install(DIRECTORY deploy/examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/examples COMPONENT lockstep
   USE_SOURCE_PERMISSIONS)
+install(FILES ${PROJECT_BINARY_DIR}/share/lockstep/firmware/lockstep-board.uf2
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/firmware COMPONENT lockstep OPTIONAL)
 install(DIRECTORY deploy/grbl/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/grbl COMPONENT lockstep)
 install(DIRECTORY deploy/scenarios/ DESTINATION ${CMAKE_INSTALL_DATADIR}/lockstep/scenarios COMPONENT lockstep)
 # Documents, and the files that they link to, keep their relative paths, so that the links work.
@@ -77,6 +79,9 @@ install(FILES ${PROJECT_BINARY_DIR}/lockstep-config.cmake ${PROJECT_BINARY_DIR}/
 set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # installing and packing do not first build all targets
 # Builds the content of the package `lockstep`.
 add_custom_target(package_files DEPENDS lockstep lockstep-coordinator lockstep-axis lockstep-board lockstep-fpga lockstep-grbl lockstep-web lockstep_lcm_python)
+if(TARGET board_image)
+  add_dependencies(package_files board_image)
+endif()
 if(TARGET manual)
   add_dependencies(package_files manual)
 endif()

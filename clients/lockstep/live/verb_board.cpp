@@ -1,8 +1,14 @@
 // lockstep board
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 
+#include "clients/lockstep/live/board_flash.hpp"
 #include "clients/lockstep/live/board_look.hpp"
 #include "clients/lockstep/live/boards_report.hpp"
 #include "clients/lockstep/live_options.hpp"
@@ -66,6 +72,48 @@ ExitCode bench(const BoardOptions& options) {
     });
 }
 
+struct FlashOptions {
+    std::string file;
+    std::string drive;
+    bool json = false;
+};
+
+std::string mounts() {
+    std::ifstream file("/proc/self/mounts");
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+ExitCode flash(const FlashOptions& options) {
+    Output output(options.json);
+    const std::filesystem::path file = options.file.empty() ? shipped_firmware() : std::filesystem::path(options.file);
+    const auto firmware = read_firmware(file);
+    if (!firmware) { return output.fail(firmware.error()); }
+    const auto drive = options.drive.empty() ? only_drive(pico_drives(mounts())) : std::filesystem::path(options.drive);
+    if (!drive) { return output.fail(drive.error()); }
+    if (const auto done = write_firmware(*firmware, *drive); !done) { return output.fail(done.error()); }
+    proto::FlashReport report;
+    report.set_file(file.string());
+    report.set_drive(drive->string());
+    report.set_bytes(firmware->size());
+    output.report(report);
+    output.print(
+        fmt::format("{} is on {}; the board starts it. Next: lockstep board check", file.string(), drive->string()));
+    return kExitDone;
+}
+
+void add_flash(Verb boards) {
+    const auto options = std::make_shared<FlashOptions>();
+    const Verb verb = boards.add_verb("flash",
+                                      "copy the firmware to a Raspberry Pi Pico\n"
+                                      "Hold its BOOTSEL button while you plug it in. It shows a drive, RPI-RP2.");
+    verb.add_option("file", options->file, "the firmware; default: the one that comes with Lockstep");
+    verb.add_option("--drive", options->drive,
+                    "the directory of the Pico's drive; default: the only one that is mounted");
+    add_json(verb, options->json);
+    verb.footer(footer("  lockstep board flash\n  lockstep board flash build-firmware/lockstep-board.uf2\n"));
+    verb.action([options] { return flash(*options); });
+}
+
 using Action = ExitCode (*)(const BoardOptions&);
 
 std::pair<Verb, std::shared_ptr<BoardOptions>> add_part(Verb boards, const std::string& name, const std::string& what,
@@ -92,6 +140,7 @@ void add_board(Verb command) {
              check);
     const auto [verb, options] = add_part(boards, "bench", "measure how long the answers of each board take", bench);
     verb.add_option("--seconds", options->seconds, "how long to measure").in_range(0.1, 3600.0).with_default();
+    add_flash(boards);
 }
 
 }  // namespace lockstep
