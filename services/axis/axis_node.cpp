@@ -31,12 +31,12 @@ const AxisOutputs& AxisNode::decide(Tick own, const AxisMail& mail, const OnStep
     look(own);
     knows_time_ = time_.look(own, device_clock(), !controller_.at_rest());
     out_.clear();
+    drain_channels(own);
     if (knows_time_ && !is_looking()) { control(mail); }
     const auto owns = [](const MachineState& state) { return state.phase != MachinePhase::Standby; };
     must_restart_ = clock_reset_.must_restart(own, std::ranges::any_of(mail.coordinator, owns), controller_.at_rest(),
                                               knows_time_ ? time_.error() : Ticks{});
     drain(own, on_step, out_.device_clock);
-    drain_channels(own, out_.device_clock);
     return out_;
 }
 
@@ -61,6 +61,7 @@ void AxisNode::lose_device(Tick own, const std::string& why) {
     troubles_ += has_device() ? 1 : 0;
     if (has_device()) { time_.change_device(); }
     found_.reset();
+    changes_.clear();
     status_.moving = false;
     status_.finished = true;
     lost_before_ += std::exchange(lost_captures_, 0);
@@ -81,20 +82,31 @@ void AxisNode::drain(Tick own, const OnStep& on_step, const ClockView& machine_t
     if (meter != nullptr) { meter->end_loop(*free_captures); }
 }
 
-/// An input changes its debounce after its pin.
-void AxisNode::drain_channels(Tick own, const ClockView& machine_time) {
+void AxisNode::drain_channels(Tick own) {
     if (!has_device()) { return; }
     const auto take = [&](const ChannelEvent& event) {
         on_channel_(event);
-        if (event.kind != ChannelEvent::Kind::Input || !knows_time_) { return; }
-        edges_.push_back({machine_time.at(event.tick - debounce_[event.channel]), event.channel, event.closed});
+        if (event.kind == ChannelEvent::Kind::Input && knows_time_) { changes_.push_back(event); }
     };
     const auto drained = found_->port->drain_channels(std::cref(take));  // by reference: a copy would be allocated
     if (!drained) { lose_device(own, drained.error()); }
 }
 
+/// Those up to the newest reading; later ones come with the next. An input changes its debounce after its pin.
+void AxisNode::take_edges() {
+    edges_.clear();
+    const ClockView machine_time = time_.device_clock();
+    const auto later = std::ranges::find_if(changes_, [&](const auto& change) { return change.tick > status_.now; });
+    for (auto change = changes_.begin(); change != later; ++change) {
+        const Tick tick = machine_time.at(change->tick - debounce_[change->channel]);
+        edges_.push_back({tick, change->channel, change->closed});
+    }
+    changes_.erase(changes_.begin(), later);
+}
+
 void AxisNode::control(const AxisMail& mail) {
     has_begun_ = true;
+    take_edges();
     const DeviceStatus status = time_.in_machine_time(status_);
     const AxisInputs in{.now = time_.now(),
                         .device = status,
@@ -108,7 +120,6 @@ void AxisNode::control(const AxisMail& mail) {
                         .requests = mail.requests,
                         .clock_error = time_.error()};
     out_ = controller_.step(in);
-    edges_.clear();
     if (flight_ != nullptr) { flight_->take(in, out_); }
     if (meter_ != nullptr) {
         meter_->look(time_.now(), has_device() ? &status : nullptr);

@@ -95,7 +95,8 @@ private:
     std::optional<DeviceTime::Device> device_clock() const;
     void control(const AxisMail& mail);
     void drain(Tick own, const OnStep& on_step, const ClockView& machine_time);
-    void drain_channels(Tick own, const ClockView& machine_time);
+    void drain_channels(Tick own);
+    void take_edges();
     void note(std::string trouble);
     void give(const std::vector<DeviceOrder>& orders);
 
@@ -132,9 +133,10 @@ private:
     AxisFlight* flight_ = nullptr;  // null: nothing is noted
     OnChannel on_channel_ = [](const ChannelEvent&) {};
     std::array<Ticks, kMostInputs> debounce_;
-    std::vector<InputEdge> edges_;  // drained since the last control step
-    bool failed_ = false;           // a device order failed since the last control step
-    AxisOutputs out_;               // of the last loop
+    std::vector<ChannelEvent> changes_;  // of inputs, that were not passed on yet
+    std::vector<InputEdge> edges_;       // of the last control step
+    bool failed_ = false;                // a device order failed since the last control step
+    AxisOutputs out_;                    // of the last loop
 };
 
 }  // namespace lockstep

@@ -19,7 +19,7 @@ struct AxisInputs {
     DeviceStatus device;
     bool has_device = true;            // false: no device answers, and `device` is meaningless
     bool device_failed = false;        // the device refused an order; what it has done since is unknown
-    std::span<const InputEdge> edges;  // of the device, in order, each once; known up to the reading before `device`
+    std::span<const InputEdge> edges;  // of the device, in order, each once; all those up to `device`
     std::span<const Frame> frames;
     std::span<const AxisState> peers;
     std::span<const MachineState> coordinator;

@@ -97,7 +97,7 @@ TEST(ProtocolTable, HasTheMostTimeFromATouchToTheBeginningOfBraking) {
     EXPECT_EQ(most_slots_to_braking(usual), usual.lease_slots() + usual.frame_slots);
     const double by_rules =
         1 + static_cast<double>((most_slots_to_braking(usual) + usual.stall_slots) * usual.slot_us) / 1000;
-    EXPECT_LT(by_rules, ms_to_braking(usual)) << "the device is read, and the axis decides in its next loop";
+    EXPECT_LT(by_rules, ms_to_braking(usual)) << "the device is read before the axis decides";
     EXPECT_EQ(figures_of(table[0]), figures_of_a_touch({}));
     EXPECT_EQ(figures_of(table[1]), figures_of_a_touch(with_least_times({.late_check_slots = 10})));
     EXPECT_EQ(figures_of(table[2]),

@@ -19,6 +19,18 @@ MachineConfig machine_with_probe() {
     return machine;
 }
 
+/// How long after a touch its axis knows it.
+class TouchDelay : public VirtualObserver {
+public:
+    void on_axis(std::size_t /*axis*/, Tick now, const AxisOutputs& out, AxisNode& /*node*/) override {
+        for (const AxisNotice& notice : out.notices) {
+            if (notice.kind != AxisNotice::Kind::Touched) { continue; }
+            ticks = now - Tick{static_cast<std::int64_t>(notice.number)};
+        }
+    }
+    std::optional<Ticks> ticks;
+};
+
 class ProbingMoves : public Rig {
 protected:
     explicit ProbingMoves(const VirtualOptions& options = {.machine = machine_with_probe()}) : Rig(options) {
@@ -78,6 +90,19 @@ TEST_F(ProbingMoves, GoesOnBehindTheTouchForNoMoreThanWasAnnounced) {
     const double behind = static_cast<double>(counts()[kX]) / 100 - result().places_mm[kX];
     EXPECT_GT(behind, 0);
     EXPECT_LE(behind, overshoot_mm(machine, machine.inputs[kProbe], kFeed_mm_s, machine.axes[kX].max_accel_mm_s2));
+}
+
+TEST_F(ProbingMoves, TheAxisKnowsItInTheLoopThatReadsItsDevice) {
+    TouchDelay delay;
+    vm.observe(delay);
+    begin(probe_to({35, 5}));
+    wait(1.0002);
+    touch();
+    ASSERT_TRUE(reaches(MachinePhase::Idle, 5)) << describe();
+    const Ticks loop{vm.machine().slot_ticks().value / 2};
+    const Ticks debounce{1000};
+    ASSERT_TRUE(delay.ticks);
+    EXPECT_LE(*delay.ticks, debounce + loop + Ticks{1});
 }
 
 TEST_F(ProbingMoves, AnOpeningTouchEndsIt) {
