@@ -92,7 +92,7 @@ export interface MachineInput {
   name: string;
   motor?: Maybe<string>;
   board?: Maybe<string>;
-  use: "emergency-stop" | "door" | "program" | "probe";
+  use: "emergency-stop" | "door" | "program" | "probe" | "home";
   number?: Maybe<number>;
 }
 

@@ -8,7 +8,7 @@ export interface InputText {
   look: "good" | "busy" | "warning" | "bad";
 }
 
-const LOOKS = { "emergency-stop": "bad", door: "warning", program: "busy", probe: "busy" } as const;
+const LOOKS = { "emergency-stop": "bad", door: "warning", program: "busy", probe: "busy", home: "busy" } as const;
 
 /** Inputs that were not received yet are left out. */
 export function inputTexts(machine: readonly MachineInput[], state: State["inputs"], { inputs }: Pick<Texts, "inputs">): InputText[] {

@@ -81,7 +81,7 @@ export const de: Texts = {
   },
   inputs: {
     title: "Eingänge", open: "{name}: offen",
-    closed: { "emergency-stop": "{name}: Not-Halt gedrückt", door: "{name}: Tür offen", program: "{name}: geschlossen", probe: "{name}: berührt" },
+    closed: { "emergency-stop": "{name}: Not-Halt gedrückt", door: "{name}: Tür offen", program: "{name}: geschlossen", probe: "{name}: berührt", home: "{name}: Referenzschalter geschlossen" },
   },
   outputs: {
     title: "Ausgänge", on: "ein", off: "aus", same: "{name}: {level}", differs: "{name}: {level} (Programm: {asked})",

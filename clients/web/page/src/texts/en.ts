@@ -80,7 +80,7 @@ export const en = {
   },
   inputs: {
     title: "Inputs", open: "{name}: open",
-    closed: { "emergency-stop": "{name}: emergency stop pressed", door: "{name}: door open", program: "{name}: closed", probe: "{name}: touches" },
+    closed: { "emergency-stop": "{name}: emergency stop pressed", door: "{name}: door open", program: "{name}: closed", probe: "{name}: touches", home: "{name}: home switch closed" },
   },
   outputs: {
     title: "Outputs", on: "on", off: "off", same: "{name}: {level}", differs: "{name}: {level} (program: {asked})",
